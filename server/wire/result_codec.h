@@ -1,0 +1,20 @@
+#pragma once
+
+#include "contact/v1/event.pb.h"
+#include "contact/v1/job.pb.h"
+#include "simulation/ledger.h"
+#include "simulation/scenario.h"
+
+namespace contact {
+
+/// Writes what a run reports as messages of the contract. Names come from the scenario.
+
+v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle);
+v1::Iteration Encode(const Scenario& scenario, const Iteration& iteration);
+v1::FrameChunk Encode(const Scenario& scenario, const Samples& samples);
+v1::Progress Encode(const Scenario& scenario, const Progress& progress);
+
+/// Fills convergence, final_bodies and summary (but for wall_time_s) of a job.
+void EncodeOutcome(const Scenario& scenario, const Outcome& outcome, v1::Job* job);
+
+}  // namespace contact

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "contact/v1/scenario.pb.h"
+#include "simulation/scenario.h"
+
+namespace contact {
+
+/// A rule that a message breaks.
+struct Violation {
+  std::string field;        ///< Path from the scenario, such as `contacts[0].restitution`.
+  std::string description;  ///< Value and rule: `is 1.2; must be in (0, 1]`.
+  std::string hint;         ///< What to do about it; may be empty.
+};
+
+/// What a scenario may hold at most; checked before anything is allocated for it.
+struct ScenarioLimits {
+  std::int32_t max_bodies = 20'000;
+  std::int32_t max_contacts = 20'000;  ///< After neighbours are expanded.
+  std::int64_t max_samples = 10'000'000;  ///< Rows of the recorded trajectory.
+};
+
+struct DecodedScenario {
+  Scenario scenario;                  ///< Complete only if there are no violations.
+  std::vector<Violation> violations;  ///< All of them, in field order; at most 100.
+};
+
+/// Reads a scenario from the wire: fills defaults, then checks every rule written in
+/// scenario.proto. The one place where input is checked: server and command line both call it.
+DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits& limits = {});
+
+}  // namespace contact
