@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/v1/job_service.pb.h"
+#include "jobs/error.h"
+#include "jobs/log_cursor.h"
+
+namespace contact {
+
+class Clock;
+class IdSource;
+class Store;
+
+struct JobManagerOptions {
+  int workers = 1;                 ///< Threads that run simulations, ≥ 1.
+  int max_queued_jobs = 10'000;    ///< Past it CreateJob answers QUEUE_FULL.
+  int max_watchers = 10'000;       ///< Past it Watch answers WATCHER_LIMIT.
+  ScenarioLimits scenario_limits;
+};
+
+/// Owns the life of every job: accepts, queues, runs on worker threads, records, cancels.
+///
+/// Every call is thread-safe and returns without waiting for disk or worker; its callback runs
+/// once, on a thread of the manager or the store, after what it reports is committed. Callbacks
+/// must not block. Call `Stop` before destruction; callbacks all run before `Stop` returns.
+class JobManager {
+ public:
+  template <class T>
+  using Callback = std::function<void(Result<T>)>;
+
+  /// Takes over what the store holds: jobs that were running when the process ended are queued
+  /// again with reason SERVER_RESTARTED. Starts the workers.
+  JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options);
+  ~JobManager();
+
+  void Create(const v1::CreateJobRequest& request, Callback<v1::Job> done);
+  void Get(const std::string& name, Callback<v1::Job> done);
+  void List(const v1::ListJobsRequest& request, Callback<v1::ListJobsResponse> done);
+  void Cancel(const std::string& name, Callback<v1::Job> done);
+  void Delete(const std::string& name, Callback<bool> done);
+
+  /// Opens a cursor over the log of a job, and the job as it is (without ledger) beside it.
+  /// `wake` is called, from any thread and possibly more often than needed, when Read may have
+  /// something new; it must not block and must not call the cursor from within.
+  struct Watched {
+    v1::Job snapshot;
+    std::unique_ptr<LogCursor> cursor;
+  };
+  void Watch(const std::string& name, std::uint64_t after_sequence,
+             std::vector<std::string> kinds, std::function<void()> wake, Callback<Watched> done);
+
+  /// Numbers of GetServerInfo: workers, queued and running jobs, limits.
+  v1::ServerInfo Info() const;
+
+  /// Refuses new jobs with SERVER_DRAINING from now on.
+  void Drain();
+
+  /// Stops the workers, puts running jobs back into the queue without burning their attempt, and
+  /// waits for the threads. Idempotent.
+  void Stop();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace contact

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "contact/v1/event.pb.h"
+#include "google/protobuf/repeated_ptr_field.h"
+
+namespace contact {
+
+/// A place in the log of one job, moving forward. Reads what is committed, from memory or the
+/// store, so replay and live view are one path and a slow reader costs a number, not a queue.
+///
+/// Not thread-safe: one reader. Destroying it ends the watch.
+class LogCursor {
+ public:
+  enum class Next {
+    kEvents,   ///< `out` holds at least one event.
+    kWait,     ///< Nothing now; `wake` will be called.
+    kEnd,      ///< The final state_changed event has been read.
+    kDeleted,  ///< The job was deleted.
+    kFailed,   ///< The store could not read; watch again.
+  };
+
+  virtual ~LogCursor() = default;
+
+  /// Appends the next events to `out`, at least one and at most about `max_bytes`. Never blocks.
+  virtual Next Read(std::size_t max_bytes, google::protobuf::RepeatedPtrField<v1::Event>* out) = 0;
+
+  /// Sequence up to which everything asked for has been read: a safe point to resume from.
+  virtual std::uint64_t position() const = 0;
+};
+
+}  // namespace contact

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace contact {
+
+/// Wall clock and identifiers, injected so that tests decide both.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  virtual std::chrono::system_clock::time_point Now() const = 0;
+};
+
+class IdSource {
+ public:
+  virtual ~IdSource() = default;
+  /// A job id that was never used before: lower-case letters and digits.
+  virtual std::string NextJobId() = 0;
+};
+
+/// The real ones. Both are thread-safe and live as long as the process.
+const Clock& SystemClock();
+IdSource& RandomIds();
+
+}  // namespace contact
