@@ -46,7 +46,7 @@ struct Cycle {
 
 /// One pass through an episode with one set of μ.
 struct Iteration {
-  enum class Update { kNone, kNewton, kDampedNewton, kBisection, kZero };
+  enum class Update { kNothing, kNewton, kDampedNewton, kBisection, kZero };
   struct Unknown {
     int contact = 0;
     int number = 1;  ///< Place among the cycles of its contact.
@@ -56,7 +56,7 @@ struct Iteration {
     double residual = kNaN;  ///< f = W_r/W_c + ε_in².
     double bracket_low = 0;   ///< 0: none yet.
     double bracket_high = 0;  ///< 0: none yet.
-    Update update = Update::kNone;
+    Update update = Update::kNothing;
   };
   int episode = 1;
   int number = 0;  ///< Corrections made so far.
