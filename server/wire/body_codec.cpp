@@ -1,0 +1,137 @@
+#include "wire/body_codec.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <unordered_set>
+
+#include "wire/spelling.h"
+
+namespace contact {
+namespace {
+
+constexpr Range kMass{0, 1e12, "(0, 1e12]"};
+constexpr Range kRadius{0, 1e6, "[0, 1e6]"};
+constexpr Range kDensity{0, 1e9, "(0, 1e9]"};
+constexpr Range kPosition{-1e9, 1e9, "[-1e9, 1e9]"};
+constexpr Range kVelocity{-1e6, 1e6, "[-1e6, 1e6]"};
+
+double SphereMass(double radius, double density) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
+}
+
+double MassFromDensity(const v1::Body& message, const Rules& rules) {
+  rules.Require("density_kg_per_m3", message.density_kg_per_m3(), kDensity);
+  if (message.has_mass_kg()) {
+    rules.Break("density_kg_per_m3", "is given beside mass_kg", "give one of the two");
+  }
+  if (message.radius_m() == 0) {
+    rules.Break("radius_m", message.has_radius_m() ? "is 0, which gives no mass" : "is missing",
+                "density_kg_per_m3 needs a radius_m > 0");
+    return 0;
+  }
+  const double mass = SphereMass(message.radius_m(), message.density_kg_per_m3());
+  const bool inputs_right = kDensity.Contains(message.density_kg_per_m3()) &&
+                            kRadius.Contains(message.radius_m()) && !message.has_mass_kg();
+  if (inputs_right && !kMass.Contains(mass)) {
+    rules.Break("density_kg_per_m3",
+                fmt::format("gives a mass of {} kg; must be in {}", mass, kMass.text));
+  }
+  return mass;
+}
+
+double DecodeMass(const v1::Body& message, const Rules& rules) {
+  if (message.has_mass_kg()) rules.Require("mass_kg", message.mass_kg(), kMass);
+  if (message.has_density_kg_per_m3()) return MassFromDensity(message, rules);
+  if (message.has_mass_kg()) return message.mass_kg();
+  if (!message.fixed()) {
+    rules.Break("mass_kg", "is missing", "give mass_kg, or density_kg_per_m3 and radius_m");
+  }
+  return Body{}.mass;
+}
+
+Body DecodeBody(const v1::Body& message, const Rules& rules) {
+  if (message.name().empty()) {
+    rules.Break("name", "is missing", "contacts refer to the body by its name");
+  } else if (!IsName(message.name())) {
+    rules.Break("name", fmt::format("is {}; must be 1 to 64 letters, digits, '_', '.' or '-'",
+                                    Quoted(message.name())));
+  }
+  const double mass = DecodeMass(message, rules);
+  rules.Require("radius_m", message.radius_m(), kRadius);
+  rules.Require("position_m", message.position_m(), kPosition);
+  rules.Require("velocity_m_per_s", message.velocity_m_per_s(), kVelocity);
+  if (message.fixed() && message.velocity_m_per_s() != 0) {
+    rules.Break("velocity_m_per_s",
+                fmt::format("is {}; must be 0 for a fixed body", message.velocity_m_per_s()));
+  }
+  return {.name = message.name(),
+          .mass = mass,
+          .radius = message.radius_m(),
+          .position = message.position_m(),
+          .velocity = message.velocity_m_per_s(),
+          .fixed = message.fixed()};
+}
+
+}  // namespace
+
+bool IsName(std::string_view text) {
+  const auto allowed = [](char c) {
+    return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '_' ||
+           c == '.' || c == '-';
+  };
+  return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, allowed);
+}
+
+std::vector<Body> DecodeBodies(const v1::Scenario& message, std::vector<Violation>* violations) {
+  if (message.bodies().empty()) {
+    Rules(violations).Break("bodies", "is missing", "a scenario needs at least one body");
+  }
+  std::vector<Body> bodies;
+  bodies.reserve(static_cast<std::size_t>(message.bodies_size()));
+  std::unordered_set<std::string_view> names;
+  for (int i = 0; i < message.bodies_size(); ++i) {
+    const Rules rules(violations, "bodies", i);
+    bodies.push_back(DecodeBody(message.bodies(i), rules));
+    const std::string& name = message.bodies(i).name();
+    if (!name.empty() && !names.insert(name).second) {
+      rules.Break("name", fmt::format("is {}, which another body is called", Quoted(name)),
+                  "names of bodies are unique");
+    }
+  }
+  return bodies;
+}
+
+BodyNames::BodyNames(const std::vector<Body>& bodies) : bodies_(bodies) {
+  index_.reserve(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    index_.emplace(bodies[i].name, static_cast<int>(i));
+  }
+}
+
+int BodyNames::Find(std::string_view name, std::string_view field, const Rules& rules) const {
+  if (name.empty()) {
+    rules.Break(field, "is missing", "give the name of a body");
+    return kNone;
+  }
+  const auto found = index_.find(name);
+  if (found != index_.end()) return found->second;
+  if (!rules.full()) {
+    rules.Break(field, fmt::format("is {}, which no body is called", Quoted(name)), Hint(name));
+  }
+  return kNone;
+}
+
+std::string BodyNames::Hint(std::string_view name) const {
+  std::vector<std::string_view> names;
+  for (const Body& body : bodies_) names.push_back(body.name);
+  const std::string_view nearest = Nearest(name, names);
+  if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
+  constexpr std::size_t kFew = 8;
+  if (names.empty() || names.size() > kFew || !std::ranges::all_of(names, IsName)) return {};
+  return fmt::format("bodies are {}", fmt::join(names, ", "));
+}
+
+}  // namespace contact

@@ -1,0 +1,272 @@
+#include "wire/contact_codec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+
+#include "wire/spelling.h"
+
+namespace contact {
+namespace {
+
+constexpr Range kStiffness{0, 1e30, "(0, 1e30]"};
+constexpr Range kExponent{1, 5, "[1, 5]"};
+constexpr Range kRestitution{0, 1, "(0, 1]"};
+constexpr Range kMu{0, 1e30, "[0, 1e30]"};
+constexpr Range kReferenceVelocity{0, 1e6, "(0, 1e6]"};
+constexpr Range kPosition{-1e9, 1e9, "[-1e9, 1e9]"};
+
+std::optional<DampingLaw> Law(v1::Contact::Damping damping) {
+  switch (damping) {
+    case v1::Contact::DAMPING_UNSPECIFIED:
+    case v1::Contact::ENERGY_RESTITUTION:
+      return DampingLaw::kEnergyRestitution;
+    case v1::Contact::EXACT:
+      return DampingLaw::kExact;
+    case v1::Contact::PAPER_EQ23:
+      return DampingLaw::kPaperEq23;
+    case v1::Contact::HUNT_CROSSLEY:
+      return DampingLaw::kHuntCrossley;
+    case v1::Contact::LANKARANI_NIKRAVESH:
+      return DampingLaw::kLankaraniNikravesh;
+    case v1::Contact::FLORES:
+      return DampingLaw::kFlores;
+    case v1::Contact::HU_GUO:
+      return DampingLaw::kHuGuo;
+    case v1::Contact::LEE_WANG:
+      return DampingLaw::kLeeWang;
+    case v1::Contact::HERBERT_MCWHANNELL:
+      return DampingLaw::kHerbertMcWhannell;
+    case v1::Contact::ZHIYING_QISHAO:
+      return DampingLaw::kZhiyingQishao;
+    case v1::Contact::GONTHIER:
+      return DampingLaw::kGonthier;
+    case v1::Contact::CARVALHO_MARTINS:
+      return DampingLaw::kCarvalhoMartins;
+    case v1::Contact::GHARIB_HURMUZLU:
+      return DampingLaw::kGharibHurmuzlu;
+    case v1::Contact::MU:
+      return DampingLaw::kGiven;
+    default:
+      return std::nullopt;
+  }
+}
+
+DampingLaw DecodeDamping(const v1::Contact& message, const Rules& rules) {
+  const std::optional<DampingLaw> law = Law(message.damping());
+  if (!law) rules.RequireAvailable("damping", message.damping(), {});
+  return law.value_or(DampingLaw::kEnergyRestitution);
+}
+
+void CheckRestitution(const v1::Contact& message, const Rules& rules) {
+  if (message.has_restitution()) {
+    rules.Require("restitution", message.restitution(), kRestitution);
+  } else if (message.damping() != v1::Contact::MU) {
+    rules.Break("restitution", "is missing", "1 is elastic; damping MU with mu needs none");
+  }
+}
+
+void CheckMu(const v1::Contact& message, const Rules& rules) {
+  const bool given = message.damping() == v1::Contact::MU;
+  if (message.has_mu()) rules.Require("mu", message.mu(), kMu);
+  if (given && !message.has_mu()) rules.Break("mu", "is missing; damping MU needs it");
+  if (!given && message.has_mu()) {
+    rules.Break("mu", "is given, but goes only with damping MU", "remove mu, or set damping: MU");
+  }
+}
+
+// Everything about a contact but where it is.
+Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
+  Contact contact;
+  contact.stiffness = message.stiffness();
+  if (message.has_exponent()) contact.exponent = message.exponent();
+  if (message.has_restitution()) contact.restitution = message.restitution();
+  contact.mu = message.mu();
+  contact.reference_velocity = message.reference_velocity_m_per_s();
+
+  if (message.has_stiffness()) {
+    rules.Require("stiffness", message.stiffness(), kStiffness);
+  } else {
+    rules.Break("stiffness", "is missing", "k, in N/m^exponent");
+  }
+  rules.Require("exponent", contact.exponent, kExponent);
+  CheckRestitution(message, rules);
+  contact.damping = DecodeDamping(message, rules);
+  CheckMu(message, rules);
+  if (message.has_reference_velocity_m_per_s()) {
+    rules.Require("reference_velocity_m_per_s", contact.reference_velocity, kReferenceVelocity);
+  }
+  return contact;
+}
+
+// Reads the contacts one after the other and keeps what they must not share.
+class ContactDecoder {
+ public:
+  ContactDecoder(const std::vector<Body>& bodies, const BodyNames& names)
+      : bodies_(bodies), names_(names) {}
+
+  void Decode(const v1::Contact& message, const Rules& rules) {
+    CheckArity(message, rules);
+    std::vector<int> touching;
+    for (int i = 0; i < message.between_size(); ++i) {
+      const std::string field = fmt::format("between[{}]", i);
+      touching.push_back(names_.Find(message.between(i), field, rules));
+    }
+    CheckWall(message, rules);
+    const Contact law = DecodeLaw(message, rules);
+    if (!message.name().empty() && !IsName(message.name())) {
+      rules.Break("name", fmt::format("is {}; must be 1 to 64 letters, digits, '_', '.' or '-'",
+                                      Quoted(message.name())));
+    }
+    if (message.has_wall()) {
+      if (touching.size() == 1 && touching[0] != kNone) AddWall(message, law, touching[0], rules);
+      return;
+    }
+    for (std::size_t i = 0; i + 1 < touching.size(); ++i) {
+      if (touching[i] == kNone || touching[i + 1] == kNone) continue;
+      AddPair(message, law, touching[i], touching[i + 1], i + 1, rules);
+    }
+  }
+
+  std::vector<Contact> Take() { return std::move(contacts_); }
+
+ private:
+  static void CheckArity(const v1::Contact& message, const Rules& rules) {
+    const int count = message.between_size();
+    if (count == 0) {
+      rules.Break("between", "is missing", "name two bodies, or one body and give wall");
+    } else if (count == 1 && !message.has_wall()) {
+      rules.Break("between", "names one body", "name two bodies, or give wall");
+    } else if (count > 1 && message.has_wall()) {
+      rules.Break("between", fmt::format("names {} bodies beside a wall; must name one", count),
+                  "remove wall, or all names but one");
+    }
+  }
+
+  static void CheckWall(const v1::Contact& message, const Rules& rules) {
+    if (!message.has_wall()) return;
+    rules.Require("wall.position_m", message.wall().position_m(), kPosition);
+    if (message.wall().side() == v1::Wall::SIDE_UNSPECIFIED) {
+      rules.Break("wall.side", "is missing", "LEFT or RIGHT of the body");
+    } else {
+      rules.RequireAvailable("wall.side", message.wall().side(), {v1::Wall::LEFT, v1::Wall::RIGHT});
+    }
+  }
+
+  void AddWall(const v1::Contact& message, Contact contact, int index, const Rules& rules) {
+    const Body& body = bodies_[static_cast<std::size_t>(index)];
+    const bool left = message.wall().side() == v1::Wall::LEFT;
+    const double wall = message.wall().position_m();
+    (left ? contact.right : contact.left) = index;
+    contact.wall_position = wall;
+    contact.name = message.name().empty() ? body.name + "-wall" : message.name();
+
+    if (body.fixed) {
+      rules.Break("between", fmt::format("{} is fixed, as the wall is", Quoted(body.name)),
+                  "one side of a contact must be able to move");
+    }
+    if (!pairs_.insert({index, left ? -1 : -2, wall}).second) {
+      rules.Break("between", "repeats another contact of this body and this wall");
+    }
+    const double deformation =
+        left ? wall - (body.position - body.radius) : body.position + body.radius - wall;
+    CheckApart(deformation, std::max({body.radius, std::abs(body.position), std::abs(wall)}),
+               fmt::format("{} and the wall", Quoted(body.name)), rules);
+    Add(std::move(contact), rules);
+  }
+
+  void AddPair(const v1::Contact& message, Contact contact, int left, int right, std::size_t number,
+               const Rules& rules) {
+    const Body& a = bodies_[static_cast<std::size_t>(left)];
+    const Body& b = bodies_[static_cast<std::size_t>(right)];
+    contact.left = left;
+    contact.right = right;
+    contact.name = message.name().empty()       ? a.name + "-" + b.name
+                   : message.between_size() > 2 ? fmt::format("{}-{}", message.name(), number)
+                                                : message.name();
+    if (CheckPair(a, b, rules)) {
+      if (!pairs_.insert({std::min(left, right), std::max(left, right), 0.0}).second) {
+        rules.Break("between", fmt::format("repeats the contact of {} and {}", Quoted(a.name),
+                                           Quoted(b.name)));
+      }
+      Add(std::move(contact), rules);
+    }
+  }
+
+  // False for a pair that is none.
+  bool CheckPair(const Body& a, const Body& b, const Rules& rules) const {
+    if (&a == &b) {
+      rules.Break("between", fmt::format("names {} twice in a row", Quoted(a.name)),
+                  "a body cannot touch itself");
+      return false;
+    }
+    const std::string pair = fmt::format("{} and {}", Quoted(a.name), Quoted(b.name));
+    if (a.fixed && b.fixed) {
+      rules.Break("between", pair + " are both fixed",
+                  "one side of a contact must be able to move");
+    }
+    if (a.position > b.position) {
+      rules.Break("between",
+                  fmt::format("names {} first, which stands to the right of {} ({} > {} m)",
+                              Quoted(a.name), Quoted(b.name), a.position, b.position),
+                  fmt::format("left body first: [{}, {}]", b.name, a.name));
+      return true;
+    }
+    CheckApart(a.radius + b.radius - (b.position - a.position),
+               std::max({a.radius, b.radius, std::abs(a.position), std::abs(b.position)}), pair,
+               rules);
+    return true;
+  }
+
+  // A deformation of the size of the round-off of its terms is a touch.
+  static void CheckApart(double deformation, double scale, const std::string& who,
+                         const Rules& rules) {
+    if (!(deformation > 1e-12 * scale)) return;
+    rules.Break("between",
+                fmt::format("{} overlap at the start: δ = {} m; must be ≤ 0", who, deformation),
+                "move them apart");
+  }
+
+  void Add(Contact contact, const Rules& rules) {
+    if (!contact_names_.insert(contact.name).second) {
+      rules.Break("name",
+                  fmt::format("is {}, which another contact is called", Quoted(contact.name)),
+                  "give each contact a name of its own");
+    }
+    contacts_.push_back(std::move(contact));
+  }
+
+  const std::vector<Body>& bodies_;
+  const BodyNames& names_;
+  std::vector<Contact> contacts_;
+  std::set<std::tuple<int, int, double>> pairs_;  // two bodies; or a body, −1 or −2, and the wall
+  std::unordered_set<std::string> contact_names_;
+};
+
+}  // namespace
+
+std::int64_t CountContacts(const v1::Scenario& message) {
+  std::int64_t count = 0;
+  for (const v1::Contact& contact : message.contacts()) {
+    count += std::max(1, contact.between_size() - 1);
+  }
+  return count;
+}
+
+std::vector<Contact> DecodeContacts(const v1::Scenario& message, const std::vector<Body>& bodies,
+                                    const BodyNames& names, std::vector<Violation>* violations) {
+  ContactDecoder decoder(bodies, names);
+  for (int i = 0; i < message.contacts_size(); ++i) {
+    decoder.Decode(message.contacts(i), Rules(violations, "contacts", i));
+  }
+  return decoder.Take();
+}
+
+}  // namespace contact

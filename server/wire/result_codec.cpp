@@ -1,0 +1,206 @@
+#include "wire/result_codec.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+namespace contact {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "columns are little-endian");
+
+const Contact& ContactAt(const Scenario& scenario, int index) {
+  return scenario.contacts[static_cast<std::size_t>(index)];
+}
+
+v1::Cycle::Kind Encode(Cycle::Kind kind) {
+  return kind == Cycle::Kind::kCollision ? v1::Cycle::COLLISION : v1::Cycle::NIRV;
+}
+
+v1::Cycle::End Encode(Cycle::End end) {
+  switch (end) {
+    case Cycle::End::kSeparation:
+      return v1::Cycle::SEPARATION;
+    case Cycle::End::kNonSeparation:
+      return v1::Cycle::NON_SEPARATION;
+    case Cycle::End::kRunEnd:
+      return v1::Cycle::RUN_END;
+  }
+  return v1::Cycle::END_UNSPECIFIED;
+}
+
+v1::Cycle::Status Encode(Cycle::Status status) {
+  switch (status) {
+    case Cycle::Status::kConverged:
+      return v1::Cycle::CONVERGED;
+    case Cycle::Status::kGivenLaw:
+      return v1::Cycle::GIVEN_LAW;
+    case Cycle::Status::kInfeasible:
+      return v1::Cycle::INFEASIBLE;
+    case Cycle::Status::kSettled:
+      return v1::Cycle::SETTLED;
+    case Cycle::Status::kNotConverged:
+      return v1::Cycle::NOT_CONVERGED;
+  }
+  return v1::Cycle::STATUS_UNSPECIFIED;
+}
+
+v1::Iteration::Update Encode(Iteration::Update update) {
+  switch (update) {
+    case Iteration::Update::kNothing:
+      return v1::Iteration::UPDATE_UNSPECIFIED;
+    case Iteration::Update::kNewton:
+      return v1::Iteration::NEWTON;
+    case Iteration::Update::kDampedNewton:
+      return v1::Iteration::DAMPED_NEWTON;
+    case Iteration::Update::kBisection:
+      return v1::Iteration::BISECTION;
+    case Iteration::Update::kZero:
+      return v1::Iteration::ZERO;
+  }
+  return v1::Iteration::UPDATE_UNSPECIFIED;
+}
+
+// Adds columns to a chunk in the order in which they stand in a row of the samples.
+class ColumnWriter {
+ public:
+  ColumnWriter(const Samples& samples, v1::FrameChunk* chunk) : samples_(samples), chunk_(chunk) {}
+
+  void Add(std::string_view owner, const char* quantity, const char* unit) {
+    v1::FrameChunk::Column& column = *chunk_->add_columns();
+    column.set_name(owner.empty() ? quantity : std::string(owner) + "." + quantity);
+    column.set_quantity(quantity);
+    column.set_unit(unit);
+    *column.mutable_values() = Values();
+    ++next_;
+  }
+
+ private:
+  std::string Values() const {
+    const auto rows = static_cast<std::size_t>(samples_.rows());
+    const auto stride = static_cast<std::size_t>(samples_.columns);
+    std::string bytes(rows * sizeof(double), '\0');
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::memcpy(&bytes[row * sizeof(double)], &samples_.values[row * stride + next_],
+                  sizeof(double));
+    }
+    return bytes;
+  }
+
+  const Samples& samples_;
+  v1::FrameChunk* chunk_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle) {
+  const Contact& contact = ContactAt(scenario, cycle.contact);
+  v1::Cycle message;
+  message.set_contact(contact.name);
+  message.set_number(cycle.number);
+  message.set_kind(Encode(cycle.kind));
+  message.set_end(Encode(cycle.end));
+  message.set_status(Encode(cycle.status));
+  message.set_iterations(cycle.iterations);
+  message.set_episode(cycle.episode);
+  message.set_start_time_s(cycle.start_time);
+  message.set_turn_time_s(cycle.turn_time);
+  message.set_end_time_s(cycle.end_time);
+  message.set_delta_start_m(cycle.start_deformation);
+  message.set_delta_max_m(cycle.max_deformation);
+  message.set_delta_end_m(cycle.end_deformation);
+  message.set_approach_velocity_m_per_s(cycle.approach_velocity);
+  message.set_separation_velocity_m_per_s(cycle.separation_velocity);
+  message.set_mu(cycle.mu);
+  message.set_mu_over_k_s_per_m(cycle.mu / contact.stiffness);
+  const bool collision = cycle.kind == Cycle::Kind::kCollision;
+  message.set_alpha(collision ? cycle.mu * cycle.approach_velocity / contact.stiffness : 0);
+  message.set_work_compression_j(cycle.work_compression);
+  message.set_work_restitution_j(cycle.work_restitution);
+  message.set_dissipated_compression_j(cycle.dissipated_compression);
+  message.set_dissipated_restitution_j(cycle.dissipated_restitution);
+  message.set_external_work_compression_j(cycle.external_compression);
+  message.set_external_work_restitution_j(cycle.external_restitution);
+  message.set_restitution_in(cycle.restitution_in);
+  message.set_restitution_out(cycle.restitution_out);
+  message.set_peak_force_n(cycle.peak_force);
+  message.set_tension_time_s(cycle.tension_time);
+  message.set_identity_residual(cycle.identity_residual);
+  return message;
+}
+
+v1::Iteration Encode(const Scenario& scenario, const Iteration& iteration) {
+  v1::Iteration message;
+  message.set_episode(iteration.episode);
+  message.set_number(iteration.number);
+  message.set_start_time_s(iteration.start_time);
+  message.set_accepted(iteration.accepted);
+  for (const Iteration::Unknown& unknown : iteration.unknowns) {
+    v1::Iteration::Unknown& out = *message.add_unknowns();
+    out.set_contact(ContactAt(scenario, unknown.contact).name);
+    out.set_number(unknown.number);
+    out.set_mu(unknown.mu);
+    out.set_restitution_out(unknown.restitution_out);
+    out.set_restitution_in(unknown.restitution_in);
+    out.set_residual(unknown.residual);
+    out.set_bracket_low(unknown.bracket_low);
+    out.set_bracket_high(unknown.bracket_high);
+    out.set_update(Encode(unknown.update));
+  }
+  return message;
+}
+
+v1::FrameChunk Encode(const Scenario& scenario, const Samples& samples) {
+  v1::FrameChunk message;
+  message.set_first_sample(samples.first);
+  message.set_samples(samples.rows());
+  ColumnWriter columns(samples, &message);
+  columns.Add("", "time", "s");
+  for (const Body& body : scenario.bodies) {
+    columns.Add(body.name, "position", "m");
+    columns.Add(body.name, "velocity", "m/s");
+  }
+  for (const Contact& contact : scenario.contacts) {
+    columns.Add(contact.name, "deformation", "m");
+    columns.Add(contact.name, "deformation_velocity", "m/s");
+    columns.Add(contact.name, "contact_force", "N");
+    columns.Add(contact.name, "external_force", "N");
+  }
+  return message;
+}
+
+v1::Progress Encode(const Scenario& scenario, const Progress& progress) {
+  v1::Progress message;
+  message.set_time_s(progress.time);
+  message.set_end_time_s(scenario.end_time);
+  message.set_steps(progress.steps);
+  message.set_cycles(progress.cycles);
+  message.set_iterations(progress.iterations);
+  return message;
+}
+
+void EncodeOutcome(const Scenario& scenario, const Outcome& outcome, v1::Job* job) {
+  job->set_convergence(outcome.all_converged ? v1::Job::FULL : v1::Job::PARTIAL);
+  job->clear_final_bodies();
+  for (std::size_t i = 0; i < outcome.positions.size(); ++i) {
+    v1::FinalBody& body = *job->add_final_bodies();
+    body.set_name(scenario.bodies[i].name);
+    body.set_position_m(outcome.positions[i]);
+    body.set_velocity_m_per_s(outcome.velocities[i]);
+  }
+  v1::RunSummary& summary = *job->mutable_summary();
+  summary.set_steps(outcome.steps);
+  summary.set_evaluations(outcome.evaluations);
+  summary.set_iterations(outcome.iterations);
+  summary.set_episodes(outcome.episodes);
+  summary.set_worst_identity_residual(outcome.worst_identity_residual);
+  summary.set_momentum_residual(outcome.momentum_residual);
+  summary.set_energy_residual(outcome.energy_residual);
+  summary.set_kinetic_energy_j(outcome.kinetic_energy);
+  summary.set_time_reached_s(outcome.time);
+}
+
+}  // namespace contact

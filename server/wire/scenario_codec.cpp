@@ -1,0 +1,230 @@
+#include "wire/scenario_codec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "wire/body_codec.h"
+#include "wire/contact_codec.h"
+#include "wire/rules.h"
+
+namespace contact {
+namespace {
+
+constexpr Range kCoefficient{0, 1e30, "[0, 1e30]"};
+constexpr Range kPosition{-1e9, 1e9, "[-1e9, 1e9]"};
+constexpr Range kForce{-1e15, 1e15, "[-1e15, 1e15]"};
+constexpr Range kAngularFrequency{0, 1e9, "[0, 1e9]"};
+constexpr Range kPhase{-1e3, 1e3, "[-1e3, 1e3]"};
+constexpr Range kAcceleration{-1e9, 1e9, "[-1e9, 1e9]"};
+constexpr Range kStep{0, 1, "(0, 1]"};
+constexpr Range kRelativeTolerance{1e-13, 1e-3, "[1e-13, 1e-3]"};
+constexpr Range kRestitutionTolerance{1e-12, 0.1, "[1e-12, 0.1]"};
+constexpr Range kMaxIterations{1, 1000, "[1, 1000]"};
+constexpr Range kSettledFraction{0, 0.1, "[0, 0.1]"};
+constexpr Range kMaxSteps{1, 1e12, "[1, 1e12]"};
+constexpr Range kEndTime{0, 1e6, "(0, 1e6]"};
+
+constexpr double kStandardGravity = 9.80665;  // m/s²
+constexpr std::int64_t kLongestTitle = 200;
+constexpr int kDefaultSamples = 1000;
+
+// A fixed body takes no force.
+void RequireMovable(const std::vector<Body>& bodies, int body, const Rules& rules) {
+  if (body == kNone || !bodies[static_cast<std::size_t>(body)].fixed) return;
+  rules.Break("body", "is fixed; forces do not move it");
+}
+
+std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vector<Body>& bodies,
+                                    const BodyNames& names, std::vector<Violation>* violations) {
+  std::vector<Support> supports;
+  for (int i = 0; i < message.supports_size(); ++i) {
+    const Rules rules(violations, "supports", i);
+    const v1::Support& support = message.supports(i);
+    const int body = names.Find(support.body(), "body", rules);
+    RequireMovable(bodies, body, rules);
+    const int other = support.other().empty() ? kNone : names.Find(support.other(), "other", rules);
+    if (other != kNone && other == body) {
+      rules.Break("other", "is the body itself", "leave it out for a support to the ground");
+    }
+    rules.Require("stiffness_n_per_m", support.stiffness_n_per_m(), kCoefficient);
+    rules.Require("damping_n_s_per_m", support.damping_n_s_per_m(), kCoefficient);
+    rules.Require("rest_position_m", support.rest_position_m(), kPosition);
+    supports.push_back({.body = body,
+                        .other = other,
+                        .stiffness = support.stiffness_n_per_m(),
+                        .damping = support.damping_n_s_per_m(),
+                        .rest_position = support.rest_position_m()});
+  }
+  return supports;
+}
+
+Load DecodeSine(const v1::Load::Sine& sine, int body, const Rules& rules) {
+  rules.Require("sine.amplitude_n", sine.amplitude_n(), kForce);
+  rules.Require("sine.angular_frequency_rad_per_s", sine.angular_frequency_rad_per_s(),
+                kAngularFrequency);
+  rules.Require("sine.phase_rad", sine.phase_rad(), kPhase);
+  return {.body = body,
+          .amplitude = sine.amplitude_n(),
+          .angular_frequency = sine.angular_frequency_rad_per_s(),
+          .phase = sine.phase_rad()};
+}
+
+double DecodeAcceleration(const v1::Load::Gravity& gravity, const Rules& rules) {
+  const double acceleration =
+      gravity.has_acceleration_m_per_s2() ? gravity.acceleration_m_per_s2() : -kStandardGravity;
+  rules.Require("gravity.acceleration_m_per_s2", acceleration, kAcceleration);
+  return acceleration;
+}
+
+void AddGravityOfAll(const std::vector<Body>& bodies, double acceleration,
+                     std::vector<Load>* loads) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].fixed) continue;
+    loads->push_back({.body = static_cast<int>(i), .constant = bodies[i].mass * acceleration});
+  }
+}
+
+// The load that acts on one named body.
+Load DecodeLoad(const v1::Load& load, const std::vector<Body>& bodies, const BodyNames& names,
+                const Rules& rules) {
+  const int body = names.Find(load.body(), "body", rules);
+  RequireMovable(bodies, body, rules);
+  switch (load.kind_case()) {
+    case v1::Load::kConstant:
+      rules.Require("constant.force_n", load.constant().force_n(), kForce);
+      return {.body = body, .constant = load.constant().force_n()};
+    case v1::Load::kSine:
+      return DecodeSine(load.sine(), body, rules);
+    case v1::Load::kGravity: {
+      const double acceleration = DecodeAcceleration(load.gravity(), rules);
+      const double mass = body == kNone ? 0 : bodies[static_cast<std::size_t>(body)].mass;
+      return {.body = body, .constant = mass * acceleration};
+    }
+    case v1::Load::KIND_NOT_SET:
+      rules.Break("", "has no kind", "give one of constant, sine and gravity");
+  }
+  return {.body = body};
+}
+
+std::vector<Load> DecodeLoads(const v1::Scenario& message, const std::vector<Body>& bodies,
+                              const BodyNames& names, std::vector<Violation>* violations) {
+  std::vector<Load> loads;
+  bool gravity_of_all = false;
+  for (int i = 0; i < message.loads_size(); ++i) {
+    const Rules rules(violations, "loads", i);
+    const v1::Load& load = message.loads(i);
+    if (!load.has_gravity() || !load.body().empty()) {
+      loads.push_back(DecodeLoad(load, bodies, names, rules));
+      continue;
+    }
+    const double acceleration = DecodeAcceleration(load.gravity(), rules);
+    if (std::exchange(gravity_of_all, true)) {
+      rules.Break("gravity", "repeats the gravity of every body", "give it once");
+    } else {
+      AddGravityOfAll(bodies, acceleration, &loads);
+    }
+  }
+  return loads;
+}
+
+SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
+  SolverOptions options;
+  if (message.has_relative_tolerance()) options.relative_tolerance = message.relative_tolerance();
+  if (message.has_restitution_tolerance()) {
+    options.restitution_tolerance = message.restitution_tolerance();
+  }
+  if (message.has_max_iterations()) options.max_iterations = message.max_iterations();
+  if (message.has_settled_fraction()) options.settled_fraction = message.settled_fraction();
+  if (message.has_max_steps()) options.max_steps = message.max_steps();
+  options.fail_if_not_converged = message.on_not_converged() == v1::Solver::FAIL;
+
+  rules.RequireAvailable("method", message.method(), {v1::Solver::ADAPTIVE});
+  if (message.has_step_s()) {
+    rules.Require("step_s", message.step_s(), kStep);
+    if (message.method() != v1::Solver::RK4) {
+      rules.Break("step_s", "is given, but goes only with method RK4", "remove it");
+    }
+  }
+  rules.Require("relative_tolerance", options.relative_tolerance, kRelativeTolerance);
+  rules.Require("restitution_tolerance", options.restitution_tolerance, kRestitutionTolerance);
+  rules.RequireAvailable("update", message.update(), {v1::Solver::NEWTON_COUPLED});
+  rules.RequireAvailable("phase_split", message.phase_split(), {v1::Solver::PEAK_DEFORMATION});
+  rules.Require("max_iterations", options.max_iterations, kMaxIterations);
+  rules.RequireAvailable("tension", message.tension(), {v1::Solver::ALLOW});
+  rules.RequireAvailable("on_not_converged", message.on_not_converged(),
+                         {v1::Solver::REPORT, v1::Solver::FAIL});
+  rules.Require("settled_fraction", options.settled_fraction, kSettledFraction);
+  rules.Require("max_steps", static_cast<double>(options.max_steps), kMaxSteps);
+  return options;
+}
+
+double DecodeSampleInterval(const v1::Scenario& message, const ScenarioLimits& limits,
+                            const Rules& rules) {
+  const v1::Output& output = message.output();
+  const double end_time = message.end_time_s();
+  if (!output.has_sample_interval_s()) return output.ledger_only() ? 0 : end_time / kDefaultSamples;
+  const double interval = output.sample_interval_s();
+  if (!Range{0, 1e308, "(0"}.Contains(interval)) {
+    rules.Break("sample_interval_s", fmt::format("is {}; must be > 0", interval));
+  } else if (kEndTime.Contains(end_time) &&
+             !(end_time / interval + 1 <= static_cast<double>(limits.max_samples))) {
+    rules.Break("sample_interval_s",
+                fmt::format("is {}, which makes {:.4g} samples; must make at most {}", interval,
+                            end_time / interval + 1, limits.max_samples),
+                "set output.ledger_only to record none");
+  }
+  return output.ledger_only() ? 0 : interval;
+}
+
+// Checks how much there is before anything is allocated for it.
+void CheckCounts(const v1::Scenario& message, const ScenarioLimits& limits,
+                 std::vector<Violation>* violations) {
+  const Rules rules(violations);
+  const auto check = [&rules](std::string_view field, std::int64_t count, std::int64_t most) {
+    if (count <= most) return;
+    rules.Break(field, fmt::format("holds {}; must hold at most {}", count, most));
+  };
+  check("bodies", message.bodies_size(), limits.max_bodies);
+  check("contacts", CountContacts(message), limits.max_contacts);
+  check("supports", message.supports_size(), limits.max_contacts);
+  check("loads", message.loads_size(), limits.max_contacts);
+}
+
+void CheckTitle(const std::string& title, const Rules& rules) {
+  const auto characters = std::ranges::count_if(
+      title, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; });
+  if (characters <= kLongestTitle) return;
+  rules.Break("title",
+              fmt::format("has {} characters; must have at most {}", characters, kLongestTitle));
+}
+
+}  // namespace
+
+DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits& limits) {
+  DecodedScenario decoded;
+  std::vector<Violation>* violations = &decoded.violations;
+  CheckCounts(message, limits, violations);
+  if (!violations->empty()) return decoded;
+
+  const Rules rules(violations);
+  CheckTitle(message.title(), rules);
+  Scenario& scenario = decoded.scenario;
+  scenario.bodies = DecodeBodies(message, violations);
+  const BodyNames names(scenario.bodies);
+  scenario.contacts = DecodeContacts(message, scenario.bodies, names, violations);
+  scenario.supports = DecodeSupports(message, scenario.bodies, names, violations);
+  scenario.loads = DecodeLoads(message, scenario.bodies, names, violations);
+  scenario.solver = DecodeSolver(message.solver(), Rules(violations, "solver"));
+  scenario.sample_interval = DecodeSampleInterval(message, limits, Rules(violations, "output"));
+  scenario.end_time = message.end_time_s();
+  if (message.end_time_s() == 0) {
+    rules.Break("end_time_s", "is missing; must be in (0, 1e6]");
+  } else {
+    rules.Require("end_time_s", message.end_time_s(), kEndTime);
+  }
+  return decoded;
+}
+
+}  // namespace contact

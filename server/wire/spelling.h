@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace contact {
+
+/// The candidate that `name` is most likely a misspelling of; empty if none is near. Near is one
+/// that begins with `name`, or that a few edits turn into it: up to a third of its letters, at
+/// least 2, at most half.
+std::string_view Nearest(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// Text of a user in quotes, cut to 64 bytes and without control characters, to be shown.
+std::string Quoted(std::string_view text);
+
+}  // namespace contact
