@@ -1,0 +1,67 @@
+#include "rpc/grpc_log.h"
+
+#include <grpc/support/log.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+namespace contact {
+namespace {
+
+constexpr int kLinesPerSecond = 10;
+
+// Counts the lines of the running second.
+class LineBudget {
+ public:
+  struct Verdict {
+    bool write;
+    int left_out;  ///< Lines that the seconds before left out.
+  };
+
+  Verdict Take() {
+    const auto second = std::chrono::floor<std::chrono::seconds>(std::chrono::steady_clock::now());
+    const std::lock_guard lock(mutex_);
+    int left_out = 0;
+    if (second != second_) {
+      second_ = second;
+      left_out = std::exchange(left_out_, 0);
+      lines_ = 0;
+    }
+    if (++lines_ <= kLinesPerSecond) return {true, left_out};
+    ++left_out_;
+    return {false, 0};
+  }
+
+ private:
+  std::mutex mutex_;
+  std::chrono::time_point<std::chrono::steady_clock, std::chrono::seconds> second_;
+  int lines_ = 0;
+  int left_out_ = 0;
+};
+
+spdlog::level::level_enum Level(gpr_log_severity severity) {
+  switch (severity) {
+    case GPR_LOG_SEVERITY_DEBUG:
+      return spdlog::level::debug;
+    case GPR_LOG_SEVERITY_INFO:
+      return spdlog::level::info;
+    case GPR_LOG_SEVERITY_ERROR:
+      break;
+  }
+  return spdlog::level::warn;  // What is an error to gRPC is a bad peer to us.
+}
+
+void Log(gpr_log_func_args* line) {
+  static LineBudget budget;
+  const auto verdict = budget.Take();
+  if (verdict.left_out > 0) spdlog::warn("gRPC: {} lines left out", verdict.left_out);
+  if (verdict.write) spdlog::log(Level(line->severity), "gRPC: {}", line->message);
+}
+
+}  // namespace
+
+void RouteGrpcLog() { gpr_set_log_function(Log); }
+
+}  // namespace contact

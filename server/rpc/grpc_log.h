@@ -1,0 +1,9 @@
+#pragma once
+
+namespace contact {
+
+/// Sends what gRPC logs to spdlog, at most 10 lines a second: bad peers must not fill the disk.
+/// Call it once, before gRPC is used.
+void RouteGrpcLog();
+
+}  // namespace contact

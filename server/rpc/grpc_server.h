@@ -1,0 +1,57 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "jobs/job_manager.h"
+#include "rpc/job_service.h"
+#include "rpc/watch_loop.h"
+
+namespace contact {
+
+struct GrpcServerOptions {
+  int max_message_bytes = 8 << 20;  ///< Of one request.
+  std::chrono::milliseconds write_stall{
+      30'000};             ///< A watcher that takes nothing for so long is dropped.
+  bool reflection = true;  ///< Answer which services and messages there are.
+};
+
+/// The gRPC server: its settings, its services, its end. Plaintext, so for loopback only.
+class GrpcServer {
+ public:
+  /// `identity`: see JobService.
+  GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity);
+
+  /// Shuts down if that has not been done.
+  ~GrpcServer();
+
+  GrpcServer(const GrpcServer&) = delete;
+  GrpcServer& operator=(const GrpcServer&) = delete;
+
+  /// Listens on `HOST:PORT`, port 0 being any free one, and serves. Returns the port; nothing if
+  /// the address cannot be had. Another server on the same port is such a case.
+  std::optional<int> Start(const std::string& address);
+
+  /// Health turns NOT_SERVING; watches, also those to come, end with SERVER_DRAINING.
+  void Drain();
+
+  /// Drains, gives open calls `grace` to end and cancels the rest. Should gRPC not let go even
+  /// then, the process ends with code 1, so that whoever supervises it can start it again.
+  void Shutdown(std::chrono::milliseconds grace);
+
+  /// WatchJob calls that are open.
+  std::size_t watchers() const { return watches_->watchers(); }
+
+ private:
+  const GrpcServerOptions options_;
+  const std::shared_ptr<WatchLoop> watches_;
+  JobService service_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace contact

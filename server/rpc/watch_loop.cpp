@@ -1,0 +1,84 @@
+#include "rpc/watch_loop.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "rpc/watch_reactor.h"
+
+namespace contact {
+
+using std::chrono::steady_clock;
+
+WatchLoop::WatchLoop(std::chrono::milliseconds tick) : tick_(tick), thread_([this] { Run(); }) {}
+
+void WatchLoop::Add(const std::shared_ptr<WatchReactor>& watcher) {
+  bool draining = false;
+  {
+    const std::lock_guard lock(mutex_);
+    watchers_.insert(watcher);
+    draining = draining_;
+  }
+  if (draining) watcher->Drain();
+}
+
+void WatchLoop::Wake(const std::weak_ptr<WatchReactor>& watcher) {
+  const std::lock_guard lock(mutex_);
+  woken_.insert(watcher);
+  changed_.notify_one();
+}
+
+void WatchLoop::Drain() {
+  {
+    const std::lock_guard lock(mutex_);
+    draining_ = true;
+  }
+  for (const auto& watcher : Alive()) watcher->Drain();
+}
+
+void WatchLoop::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    changed_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+std::size_t WatchLoop::watchers() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<std::size_t>(
+      std::ranges::count_if(watchers_, [](const auto& watcher) { return !watcher.expired(); }));
+}
+
+std::vector<std::shared_ptr<WatchReactor>> WatchLoop::Alive() {
+  std::vector<std::shared_ptr<WatchReactor>> alive;
+  const std::lock_guard lock(mutex_);
+  std::erase_if(watchers_, [&alive](const auto& watcher) {
+    if (auto strong = watcher.lock())
+      alive.push_back(std::move(strong));
+    else
+      return true;
+    return false;
+  });
+  return alive;
+}
+
+void WatchLoop::Run() {
+  auto next_tick = steady_clock::now() + tick_;
+  std::unique_lock lock(mutex_);
+  while (!stopped_) {
+    changed_.wait_until(lock, next_tick, [this] { return stopped_ || !woken_.empty(); });
+    const Watchers woken = std::exchange(woken_, {});
+    lock.unlock();
+    for (const auto& watcher : woken) {
+      if (const auto strong = watcher.lock()) strong->Poke();
+    }
+    if (const auto now = steady_clock::now(); now >= next_tick) {
+      for (const auto& watcher : Alive()) watcher->Tick(now);
+      next_tick = now + tick_;
+    }
+    lock.lock();
+  }
+}
+
+}  // namespace contact

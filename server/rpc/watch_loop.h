@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace contact {
+
+class WatchReactor;
+
+/// The one thread that steps all watchers from outside gRPC: when their log has grown, when a
+/// bookmark is due, when a write has stalled. Thread-safe.
+class WatchLoop {
+ public:
+  /// Looks at every watcher once a `tick`.
+  explicit WatchLoop(std::chrono::milliseconds tick);
+
+  /// From now on the watcher is ticked, until it is destroyed, and drained with the others.
+  void Add(const std::shared_ptr<WatchReactor>& watcher);
+
+  /// Pokes the watcher soon. Takes a short lock only, so it may be called under other locks;
+  /// taking a weak pointer, it never destroys a watcher there.
+  void Wake(const std::weak_ptr<WatchReactor>& watcher);
+
+  /// Drains every watcher, now and to come.
+  void Drain();
+
+  /// Ends the thread. Call it before the last reference goes, from another thread.
+  void Stop();
+
+  /// Watchers that are alive.
+  std::size_t watchers() const;
+
+ private:
+  using Watchers = std::set<std::weak_ptr<WatchReactor>, std::owner_less<>>;
+
+  void Run();
+  std::vector<std::shared_ptr<WatchReactor>> Alive();
+
+  const std::chrono::milliseconds tick_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  Watchers watchers_;      // Guarded by mutex_.
+  Watchers woken_;         // Guarded by mutex_.
+  bool draining_ = false;  // Guarded by mutex_.
+  bool stopped_ = false;   // Guarded by mutex_.
+  std::thread thread_;     // Last: it uses all of the above.
+};
+
+}  // namespace contact
