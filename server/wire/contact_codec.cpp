@@ -113,6 +113,10 @@ class ContactDecoder {
       : bodies_(bodies), names_(names) {}
 
   void Decode(const v1::Contact& message, const Rules& rules) {
+    if (!message.name().empty() && !IsName(message.name())) {
+      rules.Break("name", fmt::format("is {}; must be 1 to 64 letters, digits, '_', '.' or '-'",
+                                      Quoted(message.name())));
+    }
     CheckArity(message, rules);
     std::vector<int> touching;
     for (int i = 0; i < message.between_size(); ++i) {
@@ -121,10 +125,6 @@ class ContactDecoder {
     }
     CheckWall(message, rules);
     const Contact law = DecodeLaw(message, rules);
-    if (!message.name().empty() && !IsName(message.name())) {
-      rules.Break("name", fmt::format("is {}; must be 1 to 64 letters, digits, '_', '.' or '-'",
-                                      Quoted(message.name())));
-    }
     if (message.has_wall()) {
       if (touching.size() == 1 && touching[0] != kNone) AddWall(message, law, touching[0], rules);
       return;

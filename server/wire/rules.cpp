@@ -27,7 +27,7 @@ void Rules::BreakChoice(std::string_view field, const google::protobuf::EnumDesc
                         int value) const {
   const auto* known = descriptor.FindValueByNumber(value);
   if (known == nullptr) {
-    Break(field, fmt::format("is {}, which is not a {}", value, descriptor.name()));
+    Break(field, fmt::format("is {}, which is no value of {}", value, descriptor.name()));
   } else {
     Break(field, fmt::format("{} is not available in this version", known->name()));
   }

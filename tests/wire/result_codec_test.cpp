@@ -1,0 +1,188 @@
+#include "wire/result_codec.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace contact {
+namespace {
+
+using testing::ElementsAre;
+
+Scenario TwoContacts() {
+  Scenario scenario;
+  scenario.bodies = {{.name = "a"}, {.name = "b"}};
+  scenario.contacts = {{.name = "a-b", .left = 0, .right = 1, .stiffness = 1},
+                       {.name = "b-wall", .left = 1, .stiffness = 4}};
+  scenario.end_time = 8;
+  return scenario;
+}
+
+std::vector<double> Values(const v1::FrameChunk::Column& column) {
+  std::vector<double> values(column.values().size() / sizeof(double));
+  std::memcpy(values.data(), column.values().data(), column.values().size());
+  return values;
+}
+
+TEST(Encode, CycleKeepsEveryField) {
+  const Cycle cycle{.contact = 1,
+                    .number = 2,
+                    .episode = 3,
+                    .kind = Cycle::Kind::kCollision,
+                    .end = Cycle::End::kNonSeparation,
+                    .status = Cycle::Status::kInfeasible,
+                    .iterations = 4,
+                    .start_time = 5,
+                    .turn_time = 6,
+                    .end_time = 7,
+                    .start_deformation = 8,
+                    .max_deformation = 9,
+                    .end_deformation = 10,
+                    .approach_velocity = 11,
+                    .separation_velocity = -12,
+                    .mu = 13,
+                    .work_compression = 14,
+                    .work_restitution = -15,
+                    .dissipated_compression = 16,
+                    .dissipated_restitution = 17,
+                    .external_compression = 18,
+                    .external_restitution = 19,
+                    .restitution_in = 20,
+                    .restitution_out = 21,
+                    .peak_force = 22,
+                    .tension_time = 23,
+                    .identity_residual = 24};
+  EXPECT_EQ(Encode(TwoContacts(), cycle).ShortDebugString(),
+            "contact: \"b-wall\" number: 2 kind: COLLISION end: NON_SEPARATION status: INFEASIBLE "
+            "iterations: 4 episode: 3 start_time_s: 5 turn_time_s: 6 end_time_s: 7 "
+            "delta_start_m: 8 delta_max_m: 9 delta_end_m: 10 approach_velocity_m_per_s: 11 "
+            "separation_velocity_m_per_s: -12 mu: 13 mu_over_k_s_per_m: 3.25 alpha: 35.75 "
+            "work_compression_j: 14 work_restitution_j: -15 dissipated_compression_j: 16 "
+            "dissipated_restitution_j: 17 external_work_compression_j: 18 "
+            "external_work_restitution_j: 19 restitution_in: 20 restitution_out: 21 "
+            "peak_force_n: 22 tension_time_s: 23 identity_residual: 24");
+}
+
+TEST(Encode, NirvCycleHasNoAlpha) {
+  const Cycle cycle{.kind = Cycle::Kind::kNirv, .approach_velocity = 1e-18, .mu = 13};
+  EXPECT_EQ(Encode(TwoContacts(), cycle).alpha(), 0);
+  EXPECT_EQ(Encode(TwoContacts(), cycle).mu_over_k_s_per_m(), 13);
+}
+
+TEST(Encode, OpenCycleKeepsItsNans) {
+  const v1::Cycle cycle = Encode(TwoContacts(), Cycle{});
+  EXPECT_TRUE(std::isnan(cycle.turn_time_s()));
+  EXPECT_TRUE(std::isnan(cycle.restitution_out()));
+  EXPECT_EQ(cycle.end(), v1::Cycle::RUN_END);
+}
+
+TEST(Encode, EveryWordOfACycleHasItsOwn) {
+  using S = Cycle::Status;
+  std::vector<int> statuses;
+  for (const S status :
+       {S::kConverged, S::kGivenLaw, S::kInfeasible, S::kSettled, S::kNotConverged}) {
+    statuses.push_back(Encode(TwoContacts(), Cycle{.status = status}).status());
+  }
+  EXPECT_THAT(statuses,
+              ElementsAre(v1::Cycle::CONVERGED, v1::Cycle::GIVEN_LAW, v1::Cycle::INFEASIBLE,
+                          v1::Cycle::SETTLED, v1::Cycle::NOT_CONVERGED));
+  EXPECT_EQ(Encode(TwoContacts(), Cycle{.end = Cycle::End::kSeparation}).end(),
+            v1::Cycle::SEPARATION);
+}
+
+TEST(Encode, IterationKeepsEveryField) {
+  Iteration iteration{.episode = 2, .number = 3, .start_time = 4, .accepted = true, .unknowns = {}};
+  using U = Iteration::Update;
+  for (const U update : {U::kNothing, U::kNewton, U::kDampedNewton, U::kBisection, U::kZero}) {
+    iteration.unknowns.push_back({.contact = 1,
+                                  .number = 5,
+                                  .mu = 6,
+                                  .restitution_out = 7,
+                                  .restitution_in = 8,
+                                  .residual = 9,
+                                  .bracket_low = 10,
+                                  .bracket_high = 11,
+                                  .update = update});
+  }
+  const v1::Iteration message = Encode(TwoContacts(), iteration);
+  EXPECT_EQ(message.episode(), 2);
+  EXPECT_EQ(message.number(), 3);
+  EXPECT_EQ(message.start_time_s(), 4);
+  EXPECT_TRUE(message.accepted());
+  EXPECT_EQ(message.unknowns(1).ShortDebugString(),
+            "contact: \"b-wall\" number: 5 mu: 6 restitution_out: 7 restitution_in: 8 residual: 9 "
+            "bracket_low: 10 bracket_high: 11 update: NEWTON");
+  std::vector<int> updates;
+  for (const auto& unknown : message.unknowns()) updates.push_back(unknown.update());
+  EXPECT_THAT(updates, ElementsAre(0, 1, 2, 3, 4));
+}
+
+TEST(Encode, SamplesBecomeColumnsInTheOrderOfTheContract) {
+  Samples samples{.first = 512, .columns = 1 + 2 * 2 + 4 * 2, .values = {}};
+  for (int i = 0; i < 2 * samples.columns; ++i) samples.values.push_back(i + 0.5);
+  const v1::FrameChunk chunk = Encode(TwoContacts(), samples);
+
+  EXPECT_EQ(chunk.first_sample(), 512);
+  EXPECT_EQ(chunk.samples(), 2);
+  std::vector<std::string> names;
+  for (int i = 0; i < chunk.columns_size(); ++i) {
+    const v1::FrameChunk::Column& column = chunk.columns(i);
+    names.push_back(column.name() + " " + column.quantity() + " " + column.unit());
+    EXPECT_THAT(Values(column), ElementsAre(i + 0.5, i + 0.5 + samples.columns)) << names.back();
+  }
+  EXPECT_THAT(names, ElementsAre("time time s",                                           //
+                                 "a.position position m", "a.velocity velocity m/s",      //
+                                 "b.position position m", "b.velocity velocity m/s",      //
+                                 "a-b.deformation deformation m",                         //
+                                 "a-b.deformation_velocity deformation_velocity m/s",     //
+                                 "a-b.contact_force contact_force N",                     //
+                                 "a-b.external_force external_force N",                   //
+                                 "b-wall.deformation deformation m",                      //
+                                 "b-wall.deformation_velocity deformation_velocity m/s",  //
+                                 "b-wall.contact_force contact_force N",                  //
+                                 "b-wall.external_force external_force N"));
+}
+
+TEST(Encode, ColumnsAreLittleEndianDoubles) {
+  Samples samples{.columns = 13, .values = std::vector<double>(13)};
+  samples.values[0] = 1;
+  EXPECT_EQ(Encode(TwoContacts(), samples).columns(0).values(),
+            std::string("\0\0\0\0\0\0\xF0\x3F", 8));
+}
+
+TEST(Encode, ProgressKnowsWhereTheRunEnds) {
+  const Progress progress{.time = 1, .steps = 2, .cycles = 3, .iterations = 4};
+  EXPECT_EQ(Encode(TwoContacts(), progress).ShortDebugString(),
+            "time_s: 1 end_time_s: 8 steps: 2 cycles: 3 iterations: 4");
+}
+
+TEST(Encode, OutcomeFillsItsFieldsOfTheJobAndNoOthers) {
+  const Outcome outcome{.message = {},
+                        .time = 8,
+                        .all_converged = false,
+                        .positions = {1, 2},
+                        .velocities = {3, 4},
+                        .steps = 5,
+                        .evaluations = 6,
+                        .iterations = 7,
+                        .episodes = 8,
+                        .worst_identity_residual = 9,
+                        .momentum_residual = 10,
+                        .energy_residual = 11,
+                        .kinetic_energy = 12};
+  v1::Job job;
+  job.set_name("jobs/x");
+  job.mutable_summary()->set_wall_time_s(13);
+  EncodeOutcome(TwoContacts(), outcome, &job);
+  EXPECT_EQ(job.ShortDebugString(),
+            "name: \"jobs/x\" convergence: PARTIAL "
+            "final_bodies { name: \"a\" position_m: 1 velocity_m_per_s: 3 } "
+            "final_bodies { name: \"b\" position_m: 2 velocity_m_per_s: 4 } "
+            "summary { steps: 5 evaluations: 6 iterations: 7 episodes: 8 wall_time_s: 13 "
+            "worst_identity_residual: 9 momentum_residual: 10 energy_residual: 11 "
+            "kinetic_energy_j: 12 time_reached_s: 8 }");
+}
+
+}  // namespace
+}  // namespace contact

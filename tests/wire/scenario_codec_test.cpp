@@ -1,0 +1,240 @@
+#include "wire/scenario_codec.h"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "wire/scenario_builder.h"
+
+namespace contact {
+namespace {
+
+using testing::DoubleEq;
+using testing::ElementsAre;
+using testing::Field;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+TEST(DecodeScenario, FillsEveryDefault) {
+  const DecodedScenario decoded = DecodeScenario(TwoBalls());
+  ASSERT_THAT(Lines(decoded.violations), IsEmpty());
+  const Scenario& scenario = decoded.scenario;
+
+  EXPECT_THAT(scenario.bodies, SizeIs(2));
+  ASSERT_THAT(scenario.contacts, SizeIs(1));
+  const Contact& contact = scenario.contacts[0];
+  EXPECT_EQ(contact.name, "B1-B2");
+  EXPECT_EQ(contact.left, 0);
+  EXPECT_EQ(contact.right, 1);
+  EXPECT_EQ(contact.exponent, 1.5);
+  EXPECT_EQ(contact.damping, DampingLaw::kEnergyRestitution);
+  EXPECT_EQ(contact.reference_velocity, 0);
+  EXPECT_EQ(scenario.solver.relative_tolerance, 1e-11);
+  EXPECT_EQ(scenario.solver.restitution_tolerance, 1e-8);
+  EXPECT_EQ(scenario.solver.max_iterations, 50);
+  EXPECT_EQ(scenario.solver.settled_fraction, 1e-9);
+  EXPECT_EQ(scenario.solver.max_steps, 100'000'000);
+  EXPECT_FALSE(scenario.solver.fail_if_not_converged);
+  EXPECT_EQ(scenario.end_time, 4e-3);
+  EXPECT_EQ(scenario.sample_interval, 4e-6);
+}
+
+TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
+  const DecodedScenario decoded = DecodeScenario(FromText(R"(
+      title: "All of it"
+      bodies { name: "a" density_kg_per_m3: 1000 radius_m: 0.1 position_m: -1 velocity_m_per_s: 2 }
+      bodies { name: "b" mass_kg: 3 position_m: 5 fixed: true }
+      contacts { name: "touch" between: "a" between: "b" stiffness: 7 exponent: 2 damping: MU mu: 9 }
+      contacts { name: "floor" between: "a" wall { position_m: -4 side: LEFT } stiffness: 1
+                 restitution: 0.5 damping: FLORES reference_velocity_m_per_s: 0.25 }
+      supports { body: "a" other: "b" stiffness_n_per_m: 11 damping_n_s_per_m: 12
+                 rest_position_m: 13 }
+      loads { body: "a" constant { force_n: 14 } }
+      loads { body: "a" sine { amplitude_n: 15 angular_frequency_rad_per_s: 16 phase_rad: 17 } }
+      loads { body: "a" gravity { acceleration_m_per_s2: 2 } }
+      solver { method: ADAPTIVE relative_tolerance: 1e-9 restitution_tolerance: 1e-6
+               update: NEWTON_COUPLED phase_split: PEAK_DEFORMATION max_iterations: 20
+               tension: ALLOW on_not_converged: FAIL settled_fraction: 1e-4 max_steps: 12345 }
+      output { sample_interval_s: 0.25 }
+      end_time_s: 10)"));
+  ASSERT_THAT(Lines(decoded.violations), IsEmpty());
+  const Scenario& s = decoded.scenario;
+  const double mass = 4.0 / 3.0 * std::numbers::pi * 0.001 * 1000;
+  EXPECT_THAT(s.bodies[0].mass, testing::DoubleNear(mass, 1e-12));
+  EXPECT_EQ(s.bodies[0].radius, 0.1);
+  EXPECT_EQ(s.bodies[0].position, -1);
+  EXPECT_EQ(s.bodies[0].velocity, 2);
+  EXPECT_TRUE(s.bodies[1].fixed);
+  EXPECT_EQ(s.contacts[0].name, "touch");
+  EXPECT_EQ(s.contacts[0].exponent, 2);
+  EXPECT_EQ(s.contacts[0].damping, DampingLaw::kGiven);
+  EXPECT_EQ(s.contacts[0].mu, 9);
+  EXPECT_EQ(s.contacts[1].left, kNone);
+  EXPECT_EQ(s.contacts[1].right, 0);
+  EXPECT_EQ(s.contacts[1].wall_position, -4);
+  EXPECT_EQ(s.contacts[1].damping, DampingLaw::kFlores);
+  EXPECT_EQ(s.contacts[1].reference_velocity, 0.25);
+  EXPECT_EQ(s.supports[0].body, 0);
+  EXPECT_EQ(s.supports[0].other, 1);
+  EXPECT_EQ(s.supports[0].stiffness, 11);
+  EXPECT_EQ(s.supports[0].damping, 12);
+  EXPECT_EQ(s.supports[0].rest_position, 13);
+  EXPECT_EQ(s.loads[0].constant, 14);
+  EXPECT_EQ(s.loads[1].amplitude, 15);
+  EXPECT_EQ(s.loads[1].angular_frequency, 16);
+  EXPECT_EQ(s.loads[1].phase, 17);
+  EXPECT_THAT(s.loads[2].constant, DoubleEq(2 * s.bodies[0].mass));
+  EXPECT_EQ(s.solver.relative_tolerance, 1e-9);
+  EXPECT_EQ(s.solver.restitution_tolerance, 1e-6);
+  EXPECT_EQ(s.solver.max_iterations, 20);
+  EXPECT_EQ(s.solver.settled_fraction, 1e-4);
+  EXPECT_EQ(s.solver.max_steps, 12345);
+  EXPECT_TRUE(s.solver.fail_if_not_converged);
+  EXPECT_EQ(s.sample_interval, 0.25);
+}
+
+TEST(DecodeScenario, EveryDampingIsReadOrRefused) {
+  const auto& dampings = *google::protobuf::GetEnumDescriptor<v1::Contact::Damping>();
+  int read = 0;
+  for (int i = 0; i < dampings.value_count(); ++i) {
+    const auto damping = static_cast<v1::Contact::Damping>(dampings.value(i)->number());
+    v1::Scenario message = TwoBalls();
+    message.mutable_contacts(0)->set_damping(damping);
+    if (damping == v1::Contact::MU) message.mutable_contacts(0)->set_mu(1);
+    if (LinesOf(message).empty()) ++read;
+  }
+  EXPECT_EQ(read, dampings.value_count() - 2) << "all but KELVIN_VOIGT and HERTZ_QUARTER_POWER";
+}
+
+TEST(DecodeScenario, LedgerOnlyRecordsNoTrajectory) {
+  v1::Scenario message = TwoBalls();
+  message.mutable_output()->set_ledger_only(true);
+  EXPECT_EQ(DecodeScenario(message).scenario.sample_interval, 0);
+  message.mutable_output()->set_sample_interval_s(1e-5);
+  EXPECT_EQ(DecodeScenario(message).scenario.sample_interval, 0);
+}
+
+v1::Scenario Chain(int balls) {
+  v1::Scenario message = TwoBalls();
+  message.clear_bodies();
+  message.mutable_contacts(0)->clear_between();
+  for (int i = 0; i < balls; ++i) {
+    v1::Body& body = *message.add_bodies();
+    body.set_name("B" + std::to_string(i + 1));
+    body.set_mass_kg(1);
+    body.set_position_m(i);
+    message.mutable_contacts(0)->add_between(body.name());
+  }
+  return message;
+}
+
+TEST(DecodeScenario, MoreThanTwoNamesMakeAContactOfEachNeighbouringPair) {
+  const DecodedScenario decoded = DecodeScenario(Chain(4));
+  ASSERT_THAT(Lines(decoded.violations), IsEmpty());
+  EXPECT_THAT(decoded.scenario.contacts,
+              ElementsAre(Field(&Contact::name, "B1-B2"), Field(&Contact::name, "B2-B3"),
+                          Field(&Contact::name, "B3-B4")));
+  EXPECT_EQ(decoded.scenario.contacts[2].left, 2);
+  EXPECT_EQ(decoded.scenario.contacts[2].right, 3);
+  EXPECT_EQ(decoded.scenario.contacts[2].stiffness, 1e8);
+}
+
+TEST(DecodeScenario, NamedChainNumbersItsContacts) {
+  v1::Scenario message = Chain(3);
+  message.mutable_contacts(0)->set_name("chain");
+  EXPECT_THAT(DecodeScenario(message).scenario.contacts,
+              ElementsAre(Field(&Contact::name, "chain-1"), Field(&Contact::name, "chain-2")));
+}
+
+TEST(DecodeScenario, ContactWithAWallIsCalledAfterBoth) {
+  v1::Scenario message = TwoBalls();
+  v1::Contact& contact = *message.mutable_contacts(0);
+  contact.mutable_between()->RemoveLast();
+  contact.mutable_wall()->set_side(v1::Wall::RIGHT);
+  contact.mutable_wall()->set_position_m(1);
+  const Contact decoded = DecodeScenario(message).scenario.contacts.at(0);
+  EXPECT_EQ(decoded.name, "B1-wall");
+  EXPECT_EQ(decoded.left, 0);
+  EXPECT_EQ(decoded.right, kNone);
+  EXPECT_EQ(decoded.wall_position, 1);
+}
+
+TEST(DecodeScenario, GravityOfEveryBodyLeavesOutFixedOnes) {
+  v1::Scenario message = TwoBalls();
+  message.mutable_bodies(1)->set_fixed(true);
+  message.add_loads()->mutable_gravity();
+  const DecodedScenario decoded = DecodeScenario(message);
+  ASSERT_THAT(Lines(decoded.violations), IsEmpty());
+  ASSERT_THAT(decoded.scenario.loads, SizeIs(1));
+  EXPECT_EQ(decoded.scenario.loads[0].body, 0);
+  EXPECT_THAT(decoded.scenario.loads[0].constant, DoubleEq(-0.5 * 9.80665));
+}
+
+TEST(DecodeScenario, FixedBodyNeedsNoMass) {
+  v1::Scenario message = TwoBalls();
+  message.mutable_bodies(1)->clear_mass_kg();
+  message.mutable_bodies(1)->set_fixed(true);
+  EXPECT_THAT(LinesOf(message), IsEmpty());
+}
+
+TEST(DecodeScenario, RoundOffOfATouchIsNoOverlap) {
+  v1::Scenario message = TwoBalls();
+  message.mutable_bodies(1)->set_position_m(0.1 - 0.9e-13);
+  EXPECT_THAT(LinesOf(message), IsEmpty());
+  message.mutable_bodies(1)->set_position_m(0.1 - 1.2e-13);
+  EXPECT_THAT(LinesOf(message), SizeIs(1));
+}
+
+TEST(DecodeScenario, CountsAreCheckedBeforeAnythingIsAllocated) {
+  v1::Scenario message;
+  for (int i = 0; i < 1'000'000; ++i) message.add_bodies();
+  const DecodedScenario decoded = DecodeScenario(message);
+  EXPECT_THAT(Lines(decoded.violations),
+              ElementsAre("bodies: holds 1000000; must hold at most 20000"));
+  EXPECT_EQ(decoded.scenario.bodies.capacity(), 0U);
+}
+
+TEST(DecodeScenario, ExpandedContactsCountAgainstTheLimit) {
+  const ScenarioLimits limits{.max_bodies = 10, .max_contacts = 3};
+  EXPECT_THAT(DecodeScenario(Chain(4), limits).violations, IsEmpty());
+  EXPECT_THAT(Lines(DecodeScenario(Chain(5), limits).violations),
+              ElementsAre("contacts: holds 4; must hold at most 3"));
+}
+
+TEST(DecodeScenario, SamplesCountAgainstTheLimit) {
+  v1::Scenario message = TwoBalls();
+  message.set_end_time_s(1);
+  message.mutable_output()->set_sample_interval_s(0.25);
+  EXPECT_THAT(DecodeScenario(message, {.max_samples = 5}).violations, IsEmpty());
+  EXPECT_THAT(Lines(DecodeScenario(message, {.max_samples = 4}).violations),
+              ElementsAre("output.sample_interval_s: is 0.25, which makes 5 samples; must make at "
+                          "most 4 — set output.ledger_only to record none"));
+}
+
+TEST(DecodeScenario, AllViolationsComeAtOnceInFieldOrder) {
+  v1::Scenario message = TwoBalls();
+  message.mutable_bodies(1)->set_mass_kg(-1);
+  message.mutable_contacts(0)->set_between(1, "B9");
+  message.mutable_contacts(0)->set_restitution(1.2);
+  message.add_supports()->set_body("B3");
+  message.mutable_solver()->set_max_iterations(0);
+  message.clear_end_time_s();
+  EXPECT_THAT(LinesOf(message),
+              ElementsAre("bodies[1].mass_kg: is -1; must be in (0, 1e12]",
+                          "contacts[0].between[1]: is 'B9', which no body is called — did you mean "
+                          "'B1'?",
+                          "contacts[0].restitution: is 1.2; must be in (0, 1]",
+                          "supports[0].body: is 'B3', which no body is called — did you mean 'B1'?",
+                          "solver.max_iterations: is 0; must be in [1, 1000]",
+                          "end_time_s: is missing; must be in (0, 1e6]"));
+}
+
+TEST(DecodeScenario, NotesAtMostAHundredViolations) {
+  v1::Scenario message = TwoBalls();
+  for (int i = 0; i < 20'000 - 2; ++i) message.add_bodies();
+  for (int i = 0; i < 10'000; ++i) message.add_loads()->set_body("nobody");
+  EXPECT_THAT(DecodeScenario(message).violations, SizeIs(100));
+}
+
+}  // namespace
+}  // namespace contact

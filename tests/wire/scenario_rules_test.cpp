@@ -1,0 +1,413 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <tuple>
+
+#include "wire/scenario_builder.h"
+
+namespace contact {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// A scenario that has every message, so that every path can be set.
+v1::Scenario Everything() {
+  return FromText(R"(
+      bodies { name: "B1" mass_kg: 0.5 radius_m: 0.05 }
+      bodies { name: "B2" density_kg_per_m3: 1000 radius_m: 0.05 position_m: 1 }
+      bodies { name: "B3" mass_kg: 1 position_m: 2 }
+      contacts { between: "B1" between: "B2" stiffness: 1e8 restitution: 0.8 }
+      contacts { between: "B3" wall { position_m: 3 side: RIGHT } stiffness: 1e8 damping: MU mu: 1 }
+      supports { body: "B1" }
+      loads { body: "B1" constant {} }
+      loads { body: "B1" sine {} }
+      loads { gravity {} }
+      solver {}
+      output {}
+      end_time_s: 1)");
+}
+
+// ---- Numbers: both ends of each range, one step past them, NaN and infinity -------------------
+
+struct NumberRule {
+  const char* field;
+  double low;
+  double high;
+  const char* range;
+  std::function<void(v1::Scenario&, double)> set;
+};
+
+std::vector<NumberRule> NumberRules() {
+  using S = v1::Scenario;
+  return {
+      {"bodies[2].mass_kg", 0, 1e12, "(0, 1e12]",
+       [](S& s, double v) { s.mutable_bodies(2)->set_mass_kg(v); }},
+      {"bodies[2].radius_m", 0, 1e6, "[0, 1e6]",
+       [](S& s, double v) {
+         s.mutable_contacts(1)->mutable_wall()->set_position_m(1e9);
+         s.mutable_bodies(2)->set_radius_m(v);
+       }},
+      {"bodies[1].density_kg_per_m3", 0, 1e9, "(0, 1e9]",
+       [](S& s, double v) { s.mutable_bodies(1)->set_density_kg_per_m3(v); }},
+      {"bodies[2].position_m", -1e9, 1e9, "[-1e9, 1e9]",
+       [](S& s, double v) {
+         s.mutable_contacts()->RemoveLast();
+         s.mutable_bodies(2)->set_position_m(v);
+       }},
+      {"bodies[2].velocity_m_per_s", -1e6, 1e6, "[-1e6, 1e6]",
+       [](S& s, double v) { s.mutable_bodies(2)->set_velocity_m_per_s(v); }},
+      {"contacts[0].stiffness", 0, 1e30, "(0, 1e30]",
+       [](S& s, double v) { s.mutable_contacts(0)->set_stiffness(v); }},
+      {"contacts[0].exponent", 1, 5, "[1, 5]",
+       [](S& s, double v) { s.mutable_contacts(0)->set_exponent(v); }},
+      {"contacts[0].restitution", 0, 1, "(0, 1]",
+       [](S& s, double v) { s.mutable_contacts(0)->set_restitution(v); }},
+      {"contacts[1].mu", 0, 1e30, "[0, 1e30]",
+       [](S& s, double v) { s.mutable_contacts(1)->set_mu(v); }},
+      {"contacts[0].reference_velocity_m_per_s", 0, 1e6, "(0, 1e6]",
+       [](S& s, double v) { s.mutable_contacts(0)->set_reference_velocity_m_per_s(v); }},
+      {"contacts[1].wall.position_m", -1e9, 1e9, "[-1e9, 1e9]",
+       [](S& s, double v) {
+         s.mutable_contacts(1)->mutable_wall()->set_side(v < 0 ? v1::Wall::LEFT : v1::Wall::RIGHT);
+         s.mutable_contacts(1)->mutable_wall()->set_position_m(v);
+       }},
+      {"supports[0].stiffness_n_per_m", 0, 1e30, "[0, 1e30]",
+       [](S& s, double v) { s.mutable_supports(0)->set_stiffness_n_per_m(v); }},
+      {"supports[0].damping_n_s_per_m", 0, 1e30, "[0, 1e30]",
+       [](S& s, double v) { s.mutable_supports(0)->set_damping_n_s_per_m(v); }},
+      {"supports[0].rest_position_m", -1e9, 1e9, "[-1e9, 1e9]",
+       [](S& s, double v) { s.mutable_supports(0)->set_rest_position_m(v); }},
+      {"loads[0].constant.force_n", -1e15, 1e15, "[-1e15, 1e15]",
+       [](S& s, double v) { s.mutable_loads(0)->mutable_constant()->set_force_n(v); }},
+      {"loads[1].sine.amplitude_n", -1e15, 1e15, "[-1e15, 1e15]",
+       [](S& s, double v) { s.mutable_loads(1)->mutable_sine()->set_amplitude_n(v); }},
+      {"loads[1].sine.angular_frequency_rad_per_s", 0, 1e9, "[0, 1e9]",
+       [](S& s, double v) {
+         s.mutable_loads(1)->mutable_sine()->set_angular_frequency_rad_per_s(v);
+       }},
+      {"loads[1].sine.phase_rad", -1e3, 1e3, "[-1e3, 1e3]",
+       [](S& s, double v) { s.mutable_loads(1)->mutable_sine()->set_phase_rad(v); }},
+      {"loads[2].gravity.acceleration_m_per_s2", -1e9, 1e9, "[-1e9, 1e9]",
+       [](S& s, double v) { s.mutable_loads(2)->mutable_gravity()->set_acceleration_m_per_s2(v); }},
+      {"solver.relative_tolerance", 1e-13, 1e-3, "[1e-13, 1e-3]",
+       [](S& s, double v) { s.mutable_solver()->set_relative_tolerance(v); }},
+      {"solver.restitution_tolerance", 1e-12, 0.1, "[1e-12, 0.1]",
+       [](S& s, double v) { s.mutable_solver()->set_restitution_tolerance(v); }},
+      {"solver.settled_fraction", 0, 0.1, "[0, 0.1]",
+       [](S& s, double v) { s.mutable_solver()->set_settled_fraction(v); }},
+      {"end_time_s", 0, 1e6, "(0, 1e6]", [](S& s, double v) { s.set_end_time_s(v); }},
+  };
+}
+
+class NumberRuleTest : public testing::TestWithParam<NumberRule> {
+ protected:
+  static std::vector<std::string> With(double value) {
+    v1::Scenario message = Everything();
+    GetParam().set(message, value);
+    return LinesOf(message);
+  }
+  static void ExpectRefused(double value) {
+    EXPECT_THAT(With(value), ElementsAre(fmt::format("{}: is {}; must be in {}", GetParam().field,
+                                                     value, GetParam().range)));
+  }
+  static bool open() { return GetParam().range[0] == '('; }
+};
+
+TEST_P(NumberRuleTest, HoldsUpToBothEndsAndNotPastThem) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double low = GetParam().low;
+  EXPECT_THAT(With(GetParam().high), IsEmpty());
+  ExpectRefused(std::nextafter(GetParam().high, kInfinity));
+  if (!open()) {
+    EXPECT_THAT(With(low), IsEmpty());
+    ExpectRefused(std::nextafter(low, -kInfinity));
+  } else if (std::string(GetParam().field) == "end_time_s") {
+    EXPECT_THAT(With(low), ElementsAre("end_time_s: is missing; must be in (0, 1e6]"));
+    ExpectRefused(-1);
+  } else {
+    ExpectRefused(low);
+  }
+}
+
+TEST_P(NumberRuleTest, RefusesNanAndInfinity) {
+  ExpectRefused(std::numeric_limits<double>::quiet_NaN());
+  ExpectRefused(std::numeric_limits<double>::infinity());
+  ExpectRefused(-std::numeric_limits<double>::infinity());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenario, NumberRuleTest, testing::ValuesIn(NumberRules()),
+                         [](const auto& test) {
+                           std::string name = test.param.field;
+                           std::ranges::replace_if(
+                               name, [](char c) { return std::isalnum(c) == 0; }, '_');
+                           return name;
+                         });
+
+TEST(CountRules, HoldUpToBothEndsAndNotPastThem) {
+  v1::Scenario message = Everything();
+  for (const int right : {1, 1000}) {
+    message.mutable_solver()->set_max_iterations(right);
+    EXPECT_THAT(LinesOf(message), IsEmpty());
+  }
+  for (const int wrong : {0, 1001}) {
+    message.mutable_solver()->set_max_iterations(wrong);
+    EXPECT_THAT(
+        LinesOf(message),
+        ElementsAre(fmt::format("solver.max_iterations: is {}; must be in [1, 1000]", wrong)));
+  }
+  message = Everything();
+  for (const std::int64_t right : {std::int64_t{1}, std::int64_t{1'000'000'000'000}}) {
+    message.mutable_solver()->set_max_steps(right);
+    EXPECT_THAT(LinesOf(message), IsEmpty());
+  }
+  message.mutable_solver()->set_max_steps(0);
+  EXPECT_THAT(LinesOf(message), ElementsAre("solver.max_steps: is 0; must be in [1, 1e12]"));
+}
+
+// ---- Rules between fields ---------------------------------------------------------------------
+
+struct Case {
+  const char* name;
+  std::function<void(v1::Scenario&)> change;
+  std::vector<std::string> lines;
+};
+
+std::vector<Case> Cases() {
+  using S = v1::Scenario;
+  const auto contact = [](S& s) -> v1::Contact& { return *s.mutable_contacts(0); };
+  return {
+      {"TitleOf200Characters",
+       [](S& s) {
+         std::string title;
+         for (int i = 0; i < 200; ++i) title += "μ";
+         s.set_title(title);
+       },
+       {}},
+      {"TitleOf201Characters",
+       [](S& s) { s.set_title(std::string(201, 'x')); },
+       {"title: has 201 characters; must have at most 200"}},
+      {"NoBodies",
+       [](S& s) { s.clear_bodies(), s.clear_contacts(), s.clear_supports(), s.clear_loads(); },
+       {"bodies: is missing — a scenario needs at least one body"}},
+      {"NameOf64Characters",
+       [](S& s) { s.mutable_bodies(2)->set_name(std::string(64, 'x')), s.clear_contacts(); },
+       {}},
+      {"NameOf65Characters",
+       [](S& s) { s.mutable_bodies(2)->set_name(std::string(65, 'x')), s.clear_contacts(); },
+       {"bodies[2].name: is '" + std::string(64, 'x') +
+        "…'; must be 1 to 64 letters, digits, '_', '.' or '-'"}},
+      {"NameWithASpace",
+       [](S& s) { s.mutable_bodies(2)->set_name("a b"), s.clear_contacts(); },
+       {"bodies[2].name: is 'a b'; must be 1 to 64 letters, digits, '_', '.' or '-'"}},
+      {"NoName",
+       [](S& s) { s.mutable_bodies(2)->clear_name(), s.mutable_contacts()->RemoveLast(); },
+       {"bodies[2].name: is missing — contacts refer to the body by its name"}},
+      {"NameTwice",
+       [](S& s) { s.mutable_bodies(1)->set_name("B1"), s.clear_contacts(); },
+       {"bodies[1].name: is 'B1', which another body is called — names of bodies are unique"}},
+      {"MassAndDensity",
+       [](S& s) { s.mutable_bodies(0)->set_density_kg_per_m3(1); },
+       {"bodies[0].density_kg_per_m3: is given beside mass_kg — give one of the two"}},
+      {"NoMass",
+       [](S& s) { s.mutable_bodies(0)->clear_mass_kg(); },
+       {"bodies[0].mass_kg: is missing — give mass_kg, or density_kg_per_m3 and radius_m"}},
+      {"DensityWithoutRadius",
+       [](S& s) { s.mutable_bodies(1)->clear_radius_m(); },
+       {"bodies[1].radius_m: is missing — density_kg_per_m3 needs a radius_m > 0"}},
+      {"DensityWithRadiusZero",
+       [](S& s) { s.mutable_bodies(1)->set_radius_m(0); },
+       {"bodies[1].radius_m: is 0, which gives no mass — density_kg_per_m3 needs a radius_m > 0"}},
+      {"DensityThatMakesTooMuchMass",
+       [](S& s) {
+         s.clear_contacts();
+         s.mutable_bodies(1)->set_radius_m(1e6);
+       },
+       {"bodies[1].density_kg_per_m3: gives a mass of 4.1887902047863906e+21 kg; must be in (0, "
+        "1e12]"}},
+      {"FixedBodyThatMoves",
+       [](S& s) {
+         s.mutable_bodies(2)->set_fixed(true), s.mutable_bodies(2)->set_velocity_m_per_s(1);
+         s.mutable_contacts()->RemoveLast();
+       },
+       {"bodies[2].velocity_m_per_s: is 1; must be 0 for a fixed body"}},
+
+      {"NoBetween",
+       [&](S& s) { contact(s).clear_between(); },
+       {"contacts[0].between: is missing — name two bodies, or one body and give wall"}},
+      {"OneNameWithoutAWall",
+       [&](S& s) { contact(s).mutable_between()->RemoveLast(); },
+       {"contacts[0].between: names one body — name two bodies, or give wall"}},
+      {"TwoNamesAndAWall",
+       [&](S& s) { contact(s).mutable_wall()->set_side(v1::Wall::LEFT); },
+       {"contacts[0].between: names 2 bodies beside a wall; must name one — remove wall, or all "
+        "names but one"}},
+      {"WallWithoutASide",
+       [](S& s) { s.mutable_contacts(1)->mutable_wall()->clear_side(); },
+       {"contacts[1].wall.side: is missing — LEFT or RIGHT of the body"}},
+      {"WallOnASideThatIsNone",
+       [](S& s) {
+         s.mutable_contacts(1)->mutable_wall()->set_side(static_cast<v1::Wall::Side>(7));
+       },
+       {"contacts[1].wall.side: is 7, which is no value of Side"}},
+      {"UnknownBody",
+       [&](S& s) { contact(s).set_between(0, "ball"); },
+       {"contacts[0].between[0]: is 'ball', which no body is called — bodies are B1, B2, B3"}},
+      {"EmptyBodyName",
+       [&](S& s) { contact(s).set_between(0, ""); },
+       {"contacts[0].between[0]: is missing — give the name of a body"}},
+      {"BodyWithItself",
+       [&](S& s) { contact(s).set_between(1, "B1"); },
+       {"contacts[0].between: names 'B1' twice in a row — a body cannot touch itself"}},
+      {"PairTwice",
+       [&](S& s) { *s.add_contacts() = contact(s), s.mutable_contacts(2)->set_name("again"); },
+       {"contacts[2].between: repeats the contact of 'B1' and 'B2'"}},
+      {"WallTwice",
+       [](S& s) { *s.add_contacts() = s.contacts(1), s.mutable_contacts(2)->set_name("again"); },
+       {"contacts[2].between: repeats another contact of this body and this wall"}},
+      {"TwoWallsOnOneSide",
+       [](S& s) {
+         *s.add_contacts() = s.contacts(1), s.mutable_contacts(2)->set_name("stop");
+         s.mutable_contacts(2)->mutable_wall()->set_position_m(4);
+       },
+       {}},
+      {"ContactNameTwice",
+       [&](S& s) { contact(s).set_name("B3-wall"); },
+       {"contacts[1].name: is 'B3-wall', which another contact is called — give each contact a "
+        "name of its own"}},
+      {"ContactNameWithASpace",
+       [&](S& s) { contact(s).set_name("a b"); },
+       {"contacts[0].name: is 'a b'; must be 1 to 64 letters, digits, '_', '.' or '-'"}},
+      {"RightBodyFirst",
+       [&](S& s) { contact(s).set_between(0, "B2"), contact(s).set_between(1, "B1"); },
+       {"contacts[0].between: names 'B2' first, which stands to the right of 'B1' (1 > 0 m) — left "
+        "body first: [B1, B2]"}},
+      {"BodiesThatOverlap",
+       [](S& s) { s.mutable_bodies(1)->set_position_m(0.0625); },
+       {"contacts[0].between: 'B1' and 'B2' overlap at the start: δ = 0.037500000000000006 m; must "
+        "be ≤ 0 — move them apart"}},
+      {"BodyInsideAWall",
+       [](S& s) { s.mutable_bodies(2)->set_position_m(3.5); },
+       {"contacts[1].between: 'B3' and the wall overlap at the start: δ = 0.5 m; must be ≤ 0 — "
+        "move them apart"}},
+      {"BodyBehindAWallToTheLeft",
+       [](S& s) { s.mutable_contacts(1)->mutable_wall()->set_side(v1::Wall::LEFT); },
+       {"contacts[1].between: 'B3' and the wall overlap at the start: δ = 1 m; must be ≤ 0 — move "
+        "them apart"}},
+      {"BothBodiesFixed",
+       [](S& s) {
+         s.mutable_bodies(0)->set_fixed(true), s.mutable_bodies(1)->set_fixed(true);
+         s.clear_supports(), s.clear_loads();
+       },
+       {"contacts[0].between: 'B1' and 'B2' are both fixed — one side of a contact must be able to "
+        "move"}},
+      {"FixedBodyAtAWall",
+       [](S& s) { s.mutable_bodies(2)->set_fixed(true); },
+       {"contacts[1].between: 'B3' is fixed, as the wall is — one side of a contact must be able "
+        "to move"}},
+      {"NoStiffness",
+       [&](S& s) { contact(s).clear_stiffness(); },
+       {"contacts[0].stiffness: is missing — k, in N/m^exponent"}},
+      {"NoRestitution",
+       [&](S& s) { contact(s).clear_restitution(); },
+       {"contacts[0].restitution: is missing — 1 is elastic; damping MU with mu needs none"}},
+      {"MuWithoutItsValue",
+       [](S& s) { s.mutable_contacts(1)->clear_mu(); },
+       {"contacts[1].mu: is missing; damping MU needs it"}},
+      {"MuWithAnotherDamping",
+       [&](S& s) { contact(s).set_mu(1); },
+       {"contacts[0].mu: is given, but goes only with damping MU — remove mu, or set damping: MU"}},
+      {"KelvinVoigt",
+       [&](S& s) { contact(s).set_damping(v1::Contact::KELVIN_VOIGT); },
+       {"contacts[0].damping: KELVIN_VOIGT is not available in this version"}},
+      {"HertzQuarterPower",
+       [&](S& s) { contact(s).set_damping(v1::Contact::HERTZ_QUARTER_POWER); },
+       {"contacts[0].damping: HERTZ_QUARTER_POWER is not available in this version"}},
+      {"DampingThatIsNone",
+       [&](S& s) { contact(s).set_damping(static_cast<v1::Contact::Damping>(99)); },
+       {"contacts[0].damping: is 99, which is no value of Damping"}},
+
+      {"SupportOfNobody",
+       [](S& s) { s.mutable_supports(0)->clear_body(); },
+       {"supports[0].body: is missing — give the name of a body"}},
+      {"SupportOfAFixedBody",
+       [](S& s) { s.mutable_bodies(0)->set_fixed(true), s.clear_loads(); },
+       {"supports[0].body: is fixed; forces do not move it"}},
+      {"SupportToItself",
+       [](S& s) { s.mutable_supports(0)->set_other("B1"); },
+       {"supports[0].other: is the body itself — leave it out for a support to the ground"}},
+      {"SupportToNobodyKnown",
+       [](S& s) { s.mutable_supports(0)->set_other("B4"); },
+       {"supports[0].other: is 'B4', which no body is called — did you mean 'B1'?"}},
+      {"LoadOfNobody",
+       [](S& s) { s.mutable_loads(0)->clear_body(); },
+       {"loads[0].body: is missing — give the name of a body"}},
+      {"LoadOfNoKind",
+       [](S& s) { s.mutable_loads(0)->clear_constant(); },
+       {"loads[0]: has no kind — give one of constant, sine and gravity"}},
+      {"LoadOnAFixedBody",
+       [](S& s) {
+         s.mutable_bodies(0)->set_fixed(true), s.clear_supports();
+         s.mutable_loads()->DeleteSubrange(1, 2);
+       },
+       {"loads[0].body: is fixed; forces do not move it"}},
+      {"GravityOfEveryBodyTwice",
+       [](S& s) { s.add_loads()->mutable_gravity(); },
+       {"loads[3].gravity: repeats the gravity of every body — give it once"}},
+
+      {"MethodRk4",
+       [](S& s) {
+         s.mutable_solver()->set_method(v1::Solver::RK4), s.mutable_solver()->set_step_s(1e-6);
+       },
+       {"solver.method: RK4 is not available in this version"}},
+      {"StepWithoutRk4",
+       [](S& s) { s.mutable_solver()->set_step_s(1e-6); },
+       {"solver.step_s: is given, but goes only with method RK4 — remove it"}},
+      {"UpdatePaperNewton",
+       [](S& s) { s.mutable_solver()->set_update(v1::Solver::PAPER_NEWTON); },
+       {"solver.update: PAPER_NEWTON is not available in this version"}},
+      {"UpdatePaperRatio",
+       [](S& s) { s.mutable_solver()->set_update(v1::Solver::PAPER_RATIO); },
+       {"solver.update: PAPER_RATIO is not available in this version"}},
+      {"UpdatePaperBisection",
+       [](S& s) { s.mutable_solver()->set_update(v1::Solver::PAPER_BISECTION); },
+       {"solver.update: PAPER_BISECTION is not available in this version"}},
+      {"PhaseSplitPeakForce",
+       [](S& s) { s.mutable_solver()->set_phase_split(v1::Solver::PEAK_FORCE); },
+       {"solver.phase_split: PEAK_FORCE is not available in this version"}},
+      {"TensionClip",
+       [](S& s) { s.mutable_solver()->set_tension(v1::Solver::CLIP); },
+       {"solver.tension: CLIP is not available in this version"}},
+      {"OnNotConvergedThatIsNone",
+       [](S& s) {
+         s.mutable_solver()->set_on_not_converged(static_cast<v1::Solver::OnNotConverged>(3));
+       },
+       {"solver.on_not_converged: is 3, which is no value of OnNotConverged"}},
+      {"SampleIntervalZero",
+       [](S& s) { s.mutable_output()->set_sample_interval_s(0); },
+       {"output.sample_interval_s: is 0; must be > 0"}},
+      {"SampleIntervalNan",
+       [](S& s) { s.mutable_output()->set_sample_interval_s(std::nan("")); },
+       {"output.sample_interval_s: is nan; must be > 0"}},
+      {"SampleIntervalSoSmallThatTheCountOverflows",
+       [](S& s) { s.mutable_output()->set_sample_interval_s(5e-324); },
+       {"output.sample_interval_s: is 5e-324, which makes inf samples; must make at most 10000000 "
+        "— set output.ledger_only to record none"}},
+  };
+}
+
+class ScenarioRuleTest : public testing::TestWithParam<Case> {};
+
+TEST_P(ScenarioRuleTest, HasTheseWords) {
+  v1::Scenario message = Everything();
+  GetParam().change(message);
+  EXPECT_EQ(LinesOf(message), GetParam().lines);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenario, ScenarioRuleTest, testing::ValuesIn(Cases()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace contact
