@@ -1,6 +1,8 @@
 #include "rpc/status.h"
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -11,6 +13,15 @@ namespace {
 // Leaves room in the 8 KiB of trailers for the message, which is sent twice, and for base64.
 constexpr std::size_t kMaxMessageBytes = 512;
 constexpr std::size_t kMaxViolationBytes = 3500;
+constexpr std::size_t kMaxDescriptionBytes = 500;
+
+// Cuts between characters: half a character would make the message unreadable to protobuf.
+std::string Shorten(const std::string& text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return text;
+  std::size_t end = max_bytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end) + "…";
+}
 
 google::rpc::BadRequest Describe(const std::vector<Violation>& violations) {
   google::rpc::BadRequest request;
@@ -62,7 +73,7 @@ google::rpc::RetryInfo Retry(std::chrono::milliseconds delay) {
 grpc::Status ToGrpc(const Error& error) {
   google::rpc::Status status;
   status.set_code(static_cast<int>(error.code));  // absl, gRPC and google.rpc share the numbers.
-  status.set_message(error.message.substr(0, kMaxMessageBytes));
+  status.set_message(Shorten(error.message, kMaxMessageBytes));
 
   const google::rpc::BadRequest request = Describe(error.violations);
   const std::size_t listed = static_cast<std::size_t>(request.field_violations_size());

@@ -1,0 +1,186 @@
+#include "config.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "version.h"
+
+namespace contact {
+namespace {
+
+struct Address {
+  std::string host;
+  int port;
+};
+
+std::optional<Address> ParseAddress(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0) return std::nullopt;
+  const std::string host = text.substr(0, colon);
+  const std::string port = text.substr(colon + 1);
+  const bool bracketed = host.front() == '[' && host.back() == ']';
+  if (!bracketed && host.find(':') != std::string::npos) return std::nullopt;
+  if (port.empty() || port.size() > 5 || !std::ranges::all_of(port, ::isdigit)) return std::nullopt;
+  if (std::stoi(port) > 65535) return std::nullopt;
+  return Address{host, std::stoi(port)};
+}
+
+// Numbers only, but for `localhost`: a name such as 127.evil.example may lead anywhere.
+bool IsLoopback(const std::string& host) {
+  if (host == "localhost" || host == "[::1]") return true;
+  const auto numeric = [](char c) { return c == '.' || (c >= '0' && c <= '9'); };
+  return host.starts_with("127.") && std::ranges::all_of(host, numeric);
+}
+
+std::filesystem::path DefaultDataDir() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/') {
+    return std::filesystem::path(state) / "contactd";
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') {
+    return std::filesystem::path(home) / ".local/state/contactd";
+  }
+  return {};
+}
+
+int DefaultWorkers() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+std::string VariableOf(const CLI::Option& option) {
+  std::string name = "CONTACTD_" + option.get_lnames().front();
+  std::ranges::replace(name, '-', '_');
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
+  return name;
+}
+
+// The variables as flags, to stand before those of the command line, which so win.
+std::vector<std::string> FlagsFromEnvironment(const CLI::App& app) {
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : app.get_options()) {
+    const char* value = std::getenv(option->get_envname().c_str());
+    if (option->get_envname().empty() || value == nullptr || *value == '\0') continue;
+    flags.push_back(fmt::format("--{}={}", option->get_lnames().front(), value));
+  }
+  return flags;
+}
+
+const std::map<std::string, spdlog::level::level_enum> kLogLevels{
+    {"debug", spdlog::level::debug}, {"info", spdlog::level::info}, {"warn", spdlog::level::warn},
+    {"error", spdlog::level::err},   {"off", spdlog::level::off},
+};
+
+// Flags whose value needs a second look.
+struct Switches {
+  bool no_reflection = false;
+  bool insecure = false;
+  double write_stall_s = 30;
+};
+
+void AddFlags(CLI::App* app, Config* config, Switches* switches) {
+  app->add_option("--listen", config->listen, "Address, HOST:PORT; port 0 is any free one")
+      ->capture_default_str();
+  app->add_option("--data-dir", config->data_dir, "Directory of jobs and results; made if missing")
+      ->capture_default_str();
+  app->add_option("--workers", config->jobs.workers, "Simulations that run at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app->add_option("--port-file", config->port_file, "File to write the port to");
+  app->add_option("--log-level", config->log_level, "debug, info, warn, error or off")
+      ->transform(CLI::CheckedTransformer(kLogLevels))
+      ->default_str("info");
+  app->add_flag("--no-reflection", switches->no_reflection,
+                "Do not tell clients which services there are");
+  app->add_flag("--insecure-i-know", switches->insecure,
+                "Listen without encryption and passwords on an address that others can reach");
+}
+
+void AddLimits(CLI::App* app, Config* config, Switches* switches) {
+  ScenarioLimits& scenario = config->jobs.scenario_limits;
+  app->add_option("--max-message-bytes", config->rpc.max_message_bytes, "Bytes in one request")
+      ->check(CLI::Range(64 << 10, 256 << 20))
+      ->capture_default_str();
+  app->add_option("--max-bodies", scenario.max_bodies, "Bodies in a scenario")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app->add_option("--max-contacts", scenario.max_contacts, "Contacts in a scenario")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app->add_option("--max-samples", scenario.max_samples, "Samples in a recorded trajectory")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
+      ->capture_default_str();
+  app->add_option("--max-queued-jobs", config->jobs.max_queued_jobs, "Jobs that wait for a worker")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app->add_option("--max-watchers", config->jobs.max_watchers, "Watchers of all jobs together")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app->add_option("--write-stall-seconds", switches->write_stall_s,
+                  "A watcher that takes nothing for so long is dropped")
+      ->check(CLI::Range(0.01, 3600.0))
+      ->capture_default_str();
+}
+
+// Throws CLI::ValidationError for what one flag alone cannot tell.
+void Check(const Switches& switches, Config* config) {
+  const auto address = ParseAddress(config->listen);
+  if (!address) {
+    throw CLI::ValidationError("--listen", config->listen + " is not HOST:PORT");
+  }
+  const bool loopback = IsLoopback(address->host);
+  if (!loopback && !switches.insecure) {
+    throw CLI::ValidationError(
+        "--listen", config->listen +
+                        " is not a loopback address, and there is neither encryption nor password; "
+                        "use 127.0.0.1, or say --insecure-i-know");
+  }
+  if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
+  config->rpc.reflection = loopback && !switches.no_reflection;
+  config->rpc.write_stall =
+      std::chrono::milliseconds{static_cast<int>(switches.write_stall_s * 1000)};
+}
+
+}  // namespace
+
+std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
+  Config config;
+  Switches switches;
+  config.data_dir = DefaultDataDir();
+  config.jobs.workers = DefaultWorkers();
+
+  CLI::App app("Runs contact simulations as jobs and streams what happens to them.", "contactd");
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  AddFlags(&app, &config, &switches);
+  AddLimits(&app, &config, &switches);
+  for (CLI::Option* option : app.get_options()) {
+    if (option != app.get_help_ptr()) option->envname(VariableOf(*option));
+  }
+  app.set_config("--config", "", "File of the same settings, one `name = value` a line")
+      ->envname("CONTACTD_CONFIG");
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  app.set_version_flag("--version", fmt::format("contactd {} ({})", kVersion, kRevision));
+
+  std::vector<std::string> arguments = FlagsFromEnvironment(app);
+  arguments.insert(arguments.end(), argv + 1, argv + argc);
+  std::ranges::reverse(arguments);  // As CLI11 wants them.
+  try {
+    app.parse(arguments);
+    Check(switches, &config);
+  } catch (const CLI::CallForHelp&) {
+    return Exit{kExitOk, app.help()};
+  } catch (const CLI::CallForVersion& version) {
+    return Exit{kExitOk, fmt::format("{}\n", version.what())};
+  } catch (const CLI::ParseError& error) {
+    return Exit{kExitUsage,
+                fmt::format("contactd: {}\nRun contactd --help for the settings.\n", error.what())};
+  }
+  return config;
+}
+
+}  // namespace contact

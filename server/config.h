@@ -1,0 +1,43 @@
+#pragma once
+
+#include <spdlog/common.h>
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "jobs/job_manager.h"
+#include "rpc/grpc_server.h"
+
+namespace contact {
+
+/// Exit codes of contactd.
+enum ExitCode : int {
+  kExitOk = 0,
+  kExitInternal = 1,
+  kExitUsage = 2,  ///< Bad flag, or a data directory that cannot be used.
+  kExitHeld = 3,   ///< Another process holds the data directory or the address.
+};
+
+/// What contactd was asked to do, checked.
+struct Config {
+  std::string listen = "127.0.0.1:7070";  ///< HOST:PORT; port 0 is any free one.
+  std::filesystem::path data_dir;
+  std::filesystem::path port_file;  ///< Receives the port; empty: none.
+  spdlog::level::level_enum log_level = spdlog::level::info;
+  JobManagerOptions jobs;
+  GrpcServerOptions rpc;
+};
+
+/// Why there is nothing to do: the code to exit with, and what to print first, on stdout if the
+/// code is 0 and on stderr otherwise.
+struct Exit {
+  int code;
+  std::string text;
+};
+
+/// Reads the flags. Each is also an environment variable (`--data-dir` is CONTACTD_DATA_DIR) and a
+/// key of the file named by `--config`; a flag beats the variable, and that beats the file.
+std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv);
+
+}  // namespace contact

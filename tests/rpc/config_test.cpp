@@ -1,0 +1,178 @@
+#include "config.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace contact {
+namespace {
+
+using testing::HasSubstr;
+
+class ConfigTest : public testing::Test {
+ protected:
+  ~ConfigTest() override {
+    for (const auto& [name, value] : environment_) unsetenv(name.c_str());
+  }
+
+  void Set(const std::string& name, const std::string& value) {
+    environment_[name] = value;
+    setenv(name.c_str(), value.c_str(), 1);
+  }
+
+  static std::variant<Config, Exit> Read(std::vector<const char*> flags) {
+    flags.insert(flags.begin(), "contactd");
+    return ReadConfig(static_cast<int>(flags.size()), flags.data());
+  }
+
+  static Config Good(std::vector<const char*> flags) {
+    flags.insert(flags.begin(), {"--data-dir", "/data"});
+    const auto read = Read(std::move(flags));
+    if (const Exit* exit = std::get_if<Exit>(&read)) ADD_FAILURE() << exit->text;
+    return std::holds_alternative<Config>(read) ? std::get<Config>(read) : Config{};
+  }
+
+  static Exit Bad(std::vector<const char*> flags) {
+    flags.insert(flags.begin(), {"--data-dir", "/data"});
+    const auto read = Read(std::move(flags));
+    EXPECT_TRUE(std::holds_alternative<Exit>(read));
+    return std::holds_alternative<Exit>(read) ? std::get<Exit>(read) : Exit{-1, ""};
+  }
+
+  std::string File(const std::string& text) {
+    const std::string path = testing::TempDir() + "contactd_config_test.conf";
+    std::ofstream(path) << text;
+    return path;
+  }
+
+ private:
+  std::map<std::string, std::string> environment_;
+};
+
+TEST_F(ConfigTest, DefaultsAreThoseOfTheReadme) {
+  const Config config = Good({});
+  EXPECT_EQ(config.listen, "127.0.0.1:7070");
+  EXPECT_GE(config.jobs.workers, 1);
+  EXPECT_EQ(config.rpc.max_message_bytes, 8 << 20);
+  EXPECT_EQ(config.rpc.write_stall, std::chrono::seconds(30));
+  EXPECT_TRUE(config.rpc.reflection);
+}
+
+TEST_F(ConfigTest, EveryFlagArrives) {
+  const Config config =
+      Good({"--listen",    "[::1]:0",        "--workers=3", "--max-message-bytes",
+            "65536",       "--max-bodies",   "7",           "--max-contacts",
+            "8",           "--max-samples",  "9",           "--max-queued-jobs",
+            "10",          "--max-watchers", "11",          "--write-stall-seconds",
+            "0.5",         "--log-level",    "warn",        "--no-reflection",
+            "--port-file", "/port"});
+  EXPECT_EQ(config.listen, "[::1]:0");
+  EXPECT_EQ(config.data_dir, "/data");
+  EXPECT_EQ(config.jobs.workers, 3);
+  EXPECT_EQ(config.rpc.max_message_bytes, 65536);
+  EXPECT_EQ(config.jobs.scenario_limits.max_bodies, 7);
+  EXPECT_EQ(config.jobs.scenario_limits.max_contacts, 8);
+  EXPECT_EQ(config.jobs.scenario_limits.max_samples, 9);
+  EXPECT_EQ(config.jobs.max_queued_jobs, 10);
+  EXPECT_EQ(config.jobs.max_watchers, 11);
+  EXPECT_EQ(config.rpc.write_stall, std::chrono::milliseconds(500));
+  EXPECT_EQ(config.log_level, spdlog::level::warn);
+  EXPECT_FALSE(config.rpc.reflection);
+  EXPECT_EQ(config.port_file, "/port");
+}
+
+TEST_F(ConfigTest, FlagBeatsVariableBeatsFile) {
+  const std::string file = File("workers = 2\nmax-bodies = 20\nmax-contacts = 200\n");
+  Set("CONTACTD_CONFIG", file);
+  Set("CONTACTD_MAX_BODIES", "30");
+  Set("CONTACTD_MAX_CONTACTS", "300");
+  const Config config = Good({"--max-contacts", "400"});
+  EXPECT_EQ(config.jobs.workers, 2);
+  EXPECT_EQ(config.jobs.scenario_limits.max_bodies, 30);
+  EXPECT_EQ(config.jobs.scenario_limits.max_contacts, 400);
+}
+
+TEST_F(ConfigTest, SwitchesCanBeSetInFileAndEnvironment) {
+  const std::string file = File("no-reflection = true\nlisten = \"0.0.0.0:0\"\n");
+  Set("CONTACTD_INSECURE_I_KNOW", "1");
+  const Config config = Good({"--config", file.c_str()});
+  EXPECT_EQ(config.listen, "0.0.0.0:0");
+  EXPECT_FALSE(config.rpc.reflection);
+}
+
+TEST_F(ConfigTest, UnknownKeyInTheFileIsRefused) {
+  const std::string file = File("wrokers = 2\n");
+  const Exit exit = Bad({"--config", file.c_str()});
+  EXPECT_EQ(exit.code, kExitUsage);
+  EXPECT_THAT(exit.text, HasSubstr("wrokers"));
+}
+
+TEST_F(ConfigTest, MissingFileIsRefused) {
+  EXPECT_EQ(Bad({"--config", "/nowhere/contactd.conf"}).code, kExitUsage);
+}
+
+TEST_F(ConfigTest, BadValuesAreUsageErrorsThatNameTheFlag) {
+  const std::vector<std::pair<const char*, const char*>> cases = {
+      {"--workers", "0"},
+      {"--workers", "many"},
+      {"--max-message-bytes", "-1"},
+      {"--max-samples", "1e99"},
+      {"--write-stall-seconds", "0"},
+      {"--log-level", "loud"},
+      {"--listen", "127.0.0.1"},
+      {"--listen", ":7070"},
+      {"--listen", "127.0.0.1:http"},
+      {"--listen", "127.0.0.1:65536"},
+      {"--listen", "::1:70"},
+      {"--listen", "unix:x"},
+  };
+  for (const auto& [flag, value] : cases) {
+    const Exit exit = Bad({flag, value});
+    EXPECT_EQ(exit.code, kExitUsage) << flag << ' ' << value;
+    EXPECT_THAT(exit.text, HasSubstr(flag)) << value;
+  }
+}
+
+TEST_F(ConfigTest, AddressOthersCanReachNeedsConsent) {
+  for (const char* address : {"0.0.0.0:7070", "192.168.1.2:7070", "[::]:7070", "example.org:7070",
+                              "127.0.0.1.example.org:7070"}) {
+    const Exit exit = Bad({"--listen", address});
+    EXPECT_EQ(exit.code, kExitUsage) << address;
+    EXPECT_THAT(exit.text, HasSubstr("--insecure-i-know"));
+    const Config config = Good({"--listen", address, "--insecure-i-know"});
+    EXPECT_EQ(config.listen, address);
+    EXPECT_FALSE(config.rpc.reflection) << "reflection is for loopback";
+  }
+  for (const char* address : {"127.0.0.1:1", "127.8.9.10:1", "localhost:1", "[::1]:1"}) {
+    EXPECT_EQ(Good({"--listen", address}).listen, address);
+  }
+}
+
+TEST_F(ConfigTest, DataDirDefaultsToTheStateFolderOfTheUser) {
+  const std::string home = getenv("HOME") != nullptr ? getenv("HOME") : "";
+  Set("XDG_STATE_HOME", "/state");
+  EXPECT_EQ(std::get<Config>(Read({})).data_dir, "/state/contactd");
+  unsetenv("XDG_STATE_HOME");
+  setenv("HOME", "/home/jo", 1);
+  EXPECT_EQ(std::get<Config>(Read({})).data_dir, "/home/jo/.local/state/contactd");
+  unsetenv("HOME");
+  const auto read = Read({});
+  ASSERT_TRUE(std::holds_alternative<Exit>(read));
+  EXPECT_THAT(std::get<Exit>(read).text, HasSubstr("--data-dir"));
+  setenv("HOME", home.c_str(), 1);
+}
+
+TEST_F(ConfigTest, HelpAndVersionAreNoErrors) {
+  EXPECT_EQ(Bad({"--help"}).code, kExitOk);
+  EXPECT_THAT(Bad({"--help"}).text, HasSubstr("CONTACTD_DATA_DIR"));
+  EXPECT_EQ(Bad({"--version"}).code, kExitOk);
+  EXPECT_THAT(Bad({"--version"}).text, HasSubstr("contactd 0."));
+}
+
+}  // namespace
+}  // namespace contact
