@@ -27,9 +27,11 @@ google::rpc::BadRequest Describe(const std::vector<Violation>& violations) {
   google::rpc::BadRequest request;
   for (const Violation& violation : violations) {
     auto* field = request.add_field_violations();
-    field->set_field(violation.field);
-    field->set_description(violation.hint.empty() ? violation.description
-                                                  : violation.description + " — " + violation.hint);
+    field->set_field(Shorten(violation.field, kMaxDescriptionBytes));
+    field->set_description(Shorten(violation.hint.empty()
+                                       ? violation.description
+                                       : violation.description + " — " + violation.hint,
+                                   kMaxDescriptionBytes));
     if (request.ByteSizeLong() > kMaxViolationBytes && request.field_violations_size() > 1) {
       request.mutable_field_violations()->RemoveLast();
       break;
