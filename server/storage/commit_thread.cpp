@@ -1,0 +1,117 @@
+#include "storage/commit_thread.h"
+
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+#include "storage/database.h"
+
+namespace contact {
+namespace {
+
+// Bounds how long an operation waits for those before it in the same transaction.
+constexpr std::size_t kMaxBatch = 256;
+// Bounds the write-ahead log, and with it the time of a checkpoint: 4 MiB.
+constexpr int kMaxLogPages = 1024;
+constexpr std::chrono::seconds kIdle{1};
+
+}  // namespace
+
+CommitThread::CommitThread(std::unique_ptr<Database> database,
+                           std::function<void(const absl::Status&)> on_failure)
+    : database_(std::move(database)),
+      on_failure_(std::move(on_failure)),
+      thread_([this] { Loop(); }) {}
+
+CommitThread::~CommitThread() {
+  {
+    const MutexLock lock(mutex_);
+    stopping_ = true;
+  }
+  posted_.notify_one();
+  thread_.join();
+}
+
+void CommitThread::Post(Operation operation) {
+  {
+    const MutexLock lock(mutex_);
+    queue_.push_back(std::move(operation));
+  }
+  posted_.notify_one();
+}
+
+void CommitThread::Loop() {
+  while (std::optional<Batch> batch = NextBatch()) {
+    const bool idle = batch->empty();
+    if (!idle) Commit(*batch);
+    if (idle || database_->log_pages() > kMaxLogPages) Checkpoint();
+  }
+}
+
+// Waits for operations. None at all: it is time to stop; an empty batch: time to tidy up.
+std::optional<CommitThread::Batch> CommitThread::NextBatch() {
+  const bool tidy = database_->log_pages() == 0;
+  const MutexLock lock(mutex_);
+  while (queue_.empty()) {
+    if (stopping_) return std::nullopt;
+    if (tidy) {
+      posted_.wait(mutex_);
+    } else if (posted_.wait_for(mutex_, kIdle) == std::cv_status::timeout) {
+      break;
+    }
+  }
+  Batch batch;
+  if (queue_.size() <= kMaxBatch) {
+    batch.swap(queue_);
+  } else {
+    const auto end = queue_.begin() + kMaxBatch;
+    batch.assign(std::make_move_iterator(queue_.begin()), std::make_move_iterator(end));
+    queue_.erase(queue_.begin(), end);
+  }
+  return batch;
+}
+
+void CommitThread::Commit(Batch& batch) {
+  const absl::Status status = Try(batch);
+  if (absl::IsUnavailable(status)) Fail(status);
+  if (status.ok() || !failure_.ok() || batch.size() == 1) {
+    for (const Operation& operation : batch) operation.done(failure_.ok() ? status : failure_);
+    return;
+  }
+  // One of them does not fit, or met a damaged page: the others must not suffer for it.
+  for (Operation& operation : batch) {
+    Batch alone;
+    alone.push_back(std::move(operation));
+    Commit(alone);
+  }
+}
+
+absl::Status CommitThread::Try(Batch& batch) {
+  if (!failure_.ok()) return failure_;
+  try {
+    SQLite::Transaction transaction(database_->connection());
+    for (const Operation& operation : batch) operation.run(*database_);
+    transaction.commit();
+    return absl::OkStatus();
+  } catch (const SQLite::Exception& error) {
+    return ToStatus(error);
+  }
+}
+
+void CommitThread::Checkpoint() {
+  if (!failure_.ok() || database_->log_pages() == 0) return;
+  try {
+    database_->Checkpoint();
+  } catch (const SQLite::Exception& error) {
+    // Without space the log goes on growing, and commits will tell.
+    if (const absl::Status status = ToStatus(error); absl::IsUnavailable(status)) Fail(status);
+  }
+}
+
+void CommitThread::Fail(const absl::Status& failure) {
+  if (!failure_.ok()) return;
+  failure_ = failure;
+  if (on_failure_) on_failure_(failure);
+}
+
+}  // namespace contact

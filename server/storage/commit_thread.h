@@ -1,0 +1,61 @@
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "storage/mutex.h"
+
+namespace contact {
+
+class Database;
+
+/// The one thread that uses the database. Operations posted while it commits go together into the
+/// next transaction, so that one sync of the disk serves them all; one that comes alone does not
+/// wait for others.
+class CommitThread {
+ public:
+  struct Operation {
+    /// Runs inside the transaction. Runs again if an operation beside it made that fail.
+    std::function<void(Database&)> run;
+    /// Runs once, after the commit or with the reason why there is none.
+    std::function<void(const absl::Status&)> done;
+  };
+
+  /// `on_failure` is called once, on the thread, when the disk fails in a way that leaves open
+  /// what it holds. From then on no operation runs.
+  CommitThread(std::unique_ptr<Database> database,
+               std::function<void(const absl::Status&)> on_failure);
+  /// Commits what was posted, then joins.
+  ~CommitThread();
+
+  /// Thread-safe; returns at once. Operations run in the order of their posting.
+  void Post(Operation operation);
+
+ private:
+  using Batch = std::vector<Operation>;
+
+  void Loop();
+  std::optional<Batch> NextBatch();
+  void Commit(Batch& batch);
+  absl::Status Try(Batch& batch);
+  void Checkpoint();
+  void Fail(const absl::Status& failure);
+
+  const std::unique_ptr<Database> database_;  // Of the thread.
+  const std::function<void(const absl::Status&)> on_failure_;
+  absl::Status failure_;  // Of the thread.
+
+  Mutex mutex_;
+  std::condition_variable_any posted_;
+  Batch queue_ ABSL_GUARDED_BY(mutex_);
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
+  std::thread thread_;  // Last: it uses all of the above.
+};
+
+}  // namespace contact

@@ -1,0 +1,142 @@
+#include "storage/database.h"
+
+#include <absl/strings/str_cat.h>
+#include <sqlite3.h>
+
+#include <system_error>
+#include <utility>
+
+#include "storage/schema.h"
+
+namespace contact {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Decides whether a database may be made where there is none.
+absl::Status CheckPresence(const DataDirectory& directory) {
+  std::error_code missing;
+  const auto size = fs::file_size(directory.database(), missing);
+  if (!directory.initialised() || (!missing && size > 0)) return absl::OkStatus();
+  return absl::DataLossError(absl::StrCat(
+      directory.database().string(), missing ? " is missing" : " is empty",
+      " though its directory was in use; restore it from a backup, or remove the directory to "
+      "begin anew"));
+}
+
+absl::Status Damaged(const std::string& file, const std::string& what) {
+  return absl::DataLossError(absl::StrCat(file, " is damaged (", what,
+                                          "); restore it from a backup, or move its directory "
+                                          "away to begin anew"));
+}
+
+void Defend(sqlite3* connection) {
+  sqlite3_db_config(connection, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  // Closing a connection writes; a database that is refused must stay as it was.
+  sqlite3_db_config(connection, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Database>> Database::Open(DataDirectory directory,
+                                                         std::int64_t max_bytes) {
+  if (absl::Status present = CheckPresence(directory); !present.ok()) return present;
+  const std::string file = directory.database().string();
+  try {
+    std::unique_ptr<Database> database(new Database(std::move(directory)));
+    if (absl::Status good = database->Check(); !good.ok()) return good;
+    database->Configure(max_bytes);
+    if (absl::Status made = database->CreateSchema(); !made.ok()) return made;
+    return database;
+  } catch (const SQLite::Exception& error) {
+    const absl::Status status = ToStatus(error);
+    if (absl::IsDataLoss(status)) return Damaged(file, error.what());
+    return absl::FailedPreconditionError(absl::StrCat("cannot open ", file, ": ", error.what()));
+  }
+}
+
+Database::Database(DataDirectory directory)
+    : directory_(std::move(directory)),
+      connection_(directory_.database(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE) {
+  Defend(connection_.getHandle());
+}
+
+absl::Status Database::Check() {
+  const std::string file = directory_.database().string();
+  connection_.exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA cell_size_check=ON");
+  const std::int64_t version = Number("PRAGMA user_version");
+  if (version > kSchemaVersion) {
+    return absl::FailedPreconditionError(absl::StrCat(file, " has schema version ", version,
+                                                      ", this program knows ", kSchemaVersion,
+                                                      "; start the newer program that made it"));
+  }
+  const std::string verdict = connection_.execAndGet("PRAGMA quick_check(1)").getString();
+  if (verdict != "ok") return Damaged(file, verdict);
+  if (version == 0 && directory_.initialised()) return Damaged(file, "it has no schema");
+  return absl::OkStatus();
+}
+
+void Database::Configure(std::int64_t max_bytes) {
+  connection_.exec(
+      "PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA wal_autocheckpoint=0;"
+      "PRAGMA mmap_size=0; PRAGMA foreign_keys=ON; PRAGMA trusted_schema=OFF;"
+      "PRAGMA secure_delete=OFF");
+  if (max_bytes > 0) {
+    const std::int64_t pages = max_bytes / Number("PRAGMA page_size");
+    connection_.exec(absl::StrCat("PRAGMA max_page_count=", pages));
+  }
+  sqlite3* const handle = connection_.getHandle();
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
+  sqlite3_wal_hook(
+      handle,
+      [](void* log_pages, sqlite3*, const char*, int pages) {
+        *static_cast<int*>(log_pages) = pages;
+        return SQLITE_OK;
+      },
+      &log_pages_);
+}
+
+absl::Status Database::CreateSchema() {
+  if (Number("PRAGMA user_version") == 0) {
+    SQLite::Transaction transaction(connection_);
+    connection_.exec(kSchema);
+    connection_.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
+    transaction.commit();
+    Checkpoint();
+  }
+  return directory_.initialised() ? absl::OkStatus() : directory_.MarkInitialised();
+}
+
+std::int64_t Database::Number(const char* sql) { return connection_.execAndGet(sql).getInt64(); }
+
+SQLite::Statement& Database::Prepared(const std::string& sql) {
+  const auto found = statements_.find(sql);
+  if (found != statements_.end()) return found->second;
+  return statements_.emplace(sql, SQLite::Statement(connection_, sql)).first->second;
+}
+
+void Database::Checkpoint() {
+  const int result = sqlite3_wal_checkpoint_v2(connection_.getHandle(), nullptr,
+                                               SQLITE_CHECKPOINT_PASSIVE, nullptr, nullptr);
+  if (result != SQLITE_OK) throw SQLite::Exception(connection_.getHandle(), result);
+  log_pages_ = 0;
+}
+
+absl::Status ToStatus(const SQLite::Exception& error) {
+  switch (error.getErrorCode()) {
+    case SQLITE_FULL:
+    case SQLITE_NOMEM:
+      return absl::ResourceExhaustedError(absl::StrCat("the store is full: ", error.what()));
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return absl::DataLossError(absl::StrCat("the store is damaged: ", error.what()));
+    case SQLITE_IOERR:
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+      return absl::UnavailableError(absl::StrCat("the disk of the store failed: ", error.what()));
+    default:
+      return absl::InternalError(absl::StrCat("the store failed: ", error.what()));
+  }
+}
+
+}  // namespace contact

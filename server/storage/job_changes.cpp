@@ -1,0 +1,104 @@
+#include "storage/job_changes.h"
+
+#include <absl/strings/str_cat.h>
+
+#include "storage/checksum.h"
+#include "storage/database.h"
+#include "storage/job_queries.h"
+
+namespace contact {
+namespace {
+
+void InsertEvents(Database& database, std::int64_t job, std::uint64_t last,
+                  const std::vector<EventRow>& events) {
+  for (const EventRow& event : events) {
+    ++last;
+    Query(database, "INSERT INTO events(job, sequence, kind, crc32, payload) VALUES(?,?,?,?,?)",
+          job, last, event.kind, Checksum(event.payload, last), Query::Blob{event.payload})
+        .Run();
+  }
+}
+
+void InsertJob(Database& database, const JobInsert& insert) {
+  const JobParts& parts = insert.parts;
+  Query(database,
+        "INSERT INTO jobs(name, request_id, state, epoch, last_sequence, crc32, header)"
+        " VALUES(?, NULLIF(?, ''), ?, 0, ?, ?, ?)",
+        insert.name, insert.request_id, insert.state, insert.events.size(), Checksum(parts.header),
+        Query::Blob{parts.header})
+      .Run();
+  const std::int64_t job = database.LastInsertRowid();
+  Query(database, "INSERT INTO specs(job, crc32, spec) VALUES(?,?,?)", job, Checksum(parts.spec),
+        Query::Blob{parts.spec})
+      .Run();
+  for (const auto& [key, value] : insert.labels) {
+    Query(database, "INSERT INTO labels(key, value, job) VALUES(?,?,?)", key, value, job).Run();
+  }
+  InsertEvents(database, job, 0, insert.events);
+}
+
+// Name of the job that a request with this id has made; empty if there is none.
+std::string MadeBy(Database& database, const std::string& request_id) {
+  if (request_id.empty()) return "";
+  Query query(database, "SELECT name FROM jobs WHERE request_id=?", request_id);
+  return query.Next() ? query.Bytes(0) : "";
+}
+
+bool HasSpec(Database& database, const std::string& name, const std::string& spec) {
+  Query query(database, "SELECT spec FROM specs WHERE job=(SELECT number FROM jobs WHERE name=?)",
+              name);
+  return query.Next() && query.Bytes(0) == spec;
+}
+
+}  // namespace
+
+absl::StatusOr<StoredJob> Insert(Database& database, const JobInsert& insert) {
+  if (const std::string name = MadeBy(database, insert.request_id); !name.empty()) {
+    if (HasSpec(database, name, insert.parts.spec)) return Read(database, name, JobPart::kAll);
+    return absl::AlreadyExistsError(absl::StrCat("request_id was used with another job, ", name));
+  }
+  if (!insert.may_create) return absl::ResourceExhaustedError("the job is new");
+  InsertJob(database, insert);
+  absl::StatusOr<StoredJob> stored = Read(database, insert.name, JobPart::kAll);
+  if (stored.ok()) stored->created = true;
+  return stored;
+}
+
+absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change) {
+  Query job(database, "SELECT number, epoch, last_sequence FROM jobs WHERE name=?", change.name);
+  if (!job.Next()) return NoSuchJob(change.name);
+  const std::int64_t number = job.Integer(0);
+  const auto last = static_cast<std::uint64_t>(job.Integer(2));
+  if (static_cast<std::uint64_t>(job.Integer(1)) != change.epoch) {
+    return absl::AbortedError(absl::StrCat(change.name, " has another owner"));
+  }
+  Query(database,
+        "UPDATE jobs SET epoch=epoch+?, last_sequence=?, cancel_requested=MAX(cancel_requested, ?)"
+        " WHERE number=?",
+        change.take, last + change.events.size(), change.cancel_requested, number)
+      .Run();
+  if (!change.parts.header.empty()) {
+    Query(database, "UPDATE jobs SET state=?, crc32=?, header=? WHERE number=?", change.state,
+          Checksum(change.parts.header), Query::Blob{change.parts.header}, number)
+        .Run();
+  }
+  if (!change.parts.result.empty()) {
+    Query(database, "REPLACE INTO results(job, crc32, result) VALUES(?,?,?)", number,
+          Checksum(change.parts.result), Query::Blob{change.parts.result})
+        .Run();
+  }
+  InsertEvents(database, number, last, change.events);
+  return last + 1;
+}
+
+absl::Status Remove(Database& database, const std::string& name) {
+  Query job(database, "SELECT state FROM jobs WHERE name=?", name);
+  if (!job.Next()) return NoSuchJob(name);
+  if (job.Integer(0) < v1::Job::SUCCEEDED) {
+    return absl::FailedPreconditionError(absl::StrCat(name, " has not ended"));
+  }
+  Query(database, "DELETE FROM jobs WHERE name=?", name).Run();
+  return absl::OkStatus();
+}
+
+}  // namespace contact

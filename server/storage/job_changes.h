@@ -1,0 +1,48 @@
+#pragma once
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "storage/job_parts.h"
+#include "storage/records.h"
+
+namespace contact {
+
+class Database;
+
+/// Operations that change the tables, each inside the transaction of its caller. One that returns
+/// an error has changed nothing. SQL errors are thrown as SQLite::Exception.
+
+struct JobInsert {
+  std::string name;
+  std::string request_id;
+  int state = 0;
+  std::vector<std::pair<std::string, std::string>> labels;
+  JobParts parts;
+  std::vector<EventRow> events;
+  bool may_create = true;
+};
+/// Stores a job, or finds the one that the same request has made: see Store::Create.
+absl::StatusOr<StoredJob> Insert(Database& database, const JobInsert& insert);
+
+struct JobChange {
+  std::string name;
+  std::uint64_t epoch = 0;
+  bool take = false;
+  bool cancel_requested = false;
+  int state = 0;
+  JobParts parts;  ///< Header empty: the job stays; the spec is not looked at.
+  std::vector<EventRow> events;
+};
+/// Returns the sequence of the first event appended: see Store::Update.
+absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change);
+
+/// Removes an ended job with everything that belongs to it: see Store::Delete.
+absl::Status Remove(Database& database, const std::string& name);
+
+}  // namespace contact

@@ -1,0 +1,59 @@
+#include "storage/job_parts.h"
+
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
+namespace contact {
+namespace {
+
+// Maps are written in the order of their keys.
+std::string Deterministic(const google::protobuf::Message& message) {
+  std::string bytes;
+  {
+    google::protobuf::io::StringOutputStream stream(&bytes);
+    google::protobuf::io::CodedOutputStream coded(&stream);
+    coded.SetSerializationDeterministic(true);
+    message.SerializeToCodedStream(&coded);
+  }
+  return bytes;
+}
+
+v1::Job SpecOf(const v1::Job& job) {
+  v1::Job spec;
+  if (job.has_scenario()) *spec.mutable_scenario() = job.scenario();
+  if (job.has_sweep()) *spec.mutable_sweep() = job.sweep();
+  *spec.mutable_labels() = job.labels();
+  return spec;
+}
+
+v1::Job ResultOf(const v1::Job& job) {
+  v1::Job result;
+  *result.mutable_cycles() = job.cycles();
+  *result.mutable_final_bodies() = job.final_bodies();
+  return result;
+}
+
+v1::Job HeaderOf(const v1::Job& job) {
+  v1::Job header = job;
+  header.clear_spec();
+  header.clear_cycles();
+  header.clear_final_bodies();
+  return header;
+}
+
+}  // namespace
+
+JobParts Split(const v1::Job& job) {
+  return {Deterministic(HeaderOf(job)), Deterministic(SpecOf(job)), Deterministic(ResultOf(job))};
+}
+
+std::vector<EventRow> ToRows(absl::Span<const v1::Event> events) {
+  std::vector<EventRow> rows;
+  rows.reserve(events.size());
+  for (const v1::Event& event : events) {
+    rows.push_back({static_cast<int>(event.payload_case()), event.SerializeAsString()});
+  }
+  return rows;
+}
+
+}  // namespace contact

@@ -1,0 +1,149 @@
+#include "storage/job_queries.h"
+
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_join.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "storage/checksum.h"
+#include "storage/database.h"
+
+namespace contact {
+namespace {
+
+// Rows that one ReadEvents steps over at most, so that a filter that lets little through does not
+// hold up the commits behind it.
+constexpr std::uint64_t kMaxScan = 4096;
+
+constexpr char kSelectJob[] =
+    "SELECT number, name, state, epoch, cancel_requested, last_sequence, crc32, header FROM jobs ";
+
+struct JobRow {
+  std::int64_t number = 0;
+  StoredJob stored;
+};
+
+JobRow RowOf(const Query& query) {
+  JobRow row;
+  row.number = query.Integer(0);
+  v1::Job& job = row.stored.job;
+  const std::string name = query.Bytes(1);
+  const std::string header = query.Bytes(7);
+  row.stored.intact =
+      Checksum(header) == query.Integer(6) && job.ParseFromString(header) && job.name() == name;
+  if (!row.stored.intact) job.Clear();
+  job.set_name(name);
+  job.set_state(static_cast<v1::Job::State>(query.Integer(2)));
+  row.stored.epoch = static_cast<std::uint64_t>(query.Integer(3));
+  row.stored.cancel_requested = query.Integer(4) != 0;
+  job.set_oldest_sequence(1);
+  job.set_last_sequence(static_cast<std::uint64_t>(query.Integer(5)));
+  return row;
+}
+
+// Adds the bytes that `sql` finds for the job, if any.
+void MergePart(Database& database, const std::string& sql, JobRow& row) {
+  Query query(database, sql, row.number);
+  if (!query.Next()) return;
+  const std::string bytes = query.Bytes(1);
+  row.stored.intact = row.stored.intact && Checksum(bytes) == query.Integer(0) &&
+                      row.stored.job.MergeFromString(bytes);
+}
+
+std::string Placeholders(std::size_t count) {
+  return absl::StrJoin(std::vector<const char*>(count, "?"), ",");
+}
+
+std::string ListSql(const JobQuery& query) {
+  std::string sql = absl::StrCat(kSelectJob, "WHERE number<?");
+  if (!query.states.empty()) {
+    absl::StrAppend(&sql, " AND state IN (", Placeholders(query.states.size()), ")");
+  }
+  for (std::size_t i = 0; i < query.labels.size(); ++i) {
+    absl::StrAppend(&sql, " AND number IN (SELECT job FROM labels WHERE key=? AND value=?)");
+  }
+  return absl::StrCat(sql, " ORDER BY number DESC LIMIT ?");
+}
+
+}  // namespace
+
+absl::Status NoSuchJob(const std::string& name) {
+  return absl::NotFoundError(absl::StrCat("there is no job ", name));
+}
+
+absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobPart part) {
+  Query query(database, absl::StrCat(kSelectJob, "WHERE name=?"), name);
+  if (!query.Next()) return NoSuchJob(name);
+  JobRow row = RowOf(query);
+  if (part != JobPart::kHeader) {
+    MergePart(database, "SELECT crc32, spec FROM specs WHERE job=?", row);
+  }
+  if (part == JobPart::kAll) {
+    MergePart(database, "SELECT crc32, result FROM results WHERE job=?", row);
+  }
+  if (!row.stored.intact) {
+    return absl::DataLossError(absl::StrCat(name, " fails its checksum in the store"));
+  }
+  return std::move(row.stored);
+}
+
+JobPage List(Database& database, const JobQuery& query) {
+  Query rows(database, ListSql(query));
+  rows.Bind(query.before > 0 ? query.before : INT64_MAX);
+  for (const int state : query.states) rows.Bind(state);
+  for (const auto& [key, value] : query.labels) {
+    rows.Bind(key);
+    rows.Bind(value);
+  }
+  rows.Bind(query.limit + 1);
+  JobPage page;
+  std::int64_t oldest = 0;
+  while (rows.Next()) {
+    JobRow row = RowOf(rows);
+    if (page.jobs.size() == static_cast<std::size_t>(query.limit)) {
+      page.next = oldest;
+      break;
+    }
+    oldest = row.number;
+    page.jobs.push_back(std::move(row.stored));
+  }
+  return page;
+}
+
+std::vector<StoredJob> ListUnfinished(Database& database) {
+  Query rows(database, absl::StrCat(kSelectJob, "WHERE state<? ORDER BY number"),
+             v1::Job::SUCCEEDED);
+  std::vector<StoredJob> jobs;
+  while (rows.Next()) jobs.push_back(RowOf(rows).stored);
+  return jobs;
+}
+
+absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query) {
+  Query job(database, "SELECT number, last_sequence FROM jobs WHERE name=?", query.name);
+  if (!job.Next()) return NoSuchJob(query.name);
+  const auto last = static_cast<std::uint64_t>(job.Integer(1));
+  EventPage page;
+  page.position = std::max(query.after, std::min(query.after + kMaxScan, last));
+  Query rows(database,
+             "SELECT sequence, crc32, payload FROM events WHERE job=? AND sequence>?"
+             " AND sequence<=? AND (1<<kind)&? ORDER BY sequence",
+             job.Integer(0), query.after, page.position, query.kinds);
+  for (std::size_t bytes = 0; rows.Next();) {
+    StoredEvent event;
+    event.sequence = static_cast<std::uint64_t>(rows.Integer(0));
+    if (bytes >= query.max_bytes) {
+      page.position = page.events.back().sequence;
+      break;
+    }
+    event.payload = rows.Bytes(2);
+    event.intact = Checksum(event.payload, event.sequence) == rows.Integer(1);
+    if (!event.intact) event.payload.clear();
+    bytes += event.payload.size() + 1;
+    page.events.push_back(std::move(event));
+  }
+  return page;
+}
+
+}  // namespace contact

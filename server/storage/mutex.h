@@ -1,0 +1,36 @@
+#pragma once
+
+#include <absl/base/thread_annotations.h>
+
+#include <mutex>
+
+namespace contact {
+
+/// std::mutex that clang's thread-safety analysis knows. Not absl::Mutex: Debian's is built
+/// without ThreadSanitizer's marks, so every use of it would be reported as a race.
+///
+/// Waits go through std::condition_variable_any, which takes the Mutex itself.
+class ABSL_LOCKABLE Mutex {
+ public:
+  void lock() ABSL_EXCLUSIVE_LOCK_FUNCTION() { mutex_.lock(); }
+  void unlock() ABSL_UNLOCK_FUNCTION() { mutex_.unlock(); }
+
+ private:
+  std::mutex mutex_;
+};
+
+/// Holds a Mutex for a scope.
+class ABSL_SCOPED_LOCKABLE MutexLock {
+ public:
+  explicit MutexLock(Mutex& mutex) ABSL_EXCLUSIVE_LOCK_FUNCTION(mutex) : mutex_(mutex) {
+    mutex_.lock();
+  }
+  ~MutexLock() ABSL_UNLOCK_FUNCTION() { mutex_.unlock(); }
+  MutexLock(const MutexLock&) = delete;
+  MutexLock& operator=(const MutexLock&) = delete;
+
+ private:
+  Mutex& mutex_;
+};
+
+}  // namespace contact

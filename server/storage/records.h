@@ -1,0 +1,81 @@
+#pragma once
+
+#include <absl/types/span.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact/v1/event.pb.h"
+#include "contact/v1/job.pb.h"
+
+namespace contact {
+
+/// A job to be created. Only looked at during the call.
+struct NewJob {
+  const v1::Job& job;                  ///< `name` is new; its output fields are stored as they are.
+  const std::string& request_id;       ///< Empty: none.
+  absl::Span<const v1::Event> events;  ///< The first of its log, without sequence.
+  bool may_create = true;  ///< False: only answer a repeated request; RESOURCE_EXHAUSTED if new.
+};
+
+/// A change of a job, written as a whole. Only looked at during the call.
+struct JobUpdate {
+  const std::string& name;
+  std::uint64_t epoch;  ///< The job must have this one, else ABORTED: another owner took it.
+  bool take = false;    ///< Take the job: its epoch becomes `epoch` + 1.
+  const v1::Job* job = nullptr;  ///< Replaces the stored job, except for its spec; or null.
+  absl::Span<const v1::Event> events = {};  ///< Appended to its log, without sequence.
+  bool cancel_requested = false;            ///< Remember that a user wants it cancelled.
+};
+
+/// What of a job to read.
+enum class JobPart {
+  kHeader,  ///< All but spec, cycles and final bodies.
+  kSpec,    ///< Header and spec.
+  kAll,
+};
+
+struct StoredJob {
+  v1::Job job;
+  std::uint64_t epoch = 0;
+  bool cancel_requested = false;
+  bool created = false;  ///< By this call of Create.
+  bool intact = true;  ///< False: fails its checksum; only name, state and last_sequence are true.
+};
+
+struct JobQuery {
+  std::vector<int> states = {};                                  ///< One of these; empty: all.
+  std::vector<std::pair<std::string, std::string>> labels = {};  ///< All of these.
+  std::int64_t before = 0;  ///< JobPage::next of the page before; 0: from the newest.
+  int limit = 50;
+};
+
+struct JobPage {
+  std::vector<StoredJob> jobs;  ///< Headers, newest first.
+  std::int64_t next = 0;        ///< 0: no more.
+};
+
+struct EventQuery {
+  std::string name;
+  std::uint64_t after = 0;             ///< Only events after this sequence.
+  std::uint32_t kinds = ~0U;           ///< Only kinds k with bit k set; see KindBit.
+  std::size_t max_bytes = 256 * 1024;  ///< About; at least one event is read.
+};
+
+inline std::uint32_t KindBit(v1::Event::PayloadCase kind) { return 1U << kind; }
+
+struct StoredEvent {
+  std::uint64_t sequence = 0;
+  std::string payload;  ///< A serialised v1::Event without sequence.
+  bool intact = true;   ///< False: fails its checksum; the payload is empty.
+};
+
+struct EventPage {
+  std::vector<StoredEvent> events;
+  std::uint64_t position = 0;  ///< All events asked for up to here have been read.
+};
+
+}  // namespace contact

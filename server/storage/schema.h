@@ -1,0 +1,52 @@
+#pragma once
+
+namespace contact {
+
+/// Version of the tables below, kept in PRAGMA user_version. Meaning of each: README.md.
+inline constexpr int kSchemaVersion = 1;
+
+inline constexpr char kSchema[] = R"sql(
+CREATE TABLE jobs(
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  name TEXT NOT NULL UNIQUE,
+  request_id TEXT UNIQUE,
+  state INTEGER NOT NULL,
+  epoch INTEGER NOT NULL,
+  cancel_requested INTEGER NOT NULL DEFAULT 0,
+  last_sequence INTEGER NOT NULL,
+  crc32 INTEGER NOT NULL,
+  header BLOB NOT NULL
+) STRICT;
+CREATE INDEX jobs_by_state ON jobs(state, number);
+
+CREATE TABLE labels(
+  key TEXT NOT NULL,
+  value TEXT NOT NULL,
+  job INTEGER NOT NULL REFERENCES jobs ON DELETE CASCADE,
+  PRIMARY KEY(key, value, job)
+) WITHOUT ROWID, STRICT;
+CREATE INDEX labels_by_job ON labels(job);
+
+CREATE TABLE specs(
+  job INTEGER PRIMARY KEY REFERENCES jobs ON DELETE CASCADE,
+  crc32 INTEGER NOT NULL,
+  spec BLOB NOT NULL
+) STRICT;
+
+CREATE TABLE results(
+  job INTEGER PRIMARY KEY REFERENCES jobs ON DELETE CASCADE,
+  crc32 INTEGER NOT NULL,
+  result BLOB NOT NULL
+) STRICT;
+
+CREATE TABLE events(
+  job INTEGER NOT NULL REFERENCES jobs ON DELETE CASCADE,
+  sequence INTEGER NOT NULL,
+  kind INTEGER NOT NULL,
+  crc32 INTEGER NOT NULL,
+  payload BLOB NOT NULL,
+  PRIMARY KEY(job, sequence)
+) WITHOUT ROWID, STRICT;
+)sql";
+
+}  // namespace contact

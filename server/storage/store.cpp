@@ -1,0 +1,98 @@
+#include "storage/store.h"
+
+#include <optional>
+#include <utility>
+
+#include "storage/data_directory.h"
+#include "storage/database.h"
+#include "storage/job_changes.h"
+#include "storage/job_queries.h"
+
+namespace contact {
+
+absl::StatusOr<std::unique_ptr<Store>> Store::Open(const std::filesystem::path& directory,
+                                                   StoreOptions options) {
+  absl::StatusOr<DataDirectory> locked = DataDirectory::Open(directory);
+  if (!locked.ok()) return locked.status();
+  auto database = Database::Open(*std::move(locked), options.max_bytes);
+  if (!database.ok()) return database.status();
+  return std::unique_ptr<Store>(new Store(*std::move(database), std::move(options)));
+}
+
+Store::Store(std::unique_ptr<Database> database, StoreOptions options)
+    : thread_(std::move(database), std::move(options.on_failure)) {}
+
+Store::~Store() = default;
+
+// `run` gives what `done` gets, once the transaction around it is committed.
+template <class T, class Run>
+void Store::Post(Run run, Callback<T> done) {
+  const auto result = std::make_shared<std::optional<absl::StatusOr<T>>>();
+  thread_.Post({[run = std::move(run), result](Database& database) { *result = run(database); },
+                [done = std::move(done), result](const absl::Status& committed) {
+                  if (committed.ok()) {
+                    done(*std::move(*result));
+                  } else {
+                    done(committed);
+                  }
+                }});
+}
+
+void Store::Create(const NewJob& job, Callback<StoredJob> done) {
+  JobInsert insert{job.job.name(), job.request_id,     job.job.state(), {},
+                   Split(job.job), ToRows(job.events), job.may_create};
+  insert.labels.assign(job.job.labels().begin(), job.job.labels().end());
+  Post<StoredJob>(
+      [insert = std::move(insert)](Database& database) { return Insert(database, insert); },
+      std::move(done));
+}
+
+void Store::Update(const JobUpdate& update, Callback<std::uint64_t> done) {
+  JobChange change{update.name, update.epoch, update.take,          update.cancel_requested,
+                   0,           {},           ToRows(update.events)};
+  if (update.job != nullptr) {
+    change.state = update.job->state();
+    change.parts = Split(*update.job);
+  }
+  Post<std::uint64_t>(
+      [change = std::move(change)](Database& database) { return Change(database, change); },
+      std::move(done));
+}
+
+void Store::Read(std::string name, JobPart part, Callback<StoredJob> done) {
+  Post<StoredJob>([name = std::move(name),
+                   part](Database& database) { return contact::Read(database, name, part); },
+                  std::move(done));
+}
+
+void Store::List(JobQuery query, Callback<JobPage> done) {
+  Post<JobPage>(
+      [query = std::move(query)](Database& database) { return contact::List(database, query); },
+      std::move(done));
+}
+
+void Store::ListUnfinished(Callback<std::vector<StoredJob>> done) {
+  Post<std::vector<StoredJob>>([](Database& database) { return contact::ListUnfinished(database); },
+                               std::move(done));
+}
+
+void Store::ReadEvents(EventQuery query, Callback<EventPage> done) {
+  Post<EventPage>([query = std::move(query)](
+                      Database& database) { return contact::ReadEvents(database, query); },
+                  std::move(done));
+}
+
+void Store::Delete(std::string name, Callback<bool> done) {
+  Post<bool>(
+      [name = std::move(name)](Database& database) -> absl::StatusOr<bool> {
+        if (absl::Status removed = Remove(database, name); !removed.ok()) return removed;
+        return true;
+      },
+      std::move(done));
+}
+
+void Store::Flush(std::function<void()> done) {
+  thread_.Post({[](Database&) {}, [done = std::move(done)](const absl::Status&) { done(); }});
+}
+
+}  // namespace contact

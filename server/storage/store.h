@@ -1,0 +1,80 @@
+#pragma once
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "storage/commit_thread.h"
+#include "storage/records.h"
+
+namespace contact {
+
+class Database;
+
+struct StoreOptions {
+  /// Largest size of the database in bytes; past it writes are RESOURCE_EXHAUSTED. 0: the disk's.
+  std::int64_t max_bytes = 0;
+  /// Called once, on the store's thread, if the disk fails such that nothing can be promised any
+  /// more. The process should end; the store refuses all that follows with UNAVAILABLE.
+  std::function<void(const absl::Status&)> on_failure = {};
+};
+
+/// What survives a restart: jobs and their event logs, in one SQLite database.
+///
+/// Calls are thread-safe and return at once. They take effect in the order of the calls; each
+/// runs its callback once, on the store's one thread, in that order, after its change is on disk.
+/// Callbacks must not block. Errors of every call, beside its own:
+///   RESOURCE_EXHAUSTED  no space; nothing was changed; later calls may succeed
+///   DATA_LOSS           what it needs is damaged
+///   UNAVAILABLE         the disk failed
+class Store {
+ public:
+  template <class T>
+  using Callback = std::function<void(absl::StatusOr<T>)>;
+
+  /// Opens or makes the store in a directory, and locks it for this process.
+  /// UNAVAILABLE: another process holds it. DATA_LOSS: the database is damaged, or gone though it
+  /// was there. FAILED_PRECONDITION: it is newer than this program, or cannot be written.
+  static absl::StatusOr<std::unique_ptr<Store>> Open(const std::filesystem::path& directory,
+                                                     StoreOptions options = {});
+  /// Finishes what was asked for.
+  ~Store();
+
+  /// Stores a job with the first events of its log; or, if `request_id` was used before with the
+  /// same spec and labels, answers that job. ALREADY_EXISTS: it was used with others.
+  void Create(const NewJob& job, Callback<StoredJob> done);
+
+  /// Changes a job and appends to its log in one transaction. Answers the sequence of the first
+  /// event appended; the others follow without a hole. ABORTED: stale epoch. NOT_FOUND.
+  void Update(const JobUpdate& update, Callback<std::uint64_t> done);
+
+  /// NOT_FOUND.
+  void Read(std::string name, JobPart part, Callback<StoredJob> done);
+  void List(JobQuery query, Callback<JobPage> done);
+  /// Headers of the jobs that are QUEUED or RUNNING, oldest first.
+  void ListUnfinished(Callback<std::vector<StoredJob>> done);
+  /// NOT_FOUND. A page may be empty though more follows; go on from its position.
+  void ReadEvents(EventQuery query, Callback<EventPage> done);
+
+  /// Removes a job and its log. NOT_FOUND; FAILED_PRECONDITION: it has not ended.
+  void Delete(std::string name, Callback<bool> done);
+
+  /// Runs `done` after the callbacks of all calls before.
+  void Flush(std::function<void()> done);
+
+ private:
+  Store(std::unique_ptr<Database> database, StoreOptions options);
+
+  template <class T, class Run>
+  void Post(Run run, Callback<T> done);
+
+  CommitThread thread_;
+};
+
+}  // namespace contact

@@ -1,0 +1,77 @@
+#include "storage/commit_thread.h"
+
+#include <latch>
+#include <thread>
+
+#include "storage/store.h"
+#include "storage/store_fixture.h"
+
+namespace contact {
+namespace {
+
+TEST_F(StoreTest, FullStoreRefusesWhatDoesNotFitAndKeepsTheRest) {
+  Open({.max_bytes = 1'000'000});
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  // All in one batch or not: the big one must not take the small ones down with it.
+  const std::string name = "jobs/a";
+  const std::vector<v1::Event> small = {LogEvent("small")};
+  const std::vector<v1::Event> big = {LogEvent(std::string(2'000'000, 'x'))};
+  Await<absl::StatusOr<std::uint64_t>> before, full, after;
+  store_->Update({.name = name, .epoch = 0, .events = small}, before.callback());
+  store_->Update({.name = name, .epoch = 0, .events = big}, full.callback());
+  store_->Update({.name = name, .epoch = 0, .events = small}, after.callback());
+  EXPECT_EQ(*before.Get(), 2U);
+  EXPECT_TRUE(absl::IsResourceExhausted(full.Get().status()));
+  EXPECT_EQ(*after.Get(), 3U);
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 3U);
+}
+
+TEST_F(StoreTest, FullStoreWorksAgainAfterADelete) {
+  Open({.max_bytes = 1'000'000});
+  v1::Job job = MakeJob("jobs/a");
+  job.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Create(job).ok());
+  const std::vector<v1::Event> big = {LogEvent(std::string(600'000, 'x'))};
+  ASSERT_TRUE(Append("jobs/a", big).ok());
+  ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
+  ASSERT_TRUE(absl::IsResourceExhausted(Append("jobs/b", big).status()));
+  ASSERT_TRUE(Delete("jobs/a").ok());
+  EXPECT_TRUE(Append("jobs/b", big).ok());
+}
+
+TEST_F(StoreTest, ManyWritersLoseNothing) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  constexpr int kThreads = 4;
+  constexpr int kAppends = 500;
+  std::latch done(kThreads * kAppends);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&] {
+      const std::string name = "jobs/a";
+      const std::vector<v1::Event> events = {LogEvent("x"), LogEvent("y")};
+      for (int i = 0; i < kAppends; ++i) {
+        store_->Update({.name = name, .epoch = 0, .events = events},
+                       [&](const absl::StatusOr<std::uint64_t>& first) {
+                         EXPECT_TRUE(first.ok());
+                         done.count_down();
+                       });
+      }
+    });
+  }
+  done.wait();
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 1U + 2U * kThreads * kAppends);
+}
+
+TEST_F(StoreTest, LogIsFoldedIntoTheDatabaseBeforeItGrowsLarge) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  for (int i = 0; i < 40; ++i) {
+    ASSERT_TRUE(Append("jobs/a", {LogEvent(std::string(500'000, 'x'))}).ok());
+  }
+  EXPECT_LT(std::filesystem::file_size(path() / "contactd.db-wal"), 6'000'000U);
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,174 @@
+// What a store does with files that are not as it left them.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "storage/store.h"
+#include "storage/store_fixture.h"
+
+namespace contact {
+namespace {
+
+using testing::HasSubstr;
+
+std::string Contents(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void Overwrite(const std::filesystem::path& file, std::streamoff place, const std::string& bytes) {
+  std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
+  out.seekp(place);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+class DamageTest : public StoreTest {
+ protected:
+  // Some jobs with logs, closed properly.
+  void Fill() {
+    Open();
+    for (const char* name : {"jobs/a", "jobs/b", "jobs/c"}) {
+      ASSERT_TRUE(Create(MakeJob(name)).ok());
+      std::vector<v1::Event> events;
+      for (int i = 0; i < 50; ++i) events.push_back(LogEvent(std::string(500, 'x')));
+      ASSERT_TRUE(Append(name, events).ok());
+    }
+    store_.reset();
+  }
+
+  // Opens the store, which must refuse and leave the database alone.
+  absl::Status Refusal() {
+    const std::string before = Contents(database());
+    const absl::Status status = Store::Open(path()).status();
+    EXPECT_EQ(Contents(database()), before);
+    return status;
+  }
+};
+
+TEST_F(DamageTest, GarbageHeaderIsRefused) {
+  Fill();
+  Overwrite(database(), 0, "this is no database");
+  const absl::Status status = Refusal();
+  EXPECT_TRUE(absl::IsDataLoss(status)) << status;
+  EXPECT_THAT(status.ToString(), HasSubstr(database().string()));
+  EXPECT_THAT(status.ToString(), HasSubstr("backup"));
+}
+
+TEST_F(DamageTest, TruncatedDatabaseIsRefused) {
+  Fill();
+  std::filesystem::resize_file(database(), std::filesystem::file_size(database()) / 2);
+  const absl::Status status = Refusal();
+  EXPECT_TRUE(absl::IsDataLoss(status)) << status;
+}
+
+TEST_F(DamageTest, EmptyDatabaseIsNotTakenForANewOne) {
+  Fill();
+  std::filesystem::resize_file(database(), 0);
+  const absl::Status status = Refusal();
+  EXPECT_TRUE(absl::IsDataLoss(status)) << status;
+  EXPECT_THAT(status.ToString(), HasSubstr("empty"));
+}
+
+TEST_F(DamageTest, MissingDatabaseIsNotMadeAnew) {
+  Fill();
+  std::filesystem::remove(database());
+  const absl::Status status = Store::Open(path()).status();
+  EXPECT_TRUE(absl::IsDataLoss(status)) << status;
+  EXPECT_FALSE(std::filesystem::exists(database()));
+}
+
+TEST_F(DamageTest, NewerSchemaIsRefused) {
+  Fill();
+  SQLite::Database(database(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version=99");
+  const absl::Status status = Refusal();
+  EXPECT_TRUE(absl::IsFailedPrecondition(status)) << status;
+  EXPECT_THAT(status.ToString(), HasSubstr("schema version 99"));
+}
+
+TEST_F(DamageTest, SecondOpenIsRefusedAndNamesTheHolder) {
+  Open();
+  const absl::Status status = Store::Open(path()).status();
+  EXPECT_TRUE(absl::IsUnavailable(status)) << status;
+  EXPECT_THAT(status.ToString(), HasSubstr("process " + std::to_string(::getpid())));
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok()) << "the holder goes on";
+}
+
+TEST_F(DamageTest, CrashBeforeTheMarkerIsNoLoss) {
+  Fill();
+  std::filesystem::remove(path() / "initialised");
+  Open();
+  EXPECT_TRUE(Read("jobs/a").ok());
+  EXPECT_TRUE(std::filesystem::exists(path() / "initialised"));
+}
+
+TEST_F(DamageTest, CommittedWorkSurvivesWithoutAProperClose) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  const std::filesystem::path image = directory_.path() / "image";
+  std::filesystem::copy(path(), image);  // As a crash would leave it: the log not folded in.
+  const auto copy = Store::Open(image);
+  ASSERT_TRUE(copy.ok()) << copy.status();
+  Await<absl::StatusOr<StoredJob>> job;
+  (*copy)->Read("jobs/a", JobPart::kAll, job.callback());
+  EXPECT_TRUE(job.Get().ok());
+}
+
+TEST_F(DamageTest, EveryFlippedBitOfAnEventIsFoundAndCostsThatEventOnly) {
+  Fill();
+  std::mt19937 random(1);
+  for (int flip = 0; flip < 200; ++flip) {
+    const auto sequence = 2 + static_cast<std::int64_t>(random() % 50);
+    std::string good;
+    {
+      SQLite::Database raw(database(), SQLite::OPEN_READWRITE);
+      SQLite::Statement read(raw, "SELECT payload FROM events WHERE job=1 AND sequence=?");
+      read.bind(1, sequence);
+      ASSERT_TRUE(read.executeStep());
+      good = read.getColumn(0).getString();
+    }
+    const auto write = [&](const std::string& bytes) {
+      SQLite::Database raw(database(), SQLite::OPEN_READWRITE);
+      raw.exec("PRAGMA synchronous=OFF");
+      SQLite::Statement update(raw, "UPDATE events SET payload=? WHERE job=1 AND sequence=?");
+      update.bind(1, bytes.data(), static_cast<int>(bytes.size()));
+      update.bind(2, sequence);
+      update.exec();
+    };
+    std::string bad = good;
+    bad[random() % bad.size()] ^= static_cast<char>(1U << (random() % 8));
+    write(bad);
+    Open();
+    const auto page = ReadEvents({.name = "jobs/a"});
+    ASSERT_TRUE(page.ok());
+    ASSERT_EQ(page->events.size(), 51U);
+    for (const StoredEvent& event : page->events) {
+      EXPECT_EQ(event.intact, event.sequence != static_cast<std::uint64_t>(sequence));
+    }
+    store_.reset();
+    write(good);
+  }
+}
+
+TEST_F(DamageTest, FlippedBitOfAJobCostsThatJobOnly) {
+  Fill();
+  for (const char* part : {"jobs SET header=CAST(header || 'x' AS BLOB) WHERE number=1",
+                           "specs SET spec=CAST(spec || 'x' AS BLOB) WHERE job=2"}) {
+    SQLite::Database(database(), SQLite::OPEN_READWRITE).exec(std::string("UPDATE ") + part);
+  }
+  Open();
+  EXPECT_TRUE(absl::IsDataLoss(Read("jobs/a").status()));
+  EXPECT_TRUE(absl::IsDataLoss(Read("jobs/b").status()));
+  EXPECT_TRUE(Read("jobs/b", JobPart::kHeader).ok());
+  EXPECT_TRUE(Read("jobs/c").ok());
+  const auto page = List({});
+  ASSERT_TRUE(page.ok());
+  ASSERT_EQ(page->jobs.size(), 3U);
+  EXPECT_FALSE(page->jobs[2].intact);
+  EXPECT_EQ(page->jobs[2].job.name(), "jobs/a");
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "storage/store.h"
+#include "testing/await.h"
+#include "testing/temp_directory.h"
+
+namespace contact {
+
+inline v1::Job MakeJob(const std::string& name) {
+  v1::Job job;
+  job.set_name(name);
+  job.set_state(v1::Job::QUEUED);
+  job.mutable_scenario()->set_title("of " + name);
+  (*job.mutable_labels())["study"] = "a";
+  return job;
+}
+
+inline v1::Event StateEvent(v1::Job::State state) {
+  v1::Event event;
+  event.mutable_state_changed()->set_state(state);
+  return event;
+}
+
+inline v1::Event LogEvent(const std::string& message) {
+  v1::Event event;
+  event.mutable_log_entry()->set_message(message);
+  return event;
+}
+
+/// A store in a folder of its own, with calls that wait.
+class StoreTest : public testing::Test {
+ protected:
+  void Open(StoreOptions options = {}) {
+    store_.reset();
+    auto opened = Store::Open(path(), std::move(options));
+    ASSERT_TRUE(opened.ok()) << opened.status();
+    store_ = *std::move(opened);
+  }
+
+  std::filesystem::path path() const { return directory_.path() / "data"; }
+  std::filesystem::path database() const { return path() / "contactd.db"; }
+
+  absl::StatusOr<StoredJob> Create(const v1::Job& job, const std::string& request_id = "") {
+    const std::vector<v1::Event> events = {StateEvent(v1::Job::QUEUED)};
+    Await<absl::StatusOr<StoredJob>> result;
+    store_->Create({job, request_id, events}, result.callback());
+    return result.Get();
+  }
+  absl::StatusOr<std::uint64_t> Update(const JobUpdate& update) {
+    Await<absl::StatusOr<std::uint64_t>> result;
+    store_->Update(update, result.callback());
+    return result.Get();
+  }
+  absl::StatusOr<std::uint64_t> Append(const std::string& name,
+                                       const std::vector<v1::Event>& events) {
+    return Update({.name = name, .epoch = 0, .events = events});
+  }
+  absl::StatusOr<StoredJob> Read(const std::string& name, JobPart part = JobPart::kAll) {
+    Await<absl::StatusOr<StoredJob>> result;
+    store_->Read(name, part, result.callback());
+    return result.Get();
+  }
+  absl::StatusOr<JobPage> List(JobQuery query) {
+    Await<absl::StatusOr<JobPage>> result;
+    store_->List(std::move(query), result.callback());
+    return result.Get();
+  }
+  absl::StatusOr<EventPage> ReadEvents(EventQuery query) {
+    Await<absl::StatusOr<EventPage>> result;
+    store_->ReadEvents(std::move(query), result.callback());
+    return result.Get();
+  }
+  absl::Status Delete(const std::string& name) {
+    Await<absl::StatusOr<bool>> result;
+    store_->Delete(name, result.callback());
+    return result.Get().status();
+  }
+
+  TempDirectory directory_;
+  std::unique_ptr<Store> store_;
+};
+
+}  // namespace contact

@@ -1,0 +1,272 @@
+#include "storage/store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include "storage/store_fixture.h"
+
+namespace contact {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> Names(const JobPage& page) {
+  std::vector<std::string> names;
+  for (const StoredJob& job : page.jobs) names.push_back(job.job.name());
+  return names;
+}
+
+std::vector<std::uint64_t> Sequences(const EventPage& page) {
+  std::vector<std::uint64_t> sequences;
+  for (const StoredEvent& event : page.events) sequences.push_back(event.sequence);
+  return sequences;
+}
+
+TEST_F(StoreTest, JobSurvivesReopening) {
+  Open();
+  const v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  Open();
+  const auto stored = Read("jobs/a");
+  ASSERT_TRUE(stored.ok()) << stored.status();
+  EXPECT_EQ(stored->job.scenario().title(), "of jobs/a");
+  EXPECT_EQ(stored->job.labels().at("study"), "a");
+  EXPECT_EQ(stored->job.state(), v1::Job::QUEUED);
+  EXPECT_EQ(stored->job.last_sequence(), 1U);
+}
+
+TEST_F(StoreTest, MissingJobIsNotFound) {
+  Open();
+  EXPECT_TRUE(absl::IsNotFound(Read("jobs/none").status()));
+  EXPECT_TRUE(absl::IsNotFound(Delete("jobs/none")));
+  EXPECT_TRUE(absl::IsNotFound(Append("jobs/none", {}).status()));
+  EXPECT_TRUE(absl::IsNotFound(ReadEvents({.name = "jobs/none"}).status()));
+}
+
+TEST_F(StoreTest, RepeatedRequestAnswersTheSameJob) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a"), "request").ok());
+  v1::Job again = MakeJob("jobs/a");
+  again.set_name("jobs/b");
+  const auto repeated = Create(again, "request");
+  ASSERT_TRUE(repeated.ok()) << repeated.status();
+  EXPECT_EQ(repeated->job.name(), "jobs/a");
+  EXPECT_FALSE(repeated->created);
+  EXPECT_TRUE(absl::IsNotFound(Read("jobs/b").status()));
+}
+
+TEST_F(StoreTest, RequestIdNamesOneJobOnly) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a"), "request").ok());
+  EXPECT_TRUE(absl::IsAlreadyExists(Create(MakeJob("jobs/b"), "request").status()));
+  EXPECT_TRUE(Create(MakeJob("jobs/b"), "other request").ok());
+  EXPECT_TRUE(Create(MakeJob("jobs/c"), "").ok());
+  EXPECT_TRUE(Create(MakeJob("jobs/d"), "").ok());
+}
+
+TEST_F(StoreTest, JobThatMayNotBeCreatedIsOnlyFound) {
+  Open();
+  const v1::Job job = MakeJob("jobs/a");
+  Await<absl::StatusOr<StoredJob>> refused;
+  store_->Create({job, "request", {}, false}, refused.callback());
+  EXPECT_TRUE(absl::IsResourceExhausted(refused.Get().status()));
+  ASSERT_TRUE(Create(job, "request").ok());
+  Await<absl::StatusOr<StoredJob>> found;
+  store_->Create({job, "request", {}, false}, found.callback());
+  EXPECT_TRUE(found.Get().ok());
+}
+
+TEST_F(StoreTest, SequencesAreDensePerJob) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
+  EXPECT_EQ(*Append("jobs/a", {LogEvent("2"), LogEvent("3")}), 2U);
+  EXPECT_EQ(*Append("jobs/b", {LogEvent("2")}), 2U);
+  EXPECT_EQ(*Append("jobs/a", {LogEvent("4")}), 4U);
+  const auto page = ReadEvents({.name = "jobs/a"});
+  ASSERT_TRUE(page.ok());
+  EXPECT_THAT(Sequences(*page), ElementsAre(1, 2, 3, 4));
+  EXPECT_EQ(page->position, 4U);
+  v1::Event event;
+  ASSERT_TRUE(event.ParseFromString(page->events[3].payload));
+  EXPECT_EQ(event.log_entry().message(), "4");
+}
+
+TEST_F(StoreTest, StaleOwnerIsFencedOff) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .take = true}).ok());
+  const v1::Job job = MakeJob("jobs/a");
+  const std::vector<v1::Event> events = {LogEvent("late")};
+  const auto late = Update({.name = "jobs/a", .epoch = 0, .job = &job, .events = events});
+  EXPECT_TRUE(absl::IsAborted(late.status()));
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 1U);
+  EXPECT_EQ(Read("jobs/a")->epoch, 1U);
+  EXPECT_TRUE(Update({.name = "jobs/a", .epoch = 1, .events = events}).ok());
+}
+
+TEST_F(StoreTest, ChangeOfJobKeepsItsSpecAndAddsItsResult) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  v1::Job ended;
+  ended.set_name("jobs/a");
+  ended.set_state(v1::Job::SUCCEEDED);
+  ended.add_cycles()->set_restitution_out(0.7);
+  ended.add_final_bodies()->set_velocity_m_per_s(-0.0);
+  const std::vector<v1::Event> events = {StateEvent(v1::Job::SUCCEEDED)};
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .job = &ended, .events = events}).ok());
+  const v1::Job all = Read("jobs/a")->job;
+  EXPECT_EQ(all.scenario().title(), "of jobs/a");
+  EXPECT_EQ(all.state(), v1::Job::SUCCEEDED);
+  ASSERT_EQ(all.cycles_size(), 1);
+  EXPECT_EQ(all.cycles(0).restitution_out(), 0.7);
+  EXPECT_EQ(all.last_sequence(), 2U);
+  const v1::Job header = Read("jobs/a", JobPart::kHeader)->job;
+  EXPECT_FALSE(header.has_scenario());
+  EXPECT_EQ(header.cycles_size() + header.final_bodies_size(), 0);
+}
+
+TEST_F(StoreTest, WishToCancelIsRemembered) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .cancel_requested = true}).ok());
+  ASSERT_TRUE(Append("jobs/a", {LogEvent("2")}).ok());
+  Open();
+  EXPECT_TRUE(Read("jobs/a")->cancel_requested);
+}
+
+TEST_F(StoreTest, EventsArePagedBySize) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  std::vector<v1::Event> events;
+  for (int i = 0; i < 10; ++i) events.push_back(LogEvent(std::string(1000, 'x')));
+  ASSERT_TRUE(Append("jobs/a", events).ok());
+  EventQuery query{.name = "jobs/a", .max_bytes = 2500};
+  std::vector<std::uint64_t> all;
+  for (int pages = 0; query.after < 11; ++pages) {
+    ASSERT_LT(pages, 11);
+    const auto page = ReadEvents(query);
+    ASSERT_TRUE(page.ok());
+    EXPECT_LE(page->events.size(), 4U);
+    for (const std::uint64_t sequence : Sequences(*page)) all.push_back(sequence);
+    query.after = page->position;
+  }
+  EXPECT_THAT(all, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+}
+
+TEST_F(StoreTest, PageHoldsAtLeastOneEventHoweverLarge) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  ASSERT_TRUE(Append("jobs/a", {LogEvent(std::string(100'000, 'x'))}).ok());
+  const auto page = ReadEvents({.name = "jobs/a", .after = 1, .max_bytes = 1});
+  ASSERT_TRUE(page.ok());
+  EXPECT_THAT(Sequences(*page), ElementsAre(2));
+}
+
+TEST_F(StoreTest, KindsAreFilteredAndPositionPassesOverTheOthers) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  ASSERT_TRUE(
+      Append("jobs/a", {LogEvent("2"), LogEvent("3"), StateEvent(v1::Job::RUNNING), LogEvent("5")})
+          .ok());
+  const auto page = ReadEvents({.name = "jobs/a", .kinds = KindBit(v1::Event::kStateChanged)});
+  ASSERT_TRUE(page.ok());
+  EXPECT_THAT(Sequences(*page), ElementsAre(1, 4));
+  EXPECT_EQ(page->position, 5U);
+}
+
+TEST_F(StoreTest, PositionNeverGoesBack) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  const auto page = ReadEvents({.name = "jobs/a", .after = 99});
+  ASSERT_TRUE(page.ok());
+  EXPECT_TRUE(page->events.empty());
+  EXPECT_EQ(page->position, 99U);
+}
+
+TEST_F(StoreTest, ListIsPagedNewestFirst) {
+  Open();
+  for (const char* name : {"jobs/a", "jobs/b", "jobs/c", "jobs/d", "jobs/e"}) {
+    ASSERT_TRUE(Create(MakeJob(name)).ok());
+  }
+  auto page = List({.limit = 2});
+  EXPECT_THAT(Names(*page), ElementsAre("jobs/e", "jobs/d"));
+  page = List({.before = page->next, .limit = 2});
+  EXPECT_THAT(Names(*page), ElementsAre("jobs/c", "jobs/b"));
+  page = List({.before = page->next, .limit = 2});
+  EXPECT_THAT(Names(*page), ElementsAre("jobs/a"));
+  EXPECT_EQ(page->next, 0);
+  EXPECT_FALSE(page->jobs[0].job.has_scenario());
+}
+
+TEST_F(StoreTest, ListIsFilteredByStateAndByEveryLabel) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  job.set_name("jobs/b");
+  (*job.mutable_labels())["user"] = "ann";
+  ASSERT_TRUE(Create(job).ok());
+  job.set_name("jobs/c");
+  job.set_state(v1::Job::RUNNING);
+  ASSERT_TRUE(Create(job).ok());
+  EXPECT_THAT(Names(*List({.states = {v1::Job::RUNNING}})), ElementsAre("jobs/c"));
+  EXPECT_THAT(Names(*List({.labels = {{"user", "ann"}, {"study", "a"}}})),
+              ElementsAre("jobs/c", "jobs/b"));
+  EXPECT_THAT(Names(*List({.states = {v1::Job::QUEUED}, .labels = {{"user", "ann"}}})),
+              ElementsAre("jobs/b"));
+  EXPECT_THAT(Names(*List({.labels = {{"user", "bob"}}})), ElementsAre());
+}
+
+TEST_F(StoreTest, UnfinishedJobsComeInTheOrderOfTheirCreation) {
+  Open();
+  v1::Job job = MakeJob("jobs/z");
+  ASSERT_TRUE(Create(job).ok());
+  job.set_name("jobs/m");
+  job.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Create(job).ok());
+  job.set_name("jobs/a");
+  job.set_state(v1::Job::RUNNING);
+  ASSERT_TRUE(Create(job).ok());
+  Await<absl::StatusOr<std::vector<StoredJob>>> unfinished;
+  store_->ListUnfinished(unfinished.callback());
+  EXPECT_THAT(Names({*unfinished.Get()}), ElementsAre("jobs/z", "jobs/a"));
+}
+
+TEST_F(StoreTest, DeleteTakesEverythingOfAnEndedJob) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  EXPECT_TRUE(absl::IsFailedPrecondition(Delete("jobs/a")));
+  job.set_state(v1::Job::CANCELLED);
+  job.add_cycles();
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .job = &job}).ok());
+  EXPECT_TRUE(Delete("jobs/a").ok());
+  EXPECT_TRUE(absl::IsNotFound(Read("jobs/a").status()));
+  store_.reset();
+  SQLite::Database raw(database());
+  for (const char* table : {"jobs", "labels", "specs", "results", "events"}) {
+    EXPECT_EQ(raw.execAndGet(std::string("SELECT COUNT(*) FROM ") + table).getInt(), 0) << table;
+  }
+}
+
+TEST_F(StoreTest, CallbacksRunInTheOrderOfTheCalls) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  std::vector<int> order;  // Of the store's thread until flushed.
+  const std::string name = "jobs/a";
+  for (int i = 0; i < 1000; ++i) {
+    if (i % 3 == 0) {
+      store_->Read(name, JobPart::kHeader, [&order, i](const auto&) { order.push_back(i); });
+    } else {
+      store_->Update({.name = name, .epoch = 0}, [&order, i](const auto&) { order.push_back(i); });
+    }
+  }
+  Await<bool> flushed;
+  store_->Flush([done = flushed.callback()] { done(true); });
+  flushed.Get();
+  ASSERT_EQ(order.size(), 1000U);
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace contact {
+
+/// Far more than any test needs: reached only by a hang.
+inline constexpr std::chrono::seconds kPatience{60};
+
+/// Turns a call with a callback into one that waits for what the callback gets.
+template <class T>
+class Await {
+ public:
+  /// The callback to hand over.
+  std::function<void(T)> callback() {
+    return [promise = promise_](T value) { promise->set_value(std::move(value)); };
+  }
+  T Get() {
+    if (future_.wait_for(kPatience) != std::future_status::ready) {
+      throw std::runtime_error("no callback");
+    }
+    return future_.get();
+  }
+
+ private:
+  std::shared_ptr<std::promise<T>> promise_ = std::make_shared<std::promise<T>>();
+  std::future<T> future_ = promise_->get_future();
+};
+
+}  // namespace contact
