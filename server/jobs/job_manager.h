@@ -20,7 +20,7 @@ struct JobManagerOptions {
   int workers = 1;                 ///< Threads that run simulations, ≥ 1.
   int max_queued_jobs = 10'000;    ///< Past it CreateJob answers QUEUE_FULL.
   int max_watchers = 10'000;       ///< Past it Watch answers WATCHER_LIMIT.
-  ScenarioLimits scenario_limits;
+  ScenarioLimits scenario_limits = {};
 };
 
 /// Owns the life of every job: accepts, queues, runs on worker threads, records, cancels.

@@ -1,0 +1,87 @@
+#include "rpc/grpc_server.h"
+
+#include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+
+#include <string>
+
+#include "test_server.h"
+
+namespace contact {
+namespace {
+
+// Calls a method by name with one message of raw bytes; returns the raw answer, or the status.
+struct RawAnswer {
+  grpc::Status status;
+  std::string bytes;
+};
+
+RawAnswer CallRaw(const TestServer& server, const std::string& method, const std::string& bytes) {
+  grpc::GenericStub stub(server.Connect());
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kPatience);
+  grpc::CompletionQueue queue;
+  void* tag = nullptr;
+  bool ok = false;
+  const auto call = stub.PrepareCall(&context, method, &queue);
+  call->StartCall(nullptr);
+  queue.Next(&tag, &ok);
+  const grpc::Slice slice(bytes);
+  call->WriteLast(grpc::ByteBuffer(&slice, 1), {}, nullptr);
+  queue.Next(&tag, &ok);
+  RawAnswer answer;
+  grpc::ByteBuffer buffer;
+  call->Read(&buffer, nullptr);
+  queue.Next(&tag, &ok);
+  grpc::Slice flat;
+  if (ok && buffer.DumpToSingleSlice(&flat).ok()) {
+    answer.bytes.assign(reinterpret_cast<const char*>(flat.begin()), flat.size());
+  }
+  context.TryCancel();  // Reflection would wait for more.
+  call->Finish(&answer.status, nullptr);
+  queue.Next(&tag, &ok);
+  return answer;
+}
+
+// grpc.health.v1.HealthCheckResponse on the wire.
+const std::string kServing = "\x08\x01";
+const std::string kNotServing = "\x08\x02";
+
+std::string Health(const TestServer& server, const std::string& service) {
+  const std::string request = "\x0a" + std::string(1, static_cast<char>(service.size())) + service;
+  return CallRaw(server, "/grpc.health.v1.Health/Check", request).bytes;
+}
+
+TEST(GrpcServerTest, HealthTurnsNotServingOnDrain) {
+  TestServer server;
+  EXPECT_EQ(Health(server, ""), kServing);
+  EXPECT_EQ(Health(server, "contact.v1.JobService"), kServing);
+  server.grpc().Drain();
+  EXPECT_EQ(Health(server, ""), kNotServing);
+  EXPECT_EQ(Health(server, "contact.v1.JobService"), kNotServing);
+}
+
+TEST(GrpcServerTest, ReflectionIsASwitch) {
+  const std::string method = "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo";
+  const std::string list_services = "\x3a\x01*";
+  const TestServer open({.reflection = true});
+  EXPECT_THAT(CallRaw(open, method, list_services).bytes,
+              testing::HasSubstr("contact.v1.JobService"));
+  const TestServer closed({.reflection = false});
+  EXPECT_EQ(CallRaw(closed, method, list_services).bytes, "");
+}
+
+TEST(GrpcServerTest, TwoServersCannotShareAPort) {
+  TestServer first;
+  GrpcServer second(first.jobs(), {}, {});
+  EXPECT_FALSE(second.Start(first.address()));
+}
+
+TEST(GrpcServerTest, BadAddressIsAnError) {
+  TestServer first;
+  GrpcServer second(first.jobs(), {}, {});
+  EXPECT_FALSE(second.Start("256.0.0.1:0"));
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "contact/v1/job_service.grpc.pb.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+#include "jobs/job_manager.h"
+#include "jobs/sources.h"
+#include "rpc/grpc_server.h"
+#include "storage/store.h"
+
+namespace contact {
+
+constexpr auto kPatience = std::chrono::seconds(60);
+
+/// A whole server in this process, on a port and in a folder of its own.
+class TestServer {
+ public:
+  explicit TestServer(GrpcServerOptions options = {}, JobManagerOptions jobs = {.workers = 2})
+      : store_(Store::Open(folder_).value()),
+        jobs_(*store_, SystemClock(), RandomIds(), std::move(jobs)),
+        server_(jobs_, options, {}),
+        port_(server_.Start("127.0.0.1:0").value()),
+        stub_(v1::JobService::NewStub(Connect())) {}
+
+  ~TestServer() {
+    server_.Shutdown(std::chrono::seconds(1));
+    jobs_.Stop();
+    store_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+
+  TestServer(const TestServer&) = delete;
+  TestServer& operator=(const TestServer&) = delete;
+
+  GrpcServer& grpc() { return server_; }
+  JobManager& jobs() { return jobs_; }
+  v1::JobService::Stub& stub() { return *stub_; }
+  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+
+  /// A connection of its own.
+  std::shared_ptr<grpc::Channel> Connect() const {
+    grpc::ChannelArguments arguments;
+    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+    return grpc::CreateCustomChannel(address(), grpc::InsecureChannelCredentials(), arguments);
+  }
+
+  /// Submits a job and returns its name.
+  std::string Create(const v1::Scenario& scenario) {
+    v1::CreateJobRequest request;
+    *request.mutable_job()->mutable_scenario() = scenario;
+    grpc::ClientContext context;
+    v1::Job job;
+    const grpc::Status status = stub().CreateJob(&context, request, &job);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return job.name();
+  }
+
+ private:
+  static std::filesystem::path NewFolder() {
+    std::string path = testing::TempDir() + "contactd-rpc-XXXXXX";
+    return mkdtemp(path.data());
+  }
+
+  const std::filesystem::path folder_ = NewFolder();
+  std::unique_ptr<Store> store_;
+  JobManager jobs_;
+  GrpcServer server_;
+  const int port_;
+  const std::unique_ptr<v1::JobService::Stub> stub_;
+};
+
+/// Reason of a failed call, from its details.
+inline std::string Reason(const grpc::Status& status) {
+  google::rpc::Status details;
+  details.ParseFromString(status.error_details());
+  google::rpc::ErrorInfo info;
+  for (const auto& detail : details.details()) {
+    if (detail.UnpackTo(&info)) return info.reason();
+  }
+  return "";
+}
+
+/// Waits for what only shows when looked at.
+template <class Condition>
+bool Eventually(Condition condition) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+/// Two balls that meet once.
+inline v1::Scenario Collision() {
+  v1::Scenario scenario;
+  for (const auto* name : {"A", "B"}) {
+    auto* body = scenario.add_bodies();
+    body->set_name(name);
+    body->set_mass_kg(0.5);
+    body->set_radius_m(0.05);
+  }
+  scenario.mutable_bodies(0)->set_velocity_m_per_s(0.2);
+  scenario.mutable_bodies(1)->set_position_m(0.1);
+  auto* contact = scenario.add_contacts();
+  contact->add_between("A");
+  contact->add_between("B");
+  contact->set_stiffness(1e8);
+  contact->set_restitution(0.8);
+  scenario.set_end_time_s(4e-3);
+  return scenario;
+}
+
+/// A driven ball that hits a wall again and again: events for longer than any test lasts.
+inline v1::Scenario Endless() {
+  v1::Scenario scenario;
+  auto* ball = scenario.add_bodies();
+  ball->set_name("ball");
+  ball->set_mass_kg(0.5);
+  ball->set_radius_m(0.05);
+  ball->set_position_m(-0.01);
+  auto* contact = scenario.add_contacts();
+  contact->add_between("ball");
+  contact->mutable_wall()->set_position_m(0.048);
+  contact->mutable_wall()->set_side(v1::Wall::RIGHT);
+  contact->set_stiffness(1.8e7);
+  contact->set_restitution(0.9);
+  auto* support = scenario.add_supports();
+  support->set_body("ball");
+  support->set_stiffness_n_per_m(1e6);
+  support->set_damping_n_s_per_m(100);
+  auto* load = scenario.add_loads();
+  load->set_body("ball");
+  load->mutable_sine()->set_amplitude_n(250);
+  load->mutable_sine()->set_angular_frequency_rad_per_s(2000);
+  scenario.mutable_solver()->set_max_steps(1'000'000'000'000);
+  scenario.mutable_output()->set_sample_interval_s(1e-4);
+  scenario.set_end_time_s(1000);
+  return scenario;
+}
+
+}  // namespace contact

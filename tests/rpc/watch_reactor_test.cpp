@@ -1,0 +1,234 @@
+#include "rpc/watch_reactor.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <random>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "test_server.h"
+
+namespace contact {
+namespace {
+
+using std::chrono::milliseconds;
+
+// A client's side of one watch.
+class Watch {
+ public:
+  Watch(v1::JobService::Stub& stub, const std::string& name, int bookmark_interval_s = 0,
+        std::uint64_t after = 0) {
+    v1::WatchJobRequest request;
+    request.set_name(name);
+    request.set_after_sequence(after);
+    if (bookmark_interval_s != 0) {
+      request.mutable_bookmark_interval()->set_seconds(bookmark_interval_s);
+    }
+    context_.set_deadline(std::chrono::system_clock::now() + kPatience);
+    reader_ = stub.WatchJob(&context_, request);
+  }
+  ~Watch() {
+    if (reader_) End();
+  }
+
+  bool Read(v1::WatchJobResponse* message) { return reader_->Read(message); }
+  void Cancel() { context_.TryCancel(); }
+
+  // Reads to the end.
+  grpc::Status End() {
+    v1::WatchJobResponse message;
+    while (reader_->Read(&message)) {
+      for (v1::Event& event : *message.mutable_events()) events_.push_back(std::move(event));
+    }
+    return std::exchange(reader_, nullptr)->Finish();
+  }
+
+  const std::vector<v1::Event>& events() const { return events_; }
+
+ private:
+  grpc::ClientContext context_;
+  std::unique_ptr<grpc::ClientReader<v1::WatchJobResponse>> reader_;
+  std::vector<v1::Event> events_;
+};
+
+// Fills all workers, so that what is created next stays queued.
+void Occupy(TestServer& server, int workers) {
+  for (int i = 0; i < workers; ++i) {
+    const std::string name = server.Create(Endless());
+    Watch watch(server.stub(), name);
+    v1::WatchJobResponse message;
+    bool started = false;
+    while (!started && watch.Read(&message)) {
+      for (const v1::Event& event : message.events()) started |= event.has_attempt_started();
+    }
+    watch.Cancel();
+  }
+}
+
+TEST(WatchReactorTest, FirstMessageIsTheSnapshotAndComesAtOnce) {
+  TestServer server({}, {.workers = 1});
+  Occupy(server, 1);
+  const std::string name = server.Create(Collision());
+  Watch watch(server.stub(), name);
+  v1::WatchJobResponse message;
+  ASSERT_TRUE(watch.Read(&message));
+  EXPECT_EQ(message.snapshot().name(), name);
+  EXPECT_EQ(message.snapshot().state(), v1::Job::QUEUED);
+  watch.Cancel();
+}
+
+TEST(WatchReactorTest, EndsWithOkAfterTheFinalState) {
+  TestServer server;
+  Watch watch(server.stub(), server.Create(Collision()));
+  EXPECT_TRUE(watch.End().ok());
+  ASSERT_FALSE(watch.events().empty());
+  EXPECT_EQ(watch.events().back().state_changed().state(), v1::Job::SUCCEEDED);
+  std::uint64_t sequence = 0;
+  for (const v1::Event& event : watch.events()) {
+    if (event.has_progress() || event.has_bookmark()) continue;
+    EXPECT_EQ(event.sequence(), ++sequence);
+  }
+}
+
+TEST(WatchReactorTest, GoesOnAfterAnySequence) {
+  TestServer server;
+  const std::string name = server.Create(Collision());
+  Watch all(server.stub(), name);
+  EXPECT_TRUE(all.End().ok());
+  const std::uint64_t last = all.events().back().sequence();
+  Watch rest(server.stub(), name, 0, last - 1);
+  EXPECT_TRUE(rest.End().ok());
+  ASSERT_EQ(rest.events().size(), 1U);
+  EXPECT_EQ(rest.events().front().sequence(), last);
+}
+
+TEST(WatchReactorTest, UnknownJobIsNotFound) {
+  TestServer server;
+  const grpc::Status status = Watch(server.stub(), "jobs/none").End();
+  EXPECT_EQ(status.error_code(), grpc::NOT_FOUND);
+  EXPECT_EQ(Reason(status), "JOB_NOT_FOUND");
+  EXPECT_TRUE(Eventually([&] { return server.grpc().watchers() == 0; }));
+}
+
+TEST(WatchReactorTest, IdleWatchGetsBookmarksToResumeFrom) {
+  TestServer server({}, {.workers = 1});
+  Occupy(server, 1);
+  Watch watch(server.stub(), server.Create(Collision()), 1);
+  v1::WatchJobResponse message;
+  std::uint64_t last = 0;
+  do {
+    ASSERT_TRUE(watch.Read(&message));
+    for (const v1::Event& event : message.events()) {
+      if (!event.has_bookmark()) last = event.sequence();
+    }
+  } while (message.events().empty() || !message.events(0).has_bookmark());
+  EXPECT_EQ(message.events(0).sequence(), last);
+  watch.Cancel();
+}
+
+TEST(WatchReactorTest, BookmarkIntervalOutOfRangeIsRefused) {
+  TestServer server;
+  const std::string name = server.Create(Collision());
+  for (const int interval : {-1, 3601}) {
+    const grpc::Status status = Watch(server.stub(), name, interval).End();
+    EXPECT_EQ(status.error_code(), grpc::INVALID_ARGUMENT) << interval;
+    EXPECT_EQ(Reason(status), "FIELD_INVALID");
+  }
+}
+
+TEST(WatchReactorTest, StalledWatcherIsDroppedAndOthersAreNot) {
+  TestServer server({.write_stall = milliseconds(100)});
+  const std::string name = server.Create(Endless());
+  const auto stalled_stub = v1::JobService::NewStub(server.Connect());
+  Watch stalled(*stalled_stub, name);
+  v1::WatchJobResponse message;
+  ASSERT_TRUE(stalled.Read(&message));
+
+  Watch lively(server.stub(), name);
+  while (server.grpc().watchers() == 2) ASSERT_TRUE(lively.Read(&message));
+  EXPECT_EQ(stalled.End().error_code(), grpc::CANCELLED);
+  EXPECT_TRUE(lively.Read(&message));
+  lively.Cancel();
+}
+
+TEST(WatchReactorTest, DrainEndsWatchesAndThoseToCome) {
+  TestServer server({}, {.workers = 1});
+  Occupy(server, 1);
+  const std::string name = server.Create(Collision());
+  Watch before(server.stub(), name);
+  v1::WatchJobResponse message;
+  ASSERT_TRUE(before.Read(&message));
+  server.grpc().Drain();
+  Watch after(server.stub(), name);
+  for (Watch* watch : {&before, &after}) {
+    const grpc::Status status = watch->End();
+    EXPECT_EQ(status.error_code(), grpc::UNAVAILABLE);
+    EXPECT_EQ(Reason(status), "SERVER_DRAINING");
+  }
+}
+
+TEST(WatchReactorTest, CancelAtAnyMomentLeavesNothing) {
+  TestServer server;
+  const std::string name = server.Create(Endless());
+  for (int i = 0; i < 200; ++i) {
+    Watch watch(server.stub(), name);
+    v1::WatchJobResponse message;
+    for (int reads = 0; reads < i % 4; ++reads) watch.Read(&message);
+    watch.Cancel();
+  }
+  EXPECT_TRUE(Eventually([&] { return server.grpc().watchers() == 0; }));
+}
+
+// One client that watches again and again, and leaves, stalls or stays as the dice say.
+void WatchAtRandom(TestServer& server, const std::string& name, unsigned seed,
+                   const std::atomic<bool>& stop) {
+  std::minstd_rand random(seed);
+  const auto stub = v1::JobService::NewStub(server.Connect());
+  std::uint64_t last = 0;
+  while (!stop) {
+    Watch watch(*stub, name, 0, last);
+    v1::WatchJobResponse message;
+    const auto leave_after = random() % 30;
+    for (std::uint_fast32_t i = 0; i < leave_after && watch.Read(&message); ++i) {
+      for (const v1::Event& event : message.events()) {
+        if (event.has_progress() || event.has_bookmark() || event.has_gap()) continue;
+        EXPECT_GT(event.sequence(), last) << "seed " << seed;
+        last = event.sequence();
+      }
+      if (random() % 8 == 0) std::this_thread::sleep_for(milliseconds(random() % 40));
+    }
+    if (random() % 4 != 0) watch.Cancel();
+    if (stop) watch.Cancel();
+    v1::WatchJobResponse rest;
+    for (unsigned i = 0; i < 10 && watch.Read(&rest); ++i) {
+    }
+    watch.Cancel();
+  }
+}
+
+TEST(WatchReactorTest, StormOfWatchersLeavesNothingAndShutsDownAtOnce) {
+  TestServer server({.write_stall = milliseconds(20)});
+  const std::string name = server.Create(Endless());
+  std::atomic<bool> stop = false;
+  std::vector<std::thread> clients;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    clients.emplace_back([&, seed] { WatchAtRandom(server, name, seed, stop); });
+  }
+  Watch witness(server.stub(), name);
+  v1::WatchJobResponse message;
+  for (int i = 0; i < 300; ++i) ASSERT_TRUE(witness.Read(&message));
+
+  server.grpc().Drain();
+  stop = true;
+  const auto start = std::chrono::steady_clock::now();
+  server.grpc().Shutdown(std::chrono::seconds(20));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15));
+  EXPECT_EQ(server.grpc().watchers(), 0U);
+  for (std::thread& client : clients) client.join();
+}
+
+}  // namespace
+}  // namespace contact
