@@ -61,8 +61,8 @@ double DeliveredRestitution(double alpha) {
   return -std::expm1(-q) / alpha;
 }
 
-double MaximumDeformation(double effective_mass, double velocity, double stiffness,
-                          double exponent, double alpha) {
+double MaximumDeformation(double effective_mass, double velocity, double stiffness, double exponent,
+                          double alpha) {
   const double loss = alpha == 0 ? 0.5 : Loss(alpha) / (alpha * alpha);
   return std::pow((exponent + 1) * effective_mass * velocity * velocity / stiffness * loss,
                   1 / (exponent + 1));

@@ -38,7 +38,7 @@ double DeliveredRestitution(double alpha);
 
 /// Largest deformation of an isolated collision [m]:                                  (L3)
 ///   δ_m = [(n + 1)(m_e v²/k)(α − ln(1 + α))/α²]^{1/(n+1)}.
-double MaximumDeformation(double effective_mass, double velocity, double stiffness,
-                          double exponent, double alpha);
+double MaximumDeformation(double effective_mass, double velocity, double stiffness, double exponent,
+                          double alpha);
 
 }  // namespace contact

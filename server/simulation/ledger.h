@@ -22,17 +22,17 @@ struct Cycle {
   Status status = Status::kNotConverged;
   int iterations = 0;  ///< Corrections of μ made for the episode.
 
-  double start_time = 0;        ///< t_s [s].
-  double turn_time = kNaN;      ///< t_m [s]; NaN if the run ended before.
-  double end_time = 0;          ///< t_o [s].
-  double start_deformation = 0;  ///< δ_s [m].
-  double max_deformation = 0;    ///< δ_m [m].
-  double end_deformation = 0;    ///< δ_o [m].
-  double approach_velocity = 0;    ///< δ̇⁻ [m/s], ≥ 0.
-  double separation_velocity = 0;  ///< δ̇⁺ [m/s], ≤ 0.
-  double mu = 0;                 ///< μ [N·s/mⁿ⁺¹].
-  double work_compression = 0;   ///< W_c [J].
-  double work_restitution = 0;   ///< W_r [J], ≤ 0.
+  double start_time = 0;              ///< t_s [s].
+  double turn_time = kNaN;            ///< t_m [s]; NaN if the run ended before.
+  double end_time = 0;                ///< t_o [s].
+  double start_deformation = 0;       ///< δ_s [m].
+  double max_deformation = 0;         ///< δ_m [m].
+  double end_deformation = 0;         ///< δ_o [m].
+  double approach_velocity = 0;       ///< δ̇⁻ [m/s], ≥ 0.
+  double separation_velocity = 0;     ///< δ̇⁺ [m/s], ≤ 0.
+  double mu = 0;                      ///< μ [N·s/mⁿ⁺¹].
+  double work_compression = 0;        ///< W_c [J].
+  double work_restitution = 0;        ///< W_r [J], ≤ 0.
   double dissipated_compression = 0;  ///< D_c [J].
   double dissipated_restitution = 0;  ///< D_r [J].
   double external_compression = 0;    ///< E_c, work of F_e [J].
@@ -53,7 +53,7 @@ struct Iteration {
     double mu = 0;
     double restitution_out = kNaN;
     double restitution_in = kNaN;
-    double residual = kNaN;  ///< f = W_r/W_c + ε_in².
+    double residual = kNaN;   ///< f = W_r/W_c + ε_in².
     double bracket_low = 0;   ///< 0: none yet.
     double bracket_high = 0;  ///< 0: none yet.
     Update update = Update::kNothing;

@@ -14,9 +14,9 @@ class Observer {
  public:
   virtual ~Observer() = default;
   virtual void OnIteration(const Iteration&) {}
-  virtual void OnCycle(const Cycle&) {}            ///< Accepted, in order of end time.
-  virtual void OnSamples(const Samples&) {}        ///< At most kSamplesPerChunk rows.
-  virtual void OnProgress(const Progress&) {}      ///< After each episode, and in between.
+  virtual void OnCycle(const Cycle&) {}        ///< Accepted, in order of end time.
+  virtual void OnSamples(const Samples&) {}    ///< At most kSamplesPerChunk rows.
+  virtual void OnProgress(const Progress&) {}  ///< After each episode, and in between.
   virtual void OnWarning(const std::string&) {}
 };
 

@@ -29,12 +29,12 @@ struct Body {
 ///   wall left    δ = b − (x_j − R_j)           left = kNone
 struct Contact {
   std::string name;
-  int left = kNone;         ///< Body pushed to the left, or kNone for a wall there.
-  int right = kNone;        ///< Body pushed to the right, or kNone for a wall there.
+  int left = kNone;          ///< Body pushed to the left, or kNone for a wall there.
+  int right = kNone;         ///< Body pushed to the right, or kNone for a wall there.
   double wall_position = 0;  ///< b [m]; only with a wall.
-  double stiffness = 0;     ///< k [N/mⁿ], > 0.
-  double exponent = 1.5;    ///< n [-], ≥ 1.
-  double restitution = 1;   ///< ε_in [-], in (0, 1]. Not used by DampingLaw::kGiven.
+  double stiffness = 0;      ///< k [N/mⁿ], > 0.
+  double exponent = 1.5;     ///< n [-], ≥ 1.
+  double restitution = 1;    ///< ε_in [-], in (0, 1]. Not used by DampingLaw::kGiven.
   DampingLaw damping = DampingLaw::kEnergyRestitution;
   double mu = 0;  ///< μ [N·s/mⁿ⁺¹], ≥ 0. Only for DampingLaw::kGiven.
   /// Approach velocity from which a named law makes μ [m/s], > 0; 0: that of the cycle.

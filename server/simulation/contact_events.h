@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+
+namespace contact {
+
+/// Where a contact stands in its cycle.
+enum class Phase {
+  kOpen,         ///< No cycle.
+  kStarting,     ///< A cycle begins at this instant; its μ is not chosen yet.
+  kCompression,  ///< δ̇ > 0.
+  kRestitution,  ///< δ̇ < 0.
+};
+
+/// What ends a phase.
+enum class EventKind {
+  kTouch,          ///< Open, δ rises through 0: a collision begins.
+  kRestTouch,      ///< Open, touching at rest, δ begins to rise: a NIRV cycle begins.
+  kTurn,           ///< Compression, δ̇ falls through 0.
+  kSeparation,     ///< Restitution, δ falls through 0.
+  kNonSeparation,  ///< Restitution, δ̇ rises through 0 with δ > 0.
+};
+
+struct ContactEvent {
+  EventKind kind = EventKind::kTouch;
+  double theta = 0;  ///< Where in the step, in [0, 1]. 0: at once.
+};
+
+/// Deformation along a step from θ = 0 to 1: the quintic through value, slope and curvature at
+/// both ends. All in units of δ [m]: slopes times h, curvatures times h².
+class DeformationPath {
+ public:
+  struct End {
+    double value, slope, curvature;
+  };
+  DeformationPath(End start, End end);
+
+  double Value(double theta) const;
+  double Slope(double theta) const;
+  double start_value() const { return c_[0]; }
+  double start_slope() const { return c_[1]; }
+  double end_value() const { return end_value_; }
+  double end_slope() const { return end_slope_; }
+
+ private:
+  double c_[6];
+  double end_value_, end_slope_;
+};
+
+/// The first event of a contact in a step, if any. It finds crossings between eighths of the step
+/// and, for an open contact, a touch at any peak of δ.
+std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path);
+
+}  // namespace contact

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "simulation/motion.h"
+#include "simulation/run.h"
+
+namespace contact {
+
+/// Finds the μ of every cycle of an episode together, so that ε_out = ε_in in each: damped Newton
+/// with true sensitivities, (N1) to (N4) of README.md. Then plays host to the recording pass.
+class EpisodeSolver final : public CycleHost {
+ public:
+  EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer);
+
+  /// Solves the episode that begins at `start`, passes through it with corrected μ until all
+  /// cycles have converged or none of them can do better. Returns why a pass could not be
+  /// completed, or kQuiet.
+  Motion::Pause Solve(const State& start, int episode, const std::stop_token& stop,
+                      std::int64_t step_limit);
+
+  /// Forgets the last episode's cycles and takes those that end from now on into the ledger,
+  /// with the μ that Solve found.
+  void BeginRecording() {
+    recording_ = true;
+    accepted.clear();
+  }
+
+  /// Fills what is known of a cycle that the end of the run has cut.
+  void FinishCut(Cycle& cycle) const;
+
+  Factor OnStart(const ContactState& state, double effective_mass, double external_force) override;
+  void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
+             const Eigen::ArrayXd& restitution_gradient) override;
+
+  std::vector<Cycle> accepted;  ///< Cycles ended since BeginRecording.
+  std::int64_t iterations() const { return total_iterations_; }
+
+ private:
+  struct Unknown {
+    int contact = 0;
+    int number = 1;
+    double mu = 0;
+    double pass_mu = 0;   // Of the last pass.
+    double start_mu = 0;  // The first guess.
+    double best_mu = 0;   // Of the best pass.
+    double restitution_in = kNaN;
+    bool iterated = false;  // By Newton; else given, settled or found infeasible.
+    Cycle::Status status = Cycle::Status::kNotConverged;
+    int column = kNone;
+    bool ended = false;        // In the last pass.
+    double squared = kNaN;     // ε_out² = −W_r/W_c of the last pass.
+    Eigen::ArrayXd gradient;   // ∂ε_out²/∂μ of each column.
+    double low = 0, high = 0;  // μ known to give too much, too little restitution; 0: none.
+    int shrinks = 0;           // Corrections in a row that wanted μ ≤ 0.
+    bool zero_tried = false;
+    Iteration::Update update = Iteration::Update::kNothing;
+  };
+
+  Unknown* Find(int contact, int number);
+  const Unknown* Find(int contact, int number) const;
+  double StartFactor(const ContactState& state, double effective_mass, double external_force);
+  bool Converged(const Unknown& unknown) const;
+  bool Live(const Unknown& unknown) const;
+  double Residual(const Unknown& unknown) const;
+  double Merit() const;
+  Motion::Pause Pass(const State& start, const std::stop_token& stop, std::int64_t step_limit);
+  void Correct();
+  Eigen::VectorXd NewtonStep(const std::vector<Unknown*>& live) const;
+  void MoveBy(Unknown& unknown, double relative_step, bool alone);
+  void Report(int number, double time, bool accepted);
+  void WarnOnce(const Contact& contact, const std::string& text);
+
+  const Scenario& scenario_;
+  Motion& motion_;
+  Observer& observer_;
+  std::vector<Unknown> unknowns_;  // In order of appearance.
+  std::vector<bool> warned_;       // Per contact.
+  double reference_speed_ = 0;     // Largest approach velocity in the episode.
+  double damping_ = 1;             // Of the Newton step.
+  double merit_ = 0, best_merit_ = 0;
+  int columns_ = 0;
+  int episode_ = 0;
+  int iterations_ = 0;
+  std::int64_t total_iterations_ = 0;
+  bool recording_ = false;
+};
+
+}  // namespace contact

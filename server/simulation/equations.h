@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+#include "simulation/scenario.h"
+
+namespace contact {
+
+/// δⁿ and its derivative n δⁿ⁻¹; both 0 for δ ≤ 0.
+struct Power {
+  double value = 0;
+  double slope = 0;
+
+  Power(double deformation, double exponent) {
+    if (deformation <= 0) return;
+    const double root =
+        exponent == 1.5 ? std::sqrt(deformation) : std::pow(deformation, exponent - 1);
+    value = deformation * root;
+    slope = exponent * root;
+  }
+};
+
+/// A contact with a running cycle, as the equations of motion see it.
+struct ActiveContact {
+  int contact = 0;     ///< Index in Scenario::contacts.
+  double gap = 0;      ///< δ = u_left − u_right − gap [m].
+  double mu = 0;       ///< μ of the cycle.
+  int column = kNone;  ///< Sensitivity column of that μ, or kNone.
+};
+
+/// The equations of motion as a first-order system, (M1) to (M5) of README.md, with the
+/// quadratures that the ledger needs and the sensitivities that the μ-solve needs.
+///
+/// Displacements u are measured from `base`, near which they stay small, so that deformations
+/// keep their digits however far a body has come. State vector y, N bodies and C contacts:
+///   [u (N), v (N), D (C)]                      always; D dissipation of the running cycles
+///   [E (C), load work, support loss, impulse]  when recording
+///   [∂u/∂μ, ∂v/∂μ, ∂D/∂μ]                      for each column, when not recording
+class Equations {
+ public:
+  explicit Equations(const Scenario& scenario);
+
+  int bodies() const { return static_cast<int>(inverse_mass_.size()); }
+  int contacts() const { return static_cast<int>(scenario_.contacts.size()); }
+  int block() const { return 2 * bodies() + contacts(); }
+  int size() const { return block() + (recording ? contacts() + 3 : columns * block()); }
+  int external_work(int contact) const { return block() + contact; }
+  int load_work() const { return block() + contacts(); }
+  int support_loss() const { return load_work() + 1; }
+  int impulse() const { return load_work() + 2; }
+
+  /// dy = f(t, y).
+  void operator()(double t, const double* y, double* dy) const;
+
+  /// Difference left − right of a per-body quantity; a wall counts 0.
+  double Relative(int contact, const double* of_bodies) const {
+    const Contact& c = scenario_.contacts[static_cast<std::size_t>(contact)];
+    return (c.left == kNone ? 0 : of_bodies[c.left]) - (c.right == kNone ? 0 : of_bodies[c.right]);
+  }
+
+  double effective_mass(int contact) const;  ///< m_e [kg].
+  double inverse_mass(int body) const { return inverse_mass_[static_cast<std::size_t>(body)]; }
+  const Scenario& scenario() const { return scenario_; }
+
+  double Energy(const double* y) const;    ///< Kinetic, springs, contacts: (B1) [J].
+  double Momentum(const double* y) const;  ///< Of the bodies that are not fixed [N·s].
+
+  /// Shortest time in which a load or a support changes [s]; infinite without any.
+  double ForcingTime() const;
+
+  std::vector<double> base;           ///< Positions from which u is measured [m].
+  std::vector<ActiveContact> active;  ///< In order of Scenario::contacts.
+  int columns = 0;
+  bool recording = false;
+
+ private:
+  void AddContactForces(const double* y, double* dy) const;
+  void AddColumn(int column, const double* y, double* dy) const;
+  void AddRecord(double t, const double* y, double* dy) const;
+  double LoadForce(const Load& load, double t) const;
+  double SupportForce(const Support& s, const double* u, const double* v) const;
+
+  const Scenario& scenario_;
+  std::vector<double> inverse_mass_;  // 0 for a fixed body.
+};
+
+/// U = k δⁿ⁺¹/(n + 1) [J].
+double ElasticEnergy(const Contact& contact, double deformation);
+
+}  // namespace contact

@@ -1,0 +1,488 @@
+#include "simulation/motion.h"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+
+namespace contact {
+namespace {
+
+constexpr int kMaxRejections = 60;
+constexpr int kMaxLandings = 8;
+constexpr int kMaxCyclesInStretch = 64;
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+State InitialState(const Scenario& scenario) {
+  State state;
+  for (const Body& body : scenario.bodies) {
+    state.positions.push_back(body.position);
+    state.velocities.push_back(body.velocity);
+  }
+  for (const Contact& c : scenario.contacts) {
+    const Body* left = c.left == kNone ? nullptr : &scenario.bodies[At(c.left)];
+    const Body* right = c.right == kNone ? nullptr : &scenario.bodies[At(c.right)];
+    const double left_face = left ? left->position + left->radius : c.wall_position;
+    const double right_face = right ? right->position - right->radius : c.wall_position;
+    ContactState contact;
+    contact.gap = right_face - left_face;
+    // What decimal input leaves of a gap of zero is no gap.
+    const double size = std::max(std::abs(left_face), std::abs(right_face)) +
+                        (left ? left->radius : 0) + (right ? right->radius : 0);
+    if (std::abs(contact.gap) <= 1e-12 * size) contact.gap = 0;
+    const double rate = (left ? left->velocity : 0) - (right ? right->velocity : 0);
+    if (contact.gap <= 0 && rate > 0) {
+      contact.phase = Phase::kStarting;
+      contact.cycle.kind = Cycle::Kind::kCollision;
+    }
+    contact.cycle.contact = static_cast<int>(state.contacts.size());
+    state.contacts.push_back(contact);
+  }
+  return state;
+}
+
+Motion::Motion(const Scenario& scenario)
+    : scenario_(scenario),
+      equations_(scenario),
+      deformation_scale_(scenario.contacts.size()),
+      velocity_scale_(scenario.contacts.size()),
+      start_gradient_(scenario.contacts.size()),
+      turn_gradient_(scenario.contacts.size()),
+      error5_(2 * scenario.bodies.size()),
+      error3_(2 * scenario.bodies.size()),
+      forcing_time_(equations_.ForcingTime()) {}
+
+void Motion::Begin(const State& state, bool recording) {
+  const int n = equations_.bodies();
+  time_ = state.time;
+  next_step_ = state.step;
+  contacts_ = state.contacts;
+  totals_ = State{};
+  totals_.load_work = state.load_work;
+  totals_.support_loss = state.support_loss;
+  totals_.impulse = state.impulse;
+  contact_loss_ = state.contact_loss;
+  cycles_in_stretch_ = 0;
+  flight_length_ = flight_speed_ = 0;
+
+  equations_.base = state.positions;
+  equations_.recording = recording;
+  equations_.columns = 0;
+  rk_.Resize(equations_.size());
+  rk_.y0.setZero();
+  for (int i = 0; i < n; ++i) rk_.y0[n + i] = state.velocities[At(i)];
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    ContactState& contact = contacts_[At(c)];
+    rk_.y0[2 * n + c] = contact.dissipation;
+    if (recording) rk_.y0[equations_.external_work(c)] = contact.external_work;
+    start_gradient_[At(c)].resize(0);
+    turn_gradient_[At(c)].resize(0);
+    deformation_scale_[At(c)] = std::abs(contact.gap + contact.cycle.start_deformation);
+    velocity_scale_[At(c)] = contact.cycle.approach_velocity;
+  }
+  RefreshActive();
+}
+
+State Motion::Save() const {
+  const int n = equations_.bodies();
+  State state;
+  state.time = time_;
+  state.step = next_step_;
+  state.contacts = contacts_;
+  state.positions.resize(At(n));
+  state.velocities.resize(At(n));
+  for (int i = 0; i < n; ++i) {
+    state.positions[At(i)] = equations_.base[At(i)] + rk_.y0[i];
+    state.velocities[At(i)] = rk_.y0[n + i];
+  }
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    ContactState& contact = state.contacts[At(c)];
+    contact.gap = -Deformation(c, rk_.y0.data());
+    contact.dissipation = rk_.y0[2 * n + c];
+    if (equations_.recording) contact.external_work = rk_.y0[equations_.external_work(c)];
+  }
+  state.load_work = totals_.load_work;
+  state.support_loss = totals_.support_loss;
+  state.impulse = totals_.impulse;
+  state.contact_loss = contact_loss_;
+  if (equations_.recording) {
+    state.load_work += rk_.y0[equations_.load_work()];
+    state.support_loss += rk_.y0[equations_.support_loss()];
+    state.impulse += rk_.y0[equations_.impulse()];
+  }
+  return state;
+}
+
+double Motion::Deformation(int contact, const double* y) const {
+  return equations_.Relative(contact, y) - contacts_[At(contact)].gap;
+}
+
+void Motion::PrepareInterpolation(double time, double h) {
+  rk_.PrepareInterpolation(equations_, time, h);
+  evaluations_ += 3;
+}
+
+Motion::Pause Motion::Advance(double until, CycleHost* host, StepListener* listener,
+                              const std::stop_token& stop, std::int64_t step_limit) {
+  if (host != nullptr) StartCycles(*host);
+  const bool busy = cycles_running() > 0;
+  while (true) {
+    if (time_ >= until) return Pause::kTimeUp;
+    if (stop.stop_requested()) return Pause::kStopped;
+    if (steps_ >= step_limit) return Pause::kStepLimit;
+    if (!TakeStep(until)) return Pause::kNumeric;
+    const Found found = FindEvent();
+    if (found.contact != kNone && found.event.theta > 0) Land(found);
+    if (found.contact == kNone || found.event.theta > 0) Accept(listener);
+    if (found.contact == kNone) continue;
+    Apply(found, host);
+    if (cycles_running() == 0) return busy ? Pause::kQuiet : Pause::kCycleStarts;
+    if (cycles_in_stretch_ >= kMaxCyclesInStretch) return Pause::kCrowded;
+    StartCycles(*host);
+  }
+}
+
+void Motion::RefreshActive() {
+  equations_.active.clear();
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    const ContactState& contact = contacts_[At(c)];
+    if (contact.phase != Phase::kCompression && contact.phase != Phase::kRestitution) continue;
+    equations_.active.push_back(
+        {.contact = c, .gap = contact.gap, .mu = contact.cycle.mu, .column = contact.column});
+  }
+  equations_(time_, rk_.y0.data(), rk_.slope0().data());
+  ++evaluations_;
+}
+
+void Motion::StartCycles(CycleHost& host) {
+  bool any = false;
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    if (contacts_[At(c)].phase != Phase::kStarting) continue;
+    StartCycle(c, host);
+    any = true;
+  }
+  if (any) RefreshActive();
+}
+
+void Motion::StartCycle(int contact, CycleHost& host) {
+  const int n = equations_.bodies();
+  ContactState& state = contacts_[At(contact)];
+  const Cycle::Kind kind = state.cycle.kind;
+  state.cycle = Cycle{};
+  state.cycle.contact = contact;
+  state.cycle.number = ++state.cycles;
+  state.cycle.kind = kind;
+  state.cycle.start_time = time_;
+  state.cycle.start_deformation = std::max(0.0, Deformation(contact, rk_.y0.data()));
+  state.cycle.max_deformation = state.cycle.start_deformation;
+  if (kind == Cycle::Kind::kCollision) {
+    state.cycle.approach_velocity = std::max(0.0, equations_.Relative(contact, rk_.y0.data() + n));
+  }
+  const Contact& c = scenario_.contacts[At(contact)];
+  const double mass = equations_.effective_mass(contact);
+  const double external_force =
+      mass * equations_.Relative(contact, rk_.slope0().data() + n) +
+      c.stiffness * Power(state.cycle.start_deformation, c.exponent).value;
+  const CycleHost::Factor factor = host.OnStart(state, mass, external_force);
+  state.cycle.mu = factor.mu;
+  state.column = factor.column;
+  state.phase = Phase::kCompression;
+  ++cycles_in_stretch_;
+
+  if (factor.column >= equations_.columns && !equations_.recording) {
+    equations_.columns = factor.column + 1;
+    const Eigen::Index old = rk_.size();
+    rk_.Resize(equations_.size());
+    rk_.y0.tail(rk_.size() - old).setZero();
+  }
+  for (int column = 0; column <= equations_.columns; ++column) {
+    if (equations_.recording && column > 0) break;
+    rk_.y0[column * equations_.block() + 2 * n + contact] = 0;
+  }
+  if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
+  start_gradient_[At(contact)] = WorkGradient(contact);
+  deformation_scale_[At(contact)] = 0;
+  velocity_scale_[At(contact)] = state.cycle.approach_velocity;
+  const double first = FirstStep(contact);
+  next_step_ = next_step_ == 0 ? first : std::min(next_step_, first);
+}
+
+// A small part of the cycle's duration, from the law's own scales.
+double Motion::FirstStep(int contact) const {
+  const int n = equations_.bodies();
+  const Contact& c = scenario_.contacts[At(contact)];
+  const Cycle& cycle = contacts_[At(contact)].cycle;
+  const double mass = equations_.effective_mass(contact);
+  if (cycle.approach_velocity > 0) {
+    const double v = cycle.approach_velocity;
+    return 0.02 * MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
+  }
+  double deformation = cycle.start_deformation;
+  if (deformation == 0) {  // The load's equilibrium.
+    const double a = std::abs(equations_.Relative(contact, rk_.slope0().data() + n));
+    deformation = std::pow(mass * a / c.stiffness, 1 / c.exponent);
+  }
+  const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
+  return stiffness > 0 ? 0.1 / std::sqrt(stiffness / mass) : std::numeric_limits<double>::max();
+}
+
+bool Motion::TakeStep(double until) {
+  const int n = equations_.bodies();
+  if (next_step_ == 0) {
+    const double speed = rk_.y0.segment(n, n).abs().maxCoeff();
+    const double acceleration = rk_.slope0().segment(n, n).abs().maxCoeff();
+    next_step_ = speed > 0 && acceleration > 0 ? 0.01 * speed / acceleration : 1e-6;
+  }
+  for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
+    const double left = until - time_;
+    h_ = std::min({next_step_, left, 0.5 * forcing_time_});
+    if (left - h_ < 1e-3 * h_) h_ = left;  // Leave no sliver.
+    rk_.Step(equations_, time_, h_);
+    ++steps_;
+    evaluations_ += 11;
+    const double error = ErrorNorm(h_);
+    const double factor = error > 0 ? 0.9 * std::pow(error, -1.0 / 8) : 6;
+    if (error <= 1) {
+      rk_.FinishStep(equations_, time_, h_);
+      ++evaluations_;
+      const double growth = std::clamp(factor, 0.3, rejections > 0 ? 1.0 : 6.0);
+      next_step_ = std::max(h_ * growth, h_ < next_step_ ? next_step_ : 0.0);
+      return true;
+    }
+    next_step_ = h_ * (std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1);
+  }
+  return false;
+}
+
+// Largest local error, in units of what the tolerance allows: that of each contact relative to
+// the scale of its own cycle, that of each body relative to the largest scale of all.
+double Motion::ErrorNorm(double h) const {
+  const int n = equations_.bodies();
+  double length = 0, speed = 0;
+  for (const ActiveContact& active : equations_.active) {
+    const int c = active.contact;
+    const double start = contacts_[At(c)].cycle.start_deformation;
+    const double rate = std::abs(equations_.Relative(c, rk_.y1.data() + n));
+    length = std::max({length, deformation_scale_[At(c)],
+                       std::abs(Deformation(c, rk_.y1.data()) - start), rate * h});
+    speed = std::max({speed, velocity_scale_[At(c)], rate});
+  }
+  if (equations_.active.empty()) {
+    speed = std::max(flight_speed_, rk_.y1.segment(n, n).abs().maxCoeff());
+    length = std::max({flight_length_, rk_.y1.head(n).abs().maxCoeff(), speed * h});
+  }
+  const auto combined = [&](double e5, double e3, double scale) {
+    const double denominator = e5 * e5 + 0.01 * e3 * e3;
+    return denominator == 0 ? 0.0 : h * e5 * e5 / std::sqrt(denominator) / scale;
+  };
+  double norm = 0;
+  auto& e5 = error5_;
+  auto& e3 = error3_;
+  for (int i = 0; i < 2 * n; ++i) {
+    e5[At(i)] = rk_.Error5(i);
+    e3[At(i)] = rk_.Error3(i);
+    const double e = combined(e5[At(i)], e3[At(i)], i < n ? length : speed);
+    if (!(e <= norm)) norm = e;  // Keeps a NaN.
+  }
+  for (const ActiveContact& active : equations_.active) {
+    const int c = active.contact;
+    const double own_length = std::max(deformation_scale_[At(c)], 1e-3 * length);
+    const double own_speed = std::max(velocity_scale_[At(c)], 1e-3 * speed);
+    const double e = std::max(
+        combined(equations_.Relative(c, e5.data()), equations_.Relative(c, e3.data()), own_length),
+        combined(equations_.Relative(c, e5.data() + n), equations_.Relative(c, e3.data() + n),
+                 own_speed));
+    if (!(e <= norm)) norm = e;
+  }
+  return norm / scenario_.solver.relative_tolerance;
+}
+
+DeformationPath Motion::Path(int contact) const {
+  const int n = equations_.bodies();
+  const auto end = [&](const auto& y, const auto& slope) {
+    return DeformationPath::End{Deformation(contact, y.data()),
+                                h_ * equations_.Relative(contact, y.data() + n),
+                                h_ * h_ * equations_.Relative(contact, slope.data() + n)};
+  };
+  return {end(rk_.y0, rk_.slope0()), end(rk_.y1, rk_.slope1())};
+}
+
+Motion::Found Motion::FindEvent() const {
+  Found first;
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    const auto event = FirstEvent(contacts_[At(c)].phase, Path(c));
+    if (!event) continue;
+    if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
+  }
+  // Within round-off of the step's start is at its start.
+  if (first.contact != kNone && first.event.theta < 1e-13) first.event.theta = 0;
+  return first;
+}
+
+// Repeats the step with the length that ends on the event: Newton on the true solution, started
+// from the interpolated one, so that the event's time is good to round-off.
+void Motion::Land(const Found& found) {
+  const int n = equations_.bodies();
+  const bool on_rate =
+      found.event.kind == EventKind::kTurn || found.event.kind == EventKind::kNonSeparation;
+  double h = found.event.theta * h_;
+  for (int i = 0; i < kMaxLandings; ++i) {
+    rk_.Step(equations_, time_, h);
+    rk_.FinishStep(equations_, time_, h);
+    ++steps_;
+    evaluations_ += 12;
+    const double rate = equations_.Relative(found.contact, rk_.y1.data() + n);
+    const double value = on_rate ? rate : Deformation(found.contact, rk_.y1.data());
+    const double slope =
+        on_rate ? equations_.Relative(found.contact, rk_.slope1().data() + n) : rate;
+    const double correction = -value / slope;
+    if (!(std::abs(correction) > 1e-15 * h) || h + correction <= 0 || h + correction > 2 * h_)
+      break;
+    if (std::abs(correction) < 1e-16 * time_) break;  // Below what the clock can tell.
+    if (i + 1 < kMaxLandings) h += correction;
+  }
+  h_ = h;
+}
+
+void Motion::Accept(StepListener* listener) {
+  const int n = equations_.bodies();
+  if (equations_.recording) {
+    for (const ActiveContact& active : equations_.active) ObserveForce(active.contact);
+    if (listener != nullptr) listener->OnStep(time_, h_);
+  }
+  time_ += h_;
+  rk_.Advance();
+  if (equations_.active.empty()) {
+    flight_length_ = std::max(flight_length_, rk_.y0.head(n).abs().maxCoeff());
+    flight_speed_ = std::max(flight_speed_, rk_.y0.segment(n, n).abs().maxCoeff());
+  }
+  for (const ActiveContact& active : equations_.active) {
+    const auto c = At(active.contact);
+    const double moved =
+        Deformation(active.contact, rk_.y0.data()) - contacts_[c].cycle.start_deformation;
+    deformation_scale_[c] = std::max(deformation_scale_[c], std::abs(moved));
+    velocity_scale_[c] = std::max(velocity_scale_[c],
+                                  std::abs(equations_.Relative(active.contact, rk_.y0.data() + n)));
+  }
+}
+
+void Motion::Apply(const Found& found, CycleHost* host) {
+  ContactState& state = contacts_[At(found.contact)];
+  switch (found.event.kind) {
+    case EventKind::kTouch:
+    case EventKind::kRestTouch:
+      state.phase = Phase::kStarting;
+      state.cycle.kind =
+          found.event.kind == EventKind::kTouch ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
+      return;
+    case EventKind::kTurn:
+      Turn(state);
+      return;
+    case EventKind::kSeparation:
+    case EventKind::kNonSeparation:
+      EndCycle(state, found.event.kind, *host);
+      RefreshActive();
+      return;
+  }
+}
+
+void Motion::Turn(ContactState& state) {
+  Cycle& cycle = state.cycle;
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
+  const int n = equations_.bodies();
+  state.phase = Phase::kRestitution;
+  cycle.turn_time = time_;
+  cycle.max_deformation = Deformation(cycle.contact, rk_.y0.data());
+  cycle.dissipated_compression = rk_.y0[2 * n + cycle.contact];
+  cycle.work_compression = ElasticEnergy(contact, cycle.max_deformation) -
+                           ElasticEnergy(contact, cycle.start_deformation) +
+                           cycle.dissipated_compression;  // (W1)
+  if (equations_.recording) {
+    cycle.external_compression = rk_.y0[equations_.external_work(cycle.contact)];
+  }
+  turn_gradient_[At(cycle.contact)] = WorkGradient(cycle.contact);
+}
+
+void Motion::EndCycle(ContactState& state, EventKind kind, CycleHost& host) {
+  Cycle& cycle = state.cycle;
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
+  const int n = equations_.bodies();
+  const bool separates = kind == EventKind::kSeparation;
+  cycle.end = separates ? Cycle::End::kSeparation : Cycle::End::kNonSeparation;
+  cycle.end_time = time_;
+  cycle.end_deformation = separates ? 0 : Deformation(cycle.contact, rk_.y0.data());
+  cycle.separation_velocity = separates ? equations_.Relative(cycle.contact, rk_.y0.data() + n) : 0;
+  cycle.dissipated_restitution = rk_.y0[2 * n + cycle.contact] - cycle.dissipated_compression;
+  cycle.work_restitution = ElasticEnergy(contact, cycle.end_deformation) -
+                           ElasticEnergy(contact, cycle.max_deformation) +
+                           cycle.dissipated_restitution;  // (W1)
+  const double ratio = -cycle.work_restitution / cycle.work_compression;
+  cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
+  if (equations_.recording) {
+    cycle.external_restitution =
+        rk_.y0[equations_.external_work(cycle.contact)] - cycle.external_compression;
+    const double kinetic = 0.5 * equations_.effective_mass(cycle.contact) *
+                           cycle.approach_velocity * cycle.approach_velocity;
+    cycle.identity_residual =
+        std::abs(cycle.work_compression - kinetic - cycle.external_compression) /
+        cycle.work_compression;  // (W4)
+    contact_loss_ += cycle.dissipated_compression + cycle.dissipated_restitution;
+  }
+  // Up to here the gradients have the columns that existed then; later ones begin at zero.
+  const auto extended = [&](const Eigen::ArrayXd& gradient) {
+    Eigen::ArrayXd all = Eigen::ArrayXd::Zero(equations_.columns);
+    all.head(gradient.size()) = gradient;
+    return all;
+  };
+  const Eigen::ArrayXd start = extended(start_gradient_[At(cycle.contact)]);
+  const Eigen::ArrayXd turn = extended(turn_gradient_[At(cycle.contact)]);
+  state.phase = separates ? Phase::kOpen : Phase::kStarting;
+  state.last_mu = cycle.mu;
+  host.OnEnd(state, turn - start, extended(WorkGradient(cycle.contact)) - turn);
+  state.largest_work = std::max(state.largest_work, cycle.work_compression);
+  state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
+  rk_.y0[2 * n + cycle.contact] = 0;
+  if (equations_.recording) rk_.y0[equations_.external_work(cycle.contact)] = 0;
+}
+
+// ∂(U + D)/∂μ of a contact for each column: k δⁿ ∂δ/∂μ + ∂D/∂μ, (S2).
+Eigen::ArrayXd Motion::WorkGradient(int contact) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  const double elastic_force =
+      c.stiffness * Power(Deformation(contact, rk_.y0.data()), c.exponent).value;
+  Eigen::ArrayXd gradient(equations_.columns);
+  for (int column = 0; column < equations_.columns; ++column) {
+    const double* s = rk_.y0.data() + (column + 1) * equations_.block();
+    gradient[column] =
+        elastic_force * equations_.Relative(contact, s) + s[2 * equations_.bodies() + contact];
+  }
+  return gradient;
+}
+
+// Peak force and pulling time over the step, with δ(t) from its path.
+void Motion::ObserveForce(int contact) {
+  const Contact& c = scenario_.contacts[At(contact)];
+  Cycle& cycle = contacts_[At(contact)].cycle;
+  const DeformationPath path = Path(contact);
+  const auto factor = [&](double theta) { return c.stiffness + cycle.mu * path.Slope(theta) / h_; };
+  const auto force = [&](double theta) {
+    return Power(path.Value(theta), c.exponent).value * factor(theta);
+  };
+  constexpr int kPieces = 8;
+  int best = 0;
+  for (int i = 1; i <= kPieces; ++i) {
+    if (force(i / 8.0) > force(best / 8.0)) best = i;
+    if (factor((i - 0.5) / 8.0) < 0) cycle.tension_time += h_ / kPieces;
+  }
+  if (force(best / 8.0) <= cycle.peak_force && best % kPieces == 0) return;
+  const double low = std::max(0, best - 1) / 8.0;
+  const double high = std::min(kPieces, best + 1) / 8.0;
+  const auto peak = boost::math::tools::brent_find_minima(
+      [&](double theta) { return -force(theta); }, low, high, 40);
+  cycle.peak_force = std::max(cycle.peak_force, -peak.second);
+}
+
+}  // namespace contact

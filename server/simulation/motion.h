@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <vector>
+
+#include "simulation/contact_events.h"
+#include "simulation/dormand_prince.h"
+#include "simulation/equations.h"
+#include "simulation/ledger.h"
+
+namespace contact {
+
+/// Where a contact stands, and its running cycle.
+struct ContactState {
+  Phase phase = Phase::kOpen;
+  double gap = 0;            ///< δ = u_left − u_right − gap [m].
+  int cycles = 0;            ///< Started so far.
+  double last_mu = kNaN;     ///< μ of the last cycle; NaN before the first.
+  double largest_work = 0;   ///< Largest W_c of its cycles so far [J].
+  bool settled = false;      ///< The last cycle was too weak to iterate.
+  double dissipation = 0;    ///< D since the cycle's start [J].
+  double external_work = 0;  ///< E since the cycle's start [J].
+  int column = kNone;        ///< Sensitivity column of its μ in the running pass.
+  Cycle cycle;               ///< The running cycle.
+};
+
+/// The system at an instant, between two steps. Copied to roll back.
+struct State {
+  double time = 0;                 ///< [s].
+  double step = 0;                 ///< Step to try next [s]; 0: find one.
+  std::vector<double> positions;   ///< [m].
+  std::vector<double> velocities;  ///< [m/s].
+  std::vector<ContactState> contacts;
+  double load_work = 0;     ///< Work of the loads since t = 0 [J].
+  double support_loss = 0;  ///< Dissipated in supports since t = 0 [J].
+  double contact_loss = 0;  ///< Dissipated in cycles that have ended [J].
+  double impulse = 0;       ///< Of external forces since t = 0 [N·s].
+};
+
+/// The state at t = 0: touching contacts that approach are starting.
+State InitialState(const Scenario& scenario);
+
+/// Chooses the μ of cycles and hears of their ends.
+class CycleHost {
+ public:
+  virtual ~CycleHost() = default;
+  struct Factor {
+    double mu = 0;
+    int column = kNone;  ///< Sensitivity column, at most one past those in use; or kNone.
+  };
+  /// A cycle begins: `state.cycle` holds contact, number, kind and start. `external_force` is F_e
+  /// there [N].
+  virtual Factor OnStart(const ContactState& state, double effective_mass,
+                         double external_force) = 0;
+  /// A cycle has ended; the gradients hold ∂W_c/∂μ and ∂W_r/∂μ of each column.
+  /// May change status and bookkeeping of `state`.
+  virtual void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
+                     const Eigen::ArrayXd& restitution_gradient) = 0;
+};
+
+/// Hears of accepted steps when recording.
+class StepListener {
+ public:
+  virtual ~StepListener() = default;
+  /// The step from `time` to `time + h` of the integrator is accepted.
+  virtual void OnStep(double time, double h) = 0;
+};
+
+/// Moves the system forward in steps that land on contact events, and takes the contacts
+/// through their phases. README.md, "Integration".
+class Motion {
+ public:
+  enum class Pause {
+    kTimeUp,       ///< `until` is reached.
+    kCycleStarts,  ///< No cycle was running; one begins now.
+    kQuiet,        ///< The last running cycle has ended.
+    kCrowded,      ///< Too many cycles in one stretch without a quiet instant.
+    kStepLimit,
+    kStopped,
+    kNumeric,
+  };
+
+  explicit Motion(const Scenario& scenario);
+
+  /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities.
+  void Begin(const State& state, bool recording);
+
+  /// Starts the cycles that are starting and moves on until something of Pause happens.
+  /// `host` may be null while no cycle runs or starts.
+  Pause Advance(double until, CycleHost* host, StepListener* listener, const std::stop_token& stop,
+                std::int64_t step_limit);
+
+  State Save() const;
+
+  double time() const { return time_; }
+  std::int64_t steps() const { return steps_; }  ///< Tried so far, in all.
+  std::int64_t evaluations() const { return evaluations_; }
+  const Equations& equations() const { return equations_; }
+  DormandPrince& integrator() { return rk_; }
+  const DormandPrince& integrator() const { return rk_; }
+  /// Prepares integrator().Interpolate for the step that the listener hears of.
+  void PrepareInterpolation(double time, double h);
+  const std::vector<ContactState>& contacts() const { return contacts_; }
+  double Deformation(int contact, const double* y) const;
+
+ private:
+  struct Found {
+    int contact = kNone;
+    ContactEvent event;
+  };
+
+  std::size_t cycles_running() const { return equations_.active.size(); }
+  void StartCycles(CycleHost& host);
+  void StartCycle(int contact, CycleHost& host);
+  double FirstStep(int contact) const;
+  bool TakeStep(double until);
+  double ErrorNorm(double h) const;
+  Found FindEvent() const;
+  DeformationPath Path(int contact) const;
+  void Land(const Found& found);
+  void Accept(StepListener* listener);
+  void Apply(const Found& found, CycleHost* host);
+  void Turn(ContactState& state);
+  void EndCycle(ContactState& state, EventKind kind, CycleHost& host);
+  void ObserveForce(int contact);
+  Eigen::ArrayXd WorkGradient(int contact) const;
+  void RefreshActive();
+
+  const Scenario& scenario_;
+  Equations equations_;
+  DormandPrince rk_;
+  std::vector<ContactState> contacts_;
+  std::vector<double> deformation_scale_;        // Largest |δ − δ_s| of the running cycle.
+  std::vector<double> velocity_scale_;           // Largest |δ̇|.
+  std::vector<Eigen::ArrayXd> start_gradient_;   // WorkGradient at t_s,
+  std::vector<Eigen::ArrayXd> turn_gradient_;    // at t_m.
+  mutable std::vector<double> error5_, error3_;  // Of every u and v; scratch of ErrorNorm.
+  double flight_length_ = 0;                     // Largest |u| and
+  double flight_speed_ = 0;                      // |v| while no cycle ran.
+  State totals_;                                 // The balances at Begin.
+  double forcing_time_;
+  double time_ = 0;
+  double h_ = 0;  // Of the step in the integrator.
+  double next_step_ = 0;
+  std::int64_t steps_ = 0;
+  std::int64_t evaluations_ = 0;
+  double contact_loss_ = 0;
+  int cycles_in_stretch_ = 0;
+};
+
+}  // namespace contact

@@ -1,0 +1,69 @@
+#include "simulation/recorder.h"
+
+#include <cmath>
+
+namespace contact {
+
+Recorder::Recorder(const Scenario& scenario, Motion& motion, Observer& observer)
+    : scenario_(scenario), motion_(motion), observer_(observer) {
+  samples_.columns =
+      static_cast<int>(1 + 2 * scenario.bodies.size() + 4 * scenario.contacts.size());
+}
+
+void Recorder::RecordStart(const State& state) {
+  if (scenario_.sample_interval == 0) return;
+  motion_.Begin(state, true);
+  Record(0, motion_.integrator().y0);
+}
+
+void Recorder::OnStep(double time, double h) {
+  if (scenario_.sample_interval == 0) return;
+  bool prepared = false;
+  while (true) {
+    const double sample_time = static_cast<double>(next_) * scenario_.sample_interval;
+    // The last sample is the end of the run, though the multiple of the interval may miss it.
+    const double late = time + h + 1e-9 * scenario_.sample_interval;
+    if (sample_time > late || sample_time > scenario_.end_time * (1 + 1e-12)) return;
+    if (!prepared) motion_.PrepareInterpolation(time, h);
+    prepared = true;
+    motion_.integrator().Interpolate(std::min((sample_time - time) / h, 1.0), &y_);
+    Record(std::min(sample_time, scenario_.end_time), y_);
+  }
+}
+
+void Recorder::Record(double time, const Eigen::ArrayXd& y) {
+  const Equations& equations = motion_.equations();
+  const int n = equations.bodies();
+  slope_.resize(y.size());
+  equations(time, y.data(), slope_.data());
+  auto& row = samples_.values;
+  row.push_back(time);
+  for (int i = 0; i < n; ++i) {
+    row.push_back(equations.base[static_cast<std::size_t>(i)] + y[i]);
+    row.push_back(y[n + i]);
+  }
+  for (int c = 0; c < equations.contacts(); ++c) {
+    const ContactState& state = motion_.contacts()[static_cast<std::size_t>(c)];
+    const Contact& contact = scenario_.contacts[static_cast<std::size_t>(c)];
+    const bool running = state.phase == Phase::kCompression || state.phase == Phase::kRestitution;
+    const double deformation = motion_.Deformation(c, y.data());
+    const double rate = equations.Relative(c, y.data() + n);
+    const double force = running ? Power(deformation, contact.exponent).value *
+                                       (contact.stiffness + state.cycle.mu * rate)
+                                 : 0;
+    const double external =
+        equations.effective_mass(c) * equations.Relative(c, slope_.data() + n) + force;
+    row.insert(row.end(), {deformation, rate, force, external});
+  }
+  ++next_;
+  if (samples_.rows() == kSamplesPerChunk) Flush();
+}
+
+void Recorder::Flush() {
+  if (samples_.rows() == 0) return;
+  samples_.first = next_ - samples_.rows();
+  observer_.OnSamples(samples_);
+  samples_.values.clear();
+}
+
+}  // namespace contact

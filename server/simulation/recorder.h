@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simulation/motion.h"
+#include "simulation/run.h"
+
+namespace contact {
+
+/// Samples the accepted trajectory at equal intervals, from the integrator's dense output.
+class Recorder final : public StepListener {
+ public:
+  Recorder(const Scenario& scenario, Motion& motion, Observer& observer);
+
+  void OnStep(double time, double h) override;
+
+  /// Records the state at time 0 and later hands out what is left.
+  void RecordStart(const State& state);
+  void Flush();
+
+ private:
+  void Record(double time, const Eigen::ArrayXd& y);
+
+  const Scenario& scenario_;
+  Motion& motion_;
+  Observer& observer_;
+  std::int64_t next_ = 0;  // Index of the next sample.
+  Samples samples_;
+  Eigen::ArrayXd y_, slope_;
+};
+
+}  // namespace contact
