@@ -1,0 +1,66 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/failure.h"
+#include "contact/v1/job_service.grpc.pb.h"
+#include "wire/scenario_codec.h"
+
+namespace contact::cli {
+
+/// A call that the server, or the way to it, refused.
+class CallFailure : public Failure {
+ public:
+  CallFailure(const grpc::Status& status, const std::string& server);
+
+  grpc::StatusCode status() const { return status_; }
+  const std::string& reason() const { return reason_; }  ///< ErrorInfo.reason; may be empty.
+  const std::vector<Violation>& violations() const { return violations_; }  ///< Of a scenario.
+
+ private:
+  grpc::StatusCode status_;
+  std::string reason_;
+  std::vector<Violation> violations_;
+};
+
+/// A connection to one server. Calls are made when they are needed, have a deadline, and are
+/// tried again a few times while the server is UNAVAILABLE.
+class Client {
+ public:
+  using Stub = v1::JobService::Stub;
+
+  /// Connects to HOST:PORT in the background. Throws Failure (kUsage) for any other text.
+  Client(std::string server, std::chrono::milliseconds call_timeout);
+
+  /// Makes a unary call. Throws CallFailure.
+  template <class Request, class Response>
+  Response Call(grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                const Request& request) {
+    Response response;
+    Try([&](grpc::ClientContext* context) {
+      return ((*stub_).*method)(context, request, &response);
+    });
+    return response;
+  }
+
+  Stub& stub() { return *stub_; }
+  const std::string& server() const { return server_; }
+
+ private:
+  void Try(const std::function<grpc::Status(grpc::ClientContext*)>& call);
+
+  std::string server_;
+  std::chrono::milliseconds call_timeout_;
+  std::shared_ptr<grpc::Channel> channel_;
+  std::unique_ptr<Stub> stub_;
+};
+
+/// `jobs/ID` for `jobs/ID` or `ID`.
+std::string JobName(const std::string& job);
+
+}  // namespace contact::cli

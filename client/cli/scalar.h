@@ -1,0 +1,35 @@
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+namespace contact::cli {
+
+/// Reads values as YAML and JSON write them: the whole text, in no one's locale.
+
+/// A number, `.inf` and `.nan` included; none if it is no number or too large for one.
+std::optional<double> ParseNumber(std::string_view text);
+
+/// `true` or `false`, in lower, upper or title case.
+std::optional<bool> ParseBool(std::string_view text);
+
+/// A whole number, also as `1e8`; none if the type cannot hold it.
+template <class Integer>
+std::optional<Integer> ParseInteger(std::string_view text) {
+  Integer value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{} && end == text.data() + text.size()) return value;
+  const std::optional<double> number = ParseNumber(text);
+  const auto limit = std::ldexp(1.0, std::numeric_limits<Integer>::digits);
+  if (!number || std::abs(*number) >= limit || std::trunc(*number) != *number) return std::nullopt;
+  return static_cast<Integer>(*number);
+}
+
+/// True if the bytes are well-formed UTF-8, which protobuf demands of texts.
+bool IsUtf8(std::string_view text);
+
+}  // namespace contact::cli

@@ -1,0 +1,165 @@
+#include "cli/scenario_file.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <span>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "cli/failure.h"
+#include "cli/field_path.h"
+#include "cli/override.h"
+#include "cli/scalar.h"
+#include "cli/yaml_reader.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::string_view kOverride = "--set";
+
+// The innermost node on the way to a field that the file has.
+struct Found {
+  YAML::Node node;
+  bool exact;
+};
+
+YAML::Node Child(const YAML::Node& node, const std::string& name) {
+  if (!node.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
+  for (const auto& entry : node) {
+    if (entry.first.IsScalar() && entry.first.Scalar() == name) return entry.second;
+  }
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+Found Find(const YAML::Node& node, std::span<const PathStep> path) {
+  if (path.empty()) return {node, true};
+  const YAML::Node child = Child(node, path.front().name);
+  if (!child.IsDefined()) return {node, false};
+  if (!path.front().index) return Find(child, path.subspan(1));
+  const auto index = static_cast<std::size_t>(*path.front().index);
+  if (!child.IsSequence() || index >= child.size()) return {child, false};
+  return Find(child[index], path.subspan(1));
+}
+
+// True if `path` is `whole` or lies within it.
+bool Within(std::string_view path, std::string_view whole) {
+  if (!path.starts_with(whole)) return false;
+  return path.size() == whole.size() || path[whole.size()] == '.' || path[whole.size()] == '[';
+}
+
+std::string ReadAll(std::istream& stream) {
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+std::string Format(const Diagnostic& diagnostic) {
+  std::string text = diagnostic.source;
+  if (diagnostic.line > 0) text += fmt::format(":{}:{}", diagnostic.line, diagnostic.column);
+  if (!diagnostic.field.empty()) text += ": " + diagnostic.field;
+  text += ": " + diagnostic.what;
+  if (!diagnostic.hint.empty()) text += " — " + diagnostic.hint;
+  return text;
+}
+
+ScenarioFile ScenarioFile::Open(const std::string& path) {
+  if (path == "-") return {"<stdin>", ReadAll(std::cin)};
+  std::ifstream file(path, std::ios::binary);
+  std::string text = ReadAll(file);
+  if (!file) {
+    throw Failure(ExitCode::kLocal,
+                  fmt::format("cannot read {}: {}", path, std::generic_category().message(errno)));
+  }
+  return {path, text};
+}
+
+ScenarioFile::ScenarioFile(std::string name, const std::string& text) : name_(std::move(name)) {
+  try {
+    ReadDocument(text);
+  } catch (const YAML::Exception& error) {
+    AddAt(error.mark, "", error.msg, "");
+  }
+}
+
+void ScenarioFile::ReadDocument(const std::string& text) {
+  const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+  if (documents.empty() || documents.front().IsNull()) {
+    return AddAt(YAML::Mark::null_mark(), "", "is empty", "contactctl init writes an example");
+  }
+  root_.reset(documents.front());
+  if (documents.size() > 1) {
+    AddAt(documents[1].Mark(), "", "holds a second document", "a file is one scenario");
+  }
+  const YamlReader reader([this](const YAML::Mark& mark, const std::string& field,
+                                 const std::string& what,
+                                 const std::string& hint) { AddAt(mark, field, what, hint); });
+  reader.ReadMessage(root_, "", &scenario_);
+}
+
+void ScenarioFile::Set(const std::string& assignment) {
+  for (Diagnostic& mistake : Override(assignment, &scenario_, &overridden_)) {
+    mistake.source = kOverride;
+    diagnostics_.push_back(std::move(mistake));
+  }
+}
+
+void ScenarioFile::Check() {
+  for (const Violation& violation : DecodeScenario(scenario_).violations) {
+    if (MistakesCannotCause(violation)) Add(violation);
+  }
+}
+
+void ScenarioFile::Add(const Violation& violation) {
+  const auto overridden = [&violation](const std::string& path) {
+    return Within(violation.field, path);
+  };
+  if (std::ranges::any_of(overridden_, overridden)) {
+    diagnostics_.push_back({.source = std::string(kOverride),
+                            .field = violation.field,
+                            .what = violation.description,
+                            .hint = violation.hint});
+    return;
+  }
+  AddAt(Find(root_, ParsePath(violation.field)).node.Mark(), violation.field, violation.description,
+        violation.hint);
+}
+
+// A number out of its range is so whatever else is wrong, unless in the same message.
+bool ScenarioFile::MistakesCannotCause(const Violation& violation) const {
+  if (diagnostics_.empty()) return true;
+  const auto beside = [&violation](const Diagnostic& other) {
+    const std::string_view message = ParentPath(other.field);
+    return other.field.empty() || Within(violation.field, other.field) ||
+           (!message.empty() && Within(violation.field, message));
+  };
+  if (std::ranges::any_of(diagnostics_, beside)) return false;
+  const Found found = Find(root_, ParsePath(violation.field));
+  return found.exact && found.node.IsScalar() && ParseNumber(found.node.Scalar());
+}
+
+void ScenarioFile::AddAt(const YAML::Mark& mark, std::string field, std::string what,
+                         std::string hint) {
+  diagnostics_.push_back({.source = name_,
+                          .line = mark.line + 1,
+                          .column = mark.column + 1,
+                          .field = std::move(field),
+                          .what = std::move(what),
+                          .hint = std::move(hint)});
+}
+
+std::vector<Diagnostic> ScenarioFile::diagnostics() const {
+  std::vector<Diagnostic> sorted = diagnostics_;
+  std::ranges::stable_sort(sorted, {}, [](const Diagnostic& diagnostic) {
+    return std::tuple(diagnostic.source == kOverride, diagnostic.line, diagnostic.column);
+  });
+  return sorted;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contact/v1/scenario.pb.h"
+#include "wire/scenario_codec.h"
+
+namespace contact::cli {
+
+/// A mistake in a scenario, and where it stands.
+struct Diagnostic {
+  std::string source;  ///< The file, or `--set`.
+  int line = 0;        ///< From 1; 0 if there is no line.
+  int column = 0;      ///< From 1.
+  std::string field;   ///< Path; may be empty.
+  std::string what;
+  std::string hint;  ///< May be empty.
+};
+
+/// `file:line:col: field: what — hint`.
+std::string Format(const Diagnostic& diagnostic);
+
+/// A scenario as its author wrote it: a YAML file (of which JSON is a part) and overrides of its
+/// fields. Mistakes are gathered, not thrown.
+class ScenarioFile {
+ public:
+  /// Reads `path`; `-` is the standard input. Throws Failure (kLocal) if there is no such file.
+  static ScenarioFile Open(const std::string& path);
+
+  /// Reads `text`; `name` is what mistakes call it.
+  ScenarioFile(std::string name, const std::string& text);
+
+  /// Overrides a field: `contacts[0].restitution=0.7`. `[*]` is every entry of a list. The value
+  /// is YAML. Throws Failure (kUsage) if this is no assignment.
+  void Set(const std::string& assignment);
+
+  /// Checks the rules of the contract, in the words of the server. Where the file itself has
+  /// mistakes, only what they cannot have caused is added.
+  void Check();
+
+  /// Adds a broken rule at the place where its field is written.
+  void Add(const Violation& violation);
+
+  const v1::Scenario& scenario() const { return scenario_; }
+
+  /// All mistakes, in order of place.
+  std::vector<Diagnostic> diagnostics() const;
+
+ private:
+  void ReadDocument(const std::string& text);
+  void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint);
+  bool MistakesCannotCause(const Violation& violation) const;
+
+  std::string name_;
+  YAML::Node root_;
+  v1::Scenario scenario_;
+  std::vector<std::string> overridden_;  // paths
+  std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace contact::cli
