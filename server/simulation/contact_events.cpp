@@ -85,6 +85,10 @@ std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path)
   }
   const auto outside = [&](double theta) { return -path.Value(theta); };
   const auto separation = FirstPositive(outside, -path.end_value());
+  if (phase == Phase::kResting) {
+    if (!separation) return std::nullopt;
+    return ContactEvent{EventKind::kSeparation, *separation};
+  }
   const auto rest = FirstPositive(rising, path.end_slope());
   if (separation && (!rest || *separation <= *rest)) {
     return ContactEvent{EventKind::kSeparation, *separation};

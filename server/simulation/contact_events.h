@@ -10,6 +10,7 @@ enum class Phase {
   kStarting,     ///< A cycle begins at this instant; its μ is not chosen yet.
   kCompression,  ///< δ̇ > 0.
   kRestitution,  ///< δ̇ < 0.
+  kResting,      ///< Settled: in touch, with motion too weak to be told apart in cycles.
 };
 
 /// What ends a phase.

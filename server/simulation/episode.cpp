@@ -87,7 +87,7 @@ Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& sto
   }
   motion_.Begin(start, false);
   const std::int64_t limit = std::min(step_limit, motion_.steps() + kStepsPerPass);
-  const Motion::Pause pause = motion_.Advance(kForever, this, nullptr, stop, limit);
+  const Motion::Pause pause = motion_.Advance(kForever, *this, nullptr, stop, limit);
   // A contact at rest may never end its cycle; what has ended can still be solved.
   if (pause == Motion::Pause::kStepLimit && limit < step_limit) return Motion::Pause::kTimeUp;
   return pause;
@@ -108,6 +108,7 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
                                          double external_force) {
   const Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
+  if (state.settled) return {.mu = state.last_mu, .column = kNone};
   reference_speed_ = std::max(reference_speed_, cycle.approach_velocity);
   Unknown* u = Find(cycle.contact, cycle.number);
   if (u == nullptr) {
@@ -115,13 +116,10 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
     made.contact = cycle.contact;
     made.number = cycle.number;
     made.mu = made.start_mu = made.best_mu = StartFactor(state, effective_mass, external_force);
-    made.iterated = contact.damping == DampingLaw::kEnergyRestitution && !state.settled &&
-                    contact.restitution < 1;
+    made.iterated = contact.damping == DampingLaw::kEnergyRestitution && contact.restitution < 1;
     if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
     if (contact.damping != DampingLaw::kEnergyRestitution) {
       made.status = Cycle::Status::kGivenLaw;
-    } else if (state.settled) {
-      made.status = Cycle::Status::kSettled;
     }
     unknowns_.push_back(made);
     u = &unknowns_.back();
@@ -148,7 +146,6 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
              "Give reference_velocity_m_per_s");
     return std::isnan(state.last_mu) ? 0 : state.last_mu;
   }
-  if (state.settled) return state.last_mu;
   if (own > 0) return alpha * contact.stiffness / own;
   if (state.last_mu > 0) return state.last_mu;
   if (reference_speed_ > 0) return alpha * contact.stiffness / reference_speed_;
@@ -170,38 +167,50 @@ void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
 void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
                           const Eigen::ArrayXd& restitution_gradient) {
   Cycle& cycle = state.cycle;
-  Unknown* u = Find(cycle.contact, cycle.number);
   const bool weak =
       cycle.work_compression <= scenario_.solver.settled_fraction * state.largest_work;
+  const bool rested = state.settled;
   state.settled = weak;
-  if (u == nullptr) return;  // Begun before a cut; its μ was frozen then.
-  u->ended = true;
-  u->squared = -cycle.work_restitution / cycle.work_compression;
-  u->gradient =
-      -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
-  if (weak && u->iterated) {
-    u->iterated = false;
-    u->status = Cycle::Status::kSettled;
+  Unknown* u = Find(cycle.contact, cycle.number);
+  if (u != nullptr) {
+    u->ended = true;
+    u->squared = -cycle.work_restitution / cycle.work_compression;
+    u->gradient =
+        -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
+    if (weak && u->iterated) {
+      u->iterated = false;
+      u->status = Cycle::Status::kSettled;
+    }
   }
   if (!recording_) return;
-  cycle.restitution_in = u->restitution_in;
-  cycle.episode = episode_;
-  cycle.iterations = u->status == Cycle::Status::kGivenLaw ? 0 : iterations_;
-  cycle.status = u->status;
-  if (u->status == Cycle::Status::kNotConverged && Converged(*u)) {
-    cycle.status = Cycle::Status::kConverged;
-  }
+  Label(cycle, rested);
   accepted.push_back(cycle);
 }
 
-void EpisodeSolver::FinishCut(Cycle& cycle) const {
-  cycle.episode = episode_;
+// Writes into a cycle what became of the request for its restitution.
+void EpisodeSolver::Label(Cycle& cycle, bool rested) const {
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
   const Unknown* u = Find(cycle.contact, cycle.number);
-  if (u == nullptr) return;
-  cycle.restitution_in = u->restitution_in;
-  cycle.status = u->status;
-  cycle.iterations = iterations_;
-  if (u->ended && u->squared >= 0) cycle.restitution_out = std::sqrt(u->squared);
+  cycle.episode = episode_;
+  if (contact.damping != DampingLaw::kGiven) cycle.restitution_in = contact.restitution;
+  if (rested) {
+    cycle.status = Cycle::Status::kSettled;
+    cycle.restitution_out = kNaN;
+  } else if (u != nullptr) {
+    cycle.status = u->status;
+    cycle.iterations = u->iterated ? iterations_ : 0;
+    const bool reached = u->ended && u->squared >= 0;
+    if (cycle.end == Cycle::End::kRunEnd && reached) cycle.restitution_out = std::sqrt(u->squared);
+    if (u->status == Cycle::Status::kNotConverged && Converged(*u)) {
+      cycle.status = Cycle::Status::kConverged;
+    }
+  } else if (contact.damping != DampingLaw::kEnergyRestitution) {
+    cycle.status = Cycle::Status::kGivenLaw;
+  }
+}
+
+void EpisodeSolver::FinishCut(const ContactState& state, Cycle& cycle) const {
+  Label(cycle, state.phase == Phase::kResting);
 }
 
 bool EpisodeSolver::Converged(const Unknown& u) const {

@@ -32,7 +32,7 @@ class EpisodeSolver final : public CycleHost {
   }
 
   /// Fills what is known of a cycle that the end of the run has cut.
-  void FinishCut(Cycle& cycle) const;
+  void FinishCut(const ContactState& state, Cycle& cycle) const;
 
   Factor OnStart(const ContactState& state, double effective_mass, double external_force) override;
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
@@ -62,6 +62,7 @@ class EpisodeSolver final : public CycleHost {
     Iteration::Update update = Iteration::Update::kNothing;
   };
 
+  void Label(Cycle& cycle, bool rested) const;
   Unknown* Find(int contact, int number);
   const Unknown* Find(int contact, int number) const;
   double StartFactor(const ContactState& state, double effective_mass, double external_force);

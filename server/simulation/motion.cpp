@@ -11,10 +11,27 @@ namespace {
 constexpr int kMaxRejections = 60;
 constexpr int kMaxLandings = 8;
 constexpr int kMaxCyclesInStretch = 64;
+constexpr int kMaxEventsAtOnce = 1000;
+// A resting contact is awake when its work is this many times what lets it settle.
+constexpr double kWakeFactor = 4;
+// The scale to which a resting contact is integrated, relative to its deformation.
+constexpr double kRestingScale = 1e-3;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
+bool IsRunning(const ContactState& c) {
+  return c.phase == Phase::kCompression || c.phase == Phase::kRestitution;
+}
+
+bool IsStarting(const ContactState& c) { return c.phase == Phase::kStarting; }
+
 }  // namespace
+
+bool InCycle(const State& state) {
+  return std::any_of(state.contacts.begin(), state.contacts.end(), [](const ContactState& c) {
+    return IsRunning(c) || (IsStarting(c) && !c.settled);
+  });
+}
 
 State InitialState(const Scenario& scenario) {
   State state;
@@ -82,6 +99,7 @@ void Motion::Begin(const State& state, bool recording) {
     turn_gradient_[At(c)].resize(0);
     deformation_scale_[At(c)] = std::abs(contact.gap + contact.cycle.start_deformation);
     velocity_scale_[At(c)] = contact.cycle.approach_velocity;
+    if (contact.phase == Phase::kResting) SetRestingScale(c);
   }
   RefreshActive();
 }
@@ -125,31 +143,40 @@ void Motion::PrepareInterpolation(double time, double h) {
   evaluations_ += 3;
 }
 
-Motion::Pause Motion::Advance(double until, CycleHost* host, StepListener* listener,
+Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* listener,
                               const std::stop_token& stop, std::int64_t step_limit) {
-  if (host != nullptr) StartCycles(*host);
-  const bool busy = cycles_running() > 0;
+  StartCycles(host, false);
+  const bool busy = Busy();
+  int events_at_once = 0;
   while (true) {
     if (time_ >= until) return Pause::kTimeUp;
     if (stop.stop_requested()) return Pause::kStopped;
     if (steps_ >= step_limit) return Pause::kStepLimit;
     if (!TakeStep(until)) return Pause::kNumeric;
     const Found found = FindEvent();
-    if (found.contact != kNone && found.event.theta > 0) Land(found);
-    if (found.contact == kNone || found.event.theta > 0) Accept(listener);
-    if (found.contact == kNone) continue;
-    Apply(found, host);
-    if (cycles_running() == 0) return busy ? Pause::kQuiet : Pause::kCycleStarts;
+    const bool moves = found.contact == kNone || found.event.theta > 0;
+    if (moves && found.contact != kNone) Land(found);
+    if (moves) Accept(listener);
+    if (found.contact != kNone) Apply(found, host);
+    WakeResting(host);
+    events_at_once = moves ? 0 : events_at_once + 1;
+    if (events_at_once > kMaxEventsAtOnce) return Pause::kNumeric;
+    StartCycles(host, !Busy());
+    if (busy && !Busy()) return Pause::kQuiet;
+    if (!busy && std::any_of(contacts_.begin(), contacts_.end(), IsStarting)) {
+      return Pause::kCycleStarts;
+    }
     if (cycles_in_stretch_ >= kMaxCyclesInStretch) return Pause::kCrowded;
-    StartCycles(*host);
   }
 }
+
+bool Motion::Busy() const { return std::any_of(contacts_.begin(), contacts_.end(), IsRunning); }
 
 void Motion::RefreshActive() {
   equations_.active.clear();
   for (int c = 0; c < equations_.contacts(); ++c) {
     const ContactState& contact = contacts_[At(c)];
-    if (contact.phase != Phase::kCompression && contact.phase != Phase::kRestitution) continue;
+    if (!IsRunning(contact) && contact.phase != Phase::kResting) continue;
     equations_.active.push_back(
         {.contact = c, .gap = contact.gap, .mu = contact.cycle.mu, .column = contact.column});
   }
@@ -157,10 +184,11 @@ void Motion::RefreshActive() {
   ++evaluations_;
 }
 
-void Motion::StartCycles(CycleHost& host) {
+void Motion::StartCycles(CycleHost& host, bool resting_only) {
   bool any = false;
   for (int c = 0; c < equations_.contacts(); ++c) {
-    if (contacts_[At(c)].phase != Phase::kStarting) continue;
+    const ContactState& contact = contacts_[At(c)];
+    if (!IsStarting(contact) || (resting_only && !contact.settled)) continue;
     StartCycle(c, host);
     any = true;
   }
@@ -176,7 +204,9 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   state.cycle.number = ++state.cycles;
   state.cycle.kind = kind;
   state.cycle.start_time = time_;
-  state.cycle.start_deformation = std::max(0.0, Deformation(contact, rk_.y0.data()));
+  if (kind == Cycle::Kind::kNirv) {
+    state.cycle.start_deformation = std::max(0.0, Deformation(contact, rk_.y0.data()));
+  }
   state.cycle.max_deformation = state.cycle.start_deformation;
   if (kind == Cycle::Kind::kCollision) {
     state.cycle.approach_velocity = std::max(0.0, equations_.Relative(contact, rk_.y0.data() + n));
@@ -189,8 +219,8 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   const CycleHost::Factor factor = host.OnStart(state, mass, external_force);
   state.cycle.mu = factor.mu;
   state.column = factor.column;
-  state.phase = Phase::kCompression;
-  ++cycles_in_stretch_;
+  state.phase = state.settled ? Phase::kResting : Phase::kCompression;
+  if (!state.settled) ++cycles_in_stretch_;
 
   if (factor.column >= equations_.columns && !equations_.recording) {
     equations_.columns = factor.column + 1;
@@ -206,8 +236,18 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   start_gradient_[At(contact)] = WorkGradient(contact);
   deformation_scale_[At(contact)] = 0;
   velocity_scale_[At(contact)] = state.cycle.approach_velocity;
+  if (state.settled) SetRestingScale(contact);
   const double first = FirstStep(contact);
   next_step_ = next_step_ == 0 ? first : std::min(next_step_, first);
+}
+
+void Motion::SetRestingScale(int contact) {
+  const Contact& c = scenario_.contacts[At(contact)];
+  const double deformation = contacts_[At(contact)].cycle.start_deformation;
+  const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
+  deformation_scale_[At(contact)] = kRestingScale * deformation;
+  velocity_scale_[At(contact)] =
+      kRestingScale * deformation * std::sqrt(stiffness / equations_.effective_mass(contact));
 }
 
 // A small part of the cycle's duration, from the law's own scales.
@@ -369,23 +409,42 @@ void Motion::Accept(StepListener* listener) {
   }
 }
 
-void Motion::Apply(const Found& found, CycleHost* host) {
+void Motion::Apply(const Found& found, CycleHost& host) {
   ContactState& state = contacts_[At(found.contact)];
   switch (found.event.kind) {
     case EventKind::kTouch:
-    case EventKind::kRestTouch:
+    case EventKind::kRestTouch: {
+      const bool collides = found.event.kind == EventKind::kTouch;
       state.phase = Phase::kStarting;
-      state.cycle.kind =
-          found.event.kind == EventKind::kTouch ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
+      state.settled = false;
+      state.cycle.kind = collides ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
       return;
+    }
     case EventKind::kTurn:
       Turn(state);
       return;
     case EventKind::kSeparation:
-    case EventKind::kNonSeparation:
-      EndCycle(state, found.event.kind, *host);
-      RefreshActive();
+      EndCycle(state, Cycle::End::kSeparation, host);
       return;
+    case EventKind::kNonSeparation:
+      EndCycle(state, Cycle::End::kNonSeparation, host);
+      return;
+  }
+}
+
+// A resting contact whose work has become worth a cycle of its own ends its rest.
+void Motion::WakeResting(CycleHost& host) {
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    ContactState& state = contacts_[At(c)];
+    if (state.phase != Phase::kResting) continue;
+    const Contact& contact = scenario_.contacts[At(c)];
+    const double deformation = Deformation(c, rk_.y0.data());
+    const double work = contact.stiffness * Power(deformation, contact.exponent).value *
+                        std::abs(deformation - state.cycle.start_deformation);
+    if (work > kWakeFactor * scenario_.solver.settled_fraction * state.largest_work) {
+      EndCycle(state, Cycle::End::kNonSeparation, host);
+      state.settled = false;
+    }
   }
 }
 
@@ -406,12 +465,13 @@ void Motion::Turn(ContactState& state) {
   turn_gradient_[At(cycle.contact)] = WorkGradient(cycle.contact);
 }
 
-void Motion::EndCycle(ContactState& state, EventKind kind, CycleHost& host) {
+void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   const int n = equations_.bodies();
-  const bool separates = kind == EventKind::kSeparation;
-  cycle.end = separates ? Cycle::End::kSeparation : Cycle::End::kNonSeparation;
+  const bool separates = end == Cycle::End::kSeparation;
+  if (state.phase == Phase::kResting) Turn(state);  // Its works count as one compression.
+  cycle.end = end;
   cycle.end_time = time_;
   cycle.end_deformation = separates ? 0 : Deformation(cycle.contact, rk_.y0.data());
   cycle.separation_velocity = separates ? equations_.Relative(cycle.contact, rk_.y0.data() + n) : 0;
@@ -446,6 +506,7 @@ void Motion::EndCycle(ContactState& state, EventKind kind, CycleHost& host) {
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
   rk_.y0[2 * n + cycle.contact] = 0;
   if (equations_.recording) rk_.y0[equations_.external_work(cycle.contact)] = 0;
+  RefreshActive();
 }
 
 // ∂(U + D)/∂μ of a contact for each column: k δⁿ ∂δ/∂μ + ∂D/∂μ, (S2).

@@ -42,6 +42,9 @@ struct State {
 /// The state at t = 0: touching contacts that approach are starting.
 State InitialState(const Scenario& scenario);
 
+/// Whether a cycle runs or wants to start; a resting contact has none.
+bool InCycle(const State& state);
+
 /// Chooses the μ of cycles and hears of their ends.
 class CycleHost {
  public:
@@ -74,7 +77,7 @@ class Motion {
  public:
   enum class Pause {
     kTimeUp,       ///< `until` is reached.
-    kCycleStarts,  ///< No cycle was running; one begins now.
+    kCycleStarts,  ///< No cycle was running; one wants to begin.
     kQuiet,        ///< The last running cycle has ended.
     kCrowded,      ///< Too many cycles in one stretch without a quiet instant.
     kStepLimit,
@@ -87,9 +90,9 @@ class Motion {
   /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities.
   void Begin(const State& state, bool recording);
 
-  /// Starts the cycles that are starting and moves on until something of Pause happens.
-  /// `host` may be null while no cycle runs or starts.
-  Pause Advance(double until, CycleHost* host, StepListener* listener, const std::stop_token& stop,
+  /// Moves on until something of Pause happens. Begun where a cycle runs or starts, it goes on
+  /// until none does; begun elsewhere, until one wants to start. Resting contacts do not count.
+  Pause Advance(double until, CycleHost& host, StepListener* listener, const std::stop_token& stop,
                 std::int64_t step_limit);
 
   State Save() const;
@@ -111,9 +114,10 @@ class Motion {
     ContactEvent event;
   };
 
-  std::size_t cycles_running() const { return equations_.active.size(); }
-  void StartCycles(CycleHost& host);
+  bool Busy() const;
+  void StartCycles(CycleHost& host, bool resting_only);
   void StartCycle(int contact, CycleHost& host);
+  void SetRestingScale(int contact);
   double FirstStep(int contact) const;
   bool TakeStep(double until);
   double ErrorNorm(double h) const;
@@ -121,9 +125,10 @@ class Motion {
   DeformationPath Path(int contact) const;
   void Land(const Found& found);
   void Accept(StepListener* listener);
-  void Apply(const Found& found, CycleHost* host);
+  void Apply(const Found& found, CycleHost& host);
+  void WakeResting(CycleHost& host);
   void Turn(ContactState& state);
-  void EndCycle(ContactState& state, EventKind kind, CycleHost& host);
+  void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
   void ObserveForce(int contact);
   Eigen::ArrayXd WorkGradient(int contact) const;
   void RefreshActive();

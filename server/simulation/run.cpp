@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "simulation/episode.h"
 #include "simulation/recorder.h"
@@ -19,8 +18,7 @@ class Runner {
         stop_(stop),
         motion_(scenario),
         solver_(scenario, motion_, observer),
-        recorder_(scenario, motion_, observer),
-        pending_(scenario.contacts.size()) {}
+        recorder_(scenario, motion_, observer) {}
 
   Outcome Run() {
     state_ = InitialState(scenario_);
@@ -33,7 +31,7 @@ class Runner {
       if (InCycle(state_)) {
         Episode();
       } else {
-        Settle(Advance(nullptr));
+        Settle(Advance());
       }
       observer_.OnProgress({.time = state_.time,
                             .steps = motion_.steps(),
@@ -41,30 +39,26 @@ class Runner {
                             .iterations = solver_.iterations()});
     }
     if (outcome_.end == Outcome::End::kFinished) CutCycles();
-    for (auto& cycle : pending_) Emit(cycle);
     recorder_.Flush();
     Summarize();
     return outcome_;
   }
 
  private:
-  static bool InCycle(const State& state) {
-    return std::any_of(state.contacts.begin(), state.contacts.end(),
-                       [](const ContactState& c) { return c.phase != Phase::kOpen; });
-  }
-
-  Motion::Pause Advance(EpisodeSolver* host) {
+  Motion::Pause Advance() {
     motion_.Begin(state_, true);
-    return motion_.Advance(scenario_.end_time, host, &recorder_, stop_, scenario_.solver.max_steps);
+    solver_.BeginRecording();
+    const Motion::Pause pause =
+        motion_.Advance(scenario_.end_time, solver_, &recorder_, stop_, scenario_.solver.max_steps);
+    for (const Cycle& cycle : solver_.accepted) Emit(cycle);
+    return pause;
   }
 
   void Episode() {
     const Motion::Pause solved = solver_.Solve(state_, static_cast<int>(++outcome_.episodes), stop_,
                                                scenario_.solver.max_steps);
     if (solved != Motion::Pause::kQuiet) return Settle(solved);
-    solver_.BeginRecording();
-    Settle(Advance(&solver_));
-    for (const Cycle& cycle : solver_.accepted) Accept(cycle);
+    Settle(Advance());
   }
 
   // Keeps the state that the accepted trajectory has reached, and sees why it paused.
@@ -99,62 +93,23 @@ class Runner {
     return names.empty() ? "no contact active" : names;
   }
 
-  // Settled cycles that follow each other without separation are one row.
-  void Accept(const Cycle& cycle) {
-    auto& pending = pending_[static_cast<std::size_t>(cycle.contact)];
-    if (cycle.status == Cycle::Status::kSettled) {
-      if (pending) {
-        Merge(cycle, &*pending);
-      } else {
-        pending = cycle;
-      }
-      if (cycle.end == Cycle::End::kSeparation) Emit(pending);
-      return;
-    }
-    Emit(pending);
-    Emit(std::optional<Cycle>(cycle));
-  }
-
-  static void Merge(const Cycle& next, Cycle* row) {
-    row->end = next.end;
-    row->end_time = next.end_time;
-    row->end_deformation = next.end_deformation;
-    row->separation_velocity = next.separation_velocity;
-    row->max_deformation = std::max(row->max_deformation, next.max_deformation);
-    row->work_compression += next.work_compression;
-    row->work_restitution += next.work_restitution;
-    row->dissipated_compression += next.dissipated_compression;
-    row->dissipated_restitution += next.dissipated_restitution;
-    row->external_compression += next.external_compression;
-    row->external_restitution += next.external_restitution;
-    row->peak_force = std::max(row->peak_force, next.peak_force);
-    row->tension_time += next.tension_time;
-    row->identity_residual = std::max(row->identity_residual, next.identity_residual);
-    row->restitution_out = kNaN;
-  }
-
-  void Emit(std::optional<Cycle>&& cycle) { Emit(cycle); }
-  void Emit(std::optional<Cycle>& cycle) {
-    if (!cycle) return;
+  void Emit(const Cycle& cycle) {
     ++cycles_;
-    const bool missed = cycle->status == Cycle::Status::kNotConverged ||
-                        cycle->status == Cycle::Status::kInfeasible;
+    const bool missed =
+        cycle.status == Cycle::Status::kNotConverged || cycle.status == Cycle::Status::kInfeasible;
     if (missed) outcome_.all_converged = false;
-    const bool closed =
-        cycle->end != Cycle::End::kRunEnd && cycle->status != Cycle::Status::kSettled;
-    if (closed) {
+    if (cycle.end != Cycle::End::kRunEnd && cycle.status != Cycle::Status::kSettled) {
       outcome_.worst_identity_residual =
-          std::max(outcome_.worst_identity_residual, cycle->identity_residual);
+          std::max(outcome_.worst_identity_residual, cycle.identity_residual);
     }
-    observer_.OnCycle(*cycle);
+    observer_.OnCycle(cycle);
     if (missed && scenario_.solver.fail_if_not_converged &&
         outcome_.end == Outcome::End::kFinished) {
       outcome_.end = Outcome::End::kNotConverged;
       outcome_.message =
-          "contact " + scenario_.contacts[static_cast<std::size_t>(cycle->contact)].name +
-          ", cycle " + std::to_string(cycle->number) + " did not reach its restitution";
+          "contact " + scenario_.contacts[static_cast<std::size_t>(cycle.contact)].name +
+          ", cycle " + std::to_string(cycle.number) + " did not reach its restitution";
     }
-    cycle.reset();
   }
 
   // Cycles that the end of the run has cut get their rows too.
@@ -168,9 +123,9 @@ class Runner {
       cycle.end_deformation = -contact.gap;
       cycle.separation_velocity =
           motion_.equations().Relative(cycle.contact, y + motion_.equations().bodies());
-      solver_.FinishCut(cycle);
+      solver_.FinishCut(contact, cycle);
       CloseWorks(contact);
-      Accept(cycle);
+      Emit(cycle);
     }
   }
 
@@ -178,7 +133,7 @@ class Runner {
     Cycle& cycle = contact.cycle;
     const Contact& law = scenario_.contacts[static_cast<std::size_t>(cycle.contact)];
     const double stored = ElasticEnergy(law, cycle.end_deformation);
-    if (contact.phase == Phase::kCompression) {
+    if (contact.phase != Phase::kRestitution) {
       cycle.max_deformation = cycle.end_deformation;
       cycle.dissipated_compression = contact.dissipation;
       cycle.external_compression = contact.external_work;
@@ -242,7 +197,6 @@ class Runner {
   Recorder recorder_;
   State state_;
   Outcome outcome_;
-  std::vector<std::optional<Cycle>> pending_;  // The settled row of each contact.
   std::int64_t cycles_ = 0;
   double start_energy_ = 0, start_momentum_ = 0;
   double energy_scale_ = 0, momentum_scale_ = 0;
