@@ -1,0 +1,26 @@
+#include "cli/checked_scenario.h"
+
+#include <fmt/format.h>
+
+#include "cli/failure.h"
+
+namespace contact::cli {
+
+void RequireNoMistakes(const ScenarioFile& file) {
+  const std::vector<Diagnostic> mistakes = file.diagnostics();
+  if (mistakes.empty()) return;
+  std::string text;
+  for (const Diagnostic& mistake : mistakes) text += Format(mistake) + "\n";
+  text += mistakes.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes.size());
+  throw Failure(ExitCode::kInvalidScenario, text);
+}
+
+ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides) {
+  ScenarioFile file = ScenarioFile::Open(path);
+  for (const std::string& assignment : overrides) file.Set(assignment);
+  file.Check();
+  RequireNoMistakes(file);
+  return file;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/scenario_file.h"
+
+namespace contact::cli {
+
+/// Reads a scenario file, applies the overrides and checks the rules. Throws Failure
+/// (kInvalidScenario) that lists every mistake.
+ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides);
+
+/// Throws Failure (kInvalidScenario) if the file has mistakes.
+void RequireNoMistakes(const ScenarioFile& file);
+
+}  // namespace contact::cli

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "cli/checked_scenario.h"
+#include "cli/commands.h"
+#include "cli/follow.h"
+
+namespace contact::cli {
+namespace {
+
+struct RunArguments {
+  std::string file;
+  std::vector<std::string> overrides;
+  std::vector<std::string> labels;
+  std::string request_id;
+};
+
+std::string RandomId() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
+}
+
+v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
+  v1::CreateJobRequest request;
+  *request.mutable_job()->mutable_scenario() = scenario;
+  request.set_request_id(arguments.request_id.empty() ? RandomId() : arguments.request_id);
+  for (const auto& [key, value] : ParseLabels(arguments.labels)) {
+    (*request.mutable_job()->mutable_labels())[key] = value;
+  }
+  return request;
+}
+
+// What the server finds wrong is shown at its place in the file, as what is found here.
+v1::Job Create(Client& client, const RunArguments& arguments) {
+  ScenarioFile file = OpenChecked(arguments.file, arguments.overrides);
+  try {
+    return client.Call(&Client::Stub::CreateJob, Request(arguments, file.scenario()));
+  } catch (const CallFailure& failure) {
+    if (failure.code() != ExitCode::kInvalidScenario) throw;
+    for (const Violation& violation : failure.violations()) file.Add(violation);
+    RequireNoMistakes(file);
+    throw;
+  }
+}
+
+ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "json", "name"});
+  Client client = settings.Connect();
+  const v1::Job job = Create(client, arguments);
+  PrintJob(job, settings);
+  if (settings.output == "table") {
+    fmt::print(stderr, "Next:  contactctl watch {}\n", ShortName(job.name()));
+  }
+  return ExitCode::kOk;
+}
+
+ExitCode Run(const RunArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "json", "name"});
+  const auto deadline = settings.Deadline();
+  Client client = settings.Connect();
+  const v1::Job job = Create(client, arguments);
+  const WatchEnd end = FollowRun(client, job.name(), deadline, settings);
+  if (end != WatchEnd::kFinished) return Detach(end, job.name());
+
+  v1::GetJobRequest request;
+  request.set_name(job.name());
+  const v1::Job result = client.Call(&Client::Stub::GetJob, request);
+  PrintJob(result, settings);
+  if (settings.output == "table") fmt::print(stderr, "{}", NextSteps(result));
+  return Outcome(result);
+}
+
+std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
+  auto arguments = std::make_shared<RunArguments>();
+  command.add_option("FILE", arguments->file, "Scenario in YAML or JSON; - is the standard input")
+      ->required();
+  command
+      .add_option("--set", arguments->overrides,
+                  "Override a field, such as contacts[0].restitution=0.7; repeatable")
+      ->type_name("FIELD=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command
+      .add_option("--label", arguments->labels, "Label of the job, to find it again; repeatable")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command
+      .add_option("--request-id", arguments->request_id,
+                  "The same id and scenario make one job, however often submitted")
+      ->type_name("ID");
+  return arguments;
+}
+
+}  // namespace
+
+void AddRunCommands(CLI::App& app, const Settings& settings, Action* action) {
+  CLI::App* run = app.add_subcommand("run", "Submit a scenario, watch it, show its result");
+  run->callback([arguments = AddArguments(*run), &settings, action] {
+    *action = [arguments, &settings] { return Run(*arguments, settings); };
+  });
+  CLI::App* submit = app.add_subcommand("submit", "Submit a scenario and leave");
+  submit->callback([arguments = AddArguments(*submit), &settings, action] {
+    *action = [arguments, &settings] { return Submit(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

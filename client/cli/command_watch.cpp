@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/follow.h"
+#include "cli/interrupt.h"
+#include "cli/render_job.h"
+#include "cli/render_json.h"
+#include "cli/render_live.h"
+
+namespace contact::cli {
+namespace {
+
+struct WatchArguments {
+  std::string job;
+  std::uint64_t after_sequence = 0;
+  std::vector<std::string> kinds;
+};
+
+// One event a line, for programs.
+class JsonLines : public WatchObserver {
+ public:
+  void OnEvent(const v1::Event& event) override {
+    fmt::print("{}", ToJsonLine(event));
+    std::fflush(stdout);
+  }
+  void OnLost(const std::string& why, std::chrono::milliseconds) override {
+    fmt::print(stderr, "connection lost ({}); trying again\n", why);
+  }
+};
+
+WatchOptions Options(const std::string& job, const Settings& settings) {
+  WatchOptions options;
+  options.name = JobName(job);
+  options.deadline = settings.Deadline();
+  options.stopped = Interrupt::raised;
+  return options;
+}
+
+v1::Job Get(Client& client, const std::string& job) {
+  v1::GetJobRequest request;
+  request.set_name(JobName(job));
+  return client.Call(&Client::Stub::GetJob, request);
+}
+
+std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
+  if (settings.output == "jsonl") return std::make_unique<JsonLines>();
+  return std::make_unique<LiveView>(stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
+                                    LiveView::Options{.job = arguments.job});
+}
+
+ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "jsonl"});
+  Client client = settings.Connect();
+  WatchOptions options = Options(arguments.job, settings);
+  options.after_sequence = arguments.after_sequence;
+  options.kinds = arguments.kinds;
+  if (options.kinds.empty() && settings.output == "table") {
+    options.kinds = {"log_entry", "iteration", "cycle", "attempt_started", "progress"};
+  }
+  const Interrupt interrupt;
+  const auto observer = Observer(arguments, settings);
+  const WatchEnd end = Watch(client, options, *observer);
+  return end == WatchEnd::kFinished ? Outcome(Get(client, arguments.job))
+                                    : Detach(end, options.name);
+}
+
+ExitCode Wait(const std::string& job, const Settings& settings) {
+  settings.RequireOutput({"table", "json", "name"});
+  Client client = settings.Connect();
+  WatchOptions options = Options(job, settings);
+  options.kinds = {"state_changed"};
+  const Interrupt interrupt;
+  WatchObserver silence;
+  const WatchEnd end = Watch(client, options, silence);
+  if (end != WatchEnd::kFinished) return Detach(end, options.name);
+  const v1::Job result = Get(client, job);
+  if (settings.output == "table") {
+    const std::string state = v1::Job::State_Name(result.state());
+    fmt::print("{}  {}\n", result.name(),
+               Paint(state, ToneOf(result.state()), settings.OutputStyle()));
+  } else {
+    PrintJob(result, settings);
+  }
+  return Outcome(result);
+}
+
+}  // namespace
+
+void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action) {
+  auto arguments = std::make_shared<WatchArguments>();
+  CLI::App* watch = app.add_subcommand(
+      "watch", "Show what happened to a job from its start, and what happens until its end");
+  watch->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  watch->add_option("--after-sequence", arguments->after_sequence, "Only later events")
+      ->type_name("N");
+  watch->add_option("--kinds", arguments->kinds, "Only these, such as cycle,iteration")
+      ->delimiter(',')
+      ->type_name("KIND,…");
+  watch->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return WatchEvents(*arguments, settings); };
+  });
+
+  auto job = std::make_shared<std::string>();
+  CLI::App* wait = app.add_subcommand("wait", "Wait for the end of a job");
+  wait->add_option("JOB", *job, "ID or jobs/ID")->required();
+  wait->callback(
+      [job, &settings, action] { *action = [job, &settings] { return Wait(*job, settings); }; });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "cli/settings.h"
+
+namespace contact::cli {
+
+/// Each adds its commands to the command line; the one that is chosen sets `action`.
+
+void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);    // run, submit
+void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);  // watch, wait
+void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);    // list, …
+void AddScenarioCommands(CLI::App& app, const Settings& settings,
+                         Action* action);                                         // validate, init
+void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
+
+}  // namespace contact::cli

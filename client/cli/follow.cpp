@@ -1,0 +1,69 @@
+#include "cli/follow.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/interrupt.h"
+#include "cli/render_live.h"
+
+namespace contact::cli {
+
+WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline,
+                   const Settings& settings) {
+  constexpr int kMostIterations = 60;
+  WatchOptions options;
+  options.name = name;
+  options.deadline = deadline;
+  options.stopped = Interrupt::raised;
+  options.kinds = {"progress"};
+  if (settings.output == "table") {
+    fmt::print(stderr, "{} submitted\n", name);
+    options.kinds = {"progress", "iteration", "log_entry", "attempt_started"};
+  }
+  const Style style = settings.MessageStyle();
+  const Interrupt interrupt;
+  LiveView view(stderr, style, stderr, style,
+                {.cycles = false, .most_iterations = kMostIterations, .job = ShortName(name)});
+  return Watch(client, options, view);
+}
+
+ExitCode Detach(WatchEnd end, const std::string& name) {
+  const bool interrupted = end == WatchEnd::kStopped;
+  fmt::print(stderr, "contactctl: {}; the job continues: contactctl watch {}\n",
+             interrupted ? "interrupted" : "time is up", ShortName(name));
+  return interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout;
+}
+
+std::string NextSteps(const v1::Job& job) {
+  const std::string id = ShortName(job.name());
+  std::string text = fmt::format(
+      "Next:  contactctl watch {0}             the iteration and all events again\n"
+      "       contactctl describe {0} -o json  every number\n",
+      id);
+  if (job.convergence() == v1::Job::PARTIAL) {
+    text +=
+        "Try:   --set solver.max_iterations=200, or --set solver.restitution_tolerance=1e-6,\n"
+        "       for cycles that did not converge; an INFEASIBLE one has no μ that would do\n";
+  }
+  return text;
+}
+
+std::string ShortName(const std::string& name) {
+  constexpr std::string_view kCollection = "jobs/";
+  return name.starts_with(kCollection) ? name.substr(kCollection.size()) : name;
+}
+
+std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts) {
+  std::map<std::string, std::string> labels;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw Failure(ExitCode::kUsage, fmt::format("--label {}: expected KEY=VALUE", text));
+    }
+    labels[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  return labels;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/settings.h"
+#include "cli/watch.h"
+
+namespace contact::cli {
+
+using Deadline = std::optional<std::chrono::steady_clock::time_point>;
+
+/// Watches a job until Ctrl-C, showing its iteration and progress as messages.
+WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline,
+                   const Settings& settings);
+
+/// Says that the job goes on without a watcher; the code for why there is none any more.
+ExitCode Detach(WatchEnd end, const std::string& name);
+
+/// What to type after a job has ended.
+std::string NextSteps(const v1::Job& job);
+
+/// `ID` for `jobs/ID`.
+std::string ShortName(const std::string& name);
+
+/// Reads KEY=VALUE texts. Throws Failure (kUsage).
+std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts);
+
+}  // namespace contact::cli

@@ -1,0 +1,136 @@
+#include "cli/render_job.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/number.h"
+#include "cli/table.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::size_t kMostRows = 40;
+
+std::string Title(const v1::Job& job, const Style& style) {
+  std::string line =
+      fmt::format("{}  {}", Paint(job.name(), Tone::kStrong, style),
+                  Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style));
+  if (!job.state_reason().empty()) line += fmt::format(" ({})", job.state_reason());
+  if (job.has_summary()) {
+    line += fmt::format("  {} simulated, {} cycles, {} iterations, {} wall",
+                        Seconds(job.summary().time_reached_s()), job.cycles_size(),
+                        job.summary().iterations(), Seconds(job.summary().wall_time_s()));
+  } else if (job.has_progress() && job.progress().end_time_s() > 0) {
+    line += fmt::format("  {} of {} simulated, {} cycles", Seconds(job.progress().time_s()),
+                        Seconds(job.progress().end_time_s()), job.progress().cycles());
+  }
+  line += "\n";
+  if (!job.scenario().title().empty()) line += job.scenario().title() + "\n";
+  return line;
+}
+
+std::string Ledger(const v1::Job& job, const Style& style) {
+  if (job.cycles().empty()) return "";
+  Table table({{"CONTACT"},
+               {"#", true},
+               {"KIND"},
+               {"END", false, 2},
+               {"STATUS"},
+               {"n", true, 1},
+               {"μ", true},
+               {"α, or μ/k", true, 4},
+               {"ε IN", true},
+               {"ε OUT", true},
+               {"ERROR", true},
+               {"t START [s]", true, 3},
+               {"t END [s]", true, 3}});
+  for (const v1::Cycle& cycle : job.cycles()) {
+    table.Add({cycle.contact(),
+               fmt::to_string(cycle.number()),
+               v1::Cycle::Kind_Name(cycle.kind()),
+               v1::Cycle::End_Name(cycle.end()),
+               {v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status())},
+               fmt::to_string(cycle.iterations()),
+               Digits(cycle.mu(), 7),
+               AlphaOrRatio(cycle),
+               Digits(cycle.restitution_in(), 6),
+               Digits(cycle.restitution_out(), 10),
+               Error(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
+               Digits(cycle.start_time_s(), 7),
+               Digits(cycle.end_time_s(), 7)});
+  }
+  return "\n" + table.Text(style, kMostRows, "… {} more cycles; -o json prints all");
+}
+
+std::string Bodies(const v1::Job& job, const Style& style) {
+  if (job.final_bodies().empty()) return "";
+  Table table({{"BODY"}, {"POSITION [m]", true}, {"VELOCITY [m/s]", true}});
+  for (const v1::FinalBody& body : job.final_bodies()) {
+    table.Add({body.name(), Digits(body.position_m(), 10), Digits(body.velocity_m_per_s(), 10)});
+  }
+  return "\n" + table.Text(style, kMostRows, "… {} more bodies; -o json prints all");
+}
+
+std::string Balances(const v1::Job& job, const Style& style) {
+  if (!job.has_summary()) return "";
+  const v1::RunSummary& summary = job.summary();
+  std::string line = "\n";
+  if (job.convergence() != v1::Job::CONVERGENCE_UNSPECIFIED) {
+    const bool full = job.convergence() == v1::Job::FULL;
+    line += fmt::format("convergence {}; ", Paint(v1::Job::Convergence_Name(job.convergence()),
+                                                  full ? Tone::kGood : Tone::kWarning, style));
+  }
+  return line + fmt::format("residuals: momentum {}, energy {}, cycle identity {}; {} steps\n",
+                            Error(summary.momentum_residual()), Error(summary.energy_residual()),
+                            Error(summary.worst_identity_residual()), summary.steps());
+}
+
+}  // namespace
+
+std::string RenderJob(const v1::Job& job, const Style& style) {
+  std::string text = Title(job, style);
+  if (job.has_error()) text += Paint("error: ", Tone::kBad, style) + job.error().message() + "\n";
+  text += Ledger(job, style) + Bodies(job, style) + Balances(job, style);
+  for (const std::string& warning : job.warnings()) {
+    text += Paint("warning: ", Tone::kWarning, style) + warning + "\n";
+  }
+  return text;
+}
+
+Tone ToneOf(v1::Job::State state) {
+  switch (state) {
+    case v1::Job::SUCCEEDED:
+      return Tone::kGood;
+    case v1::Job::FAILED:
+      return Tone::kBad;
+    case v1::Job::CANCELLED:
+      return Tone::kWarning;
+    default:
+      return Tone::kPlain;
+  }
+}
+
+Tone ToneOf(v1::Cycle::Status status) {
+  switch (status) {
+    case v1::Cycle::CONVERGED:
+      return Tone::kGood;
+    case v1::Cycle::NOT_CONVERGED:
+      return Tone::kBad;
+    case v1::Cycle::INFEASIBLE:
+      return Tone::kWarning;
+    default:
+      return Tone::kPlain;
+  }
+}
+
+std::string AlphaOrRatio(const v1::Cycle& cycle) {
+  return cycle.kind() == v1::Cycle::COLLISION ? Digits(cycle.alpha(), 7)
+                                              : Digits(cycle.mu_over_k_s_per_m(), 5) + " s/m";
+}
+
+double RestitutionError(double restitution_out, double restitution_in) {
+  return std::abs(restitution_out - restitution_in) / restitution_in;
+}
+
+}  // namespace contact::cli

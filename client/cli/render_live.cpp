@@ -1,0 +1,163 @@
+#include "cli/render_live.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/number.h"
+#include "cli/render_job.h"
+
+namespace contact::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kBeforeProgress = 200ms;  // Most runs are over by then.
+constexpr int kBar = 24;
+
+std::string Row(const std::string& episode, const std::string& n, const std::string& contact,
+                const std::string& mu, const std::string& out, const std::string& error,
+                const std::string& update) {
+  return fmt::format("{} {}  {} {} {} {}  {}", Pad(episode, -7), Pad(n, -3), Pad(contact, 14),
+                     Pad(mu, -15), Pad(out, -13), Pad(error, -9), update);
+}
+
+std::string NextStep(const v1::Iteration& iteration, const v1::Iteration::Unknown& unknown) {
+  if (iteration.accepted()) return "accepted";
+  if (unknown.update() == v1::Iteration::UPDATE_UNSPECIFIED) return "-";
+  return v1::Iteration::Update_Name(unknown.update());
+}
+
+}  // namespace
+
+LiveView::LiveView(std::FILE* rows, const Style& rows_style, std::FILE* messages,
+                   const Style& messages_style, Options options)
+    : rows_(rows),
+      rows_style_(rows_style),
+      messages_(messages),
+      messages_style_(messages_style),
+      options_(std::move(options)) {}
+
+LiveView::~LiveView() { EraseProgress(); }
+
+void LiveView::OnSnapshot(const v1::Job& job) {
+  if (job.has_progress() && !IsFinal(job.state())) progress_ = job.progress();
+}
+
+void LiveView::OnEvent(const v1::Event& event) {
+  switch (event.payload_case()) {
+    case v1::Event::kIteration:
+      return ShowIteration(event.iteration());
+    case v1::Event::kCycle:
+      return ShowCycle(event.cycle());
+    case v1::Event::kStateChanged:
+      return ShowState(event.state_changed());
+    case v1::Event::kLogEntry: {
+      const bool warning = event.log_entry().severity() == v1::LogEntry::WARNING;
+      const Tone tone = warning ? Tone::kWarning : Tone::kFaint;
+      return Write(rows_, Paint(warning ? "warning: " : "note: ", tone, rows_style_) +
+                              event.log_entry().message());
+    }
+    case v1::Event::kAttemptStarted:
+      if (event.attempt_started().attempt() > 1) {
+        Write(rows_, fmt::format("attempt {} starts anew", event.attempt_started().attempt()));
+      }
+      return;
+    case v1::Event::kProgress:
+      progress_ = event.progress();
+      return;
+    default:  // Frames are for programs; of kinds to come nothing is known.
+      return;
+  }
+}
+
+void LiveView::OnLost(const std::string& why, std::chrono::milliseconds pause) {
+  Write(messages_, fmt::format("connection lost ({}); trying again in {}", why,
+                               Seconds(static_cast<double>(pause.count()) / 1e3)));
+}
+
+void LiveView::OnTick() { DrawProgress(); }
+
+void LiveView::Write(std::FILE* stream, const std::string& line) {
+  EraseProgress();
+  std::fputs((line + "\n").c_str(), stream);
+  std::fflush(stream);
+}
+
+void LiveView::ShowIteration(const v1::Iteration& iteration) {
+  for (const v1::Iteration::Unknown& unknown : iteration.unknowns()) {
+    ++iterations_;
+    if (options_.most_iterations > 0 && iterations_ > options_.most_iterations) {
+      if (iterations_ == options_.most_iterations + 1) {
+        Write(rows_, fmt::format("… more iterations; contactctl watch {} shows all", options_.job));
+      }
+      continue;
+    }
+    if (!std::exchange(header_shown_, true)) {
+      Write(rows_, Paint(Row("EPISODE", "n", "CONTACT", "μ", "ε OUT", "|Δε|/ε", "NEXT"),
+                         Tone::kFaint, rows_style_));
+    }
+    const double error = RestitutionError(unknown.restitution_out(), unknown.restitution_in());
+    const std::string row =
+        Row(fmt::to_string(iteration.episode()), fmt::to_string(iteration.number()),
+            unknown.contact(), Digits(unknown.mu(), 9), Digits(unknown.restitution_out(), 8),
+            Error(error), NextStep(iteration, unknown));
+    Write(rows_, Paint(row, iteration.accepted() ? Tone::kStrong : Tone::kPlain, rows_style_));
+  }
+}
+
+void LiveView::ShowCycle(const v1::Cycle& cycle) {
+  if (!options_.cycles) return;
+  Write(rows_,
+        fmt::format(
+            "{} cycle {}: {} to {}, {} from {} s to {} s, ε {}", cycle.contact(), cycle.number(),
+            v1::Cycle::Kind_Name(cycle.kind()), v1::Cycle::End_Name(cycle.end()),
+            Paint(v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status()), rows_style_),
+            Digits(cycle.start_time_s(), 7), Digits(cycle.end_time_s(), 7),
+            Digits(cycle.restitution_out(), 10)));
+}
+
+void LiveView::ShowState(const v1::StateChanged& change) {
+  if (!options_.cycles) return;  // The result that follows says it.
+  std::string line =
+      Paint(v1::Job::State_Name(change.state()), ToneOf(change.state()), rows_style_);
+  if (!change.state_reason().empty()) line += fmt::format(" ({})", change.state_reason());
+  if (change.convergence() == v1::Job::PARTIAL) line += ", convergence PARTIAL";
+  if (!change.message().empty()) line += ": " + change.message();
+  Write(rows_, line);
+}
+
+void LiveView::DrawProgress() {
+  const auto elapsed = std::chrono::steady_clock::now() - start_;
+  if (!messages_style_.terminal || !progress_ || elapsed < kBeforeProgress) return;
+  const double seconds = std::chrono::duration<double>(elapsed).count();
+  const int width = StyleOf(fileno(messages_), "never").width;  // It may have been resized.
+  std::fputs(("\r\x1b[K" + RenderProgress(*progress_, seconds, width - 1)).c_str(), messages_);
+  std::fflush(messages_);
+  drawn_ = true;
+}
+
+void LiveView::EraseProgress() {
+  if (!std::exchange(drawn_, false)) return;
+  std::fputs("\r\x1b[K", messages_);
+  std::fflush(messages_);
+}
+
+std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width) {
+  const double done = progress.end_time_s() > 0
+                          ? std::clamp(progress.time_s() / progress.end_time_s(), 0.0, 1.0)
+                          : 0;
+  const int filled = static_cast<int>(std::lround(done * kBar));
+  std::string bar;
+  for (int i = 0; i < kBar; ++i) bar += i < filled ? "━" : "─";
+  const std::string left =
+      done > 0.01 ? fmt::format(", {} left", Seconds(elapsed_s * (1 - done) / done)) : "";
+  const std::string words = fmt::format(
+      "{:3.0f} %  t = {:.4g} of {:.4g} s, {} cycles, {} iterations{}", 100 * done,
+      progress.time_s(), progress.end_time_s(), progress.cycles(), progress.iterations(), left);
+  if (width <= 0 || Width(words) + kBar + 1 <= width) return bar + " " + words;
+  return Cut(words, width);
+}
+
+}  // namespace contact::cli

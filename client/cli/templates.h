@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace contact::cli {
+
+/// A scenario that is shipped with the program, from client/scenarios.
+struct Template {
+  std::string_view name;  ///< That of its file, without `.yaml`.
+  std::string_view text;
+};
+
+std::span<const Template> Templates();
+
+}  // namespace contact::cli
