@@ -130,8 +130,8 @@ Client::Client(std::string server, std::chrono::milliseconds call_timeout)
 void Client::Try(const std::function<grpc::Status(grpc::ClientContext*)>& call) {
   grpc::Status status;
   auto pause = kFirstPause;
-  for (int i = 0; i < kTries; ++i, pause *= 2) {
-    if (i > 0) std::this_thread::sleep_for(pause);
+  for (int i = 0; i < kTries; ++i) {
+    if (i > 0) std::this_thread::sleep_for(std::exchange(pause, 2 * pause));
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + call_timeout_);
     status = call(&context);

@@ -10,6 +10,7 @@
 
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
+#include "cli/number.h"
 #include "cli/table.h"
 #include "cli/templates.h"
 #include "wire/contact_codec.h"
@@ -34,9 +35,11 @@ ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) 
   settings.RequireOutput({"table"});
   const ScenarioFile file = OpenChecked(arguments.file, arguments.overrides);
   const v1::Scenario& scenario = file.scenario();
-  fmt::print("{}: valid; {} bodies, {} contacts, {} supports, {} loads, {} s\n", arguments.file,
-             scenario.bodies_size(), CountContacts(scenario), scenario.supports_size(),
-             scenario.loads_size(), scenario.end_time_s());
+  fmt::print("{}: valid; {}, {}, {}, {}, {}\n", arguments.file,
+             Count(scenario.bodies_size(), "body", "bodies"),
+             Count(CountContacts(scenario), "contact", "contacts"),
+             Count(scenario.supports_size(), "support", "supports"),
+             Count(scenario.loads_size(), "load", "loads"), Seconds(scenario.end_time_s()));
   return ExitCode::kOk;
 }
 

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "cli/failure.h"
@@ -24,6 +23,10 @@ std::string Seconds(double seconds) {
   if (std::abs(seconds) < 1e-3) return fmt::format("{:.3g} µs", seconds * 1e6);
   if (std::abs(seconds) < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
   return fmt::format("{:.4g} s", seconds);
+}
+
+std::string Count(std::int64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 std::string Instant(const google::protobuf::Timestamp& time) {

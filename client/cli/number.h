@@ -3,7 +3,9 @@
 #include <google/protobuf/timestamp.pb.h>
 
 #include <chrono>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace contact::cli {
 
@@ -15,6 +17,9 @@ std::string Error(double value);
 
 /// A time in the unit that suits it: `63 µs`, `2.5 ms`, `4 s`.
 std::string Seconds(double seconds);
+
+/// `1 body`, `2 bodies`.
+std::string Count(std::int64_t count, std::string_view one, std::string_view many);
 
 /// `2026-11-21 01:07:00` in UTC; `-` if unset.
 std::string Instant(const google::protobuf::Timestamp& time);

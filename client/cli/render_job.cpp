@@ -18,9 +18,10 @@ std::string Title(const v1::Job& job, const Style& style) {
                   Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style));
   if (!job.state_reason().empty()) line += fmt::format(" ({})", job.state_reason());
   if (job.has_summary()) {
-    line += fmt::format("  {} simulated, {} cycles, {} iterations, {} wall",
-                        Seconds(job.summary().time_reached_s()), job.cycles_size(),
-                        job.summary().iterations(), Seconds(job.summary().wall_time_s()));
+    line += fmt::format("  {} simulated, {}, {}, {} wall", Seconds(job.summary().time_reached_s()),
+                        Count(job.cycles_size(), "cycle", "cycles"),
+                        Count(job.summary().iterations(), "iteration", "iterations"),
+                        Seconds(job.summary().wall_time_s()));
   } else if (job.has_progress() && job.progress().end_time_s() > 0) {
     line += fmt::format("  {} of {} simulated, {} cycles", Seconds(job.progress().time_s()),
                         Seconds(job.progress().end_time_s()), job.progress().cycles());

@@ -12,6 +12,11 @@ TEST(Spelling, NearestFindsMisspellings) {
   EXPECT_EQ(Nearest("nmae", fields), "name");
 }
 
+TEST(Spelling, SwappedNeighboursAreOneMistake) {
+  EXPECT_EQ(Nearest("rnu", {"list", "run"}), "run");
+  EXPECT_EQ(Nearest("inti", {"init", "into"}), "init");
+}
+
 TEST(Spelling, BeginningOfAFieldIsNear) {
   EXPECT_EQ(Nearest("velocity", {"position_m", "velocity_m_per_s"}), "velocity_m_per_s");
   EXPECT_EQ(Nearest("ve", {"position_m", "velocity_m_per_s"}), "");
