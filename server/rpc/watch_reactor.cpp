@@ -48,7 +48,7 @@ grpc::Status Deleted(const std::string& name) {
 
 grpc::Status Unreadable(const std::string& name) {
   return ToGrpc({.code = absl::StatusCode::kUnavailable,
-                 .reason = "STORE_UNAVAILABLE",
+                 .reason = "STORE_FAILED",
                  .message = "the events of " + name + " could not be read; watch again",
                  .retry_after = std::chrono::seconds{1}});
 }
