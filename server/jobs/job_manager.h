@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "contact/v1/job_service.pb.h"
 #include "jobs/error.h"
 #include "jobs/log_cursor.h"
+#include "simulation/run.h"
 
 namespace contact {
 
@@ -17,10 +19,12 @@ class IdSource;
 class Store;
 
 struct JobManagerOptions {
-  int workers = 1;                 ///< Threads that run simulations, ≥ 1.
-  int max_queued_jobs = 10'000;    ///< Past it CreateJob answers QUEUE_FULL.
-  int max_watchers = 10'000;       ///< Past it Watch answers WATCHER_LIMIT.
+  int workers = 1;               ///< Threads that run simulations, ≥ 1.
+  int max_queued_jobs = 10'000;  ///< Past it CreateJob answers QUEUE_FULL.
+  int max_watchers = 10'000;     ///< Past it Watch answers WATCHER_LIMIT.
   ScenarioLimits scenario_limits = {};
+  /// What solves a scenario; tests put something else here.
+  std::function<Outcome(const Scenario&, Observer&, std::stop_token)> run = Run;
 };
 
 /// Owns the life of every job: accepts, queues, runs on worker threads, records, cancels.
@@ -46,13 +50,14 @@ class JobManager {
 
   /// Opens a cursor over the log of a job, and the job as it is (without ledger) beside it.
   /// `wake` is called, from any thread and possibly more often than needed, when Read may have
-  /// something new; it must not block and must not call the cursor from within.
+  /// something new; it must not block and must not call the cursor from within. A call that has
+  /// begun may go on while the cursor is destroyed. Cursors must not outlive the store.
   struct Watched {
     v1::Job snapshot;
     std::unique_ptr<LogCursor> cursor;
   };
-  void Watch(const std::string& name, std::uint64_t after_sequence,
-             std::vector<std::string> kinds, std::function<void()> wake, Callback<Watched> done);
+  void Watch(const std::string& name, std::uint64_t after_sequence, std::vector<std::string> kinds,
+             std::function<void()> wake, Callback<Watched> done);
 
   /// Numbers of GetServerInfo: workers, queued and running jobs, limits.
   v1::ServerInfo Info() const;

@@ -59,7 +59,7 @@ absl::StatusOr<StoredJob> Insert(Database& database, const JobInsert& insert) {
   }
   if (!insert.may_create) return absl::ResourceExhaustedError("the job is new");
   InsertJob(database, insert);
-  absl::StatusOr<StoredJob> stored = Read(database, insert.name, JobPart::kAll);
+  absl::StatusOr<StoredJob> stored = Read(database, insert.name, JobPart::kHeader);
   if (stored.ok()) stored->created = true;
   return stored;
 }
@@ -72,10 +72,8 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
   if (static_cast<std::uint64_t>(job.Integer(1)) != change.epoch) {
     return absl::AbortedError(absl::StrCat(change.name, " has another owner"));
   }
-  Query(database,
-        "UPDATE jobs SET epoch=epoch+?, last_sequence=?, cancel_requested=MAX(cancel_requested, ?)"
-        " WHERE number=?",
-        change.take, last + change.events.size(), change.cancel_requested, number)
+  Query(database, "UPDATE jobs SET epoch=epoch+?, last_sequence=? WHERE number=?", change.take,
+        last + change.events.size(), number)
       .Run();
   if (!change.parts.header.empty()) {
     Query(database, "UPDATE jobs SET state=?, crc32=?, header=? WHERE number=?", change.state,
@@ -89,6 +87,11 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
   }
   InsertEvents(database, number, last, change.events);
   return last + 1;
+}
+
+absl::Status MarkCancelRequested(Database& database, const std::string& name) {
+  Query update(database, "UPDATE jobs SET cancel_requested=1 WHERE name=?", name);
+  return update.Run() == 1 ? absl::OkStatus() : NoSuchJob(name);
 }
 
 absl::Status Remove(Database& database, const std::string& name) {

@@ -34,13 +34,15 @@ struct JobChange {
   std::string name;
   std::uint64_t epoch = 0;
   bool take = false;
-  bool cancel_requested = false;
   int state = 0;
   JobParts parts;  ///< Header empty: the job stays; the spec is not looked at.
   std::vector<EventRow> events;
 };
 /// Returns the sequence of the first event appended: see Store::Update.
 absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change);
+
+/// Remembers that a user wants the job cancelled: see Store::RequestCancel.
+absl::Status MarkCancelRequested(Database& database, const std::string& name);
 
 /// Removes an ended job with everything that belongs to it: see Store::Delete.
 absl::Status Remove(Database& database, const std::string& name);

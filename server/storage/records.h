@@ -28,7 +28,6 @@ struct JobUpdate {
   bool take = false;    ///< Take the job: its epoch becomes `epoch` + 1.
   const v1::Job* job = nullptr;  ///< Replaces the stored job, except for its spec; or null.
   absl::Span<const v1::Event> events = {};  ///< Appended to its log, without sequence.
-  bool cancel_requested = false;            ///< Remember that a user wants it cancelled.
 };
 
 /// What of a job to read.

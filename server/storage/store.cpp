@@ -9,6 +9,14 @@
 #include "storage/job_queries.h"
 
 namespace contact {
+namespace {
+
+absl::StatusOr<bool> Done(const absl::Status& status) {
+  if (!status.ok()) return status;
+  return true;
+}
+
+}  // namespace
 
 absl::StatusOr<std::unique_ptr<Store>> Store::Open(const std::filesystem::path& directory,
                                                    StoreOptions options) {
@@ -48,8 +56,7 @@ void Store::Create(const NewJob& job, Callback<StoredJob> done) {
 }
 
 void Store::Update(const JobUpdate& update, Callback<std::uint64_t> done) {
-  JobChange change{update.name, update.epoch, update.take,          update.cancel_requested,
-                   0,           {},           ToRows(update.events)};
+  JobChange change{update.name, update.epoch, update.take, 0, {}, ToRows(update.events)};
   if (update.job != nullptr) {
     change.state = update.job->state();
     change.parts = Split(*update.job);
@@ -57,6 +64,12 @@ void Store::Update(const JobUpdate& update, Callback<std::uint64_t> done) {
   Post<std::uint64_t>(
       [change = std::move(change)](Database& database) { return Change(database, change); },
       std::move(done));
+}
+
+void Store::RequestCancel(std::string name, Callback<bool> done) {
+  Post<bool>([name = std::move(name)](
+                 Database& database) { return Done(MarkCancelRequested(database, name)); },
+             std::move(done));
 }
 
 void Store::Read(std::string name, JobPart part, Callback<StoredJob> done) {
@@ -83,12 +96,8 @@ void Store::ReadEvents(EventQuery query, Callback<EventPage> done) {
 }
 
 void Store::Delete(std::string name, Callback<bool> done) {
-  Post<bool>(
-      [name = std::move(name)](Database& database) -> absl::StatusOr<bool> {
-        if (absl::Status removed = Remove(database, name); !removed.ok()) return removed;
-        return true;
-      },
-      std::move(done));
+  Post<bool>([name = std::move(name)](Database& database) { return Done(Remove(database, name)); },
+             std::move(done));
 }
 
 void Store::Flush(std::function<void()> done) {

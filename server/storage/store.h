@@ -46,13 +46,17 @@ class Store {
   /// Finishes what was asked for.
   ~Store();
 
-  /// Stores a job with the first events of its log; or, if `request_id` was used before with the
-  /// same spec and labels, answers that job. ALREADY_EXISTS: it was used with others.
+  /// Stores a job with the first events of its log and answers its header; or, if `request_id` was
+  /// used before with the same spec and labels, answers all of that job. ALREADY_EXISTS: it was
+  /// used with others.
   void Create(const NewJob& job, Callback<StoredJob> done);
 
   /// Changes a job and appends to its log in one transaction. Answers the sequence of the first
   /// event appended; the others follow without a hole. ABORTED: stale epoch. NOT_FOUND.
   void Update(const JobUpdate& update, Callback<std::uint64_t> done);
+
+  /// Remembers that a user wants a job cancelled, whoever runs it. NOT_FOUND.
+  void RequestCancel(std::string name, Callback<bool> done);
 
   /// NOT_FOUND.
   void Read(std::string name, JobPart part, Callback<StoredJob> done);

@@ -129,7 +129,9 @@ TEST_F(StoreTest, ChangeOfJobKeepsItsSpecAndAddsItsResult) {
 TEST_F(StoreTest, WishToCancelIsRemembered) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
-  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .cancel_requested = true}).ok());
+  Await<absl::StatusOr<bool>> requested;
+  store_->RequestCancel("jobs/a", requested.callback());
+  ASSERT_TRUE(requested.Get().ok());
   ASSERT_TRUE(Append("jobs/a", {LogEvent("2")}).ok());
   Open();
   EXPECT_TRUE(Read("jobs/a")->cancel_requested);

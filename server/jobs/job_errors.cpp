@@ -1,0 +1,68 @@
+#include "jobs/job_errors.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace contact {
+namespace {
+
+constexpr std::chrono::milliseconds kRetryAfter{1000};
+
+}  // namespace
+
+Error Draining() {
+  return {.code = absl::StatusCode::kUnavailable,
+          .reason = "SERVER_DRAINING",
+          .message = "the server is shutting down",
+          .retry_after = kRetryAfter};
+}
+
+Error QueueFull(int max_queued_jobs) {
+  return {.code = absl::StatusCode::kResourceExhausted,
+          .reason = "QUEUE_FULL",
+          .message = fmt::format("{} jobs are waiting already", max_queued_jobs),
+          .retry_after = kRetryAfter};
+}
+
+Error WatcherLimit(int max_watchers) {
+  return {.code = absl::StatusCode::kResourceExhausted,
+          .reason = "WATCHER_LIMIT",
+          .message = fmt::format("there are {} watchers already", max_watchers),
+          .retry_after = kRetryAfter};
+}
+
+Error SweepNotAvailable() {
+  return {.code = absl::StatusCode::kUnimplemented,
+          .reason = "SWEEP_NOT_AVAILABLE",
+          .message = "sweeps are not available yet; create a job for each scenario"};
+}
+
+Error ToError(const absl::Status& status, const std::string& name) {
+  Error error{.code = status.code(), .message = std::string(status.message())};
+  if (!name.empty()) error.metadata["name"] = name;
+  switch (status.code()) {
+    case absl::StatusCode::kNotFound:
+      error.reason = "JOB_NOT_FOUND";
+      return error;
+    case absl::StatusCode::kAlreadyExists:
+      error.reason = "REQUEST_ID_REUSED";
+      return error;
+    case absl::StatusCode::kFailedPrecondition:
+      error.reason = "INVALID_STATE";
+      return error;
+    case absl::StatusCode::kResourceExhausted:
+      error.reason = "STORE_FULL";
+      error.retry_after = kRetryAfter;
+      break;
+    case absl::StatusCode::kDataLoss:
+      error.reason = "DATA_LOSS";
+      break;
+    default:
+      error.code = absl::StatusCode::kUnavailable;
+      error.reason = "STORE_FAILED";
+  }
+  spdlog::error("{}: {}", name.empty() ? "store" : name, error.message);
+  return error;
+}
+
+}  // namespace contact

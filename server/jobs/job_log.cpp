@@ -1,0 +1,107 @@
+#include "jobs/job_log.h"
+
+#include <utility>
+
+#include "jobs/lifecycle.h"
+#include "storage/records.h"
+
+namespace contact {
+namespace {
+
+constexpr std::size_t kMaxEvents = 4096;
+constexpr std::size_t kMaxBytes = 1 << 20;
+
+void Call(const std::set<std::shared_ptr<const JobLog::Waker>>& wakers) {
+  for (const auto& waker : wakers) (*waker)();
+}
+
+}  // namespace
+
+void JobLog::Append(std::uint64_t first, std::vector<v1::Event> events) {
+  Wakers wakers;
+  {
+    const MutexLock lock(mutex_);
+    for (v1::Event& event : events) {
+      event.set_sequence(first++);
+      Push(std::move(event));
+    }
+    wakers = TakeWaiting();
+  }
+  Call(wakers);
+}
+
+void JobLog::Push(v1::Event event) {
+  last_ = event.sequence();
+  ended_ = event.has_state_changed() && IsFinal(event.state_changed().state());
+  const std::size_t bytes = event.ByteSizeLong();
+  ring_bytes_ += bytes;
+  ring_.push_back({std::make_shared<const v1::Event>(std::move(event)), bytes});
+  while (ring_.size() > kMaxEvents || ring_bytes_ > kMaxBytes) {
+    ring_bytes_ -= ring_.front().bytes;
+    ring_.pop_front();
+  }
+}
+
+void JobLog::SetProgress(v1::Event progress) {
+  Wakers wakers;
+  {
+    const MutexLock lock(mutex_);
+    progress_ = std::make_shared<const v1::Event>(std::move(progress));
+    ++progress_count_;
+    wakers = TakeWaiting();
+  }
+  Call(wakers);
+}
+
+void JobLog::Fail() {
+  Wakers wakers;
+  {
+    const MutexLock lock(mutex_);
+    failed_ = true;
+    wakers = TakeWaiting();
+  }
+  Call(wakers);
+}
+
+JobLog::Tail JobLog::After(const Want& want, std::uint64_t* progress_seen,
+                           std::shared_ptr<const Waker> waker) {
+  const MutexLock lock(mutex_);
+  Tail tail{Tail::Found::kEvents, want.position};
+  if (want.position + ring_.size() < last_) {
+    tail.found = Tail::Found::kOlder;
+    return tail;
+  }
+  Collect(want, &tail);
+  if (!tail.events.empty()) return tail;
+  if (ended_ || failed_) {
+    tail.found = ended_ ? Tail::Found::kEnd : Tail::Found::kFailed;
+  } else if (progress_count_ > *progress_seen && (want.kinds & KindBit(v1::Event::kProgress))) {
+    *progress_seen = progress_count_;
+    tail.events.push_back(progress_);
+  } else {
+    tail.found = Tail::Found::kNothing;
+    waiting_.insert(std::move(waker));
+  }
+  return tail;
+}
+
+void JobLog::Collect(const Want& want, Tail* tail) {
+  std::size_t bytes = 0;
+  const std::uint64_t before_ring = last_ - ring_.size();
+  while (tail->position < last_ && bytes < want.max_bytes) {
+    const Entry& next = ring_[tail->position - before_ring];
+    ++tail->position;
+    if (!(want.kinds & KindBit(next.event->payload_case()))) continue;
+    tail->events.push_back(next.event);
+    bytes += next.bytes;
+  }
+}
+
+void JobLog::Forget(const std::shared_ptr<const Waker>& waker) {
+  const MutexLock lock(mutex_);
+  waiting_.erase(waker);
+}
+
+JobLog::Wakers JobLog::TakeWaiting() { return std::exchange(waiting_, {}); }
+
+}  // namespace contact

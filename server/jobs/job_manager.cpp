@@ -1,0 +1,234 @@
+#include "jobs/job_manager.h"
+
+#include <atomic>
+#include <future>
+#include <utility>
+
+#include "jobs/executor.h"
+#include "jobs/job_errors.h"
+#include "jobs/lifecycle.h"
+#include "jobs/request_rules.h"
+#include "jobs/scheduler.h"
+#include "jobs/sources.h"
+#include "jobs/tail_cursor.h"
+#include "storage/store.h"
+#include "wire/scenario_codec.h"
+
+namespace contact {
+namespace {
+
+Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_scenario) {
+  Error error{.code = absl::StatusCode::kInvalidArgument,
+              .reason = of_scenario.empty() ? "FIELD_INVALID" : "SCENARIO_INVALID"};
+  error.violations = std::move(of_request);
+  for (Violation& violation : of_scenario) {
+    violation.field = "scenario." + violation.field;
+    error.violations.push_back(std::move(violation));
+  }
+  const Violation& first = error.violations.front();
+  error.message = first.field + ": " + first.description;
+  return error;
+}
+
+// What the store tells of a job that it cannot read.
+void DescribeDamage(v1::Job* job) {
+  job->mutable_error()->set_code(static_cast<int>(absl::StatusCode::kDataLoss));
+  job->mutable_error()->set_message("the stored job fails its checksum");
+}
+
+}  // namespace
+
+struct JobManager::Impl {
+  Impl(Store& the_store, const Clock& the_clock, IdSource& the_ids, JobManagerOptions the_options)
+      : store(the_store),
+        clock(the_clock),
+        ids(the_ids),
+        options(std::move(the_options)),
+        scheduler(store, clock, options) {}
+
+  // One CreateJob on its way.
+  struct Creation {
+    v1::CreateJobRequest request;
+    Callback<v1::Job> done;
+    bool reserved;  ///< A place in the queue is kept for it.
+  };
+
+  void Check(const std::shared_ptr<Creation>& creation);
+  void Accept(const std::shared_ptr<Creation>& creation);
+  void Refuse(const Creation& creation, Error error);
+
+  Store& store;
+  const Clock& clock;
+  IdSource& ids;
+  const JobManagerOptions options;
+  std::atomic<bool> draining = false;
+  std::shared_ptr<std::atomic<int>> watchers = std::make_shared<std::atomic<int>>(0);
+  Scheduler scheduler;
+  Executor executor;  ///< Checks scenarios: that takes too long for the callers' threads.
+};
+
+JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options)
+    : impl_(std::make_unique<Impl>(store, clock, ids, std::move(options))) {}
+
+JobManager::~JobManager() { Stop(); }
+
+void JobManager::Create(const v1::CreateJobRequest& request, Callback<v1::Job> done) {
+  if (impl_->draining) return done(Draining());
+  if (request.job().has_sweep()) return done(SweepNotAvailable());
+  const bool reserved = !request.validate_only() && impl_->scheduler.Reserve();
+  // A full queue still answers a request that was accepted before.
+  if (!reserved && !request.validate_only() && request.request_id().empty()) {
+    return done(QueueFull(impl_->options.max_queued_jobs));
+  }
+  const auto creation =
+      std::make_shared<Impl::Creation>(Impl::Creation{request, std::move(done), reserved});
+  if (!impl_->executor.Post([impl = impl_.get(), creation] { impl->Check(creation); })) {
+    impl_->Refuse(*creation, Draining());
+  }
+}
+
+void JobManager::Impl::Refuse(const Creation& creation, Error error) {
+  if (creation.reserved) scheduler.Release();
+  creation.done(std::move(error));
+}
+
+void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
+  const v1::CreateJobRequest& request = creation->request;
+  std::vector<Violation> of_request = CheckCreate(request);
+  std::vector<Violation> of_scenario;
+  if (request.job().has_scenario()) {
+    of_scenario = DecodeScenario(request.job().scenario(), options.scenario_limits).violations;
+  }
+  if (!of_request.empty() || !of_scenario.empty()) {
+    return Refuse(*creation, Invalid(std::move(of_request), std::move(of_scenario)));
+  }
+  v1::Job job;
+  *job.mutable_scenario() = std::move(*creation->request.mutable_job()->mutable_scenario());
+  *job.mutable_labels() = request.job().labels();
+  *creation->request.mutable_job() = std::move(job);
+  if (request.validate_only()) return creation->done(std::move(*creation->request.mutable_job()));
+  Accept(creation);
+}
+
+void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
+  v1::Job& job = *creation->request.mutable_job();
+  job.set_name("jobs/" + ids.NextJobId());
+  const std::vector<v1::Event> events = {
+      Apply({v1::Job::QUEUED, reason::kWaitingForWorker}, clock.Now(), &job)};
+  store.Create(
+      {job, creation->request.request_id(), events, creation->reserved},
+      [this, creation, events](absl::StatusOr<StoredJob> stored) {
+        if (!creation->reserved && absl::IsResourceExhausted(stored.status())) {
+          return Refuse(*creation, QueueFull(options.max_queued_jobs));
+        }
+        if (!stored.ok()) return Refuse(*creation, ToError(stored.status(), ""));
+        v1::Job& answer = stored->job;
+        if (stored->created) {
+          scheduler.Enqueue(answer, events);
+          answer.mutable_scenario()->Swap(creation->request.mutable_job()->mutable_scenario());
+        } else if (creation->reserved) {
+          scheduler.Release();
+        }
+        creation->done(std::move(answer));
+      });
+}
+
+void JobManager::Get(const std::string& name, Callback<v1::Job> done) {
+  impl_->store.Read(
+      name, JobPart::kAll,
+      [impl = impl_.get(), name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
+        if (!stored.ok()) return done(ToError(stored.status(), name));
+        impl->scheduler.AddRecord(true, &stored->job);
+        done(std::move(stored->job));
+      });
+}
+
+void JobManager::List(const v1::ListJobsRequest& request, Callback<v1::ListJobsResponse> done) {
+  Result<JobQuery> query = ToQuery(request);
+  if (!query.ok()) return done(query.error());
+  impl_->store.List(std::move(query.value()),
+                    [impl = impl_.get(), done = std::move(done)](absl::StatusOr<JobPage> page) {
+                      if (!page.ok()) return done(ToError(page.status(), ""));
+                      v1::ListJobsResponse response;
+                      for (StoredJob& stored : page->jobs) {
+                        if (!stored.intact) DescribeDamage(&stored.job);
+                        impl->scheduler.AddRecord(false, &stored.job);
+                        *response.add_jobs() = std::move(stored.job);
+                      }
+                      response.set_next_page_token(PageToken(page->next));
+                      done(std::move(response));
+                    });
+}
+
+void JobManager::Cancel(const std::string& name, Callback<v1::Job> done) {
+  impl_->scheduler.Cancel(name,
+                          [this, name, done = std::move(done)](const absl::Status& status) mutable {
+                            if (!status.ok()) return done(ToError(status, name));
+                            Get(name, std::move(done));
+                          });
+}
+
+void JobManager::Delete(const std::string& name, Callback<bool> done) {
+  impl_->store.Delete(name, [name, done = std::move(done)](const absl::StatusOr<bool>& deleted) {
+    if (!deleted.ok()) return done(ToError(deleted.status(), name));
+    done(true);
+  });
+}
+
+void JobManager::Watch(const std::string& name, std::uint64_t after_sequence,
+                       std::vector<std::string> kinds, std::function<void()> wake,
+                       Callback<Watched> done) {
+  Result<std::uint32_t> set = KindSet(kinds);
+  if (!set.ok()) return done(set.error());
+  const int limit = impl_->options.max_watchers;
+  if (++*impl_->watchers > limit) {
+    --*impl_->watchers;
+    return done(WatcherLimit(limit));
+  }
+  impl_->store.Read(
+      name, JobPart::kSpec,
+      [impl = impl_.get(), name, after_sequence, set = set.value(), wake = std::move(wake),
+       done = std::move(done)](absl::StatusOr<StoredJob> stored) mutable {
+        if (!stored.ok()) {
+          --*impl->watchers;
+          return done(ToError(stored.status(), name));
+        }
+        v1::Job& job = stored->job;
+        auto log = impl->scheduler.Log(name);
+        if (!log) log = std::make_shared<JobLog>(job.last_sequence(), true);
+        impl->scheduler.AddRecord(false, &job);
+        auto cursor =
+            std::make_unique<TailCursor>(impl->store, name, std::move(log), after_sequence, set,
+                                         std::move(wake), impl->watchers);
+        done(Watched{std::move(job), std::move(cursor)});
+      });
+}
+
+v1::ServerInfo JobManager::Info() const {
+  const JobManagerOptions& options = impl_->options;
+  v1::ServerInfo info;
+  info.set_workers(options.workers);
+  info.set_queued_jobs(impl_->scheduler.queued());
+  info.set_running_jobs(impl_->scheduler.running());
+  v1::ServerLimits& limits = *info.mutable_limits();
+  limits.set_max_bodies(options.scenario_limits.max_bodies);
+  limits.set_max_contacts(options.scenario_limits.max_contacts);
+  limits.set_max_samples(options.scenario_limits.max_samples);
+  limits.set_max_queued_jobs(options.max_queued_jobs);
+  limits.set_max_watchers(options.max_watchers);
+  return info;
+}
+
+void JobManager::Drain() { impl_->draining = true; }
+
+void JobManager::Stop() {
+  Drain();
+  impl_->executor.Stop();
+  impl_->scheduler.Stop();
+  std::promise<void> flushed;
+  // Twice: what Cancel asks of the store first makes it ask once more.
+  impl_->store.Flush([&] { impl_->store.Flush([&] { flushed.set_value(); }); });
+  flushed.get_future().wait();
+}
+
+}  // namespace contact

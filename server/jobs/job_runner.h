@@ -1,0 +1,56 @@
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+
+#include "jobs/job_log.h"
+#include "jobs/job_manager.h"
+#include "jobs/lifecycle.h"
+#include "jobs/log_writer.h"
+#include "jobs/run_record.h"
+#include "jobs/sources.h"
+#include "storage/store.h"
+
+namespace contact {
+
+/// A job handed to a worker.
+struct Assignment {
+  v1::Job job;          ///< Header, RUNNING now.
+  v1::Event event;      ///< That tells it; not stored yet.
+  std::uint64_t epoch;  ///< Of the stored job.
+  std::shared_ptr<JobLog> log;
+  std::shared_ptr<RunRecord> record;
+  std::stop_source stop;                         ///< Of the run.
+  std::shared_ptr<std::atomic<bool>> cancelled;  ///< Its user has asked to stop it.
+};
+
+/// Runs one job at a time, from its spec in the store to its result there. Of one worker thread;
+/// may wait for the store.
+class JobRunner {
+ public:
+  JobRunner(Store& store, const Clock& clock, const JobManagerOptions& options,
+            std::stop_token shutdown)
+      : store_(store), clock_(clock), options_(options), shutdown_(std::move(shutdown)) {}
+
+  /// `ended` is called on the store's thread once the final state is committed. It is not called
+  /// if the job goes back into the queue because the server stops, or cannot be stored.
+  void Run(Assignment assignment, std::function<void()> ended);
+
+ private:
+  Move Solve(const absl::StatusOr<StoredJob>& stored, const Assignment& assignment,
+             LogWriter& writer) const;
+  Outcome RunScenario(const Scenario& scenario, const Assignment& assignment,
+                      LogWriter& writer) const;
+
+  Store& store_;
+  const Clock& clock_;
+  const JobManagerOptions& options_;
+  const std::stop_token shutdown_;
+};
+
+}  // namespace contact

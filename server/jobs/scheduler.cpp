@@ -1,0 +1,195 @@
+#include "jobs/scheduler.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+namespace contact {
+
+Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options)
+    : store_(store), clock_(clock), options_(options) {
+  Recover();
+  for (int i = 0; i < options_.workers; ++i) workers_.emplace_back([this] { Work(); });
+}
+
+Scheduler::~Scheduler() { Stop(); }
+
+void Scheduler::Recover() {
+  std::promise<void> recovered;
+  store_.ListUnfinished([this](absl::StatusOr<std::vector<StoredJob>> jobs) {
+    if (!jobs.ok()) {
+      return spdlog::error("cannot find the unfinished jobs: {}", jobs.status().ToString());
+    }
+    for (StoredJob& job : *jobs) Recover(std::move(job));
+  });
+  // Two rounds: the first callback asks for more.
+  store_.Flush([&] { store_.Flush([&] { recovered.set_value(); }); });
+  recovered.get_future().wait();
+}
+
+// A job that was running has lost its worker. One that a user wanted to stop has its wish.
+void Scheduler::Recover(StoredJob stored) {
+  if (!stored.intact) spdlog::error("{} fails its checksum in the store", stored.job.name());
+  Active active;
+  active.log = std::make_shared<JobLog>(stored.job.last_sequence(), false);
+  active.epoch = stored.epoch;
+  v1::Job& job = active.job = std::move(stored.job);
+  if (job.state() == v1::Job::RUNNING) {
+    const Move move = stored.cancel_requested ? Move{v1::Job::CANCELLED, reason::kUserRequest}
+                                              : Move{v1::Job::QUEUED, reason::kServerRestarted};
+    const std::vector<v1::Event> events = {Apply(move, clock_.Now(), &job)};
+    store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
+                  [log = active.log, events](const absl::StatusOr<std::uint64_t>& first) {
+                    if (first.ok()) log->Append(*first, events);
+                  });
+  }
+  const MutexLock lock(mutex_);
+  if (!IsFinal(job.state())) Add(std::move(active));
+}
+
+void Scheduler::Add(Active active) {
+  std::string name = active.job.name();
+  queue_.push_back(name);
+  active_.emplace(std::move(name), std::move(active));
+  changed_.notify_one();
+}
+
+bool Scheduler::Reserve() {
+  const MutexLock lock(mutex_);
+  if (queue_.size() + static_cast<std::size_t>(reserved_) >=
+      static_cast<std::size_t>(options_.max_queued_jobs)) {
+    return false;
+  }
+  ++reserved_;
+  return true;
+}
+
+void Scheduler::Release() {
+  const MutexLock lock(mutex_);
+  --reserved_;
+}
+
+void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
+  Active active;
+  active.job = std::move(job);
+  active.log = std::make_shared<JobLog>(0, false);
+  active.log->Append(1, std::move(events));
+  const MutexLock lock(mutex_);
+  --reserved_;
+  Add(std::move(active));
+}
+
+void Scheduler::Work() {
+  JobRunner runner(store_, clock_, options_, shutdown_.get_token());
+  while (auto assignment = Next()) {
+    const std::string name = assignment->job.name();
+    runner.Run(*std::move(assignment), [this, name] { Remove(name); });
+  }
+}
+
+// Waits for a job; none when it is time to stop.
+std::optional<Assignment> Scheduler::Next() {
+  const MutexLock lock(mutex_);
+  while (queue_.empty() && !shutdown_.stop_requested()) changed_.wait(mutex_);
+  if (shutdown_.stop_requested()) return std::nullopt;
+  Active& active = active_.at(queue_.front());
+  queue_.pop_front();
+  ++running_;
+  active.job.set_attempt(active.job.attempt() + 1);
+  v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);
+  return Assignment{active.job,    std::move(event), active.epoch,    active.log,
+                    active.record, active.stop,      active.cancelled};
+}
+
+void Scheduler::Remove(const std::string& name) {
+  const MutexLock lock(mutex_);
+  active_.erase(name);
+  --running_;
+}
+
+void Scheduler::Cancel(const std::string& name, Done done) {
+  std::optional<Active> queued;
+  {
+    const MutexLock lock(mutex_);
+    const auto found = active_.find(name);
+    if (found != active_.end() && found->second.job.state() == v1::Job::RUNNING) {
+      *found->second.cancelled = true;
+      found->second.stop.request_stop();
+      return store_.RequestCancel(
+          name,
+          [done = std::move(done)](const absl::StatusOr<bool>& stored) { done(stored.status()); });
+    }
+    const auto place = std::find(queue_.begin(), queue_.end(), name);
+    if (place != queue_.end()) {
+      queue_.erase(place);  // From here on no worker finds it.
+      queued = found->second;
+    }
+  }
+  if (!queued) return done(absl::OkStatus());
+  Withdraw(*queued, std::move(done));
+}
+
+void Scheduler::Withdraw(const Active& active, Done done) {
+  v1::Job job = active.job;
+  const std::vector<v1::Event> events = {
+      Apply({v1::Job::CANCELLED, reason::kUserRequest}, clock_.Now(), &job)};
+  store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
+                [this, events, name = job.name(), log = active.log,
+                 done = std::move(done)](const absl::StatusOr<std::uint64_t>& first) {
+                  if (first.ok()) log->Append(*first, events);
+                  {
+                    const MutexLock lock(mutex_);
+                    if (first.ok()) {
+                      active_.erase(name);
+                    } else {
+                      queue_.push_front(name);
+                      changed_.notify_one();
+                    }
+                  }
+                  done(first.status());
+                });
+}
+
+std::shared_ptr<JobLog> Scheduler::Log(const std::string& name) const {
+  const MutexLock lock(mutex_);
+  const auto found = active_.find(name);
+  return found == active_.end() ? nullptr : found->second.log;
+}
+
+void Scheduler::AddRecord(bool with_ledger, v1::Job* job) const {
+  if (job->state() != v1::Job::RUNNING) return;
+  std::shared_ptr<RunRecord> record;
+  {
+    const MutexLock lock(mutex_);
+    const auto found = active_.find(job->name());
+    if (found == active_.end()) return;
+    record = found->second.record;
+  }
+  job->MergeFrom(record->Get(with_ledger));
+}
+
+int Scheduler::queued() const {
+  const MutexLock lock(mutex_);
+  return static_cast<int>(queue_.size());
+}
+
+int Scheduler::running() const {
+  const MutexLock lock(mutex_);
+  return running_;
+}
+
+void Scheduler::Stop() {
+  {
+    const MutexLock lock(mutex_);
+    shutdown_.request_stop();
+    for (auto& [name, active] : active_) active.stop.request_stop();
+    changed_.notify_all();
+  }
+  for (std::thread& worker : workers_) {
+    if (worker.joinable()) worker.join();
+  }
+}
+
+}  // namespace contact

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "jobs/job_runner.h"
+
+namespace contact {
+
+/// Decides when a job runs: knows the jobs that have not ended, queues them first come, first
+/// served, and has the worker threads. Thread-safe.
+///
+/// Jobs enter and leave it on the store's thread, in the order of their commits; so in a callback
+/// of the store a job is known here just if the store says that it has not ended.
+class Scheduler {
+ public:
+  /// Queues the jobs that an earlier process left unfinished, and starts the workers.
+  Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options);
+  ~Scheduler();
+
+  /// Keeps a place in the queue for a job that is being stored. False: the queue is full.
+  bool Reserve();
+  /// Gives it back, if the job does not come.
+  void Release();
+  /// Fills it with a job that is stored now, with the first events of its log.
+  void Enqueue(v1::Job job, std::vector<v1::Event> events);
+
+  /// Takes a job from the queue, or asks its worker to stop. `done` is called on the store's
+  /// thread when that is stored, or at once if there is nothing to do.
+  void Cancel(const std::string& name, std::function<void(const absl::Status&)> done);
+
+  /// The log of a job that has not ended; else null.
+  std::shared_ptr<JobLog> Log(const std::string& name) const;
+  /// Adds what the run of the job has brought so far, if it is running.
+  void AddRecord(bool with_ledger, v1::Job* job) const;
+
+  int queued() const;
+  int running() const;
+
+  /// Puts running jobs back into the queue, in the store, and joins the workers. Idempotent.
+  void Stop();
+
+ private:
+  struct Active {
+    v1::Job job;  ///< Header.
+    std::uint64_t epoch = 0;
+    std::shared_ptr<JobLog> log;
+    std::shared_ptr<RunRecord> record = std::make_shared<RunRecord>();
+    std::stop_source stop;
+    std::shared_ptr<std::atomic<bool>> cancelled = std::make_shared<std::atomic<bool>>(false);
+  };
+  using Done = std::function<void(const absl::Status&)>;
+
+  void Recover();
+  void Recover(StoredJob stored);
+  void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Work();
+  std::optional<Assignment> Next();
+  void Remove(const std::string& name);
+  void Withdraw(const Active& active, Done done);
+
+  Store& store_;
+  const Clock& clock_;
+  const JobManagerOptions& options_;
+  std::stop_source shutdown_;
+
+  mutable Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
+  std::deque<std::string> queue_ ABSL_GUARDED_BY(mutex_);
+  int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
+  int running_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::vector<std::thread> workers_;  // Last: they use all of the above.
+};
+
+}  // namespace contact

@@ -1,0 +1,100 @@
+#include "jobs/tail_cursor.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+namespace contact {
+namespace {
+
+// The reader learns in place of a damaged event that there was one.
+void ReportDamage(const std::string& name, std::uint64_t sequence, v1::Event* event) {
+  spdlog::error("{}: event {} fails its checksum", name, sequence);
+  event->Clear();
+  event->mutable_log_entry()->set_severity(v1::LogEntry::WARNING);
+  event->mutable_log_entry()->set_message(
+      fmt::format("event {} is damaged in the store and lost", sequence));
+}
+
+}  // namespace
+
+TailCursor::TailCursor(Store& store, std::string name, std::shared_ptr<JobLog> log,
+                       std::uint64_t position, std::uint32_t kinds, JobLog::Waker wake,
+                       std::shared_ptr<std::atomic<int>> watchers)
+    : store_(store),
+      name_(std::move(name)),
+      log_(std::move(log)),
+      kinds_(kinds),
+      waker_(std::make_shared<const JobLog::Waker>(std::move(wake))),
+      watchers_(std::move(watchers)),
+      position_(position) {}
+
+TailCursor::~TailCursor() {
+  log_->Forget(waker_);
+  --*watchers_;
+}
+
+LogCursor::Next TailCursor::Read(std::size_t max_bytes, Events* out) {
+  for (;;) {
+    if (fetch_) {
+      if (const auto next = ReadFetched(out)) return *next;
+    }
+    // Asked anew each time: what was in memory a moment ago may be in the store only by now.
+    const JobLog::Tail tail = log_->After({position_, kinds_, max_bytes}, &progress_seen_, waker_);
+    position_ = tail.position;
+    switch (tail.found) {
+      case JobLog::Tail::Found::kEvents:
+        for (const auto& event : tail.events) *out->Add() = *event;
+        return Next::kEvents;
+      case JobLog::Tail::Found::kNothing:
+        return Next::kWait;
+      case JobLog::Tail::Found::kEnd:
+        return Next::kEnd;
+      case JobLog::Tail::Found::kFailed:
+        return Next::kFailed;
+      case JobLog::Tail::Found::kOlder:
+        StartFetch(max_bytes);
+    }
+  }
+}
+
+void TailCursor::StartFetch(std::size_t max_bytes) {
+  fetch_ = std::make_shared<Fetch>();
+  const std::weak_ptr<Fetch> weak = fetch_;  // Gone if the reader leaves first.
+  store_.ReadEvents({name_, position_, kinds_, max_bytes},
+                    [weak, waker = waker_](absl::StatusOr<EventPage> page) {
+                      const auto fetch = weak.lock();
+                      if (!fetch) return;
+                      {
+                        const MutexLock lock(fetch->mutex);
+                        fetch->page = std::move(page);
+                      }
+                      (*waker)();
+                    });
+}
+
+// Nothing if the page is read and held no event that was asked for.
+std::optional<LogCursor::Next> TailCursor::ReadFetched(Events* out) {
+  std::optional<absl::StatusOr<EventPage>> page;
+  {
+    const MutexLock lock(fetch_->mutex);
+    if (!fetch_->page) return Next::kWait;
+    page = std::move(fetch_->page);
+  }
+  fetch_ = nullptr;
+  if (absl::IsNotFound(page->status())) return Next::kDeleted;
+  if (!page->ok()) return Next::kFailed;
+  position_ = (*page)->position;
+  for (const StoredEvent& stored : (*page)->events) {
+    v1::Event* const event = out->Add();
+    if (!stored.intact || !event->ParseFromString(stored.payload)) {
+      ReportDamage(name_, stored.sequence, event);
+    }
+    event->set_sequence(stored.sequence);
+  }
+  if ((*page)->events.empty()) return std::nullopt;
+  return Next::kEvents;
+}
+
+}  // namespace contact

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "jobs/job_log.h"
+#include "jobs/log_cursor.h"
+#include "storage/store.h"
+
+namespace contact {
+
+/// The cursor of JobManager: reads the newest events from memory, older ones from the store. A
+/// reader that falls behind the memory goes on from the store, so nothing is kept for it.
+class TailCursor final : public LogCursor {
+ public:
+  /// `watchers` counts the cursors alive; the caller has counted this one already.
+  TailCursor(Store& store, std::string name, std::shared_ptr<JobLog> log, std::uint64_t position,
+             std::uint32_t kinds, JobLog::Waker wake, std::shared_ptr<std::atomic<int>> watchers);
+  ~TailCursor() override;
+  TailCursor(const TailCursor&) = delete;
+  TailCursor& operator=(const TailCursor&) = delete;
+
+  Next Read(std::size_t max_bytes, google::protobuf::RepeatedPtrField<v1::Event>* out) override;
+  std::uint64_t position() const override { return position_; }
+
+ private:
+  using Events = google::protobuf::RepeatedPtrField<v1::Event>;
+
+  /// A page on its way from the store; the store's thread puts it here.
+  struct Fetch {
+    Mutex mutex;
+    std::optional<absl::StatusOr<EventPage>> page ABSL_GUARDED_BY(mutex);
+  };
+
+  void StartFetch(std::size_t max_bytes);
+  std::optional<Next> ReadFetched(Events* out);
+
+  Store& store_;
+  const std::string name_;
+  const std::shared_ptr<JobLog> log_;
+  const std::uint32_t kinds_;
+  const std::shared_ptr<const JobLog::Waker> waker_;
+  const std::shared_ptr<std::atomic<int>> watchers_;
+
+  std::uint64_t position_;
+  std::uint64_t progress_seen_ = 0;
+  std::shared_ptr<Fetch> fetch_;  ///< None while none is under way.
+};
+
+}  // namespace contact
