@@ -80,7 +80,7 @@ void Equations::operator()(double t, const double* y, double* dy) const {
 void Equations::AddContactForces(const double* y, double* dy) const {
   const int n = bodies();
   double* a = dy + n;
-  double* loss = dy + 2 * n;
+  double* power = dy + 2 * n;
   for (const ActiveContact& active_contact : active) {
     const Contact& c = scenario_.contacts[At(active_contact.contact)];
     const double deformation = Relative(active_contact.contact, y) - active_contact.gap;
@@ -89,7 +89,7 @@ void Equations::AddContactForces(const double* y, double* dy) const {
     const double force = p.value * (c.stiffness + active_contact.mu * rate);  // (M2)
     if (c.left != kNone) a[c.left] -= force * inverse_mass_[At(c.left)];
     if (c.right != kNone) a[c.right] += force * inverse_mass_[At(c.right)];
-    loss[active_contact.contact] = active_contact.mu * p.value * rate * rate;  // (W2)
+    power[active_contact.contact] = force * rate;  // (W1)
   }
 }
 
@@ -100,7 +100,7 @@ void Equations::AddColumn(int column, const double* y, double* dy) const {
   const double* s = y + offset;
   double* ds = dy + offset;
   double* a = ds + n;
-  double* loss = ds + 2 * n;
+  double* power = ds + 2 * n;
   std::copy(s + n, s + 2 * n, ds);
   for (const Support& support : scenario_.supports) {
     double x = s[support.body];
@@ -119,15 +119,15 @@ void Equations::AddColumn(int column, const double* y, double* dy) const {
     const double deformation = Relative(active_contact.contact, y) - active_contact.gap;
     const double rate = Relative(active_contact.contact, y + n);
     const Power p(deformation, c.exponent);
-    const double own = active_contact.column == column ? p.value * rate : 0;  // ∂F/∂μ
+    const double own = active_contact.column == column ? p.value * rate : 0;
     const double deformation_s = Relative(active_contact.contact, s);
     const double rate_s = Relative(active_contact.contact, s + n);
-    const double force =
+    const double force_s =  // dF/dμ
         p.slope * (c.stiffness + mu * rate) * deformation_s + mu * p.value * rate_s + own;
-    if (c.left != kNone) a[c.left] -= force * inverse_mass_[At(c.left)];
-    if (c.right != kNone) a[c.right] += force * inverse_mass_[At(c.right)];
-    loss[active_contact.contact] =
-        own * rate + mu * rate * (p.slope * rate * deformation_s + 2 * p.value * rate_s);
+    if (c.left != kNone) a[c.left] -= force_s * inverse_mass_[At(c.left)];
+    if (c.right != kNone) a[c.right] += force_s * inverse_mass_[At(c.right)];
+    const double force = p.value * (c.stiffness + mu * rate);
+    power[active_contact.contact] = force_s * rate + force * rate_s;
   }
 }
 

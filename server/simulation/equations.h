@@ -35,9 +35,9 @@ struct ActiveContact {
 ///
 /// Displacements u are measured from `base`, near which they stay small, so that deformations
 /// keep their digits however far a body has come. State vector y, N bodies and C contacts:
-///   [u (N), v (N), D (C)]                      always; D dissipation of the running cycles
+///   [u (N), v (N), W (C)]                      always; W work of the running cycles
 ///   [E (C), load work, support loss, impulse]  when recording
-///   [∂u/∂μ, ∂v/∂μ, ∂D/∂μ]                      for each column, when not recording
+///   [∂u/∂μ, ∂v/∂μ, ∂W/∂μ]                      for each column, when not recording
 class Equations {
  public:
   explicit Equations(const Scenario& scenario);

@@ -20,7 +20,7 @@ struct ContactState {
   double last_mu = kNaN;     ///< μ of the last cycle; NaN before the first.
   double largest_work = 0;   ///< Largest W_c of its cycles so far [J].
   bool settled = false;      ///< The last cycle was too weak to iterate.
-  double dissipation = 0;    ///< D since the cycle's start [J].
+  double work = 0;           ///< W since the cycle's start [J].
   double external_work = 0;  ///< E since the cycle's start [J].
   int column = kNone;        ///< Sensitivity column of its μ in the running pass.
   Cycle cycle;               ///< The running cycle.

@@ -135,15 +135,15 @@ class Runner {
     const double stored = ElasticEnergy(law, cycle.end_deformation);
     if (contact.phase != Phase::kRestitution) {
       cycle.max_deformation = cycle.end_deformation;
-      cycle.dissipated_compression = contact.dissipation;
+      cycle.work_compression = contact.work;
       cycle.external_compression = contact.external_work;
-      cycle.work_compression =
-          stored - ElasticEnergy(law, cycle.start_deformation) + contact.dissipation;
+      cycle.dissipated_compression =
+          contact.work - stored + ElasticEnergy(law, cycle.start_deformation);
     } else {
-      cycle.dissipated_restitution = contact.dissipation - cycle.dissipated_compression;
+      cycle.work_restitution = contact.work - cycle.work_compression;
       cycle.external_restitution = contact.external_work - cycle.external_compression;
-      cycle.work_restitution =
-          stored - ElasticEnergy(law, cycle.max_deformation) + cycle.dissipated_restitution;
+      cycle.dissipated_restitution =
+          cycle.work_restitution - stored + ElasticEnergy(law, cycle.max_deformation);
     }
   }
 
@@ -175,8 +175,9 @@ class Runner {
     }
     if (outcome_.end != Outcome::End::kFinished) return;
     double loss = state_.support_loss + state_.contact_loss;
-    for (const ContactState& contact : state_.contacts) {
-      if (contact.phase != Phase::kOpen) loss += contact.dissipation;
+    for (const ContactState& contact : state_.contacts) {  // Cut cycles; CloseWorks filled them.
+      if (contact.phase == Phase::kOpen || contact.phase == Phase::kStarting) continue;
+      loss += contact.cycle.dissipated_compression + contact.cycle.dissipated_restitution;
     }
     const double momentum = motion_.equations().Momentum(motion_.integrator().y0.data());
     if (energy_scale_ > 0) {

@@ -1,0 +1,239 @@
+// The part of Motion that takes contacts through their cycles; motion.cpp moves between events.
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+
+#include "simulation/motion.h"
+
+namespace contact {
+namespace {
+
+// A resting contact is awake when its work is this many times what lets it settle.
+constexpr double kWakeFactor = 4;
+// The scale to which a resting contact is integrated, relative to its deformation.
+constexpr double kRestingScale = 1e-3;
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+void Motion::StartCycles(CycleHost& host, bool resting_only) {
+  bool any = false;
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    const ContactState& contact = contacts_[At(c)];
+    if (contact.phase != Phase::kStarting || (resting_only && !contact.settled)) continue;
+    StartCycle(c, host);
+    any = true;
+  }
+  if (any) RefreshActive();
+}
+
+void Motion::StartCycle(int contact, CycleHost& host) {
+  const int n = equations_.bodies();
+  ContactState& state = contacts_[At(contact)];
+  const Cycle::Kind kind = state.cycle.kind;
+  state.cycle = Cycle{};
+  state.cycle.contact = contact;
+  state.cycle.number = ++state.cycles;
+  state.cycle.kind = kind;
+  state.cycle.start_time = time_;
+  if (kind == Cycle::Kind::kNirv) {
+    state.cycle.start_deformation = std::max(0.0, Deformation(contact, rk_.y0.data()));
+  }
+  state.cycle.max_deformation = state.cycle.start_deformation;
+  if (kind == Cycle::Kind::kCollision) {
+    state.cycle.approach_velocity = std::max(0.0, equations_.Relative(contact, rk_.y0.data() + n));
+  }
+  const Contact& c = scenario_.contacts[At(contact)];
+  const double mass = equations_.effective_mass(contact);
+  const double external_force =
+      mass * equations_.Relative(contact, rk_.slope0().data() + n) +
+      c.stiffness * Power(state.cycle.start_deformation, c.exponent).value;
+  const CycleHost::Factor factor = host.OnStart(state, mass, external_force);
+  state.cycle.mu = factor.mu;
+  state.column = factor.column;
+  state.phase = state.settled ? Phase::kResting : Phase::kCompression;
+  if (!state.settled) ++cycles_in_stretch_;
+
+  if (factor.column >= equations_.columns && !equations_.recording) {
+    equations_.columns = factor.column + 1;
+    const Eigen::Index old = rk_.size();
+    rk_.Resize(equations_.size());
+    rk_.y0.tail(rk_.size() - old).setZero();
+  }
+  for (int column = 0; column <= equations_.columns; ++column) {
+    if (equations_.recording && column > 0) break;
+    rk_.y0[column * equations_.block() + 2 * n + contact] = 0;
+  }
+  if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
+  start_gradient_[At(contact)] = WorkGradient(contact);
+  deformation_scale_[At(contact)] = 0;
+  velocity_scale_[At(contact)] = state.cycle.approach_velocity;
+  if (state.settled) SetRestingScale(contact);
+  const double first = FirstStep(contact);
+  next_step_ = next_step_ == 0 ? first : std::min(next_step_, first);
+}
+
+void Motion::SetRestingScale(int contact) {
+  const Contact& c = scenario_.contacts[At(contact)];
+  const double deformation = contacts_[At(contact)].cycle.start_deformation;
+  const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
+  deformation_scale_[At(contact)] = kRestingScale * deformation;
+  velocity_scale_[At(contact)] =
+      kRestingScale * deformation * std::sqrt(stiffness / equations_.effective_mass(contact));
+}
+
+// A small part of the cycle's duration, from the law's own scales.
+double Motion::FirstStep(int contact) const {
+  const int n = equations_.bodies();
+  const Contact& c = scenario_.contacts[At(contact)];
+  const Cycle& cycle = contacts_[At(contact)].cycle;
+  const double mass = equations_.effective_mass(contact);
+  if (cycle.approach_velocity > 0) {
+    const double v = cycle.approach_velocity;
+    return 0.02 * MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
+  }
+  double deformation = cycle.start_deformation;
+  if (deformation == 0) {  // The load's equilibrium.
+    const double a = std::abs(equations_.Relative(contact, rk_.slope0().data() + n));
+    deformation = std::pow(mass * a / c.stiffness, 1 / c.exponent);
+  }
+  const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
+  return stiffness > 0 ? 0.1 / std::sqrt(stiffness / mass) : std::numeric_limits<double>::max();
+}
+
+void Motion::Apply(const Found& found, CycleHost& host) {
+  ContactState& state = contacts_[At(found.contact)];
+  switch (found.event.kind) {
+    case EventKind::kTouch:
+    case EventKind::kRestTouch: {
+      const bool collides = found.event.kind == EventKind::kTouch;
+      state.phase = Phase::kStarting;
+      state.settled = false;
+      state.cycle.kind = collides ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
+      return;
+    }
+    case EventKind::kTurn:
+      Turn(state);
+      return;
+    case EventKind::kSeparation:
+      EndCycle(state, Cycle::End::kSeparation, host);
+      return;
+    case EventKind::kNonSeparation:
+      EndCycle(state, Cycle::End::kNonSeparation, host);
+      return;
+  }
+}
+
+// A resting contact whose work has become worth a cycle of its own ends its rest.
+void Motion::WakeResting(CycleHost& host) {
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    ContactState& state = contacts_[At(c)];
+    if (state.phase != Phase::kResting) continue;
+    const Contact& contact = scenario_.contacts[At(c)];
+    const double deformation = Deformation(c, rk_.y0.data());
+    const double work = contact.stiffness * Power(deformation, contact.exponent).value *
+                        std::abs(deformation - state.cycle.start_deformation);
+    if (work > kWakeFactor * scenario_.solver.settled_fraction * state.largest_work) {
+      EndCycle(state, Cycle::End::kNonSeparation, host);
+      state.settled = false;
+    }
+  }
+}
+
+void Motion::Turn(ContactState& state) {
+  Cycle& cycle = state.cycle;
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
+  const int n = equations_.bodies();
+  state.phase = Phase::kRestitution;
+  cycle.turn_time = time_;
+  cycle.max_deformation = Deformation(cycle.contact, rk_.y0.data());
+  cycle.work_compression = rk_.y0[2 * n + cycle.contact];  // (W1)
+  cycle.dissipated_compression = cycle.work_compression -
+                                 ElasticEnergy(contact, cycle.max_deformation) +
+                                 ElasticEnergy(contact, cycle.start_deformation);  // (W2)
+  if (equations_.recording) {
+    cycle.external_compression = rk_.y0[equations_.external_work(cycle.contact)];
+  }
+  turn_gradient_[At(cycle.contact)] = WorkGradient(cycle.contact);
+}
+
+void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
+  Cycle& cycle = state.cycle;
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
+  const int n = equations_.bodies();
+  const bool separates = end == Cycle::End::kSeparation;
+  if (state.phase == Phase::kResting) Turn(state);  // Its works count as one compression.
+  cycle.end = end;
+  cycle.end_time = time_;
+  cycle.end_deformation = separates ? 0 : Deformation(cycle.contact, rk_.y0.data());
+  cycle.separation_velocity = separates ? equations_.Relative(cycle.contact, rk_.y0.data() + n) : 0;
+  cycle.work_restitution = rk_.y0[2 * n + cycle.contact] - cycle.work_compression;
+  cycle.dissipated_restitution = cycle.work_restitution -
+                                 ElasticEnergy(contact, cycle.end_deformation) +
+                                 ElasticEnergy(contact, cycle.max_deformation);
+  const double ratio = -cycle.work_restitution / cycle.work_compression;
+  cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
+  if (equations_.recording) {
+    cycle.external_restitution =
+        rk_.y0[equations_.external_work(cycle.contact)] - cycle.external_compression;
+    const double kinetic = 0.5 * equations_.effective_mass(cycle.contact) *
+                           cycle.approach_velocity * cycle.approach_velocity;
+    cycle.identity_residual =
+        std::abs(cycle.work_compression - kinetic - cycle.external_compression) /
+        cycle.work_compression;  // (W4)
+    contact_loss_ += cycle.dissipated_compression + cycle.dissipated_restitution;
+  }
+  // Up to here the gradients have the columns that existed then; later ones begin at zero.
+  const auto extended = [&](const Eigen::ArrayXd& gradient) {
+    Eigen::ArrayXd all = Eigen::ArrayXd::Zero(equations_.columns);
+    all.head(gradient.size()) = gradient;
+    return all;
+  };
+  const Eigen::ArrayXd start = extended(start_gradient_[At(cycle.contact)]);
+  const Eigen::ArrayXd turn = extended(turn_gradient_[At(cycle.contact)]);
+  state.phase = separates ? Phase::kOpen : Phase::kStarting;
+  state.last_mu = cycle.mu;
+  host.OnEnd(state, turn - start, extended(WorkGradient(cycle.contact)) - turn);
+  state.largest_work = std::max(state.largest_work, cycle.work_compression);
+  state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
+  rk_.y0[2 * n + cycle.contact] = 0;
+  if (equations_.recording) rk_.y0[equations_.external_work(cycle.contact)] = 0;
+  RefreshActive();
+}
+
+// ∂W/∂μ of a contact for each column, (S2).
+Eigen::ArrayXd Motion::WorkGradient(int contact) const {
+  Eigen::ArrayXd gradient(equations_.columns);
+  for (int column = 0; column < equations_.columns; ++column) {
+    gradient[column] =
+        rk_.y0[(column + 1) * equations_.block() + 2 * equations_.bodies() + contact];
+  }
+  return gradient;
+}
+
+// Peak force and pulling time over the step, with δ(t) from its path.
+void Motion::ObserveForce(int contact) {
+  const Contact& c = scenario_.contacts[At(contact)];
+  Cycle& cycle = contacts_[At(contact)].cycle;
+  const DeformationPath path = Path(contact);
+  const auto factor = [&](double theta) { return c.stiffness + cycle.mu * path.Slope(theta) / h_; };
+  const auto force = [&](double theta) {
+    return Power(path.Value(theta), c.exponent).value * factor(theta);
+  };
+  constexpr int kPieces = 8;
+  int best = 0;
+  for (int i = 1; i <= kPieces; ++i) {
+    if (force(i / 8.0) > force(best / 8.0)) best = i;
+    if (factor((i - 0.5) / 8.0) < 0) cycle.tension_time += h_ / kPieces;
+  }
+  if (force(best / 8.0) <= cycle.peak_force && best % kPieces == 0) return;
+  const double low = std::max(0, best - 1) / 8.0;
+  const double high = std::min(kPieces, best + 1) / 8.0;
+  const auto peak = boost::math::tools::brent_find_minima(
+      [&](double theta) { return -force(theta); }, low, high, 40);
+  cycle.peak_force = std::max(cycle.peak_force, -peak.second);
+}
+
+}  // namespace contact

@@ -1,0 +1,104 @@
+#include "simulation/dormand_prince.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace contact {
+namespace {
+
+// A pendulum of large swing: smooth, nonlinear, periodic.
+const auto kPendulum = [](double, const double* y, double* dy) {
+  dy[0] = y[1];
+  dy[1] = -std::sin(y[0]);
+};
+
+Eigen::ArrayXd Integrate(int steps, double until) {
+  DormandPrince rk;
+  rk.Resize(2);
+  rk.y0 << 2, 0;
+  kPendulum(0, rk.y0.data(), rk.slope0().data());
+  const double h = until / steps;
+  for (int i = 0; i < steps; ++i) {
+    rk.Step(kPendulum, i * h, h);
+    rk.FinishStep(kPendulum, i * h, h);
+    rk.Advance();
+  }
+  return rk.y0;
+}
+
+// y' = y cos t, whose solution is e^{sin t}.
+double Error(int steps) {
+  const auto f = [](double t, const double* y, double* dy) { dy[0] = y[0] * std::cos(t); };
+  DormandPrince rk;
+  rk.Resize(1);
+  rk.y0 << 1;
+  f(0, rk.y0.data(), rk.slope0().data());
+  const double h = 5.0 / steps;
+  for (int i = 0; i < steps; ++i) {
+    rk.Step(f, i * h, h);
+    rk.FinishStep(f, i * h, h);
+    rk.Advance();
+  }
+  return std::abs(rk.y0[0] - std::exp(std::sin(5.0)));
+}
+
+TEST(DormandPrince, HalvingTheStepDividesTheErrorByTwoToTheEight) {
+  EXPECT_NEAR(std::log2(Error(8) / Error(16)), 8, 0.7);
+  EXPECT_NEAR(std::log2(Error(16) / Error(32)), 8, 0.5);
+}
+
+double DenseError(double h) {
+  DormandPrince rk;
+  rk.Resize(2);
+  rk.y0 << 2, 0;
+  kPendulum(0, rk.y0.data(), rk.slope0().data());
+  rk.Step(kPendulum, 0, h);
+  rk.FinishStep(kPendulum, 0, h);
+  rk.PrepareInterpolation(kPendulum, 0, h);
+  double worst = 0;
+  for (const double theta : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    Eigen::ArrayXd y;
+    rk.Interpolate(theta, &y);
+    worst = std::max(worst, (y - Integrate(100, theta * h)).abs().maxCoeff());
+  }
+  return worst;
+}
+
+TEST(DormandPrince, DenseOutputHasOrderSeven) {
+  // The error inside one step is of order h^8.
+  EXPECT_NEAR(std::log2(DenseError(0.8) / DenseError(0.4)), 8, 0.6);
+}
+
+TEST(DormandPrince, InterpolantMeetsBothEnds) {
+  DormandPrince rk;
+  rk.Resize(2);
+  rk.y0 << 1, 0.5;
+  kPendulum(0, rk.y0.data(), rk.slope0().data());
+  rk.Step(kPendulum, 0, 0.5);
+  rk.FinishStep(kPendulum, 0, 0.5);
+  rk.PrepareInterpolation(kPendulum, 0, 0.5);
+  Eigen::ArrayXd y;
+  rk.Interpolate(0, &y);
+  EXPECT_EQ((y - rk.y0).abs().maxCoeff(), 0);
+  rk.Interpolate(1, &y);
+  EXPECT_LE((y - rk.y1).abs().maxCoeff(), 1e-16);
+}
+
+// The error estimate must not be smaller than the error by much, nor vanish.
+TEST(DormandPrince, ErrorEstimatesFollowTheError) {
+  DormandPrince rk;
+  rk.Resize(2);
+  for (const double h : {0.5, 1.0}) {
+    rk.y0 << 2, 0;
+    kPendulum(0, rk.y0.data(), rk.slope0().data());
+    rk.Step(kPendulum, 0, h);
+    const double error = std::abs(rk.y1[1] - Integrate(100, h)[1]);
+    EXPECT_GT(h * std::abs(rk.Error5(1)), error);
+    EXPECT_LT(h * std::abs(rk.Error5(1)), 1e5 * error);
+  }
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,183 @@
+#include "simulation/episode.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "testing/cases.h"
+
+namespace contact {
+namespace {
+
+using testing::Record;
+using testing::RunAndRecord;
+
+// Plays the same μ to every cycle of a contact and keeps works and gradients.
+class FixedFactors final : public CycleHost {
+ public:
+  explicit FixedFactors(std::vector<double> mu) : mu_(std::move(mu)) {}
+  Factor OnStart(const ContactState& state, double, double) override {
+    const int contact = state.cycle.contact;
+    return {.mu = mu_[static_cast<std::size_t>(contact)], .column = columns_++};
+  }
+  void OnEnd(ContactState& state, const Eigen::ArrayXd& compression,
+             const Eigen::ArrayXd& restitution) override {
+    works.push_back(state.cycle.work_compression);
+    works.push_back(state.cycle.work_restitution);
+    gradients.push_back(compression);
+    gradients.push_back(restitution);
+  }
+  std::vector<double> works;
+  std::vector<Eigen::ArrayXd> gradients;
+
+ private:
+  std::vector<double> mu_;
+  int columns_ = 0;
+};
+
+FixedFactors Pass(const Scenario& scenario, const std::vector<double>& mu) {
+  Motion motion(scenario);
+  FixedFactors host(mu);
+  motion.Begin(InitialState(scenario), false);
+  EXPECT_EQ(motion.Advance(1e9, host, nullptr, {}, 100'000), Motion::Pause::kQuiet);
+  return host;
+}
+
+// The true sensitivities of each cycle's works to each μ, against central differences.
+TEST(Sensitivities, AgreeWithFiniteDifferences) {
+  Scenario scenario = testing::TripleChain();
+  scenario.solver.relative_tolerance = 1e-13;
+  const std::vector<double> mu = {2.2e8, 4.5e8};
+  const FixedFactors base = Pass(scenario, mu);
+  ASSERT_EQ(base.works.size(), 4u);
+  for (int column = 0; column < 2; ++column) {
+    const double step = 1e-4 * mu[static_cast<std::size_t>(column)];
+    std::vector<double> plus = mu, minus = mu;
+    plus[static_cast<std::size_t>(column)] += step;
+    minus[static_cast<std::size_t>(column)] -= step;
+    const FixedFactors up = Pass(scenario, plus), down = Pass(scenario, minus);
+    for (std::size_t i = 0; i < base.works.size(); ++i) {
+      const double difference = (up.works[i] - down.works[i]) / (2 * step);
+      EXPECT_NEAR(base.gradients[i][column] / difference, 1, 1e-6) << i << ", " << column;
+    }
+  }
+}
+
+TEST(Episode, AnIsolatedCollisionNeedsNoCorrection) {
+  for (const double n : {1.0, 1.5, 2.5}) {
+    for (const double e : {0.1, 0.5, 0.9}) {
+      const Record r = RunAndRecord(testing::Collision(0.7, 1.3, 1e7, n, e));
+      ASSERT_EQ(r.cycles.size(), 1u);
+      EXPECT_EQ(r.cycles[0].status, Cycle::Status::kConverged);
+      EXPECT_EQ(r.cycles[0].iterations, 0);
+      EXPECT_NEAR(r.cycles[0].restitution_out, e, 1e-9 * e) << n << " " << e;
+    }
+  }
+}
+
+TEST(Episode, ConvergesQuadratically) {
+  const Record r = RunAndRecord(testing::TripleChain());
+  ASSERT_EQ(r.iterations.size(), 4u);
+  std::vector<double> error;
+  for (const Iteration& i : r.iterations) {
+    error.push_back(std::abs(i.unknowns[0].restitution_out - 0.8) +
+                    std::abs(i.unknowns[1].restitution_out - 0.7));
+  }
+  EXPECT_LT(error[1], 0.1 * error[0]);
+  EXPECT_LT(error[2], 1e-3 * error[1]);
+  EXPECT_LT(error[3], 1e-4 * error[2]);
+  EXPECT_TRUE(r.iterations.back().accepted);
+}
+
+// A load that rises during the cycle takes more than ε allows even without damping.
+TEST(Episode, AnInfeasibleCycleUsesNoDampingAndSaysSo) {
+  Scenario s;
+  s.bodies = {testing::Ball(-0.05)};
+  s.contacts = {{.name = "wall", .left = 0, .stiffness = 1e8, .restitution = 0.95}};
+  // From rest, F = A sin ωt with a quarter period far beyond the contact's own time.
+  s.loads = {{.body = 0, .amplitude = 1000, .angular_frequency = 20}};
+  s.end_time = 0.02;
+  const Record r = RunAndRecord(s);
+  ASSERT_EQ(r.outcome.end, Outcome::End::kFinished);
+  ASSERT_FALSE(r.cycles.empty());
+  EXPECT_EQ(r.cycles[0].status, Cycle::Status::kInfeasible);
+  EXPECT_EQ(r.cycles[0].mu, 0);
+  EXPECT_LT(r.cycles[0].restitution_out, 0.95);
+  EXPECT_FALSE(r.outcome.all_converged);
+}
+
+TEST(Episode, FailsAtTheFirstMissedCycleWhenAsked) {
+  Scenario s;
+  s.bodies = {testing::Ball(-0.05)};
+  s.contacts = {{.name = "wall", .left = 0, .stiffness = 1e8, .restitution = 0.95}};
+  s.loads = {{.body = 0, .amplitude = 1000, .angular_frequency = 20}};
+  s.end_time = 0.02;
+  s.solver.fail_if_not_converged = true;
+  const Record r = RunAndRecord(s);
+  EXPECT_EQ(r.outcome.end, Outcome::End::kNotConverged);
+  EXPECT_NE(r.outcome.message.find("wall, cycle 1"), std::string::npos) << r.outcome.message;
+}
+
+TEST(Episode, StopsCorrectingAtTheLimitAndKeepsTheBest) {
+  Scenario s = testing::TripleChain();
+  s.solver.max_iterations = 1;
+  const Record r = RunAndRecord(s);
+  ASSERT_EQ(r.cycles.size(), 2u);
+  EXPECT_EQ(r.cycles[0].status, Cycle::Status::kNotConverged);
+  EXPECT_NEAR(r.cycles[0].restitution_out, 0.8, 1e-3);
+  EXPECT_FALSE(r.outcome.all_converged);
+}
+
+TEST(Episode, ANamedLawIsNotIterated) {
+  Scenario s = testing::TripleChain();
+  for (Contact& c : s.contacts) {
+    c.damping = DampingLaw::kFlores;
+    c.reference_velocity = 0.2;
+    c.restitution = 0.8;  // The paper gives both contacts the same μ.
+  }
+  const Record r = RunAndRecord(s);
+  ASSERT_EQ(r.cycles.size(), 2u);
+  EXPECT_EQ(r.cycles[0].status, Cycle::Status::kGivenLaw);
+  EXPECT_EQ(r.outcome.iterations, 0);
+  // Known values of this law in this chain, split at the largest deformation.
+  EXPECT_NEAR(r.cycles[0].restitution_out, 0.8154, 5e-5);
+  EXPECT_NEAR(r.cycles[1].restitution_out, 0.8384, 5e-5);
+  EXPECT_TRUE(r.warnings.empty());
+}
+
+TEST(Episode, ANamedLawWithoutApproachVelocityWarnsOnce) {
+  Scenario s = testing::TripleChain();
+  s.contacts[1].damping = DampingLaw::kFlores;
+  const Record r = RunAndRecord(s);
+  ASSERT_EQ(r.warnings.size(), 1u);
+  EXPECT_NE(r.warnings[0].find("C2"), std::string::npos);
+}
+
+TEST(Episode, AnElasticContactHasNoDamping) {
+  const Record r = RunAndRecord(testing::Collision(0.5, 1, 1e8, 1.5, 1));
+  ASSERT_EQ(r.cycles.size(), 1u);
+  EXPECT_EQ(r.cycles[0].mu, 0);
+  EXPECT_EQ(r.cycles[0].status, Cycle::Status::kConverged);
+  EXPECT_NEAR(r.cycles[0].restitution_out, 1, 1e-11);
+}
+
+// One dimensionless solution for all stiffnesses, velocities and sizes.
+TEST(Episode, AnUnloadedChainIsScaleInvariant) {
+  const Record base = RunAndRecord(testing::TripleChain());
+  for (const double velocity : {0.1, 5.0}) {
+    for (const double stiffness : {1e5, 1e11}) {
+      Scenario s = testing::Chain({0.5, 0.5, 0.5}, {stiffness, stiffness}, {0.8, 0.7}, velocity, 1);
+      s.end_time = 4e-3 * std::pow(1e8 / stiffness, 0.4) * std::pow(0.2 / velocity, 0.2);
+      const Record r = RunAndRecord(s);
+      ASSERT_EQ(r.cycles.size(), 2u);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double alpha = r.cycles[i].mu * velocity / stiffness;
+        EXPECT_NEAR(alpha / (base.cycles[i].mu * 0.2 / 1e8), 1, 1e-8);
+        EXPECT_NEAR(r.outcome.velocities[i] / velocity, base.outcome.velocities[i] / 0.2, 1e-9);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulation/run.h"
+
+namespace contact::testing {
+
+/// A body of radius 0.05 m; the paper's balls weigh 0.5 kg.
+inline Body Ball(double position, double velocity = 0, double mass = 0.5) {
+  return {.name = std::string("B").append(std::to_string(position)),
+          .mass = mass,
+          .radius = 0.05,
+          .position = position,
+          .velocity = velocity};
+}
+
+/// Touching balls in a row, of which only the first moves.
+inline Scenario Chain(const std::vector<double>& masses, const std::vector<double>& stiffnesses,
+                      const std::vector<double>& restitutions, double velocity, double end_time) {
+  Scenario s;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    s.bodies.push_back(Ball(0.1 * static_cast<double>(i), i == 0 ? velocity : 0, masses[i]));
+  }
+  for (std::size_t i = 0; i + 1 < masses.size(); ++i) {
+    s.contacts.push_back({.name = std::string("C").append(std::to_string(i + 1)),
+                          .left = static_cast<int>(i),
+                          .right = static_cast<int>(i) + 1,
+                          .stiffness = stiffnesses[i],
+                          .restitution = restitutions[i]});
+  }
+  s.end_time = end_time;
+  return s;
+}
+
+/// The paper's 6.1.
+inline Scenario TripleChain() { return Chain({0.5, 0.5, 0.5}, {1e8, 1e8}, {0.8, 0.7}, 0.2, 4e-3); }
+
+/// The paper's 6.2.
+inline Scenario SpringWall() {
+  Scenario s;
+  s.bodies = {Ball(-0.01)};
+  s.contacts = {
+      {.name = "wall", .left = 0, .wall_position = 0.048, .stiffness = 1.8e7, .restitution = 0.9}};
+  s.supports = {{.body = 0, .stiffness = 1e6, .damping = 100}};
+  s.loads = {{.body = 0, .constant = 500},
+             {.body = 0, .amplitude = 250, .angular_frequency = 2000}};
+  s.end_time = 0.035;
+  return s;
+}
+
+/// A ball that hits a wall to its right at once.
+inline Scenario Collision(double mass, double velocity, double stiffness, double exponent,
+                          double restitution) {
+  Scenario s;
+  s.bodies = {Ball(-0.05, velocity, mass)};
+  s.contacts = {{.name = "wall",
+                 .left = 0,
+                 .stiffness = stiffness,
+                 .exponent = exponent,
+                 .restitution = restitution}};
+  s.end_time = 100 * MaximumDeformation(mass, velocity, stiffness, exponent, 0) / velocity;
+  return s;
+}
+
+/// Keeps everything that a run reports.
+struct Record final : Observer {
+  std::vector<Iteration> iterations;
+  std::vector<Cycle> cycles;
+  std::vector<double> samples;
+  int columns = 0;
+  std::vector<std::string> warnings;
+  Outcome outcome;
+
+  void OnIteration(const Iteration& i) override { iterations.push_back(i); }
+  void OnCycle(const Cycle& c) override { cycles.push_back(c); }
+  void OnSamples(const Samples& s) override {
+    columns = s.columns;
+    samples.insert(samples.end(), s.values.begin(), s.values.end());
+  }
+  void OnWarning(const std::string& text) override { warnings.push_back(text); }
+
+  int rows() const { return columns == 0 ? 0 : static_cast<int>(samples.size()) / columns; }
+  double Sample(int row, int column) const {
+    return samples[static_cast<std::size_t>(row * columns + column)];
+  }
+};
+
+inline Record RunAndRecord(const Scenario& scenario) {
+  Record record;
+  record.outcome = Run(scenario, record);
+  return record;
+}
+
+}  // namespace contact::testing
