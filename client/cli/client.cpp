@@ -115,7 +115,8 @@ CallFailure::CallFailure(const grpc::Status& status, const std::string& server)
       status_(status.error_code()) {
   const google::rpc::Status details = Details(status);
   reason_ = Find<google::rpc::ErrorInfo>(details).reason();
-  for (const auto& violation : Find<google::rpc::BadRequest>(details).field_violations()) {
+  const auto request = Find<google::rpc::BadRequest>(details);
+  for (const auto& violation : request.field_violations()) {
     violations_.push_back(FromServer(violation));
   }
 }

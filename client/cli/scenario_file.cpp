@@ -4,10 +4,10 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <span>
 #include <system_error>
 #include <tuple>
@@ -54,8 +54,14 @@ bool Within(std::string_view path, std::string_view whole) {
   return path.size() == whole.size() || path[whole.size()] == '.' || path[whole.size()] == '[';
 }
 
-std::string ReadAll(std::istream& stream) {
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+// False if the stream cannot be read, as that of a folder. An empty one can.
+bool ReadAll(std::istream& stream, std::string* text) {
+  if (!stream) return false;
+  std::array<char, 1 << 16> block;
+  while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
+    text->append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  return stream.eof() && !stream.bad();
 }
 
 }  // namespace
@@ -70,21 +76,21 @@ std::string Format(const Diagnostic& diagnostic) {
 }
 
 ScenarioFile ScenarioFile::Open(const std::string& path) {
-  if (path == "-") return {"<stdin>", ReadAll(std::cin)};
-  std::ifstream file(path, std::ios::binary);
-  std::string text = ReadAll(file);
-  if (!file) {
+  std::string text;
+  std::ifstream file;
+  if (path != "-") file.open(path, std::ios::binary);
+  if (!ReadAll(path == "-" ? std::cin : file, &text)) {
     throw Failure(ExitCode::kLocal,
                   fmt::format("cannot read {}: {}", path, std::generic_category().message(errno)));
   }
-  return {path, text};
+  return {path == "-" ? "<stdin>" : path, text};
 }
 
 ScenarioFile::ScenarioFile(std::string name, const std::string& text) : name_(std::move(name)) {
   try {
     ReadDocument(text);
   } catch (const YAML::Exception& error) {
-    AddAt(error.mark, "", error.msg, "");
+    AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
   }
 }
 
@@ -111,8 +117,9 @@ void ScenarioFile::Set(const std::string& assignment) {
 }
 
 void ScenarioFile::Check() {
+  const std::vector<Diagnostic> mistakes = diagnostics_;
   for (const Violation& violation : DecodeScenario(scenario_).violations) {
-    if (MistakesCannotCause(violation)) Add(violation);
+    if (!MayFollowFrom(mistakes, violation)) Add(violation);
   }
 }
 
@@ -132,16 +139,17 @@ void ScenarioFile::Add(const Violation& violation) {
 }
 
 // A number out of its range is so whatever else is wrong, unless in the same message.
-bool ScenarioFile::MistakesCannotCause(const Violation& violation) const {
-  if (diagnostics_.empty()) return true;
-  const auto beside = [&violation](const Diagnostic& other) {
-    const std::string_view message = ParentPath(other.field);
-    return other.field.empty() || Within(violation.field, other.field) ||
+bool ScenarioFile::MayFollowFrom(const std::vector<Diagnostic>& mistakes,
+                                 const Violation& violation) const {
+  if (mistakes.empty()) return false;
+  const auto beside = [&violation](const Diagnostic& mistake) {
+    const std::string_view message = ParentPath(mistake.field);
+    return mistake.field.empty() || Within(violation.field, mistake.field) ||
            (!message.empty() && Within(violation.field, message));
   };
-  if (std::ranges::any_of(diagnostics_, beside)) return false;
+  if (std::ranges::any_of(mistakes, beside)) return true;
   const Found found = Find(root_, ParsePath(violation.field));
-  return found.exact && found.node.IsScalar() && ParseNumber(found.node.Scalar());
+  return !found.exact || !found.node.IsScalar() || !ParseNumber(found.node.Scalar());
 }
 
 void ScenarioFile::AddAt(const YAML::Mark& mark, std::string field, std::string what,

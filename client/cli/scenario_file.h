@@ -53,7 +53,7 @@ class ScenarioFile {
  private:
   void ReadDocument(const std::string& text);
   void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint);
-  bool MistakesCannotCause(const Violation& violation) const;
+  bool MayFollowFrom(const std::vector<Diagnostic>& mistakes, const Violation& violation) const;
 
   std::string name_;
   YAML::Node root_;

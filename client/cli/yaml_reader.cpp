@@ -169,7 +169,7 @@ void YamlReader::ReadScalar(const YAML::Node& node, const std::string& path,
     }
     case FieldDescriptor::CPPTYPE_STRING:
       if (!node.IsScalar()) return Refuse(node, path, "a text");
-      if (!IsUtf8(text)) return Refuse(node, path, "a text in UTF-8");
+      if (!IsUtf8(text)) return report_(node.Mark(), path, "is not in UTF-8", "");
       return Store(field, message, text, &Reflection::SetString, &Reflection::AddString);
     case FieldDescriptor::CPPTYPE_ENUM:
       return ReadEnum(node, path, field, message);

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "contact/v1/job_service.grpc.pb.h"
+
+namespace contact::cli {
+
+/// A JobService on a loopback port whose answers a test decides.
+class FakeServer : public v1::JobService::Service {
+ public:
+  using Writer = grpc::ServerWriter<v1::WatchJobResponse>;
+  using WatchHandler = std::function<grpc::Status(const v1::WatchJobRequest&, Writer&)>;
+  using CreateHandler = std::function<grpc::Status(const v1::CreateJobRequest&, v1::Job*)>;
+
+  FakeServer() {
+    int port = 0;
+    grpc::ServerBuilder builder;
+    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
+    builder.RegisterService(this);
+    server_ = builder.BuildAndStart();
+    address_ = "127.0.0.1:" + std::to_string(port);
+  }
+  ~FakeServer() override { server_->Shutdown(std::chrono::system_clock::now()); }
+
+  const std::string& address() const { return address_; }
+
+  /// Set before the first call. Handlers run one at a time.
+  WatchHandler on_watch;
+  CreateHandler on_create;
+
+ private:
+  grpc::Status WatchJob(grpc::ServerContext*, const v1::WatchJobRequest* request,
+                        Writer* writer) override {
+    const std::scoped_lock lock(mutex_);
+    return on_watch(*request, *writer);
+  }
+  grpc::Status CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request,
+                         v1::Job* job) override {
+    const std::scoped_lock lock(mutex_);
+    return on_create(*request, job);
+  }
+
+  std::mutex mutex_;
+  std::string address_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace contact::cli

@@ -1,0 +1,112 @@
+#include "cli/render_job.h"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/text_format.h>
+
+#include <stdexcept>
+
+#include "cli/render_json.h"
+#include "cli/settings.h"
+
+namespace contact::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+v1::Job FromText(const std::string& text) {
+  v1::Job job;
+  if (!google::protobuf::TextFormat::ParseFromString(text, &job)) throw std::invalid_argument(text);
+  return job;
+}
+
+v1::Job Finished() {
+  return FromText(R"(
+      name: "jobs/k3v9" state: SUCCEEDED convergence: FULL scenario { title: "Two balls" }
+      cycles { contact: "A-B" number: 1 kind: COLLISION end: SEPARATION status: CONVERGED
+               iterations: 3 mu: 1.43275053327e8 mu_over_k_s_per_m: 1.43275053327
+               alpha: 1.43275053327 restitution_in: 0.5 restitution_out: 0.50000000005
+               start_time_s: 1e-3 end_time_s: 2.5e-3 }
+      cycles { contact: "B-wall" number: 2 kind: NIRV end: RUN_END status: NOT_CONVERGED
+               mu: 5e6 mu_over_k_s_per_m: 0.25 restitution_in: 0.9 restitution_out: nan
+               start_time_s: 2.5e-3 end_time_s: 4e-3 }
+      final_bodies { name: "A" position_m: 0.25 velocity_m_per_s: -0.5 }
+      summary { steps: 250 iterations: 3 wall_time_s: 63e-6 time_reached_s: 4e-3
+                momentum_residual: 1e-16 energy_residual: 2e-15 worst_identity_residual: 3e-14 }
+      warnings: "the law has no velocity")");
+}
+
+TEST(RenderJob, ShowsLedgerBodiesAndBalances) {
+  EXPECT_EQ(RenderJob(Finished(), {}),
+            "jobs/k3v9  SUCCEEDED  4 ms simulated, 2 cycles, 3 iterations, 63 µs wall\n"
+            "Two balls\n"
+            "\n"
+            "CONTACT  #  KIND       END         STATUS         n             μ  α, or μ/k  ε IN  "
+            "       ε OUT    ERROR  t START [s]  t END [s]\n"
+            "A-B      1  COLLISION  SEPARATION  CONVERGED      3  1.432751e+08   1.432751   0.5  "
+            "0.5000000001  1.0e-10        0.001     0.0025\n"
+            "B-wall   2  NIRV       RUN_END     NOT_CONVERGED  0       5000000   0.25 s/m   0.9  "
+            "           -        -       0.0025      0.004\n"
+            "\n"
+            "BODY  POSITION [m]  VELOCITY [m/s]\n"
+            "A             0.25            -0.5\n"
+            "\n"
+            "convergence FULL; residuals: momentum 1.0e-16, energy 2.0e-15, cycle identity "
+            "3.0e-14; 250 steps\n"
+            "warning: the law has no velocity\n");
+}
+
+TEST(RenderJob, LongLedgerSaysHowToGetAll) {
+  v1::Job job = Finished();
+  while (job.cycles_size() < 200) *job.add_cycles() = job.cycles(0);
+  const std::string text = RenderJob(job, {});
+  EXPECT_THAT(text, HasSubstr("\n… 160 more cycles; -o json prints all\n"));
+  EXPECT_LT(std::ranges::count(text, '\n'), 60);
+}
+
+TEST(RenderJob, FailedJobShowsItsError) {
+  const v1::Job job = FromText(R"(name: "jobs/x" state: FAILED state_reason: "NUMERIC"
+                                  error { code: 13 message: "the step vanished at t = 1 s" })");
+  EXPECT_EQ(RenderJob(job, {}), "jobs/x  FAILED (NUMERIC)\nerror: the step vanished at t = 1 s\n");
+}
+
+TEST(RenderJob, RunningJobShowsHowFarItIs) {
+  const v1::Job job = FromText(R"(name: "jobs/x" state: RUNNING
+                                  progress { time_s: 1 end_time_s: 3 cycles: 12 })");
+  EXPECT_EQ(RenderJob(job, {}), "jobs/x  RUNNING  1 s of 3 s simulated, 12 cycles\n");
+}
+
+TEST(RenderJob, ColorsOnlyWhereAsked) {
+  EXPECT_THAT(RenderJob(Finished(), {}), Not(HasSubstr("\x1b")));
+  EXPECT_THAT(RenderJob(Finished(), {.color = true}), HasSubstr("\x1b[32mSUCCEEDED\x1b[0m"));
+}
+
+TEST(ToJson, HasTheNamesOfTheProtoAndItsZeros) {
+  const std::string json = ToJson(Finished());
+  EXPECT_THAT(json, HasSubstr("\"start_time_s\": 0.001"));
+  EXPECT_THAT(json, HasSubstr("\"delta_end_m\": 0"));
+  EXPECT_THAT(json, HasSubstr("\"restitution_out\": \"NaN\""));
+  EXPECT_THAT(json, HasSubstr("\"kind\": \"COLLISION\""));
+}
+
+TEST(ToJson, PrintsTheErrorOfAJobWithItsDetails) {
+  v1::Job job = FromText(R"(name: "jobs/x" error { code: 13 message: "m" })");
+  job.mutable_error()->add_details()->PackFrom(job.progress());
+  EXPECT_THAT(ToJson(job), HasSubstr("contact.v1.Progress"));
+}
+
+TEST(ToJson, LineIsOneLine) {
+  const std::string line = ToJsonLine(Finished());
+  EXPECT_EQ(line.find('\n'), line.size() - 1);
+}
+
+TEST(Outcome, TellsHowAJobEnded) {
+  EXPECT_EQ(Outcome(FromText("state: SUCCEEDED convergence: FULL")), ExitCode::kOk);
+  EXPECT_EQ(Outcome(FromText("state: SUCCEEDED convergence: PARTIAL")), ExitCode::kNotConverged);
+  EXPECT_EQ(Outcome(FromText("state: FAILED convergence: PARTIAL")), ExitCode::kRunFailed);
+  EXPECT_EQ(Outcome(FromText("state: CANCELLED")), ExitCode::kRunFailed);
+  EXPECT_EQ(Outcome(FromText("state: RUNNING")), ExitCode::kOk);
+}
+
+}  // namespace
+}  // namespace contact::cli

@@ -1,0 +1,102 @@
+#include "cli/render_live.h"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/text_format.h>
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
+namespace contact::cli {
+namespace {
+
+v1::Event FromText(const std::string& text) {
+  v1::Event event;
+  if (!google::protobuf::TextFormat::ParseFromString(text, &event)) {
+    throw std::invalid_argument(text);
+  }
+  return event;
+}
+
+v1::Event Iteration(int number, bool accepted) {
+  v1::Event event = FromText(R"(iteration { episode: 1 unknowns {
+      contact: "B1-B2" mu: 2.25e8 restitution_out: 0.79 restitution_in: 0.8 update: NEWTON } })");
+  event.mutable_iteration()->set_number(number);
+  event.mutable_iteration()->set_accepted(accepted);
+  return event;
+}
+
+// What a view writes when its rows and messages go to one file.
+template <class Show>
+std::string Shown(LiveView::Options options, Show show) {
+  std::FILE* file = std::tmpfile();
+  {
+    LiveView view(file, {}, file, {}, std::move(options));
+    show(view);
+  }
+  std::string text(static_cast<std::size_t>(std::ftell(file)), '\0');
+  std::rewind(file);
+  text.resize(std::fread(text.data(), 1, text.size(), file));
+  std::fclose(file);
+  return text;
+}
+
+TEST(LiveView, IterationTableGrows) {
+  const std::string text = Shown({}, [](LiveView& view) {
+    view.OnEvent(Iteration(0, false));
+    view.OnTick();
+    view.OnEvent(Iteration(1, true));
+  });
+  EXPECT_EQ(text,
+            "EPISODE   n  CONTACT                      μ         ε OUT    |Δε|/ε  NEXT\n"
+            "      1   0  B1-B2                225000000          0.79   1.3e-02  NEWTON\n"
+            "      1   1  B1-B2                225000000          0.79   1.3e-02  accepted\n");
+}
+
+TEST(LiveView, ManyIterationsEndInAHint) {
+  const std::string text = Shown({.most_iterations = 2, .job = "k3v9"}, [](LiveView& view) {
+    for (int i = 0; i < 5; ++i) view.OnEvent(Iteration(i, false));
+  });
+  EXPECT_EQ(std::ranges::count(text, '\n'), 4);
+  EXPECT_THAT(text, testing::EndsWith("… more iterations; contactctl watch k3v9 shows all\n"));
+}
+
+TEST(LiveView, ShowsWhatHappenedToAJob) {
+  const std::string text = Shown({}, [](LiveView& view) {
+    view.OnEvent(FromText("state_changed { state: RUNNING }"));
+    view.OnEvent(FromText("attempt_started { attempt: 2 }"));
+    view.OnEvent(FromText("log_entry { severity: WARNING message: 'no velocity' }"));
+    view.OnEvent(FromText(R"(cycle { contact: "a-b" number: 1 kind: NIRV end: SEPARATION
+        status: CONVERGED start_time_s: 1 end_time_s: 2 restitution_out: 0.5 })"));
+    view.OnEvent(FromText("state_changed { state: FAILED state_reason: 'NUMERIC' message: 'm' }"));
+    view.OnEvent(FromText("bookmark {}"));
+    view.OnEvent(FromText("frame_chunk {}"));
+    view.OnEvent({});
+  });
+  EXPECT_EQ(text,
+            "RUNNING\n"
+            "attempt 2 starts anew\n"
+            "warning: no velocity\n"
+            "a-b cycle 1: NIRV to SEPARATION, CONVERGED from 1 s to 2 s, ε 0.5\n"
+            "FAILED (NUMERIC): m\n");
+}
+
+TEST(RenderProgress, FitsTheWidth) {
+  v1::Progress progress;
+  progress.set_time_s(1);
+  progress.set_end_time_s(4);
+  progress.set_cycles(12);
+  progress.set_iterations(30);
+  EXPECT_EQ(RenderProgress(progress, 2, 0),
+            "━━━━━━──────────────────  25 %  t = 1 of 4 s, 12 cycles, 30 iterations, 6 s left");
+  for (const int width : {10, 40, 80, 200}) {
+    EXPECT_LE(Width(RenderProgress(progress, 2, width)), width);
+  }
+}
+
+TEST(RenderProgress, NothingKnownIsNothingDone) {
+  EXPECT_THAT(RenderProgress({}, 0, 0), testing::HasSubstr("  0 %"));
+}
+
+}  // namespace
+}  // namespace contact::cli

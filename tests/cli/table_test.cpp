@@ -1,0 +1,57 @@
+#include "cli/table.h"
+
+#include <gmock/gmock.h>
+
+namespace contact::cli {
+namespace {
+
+Table Example() {
+  Table table({{"NAME"}, {"μ", true}, {"END", false, 2}, {"t [s]", true, 1}});
+  table.Add({std::string("B1-B2"), std::string("2.26e8"), std::string("SEPARATION"),
+             std::string("0.0021")});
+  table.Add({std::string("δ"), std::string("1"), std::string("-"), std::string("3")});
+  return table;
+}
+
+TEST(Table, ColumnsAreAsWideAsTheirWidestCellInCharacters) {
+  EXPECT_EQ(Example().Text({}),
+            "NAME        μ  END          t [s]\n"
+            "B1-B2  2.26e8  SEPARATION  0.0021\n"
+            "δ           1  -                3\n");
+}
+
+TEST(Table, NarrowTerminalLosesTheColumnsToSpareFirst) {
+  EXPECT_EQ(Example().Text({.width = 32}),
+            "NAME        μ   t [s]\n"
+            "B1-B2  2.26e8  0.0021\n"
+            "δ           1       3\n");
+  EXPECT_EQ(Example().Text({.width = 5}),
+            "NAME        μ\n"
+            "B1-B2  2.26e8\n"
+            "δ           1\n");
+}
+
+TEST(Table, LongTableShowsItsFirstAndLastRows) {
+  Table table({{"N", true}});
+  for (int i = 1; i <= 7; ++i) table.Add({std::to_string(i)});
+  EXPECT_EQ(table.Text({}, 7, "… {} more"), "N\n1\n2\n3\n4\n5\n6\n7\n");
+  EXPECT_EQ(table.Text({}, 4, "… {} more"), "N\n1\n2\n… 3 more\n6\n7\n");
+}
+
+TEST(Table, CellsHaveTheirToneInColorOnly) {
+  Table table({{"STATE"}});
+  table.Add({{"FAILED", Tone::kBad}});
+  EXPECT_EQ(table.Text({}), "STATE\nFAILED\n");
+  EXPECT_EQ(table.Text({.color = true}), "\x1b[2mSTATE \x1b[0m\n\x1b[31mFAILED\x1b[0m\n");
+}
+
+TEST(Style, TextIsCutAndPaddedByCharacters) {
+  EXPECT_EQ(Cut("δδδ", 2), "δδ");
+  EXPECT_EQ(Cut("ab", 5), "ab");
+  EXPECT_EQ(Pad("δ", 3), "δ  ");
+  EXPECT_EQ(Pad("δ", -3), "  δ");
+  EXPECT_EQ(Pad("abc", 2), "abc");
+}
+
+}  // namespace
+}  // namespace contact::cli

@@ -1,0 +1,43 @@
+#include "cli/templates.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "cli/scenario_file.h"
+
+namespace contact::cli {
+namespace {
+
+const std::filesystem::path kScenarios =
+    std::filesystem::path(CONTACT_SOURCE_DIR) / "client" / "scenarios";
+
+TEST(Templates, AreTheShippedScenarios) {
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(kScenarios)) {
+    files.insert(entry.path().stem());
+  }
+  std::set<std::string> names;
+  for (const Template& scenario : Templates()) {
+    names.emplace(scenario.name);
+    std::ifstream file(kScenarios / (std::string(scenario.name) + ".yaml"));
+    EXPECT_EQ(scenario.text, std::string(std::istreambuf_iterator<char>(file), {}));
+  }
+  EXPECT_EQ(names, files);
+}
+
+TEST(Templates, ObeyTheRulesAndSayWhatTheyShow) {
+  for (const Template& scenario : Templates()) {
+    EXPECT_TRUE(scenario.text.starts_with("# ")) << scenario.name;
+    ScenarioFile file(std::string(scenario.name), std::string(scenario.text));
+    file.Check();
+    EXPECT_NE(file.scenario().title(), "") << scenario.name;
+    for (const Diagnostic& diagnostic : file.diagnostics()) ADD_FAILURE() << Format(diagnostic);
+  }
+}
+
+}  // namespace
+}  // namespace contact::cli
