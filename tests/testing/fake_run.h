@@ -14,6 +14,13 @@
 
 namespace contact {
 
+inline Outcome Ending(Outcome::End end, std::string message = "") {
+  Outcome outcome;
+  outcome.end = end;
+  outcome.message = std::move(message);
+  return outcome;
+}
+
 /// Takes the place of the solver: every run waits until it is let go or stopped. Thread-safe.
 class FakeRun {
  public:
@@ -29,7 +36,7 @@ class FakeRun {
       ++started_;
       changed_.notify_all();
       changed_.wait(lock, stop, [&] { return allowed_ > 0; });
-      if (stop.stop_requested()) return Outcome{.end = Outcome::End::kStopped};
+      if (stop.stop_requested()) return Ending(Outcome::End::kStopped);
       --allowed_;
     }
     return script_(scenario, observer, stop);

@@ -1,0 +1,411 @@
+#include "jobs/job_manager.h"
+
+#include <set>
+
+#include "jobs/lifecycle.h"
+#include "jobs_fixture.h"
+
+namespace contact {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<v1::Job::State> States(const std::vector<v1::Event>& log) {
+  std::vector<v1::Job::State> states;
+  for (const v1::Event& event : log) {
+    if (event.has_state_changed()) states.push_back(event.state_changed().state());
+  }
+  return states;
+}
+
+TEST_F(JobsTest, CreateIsDurableBeforeItIsAnswered) {
+  OpenWithFakeRun();
+  Await<Result<v1::Job>> created;
+  std::filesystem::path image = directory_.path() / "image";
+  manager_->Create(RequestFor(BouncingBall()), [&, done = created.callback()](auto job) {
+    // What a crash at this moment would leave.
+    std::filesystem::create_directory(image);
+    for (const char* file : {"contactd.db", "contactd.db-wal", "initialised"}) {
+      std::filesystem::copy(directory_.path() / file, image / file);
+    }
+    done(std::move(job));
+  });
+  const v1::Job job = created.Get().value();
+  EXPECT_EQ(job.state(), v1::Job::QUEUED);
+  EXPECT_EQ(job.state_reason(), "WAITING_FOR_WORKER");
+  EXPECT_EQ(job.last_sequence(), 1U);
+  EXPECT_TRUE(job.has_scenario());
+  const auto store = *Store::Open(image);
+  Await<absl::StatusOr<StoredJob>> stored;
+  store->Read(job.name(), JobPart::kAll, stored.callback());
+  const auto survived = stored.Get();
+  ASSERT_TRUE(survived.ok()) << survived.status();
+  EXPECT_EQ(survived->job.SerializeAsString(), job.SerializeAsString());
+}
+
+TEST_F(JobsTest, JobRunsToItsResult) {
+  Open();
+  const v1::Job job = Ended(Create(BouncingBall(2)));
+  EXPECT_EQ(job.state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(job.convergence(), v1::Job::FULL);
+  EXPECT_EQ(job.attempt(), 1);
+  EXPECT_GT(job.cycles_size(), 3);
+  EXPECT_EQ(job.final_bodies_size(), 1);
+  EXPECT_GT(job.summary().steps(), 0);
+  EXPECT_GT(job.summary().wall_time_s(), 0);
+  EXPECT_FALSE(job.server_version().empty());
+  EXPECT_TRUE(job.has_scenario());
+  EXPECT_FALSE(job.progress().steps() == 0);
+
+  const auto log = Log(job.name());
+  EXPECT_EQ(log.size(), job.last_sequence());
+  EXPECT_THAT(States(log), ElementsAre(v1::Job::QUEUED, v1::Job::RUNNING, v1::Job::SUCCEEDED));
+  EXPECT_EQ(log[2].attempt_started().attempt(), 1);
+  EXPECT_EQ(log.back().state_changed().convergence(), v1::Job::FULL);
+  int cycles = 0;
+  for (const v1::Event& event : log) cycles += event.has_cycle();
+  EXPECT_EQ(cycles, job.cycles_size());
+}
+
+TEST_F(JobsTest, ScenarioIsCheckedWithAllElseAtOnce) {
+  OpenWithFakeRun();
+  v1::CreateJobRequest request = RequestFor(BouncingBall(-1), "\x01");
+  request.mutable_job()->mutable_scenario()->mutable_bodies(0)->set_mass_kg(-1);
+  const auto refused = Create(request);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(refused.error().reason, "SCENARIO_INVALID");
+  std::vector<std::string> fields;
+  for (const Violation& violation : refused.error().violations) fields.push_back(violation.field);
+  EXPECT_THAT(fields,
+              ElementsAre("request_id", "scenario.bodies[0].mass_kg", "scenario.end_time_s"));
+  EXPECT_EQ(List({}).value().jobs_size(), 0);
+}
+
+TEST_F(JobsTest, BadRequestWithGoodScenarioIsFieldInvalid) {
+  OpenWithFakeRun();
+  EXPECT_EQ(Create(RequestFor(BouncingBall(), "\x01")).error().reason, "FIELD_INVALID");
+  EXPECT_EQ(Create(v1::CreateJobRequest()).error().reason, "FIELD_INVALID");
+}
+
+TEST_F(JobsTest, SweepIsNotAvailable) {
+  OpenWithFakeRun();
+  v1::CreateJobRequest request;
+  request.mutable_job()->mutable_sweep();
+  EXPECT_EQ(Create(request).error().code, absl::StatusCode::kUnimplemented);
+  EXPECT_EQ(Create(request).error().reason, "SWEEP_NOT_AVAILABLE");
+}
+
+TEST_F(JobsTest, ValidateOnlyStoresNothing) {
+  OpenWithFakeRun();
+  v1::CreateJobRequest request = RequestFor(BouncingBall(), "id");
+  request.set_validate_only(true);
+  const v1::Job job = Create(request).value();
+  EXPECT_EQ(job.name(), "");
+  EXPECT_EQ(job.state(), v1::Job::STATE_UNSPECIFIED);
+  EXPECT_EQ(List({}).value().jobs_size(), 0);
+  request.mutable_job()->mutable_scenario()->set_end_time_s(-1);
+  EXPECT_EQ(Create(request).error().reason, "SCENARIO_INVALID");
+}
+
+TEST_F(JobsTest, OutputFieldsOfTheRequestAreIgnored) {
+  OpenWithFakeRun();
+  v1::CreateJobRequest request = RequestFor(BouncingBall());
+  request.mutable_job()->set_name("jobs/mine");
+  request.mutable_job()->set_state(v1::Job::SUCCEEDED);
+  request.mutable_job()->add_cycles();
+  const v1::Job job = Create(request).value();
+  EXPECT_EQ(job.name(), "jobs/a1");
+  EXPECT_EQ(job.cycles_size(), 0);
+}
+
+TEST_F(JobsTest, RequestIdMakesOneJobHoweverOftenItIsSent) {
+  OpenWithFakeRun();
+  constexpr int kTries = 200;
+  std::vector<Await<Result<v1::Job>>> answers(kTries);
+  for (auto& answer : answers) {
+    manager_->Create(RequestFor(BouncingBall(), "again"), answer.callback());
+  }
+  std::set<std::string> names;
+  for (auto& answer : answers) names.insert(answer.Get().value().name());
+  EXPECT_EQ(names.size(), 1U);
+  EXPECT_EQ(List({}).value().jobs_size(), 1);
+  const auto other = Create(RequestFor(BouncingBall(7), "again"));
+  ASSERT_FALSE(other.ok());
+  EXPECT_EQ(other.error().code, absl::StatusCode::kAlreadyExists);
+  EXPECT_EQ(other.error().reason, "REQUEST_ID_REUSED");
+  v1::CreateJobRequest labelled = RequestFor(BouncingBall(), "again");
+  (*labelled.mutable_job()->mutable_labels())["a"] = "b";
+  EXPECT_EQ(Create(labelled).error().reason, "REQUEST_ID_REUSED");
+}
+
+TEST_F(JobsTest, QueueTakesItsLimitAndNotOneMore) {
+  Open(WithFakeRun({.max_queued_jobs = 3}));
+  const std::string running = Create();
+  run_.AwaitStarted(1);
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(Create(RequestFor(BouncingBall())).ok());
+  ASSERT_TRUE(Create(RequestFor(BouncingBall(), "third")).ok());
+  const auto refused = Create(RequestFor(BouncingBall()));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(refused.error().reason, "QUEUE_FULL");
+  EXPECT_GT(refused.error().retry_after.count(), 0);
+  EXPECT_EQ(Create(RequestFor(BouncingBall(), "fourth")).error().reason, "QUEUE_FULL");
+  EXPECT_TRUE(Create(RequestFor(BouncingBall(), "third")).ok()) << "a repeated request is answered";
+  EXPECT_EQ(manager_->Info().queued_jobs(), 3);
+  run_.Allow();
+  run_.AwaitStarted(2);
+  EXPECT_TRUE(Create(RequestFor(BouncingBall())).ok());
+}
+
+TEST_F(JobsTest, RefusedJobsKeepNoPlaceInTheQueue) {
+  Open(WithFakeRun({.max_queued_jobs = 1}));
+  Create();
+  run_.AwaitStarted(1);
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(Create(RequestFor(BouncingBall(-1))).ok());
+  EXPECT_TRUE(Create(RequestFor(BouncingBall(), "id")).ok());
+  EXPECT_TRUE(Create(RequestFor(BouncingBall(), "id")).ok());
+  EXPECT_EQ(manager_->Info().queued_jobs(), 1);
+}
+
+TEST_F(JobsTest, JobsRunFirstComeFirstServed) {
+  std::vector<double> order;
+  FakeRun run([&](const Scenario& scenario, Observer&, std::stop_token) {
+    order.push_back(scenario.end_time);
+    return Outcome{};
+  });
+  JobManagerOptions options;
+  options.run = std::ref(run);
+  Open(options);
+  std::string last;
+  for (const double end_time : {1.0, 2.0, 3.0, 4.0}) last = Create(BouncingBall(end_time));
+  run.Allow(4);
+  Ended(last);
+  EXPECT_THAT(order, ElementsAre(1, 2, 3, 4));
+}
+
+TEST_F(JobsTest, CancelWhileQueuedNeverRuns) {
+  OpenWithFakeRun();
+  const std::string blocker = Create();
+  run_.AwaitStarted(1);
+  const std::string queued = Create();
+  const std::string after = Create();
+  const v1::Job job = Cancel(queued).value();
+  EXPECT_EQ(job.state(), v1::Job::CANCELLED);
+  EXPECT_EQ(job.state_reason(), "USER_REQUEST");
+  EXPECT_EQ(job.attempt(), 0);
+  run_.Allow(2);
+  Ended(after);
+  EXPECT_EQ(run_.started(), 2);
+  EXPECT_THAT(States(Log(queued)), ElementsAre(v1::Job::QUEUED, v1::Job::CANCELLED));
+}
+
+TEST_F(JobsTest, CancelStopsARealRunAndKeepsWhatItBrought) {
+  Open();
+  const std::string name = Create();
+  LogReader reader;
+  const auto watched = Watch(name, reader, 0, {"cycle"});
+  std::vector<v1::Event> log;
+  while (log.size() < 5) {
+    for (const v1::Event& event : reader.Next(*watched.value().cursor)) log.push_back(event);
+  }
+  EXPECT_GT(Get(name).value().cycles_size(), 0) << "the ledger so far";
+  ASSERT_TRUE(Cancel(name).ok());
+  const v1::Job job = Ended(name);
+  EXPECT_EQ(job.state(), v1::Job::CANCELLED);
+  EXPECT_EQ(job.state_reason(), "USER_REQUEST");
+  EXPECT_EQ(job.convergence(), v1::Job::CONVERGENCE_UNSPECIFIED);
+  EXPECT_GE(job.cycles_size(), 3);
+  EXPECT_GT(job.summary().time_reached_s(), 0);
+}
+
+TEST_F(JobsTest, CancelOfAnEndedJobChangesNothing) {
+  OpenWithFakeRun();
+  run_.Allow();
+  const v1::Job ended = Ended(Create());
+  EXPECT_EQ(Cancel(ended.name()).value().SerializeAsString(), ended.SerializeAsString());
+}
+
+TEST_F(JobsTest, CallsOnAMissingJobAreNotFound) {
+  OpenWithFakeRun();
+  LogReader reader;
+  for (const std::string name : {"jobs/none", "", "x'; DROP TABLE jobs; --"}) {
+    EXPECT_EQ(Get(name).error().reason, "JOB_NOT_FOUND");
+    EXPECT_EQ(Cancel(name).error().code, absl::StatusCode::kNotFound);
+    EXPECT_EQ(Delete(name).error().reason, "JOB_NOT_FOUND");
+    EXPECT_EQ(Watch(name, reader).error().reason, "JOB_NOT_FOUND");
+  }
+}
+
+TEST_F(JobsTest, OnlyEndedJobsAreDeleted) {
+  OpenWithFakeRun();
+  const std::string running = Create();
+  run_.AwaitStarted(1);
+  const std::string queued = Create();
+  for (const std::string& name : {running, queued}) {
+    EXPECT_EQ(Delete(name).error().code, absl::StatusCode::kFailedPrecondition);
+    EXPECT_EQ(Delete(name).error().reason, "INVALID_STATE");
+  }
+  Cancel(queued);
+  EXPECT_TRUE(Delete(queued).ok());
+  EXPECT_EQ(Get(queued).error().reason, "JOB_NOT_FOUND");
+}
+
+TEST_F(JobsTest, ThrowingRunFailsItsJobOnly) {
+  FakeRun run([](const Scenario& scenario, Observer&, std::stop_token) -> Outcome {
+    if (scenario.end_time == 13) throw std::runtime_error("it broke");
+    return {};
+  });
+  JobManagerOptions options;
+  options.run = std::ref(run);
+  Open(options);
+  run.Allow(3);
+  const std::string before = Create();
+  const std::string bad = Create(BouncingBall(13));
+  const std::string after = Create();
+  EXPECT_EQ(Ended(before).state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(Ended(after).state(), v1::Job::SUCCEEDED);
+  const v1::Job job = Ended(bad);
+  EXPECT_EQ(job.state(), v1::Job::FAILED);
+  EXPECT_EQ(job.state_reason(), "INTERNAL");
+  EXPECT_THAT(job.error().message(), HasSubstr("it broke"));
+  EXPECT_EQ(job.attempt(), 1) << "it is not tried again";
+}
+
+TEST_F(JobsTest, FailedRunKeepsItsReasonAndWarnings) {
+  FakeRun run([](const Scenario&, Observer& observer, std::stop_token) {
+    observer.OnWarning("careful");
+    return Ending(Outcome::End::kNumeric, "at t = 1 s");
+  });
+  JobManagerOptions options;
+  options.run = std::ref(run);
+  Open(options);
+  run.Allow();
+  const v1::Job job = Ended(Create());
+  EXPECT_EQ(job.state_reason(), "NUMERIC");
+  EXPECT_EQ(job.error().message(), "at t = 1 s");
+  EXPECT_THAT(job.warnings(), ElementsAre("careful"));
+  const auto log = Log(job.name(), 0, {"log_entry"});
+  EXPECT_EQ(log[2].log_entry().message(), "careful");
+  EXPECT_EQ(log[2].log_entry().severity(), v1::LogEntry::WARNING);
+}
+
+TEST_F(JobsTest, LargeSamplesAreCutIntoChunksThatFitMessages) {
+  FakeRun run([](const Scenario&, Observer& observer, std::stop_token) {
+    observer.OnSamples({.first = 5, .columns = 7, .values = std::vector<double>(7 * 40'000, 1)});
+    return Outcome{};
+  });
+  JobManagerOptions options;
+  options.run = std::ref(run);
+  Open(options);
+  run.Allow();
+  std::int64_t next = 5;
+  int chunks = 0;
+  for (const v1::Event& event : Log(Create(), 0, {"frame_chunk"})) {
+    if (!event.has_frame_chunk()) continue;
+    EXPECT_EQ(event.frame_chunk().first_sample(), next);
+    EXPECT_LT(event.ByteSizeLong(), 2U << 20);
+    next += event.frame_chunk().samples();
+    ++chunks;
+  }
+  EXPECT_EQ(next, 40'005);
+  EXPECT_EQ(chunks, 3);
+}
+
+TEST_F(JobsTest, ListLeavesOutWhatIsLarge) {
+  Open();
+  Ended(Create(BouncingBall(1)));
+  v1::CreateJobRequest labelled = RequestFor(BouncingBall());
+  (*labelled.mutable_job()->mutable_labels())["study"] = "a";
+  const std::string second = Create(labelled).value().name();
+  const v1::ListJobsResponse all = List({}).value();
+  ASSERT_EQ(all.jobs_size(), 2);
+  EXPECT_EQ(all.jobs(0).name(), second) << "newest first";
+  EXPECT_EQ(all.jobs(0).labels().at("study"), "a");
+  EXPECT_EQ(all.jobs(1).state(), v1::Job::SUCCEEDED);
+  EXPECT_TRUE(all.jobs(1).has_summary());
+  for (const v1::Job& job : all.jobs()) {
+    EXPECT_FALSE(job.has_scenario());
+    EXPECT_EQ(job.cycles_size() + job.final_bodies_size(), 0);
+  }
+  v1::ListJobsRequest page;
+  page.set_page_size(1);
+  const v1::ListJobsResponse first_page = List(page).value();
+  page.set_page_token(first_page.next_page_token());
+  EXPECT_EQ(List(page).value().jobs(0).name(), all.jobs(1).name());
+  EXPECT_EQ(List(page).value().next_page_token(), "");
+}
+
+TEST_F(JobsTest, SnapshotHasTheJobWithoutItsLedger) {
+  Open();
+  const v1::Job job = Ended(Create(BouncingBall(1)));
+  LogReader reader;
+  const auto watched = Watch(job.name(), reader);
+  const v1::Job& snapshot = watched.value().snapshot;
+  EXPECT_EQ(snapshot.state(), v1::Job::SUCCEEDED);
+  EXPECT_TRUE(snapshot.has_scenario());
+  EXPECT_EQ(snapshot.cycles_size(), 0);
+}
+
+TEST_F(JobsTest, WatcherLimitCountsTheLiving) {
+  Open(WithFakeRun({.max_watchers = 2}));
+  const std::string name = Create();
+  LogReader reader;
+  auto first = Watch(name, reader);
+  const auto second = Watch(name, reader);
+  const auto third = Watch(name, reader);
+  ASSERT_FALSE(third.ok());
+  EXPECT_EQ(third.error().reason, "WATCHER_LIMIT");
+  EXPECT_GT(third.error().retry_after.count(), 0);
+  first.value().cursor.reset();
+  EXPECT_TRUE(Watch(name, reader).ok());
+}
+
+TEST_F(JobsTest, WatchOfNoKindIsRefused) {
+  OpenWithFakeRun();
+  LogReader reader;
+  EXPECT_EQ(Watch(Create(), reader, 0, {"cycles"}).error().reason, "FIELD_INVALID");
+}
+
+TEST_F(JobsTest, DrainingManagerTakesNoJobs) {
+  OpenWithFakeRun();
+  const std::string name = Create();
+  manager_->Drain();
+  EXPECT_EQ(Create(RequestFor(BouncingBall())).error().reason, "SERVER_DRAINING");
+  EXPECT_TRUE(Get(name).ok());
+  manager_->Stop();
+  manager_->Stop();
+  EXPECT_EQ(Create(RequestFor(BouncingBall())).error().reason, "SERVER_DRAINING");
+}
+
+TEST_F(JobsTest, EveryCallbackHasRunWhenStopReturns) {
+  Open(WithFakeRun({.workers = 2}));
+  std::atomic<int> answered = 0;
+  std::string name = Create();
+  for (int i = 0; i < 100; ++i) {
+    manager_->Create(RequestFor(BouncingBall()), [&](const auto&) { ++answered; });
+    manager_->Get(name, [&](const auto&) { ++answered; });
+    manager_->Cancel(name, [&](const auto&) { ++answered; });
+  }
+  manager_->Stop();
+  EXPECT_EQ(answered, 300);
+}
+
+TEST_F(JobsTest, InfoTellsTheLimits) {
+  Open(WithFakeRun({.workers = 2, .max_queued_jobs = 5, .max_watchers = 6}));
+  Create();
+  Create();
+  Create();
+  run_.AwaitStarted(2);
+  const v1::ServerInfo info = manager_->Info();
+  EXPECT_EQ(info.workers(), 2);
+  EXPECT_EQ(info.running_jobs(), 2);
+  EXPECT_EQ(info.queued_jobs(), 1);
+  EXPECT_EQ(info.limits().max_queued_jobs(), 5);
+  EXPECT_EQ(info.limits().max_watchers(), 6);
+  EXPECT_EQ(info.limits().max_bodies(), ScenarioLimits().max_bodies);
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,183 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "jobs/job_manager.h"
+#include "jobs/sources.h"
+#include "storage/store.h"
+#include "testing/await.h"
+#include "testing/fake_run.h"
+#include "testing/fake_sources.h"
+#include "testing/temp_directory.h"
+
+namespace contact {
+
+/// A ball that falls to a floor and bounces, for so long or practically for ever.
+inline v1::Scenario BouncingBall(double end_time_s = 1e6) {
+  v1::Scenario scenario;
+  v1::Body& ball = *scenario.add_bodies();
+  ball.set_name("ball");
+  ball.set_mass_kg(1);
+  ball.set_position_m(0.1);
+  v1::Contact& floor = *scenario.add_contacts();
+  floor.add_between("ball");
+  floor.mutable_wall()->set_side(v1::Wall::LEFT);
+  floor.set_stiffness(1e6);
+  floor.set_restitution(1);  // Never comes to rest.
+  scenario.add_loads()->mutable_gravity();
+  scenario.mutable_solver()->set_max_steps(1'000'000'000'000);
+  scenario.mutable_output()->set_sample_interval_s(0.25);
+  scenario.set_end_time_s(end_time_s);
+  return scenario;
+}
+
+inline v1::CreateJobRequest RequestFor(v1::Scenario scenario, std::string request_id = "") {
+  v1::CreateJobRequest request;
+  *request.mutable_job()->mutable_scenario() = std::move(scenario);
+  request.set_request_id(std::move(request_id));
+  return request;
+}
+
+/// Reads a cursor to its end, waiting where it waits.
+class LogReader {
+ public:
+  std::function<void()> wake() {
+    return [signal = signal_] {
+      const std::lock_guard lock(signal->mutex);
+      signal->woken = true;
+      signal->changed.notify_all();
+    };
+  }
+
+  /// The next events; none at the end, which `end` then tells.
+  std::vector<v1::Event> Next(LogCursor& cursor, std::size_t max_bytes = 1 << 16) {
+    for (;;) {
+      google::protobuf::RepeatedPtrField<v1::Event> events;
+      switch (end_ = cursor.Read(max_bytes, &events)) {
+        case LogCursor::Next::kEvents:
+          return {events.begin(), events.end()};
+        case LogCursor::Next::kWait:
+          Wait();
+          break;
+        default:
+          return {};
+      }
+    }
+  }
+
+  std::vector<v1::Event> ToEnd(LogCursor& cursor, std::size_t max_bytes = 1 << 16) {
+    std::vector<v1::Event> all;
+    for (auto events = Next(cursor, max_bytes); !events.empty(); events = Next(cursor, max_bytes)) {
+      all.insert(all.end(), events.begin(), events.end());
+    }
+    return all;
+  }
+
+  LogCursor::Next end() const { return end_; }
+
+ private:
+  struct Signal {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool woken = false;
+  };
+
+  void Wait() {
+    std::unique_lock lock(signal_->mutex);
+    if (!signal_->changed.wait_for(lock, kPatience, [&] { return signal_->woken; })) {
+      throw std::runtime_error("nobody wakes the reader");
+    }
+    signal_->woken = false;
+  }
+
+  std::shared_ptr<Signal> signal_ = std::make_shared<Signal>();
+  LogCursor::Next end_ = LogCursor::Next::kWait;
+};
+
+/// A manager with its store in a folder of its own, a fake solver, and calls that wait.
+class JobsTest : public testing::Test {
+ protected:
+  void Open(JobManagerOptions options = {}, StoreOptions store_options = {}) {
+    manager_.reset();
+    store_.reset();
+    auto opened = Store::Open(directory_.path(), std::move(store_options));
+    ASSERT_TRUE(opened.ok()) << opened.status();
+    store_ = *std::move(opened);
+    manager_ = std::make_unique<JobManager>(*store_, clock_, ids_, std::move(options));
+  }
+  JobManagerOptions WithFakeRun(JobManagerOptions options = {}) {
+    options.run = [this](const Scenario& scenario, Observer& observer, std::stop_token stop) {
+      return run_(scenario, observer, std::move(stop));
+    };
+    return options;
+  }
+  void OpenWithFakeRun() { Open(WithFakeRun()); }
+  ~JobsTest() override { manager_.reset(); }
+
+  Result<v1::Job> Create(const v1::CreateJobRequest& request) {
+    Await<Result<v1::Job>> result;
+    manager_->Create(request, result.callback());
+    return result.Get();
+  }
+  /// Name of a new job.
+  std::string Create(v1::Scenario scenario = BouncingBall()) {
+    return Create(RequestFor(std::move(scenario))).value().name();
+  }
+  Result<v1::Job> Get(const std::string& name) {
+    Await<Result<v1::Job>> result;
+    manager_->Get(name, result.callback());
+    return result.Get();
+  }
+  Result<v1::Job> Cancel(const std::string& name) {
+    Await<Result<v1::Job>> result;
+    manager_->Cancel(name, result.callback());
+    return result.Get();
+  }
+  Result<bool> Delete(const std::string& name) {
+    Await<Result<bool>> result;
+    manager_->Delete(name, result.callback());
+    return result.Get();
+  }
+  Result<v1::ListJobsResponse> List(const v1::ListJobsRequest& request) {
+    Await<Result<v1::ListJobsResponse>> result;
+    manager_->List(request, result.callback());
+    return result.Get();
+  }
+  Result<JobManager::Watched> Watch(const std::string& name, LogReader& reader,
+                                    std::uint64_t after = 0, std::vector<std::string> kinds = {}) {
+    // A promise of what can only be moved.
+    auto box = std::make_shared<std::promise<Result<JobManager::Watched>>>();
+    manager_->Watch(
+        name, after, std::move(kinds), reader.wake(),
+        [box](Result<JobManager::Watched> result) { box->set_value(std::move(result)); });
+    return box->get_future().get();
+  }
+  /// The log of a job, waiting for its end.
+  std::vector<v1::Event> Log(const std::string& name, std::uint64_t after = 0,
+                             std::vector<std::string> kinds = {}) {
+    LogReader reader;
+    const auto watched = Watch(name, reader, after, std::move(kinds));
+    return reader.ToEnd(*watched.value().cursor);
+  }
+  /// Waits for the end of a job and returns it.
+  v1::Job Ended(const std::string& name) {
+    Log(name, 0, {"state_changed"});
+    return Get(name).value();
+  }
+
+  TempDirectory directory_;
+  FakeClock clock_;
+  CountingIds ids_;
+  FakeRun run_;
+  std::unique_ptr<Store> store_;
+  std::unique_ptr<JobManager> manager_;
+};
+
+}  // namespace contact

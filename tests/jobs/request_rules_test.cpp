@@ -1,0 +1,109 @@
+#include "jobs/request_rules.h"
+
+#include <gmock/gmock.h>
+
+namespace contact {
+namespace {
+
+using testing::ElementsAre;
+
+v1::CreateJobRequest Good() {
+  v1::CreateJobRequest request;
+  request.mutable_job()->mutable_scenario();
+  return request;
+}
+
+std::vector<std::string> Fields(const std::vector<Violation>& violations) {
+  std::vector<std::string> fields;
+  for (const Violation& violation : violations) fields.push_back(violation.field);
+  return fields;
+}
+
+TEST(CheckCreate, TakesLabelsUpToTheirLimits) {
+  v1::CreateJobRequest request = Good();
+  auto& labels = *request.mutable_job()->mutable_labels();
+  for (char c = 'a'; c < 'a' + 15; ++c) labels[std::string(63, c)] = std::string(63, 'x');
+  labels["A.b_c-9"] = "";
+  EXPECT_THAT(CheckCreate(request), testing::IsEmpty());
+  labels["one more"] = "x";
+  EXPECT_THAT(Fields(CheckCreate(request)), testing::Contains("labels"));
+}
+
+TEST(CheckCreate, RefusesLabelsThatAreNoNames) {
+  for (const auto& [key, value] : {std::pair<std::string, std::string>("", "x"),
+                                   {std::string(64, 'a'), "x"},
+                                   {"a", std::string(64, 'x')},
+                                   {"a b", "x"},
+                                   {"a", "ü"}}) {
+    v1::CreateJobRequest request = Good();
+    (*request.mutable_job()->mutable_labels())[key] = value;
+    EXPECT_EQ(CheckCreate(request).size(), 1U) << key << "=" << value;
+  }
+}
+
+TEST(CheckCreate, TakesRequestIdsUpToTheirLimit) {
+  v1::CreateJobRequest request = Good();
+  request.set_request_id(std::string(64, '~'));
+  EXPECT_THAT(CheckCreate(request), testing::IsEmpty());
+  request.set_request_id(std::string(65, '~'));
+  EXPECT_THAT(Fields(CheckCreate(request)), ElementsAre("request_id"));
+  request.set_request_id("a\nb");
+  EXPECT_THAT(Fields(CheckCreate(request)), ElementsAre("request_id"));
+}
+
+TEST(CheckCreate, NamesAllViolationsAtOnce) {
+  v1::CreateJobRequest request;
+  request.set_request_id("\x01");
+  (*request.mutable_job()->mutable_labels())["ö"] = "";
+  EXPECT_THAT(Fields(CheckCreate(request)), ElementsAre("request_id", "labels[ö]", "scenario"));
+}
+
+TEST(ToQuery, HasDefaultsAndLimits) {
+  v1::ListJobsRequest request;
+  EXPECT_EQ(ToQuery(request).value().limit, 50);
+  EXPECT_EQ(ToQuery(request).value().before, 0);
+  request.set_page_size(1000);
+  EXPECT_EQ(ToQuery(request).value().limit, 1000);
+  for (const int size : {-1, 1001}) {
+    request.set_page_size(size);
+    const auto query = ToQuery(request);
+    ASSERT_FALSE(query.ok());
+    EXPECT_EQ(query.error().reason, "FIELD_INVALID");
+    EXPECT_THAT(Fields(query.error().violations), ElementsAre("page_size"));
+  }
+}
+
+TEST(ToQuery, TakesItsOwnTokensOnly) {
+  v1::ListJobsRequest request;
+  request.set_page_token(PageToken(42));
+  EXPECT_EQ(ToQuery(request).value().before, 42);
+  for (const char* token : {"0", "-1", "042", "42x", "x", "99999999999999999999", " 42"}) {
+    request.set_page_token(token);
+    EXPECT_FALSE(ToQuery(request).ok()) << token;
+  }
+}
+
+TEST(ToQuery, NamesAllViolationsAtOnce) {
+  v1::ListJobsRequest request;
+  request.set_page_size(-1);
+  request.set_page_token("x");
+  request.add_states(static_cast<v1::Job::State>(77));
+  (*request.mutable_labels())[""] = "";
+  EXPECT_THAT(Fields(ToQuery(request).error().violations),
+              ElementsAre("page_size", "page_token", "states", "labels[]"));
+}
+
+TEST(KindSet, AlwaysHoldsTheState) {
+  EXPECT_EQ(KindSet({}).value(), ~0U);
+  EXPECT_EQ(KindSet({"cycle"}).value(),
+            KindBit(v1::Event::kCycle) | KindBit(v1::Event::kStateChanged));
+}
+
+TEST(KindSet, RefusesWhatIsNoKind) {
+  for (const char* kind : {"cycles", "", "sequence", "event_time", "payload"}) {
+    EXPECT_FALSE(KindSet({kind}).ok()) << kind;
+  }
+}
+
+}  // namespace
+}  // namespace contact
