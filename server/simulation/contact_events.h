@@ -43,9 +43,12 @@ class DeformationPath {
   double end_value() const { return end_value_; }
   double end_slope() const { return end_slope_; }
 
+  /// True if δ̇ plainly keeps the phase's sign all along, by what both ends show.
+  bool StaysInPhase(Phase phase) const;
+
  private:
   double c_[6];
-  double end_value_, end_slope_;
+  double end_value_, end_slope_, end_curvature_;
 };
 
 /// The first event of a contact in a step, if any. It finds crossings between eighths of the step

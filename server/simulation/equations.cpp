@@ -54,80 +54,80 @@ double Equations::SupportForce(const Support& s, const double* u, const double* 
   return -s.stiffness * (x - s.rest_position) - s.damping * rate;  // (M4)
 }
 
+ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  ActiveContact made{.contact = contact, .column = column, .gap = gap, .mu = mu};
+  if (c.left == kNone) {
+    made.left_counts = 0;
+  } else {
+    made.left = c.left;
+    made.left_inverse = inverse_mass_[At(c.left)];
+  }
+  if (c.right == kNone) {
+    made.right_counts = 0;
+  } else {
+    made.right = c.right;
+    made.right_inverse = inverse_mass_[At(c.right)];
+  }
+  made.stiffness = c.stiffness;
+  made.exponent = c.exponent;
+  made.damping_exponent = c.exponent;
+  return made;
+}
+
 void Equations::operator()(double t, const double* y, double* dy) const {
   const int n = bodies();
-  const double* u = y;
-  const double* v = y + n;
-  double* a = dy + n;
-  std::copy(v, v + n, dy);
-  std::fill(a, dy + size(), 0.0);
+  const int blocks = recording ? 1 : columns + 1;
+  std::fill(dy, dy + size(), 0.0);
+  for (int i = 0; i < blocks; ++i) {  // u̇ = v, in each block
+    std::copy(y + i * block() + n, y + i * block() + 2 * n, dy + i * block());
+  }
   for (const Load& load : scenario_.loads) {
-    a[load.body] += LoadForce(load, t) * inverse_mass_[At(load.body)];
+    dy[n + load.body] += LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
+  if (!scenario_.supports.empty()) AddSupports(y, dy);
+  AddContacts(y, dy);
+  if (recording) AddRecord(t, y, dy);
+}
+
+void Equations::AddSupports(const double* y, double* dy) const {
+  const int n = bodies();
   for (const Support& s : scenario_.supports) {
-    const double force = SupportForce(s, u, v);
-    a[s.body] += force * inverse_mass_[At(s.body)];
-    if (s.other != kNone) a[s.other] -= force * inverse_mass_[At(s.other)];
-  }
-  AddContactForces(y, dy);
-  if (recording) {
-    AddRecord(t, y, dy);
-  } else {
-    for (int column = 0; column < columns; ++column) AddColumn(column, y, dy);
-  }
-}
-
-void Equations::AddContactForces(const double* y, double* dy) const {
-  const int n = bodies();
-  double* a = dy + n;
-  double* power = dy + 2 * n;
-  for (const ActiveContact& active_contact : active) {
-    const Contact& c = scenario_.contacts[At(active_contact.contact)];
-    const double deformation = Relative(active_contact.contact, y) - active_contact.gap;
-    const double rate = Relative(active_contact.contact, y + n);
-    const Power p(deformation, c.exponent);
-    const double force = p.value * (c.stiffness + active_contact.mu * rate);  // (M2)
-    if (c.left != kNone) a[c.left] -= force * inverse_mass_[At(c.left)];
-    if (c.right != kNone) a[c.right] += force * inverse_mass_[At(c.right)];
-    power[active_contact.contact] = force * rate;  // (W1)
-  }
-}
-
-// The variational equations (S1): y' = f(y, μ) differentiated by the μ of one cycle.
-void Equations::AddColumn(int column, const double* y, double* dy) const {
-  const int n = bodies();
-  const int offset = (column + 1) * block();
-  const double* s = y + offset;
-  double* ds = dy + offset;
-  double* a = ds + n;
-  double* power = ds + 2 * n;
-  std::copy(s + n, s + 2 * n, ds);
-  for (const Support& support : scenario_.supports) {
-    double x = s[support.body];
-    double rate = s[n + support.body];
-    if (support.other != kNone) {
-      x -= s[support.other];
-      rate -= s[n + support.other];
+    const auto add = [&](double force, double* a) {
+      a[s.body] += force * inverse_mass_[At(s.body)];
+      if (s.other != kNone) a[s.other] -= force * inverse_mass_[At(s.other)];
+    };
+    add(SupportForce(s, y, y + n), dy + n);
+    for (int column = 1; !recording && column <= columns; ++column) {  // (S1)
+      const double* u = y + column * block();
+      const double* v = u + n;
+      const double length = u[s.body] - (s.other == kNone ? 0 : u[s.other]);
+      const double rate = v[s.body] - (s.other == kNone ? 0 : v[s.other]);
+      add(-s.stiffness * length - s.damping * rate, dy + column * block() + n);
     }
-    const double force = -support.stiffness * x - support.damping * rate;
-    a[support.body] += force * inverse_mass_[At(support.body)];
-    if (support.other != kNone) a[support.other] -= force * inverse_mass_[At(support.other)];
   }
-  for (const ActiveContact& active_contact : active) {
-    const Contact& c = scenario_.contacts[At(active_contact.contact)];
-    const double mu = active_contact.mu;
-    const double deformation = Relative(active_contact.contact, y) - active_contact.gap;
-    const double rate = Relative(active_contact.contact, y + n);
-    const Power p(deformation, c.exponent);
-    const double own = active_contact.column == column ? p.value * rate : 0;
-    const double deformation_s = Relative(active_contact.contact, s);
-    const double rate_s = Relative(active_contact.contact, s + n);
-    const double force_s =  // dF/dμ
-        p.slope * (c.stiffness + mu * rate) * deformation_s + mu * p.value * rate_s + own;
-    if (c.left != kNone) a[c.left] -= force_s * inverse_mass_[At(c.left)];
-    if (c.right != kNone) a[c.right] += force_s * inverse_mass_[At(c.right)];
-    const double force = p.value * (c.stiffness + mu * rate);
-    power[active_contact.contact] = force_s * rate + force * rate_s;
+}
+
+void Equations::AddContacts(const double* y, double* dy) const {
+  const int n = bodies();
+  for (const ActiveContact& c : active) {
+    const double rate = c.Relative(y + n);
+    const ActiveContact::Force f = c.At(c.Relative(y) - c.gap, rate);
+    dy[n + c.left] -= f.force * c.left_inverse;
+    dy[n + c.right] += f.force * c.right_inverse;
+    dy[2 * n + c.contact] = f.force * rate;  // (W1)
+    if (recording) continue;
+    // The variational equations (S1): y' = f(y, μ) differentiated by the μ of each column.
+    for (int column = 0; column < columns; ++column) {
+      const double* s = y + (column + 1) * block();
+      double* ds = dy + (column + 1) * block();
+      const double rate_s = c.Relative(s + n);
+      double force_s = f.by_deformation * c.Relative(s) + f.by_rate * rate_s;
+      if (column == c.column) force_s += f.damping;
+      ds[n + c.left] -= force_s * c.left_inverse;
+      ds[n + c.right] += force_s * c.right_inverse;
+      ds[2 * n + c.contact] = force_s * rate + f.force * rate_s;
+    }
   }
 }
 
@@ -137,16 +137,12 @@ void Equations::AddRecord(double t, const double* y, double* dy) const {
   const double* v = y + n;
   const auto free = [&](int body) { return body != kNone && inverse_mass_[At(body)] != 0; };
   double impulse_rate = 0;  // Internal forces cancel in it, those on fixed bodies do not.
-  for (const ActiveContact& active_contact : active) {
-    const Contact& c = scenario_.contacts[At(active_contact.contact)];
-    const double deformation = Relative(active_contact.contact, y) - active_contact.gap;
-    const double rate = Relative(active_contact.contact, v);
-    const double force =
-        Power(deformation, c.exponent).value * (c.stiffness + active_contact.mu * rate);
-    const double external =
-        effective_mass(active_contact.contact) * Relative(active_contact.contact, dy + n) + force;
-    dy[external_work(active_contact.contact)] = external * rate;  // F_e δ̇
-    impulse_rate += force * (free(c.right) - free(c.left));
+  for (const ActiveContact& c : active) {
+    const double rate = c.Relative(v);
+    const double force = c.At(c.Relative(y) - c.gap, rate).force;
+    const double external = c.Relative(dy + n) / (c.left_inverse + c.right_inverse) + force;
+    dy[external_work(c.contact)] = external * rate;  // F_e δ̇
+    impulse_rate += force * ((c.right_inverse != 0) - (c.left_inverse != 0));
   }
   for (const Load& load : scenario_.loads) {
     const double force = LoadForce(load, t);
@@ -172,9 +168,8 @@ double Equations::Energy(const double* y) const {
                      (s.other == kNone ? 0 : base[At(s.other)] + y[s.other]) - s.rest_position;
     energy += 0.5 * s.stiffness * x * x;
   }
-  for (const ActiveContact& active_contact : active) {
-    const double deformation = Relative(active_contact.contact, y) - active_contact.gap;
-    energy += ElasticEnergy(scenario_.contacts[At(active_contact.contact)], deformation);
+  for (const ActiveContact& c : active) {
+    energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap);
   }
   return energy;
 }

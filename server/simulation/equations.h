@@ -22,12 +22,31 @@ struct Power {
   }
 };
 
-/// A contact with a running cycle, as the equations of motion see it.
+/// A contact with a running cycle, as the equations of motion see it. A wall is body 0 that
+/// counts nothing.
 struct ActiveContact {
   int contact = 0;     ///< Index in Scenario::contacts.
-  double gap = 0;      ///< δ = u_left − u_right − gap [m].
-  double mu = 0;       ///< μ of the cycle.
-  int column = kNone;  ///< Sensitivity column of that μ, or kNone.
+  int column = kNone;  ///< Sensitivity column of its μ, or kNone.
+  int left = 0, right = 0;
+  double left_counts = 1, right_counts = 1;    ///< 0 for a wall.
+  double left_inverse = 0, right_inverse = 0;  ///< 1/m [1/kg]; 0 for a wall or a fixed body.
+  double gap = 0;                              ///< δ = u_left − u_right − gap [m].
+  double stiffness = 0, exponent = 1.5, damping_exponent = 1.5, mu = 0;
+
+  double Relative(const double* of_bodies) const {
+    return left_counts * of_bodies[left] - right_counts * of_bodies[right];
+  }
+
+  /// F = k δⁿ + μ δᵖ δ̇ and its derivatives, (M2).
+  struct Force {
+    double force, by_deformation, by_rate, damping;  ///< damping = ∂F/∂μ = δᵖ δ̇.
+  };
+  Force At(double deformation, double rate) const {
+    const Power n(deformation, exponent);
+    const Power p = damping_exponent == exponent ? n : Power(deformation, damping_exponent);
+    return {stiffness * n.value + mu * p.value * rate, stiffness * n.slope + mu * p.slope * rate,
+            mu * p.value, p.value * rate};
+  }
 };
 
 /// The equations of motion as a first-order system, (M1) to (M5) of README.md, with the
@@ -61,6 +80,7 @@ class Equations {
   }
 
   double effective_mass(int contact) const;  ///< m_e [kg].
+  ActiveContact Activate(int contact, double gap, double mu, int column) const;
   double inverse_mass(int body) const { return inverse_mass_[static_cast<std::size_t>(body)]; }
   const Scenario& scenario() const { return scenario_; }
 
@@ -76,8 +96,8 @@ class Equations {
   bool recording = false;
 
  private:
-  void AddContactForces(const double* y, double* dy) const;
-  void AddColumn(int column, const double* y, double* dy) const;
+  void AddSupports(const double* y, double* dy) const;
+  void AddContacts(const double* y, double* dy) const;
   void AddRecord(double t, const double* y, double* dy) const;
   double LoadForce(const Load& load, double t) const;
   double SupportForce(const Support& s, const double* u, const double* v) const;

@@ -172,7 +172,7 @@ void Motion::RefreshActive() {
     const ContactState& contact = contacts_[At(c)];
     if (!IsRunning(contact) && contact.phase != Phase::kResting) continue;
     equations_.active.push_back(
-        {.contact = c, .gap = contact.gap, .mu = contact.cycle.mu, .column = contact.column});
+        equations_.Activate(c, contact.gap, contact.cycle.mu, contact.column));
   }
   equations_(time_, rk_.y0.data(), rk_.slope0().data());
   ++evaluations_;
@@ -213,10 +213,10 @@ double Motion::ErrorNorm(double h) const {
   double length = 0, speed = 0;
   for (const ActiveContact& active : equations_.active) {
     const int c = active.contact;
-    const double start = contacts_[At(c)].cycle.start_deformation;
-    const double rate = std::abs(equations_.Relative(c, rk_.y1.data() + n));
-    length = std::max({length, deformation_scale_[At(c)],
-                       std::abs(Deformation(c, rk_.y1.data()) - start), rate * h});
+    const double moved =
+        active.Relative(rk_.y1.data()) - active.gap - contacts_[At(c)].cycle.start_deformation;
+    const double rate = std::abs(active.Relative(rk_.y1.data() + n));
+    length = std::max({length, deformation_scale_[At(c)], std::abs(moved), rate * h});
     speed = std::max({speed, velocity_scale_[At(c)], rate});
   }
   if (equations_.active.empty()) {
@@ -241,9 +241,8 @@ double Motion::ErrorNorm(double h) const {
     const double own_length = std::max(deformation_scale_[At(c)], 1e-3 * length);
     const double own_speed = std::max(velocity_scale_[At(c)], 1e-3 * speed);
     const double e = std::max(
-        combined(equations_.Relative(c, e5.data()), equations_.Relative(c, e3.data()), own_length),
-        combined(equations_.Relative(c, e5.data() + n), equations_.Relative(c, e3.data() + n),
-                 own_speed));
+        combined(active.Relative(e5.data()), active.Relative(e3.data()), own_length),
+        combined(active.Relative(e5.data() + n), active.Relative(e3.data() + n), own_speed));
     if (!(e <= norm)) norm = e;
   }
   return norm / scenario_.solver.relative_tolerance;

@@ -31,7 +31,7 @@ struct MixedPoint {
 
   MixedPoint() {
     for (int c = 0; c < 3; ++c) {
-      equations.active.push_back({.contact = c, .gap = 0, .mu = 1e7 * (c + 1), .column = c});
+      equations.active.push_back(equations.Activate(c, 0, 1e7 * (c + 1), c));
     }
     equations.columns = 3;
     y = Eigen::ArrayXd::Zero(equations.size());
@@ -73,7 +73,7 @@ TEST(Equations, SensitivityColumnsAreDirectionalDerivatives) {
 TEST(Equations, InternalForcesKeepTheMomentum) {
   Scenario s = testing::TripleChain();
   Equations equations(s);
-  equations.active = {{.contact = 0, .gap = 0, .mu = 1e8}, {.contact = 1, .gap = 0, .mu = 2e8}};
+  equations.active = {equations.Activate(0, 0, 1e8, kNone), equations.Activate(1, 0, 2e8, kNone)};
   Eigen::ArrayXd y = Eigen::ArrayXd::Zero(equations.size()), dy(equations.size());
   y.head(6) << 3e-5, 1e-5, -1e-5, 0.1, 0.02, -0.03;
   equations(0, y.data(), dy.data());
@@ -86,7 +86,7 @@ TEST(Equations, ExternalForceIsThatOfTheOtherForces) {
   s.loads = {{.body = 0, .constant = 40}};
   Equations equations(s);
   equations.recording = true;
-  equations.active = {{.contact = 0, .gap = 0, .mu = 1e8}, {.contact = 1, .gap = 0, .mu = 2e8}};
+  equations.active = {equations.Activate(0, 0, 1e8, kNone), equations.Activate(1, 0, 2e8, kNone)};
   Eigen::ArrayXd y = Eigen::ArrayXd::Zero(equations.size()), dy(equations.size());
   y.head(6) << 3e-5, 1e-5, -1e-5, 0.1, 0.02, -0.03;
   equations(0, y.data(), dy.data());
