@@ -1,0 +1,97 @@
+// The triple chain of the paper's 6.1: one pass with known μ, and the whole solve for μ, beside
+// one pass of Boost.odeint's dopri5 (no events, no works) and beside the paper's own process.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+
+#include "simulation/motion.h"
+#include "testing/cases.h"
+
+namespace contact {
+namespace {
+
+constexpr std::array<double, 2> kFactors = {2.259378079e8, 4.563828953e8};
+constexpr double kLastEnd = 2.576052458e-3;  // The second contact's separation.
+constexpr double kFinal[] = {-0.003731206344, 0.048726255138, 0.155004951207};
+
+using Chain = std::array<double, 6>;
+
+struct ChainEquations {
+  void operator()(const Chain& y, Chain& dy, double) const {
+    std::array<double, 2> force;
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double deformation = std::max(0.0, y[c] - y[c + 1]);
+      const double rate = y[3 + c] - y[4 + c];
+      force[c] = deformation * std::sqrt(deformation) * (1e8 + kFactors[c] * rate);
+    }
+    for (std::size_t i = 0; i < 3; ++i) dy[i] = y[3 + i];
+    dy[3] = -force[0] / 0.5;
+    dy[4] = (force[0] - force[1]) / 0.5;
+    dy[5] = force[1] / 0.5;
+  }
+};
+
+double Error(const double* velocities) {
+  double error = 0;
+  for (int i = 0; i < 3; ++i) error = std::max(error, std::abs(velocities[i] - kFinal[i]) / 0.2);
+  return error;
+}
+
+void OdeintPass(benchmark::State& state) {
+  const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
+  Chain y;
+  for (auto _ : state) {
+    y = {0, 0, 0, 0.2, 0, 0};
+    const auto stepper = boost::numeric::odeint::make_controlled(
+        tolerance * 1e-4, tolerance, boost::numeric::odeint::runge_kutta_dopri5<Chain>());
+    boost::numeric::odeint::integrate_adaptive(stepper, ChainEquations(), y, 0.0, kLastEnd, 1e-6);
+    benchmark::DoNotOptimize(y);
+  }
+  state.counters["error"] = Error(&y[3]);
+}
+BENCHMARK(OdeintPass)->DenseRange(8, 12, 2)->Unit(benchmark::kMicrosecond);
+
+class FixedFactors final : public CycleHost {
+ public:
+  Factor OnStart(const ContactState& s, double, double) override {
+    return {.mu = kFactors[static_cast<std::size_t>(s.cycle.contact)], .column = kNone};
+  }
+  void OnEnd(ContactState&, const Eigen::ArrayXd&, const Eigen::ArrayXd&) override {}
+};
+
+// With events located and works integrated.
+void Pass(benchmark::State& state) {
+  Scenario scenario = testing::TripleChain();
+  scenario.solver.relative_tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
+  const State start = InitialState(scenario);
+  Motion motion(scenario);
+  FixedFactors host;
+  for (auto _ : state) {
+    motion.Begin(start, false);
+    benchmark::DoNotOptimize(motion.Advance(1, host, nullptr, {}, 1'000'000'000));
+  }
+  state.counters["error"] = Error(motion.integrator().y0.data() + 3);
+}
+BENCHMARK(Pass)->DenseRange(8, 12, 2)->Unit(benchmark::kMicrosecond);
+
+// Everything: events, works, sensitivities, every iteration, the ledger and its balances.
+void Solve(benchmark::State& state) {
+  Scenario scenario = testing::TripleChain();
+  scenario.solver.restitution_tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
+  testing::Record record;
+  for (auto _ : state) {
+    record = {};
+    record.outcome = Run(scenario, record);
+  }
+  state.counters["iterations"] = static_cast<double>(record.outcome.iterations);
+  state.counters["error"] = Error(record.outcome.velocities.data());
+}
+BENCHMARK(Solve)->Arg(2)->Arg(8)->Arg(10)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace contact
+
+BENCHMARK_MAIN();
