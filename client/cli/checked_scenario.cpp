@@ -15,10 +15,11 @@ void RequireNoMistakes(const ScenarioFile& file) {
   throw Failure(ExitCode::kInvalidScenario, text);
 }
 
-ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides) {
+ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides,
+                         const ScenarioLimits& limits) {
   ScenarioFile file = ScenarioFile::Open(path);
   for (const std::string& assignment : overrides) file.Set(assignment);
-  file.Check();
+  file.Check(limits);
   RequireNoMistakes(file);
   return file;
 }

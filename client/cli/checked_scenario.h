@@ -9,7 +9,8 @@ namespace contact::cli {
 
 /// Reads a scenario file, applies the overrides and checks the rules. Throws Failure
 /// (kInvalidScenario) that lists every mistake.
-ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides);
+ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides,
+                         const ScenarioLimits& limits = {});
 
 /// Throws Failure (kInvalidScenario) if the file has mistakes.
 void RequireNoMistakes(const ScenarioFile& file);

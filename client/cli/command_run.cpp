@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
-#include <map>
+#include <limits>
 #include <memory>
 #include <random>
 
@@ -34,9 +35,14 @@ v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& 
   return request;
 }
 
+// How much is too much is for the server to say.
+constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
+                                   .max_contacts = std::numeric_limits<std::int32_t>::max(),
+                                   .max_samples = std::numeric_limits<std::int64_t>::max()};
+
 // What the server finds wrong is shown at its place in the file, as what is found here.
 v1::Job Create(Client& client, const RunArguments& arguments) {
-  ScenarioFile file = OpenChecked(arguments.file, arguments.overrides);
+  ScenarioFile file = OpenChecked(arguments.file, arguments.overrides, kNoLimits);
   try {
     return client.Call(&Client::Stub::CreateJob, Request(arguments, file.scenario()));
   } catch (const CallFailure& failure) {

@@ -116,9 +116,9 @@ void ScenarioFile::Set(const std::string& assignment) {
   }
 }
 
-void ScenarioFile::Check() {
+void ScenarioFile::Check(const ScenarioLimits& limits) {
   const std::vector<Diagnostic> mistakes = diagnostics_;
-  for (const Violation& violation : DecodeScenario(scenario_).violations) {
+  for (const Violation& violation : DecodeScenario(scenario_, limits).violations) {
     if (!MayFollowFrom(mistakes, violation)) Add(violation);
   }
 }

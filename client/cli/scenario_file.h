@@ -40,7 +40,7 @@ class ScenarioFile {
 
   /// Checks the rules of the contract, in the words of the server. Where the file itself has
   /// mistakes, only what they cannot have caused is added.
-  void Check();
+  void Check(const ScenarioLimits& limits = {});
 
   /// Adds a broken rule at the place where its field is written.
   void Add(const Violation& violation);

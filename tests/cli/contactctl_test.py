@@ -1,0 +1,401 @@
+"""contactctl against a real contactd."""
+
+import json
+import os
+import pathlib
+import pty
+import select
+import signal
+import socket
+import struct
+import subprocess
+import termios
+import fcntl
+import threading
+import time
+import unittest
+
+from contactd import PATIENCE_S, Job, ServerTest, endless, is_cycle
+
+CONTACTCTL = os.environ["CONTACTCTL"]
+SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
+CHAIN = SCENARIOS / "three-ball-chain.yaml"
+SPRING = SCENARIOS / "spring-wall.yaml"
+
+# More cycles than anyone waits for.
+LONG = ("--set", "end_time_s=1e5", "--set", "output.sample_interval_s=0.1", "--set",
+        "solver.max_steps=1e12")
+
+
+class CliTest(ServerTest):
+
+    def command(self, *arguments, server=None):
+        return [CONTACTCTL, "--server", server or f"127.0.0.1:{self.server.port}",
+                *map(str, arguments)]
+
+    def run_it(self, *arguments, code=0, server=None):
+        """Runs contactctl to its end; returns what it printed and what it said."""
+        run = subprocess.run(self.command(*arguments, server=server), capture_output=True,
+                             encoding="utf-8", timeout=PATIENCE_S)
+        self.assertEqual(run.returncode, code, run.stdout + run.stderr)
+        return run.stdout, run.stderr
+
+    def start(self, *arguments, server=None):
+        process = subprocess.Popen(self.command(*arguments, server=server),
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, bufsize=0)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def submit_long(self):
+        return self.run_it("submit", SPRING, *LONG, "-o", "name")[0].strip()
+
+
+def read_until(stream, text):
+    """Reads until `text` has come; returns all that was read."""
+    seen = b""
+    deadline = time.monotonic() + PATIENCE_S
+    while text not in seen and time.monotonic() < deadline:
+        if select.select([stream], [], [], 1)[0]:
+            block = os.read(stream if isinstance(stream, int) else stream.fileno(), 65536)
+            if not block:
+                break
+            seen += block
+    if text not in seen:
+        raise AssertionError(f"{text!r} did not come, but {seen[-2000:]!r}")
+    return seen
+
+
+class RunTest(CliTest):
+
+    def job(self, *arguments, code=0):
+        printed, _ = self.run_it("run", *arguments, "-o", "json", code=code)
+        return json.loads(printed)  # One document, or this fails.
+
+    def test_chain_ends_as_the_paper_s_case_does(self):
+        job = self.job(CHAIN)
+        self.assertEqual(job["state"], "SUCCEEDED")
+        self.assertEqual(job["convergence"], "FULL")
+        for body, expected in zip(job["final_bodies"],
+                                  (-0.003731206344, 0.048726255138, 0.155004951207)):
+            self.assertAlmostEqual(body["velocity_m_per_s"], expected, delta=1e-8)
+        for cycle in job["cycles"]:
+            self.assertLess(abs(cycle["restitution_out"] - cycle["restitution_in"]),
+                            1e-8 * cycle["restitution_in"])
+            self.assertEqual(cycle["delta_start_m"], 0)  # Zeros are printed.
+
+    def test_spring_supported_ball_has_the_known_cycles(self):
+        cycles = self.job(SPRING)["cycles"]
+        known = json.loads(REFERENCE.read_text())
+        self.assertEqual([c["end"] for c in cycles[:6]],
+                         ["SEPARATION"] * 4 + ["NON_SEPARATION"] * 2)
+        for cycle, reference in zip(cycles, known):
+            self.assertAlmostEqual(cycle["mu_over_k_s_per_m"], reference["mu_over_k"], delta=1e-6)
+
+    def test_isolated_collision_obeys_the_exact_law(self):
+        job = self.job(SCENARIOS / "two-balls.yaml")
+        self.assertAlmostEqual(job["cycles"][0]["alpha"], 1.43275053327, delta=1e-6)
+        velocities = [body["velocity_m_per_s"] for body in job["final_bodies"]]
+        self.assertAlmostEqual(velocities[0], 0.25, delta=1e-8)
+        self.assertAlmostEqual(velocities[1], 0.75, delta=1e-8)
+
+    def test_ball_bounces_with_its_restitution(self):
+        cycles = self.job(SCENARIOS / "bouncing-ball.yaml")["cycles"]
+        self.assertGreater(len(cycles), 3)
+        for cycle in cycles:
+            self.assertAlmostEqual(cycle["restitution_out"], 0.8, delta=1e-7)
+
+    def test_overrides_and_labels_reach_the_server(self):
+        job = self.job(CHAIN, "--set", "contacts[*].damping=flores", "--set", "title=F",
+                       "--label", "law=flores", "--label", "n=1")
+        self.assertEqual([c["damping"] for c in job["scenario"]["contacts"]], ["FLORES"] * 2)
+        self.assertEqual(job["labels"], {"law": "flores", "n": "1"})
+        self.assertEqual(self.run_it("list", "--label", "law=flores", "-o", "name")[0],
+                         job["name"] + "\n")
+
+    def test_printed_scenario_can_be_run_again_to_the_same_result(self):
+        first = self.job(CHAIN)
+        again = self.folder / "again.json"
+        again.write_text(json.dumps(first["scenario"]))
+        self.assertEqual(self.job(again)["cycles"], first["cycles"])
+
+    def test_table_shows_the_iteration_as_a_message_and_the_ledger_as_data(self):
+        printed, said = self.run_it("run", CHAIN)
+        self.assertRegex(printed, r"(?m)^B1-B2 +1  COLLISION  SEPARATION  CONVERGED")
+        self.assertIn("convergence FULL", printed)
+        self.assertRegex(said, r"(?m)^jobs/\w+ submitted$")
+        self.assertRegex(said, r"(?m)^ +1 +0  B1-B2 .*NEWTON$")
+        self.assertRegex(said, r"(?m)^Next:  contactctl watch \w+")
+        self.assertNotIn("\x1b", printed + said)
+
+    def test_color_is_for_those_who_ask(self):
+        printed, _ = self.run_it("--color", "always", "run", CHAIN)
+        self.assertIn("\x1b[32mSUCCEEDED", printed)
+
+
+REFERENCE = pathlib.Path(__file__).parents[1] / "reference" / "spring_ball.json"
+
+
+class ExitCodeTest(CliTest):
+
+    flags = ("--workers=1", "--max-queued-jobs=1", "--max-bodies=3")
+
+    def test_failed_run_is_1(self):
+        printed, _ = self.run_it("run", SPRING, "--set", "solver.max_steps=10", code=1)
+        self.assertIn("FAILED (BUDGET_STEPS)", printed)
+
+    def test_partly_converged_run_is_7_with_its_ledger(self):
+        printed, said = self.run_it("run", CHAIN, "--set", "solver.max_iterations=1", code=7)
+        self.assertIn("NOT_CONVERGED", printed)
+        self.assertIn("convergence PARTIAL", printed)
+        self.assertIn("--set solver.max_iterations=", said)
+
+    def test_run_that_must_converge_and_does_not_is_1(self):
+        self.run_it("run", CHAIN, "--set", "solver.max_iterations=1", "--set",
+                    "solver.on_not_converged=fail", code=1)
+
+    def test_what_the_server_refuses_is_3_at_its_place_in_the_file(self):
+        file = self.folder / "four.yaml"
+        file.write_text("end_time_s: 1\nbodies:\n" + "".join(
+            f"- {{name: B{i}, mass_kg: 1, position_m: {i}}}\n" for i in range(4)))
+        _, said = self.run_it("submit", file, code=3)
+        self.assertEqual(said, f"{file}:3:1: bodies: holds 4; must hold at most 3\n1 error\n")
+
+    def test_unknown_job_is_6(self):
+        for command in ("describe", "watch", "wait", "cancel", "delete"):
+            _, said = self.run_it(command, "nosuchjob", code=6)
+            self.assertIn("JOB_NOT_FOUND", said)
+
+    def test_unknown_kind_is_2(self):
+        name = self.run_it("submit", CHAIN, "-o", "name")[0].strip()
+        self.run_it("watch", name, "--kinds", "cycel", code=2)
+
+    def test_time_that_is_up_is_5_and_the_job_continues(self):
+        _, said = self.run_it("run", SPRING, *LONG, "--timeout", "500ms", code=5)
+        self.assertRegex(said, r"the job continues: contactctl watch \w+")
+        name = self.run_it("list", "--state", "running", "-o", "name")[0].strip()
+        self.run_it("wait", name, "--timeout", "0.2", code=5)
+        self.run_it("delete", name, code=1)
+        self.run_it("cancel", name)
+        self.run_it("wait", name, code=1)
+        self.run_it("watch", name, code=1)
+        self.run_it("delete", name)
+        self.run_it("describe", name, code=6)
+
+    def test_full_queue_is_10(self):
+        self.server.wait_until(self.submit_long(), is_cycle)  # It has left the queue.
+        self.submit_long()
+        _, said = self.run_it("submit", CHAIN, code=10)
+        self.assertIn("QUEUE_FULL", said)
+
+    def test_server_that_does_not_answer_is_unreachable_or_late(self):
+        with socket.create_server(("127.0.0.1", 0)) as silent:
+            address = f"127.0.0.1:{silent.getsockname()[1]}"
+            run = subprocess.run(self.command("list", "--timeout", "500ms", server=address),
+                                 capture_output=True, encoding="utf-8", timeout=PATIENCE_S)
+        self.assertIn(run.returncode, (4, 5), run.stderr)
+
+    def test_interrupt_is_130_and_the_job_continues(self):
+        for command in (["run", SPRING, *LONG], ["watch", None], ["wait", None]):
+            with self.subTest(command[0]):
+                if command[1] is None:
+                    command[1] = self.run_it("list", "-o", "name")[0].split()[0]
+                process = self.start(*command)
+                if command[0] == "run":
+                    read_until(process.stderr, b"submitted")
+                    read_until(process.stderr, b"NEWTON")
+                elif command[0] == "watch":
+                    read_until(process.stdout, b"cycle 1")
+                else:
+                    time.sleep(0.3)  # It says nothing; before it listens it dies by the signal.
+                process.send_signal(signal.SIGINT)
+                out, said = process.communicate(timeout=PATIENCE_S)
+                self.assertEqual(process.returncode, 130, said)
+                self.assertIn(b"the job continues: contactctl watch ", said)
+        self.assertEqual(len(self.run_it("list", "--state", "RUNNING", "-o", "name")[0].split()), 1)
+
+
+class Link:
+    """A wire between client and server that can be cut, and mends itself."""
+
+    def __init__(self, port):
+        self.port = port
+        self.open = []
+        self.cuts = 0
+        self.lock = threading.Lock()
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.address = f"127.0.0.1:{self.listener.getsockname()[1]}"
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def cut(self):
+        """Breaks what is connected; False if nothing is."""
+        with self.lock:
+            cut, self.open = self.open, []
+        for one in cut:
+            one.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            one.shutdown(socket.SHUT_RDWR)
+        self.cuts += bool(cut)
+        return bool(cut)
+
+    def close(self):
+        self.listener.close()
+        self.cut()
+
+    def _accept(self):
+        while True:
+            try:
+                near, _ = self.listener.accept()
+            except OSError:
+                return
+            try:
+                far = socket.create_connection(("127.0.0.1", self.port))
+            except OSError:
+                near.close()
+                continue
+            with self.lock:
+                self.open += [near, far]
+            for source, sink in ((near, far), (far, near)):
+                threading.Thread(target=self._copy, args=(source, sink), daemon=True).start()
+
+    @staticmethod
+    def _copy(source, sink):
+        try:
+            while block := source.recv(65536):
+                sink.sendall(block)
+        except OSError:
+            pass
+        for one in (source, sink):
+            try:
+                one.shutdown(socket.SHUT_RDWR)
+            except OSError:
+                pass
+
+
+class WatchTest(CliTest):
+
+    def lines(self, text):
+        return [line for line in map(json.loads, text.splitlines()) if int(line.get("sequence", 0))
+                and "bookmark" not in line and "gap" not in line]
+
+    def test_killed_watcher_leaves_the_job_and_the_next_sees_it_from_the_start(self):
+        name = self.submit_long()
+        first = self.start("watch", name, "-o", "jsonl")
+        read_until(first.stdout, b'"cycle"')
+        first.kill()
+        first.wait()
+        self.assertEqual(self.server.get(name).state, Job.RUNNING)
+        self.run_it("cancel", name)
+        printed, _ = self.run_it("watch", name, "-o", "jsonl", code=1)
+        sequences = [int(line["sequence"]) for line in self.lines(printed)]
+        self.assertEqual(sequences, list(range(1, len(sequences) + 1)))
+
+    def test_no_event_is_missed_or_repeated_when_the_link_is_cut_twenty_times(self):
+        link = Link(self.server.port)
+        self.addCleanup(link.close)
+        name = self.submit_long()
+        # Frames may be spared to a slow watcher; everything else may not.
+        kinds = ("--kinds", "log_entry,iteration,cycle,attempt_started")
+        watch = self.start("watch", name, "-o", "jsonl", *kinds, server=link.address)
+        seen = []
+        reader = threading.Thread(
+            target=lambda: seen.extend(iter(lambda: os.read(watch.stdout.fileno(), 65536), b"")))
+        reader.start()
+        deadline = time.monotonic() + PATIENCE_S
+        while link.cuts < 20 and time.monotonic() < deadline:
+            time.sleep(0.3)
+            link.cut()
+        self.assertGreaterEqual(link.cuts, 20)
+        self.run_it("cancel", name)
+        reader.join(PATIENCE_S)
+        self.assertEqual(watch.wait(PATIENCE_S), 1)
+        self.assertIn(b"connection lost", watch.stderr.read())
+        whole, _ = self.run_it("watch", name, "-o", "jsonl", *kinds, code=1)
+        self.assertGreater(len(self.lines(whole)), 100)
+        self.assertEqual(self.lines(b"".join(seen).decode()), self.lines(whole))
+
+    def test_watch_goes_on_with_the_next_server_on_the_same_data(self):
+        link = Link(self.server.port)
+        self.addCleanup(link.close)
+        name = self.submit_long()
+        watch = self.start("watch", name, server=link.address)
+        read_until(watch.stdout, b"cycle 2:")
+        self.server.kill()
+        self.server.start()
+        link.port = self.server.port
+        read_until(watch.stdout, b"attempt 2 starts anew")
+        self.run_it("cancel", name)
+        read_until(watch.stdout, b"CANCELLED")
+        self.assertEqual(watch.wait(PATIENCE_S), 1)
+
+    def test_watch_can_begin_later_and_choose(self):
+        name = self.run_it("run", SPRING, "-o", "name")[0].strip()
+        printed, _ = self.run_it("watch", name, "-o", "jsonl", "--kinds", "cycle")
+        cycles = [line for line in self.lines(printed) if "cycle" in line]
+        self.assertEqual(len(cycles), len(self.server.get(name).cycles))
+        after = cycles[3]["sequence"]
+        printed, _ = self.run_it("watch", name, "-o", "jsonl", "--kinds", "cycle",
+                                 "--after-sequence", after)
+        self.assertEqual([line for line in self.lines(printed) if "cycle" in line], cycles[4:])
+        self.assertEqual(self.run_it("watch", name, "--after-sequence", 10**9, "-o", "jsonl")[0],
+                         "")
+
+
+class TerminalTest(CliTest):
+
+    def test_progress_is_one_line_that_fits_the_terminal_and_is_erased(self):
+        for width in (40, 100):
+            master, slave = pty.openpty()
+            fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
+            process = subprocess.Popen(self.command("run", SPRING, *LONG), stdin=slave,
+                                       stdout=slave, stderr=slave, env={**os.environ, "TERM": "xterm"})
+            os.close(slave)
+            seen = read_until(master, b"more iterations;")
+            seen += read_until(master, b" %")
+            process.send_signal(signal.SIGINT)
+            seen += read_until(master, b"the job continues")
+            self.assertEqual(process.wait(PATIENCE_S), 130)
+            os.close(master)
+            progress = [part for part in seen.decode(errors="replace").split("\r\x1b[K")
+                        if " % " in part]
+            self.assertTrue(progress)
+            for part in progress[:-1]:
+                self.assertLess(len(part), width, part)
+                self.assertNotIn("\n", part)
+
+
+class ListTest(CliTest):
+
+    def test_pages_are_one_list(self):
+        names = [self.run_it("submit", CHAIN, "-o", "name")[0] for _ in range(3)]
+        self.assertTrue(all(name.startswith("jobs/") and name.endswith("\n") for name in names))
+        self.assertEqual(self.run_it("list", "-o", "name")[0], "".join(reversed(names)))
+        self.assertEqual(self.run_it("list", "--limit", "0", "-o", "name")[0],
+                         "".join(reversed(names)))
+        printed, said = self.run_it("list", "--limit", "2")
+        self.assertEqual(len(printed.splitlines()), 1 + 2)
+        self.assertIn("--limit 0", said)
+        jobs = json.loads(self.run_it("list", "-o", "json")[0])["jobs"]
+        self.assertEqual([job["name"] + "\n" for job in jobs], names[::-1])
+
+    def test_same_request_id_is_the_same_job(self):
+        names = {self.run_it("submit", CHAIN, "--request-id", "r", "-o", "name")[0]
+                 for _ in range(2)}
+        self.assertEqual(len(names), 1)
+
+    def test_describe_and_result_are_one(self):
+        name = self.run_it("run", CHAIN, "-o", "name")[0].strip()
+        short = name.removeprefix("jobs/")
+        self.assertEqual(self.run_it("describe", name), self.run_it("result", short))
+        self.assertEqual(json.loads(self.run_it("result", short, "-o", "json")[0])["name"], name)
+        self.assertEqual(self.run_it("wait", short)[0], f"{name}  SUCCEEDED\n")
+
+    def test_server_tells_what_it_is(self):
+        self.assertIn("workers", self.run_it("server", "info")[0])
+        info = json.loads(self.run_it("server", "info", "-o", "json")[0])
+        self.assertGreater(info["limits"]["max_bodies"], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
