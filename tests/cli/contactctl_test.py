@@ -1,5 +1,6 @@
 """contactctl against a real contactd."""
 
+import fcntl
 import json
 import os
 import pathlib
@@ -10,15 +11,15 @@ import socket
 import struct
 import subprocess
 import termios
-import fcntl
 import threading
 import time
 import unittest
 
-from contactd import PATIENCE_S, Job, ServerTest, endless, is_cycle
+from contactd import PATIENCE_S, Job, ServerTest, is_cycle
 
 CONTACTCTL = os.environ["CONTACTCTL"]
 SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
+REFERENCE = pathlib.Path(__file__).parents[1] / "reference" / "spring_ball.json"
 CHAIN = SCENARIOS / "three-ball-chain.yaml"
 SPRING = SCENARIOS / "spring-wall.yaml"
 
@@ -135,9 +136,6 @@ class RunTest(CliTest):
         self.assertIn("\x1b[32mSUCCEEDED", printed)
 
 
-REFERENCE = pathlib.Path(__file__).parents[1] / "reference" / "spring_ball.json"
-
-
 class ExitCodeTest(CliTest):
 
     flags = ("--workers=1", "--max-queued-jobs=1", "--max-bodies=3")
@@ -217,12 +215,20 @@ class ExitCodeTest(CliTest):
         self.assertEqual(len(self.run_it("list", "--state", "RUNNING", "-o", "name")[0].split()), 1)
 
 
+def shut(one):
+    try:
+        one.shutdown(socket.SHUT_RDWR)
+    except OSError:
+        pass  # The other side was first.
+
+
 class Link:
     """A wire between client and server that can be cut, and mends itself."""
 
     def __init__(self, port):
         self.port = port
         self.open = []
+        self.all = []
         self.cuts = 0
         self.lock = threading.Lock()
         self.listener = socket.create_server(("127.0.0.1", 0))
@@ -234,14 +240,15 @@ class Link:
         with self.lock:
             cut, self.open = self.open, []
         for one in cut:
-            one.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
-            one.shutdown(socket.SHUT_RDWR)
+            shut(one)
         self.cuts += bool(cut)
         return bool(cut)
 
     def close(self):
         self.listener.close()
         self.cut()
+        for one in self.all:
+            one.close()
 
     def _accept(self):
         while True:
@@ -256,6 +263,7 @@ class Link:
                 continue
             with self.lock:
                 self.open += [near, far]
+                self.all += [near, far]
             for source, sink in ((near, far), (far, near)):
                 threading.Thread(target=self._copy, args=(source, sink), daemon=True).start()
 
@@ -267,10 +275,7 @@ class Link:
         except OSError:
             pass
         for one in (source, sink):
-            try:
-                one.shutdown(socket.SHUT_RDWR)
-            except OSError:
-                pass
+            shut(one)
 
 
 class WatchTest(CliTest):
