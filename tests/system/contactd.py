@@ -12,7 +12,7 @@ import time
 import unittest
 
 import grpc
-from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc, scenario_pb2
+from contact.v1 import job_pb2, job_service_pb2, job_service_pb2_grpc, scenario_pb2
 from google.protobuf import duration_pb2
 from google.rpc import error_details_pb2, status_pb2
 
@@ -156,6 +156,11 @@ class ServerTest(unittest.TestCase):
 
 def stored(event):
     return event.WhichOneof("payload") not in ("progress", "bookmark", "gap")
+
+
+def to_bytes(message):
+    """For comparing: a NaN does not equal itself, its bytes do."""
+    return message.SerializeToString(deterministic=True)
 
 
 def details_of(error):

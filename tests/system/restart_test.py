@@ -1,6 +1,5 @@
 """What survives the end of a server, of a watcher and of patience."""
 
-import os
 import pathlib
 import signal
 import subprocess
@@ -9,8 +8,8 @@ import threading
 import unittest
 
 import grpc
-from contactd import (BINARY, PATIENCE_S, Job, Server, ServerTest, endless, is_cycle, seconds,
-                      spring_wall, three_ball_chain)
+from contactd import (BINARY, PATIENCE_S, Job, Server, ServerTest, endless, is_cycle,
+                      spring_wall, stored, three_ball_chain, to_bytes)
 
 WATCHER = """
 import sys
@@ -37,7 +36,8 @@ class KillTest(ServerTest):
         self.assertEqual({job.name for job in self.server.list().jobs}, {running, *queued})
         again = self.server.wait_until(
             running, lambda e: e.HasField("attempt_started") and e.attempt_started.attempt == 2)
-        self.assertEqual(again[:len(before)], before)
+        kept = [event for event in before if stored(event)]
+        self.assertEqual(again[:len(kept)], kept)
         reasons = [e.state_changed.state_reason for e in again if e.HasField("state_changed")]
         self.assertIn("SERVER_RESTARTED", reasons)
 
@@ -58,8 +58,10 @@ class KillTest(ServerTest):
         self.assertWholeLog(self.server.events(name))
         job = self.server.get(name)
         self.assertEqual(job.state, Job.SUCCEEDED)
-        self.assertEqual(list(job.cycles), list(undisturbed.cycles))
-        self.assertEqual(list(job.final_bodies), list(undisturbed.final_bodies))
+        self.assertGreater(len(job.cycles), 100)
+        for result in "cycles", "final_bodies":
+            self.assertEqual([to_bytes(part) for part in getattr(job, result)],
+                             [to_bytes(part) for part in getattr(undisturbed, result)])
 
     def test_watch_goes_on_where_the_kill_cut_it(self):
         name = self.server.create(endless()).name
@@ -67,7 +69,7 @@ class KillTest(ServerTest):
         self.server.kill()
         self.server.start()
         self.server.cancel(name)
-        last = max(event.sequence for event in seen)
+        last = max(event.sequence for event in seen if stored(event))
         self.assertWholeLog(self.server.events(name, after_sequence=last), after=last)
 
 
