@@ -20,14 +20,15 @@ double Root(F f, double a, double b) {
   return (bracket.first + bracket.second) / 2;
 }
 
-// First θ at which f, looked at in eighths from 1/8 on, is positive; `at_end` is f(1).
+// First θ after `from` at which f, looked at after every eighth of the rest, is positive;
+// `at_end` is f(1).
 template <class F>
-std::optional<double> FirstPositive(F f, double at_end) {
+std::optional<double> FirstPositive(F f, double at_end, double from = 0) {
+  double before = from;
   for (int i = 1; i <= kPieces; ++i) {
-    const double value = i == kPieces ? at_end : f(static_cast<double>(i) / kPieces);
-    if (value > 0) {
-      return Root(f, static_cast<double>(i - 1) / kPieces, static_cast<double>(i) / kPieces);
-    }
+    const double theta = from + (1 - from) * i / kPieces;
+    if ((i == kPieces ? at_end : f(theta)) > 0) return Root(f, before, i == kPieces ? 1 : theta);
+    before = theta;
   }
   return std::nullopt;
 }
@@ -80,23 +81,23 @@ double DeformationPath::Slope(double t) const {
   return c_[1] + t * (2 * c_[2] + t * (3 * c_[3] + t * (4 * c_[4] + t * 5 * c_[5])));
 }
 
-std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path) {
+std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from) {
   if (phase == Phase::kOpen) return FirstTouch(path);
   if (phase == Phase::kStarting || path.StaysInPhase(phase)) return std::nullopt;
   const auto rising = [&](double theta) { return path.Slope(theta); };
   const auto falling = [&](double theta) { return -path.Slope(theta); };
   if (phase == Phase::kCompression) {
-    const auto turn = FirstPositive(falling, -path.end_slope());
+    const auto turn = FirstPositive(falling, -path.end_slope(), from);
     if (!turn) return std::nullopt;
     return ContactEvent{EventKind::kTurn, *turn};
   }
   const auto outside = [&](double theta) { return -path.Value(theta); };
-  const auto separation = FirstPositive(outside, -path.end_value());
-  if (phase == Phase::kResting) {
-    if (!separation) return std::nullopt;
+  const auto separation = FirstPositive(outside, -path.end_value(), from);
+  if (separation && phase == Phase::kResting) {
     return ContactEvent{EventKind::kSeparation, *separation};
   }
-  const auto rest = FirstPositive(rising, path.end_slope());
+  if (phase == Phase::kResting) return std::nullopt;
+  const auto rest = FirstPositive(rising, path.end_slope(), from);
   if (separation && (!rest || *separation <= *rest)) {
     return ContactEvent{EventKind::kSeparation, *separation};
   }

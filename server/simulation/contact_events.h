@@ -28,7 +28,7 @@ struct ContactEvent {
 };
 
 /// Deformation along a step from θ = 0 to 1: the quintic through value, slope and curvature at
-/// both ends. All in units of δ [m]: slopes times h, curvatures times h².
+/// both ends, all in [m]: derivatives by θ.
 class DeformationPath {
  public:
   struct End {
@@ -51,8 +51,8 @@ class DeformationPath {
   double end_value_, end_slope_, end_curvature_;
 };
 
-/// The first event of a contact in a step, if any. It finds crossings between eighths of the step
-/// and, for an open contact, a touch at any peak of δ.
-std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path);
+/// The first event of a contact after `from` in a step, if any. It finds crossings between eighths
+/// of what is left and, for an open contact, a touch at any peak of δ.
+std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from = 0);
 
 }  // namespace contact

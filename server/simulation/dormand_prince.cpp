@@ -1,10 +1,22 @@
 #include "simulation/dormand_prince.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace contact {
+
+double StepTime::Theta(double t) const {
+  // The root of (1 − w) θ² + w θ = x in the form that does not cancel.
+  const double x = (t - start) / h;
+  const double root = std::sqrt(std::max(0.0, warp * warp + 4 * (1 - warp) * x));
+  return warp + root > 0 ? 2 * x / (warp + root) : 0;
+}
 
 void DormandPrince::Resize(Eigen::Index size) {
   y0.conservativeResize(size);
   y1.resize(size);
+  slope0.resize(size);
+  slope1.resize(size);
   stage_.resize(size);
   k_.resize(size, 16);
   dense_.resize(size, 7);

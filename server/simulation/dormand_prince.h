@@ -4,11 +4,26 @@
 
 namespace contact {
 
+/// Time along a step, θ from 0 to 1: t = start + h (w θ + (1 − w) θ²), with the warp w in [0, 2].
+/// w = 1 is plain. 0 crowds towards the start like t ~ θ², 2 towards the end like its mirror, so
+/// that a solution in powers of √(t − start), or √(end − t), is smooth in θ.
+struct StepTime {
+  double start = 0;
+  double h = 0;
+  double warp = 1;
+
+  double At(double theta) const { return start + h * (theta * (warp + (1 - warp) * theta)); }
+  /// dt/dθ in units of h.
+  double Rate(double theta) const { return warp + 2 * (1 - warp) * theta; }
+  /// θ at which the time is `t`.
+  double Theta(double t) const;
+};
+
 /// The explicit Runge-Kutta pair of order 8(5,3) of Dormand and Prince, with the dense output of
 /// order 7 of Hairer. Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential
 /// Equations I, 2nd ed., Springer 1993, II.5 and II.6 (DOP853).
 ///
-/// Holds one step from (t, y0) to (t + h, y1) of y' = f(t, y). `f(t, y, dy)` gets arrays of
+/// Holds one step from y0 to y1 of y' = f(t, y), taken in θ. `f(t, y, dy)` gets arrays of
 /// `size` numbers. Does not allocate between calls of Resize.
 class DormandPrince {
  public:
@@ -17,43 +32,49 @@ class DormandPrince {
   void Resize(Eigen::Index size);
   Eigen::Index size() const { return y0.size(); }
 
-  /// Computes y1 from y0 and the slope at y0, which must be in `slope0()`.
+  /// Computes y1 from y0 and slope0.
   template <class F>
-  void Step(F&& f, double t, double h);
+  void Step(F&& f, const StepTime& time);
 
-  /// Computes the slope at y1. Call after Step.
+  /// Computes slope1, at y1. Call after Step.
   template <class F>
-  void FinishStep(F&& f, double t, double h) {
-    f(t + h, y1.data(), k_.col(12).data());
+  void FinishStep(F&& f, const StepTime& time) {
+    f(time.At(1), y1.data(), slope1.data());
   }
 
   /// Makes the end of the step the start of the next.
   void Advance() {
     y0.swap(y1);
-    k_.col(0) = k_.col(12);
+    slope0.swap(slope1);
   }
 
   /// Prepares Interpolate. Call after FinishStep.
   template <class F>
-  void PrepareInterpolation(F&& f, double t, double h);
+  void PrepareInterpolation(F&& f, const StepTime& time);
 
-  /// y at t + θ h, θ in [0, 1], to order 7.
+  /// y at θ, to order 7.
   void Interpolate(double theta, Vector* y) const;
 
-  /// The two error estimates of row i, to be combined by ErrorNorm.
+  /// The two error estimates of row i in units of h, to be combined.
   double Error5(Eigen::Index i) const;
   double Error3(Eigen::Index i) const;
 
-  auto slope0() { return k_.col(0); }
-  auto slope0() const { return k_.col(0); }
-  auto slope1() const { return k_.col(12); }
-
   Vector y0, y1;
+  Vector slope0, slope1;  ///< dy/dt at the ends.
 
  private:
+  template <class F>
+  void Evaluate(F&& f, const StepTime& time, double theta, const double* y, int i);
+  struct Term {
+    double weight;
+    int slope;
+  };
+  /// out = y0 + h Σ weight · slope.
+  template <std::size_t N>
+  void Combine(Vector& out, double h, const Term (&terms)[N]);
   void PrepareCoefficients(double h);
 
-  Eigen::ArrayXXd k_;  // Slopes: 12 stages, the slope at y1, 3 for the dense output.
+  Eigen::ArrayXXd k_;  // dy/dθ/h: 12 stages, the end, 3 for the dense output.
   Vector stage_;
   Eigen::ArrayXXd dense_;  // Coefficients of the interpolant.
 };

@@ -126,7 +126,7 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
   }
   u->pass_mu = u->mu;
   if (u->iterated && u->mu > 0) u->column = columns_++;
-  return {.mu = u->mu, .column = u->column};
+  return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
 }
 
 // The first μ of a cycle, (N1).
@@ -165,7 +165,7 @@ void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
 }
 
 void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
-                          const Eigen::ArrayXd& restitution_gradient) {
+                          const Eigen::ArrayXd& restitution_gradient, double length, double speed) {
   Cycle& cycle = state.cycle;
   const bool weak =
       cycle.work_compression <= scenario_.solver.settled_fraction * state.largest_work;
@@ -174,6 +174,10 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
   Unknown* u = Find(cycle.contact, cycle.number);
   if (u != nullptr) {
     u->ended = true;
+    if (u->length == 0) {
+      u->length = length;
+      u->speed = speed;
+    }
     u->squared = -cycle.work_restitution / cycle.work_compression;
     u->gradient =
         -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;

@@ -36,7 +36,7 @@ class EpisodeSolver final : public CycleHost {
 
   Factor OnStart(const ContactState& state, double effective_mass, double external_force) override;
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
-             const Eigen::ArrayXd& restitution_gradient) override;
+             const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
 
   std::vector<Cycle> accepted;  ///< Cycles ended since BeginRecording.
   std::int64_t iterations() const { return total_iterations_; }
@@ -53,11 +53,12 @@ class EpisodeSolver final : public CycleHost {
     bool iterated = false;  // By Newton; else given, settled or found infeasible.
     Cycle::Status status = Cycle::Status::kNotConverged;
     int column = kNone;
-    bool ended = false;        // In the last pass.
-    double squared = kNaN;     // ε_out² = −W_r/W_c of the last pass.
-    Eigen::ArrayXd gradient;   // ∂ε_out²/∂μ of each column.
-    double low = 0, high = 0;  // μ known to give too much, too little restitution; 0: none.
-    int shrinks = 0;           // Corrections in a row that wanted μ ≤ 0.
+    bool ended = false;            // In the last pass.
+    double length = 0, speed = 0;  // Scales of its motion in the first pass.
+    double squared = kNaN;         // ε_out² = −W_r/W_c of the last pass.
+    Eigen::ArrayXd gradient;       // ∂ε_out²/∂μ of each column.
+    double low = 0, high = 0;      // μ known to give too much, too little restitution; 0: none.
+    int shrinks = 0;               // Corrections in a row that wanted μ ≤ 0.
     bool zero_tried = false;
     Iteration::Update update = Iteration::Update::kNothing;
   };

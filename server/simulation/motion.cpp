@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace contact {
 namespace {
 
 constexpr int kMaxRejections = 60;
 constexpr int kMaxLandings = 8;
+// A step that would come this near to a separation goes for it.
+constexpr double kReach = 0.7;
+// But only from a deformation this small against the largest of the cycle.
+constexpr double kNear = 0.02;
 constexpr int kMaxCyclesInStretch = 64;
 constexpr int kMaxEventsAtOnce = 1000;
 
@@ -64,7 +69,8 @@ Motion::Motion(const Scenario& scenario)
       turn_gradient_(scenario.contacts.size()),
       error5_(2 * scenario.bodies.size()),
       error3_(2 * scenario.bodies.size()),
-      forcing_time_(equations_.ForcingTime()) {}
+      forcing_time_(equations_.ForcingTime()),
+      event_(scenario.contacts.size()) {}
 
 void Motion::Begin(const State& state, bool recording) {
   const int n = equations_.bodies();
@@ -78,6 +84,7 @@ void Motion::Begin(const State& state, bool recording) {
   contact_loss_ = state.contact_loss;
   cycles_in_stretch_ = 0;
   flight_length_ = flight_speed_ = 0;
+  touch_time_ = kNaN;
 
   equations_.base = state.positions;
   equations_.recording = recording;
@@ -132,8 +139,8 @@ double Motion::Deformation(int contact, const double* y) const {
   return equations_.Relative(contact, y) - contacts_[At(contact)].gap;
 }
 
-void Motion::PrepareInterpolation(double time, double h) {
-  rk_.PrepareInterpolation(equations_, time, h);
+void Motion::PrepareInterpolation() {
+  rk_.PrepareInterpolation(equations_, step_);
   evaluations_ += 3;
 }
 
@@ -147,7 +154,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (stop.stop_requested()) return Pause::kStopped;
     if (steps_ >= step_limit) return Pause::kStepLimit;
     if (!TakeStep(until)) return Pause::kNumeric;
-    const Found found = FindEvent();
+    const Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone) Land(found);
     if (moves) Accept(listener);
@@ -174,34 +181,84 @@ void Motion::RefreshActive() {
     equations_.active.push_back(
         equations_.Activate(c, contact.gap, contact.cycle.mu, contact.column));
   }
-  equations_(time_, rk_.y0.data(), rk_.slope0().data());
+  equations_(time_, rk_.y0.data(), rk_.slope0.data());
   ++evaluations_;
+}
+
+// How a step is warped after a touch, whose force grows with a fractional power of time.
+double Motion::TouchWarp(double h) const {
+  if (std::isnan(touch_time_)) return 1;
+  const double since = std::sqrt(time_ - touch_time_);
+  return 2 * since / (since + std::sqrt(time_ - touch_time_ + h));
+}
+
+// When a contact in restitution will part; infinite if it seems it will not. By the parabola
+// through δ, δ̇ and the mean δ̈, in which F fades like (1 − θ)^1.5 and all else stays.
+double Motion::TimeToSeparation(const ActiveContact& active) const {
+  constexpr double kFade = 3.0 / 7;  // 1 − 2 ∫(1 − θ)^2.5 dθ
+  const int n = equations_.bodies();
+  const double deformation = active.Relative(rk_.y0.data()) - active.gap;
+  const double speed = -active.Relative(rk_.y0.data() + n);
+  const double force = active.At(deformation, -speed).force;
+  const double bend = active.Relative(rk_.slope0.data() + n) +
+                      kFade * force * (active.left_inverse + active.right_inverse);
+  const double discriminant = speed * speed - 2 * deformation * bend;
+  if (speed <= 0 || deformation <= 0 || discriminant < 0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return 2 * deformation / (speed + std::sqrt(discriminant));
+}
+
+StepTime Motion::Plan(double until) {
+  const double left = until - time_;
+  double h = std::min({next_step_, left, 0.5 * forcing_time_});
+  if (left - h < 1e-3 * h) h = left;  // Leave no sliver.
+  separating_ = kNone;
+  double reach = h / kReach;
+  for (const ActiveContact& active : equations_.active) {
+    if (contacts_[At(active.contact)].phase != Phase::kRestitution) continue;
+    const double parting = TimeToSeparation(active);
+    if (parting > reach || parting > left) continue;
+    const double deformation = active.Relative(rk_.y0.data()) - active.gap;
+    if (deformation > kNear * deformation_scale_[At(active.contact)]) {
+      h = std::min(h, 0.6 * parting);  // Too far off to know when it will part.
+    } else {
+      reach = parting;
+      separating_ = active.contact;
+    }
+  }
+  if (separating_ != kNone) return {.start = time_, .h = reach, .warp = 2};
+  return {.start = time_, .h = h, .warp = TouchWarp(h)};
 }
 
 bool Motion::TakeStep(double until) {
   const int n = equations_.bodies();
   if (next_step_ == 0) {
     const double speed = rk_.y0.segment(n, n).abs().maxCoeff();
-    const double acceleration = rk_.slope0().segment(n, n).abs().maxCoeff();
+    const double acceleration = rk_.slope0.segment(n, n).abs().maxCoeff();
     next_step_ = speed > 0 && acceleration > 0 ? 0.01 * speed / acceleration : 1e-6;
   }
+  std::fill(event_.begin(), event_.end(), 0.0);
   for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
-    const double left = until - time_;
-    h_ = std::min({next_step_, left, 0.5 * forcing_time_});
-    if (left - h_ < 1e-3 * h_) h_ = left;  // Leave no sliver.
-    rk_.Step(equations_, time_, h_);
+    step_ = Plan(until);
+    rk_.Step(equations_, step_);
     ++steps_;
     evaluations_ += 11;
-    const double error = ErrorNorm(h_);
+    const double error = ErrorNorm(step_.h);
     const double factor = error > 0 ? 0.9 * std::pow(error, -1.0 / 8) : 6;
     if (error <= 1) {
-      rk_.FinishStep(equations_, time_, h_);
+      rk_.FinishStep(equations_, step_);
       ++evaluations_;
       const double growth = std::clamp(factor, 0.3, rejections > 0 ? 1.0 : 6.0);
-      next_step_ = std::max(h_ * growth, h_ < next_step_ ? next_step_ : 0.0);
+      const double next = step_.h * growth;
+      next_step_ = step_.h < next_step_ ? std::max(next, next_step_) : next;
       return true;
     }
-    next_step_ = h_ * (std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1);
+    if (separating_ != kNone) {
+      next_step_ = 0.5 * step_.h;  // Not near enough yet.
+    } else {
+      next_step_ = step_.h * (std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1);
+    }
   }
   return false;
 }
@@ -250,58 +307,103 @@ double Motion::ErrorNorm(double h) const {
 
 DeformationPath Motion::Path(int contact) const {
   const int n = equations_.bodies();
-  const auto end = [&](const auto& y, const auto& slope) {
-    return DeformationPath::End{Deformation(contact, y.data()),
-                                h_ * equations_.Relative(contact, y.data() + n),
-                                h_ * h_ * equations_.Relative(contact, slope.data() + n)};
+  const double bend = 2 * step_.h * (1 - step_.warp);  // d²t/dθ²
+  const auto end = [&](const auto& y, const auto& slope, double theta) {
+    const double rate = equations_.Relative(contact, y.data() + n);
+    const double acceleration = equations_.Relative(contact, slope.data() + n);
+    const double dt = step_.h * step_.Rate(theta);
+    return DeformationPath::End{Deformation(contact, y.data()), dt * rate,
+                                dt * dt * acceleration + bend * rate};
   };
-  return {end(rk_.y0, rk_.slope0()), end(rk_.y1, rk_.slope1())};
+  return {end(rk_.y0, rk_.slope0, 0), end(rk_.y1, rk_.slope1, 1)};
 }
 
 Motion::Found Motion::FindEvent() const {
   Found first;
   for (int c = 0; c < equations_.contacts(); ++c) {
-    const auto event = FirstEvent(contacts_[At(c)].phase, Path(c));
+    const auto event = FirstEvent(contacts_[At(c)].phase, Path(c), event_[At(c)]);
     if (!event) continue;
     if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
+  }
+  if (first.contact == kNone && separating_ != kNone) {
+    first = {separating_, {EventKind::kSeparation, 1}};  // Just short of it.
   }
   // Within round-off of the step's start is at its start.
   if (first.contact != kNone && first.event.theta < 1e-13) first.event.theta = 0;
   return first;
 }
 
-// Repeats the step with the length that ends on the event: Newton on the true solution, started
-// from the interpolated one, so that the event's time is good to round-off.
-void Motion::Land(const Found& found) {
+// Takes contacts through the turns inside the step: nothing changes for the motion there, so it
+// need not stop. Returns the first event at which it must.
+Motion::Found Motion::PassTurns() {
   const int n = equations_.bodies();
-  const bool on_rate =
-      found.event.kind == EventKind::kTurn || found.event.kind == EventKind::kNonSeparation;
-  double h = found.event.theta * h_;
-  for (int i = 0; i < kMaxLandings; ++i) {
-    rk_.Step(equations_, time_, h);
-    rk_.FinishStep(equations_, time_, h);
-    ++steps_;
-    evaluations_ += 12;
-    const double rate = equations_.Relative(found.contact, rk_.y1.data() + n);
-    const double value = on_rate ? rate : Deformation(found.contact, rk_.y1.data());
-    const double slope =
-        on_rate ? equations_.Relative(found.contact, rk_.slope1().data() + n) : rate;
-    const double correction = -value / slope;
-    if (!(std::abs(correction) > 1e-15 * h) || h + correction <= 0 || h + correction > 2 * h_)
-      break;
-    if (std::abs(correction) < 1e-16 * time_) break;  // Below what the clock can tell.
-    if (i + 1 < kMaxLandings) h += correction;
+  bool prepared = false;
+  while (true) {
+    const Found found = FindEvent();
+    if (found.contact == kNone || found.event.kind != EventKind::kTurn) return found;
+    if (!prepared) PrepareInterpolation();
+    prepared = true;
+    double theta = found.event.theta;
+    rk_.Interpolate(theta, &inside_);
+    // One step of Newton from the quintic's turn to the solution's.
+    const double acceleration =
+        equations_.Relative(found.contact, rk_.slope0.data() + n) * (1 - theta) +
+        equations_.Relative(found.contact, rk_.slope1.data() + n) * theta;
+    const double late = equations_.Relative(found.contact, inside_.data() + n) / acceleration;
+    theta = std::clamp(step_.Theta(step_.At(theta) - late), 0.0, 1.0);
+    rk_.Interpolate(theta, &inside_);
+    event_[At(found.contact)] = theta;
+    Turn(contacts_[At(found.contact)], step_.At(theta), inside_);
   }
-  h_ = h;
+}
+
+// Makes the step end on the event: Newton on its length with the true solution, started from the
+// interpolated one, until the event's time is good to round-off.
+void Motion::Land(const Found& found) {
+  const bool parting = found.event.kind == EventKind::kSeparation;
+  const double longest = 2 * step_.h;
+  if (found.event.theta < 1) Repeat(step_.At(found.event.theta) - time_, parting);
+  for (int i = 0; i < kMaxLandings; ++i) {
+    const double correction = Correction(found);
+    const double h = step_.h + correction;
+    if (!(h > 0) || h > longest) return;
+    if (std::abs(correction) <= 1e-7 * step_.h) {
+      // So near that the tangent leads there: its error is of second order.
+      rk_.y1 += correction * rk_.slope1;
+      step_.h = h;
+      rk_.FinishStep(equations_, step_);
+      ++evaluations_;
+      return;
+    }
+    Repeat(h, parting);
+  }
+}
+
+void Motion::Repeat(double h, bool parting) {
+  step_ = {.start = time_, .h = h, .warp = parting ? 2 : TouchWarp(h)};
+  rk_.Step(equations_, step_);
+  rk_.FinishStep(equations_, step_);
+  ++steps_;
+  evaluations_ += 12;
+}
+
+// By how much the step must be longer to end on the event, to first order.
+double Motion::Correction(const Found& found) const {
+  const int n = equations_.bodies();
+  const double rate = equations_.Relative(found.contact, rk_.y1.data() + n);
+  if (found.event.kind == EventKind::kNonSeparation) {
+    return -rate / equations_.Relative(found.contact, rk_.slope1.data() + n);
+  }
+  return -Deformation(found.contact, rk_.y1.data()) / rate;
 }
 
 void Motion::Accept(StepListener* listener) {
   const int n = equations_.bodies();
   if (equations_.recording) {
     for (const ActiveContact& active : equations_.active) ObserveForce(active.contact);
-    if (listener != nullptr) listener->OnStep(time_, h_);
+    if (listener != nullptr) listener->OnStep(step_);
   }
-  time_ += h_;
+  time_ += step_.h;
   rk_.Advance();
   if (equations_.active.empty()) {
     flight_length_ = std::max(flight_length_, rk_.y0.head(n).abs().maxCoeff());

@@ -52,23 +52,25 @@ class CycleHost {
   struct Factor {
     double mu = 0;
     int column = kNone;  ///< Sensitivity column, at most one past those in use; or kNone.
+    double length = 0;   ///< Expected δ_m − δ_s [m] and
+    double speed = 0;    ///< largest |δ̇| [m/s], for the error control; 0: unknown.
   };
   /// A cycle begins: `state.cycle` holds contact, number, kind and start. `external_force` is F_e
   /// there [N].
   virtual Factor OnStart(const ContactState& state, double effective_mass,
                          double external_force) = 0;
   /// A cycle has ended; the gradients hold ∂W_c/∂μ and ∂W_r/∂μ of each column.
-  /// May change status and bookkeeping of `state`.
+  /// May change status and bookkeeping of `state`. `length` and `speed` are what Factor expects.
   virtual void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
-                     const Eigen::ArrayXd& restitution_gradient) = 0;
+                     const Eigen::ArrayXd& restitution_gradient, double length, double speed) = 0;
 };
 
 /// Hears of accepted steps when recording.
 class StepListener {
  public:
   virtual ~StepListener() = default;
-  /// The step from `time` to `time + h` of the integrator is accepted.
-  virtual void OnStep(double time, double h) = 0;
+  /// The step in the integrator is accepted.
+  virtual void OnStep(const StepTime& time) = 0;
 };
 
 /// Moves the system forward in steps that land on contact events, and takes the contacts
@@ -104,7 +106,7 @@ class Motion {
   DormandPrince& integrator() { return rk_; }
   const DormandPrince& integrator() const { return rk_; }
   /// Prepares integrator().Interpolate for the step that the listener hears of.
-  void PrepareInterpolation(double time, double h);
+  void PrepareInterpolation();
   const std::vector<ContactState>& contacts() const { return contacts_; }
   double Deformation(int contact, const double* y) const;
 
@@ -120,17 +122,23 @@ class Motion {
   void SetRestingScale(int contact);
   double FirstStep(int contact) const;
   bool TakeStep(double until);
+  StepTime Plan(double until);
+  double TouchWarp(double h) const;
+  double TimeToSeparation(const ActiveContact& active) const;
   double ErrorNorm(double h) const;
   Found FindEvent() const;
+  Found PassTurns();
   DeformationPath Path(int contact) const;
   void Land(const Found& found);
+  double Correction(const Found& found) const;
+  void Repeat(double h, bool parting);
   void Accept(StepListener* listener);
   void Apply(const Found& found, CycleHost& host);
   void WakeResting(CycleHost& host);
-  void Turn(ContactState& state);
+  void Turn(ContactState& state, double time, const Eigen::ArrayXd& y);
   void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
   void ObserveForce(int contact);
-  Eigen::ArrayXd WorkGradient(int contact) const;
+  Eigen::ArrayXd WorkGradient(int contact, const Eigen::ArrayXd& y) const;
   void RefreshActive();
 
   const Scenario& scenario_;
@@ -147,7 +155,11 @@ class Motion {
   State totals_;                                 // The balances at Begin.
   double forcing_time_;
   double time_ = 0;
-  double h_ = 0;  // Of the step in the integrator.
+  StepTime step_;              // The step in the integrator.
+  int separating_ = kNone;     // The contact whose predicted separation ends it.
+  std::vector<double> event_;  // θ up to which each contact's events in it are dealt with.
+  double touch_time_ = kNaN;   // When the latest collision began.
+  Eigen::ArrayXd inside_;      // y at a turn inside the step.
   double next_step_ = 0;
   std::int64_t steps_ = 0;
   std::int64_t evaluations_ = 0;

@@ -48,7 +48,7 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   const Contact& c = scenario_.contacts[At(contact)];
   const double mass = equations_.effective_mass(contact);
   const double external_force =
-      mass * equations_.Relative(contact, rk_.slope0().data() + n) +
+      mass * equations_.Relative(contact, rk_.slope0.data() + n) +
       c.stiffness * Power(state.cycle.start_deformation, c.exponent).value;
   const CycleHost::Factor factor = host.OnStart(state, mass, external_force);
   state.cycle.mu = factor.mu;
@@ -67,9 +67,15 @@ void Motion::StartCycle(int contact, CycleHost& host) {
     rk_.y0[column * equations_.block() + 2 * n + contact] = 0;
   }
   if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
-  start_gradient_[At(contact)] = WorkGradient(contact);
-  deformation_scale_[At(contact)] = 0;
-  velocity_scale_[At(contact)] = state.cycle.approach_velocity;
+  start_gradient_[At(contact)] = WorkGradient(contact, rk_.y0);
+  deformation_scale_[At(contact)] = factor.length;
+  velocity_scale_[At(contact)] = std::max(factor.speed, state.cycle.approach_velocity);
+  if (factor.length == 0 && kind == Cycle::Kind::kCollision) {
+    deformation_scale_[At(contact)] =
+        MaximumDeformation(mass, state.cycle.approach_velocity, c.stiffness, c.exponent,
+                           state.cycle.mu * state.cycle.approach_velocity / c.stiffness);
+  }
+  if (kind == Cycle::Kind::kCollision) touch_time_ = time_;
   if (state.settled) SetRestingScale(contact);
   const double first = FirstStep(contact);
   next_step_ = next_step_ == 0 ? first : std::min(next_step_, first);
@@ -92,11 +98,11 @@ double Motion::FirstStep(int contact) const {
   const double mass = equations_.effective_mass(contact);
   if (cycle.approach_velocity > 0) {
     const double v = cycle.approach_velocity;
-    return 0.02 * MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
+    return 0.05 * MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
   }
   double deformation = cycle.start_deformation;
   if (deformation == 0) {  // The load's equilibrium.
-    const double a = std::abs(equations_.Relative(contact, rk_.slope0().data() + n));
+    const double a = std::abs(equations_.Relative(contact, rk_.slope0.data() + n));
     deformation = std::pow(mass * a / c.stiffness, 1 / c.exponent);
   }
   const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
@@ -115,8 +121,7 @@ void Motion::Apply(const Found& found, CycleHost& host) {
       return;
     }
     case EventKind::kTurn:
-      Turn(state);
-      return;
+      return;  // Dealt with inside the step.
     case EventKind::kSeparation:
       EndCycle(state, Cycle::End::kSeparation, host);
       return;
@@ -142,21 +147,21 @@ void Motion::WakeResting(CycleHost& host) {
   }
 }
 
-void Motion::Turn(ContactState& state) {
+void Motion::Turn(ContactState& state, double time, const Eigen::ArrayXd& y) {
   Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   const int n = equations_.bodies();
   state.phase = Phase::kRestitution;
-  cycle.turn_time = time_;
-  cycle.max_deformation = Deformation(cycle.contact, rk_.y0.data());
-  cycle.work_compression = rk_.y0[2 * n + cycle.contact];  // (W1)
+  cycle.turn_time = time;
+  cycle.max_deformation = Deformation(cycle.contact, y.data());
+  cycle.work_compression = y[2 * n + cycle.contact];  // (W1)
   cycle.dissipated_compression = cycle.work_compression -
                                  ElasticEnergy(contact, cycle.max_deformation) +
                                  ElasticEnergy(contact, cycle.start_deformation);  // (W2)
   if (equations_.recording) {
-    cycle.external_compression = rk_.y0[equations_.external_work(cycle.contact)];
+    cycle.external_compression = y[equations_.external_work(cycle.contact)];
   }
-  turn_gradient_[At(cycle.contact)] = WorkGradient(cycle.contact);
+  turn_gradient_[At(cycle.contact)] = WorkGradient(cycle.contact, y);
 }
 
 void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
@@ -164,7 +169,8 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   const int n = equations_.bodies();
   const bool separates = end == Cycle::End::kSeparation;
-  if (state.phase == Phase::kResting) Turn(state);  // Its works count as one compression.
+  if (state.phase == Phase::kResting)
+    Turn(state, time_, rk_.y0);  // Its works count as one compression.
   cycle.end = end;
   cycle.end_time = time_;
   cycle.end_deformation = separates ? 0 : Deformation(cycle.contact, rk_.y0.data());
@@ -195,7 +201,8 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   const Eigen::ArrayXd turn = extended(turn_gradient_[At(cycle.contact)]);
   state.phase = separates ? Phase::kOpen : Phase::kStarting;
   state.last_mu = cycle.mu;
-  host.OnEnd(state, turn - start, extended(WorkGradient(cycle.contact)) - turn);
+  host.OnEnd(state, turn - start, extended(WorkGradient(cycle.contact, rk_.y0)) - turn,
+             deformation_scale_[At(cycle.contact)], velocity_scale_[At(cycle.contact)]);
   state.largest_work = std::max(state.largest_work, cycle.work_compression);
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
   rk_.y0[2 * n + cycle.contact] = 0;
@@ -204,11 +211,10 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
 }
 
 // ∂W/∂μ of a contact for each column, (S2).
-Eigen::ArrayXd Motion::WorkGradient(int contact) const {
+Eigen::ArrayXd Motion::WorkGradient(int contact, const Eigen::ArrayXd& y) const {
   Eigen::ArrayXd gradient(equations_.columns);
   for (int column = 0; column < equations_.columns; ++column) {
-    gradient[column] =
-        rk_.y0[(column + 1) * equations_.block() + 2 * equations_.bodies() + contact];
+    gradient[column] = y[(column + 1) * equations_.block() + 2 * equations_.bodies() + contact];
   }
   return gradient;
 }
@@ -218,7 +224,10 @@ void Motion::ObserveForce(int contact) {
   const Contact& c = scenario_.contacts[At(contact)];
   Cycle& cycle = contacts_[At(contact)].cycle;
   const DeformationPath path = Path(contact);
-  const auto factor = [&](double theta) { return c.stiffness + cycle.mu * path.Slope(theta) / h_; };
+  const auto factor = [&](double theta) {
+    const double dt = step_.h * step_.Rate(theta);
+    return c.stiffness + cycle.mu * (dt > 0 ? path.Slope(theta) / dt : 0);
+  };
   const auto force = [&](double theta) {
     return Power(path.Value(theta), c.exponent).value * factor(theta);
   };
@@ -226,7 +235,8 @@ void Motion::ObserveForce(int contact) {
   int best = 0;
   for (int i = 1; i <= kPieces; ++i) {
     if (force(i / 8.0) > force(best / 8.0)) best = i;
-    if (factor((i - 0.5) / 8.0) < 0) cycle.tension_time += h_ / kPieces;
+    if (factor((i - 0.5) / 8.0) < 0)
+      cycle.tension_time += step_.At(i / 8.0) - step_.At((i - 1) / 8.0);
   }
   if (force(best / 8.0) <= cycle.peak_force && best % kPieces == 0) return;
   const double low = std::max(0, best - 1) / 8.0;

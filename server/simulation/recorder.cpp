@@ -1,5 +1,6 @@
 #include "simulation/recorder.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace contact {
@@ -16,17 +17,17 @@ void Recorder::RecordStart(const State& state) {
   Record(0, motion_.integrator().y0);
 }
 
-void Recorder::OnStep(double time, double h) {
+void Recorder::OnStep(const StepTime& step) {
   if (scenario_.sample_interval == 0) return;
   bool prepared = false;
   while (true) {
     const double sample_time = static_cast<double>(next_) * scenario_.sample_interval;
     // The last sample is the end of the run, though the multiple of the interval may miss it.
-    const double late = time + h + 1e-9 * scenario_.sample_interval;
+    const double late = step.At(1) + 1e-9 * scenario_.sample_interval;
     if (sample_time > late || sample_time > scenario_.end_time * (1 + 1e-12)) return;
-    if (!prepared) motion_.PrepareInterpolation(time, h);
+    if (!prepared) motion_.PrepareInterpolation();
     prepared = true;
-    motion_.integrator().Interpolate(std::min((sample_time - time) / h, 1.0), &y_);
+    motion_.integrator().Interpolate(std::clamp(step.Theta(sample_time), 0.0, 1.0), &y_);
     Record(std::min(sample_time, scenario_.end_time), y_);
   }
 }

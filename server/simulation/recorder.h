@@ -13,7 +13,7 @@ class Recorder final : public StepListener {
  public:
   Recorder(const Scenario& scenario, Motion& motion, Observer& observer);
 
-  void OnStep(double time, double h) override;
+  void OnStep(const StepTime& step) override;
 
   /// Records the state at time 0 and later hands out what is left.
   void RecordStart(const State& state);

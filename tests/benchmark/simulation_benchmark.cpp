@@ -57,9 +57,14 @@ BENCHMARK(OdeintPass)->DenseRange(8, 12, 2)->Unit(benchmark::kMicrosecond);
 class FixedFactors final : public CycleHost {
  public:
   Factor OnStart(const ContactState& s, double, double) override {
-    return {.mu = kFactors[static_cast<std::size_t>(s.cycle.contact)], .column = kNone};
+    // Length and speed are what a solve knows after its first pass.
+    return {.mu = kFactors[static_cast<std::size_t>(s.cycle.contact)],
+            .column = kNone,
+            .length = 8e-5,
+            .speed = 0.15};
   }
-  void OnEnd(ContactState&, const Eigen::ArrayXd&, const Eigen::ArrayXd&) override {}
+  void OnEnd(ContactState&, const Eigen::ArrayXd&, const Eigen::ArrayXd&, double, double) override {
+  }
 };
 
 // With events located and works integrated.

@@ -18,11 +18,11 @@ Eigen::ArrayXd Integrate(int steps, double until) {
   DormandPrince rk;
   rk.Resize(2);
   rk.y0 << 2, 0;
-  kPendulum(0, rk.y0.data(), rk.slope0().data());
+  kPendulum(0, rk.y0.data(), rk.slope0.data());
   const double h = until / steps;
   for (int i = 0; i < steps; ++i) {
-    rk.Step(kPendulum, i * h, h);
-    rk.FinishStep(kPendulum, i * h, h);
+    rk.Step(kPendulum, {.start = i * h, .h = h});
+    rk.FinishStep(kPendulum, {.start = i * h, .h = h});
     rk.Advance();
   }
   return rk.y0;
@@ -34,11 +34,11 @@ double Error(int steps) {
   DormandPrince rk;
   rk.Resize(1);
   rk.y0 << 1;
-  f(0, rk.y0.data(), rk.slope0().data());
+  f(0, rk.y0.data(), rk.slope0.data());
   const double h = 5.0 / steps;
   for (int i = 0; i < steps; ++i) {
-    rk.Step(f, i * h, h);
-    rk.FinishStep(f, i * h, h);
+    rk.Step(f, {.start = i * h, .h = h});
+    rk.FinishStep(f, {.start = i * h, .h = h});
     rk.Advance();
   }
   return std::abs(rk.y0[0] - std::exp(std::sin(5.0)));
@@ -53,10 +53,10 @@ double DenseError(double h) {
   DormandPrince rk;
   rk.Resize(2);
   rk.y0 << 2, 0;
-  kPendulum(0, rk.y0.data(), rk.slope0().data());
-  rk.Step(kPendulum, 0, h);
-  rk.FinishStep(kPendulum, 0, h);
-  rk.PrepareInterpolation(kPendulum, 0, h);
+  kPendulum(0, rk.y0.data(), rk.slope0.data());
+  rk.Step(kPendulum, {.start = 0, .h = h});
+  rk.FinishStep(kPendulum, {.start = 0, .h = h});
+  rk.PrepareInterpolation(kPendulum, {.start = 0, .h = h});
   double worst = 0;
   for (const double theta : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     Eigen::ArrayXd y;
@@ -75,15 +75,40 @@ TEST(DormandPrince, InterpolantMeetsBothEnds) {
   DormandPrince rk;
   rk.Resize(2);
   rk.y0 << 1, 0.5;
-  kPendulum(0, rk.y0.data(), rk.slope0().data());
-  rk.Step(kPendulum, 0, 0.5);
-  rk.FinishStep(kPendulum, 0, 0.5);
-  rk.PrepareInterpolation(kPendulum, 0, 0.5);
+  kPendulum(0, rk.y0.data(), rk.slope0.data());
+  rk.Step(kPendulum, {.start = 0, .h = 0.5});
+  rk.FinishStep(kPendulum, {.start = 0, .h = 0.5});
+  rk.PrepareInterpolation(kPendulum, {.start = 0, .h = 0.5});
   Eigen::ArrayXd y;
   rk.Interpolate(0, &y);
   EXPECT_EQ((y - rk.y0).abs().maxCoeff(), 0);
   rk.Interpolate(1, &y);
   EXPECT_LE((y - rk.y1).abs().maxCoeff(), 1e-16);
+}
+
+TEST(StepTime, ThetaInvertsAt) {
+  for (const double warp : {0.0, 0.3, 1.0, 1.7, 2.0}) {
+    const StepTime time{.start = 3, .h = 0.25, .warp = warp};
+    EXPECT_EQ(time.At(0), 3);
+    EXPECT_EQ(time.At(1), 3.25);
+    for (const double theta : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+      EXPECT_NEAR(time.Theta(time.At(theta)), theta, 1e-7);
+      EXPECT_NEAR(time.At(time.Theta(time.At(theta))), time.At(theta), 1e-15);
+    }
+  }
+}
+
+// y' = 3/2 √t from 0: smooth only in √t.
+TEST(StepTime, AWarpMakesAFractionalPowerSmooth) {
+  const auto f = [](double t, const double*, double* dy) { dy[0] = 1.5 * std::sqrt(t); };
+  DormandPrince rk;
+  rk.Resize(1);
+  rk.y0 << 0;
+  rk.slope0 << 0;
+  rk.Step(f, {.start = 0, .h = 1, .warp = 1});
+  EXPECT_GT(std::abs(rk.y1[0] - 1), 1e-5);
+  rk.Step(f, {.start = 0, .h = 1, .warp = 0});
+  EXPECT_LT(std::abs(rk.y1[0] - 1), 1e-14);
 }
 
 // The error estimate must not be smaller than the error by much, nor vanish.
@@ -92,8 +117,8 @@ TEST(DormandPrince, ErrorEstimatesFollowTheError) {
   rk.Resize(2);
   for (const double h : {0.5, 1.0}) {
     rk.y0 << 2, 0;
-    kPendulum(0, rk.y0.data(), rk.slope0().data());
-    rk.Step(kPendulum, 0, h);
+    kPendulum(0, rk.y0.data(), rk.slope0.data());
+    rk.Step(kPendulum, {.start = 0, .h = h});
     const double error = std::abs(rk.y1[1] - Integrate(100, h)[1]);
     EXPECT_GT(h * std::abs(rk.Error5(1)), error);
     EXPECT_LT(h * std::abs(rk.Error5(1)), 1e5 * error);

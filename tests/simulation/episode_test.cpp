@@ -21,7 +21,7 @@ class FixedFactors final : public CycleHost {
     return {.mu = mu_[static_cast<std::size_t>(contact)], .column = columns_++};
   }
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression,
-             const Eigen::ArrayXd& restitution) override {
+             const Eigen::ArrayXd& restitution, double, double) override {
     works.push_back(state.cycle.work_compression);
     works.push_back(state.cycle.work_restitution);
     gradients.push_back(compression);
