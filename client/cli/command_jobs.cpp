@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -54,11 +55,9 @@ v1::ListJobsResponse ListAll(Client& client, const ListArguments& arguments) {
 
 std::string Labels(const v1::Job& job) {
   std::vector<std::string> labels;
-  for (const auto& [key, value] : job.labels()) labels.push_back(key + "=" + value);
+  for (const auto& [key, value] : job.labels()) labels.push_back(fmt::format("{}={}", key, value));
   std::ranges::sort(labels);
-  std::string text;
-  for (const std::string& label : labels) text += (text.empty() ? "" : ", ") + label;
-  return text;
+  return fmt::format("{}", fmt::join(labels, ", "));
 }
 
 std::string Convergence(const v1::Job& job) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <system_error>
 
 #include "cli/commands.h"
 #include "wire/spelling.h"
@@ -120,6 +121,9 @@ int main(int argc, char** argv) {
     return contact::cli::Main(argc, argv);
   } catch (const contact::cli::Failure& failure) {
     return contact::cli::Tell(failure);
+  } catch (const std::system_error& error) {  // fmt could not write to a stream.
+    fmt::print(stderr, "contactctl: {}\n", error.what());
+    return static_cast<int>(contact::cli::ExitCode::kLocal);
   } catch (const std::exception& error) {
     fmt::print(stderr, "contactctl: {}\n", error.what());
     return static_cast<int>(contact::cli::ExitCode::kRunFailed);

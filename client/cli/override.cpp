@@ -20,8 +20,8 @@ using google::protobuf::Message;
 // Walks down a path and reads the value at its end, once for every entry that `[*]` stands for.
 class Assignment {
  public:
-  Assignment(YAML::Node value, std::vector<std::string>* overridden)
-      : value_(std::move(value)), overridden_(overridden) {}
+  Assignment(const YAML::Node& value, std::vector<std::string>* overridden)
+      : value_(value), overridden_(overridden) {}
 
   void Assign(std::span<const PathStep> path, const std::string& walked, Message* message) {
     const PathStep& step = path.front();

@@ -201,6 +201,7 @@ void YamlReader::Refuse(const YAML::Node& node, const std::string& path,
 
 std::string YamlReader::FieldHint(const Descriptor& message, const std::string& name) {
   std::vector<std::string_view> names;
+  names.reserve(static_cast<std::size_t>(message.field_count()));
   for (int i = 0; i < message.field_count(); ++i) names.push_back(message.field(i)->name());
   const std::string_view nearest = Nearest(name, names);
   if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);

@@ -19,7 +19,7 @@ struct Violation {
 /// What a scenario may hold at most; checked before anything is allocated for it.
 struct ScenarioLimits {
   std::int32_t max_bodies = 20'000;
-  std::int32_t max_contacts = 20'000;  ///< After neighbours are expanded.
+  std::int32_t max_contacts = 20'000;     ///< After neighbours are expanded.
   std::int64_t max_samples = 10'000'000;  ///< Rows of the recorded trajectory.
 };
 
