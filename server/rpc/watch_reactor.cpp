@@ -13,7 +13,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr std::size_t kMaxBatchBytes = 256 * 1024;
+constexpr std::size_t kMaxBatchBytes = std::size_t{256} * 1024;
 constexpr milliseconds kDefaultBookmarkInterval{10'000};
 constexpr milliseconds kMinBookmarkInterval{1'000};
 constexpr milliseconds kMaxBookmarkInterval{3'600'000};

@@ -45,7 +45,7 @@ class ConfigTest : public testing::Test {
   }
 
   std::string File(const std::string& text) {
-    const std::string path = testing::TempDir() + "contactd_config_test.conf";
+    std::string path = testing::TempDir() + "contactd_config_test.conf";
     std::ofstream(path) << text;
     return path;
   }
@@ -154,7 +154,8 @@ TEST_F(ConfigTest, AddressOthersCanReachNeedsConsent) {
 }
 
 TEST_F(ConfigTest, DataDirDefaultsToTheStateFolderOfTheUser) {
-  const std::string home = getenv("HOME") != nullptr ? getenv("HOME") : "";
+  const char* home = getenv("HOME");
+  const std::string before = home != nullptr ? home : "";
   Set("XDG_STATE_HOME", "/state");
   EXPECT_EQ(std::get<Config>(Read({})).data_dir, "/state/contactd");
   unsetenv("XDG_STATE_HOME");
@@ -164,7 +165,7 @@ TEST_F(ConfigTest, DataDirDefaultsToTheStateFolderOfTheUser) {
   const auto read = Read({});
   ASSERT_TRUE(std::holds_alternative<Exit>(read));
   EXPECT_THAT(std::get<Exit>(read).text, HasSubstr("--data-dir"));
-  setenv("HOME", home.c_str(), 1);
+  setenv("HOME", before.c_str(), 1);
 }
 
 TEST_F(ConfigTest, HelpAndVersionAreNoErrors) {
