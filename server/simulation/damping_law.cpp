@@ -34,10 +34,9 @@ double ExactCoefficient(double restitution) {
   // conditioned even where αε is 1 to all digits. Start: the paper's (23).
   const double start = 1.5 * (1 - e * e) / (e * e + std::pow(e, 0.87));
   double q = e > 0.3 ? -std::log1p(-start * e) : Loss(1 / e) + 1;
-  double alpha = start;
   for (int i = 0; i < 50; ++i) {
     const double w = -std::expm1(-q);
-    alpha = w / e;
+    const double alpha = w / e;
     const double f = LossOfLog(q) - Loss(alpha);
     const double slope = w - alpha / (1 + alpha) * (1 - w) / e;
     const double step = f / slope;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "simulation/scenario.h"
@@ -63,12 +64,12 @@ class Equations {
 
   int bodies() const { return static_cast<int>(inverse_mass_.size()); }
   int contacts() const { return static_cast<int>(scenario_.contacts.size()); }
-  int block() const { return 2 * bodies() + contacts(); }
-  int size() const { return block() + (recording ? contacts() + 3 : columns * block()); }
-  int external_work(int contact) const { return block() + contact; }
-  int load_work() const { return block() + contacts(); }
-  int support_loss() const { return load_work() + 1; }
-  int impulse() const { return load_work() + 2; }
+  std::ptrdiff_t block() const { return 2 * std::ptrdiff_t{bodies()} + contacts(); }
+  std::ptrdiff_t size() const { return block() + (recording ? contacts() + 3 : columns * block()); }
+  std::ptrdiff_t external_work(int contact) const { return block() + contact; }
+  std::ptrdiff_t load_work() const { return block() + contacts(); }
+  std::ptrdiff_t support_loss() const { return load_work() + 1; }
+  std::ptrdiff_t impulse() const { return load_work() + 2; }
 
   /// dy = f(t, y).
   void operator()(double t, const double* y, double* dy) const;

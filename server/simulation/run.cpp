@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulation/episode.h"
 #include "simulation/recorder.h"
@@ -12,10 +13,10 @@ namespace {
 // One run: free flights and episodes in turn, and the ledger.
 class Runner {
  public:
-  Runner(const Scenario& scenario, Observer& observer, const std::stop_token& stop)
+  Runner(const Scenario& scenario, Observer& observer, std::stop_token stop)
       : scenario_(scenario),
         observer_(observer),
-        stop_(stop),
+        stop_(std::move(stop)),
         motion_(scenario),
         solver_(scenario, motion_, observer),
         recorder_(scenario, motion_, observer) {}
@@ -206,7 +207,7 @@ class Runner {
 }  // namespace
 
 Outcome Run(const Scenario& scenario, Observer& observer, std::stop_token stop) {
-  return Runner(scenario, observer, stop).Run();
+  return Runner(scenario, observer, std::move(stop)).Run();
 }
 
 }  // namespace contact
