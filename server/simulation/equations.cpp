@@ -79,7 +79,7 @@ void Equations::operator()(double t, const double* y, double* dy) const {
   const int n = bodies();
   const int blocks = recording ? 1 : columns + 1;
   std::fill(dy, dy + size(), 0.0);
-  for (int i = 0; i < blocks; ++i) {  // u̇ = v, in each block
+  for (std::ptrdiff_t i = 0; i < blocks; ++i) {  // u̇ = v, in each block
     std::copy(y + i * block() + n, y + i * block() + 2 * n, dy + i * block());
   }
   for (const Load& load : scenario_.loads) {

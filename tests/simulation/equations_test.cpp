@@ -39,7 +39,7 @@ struct MixedPoint {
     y[0] = -3e-6;  // Into the wall too.
     std::mt19937 random(7);
     std::uniform_real_distribution<double> tangent(-1e-12, 1e-12);
-    for (int i = equations.block(); i < y.size(); ++i) y[i] = tangent(random);
+    for (auto i = equations.block(); i < y.size(); ++i) y[i] = tangent(random);
   }
 
   Eigen::ArrayXd Slope() const {
@@ -52,7 +52,7 @@ struct MixedPoint {
 // A sensitivity column is the derivative of the slope along (∂y/∂μ, 1 for its own μ).
 TEST(Equations, SensitivityColumnsAreDirectionalDerivatives) {
   MixedPoint s;
-  const int n = s.equations.block();
+  const auto n = s.equations.block();
   const Eigen::ArrayXd dy = s.Slope();
   for (int column = 0; column < 3; ++column) {
     const double step = 1e3;  // Of μ; the tangents are made for it.
