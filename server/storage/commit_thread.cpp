@@ -17,9 +17,10 @@ constexpr std::chrono::seconds kIdle{1};
 
 }  // namespace
 
-CommitThread::CommitThread(std::unique_ptr<Database> database,
+CommitThread::CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
                            std::function<void(const absl::Status&)> on_failure)
     : database_(std::move(database)),
+      tidy_(std::move(tidy)),
       on_failure_(std::move(on_failure)),
       thread_([this] { Loop(); }) {}
 
@@ -42,19 +43,26 @@ void CommitThread::Post(Operation operation) {
 
 void CommitThread::Loop() {
   while (std::optional<Batch> batch = NextBatch()) {
-    const bool idle = batch->empty();
-    if (!idle) Commit(*batch);
-    if (idle || database_->log_pages() > kMaxLogPages) Checkpoint();
+    if (!batch->empty()) {
+      Commit(*batch);
+      untidy_ = true;
+    } else if (untidy_) {
+      Tidy();
+    } else {
+      Checkpoint();
+    }
+    if (database_->log_pages() > kMaxLogPages) Checkpoint();
   }
 }
 
-// Waits for operations. None at all: it is time to stop; an empty batch: time to tidy up.
+// Waits for operations. None at all: it is time to stop; an empty batch: to see to the database.
 std::optional<CommitThread::Batch> CommitThread::NextBatch() {
-  const bool tidy = database_->log_pages() == 0;
+  const bool checkpointed = database_->log_pages() == 0;
   const MutexLock lock(mutex_);
   while (queue_.empty()) {
     if (stopping_) return std::nullopt;
-    if (tidy) {
+    if (untidy_) break;
+    if (checkpointed) {
       posted_.wait(mutex_);
     } else if (posted_.wait_for(mutex_, kIdle) == std::cv_status::timeout) {
       break;
@@ -72,10 +80,11 @@ std::optional<CommitThread::Batch> CommitThread::NextBatch() {
 }
 
 void CommitThread::Commit(Batch& batch) {
-  const absl::Status status = Try(batch);
-  if (absl::IsUnavailable(status)) Fail(status);
+  const absl::Status status = Try([&] {
+    for (const Operation& operation : batch) operation.run(*database_);
+  });
   if (status.ok() || !failure_.ok() || batch.size() == 1) {
-    for (const Operation& operation : batch) operation.done(failure_.ok() ? status : failure_);
+    for (const Operation& operation : batch) operation.done(status);
     return;
   }
   // One of them does not fit, or met a damaged page: the others must not suffer for it.
@@ -86,16 +95,26 @@ void CommitThread::Commit(Batch& batch) {
   }
 }
 
-absl::Status CommitThread::Try(Batch& batch) {
+// Does it in a transaction; on error nothing is done.
+absl::Status CommitThread::Try(const std::function<void()>& work) {
   if (!failure_.ok()) return failure_;
   try {
     SQLite::Transaction transaction(database_->connection());
-    for (const Operation& operation : batch) operation.run(*database_);
+    work();
     transaction.commit();
     return absl::OkStatus();
   } catch (const SQLite::Exception& error) {
-    return ToStatus(error);
+    const absl::Status status = ToStatus(error);
+    if (absl::IsUnavailable(status)) Fail(status);
+    return status;
   }
+}
+
+// Anything but success: it is done, or will be tried after the next batch.
+void CommitThread::Tidy() {
+  bool more = false;
+  const absl::Status status = Try([&] { more = tidy_(*database_); });
+  untidy_ = status.ok() && more;
 }
 
 void CommitThread::Checkpoint() {
@@ -104,7 +123,8 @@ void CommitThread::Checkpoint() {
     database_->Checkpoint();
   } catch (const SQLite::Exception& error) {
     // Without space the log goes on growing, and commits will tell.
-    if (const absl::Status status = ToStatus(error); absl::IsUnavailable(status)) Fail(status);
+    const absl::Status status = ToStatus(error);
+    if (absl::IsUnavailable(status)) Fail(status);
   }
 }
 

@@ -27,9 +27,10 @@ class CommitThread {
     std::function<void(const absl::Status&)> done;
   };
 
-  /// `on_failure` is called once, on the thread, when the disk fails in a way that leaves open
-  /// what it holds. From then on no operation runs.
-  CommitThread(std::unique_ptr<Database> database,
+  /// `tidy` is run in transactions of its own while there is nothing else to do, after each batch
+  /// until it returns false. `on_failure` is called once, on the thread, when the disk fails in a
+  /// way that leaves open what it holds. From then on no operation runs.
+  CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
                std::function<void(const absl::Status&)> on_failure);
   /// Commits what was posted, then joins.
   ~CommitThread();
@@ -43,12 +44,15 @@ class CommitThread {
   void Loop();
   std::optional<Batch> NextBatch();
   void Commit(Batch& batch);
-  absl::Status Try(Batch& batch);
+  absl::Status Try(const std::function<void()>& work);
+  void Tidy();
   void Checkpoint();
   void Fail(const absl::Status& failure);
 
   const std::unique_ptr<Database> database_;  // Of the thread.
+  const std::function<bool(Database&)> tidy_;
   const std::function<void(const absl::Status&)> on_failure_;
+  bool untidy_ = true;    // Of the thread: `tidy_` may have something to do.
   absl::Status failure_;  // Of the thread.
 
   Mutex mutex_;

@@ -49,8 +49,7 @@ absl::StatusOr<std::unique_ptr<Database>> Database::Open(DataDirectory directory
     if (absl::Status made = database->CreateSchema(); !made.ok()) return made;
     return database;
   } catch (const SQLite::Exception& error) {
-    const absl::Status status = ToStatus(error);
-    if (absl::IsDataLoss(status)) return Damaged(file, error.what());
+    if (absl::IsDataLoss(ToStatus(error))) return Damaged(file, error.what());
     return absl::FailedPreconditionError(absl::StrCat("cannot open ", file, ": ", error.what()));
   }
 }
@@ -131,6 +130,12 @@ absl::Status ToStatus(const SQLite::Exception& error) {
     case SQLITE_NOTADB:
       return absl::DataLossError(absl::StrCat("the store is damaged: ", error.what()));
     case SQLITE_IOERR:
+      // A quota or a limit on the size of files, as a rule. Nothing was promised and nothing is
+      // half done, unlike after a failed sync.
+      if (error.getExtendedErrorCode() == SQLITE_IOERR_WRITE) {
+        return absl::ResourceExhaustedError("the store cannot write");
+      }
+      [[fallthrough]];
     case SQLITE_CANTOPEN:
     case SQLITE_READONLY:
       return absl::UnavailableError(absl::StrCat("the disk of the store failed: ", error.what()));

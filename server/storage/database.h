@@ -16,7 +16,7 @@ namespace contact {
 
 /// The one connection to the database of a data directory. Belongs to one thread at a time.
 ///
-/// SQL errors are thrown as SQLite::Exception; ToStatus translates them.
+/// SQL errors are thrown as SQLite::Exception.
 class Database {
  public:
   /// Opens the database, or makes it in a new directory, and checks it: it must be whole, not
@@ -92,7 +92,8 @@ class Query {
   int bound_ = 0;
 };
 
-/// RESOURCE_EXHAUSTED: no space; DATA_LOSS: damaged; UNAVAILABLE: the disk failed; else INTERNAL.
+/// What an error means. RESOURCE_EXHAUSTED: no space; DATA_LOSS: damaged; UNAVAILABLE: the disk
+/// failed; else INTERNAL.
 absl::Status ToStatus(const SQLite::Exception& error);
 
 }  // namespace contact

@@ -9,6 +9,9 @@
 namespace contact {
 namespace {
 
+// The log of a job may have gigabytes, and whoever wants to commit waits for one sweep.
+constexpr int kSweptEvents = 32;
+
 void InsertEvents(Database& database, std::int64_t job, std::uint64_t last,
                   const std::vector<EventRow>& events) {
   for (const EventRow& event : events) {
@@ -95,13 +98,26 @@ absl::Status MarkCancelRequested(Database& database, const std::string& name) {
 }
 
 absl::Status Remove(Database& database, const std::string& name) {
-  Query job(database, "SELECT state FROM jobs WHERE name=?", name);
+  Query job(database, "SELECT number, state FROM jobs WHERE name=?", name);
   if (!job.Next()) return NoSuchJob(name);
-  if (job.Integer(0) < v1::Job::SUCCEEDED) {
+  if (job.Integer(1) < v1::Job::SUCCEEDED) {
     return absl::FailedPreconditionError(absl::StrCat(name, " has not ended"));
   }
-  Query(database, "DELETE FROM jobs WHERE name=?", name).Run();
+  Query(database, "INSERT INTO removed(job) VALUES(?)", job.Integer(0)).Run();
+  Query(database, "DELETE FROM jobs WHERE number=?", job.Integer(0)).Run();
   return absl::OkStatus();
+}
+
+bool Sweep(Database& database) {
+  Query removed(database, "SELECT job FROM removed LIMIT 1");
+  if (!removed.Next()) return false;
+  const std::int64_t job = removed.Integer(0);
+  Query events(database,
+               "DELETE FROM events WHERE job=?1 AND sequence<"
+               "(SELECT MIN(sequence) FROM events WHERE job=?1)+?2",
+               job, kSweptEvents);
+  if (events.Run() == 0) Query(database, "DELETE FROM removed WHERE job=?", job).Run();
+  return true;
 }
 
 }  // namespace contact

@@ -44,7 +44,10 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
 /// Remembers that a user wants the job cancelled: see Store::RequestCancel.
 absl::Status MarkCancelRequested(Database& database, const std::string& name);
 
-/// Removes an ended job with everything that belongs to it: see Store::Delete.
+/// Removes an ended job: see Store::Delete. Its events only vanish from sight.
 absl::Status Remove(Database& database, const std::string& name);
+
+/// Removes some events of removed jobs. False: there are none.
+bool Sweep(Database& database);
 
 }  // namespace contact

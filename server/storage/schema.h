@@ -40,13 +40,17 @@ CREATE TABLE results(
 ) STRICT;
 
 CREATE TABLE events(
-  job INTEGER NOT NULL REFERENCES jobs ON DELETE CASCADE,
+  job INTEGER NOT NULL,
   sequence INTEGER NOT NULL,
   kind INTEGER NOT NULL,
   crc32 INTEGER NOT NULL,
   payload BLOB NOT NULL,
   PRIMARY KEY(job, sequence)
 ) WITHOUT ROWID, STRICT;
+
+CREATE TABLE removed(
+  job INTEGER PRIMARY KEY
+) STRICT;
 )sql";
 
 }  // namespace contact
