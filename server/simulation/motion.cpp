@@ -2,17 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace contact {
 namespace {
 
-constexpr int kMaxRejections = 60;
-constexpr int kMaxLandings = 8;
-// A step that would come this near to a separation goes for it.
-constexpr double kReach = 0.7;
-// But only from a deformation this small against the largest of the cycle.
-constexpr double kNear = 0.02;
 constexpr int kMaxCyclesInStretch = 64;
 constexpr int kMaxEventsAtOnce = 1000;
 
@@ -185,126 +178,6 @@ void Motion::RefreshActive() {
   ++evaluations_;
 }
 
-// How a step is warped after a touch, whose force grows with a fractional power of time.
-double Motion::TouchWarp(double h) const {
-  if (std::isnan(touch_time_)) return 1;
-  const double since = std::sqrt(time_ - touch_time_);
-  return 2 * since / (since + std::sqrt(time_ - touch_time_ + h));
-}
-
-// When a contact in restitution will part; infinite if it seems it will not. By the parabola
-// through δ, δ̇ and the mean δ̈, in which F fades like (1 − θ)^1.5 and all else stays.
-double Motion::TimeToSeparation(const ActiveContact& active) const {
-  constexpr double kFade = 3.0 / 7;  // 1 − 2 ∫(1 − θ)^2.5 dθ
-  const int n = equations_.bodies();
-  const double deformation = active.Relative(rk_.y0.data()) - active.gap;
-  const double speed = -active.Relative(rk_.y0.data() + n);
-  const double force = active.At(deformation, -speed).force;
-  const double bend = active.Relative(rk_.slope0.data() + n) +
-                      kFade * force * (active.left_inverse + active.right_inverse);
-  const double discriminant = speed * speed - 2 * deformation * bend;
-  if (speed <= 0 || deformation <= 0 || discriminant < 0) {
-    return std::numeric_limits<double>::infinity();
-  }
-  return 2 * deformation / (speed + std::sqrt(discriminant));
-}
-
-StepTime Motion::Plan(double until) {
-  const double left = until - time_;
-  double h = std::min({next_step_, left, 0.5 * forcing_time_});
-  if (left - h < 1e-3 * h) h = left;  // Leave no sliver.
-  separating_ = kNone;
-  double reach = h / kReach;
-  for (const ActiveContact& active : equations_.active) {
-    if (contacts_[At(active.contact)].phase != Phase::kRestitution) continue;
-    const double parting = TimeToSeparation(active);
-    if (parting > reach || parting > left) continue;
-    const double deformation = active.Relative(rk_.y0.data()) - active.gap;
-    if (deformation > kNear * deformation_scale_[At(active.contact)]) {
-      h = std::min(h, 0.6 * parting);  // Too far off to know when it will part.
-    } else {
-      reach = parting;
-      separating_ = active.contact;
-    }
-  }
-  if (separating_ != kNone) return {.start = time_, .h = reach, .warp = 2};
-  return {.start = time_, .h = h, .warp = TouchWarp(h)};
-}
-
-bool Motion::TakeStep(double until) {
-  const int n = equations_.bodies();
-  if (next_step_ == 0) {
-    const double speed = rk_.y0.segment(n, n).abs().maxCoeff();
-    const double acceleration = rk_.slope0.segment(n, n).abs().maxCoeff();
-    next_step_ = speed > 0 && acceleration > 0 ? 0.01 * speed / acceleration : 1e-6;
-  }
-  std::fill(event_.begin(), event_.end(), 0.0);
-  for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
-    step_ = Plan(until);
-    rk_.Step(equations_, step_);
-    ++steps_;
-    evaluations_ += 11;
-    const double error = ErrorNorm(step_.h);
-    const double factor = error > 0 ? 0.9 * std::pow(error, -1.0 / 8) : 6;
-    if (error <= 1) {
-      rk_.FinishStep(equations_, step_);
-      ++evaluations_;
-      const double growth = std::clamp(factor, 0.3, rejections > 0 ? 1.0 : 6.0);
-      const double next = step_.h * growth;
-      next_step_ = step_.h < next_step_ ? std::max(next, next_step_) : next;
-      return true;
-    }
-    if (separating_ != kNone) {
-      next_step_ = 0.5 * step_.h;  // Not near enough yet.
-    } else {
-      next_step_ = step_.h * (std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1);
-    }
-  }
-  return false;
-}
-
-// Largest local error, in units of what the tolerance allows: that of each contact relative to
-// the scale of its own cycle, that of each body relative to the largest scale of all.
-double Motion::ErrorNorm(double h) const {
-  const int n = equations_.bodies();
-  double length = 0, speed = 0;
-  for (const ActiveContact& active : equations_.active) {
-    const int c = active.contact;
-    const double moved =
-        active.Relative(rk_.y1.data()) - active.gap - contacts_[At(c)].cycle.start_deformation;
-    const double rate = std::abs(active.Relative(rk_.y1.data() + n));
-    length = std::max({length, deformation_scale_[At(c)], std::abs(moved), rate * h});
-    speed = std::max({speed, velocity_scale_[At(c)], rate});
-  }
-  if (equations_.active.empty()) {
-    speed = std::max(flight_speed_, rk_.y1.segment(n, n).abs().maxCoeff());
-    length = std::max({flight_length_, rk_.y1.head(n).abs().maxCoeff(), speed * h});
-  }
-  const auto combined = [&](double e5, double e3, double scale) {
-    const double denominator = e5 * e5 + 0.01 * e3 * e3;
-    return denominator == 0 ? 0.0 : h * e5 * e5 / std::sqrt(denominator) / scale;
-  };
-  double norm = 0;
-  auto& e5 = error5_;
-  auto& e3 = error3_;
-  for (int i = 0; i < 2 * n; ++i) {
-    e5[At(i)] = rk_.Error5(i);
-    e3[At(i)] = rk_.Error3(i);
-    const double e = combined(e5[At(i)], e3[At(i)], i < n ? length : speed);
-    if (!(e <= norm)) norm = e;  // Keeps a NaN.
-  }
-  for (const ActiveContact& active : equations_.active) {
-    const int c = active.contact;
-    const double own_length = std::max(deformation_scale_[At(c)], 1e-3 * length);
-    const double own_speed = std::max(velocity_scale_[At(c)], 1e-3 * speed);
-    const double e = std::max(
-        combined(active.Relative(e5.data()), active.Relative(e3.data()), own_length),
-        combined(active.Relative(e5.data() + n), active.Relative(e3.data() + n), own_speed));
-    if (!(e <= norm)) norm = e;
-  }
-  return norm / scenario_.solver.relative_tolerance;
-}
-
 DeformationPath Motion::Path(int contact) const {
   const int n = equations_.bodies();
   const double bend = 2 * step_.h * (1 - step_.warp);  // d²t/dθ²
@@ -355,46 +228,6 @@ Motion::Found Motion::PassTurns() {
     event_[At(found.contact)] = theta;
     Turn(contacts_[At(found.contact)], step_.At(theta), inside_);
   }
-}
-
-// Makes the step end on the event: Newton on its length with the true solution, started from the
-// interpolated one, until the event's time is good to round-off.
-void Motion::Land(const Found& found) {
-  const bool parting = found.event.kind == EventKind::kSeparation;
-  const double longest = 2 * step_.h;
-  if (found.event.theta < 1) Repeat(step_.At(found.event.theta) - time_, parting);
-  for (int i = 0; i < kMaxLandings; ++i) {
-    const double correction = Correction(found);
-    const double h = step_.h + correction;
-    if (!(h > 0) || h > longest) return;
-    if (std::abs(correction) <= 1e-7 * step_.h) {
-      // So near that the tangent leads there: its error is of second order.
-      rk_.y1 += correction * rk_.slope1;
-      step_.h = h;
-      rk_.FinishStep(equations_, step_);
-      ++evaluations_;
-      return;
-    }
-    Repeat(h, parting);
-  }
-}
-
-void Motion::Repeat(double h, bool parting) {
-  step_ = {.start = time_, .h = h, .warp = parting ? 2 : TouchWarp(h)};
-  rk_.Step(equations_, step_);
-  rk_.FinishStep(equations_, step_);
-  ++steps_;
-  evaluations_ += 12;
-}
-
-// By how much the step must be longer to end on the event, to first order.
-double Motion::Correction(const Found& found) const {
-  const int n = equations_.bodies();
-  const double rate = equations_.Relative(found.contact, rk_.y1.data() + n);
-  if (found.event.kind == EventKind::kNonSeparation) {
-    return -rate / equations_.Relative(found.contact, rk_.slope1.data() + n);
-  }
-  return -Deformation(found.contact, rk_.y1.data()) / rate;
 }
 
 void Motion::Accept(StepListener* listener) {
