@@ -61,7 +61,7 @@ std::string Ledger(const v1::Job& job, const Style& style) {
                Digits(cycle.start_time_s(), 7),
                Digits(cycle.end_time_s(), 7)});
   }
-  return "\n" + table.Text(style, kMostRows, "… {} more cycles; -o json prints all");
+  return fmt::format("\n{}", table.Text(style, kMostRows, "… {} more cycles; -o json prints all"));
 }
 
 std::string Bodies(const v1::Job& job, const Style& style) {
@@ -70,7 +70,7 @@ std::string Bodies(const v1::Job& job, const Style& style) {
   for (const v1::FinalBody& body : job.final_bodies()) {
     table.Add({body.name(), Digits(body.position_m(), 10), Digits(body.velocity_m_per_s(), 10)});
   }
-  return "\n" + table.Text(style, kMostRows, "… {} more bodies; -o json prints all");
+  return fmt::format("\n{}", table.Text(style, kMostRows, "… {} more bodies; -o json prints all"));
 }
 
 std::string Balances(const v1::Job& job, const Style& style) {
