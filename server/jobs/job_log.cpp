@@ -67,7 +67,7 @@ JobLog::Tail JobLog::After(const Want& want, std::uint64_t* progress_seen,
                            std::shared_ptr<const Waker> waker) {
   const MutexLock lock(mutex_);
   Tail tail{Tail::Found::kEvents, want.position};
-  if (want.position + ring_.size() < last_) {
+  if (want.position < last_ && last_ - want.position > ring_.size()) {
     tail.found = Tail::Found::kOlder;
     return tail;
   }

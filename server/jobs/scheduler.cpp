@@ -110,25 +110,26 @@ void Scheduler::Remove(const std::string& name) {
 }
 
 void Scheduler::Cancel(const std::string& name, Done done) {
+  bool running = false;
   std::optional<Active> queued;
   {
     const MutexLock lock(mutex_);
     const auto found = active_.find(name);
-    if (found != active_.end() && found->second.job.state() == v1::Job::RUNNING) {
-      *found->second.cancelled = true;
-      found->second.stop.request_stop();
-      return store_.RequestCancel(
-          name,
-          [done = std::move(done)](const absl::StatusOr<bool>& stored) { done(stored.status()); });
-    }
     const auto place = std::find(queue_.begin(), queue_.end(), name);
     if (place != queue_.end()) {
       queue_.erase(place);  // From here on no worker finds it.
       queued = found->second;
+    } else if (found != active_.end() && found->second.job.state() == v1::Job::RUNNING) {
+      running = true;
+      *found->second.cancelled = true;
+      found->second.stop.request_stop();
     }
   }
-  if (!queued) return done(absl::OkStatus());
-  Withdraw(*queued, std::move(done));
+  if (queued) return Withdraw(*queued, std::move(done));
+  if (!running) return done(absl::OkStatus());
+  store_.RequestCancel(name, [done = std::move(done)](const absl::StatusOr<bool>& stored) {
+    done(stored.status());
+  });
 }
 
 void Scheduler::Withdraw(const Active& active, Done done) {

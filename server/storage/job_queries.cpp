@@ -125,7 +125,9 @@ absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query
   if (!job.Next()) return NoSuchJob(query.name);
   const auto last = static_cast<std::uint64_t>(job.Integer(1));
   EventPage page;
-  page.position = std::max(query.after, std::min(query.after + kMaxScan, last));
+  page.position = query.after;
+  if (query.after >= last) return page;
+  page.position = query.after + std::min(kMaxScan, last - query.after);
   Query rows(database,
              "SELECT sequence, crc32, payload FROM events WHERE job=? AND sequence>?"
              " AND sequence<=? AND (1<<kind)&? ORDER BY sequence",

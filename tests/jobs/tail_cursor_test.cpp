@@ -139,9 +139,11 @@ TEST_F(TailCursorTest, ReaderFromTheFutureGetsNothingOld) {
   for (int i = 0; i < 5; ++i) writer_->Add(Remark("x"));
   Finish();
   EXPECT_THAT(Sequences(reader.ToEnd(*cursor)), ElementsAre(6, 7, 8));
-  const auto far = Cursor(reader, 100);
-  EXPECT_TRUE(reader.ToEnd(*far).empty());
-  EXPECT_EQ(reader.end(), LogCursor::Next::kEnd);
+  for (const std::uint64_t after : {std::uint64_t{100}, UINT64_MAX}) {
+    const auto far = Cursor(reader, after);
+    EXPECT_TRUE(reader.ToEnd(*far).empty());
+    EXPECT_EQ(reader.end(), LogCursor::Next::kEnd);
+  }
 }
 
 TEST_F(TailCursorTest, ProgressIsTheNewestOnlyAndHasNoSequence) {

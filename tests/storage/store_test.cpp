@@ -180,10 +180,12 @@ TEST_F(StoreTest, KindsAreFilteredAndPositionPassesOverTheOthers) {
 TEST_F(StoreTest, PositionNeverGoesBack) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
-  const auto page = ReadEvents({.name = "jobs/a", .after = 99});
-  ASSERT_TRUE(page.ok());
-  EXPECT_TRUE(page->events.empty());
-  EXPECT_EQ(page->position, 99U);
+  for (const std::uint64_t after : {std::uint64_t{99}, UINT64_MAX}) {
+    const auto page = ReadEvents({.name = "jobs/a", .after = after});
+    ASSERT_TRUE(page.ok());
+    EXPECT_TRUE(page->events.empty());
+    EXPECT_EQ(page->position, after);
+  }
 }
 
 TEST_F(StoreTest, ListIsPagedNewestFirst) {
