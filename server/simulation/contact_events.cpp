@@ -1,6 +1,7 @@
 #include "simulation/contact_events.h"
 
 #include <boost/math/tools/roots.hpp>
+#include <cmath>
 #include <cstdint>
 
 namespace contact {
@@ -33,20 +34,20 @@ std::optional<double> FirstPositive(F f, double at_end, double from = 0) {
   return std::nullopt;
 }
 
-std::optional<ContactEvent> FirstTouch(const DeformationPath& path) {
-  if (path.start_value() == 0 && path.start_slope() == 0) {
-    if (path.end_value() <= 0) return std::nullopt;
+std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise) {
+  if (std::abs(path.start_value()) <= noise) {
+    if (path.end_value() <= noise) return std::nullopt;
     return ContactEvent{EventKind::kRestTouch, 0};
   }
   const bool peaks = path.start_slope() > 0 && path.end_slope() < 0;
-  if (path.end_value() <= 0 && !peaks) return std::nullopt;
+  if (path.end_value() <= noise && !peaks) return std::nullopt;
   const auto value = [&](double theta) { return path.Value(theta); };
   if (auto theta = FirstPositive(value, path.end_value())) {
     return ContactEvent{EventKind::kTouch, *theta};
   }
   const auto falling = [&](double theta) { return -path.Slope(theta); };
   const auto peak = FirstPositive(falling, -path.end_slope());
-  if (!peak || path.Value(*peak) <= 0) return std::nullopt;
+  if (!peak || path.Value(*peak) <= noise) return std::nullopt;
   return ContactEvent{EventKind::kTouch, Root(value, 0, *peak)};
 }
 
@@ -81,8 +82,9 @@ double DeformationPath::Slope(double t) const {
   return c_[1] + t * (2 * c_[2] + t * (3 * c_[3] + t * (4 * c_[4] + t * 5 * c_[5])));
 }
 
-std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from) {
-  if (phase == Phase::kOpen) return FirstTouch(path);
+std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from,
+                                       double noise) {
+  if (phase == Phase::kOpen) return FirstTouch(path, noise);
   if (phase == Phase::kStarting || path.StaysInPhase(phase)) return std::nullopt;
   const auto rising = [&](double theta) { return path.Slope(theta); };
   const auto falling = [&](double theta) { return -path.Slope(theta); };

@@ -52,7 +52,9 @@ class DeformationPath {
 };
 
 /// The first event of a contact after `from` in a step, if any. It finds crossings between eighths
-/// of what is left and, for an open contact, a touch at any peak of δ.
-std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from = 0);
+/// of what is left and, for an open contact, a touch at any peak of δ. An open contact with |δ| up
+/// to `noise` [m] touches at rest: nothing below that can be told from round-off.
+std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from = 0,
+                                       double noise = 0);
 
 }  // namespace contact

@@ -12,7 +12,8 @@ struct StepTime {
   double h = 0;
   double warp = 1;
 
-  double At(double theta) const { return start + h * (theta * (warp + (1 - warp) * theta)); }
+  double Offset(double theta) const { return h * (theta * (warp + (1 - warp) * theta)); }
+  double At(double theta) const { return start + Offset(theta); }
   /// dt/dθ in units of h.
   double Rate(double theta) const { return warp + 2 * (1 - warp) * theta; }
   /// θ at which the time is `t`.

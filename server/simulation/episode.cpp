@@ -9,7 +9,9 @@ namespace contact {
 namespace {
 
 constexpr double kForever = 1e300;
-constexpr std::int64_t kStepsPerPass = 100'000;
+constexpr std::int64_t kStepsPerPass = 20'000;
+constexpr int kPatience = 12;                 // Corrections without a better pass.
+constexpr double kLeast = 1e-8, kMost = 1e8;  // Of the first guess.
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -43,10 +45,16 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
   recording_ = false;
   episode_ = episode;
   iterations_ = 0;
+  start_time_ = start.time;
   damping_ = 1;
   best_merit_ = merit_ = std::numeric_limits<double>::infinity();
+  int best_number = 0;
   for (int number = 0;; ++number) {
     const Motion::Pause pause = Pass(start, stop, step_limit);
+    if (pause == Motion::Pause::kNumeric && number > 0) {  // The correction led astray.
+      for (Unknown& u : unknowns_) u.mu = u.best_mu;
+      return Motion::Pause::kQuiet;
+    }
     if (pause != Motion::Pause::kQuiet && pause != Motion::Pause::kCrowded &&
         pause != Motion::Pause::kTimeUp) {
       return pause;
@@ -54,15 +62,13 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
     const double merit = Merit();
     if (merit < best_merit_) {
       best_merit_ = merit;
+      best_number = number;
       for (Unknown& u : unknowns_) u.best_mu = u.mu;
     }
     const bool done = std::none_of(unknowns_.begin(), unknowns_.end(),
                                    [&](const Unknown& u) { return Live(u) && !Converged(u); });
-    if (done || number == scenario_.solver.max_iterations) {
-      for (Unknown& u : unknowns_) {
-        u.update = Iteration::Update::kNothing;
-        if (u.iterated && u.ended && Converged(u)) u.status = Cycle::Status::kConverged;
-      }
+    if (done || number >= std::min(scenario_.solver.max_iterations, best_number + kPatience)) {
+      for (Unknown& u : unknowns_) u.update = Iteration::Update::kNothing;
       Report(number, start.time, true);
       if (!done) {
         for (Unknown& u : unknowns_) u.mu = u.best_mu;
@@ -104,6 +110,16 @@ const EpisodeSolver::Unknown* EpisodeSolver::Find(int contact, int number) const
   return const_cast<EpisodeSolver*>(this)->Find(contact, number);
 }
 
+double EpisodeSolver::SolvedUntil(double until) const {
+  double solved = until;
+  bool any = false;
+  for (const Unknown& u : unknowns_) {
+    any |= u.ended;
+    if (!u.ended) solved = std::min(solved, u.start_time);
+  }
+  return any && solved > start_time_ ? solved : until;
+}
+
 CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effective_mass,
                                          double external_force) {
   const Cycle& cycle = state.cycle;
@@ -125,6 +141,7 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
     u = &unknowns_.back();
   }
   u->pass_mu = u->mu;
+  u->start_time = cycle.start_time;
   if (u->iterated && u->mu > 0) u->column = columns_++;
   return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
 }
@@ -200,16 +217,23 @@ void EpisodeSolver::Label(Cycle& cycle, bool rested) const {
   if (rested) {
     cycle.status = Cycle::Status::kSettled;
     cycle.restitution_out = kNaN;
-  } else if (u != nullptr) {
-    cycle.status = u->status;
-    cycle.iterations = u->iterated ? iterations_ : 0;
-    const bool reached = u->ended && u->squared >= 0;
-    if (cycle.end == Cycle::End::kRunEnd && reached) cycle.restitution_out = std::sqrt(u->squared);
-    if (u->status == Cycle::Status::kNotConverged && Converged(*u)) {
-      cycle.status = Cycle::Status::kConverged;
-    }
   } else if (contact.damping != DampingLaw::kEnergyRestitution) {
     cycle.status = Cycle::Status::kGivenLaw;
+  } else {
+    const bool cut = cycle.end == Cycle::End::kRunEnd;
+    if (u != nullptr) {
+      cycle.iterations = u->iterated ? iterations_ : 0;
+      cycle.status = u->status;
+      // What the solving passes saw beyond the end of the run.
+      if (cut && u->ended && u->squared >= 0 && u->mu == u->pass_mu) {
+        cycle.restitution_out = std::sqrt(u->squared);
+      }
+    }
+    const double miss = std::abs(cycle.restitution_out - cycle.restitution_in);
+    if (cycle.status == Cycle::Status::kNotConverged &&
+        miss <= scenario_.solver.restitution_tolerance * cycle.restitution_in) {
+      cycle.status = Cycle::Status::kConverged;
+    }
   }
 }
 
@@ -222,7 +246,9 @@ bool EpisodeSolver::Converged(const Unknown& u) const {
                                scenario_.solver.restitution_tolerance * u.restitution_in;
 }
 
-bool EpisodeSolver::Live(const Unknown& u) const { return u.iterated && u.ended; }
+bool EpisodeSolver::Live(const Unknown& u) const {
+  return u.iterated && u.ended && std::isfinite(u.squared);
+}
 
 double EpisodeSolver::Residual(const Unknown& u) const {
   return Coordinate(u.squared, u.restitution_in) /
@@ -305,7 +331,7 @@ void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
     next = (u.low + u.high) / 2;
     u.update = Iteration::Update::kBisection;
   }
-  u.mu = next;
+  u.mu = std::clamp(next, u.start_mu * kLeast, u.start_mu * kMost);
 }
 
 void EpisodeSolver::Report(int number, double time, bool accepted_pass) {

@@ -24,6 +24,10 @@ class EpisodeSolver final : public CycleHost {
   Motion::Pause Solve(const State& start, int episode, const std::stop_token& stop,
                       std::int64_t step_limit);
 
+  /// The instant up to which every cycle that begins has its μ, at most `until`: where a cycle
+  /// begins whose end the last pass did not see. `until` if that is at once.
+  double SolvedUntil(double until) const;
+
   /// Forgets the last episode's cycles and takes those that end from now on into the ledger,
   /// with the μ that Solve found.
   void BeginRecording() {
@@ -45,6 +49,7 @@ class EpisodeSolver final : public CycleHost {
   struct Unknown {
     int contact = 0;
     int number = 1;
+    double start_time = 0;
     double mu = 0;
     double pass_mu = 0;   // Of the last pass.
     double start_mu = 0;  // The first guess.
@@ -86,6 +91,7 @@ class EpisodeSolver final : public CycleHost {
   double reference_speed_ = 0;     // Largest approach velocity in the episode.
   double damping_ = 1;             // Of the Newton step.
   double merit_ = 0, best_merit_ = 0;
+  double start_time_ = 0;  // Of the episode.
   int columns_ = 0;
   int episode_ = 0;
   int iterations_ = 0;

@@ -6,7 +6,7 @@
 namespace contact {
 namespace {
 
-constexpr int kMaxCyclesInStretch = 64;
+constexpr int kMaxCyclesInStretch = 16;
 constexpr int kMaxEventsAtOnce = 1000;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -150,6 +150,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     const Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone) Land(found);
+    if (moves && !rk_.y1.allFinite()) return Pause::kNumeric;
     if (moves) Accept(listener);
     if (found.contact != kNone) Apply(found, host);
     WakeResting(host);
@@ -191,10 +192,22 @@ DeformationPath Motion::Path(int contact) const {
   return {end(rk_.y0, rk_.slope0, 0), end(rk_.y1, rk_.slope1, 1)};
 }
 
+// What round-off may make of the deformation of two bodies at relative rest [m].
+double Motion::Noise(int contact) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  double noise = 0;
+  for (const int body : {c.left, c.right}) {
+    if (body == kNone) continue;
+    noise += 1e-12 * std::max(std::abs(rk_.y0[body]), std::abs(rk_.y1[body])) +
+             1e-15 * (std::abs(equations_.base[At(body)]) + scenario_.bodies[At(body)].radius);
+  }
+  return noise;
+}
+
 Motion::Found Motion::FindEvent() const {
   Found first;
   for (int c = 0; c < equations_.contacts(); ++c) {
-    const auto event = FirstEvent(contacts_[At(c)].phase, Path(c), event_[At(c)]);
+    const auto event = FirstEvent(contacts_[At(c)].phase, Path(c), event_[At(c)], Noise(c));
     if (!event) continue;
     if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
   }

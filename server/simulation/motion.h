@@ -126,6 +126,7 @@ class Motion {
   double TouchWarp(double h) const;
   double TimeToSeparation(const ActiveContact& active) const;
   double ErrorNorm(double h) const;
+  double Noise(int contact) const;
   Found FindEvent() const;
   Found PassTurns();
   DeformationPath Path(int contact) const;

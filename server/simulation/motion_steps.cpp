@@ -98,7 +98,7 @@ bool Motion::TakeStep(double until) {
 }
 
 // Largest local error, in units of what the tolerance allows: that of each contact relative to
-// the scale of its own cycle, that of each body relative to the largest scale of all.
+// the scale of its own cycle, that of each body relative to the largest motion of all.
 double Motion::ErrorNorm(double h) const {
   const int n = equations_.bodies();
   double length = 0, speed = 0;
@@ -110,13 +110,13 @@ double Motion::ErrorNorm(double h) const {
     length = std::max({length, deformation_scale_[At(c)], std::abs(moved), rate * h});
     speed = std::max({speed, velocity_scale_[At(c)], rate});
   }
-  if (equations_.active.empty()) {
-    speed = std::max(flight_speed_, rk_.y1.segment(n, n).abs().maxCoeff());
-    length = std::max({flight_length_, rk_.y1.head(n).abs().maxCoeff(), speed * h});
-  }
+  // Bodies are held to the largest motion of all, contacts to that of contacts.
+  const double body_speed = std::max({speed, flight_speed_, rk_.y1.segment(n, n).abs().maxCoeff()});
+  const double body_length =
+      std::max({length, flight_length_, rk_.y1.head(n).abs().maxCoeff(), body_speed * h});
   const auto combined = [&](double e5, double e3, double scale) {
     const double denominator = e5 * e5 + 0.01 * e3 * e3;
-    return denominator == 0 ? 0.0 : h * e5 * e5 / std::sqrt(denominator) / scale;
+    return denominator == 0 || scale == 0 ? 0.0 : h * e5 * e5 / std::sqrt(denominator) / scale;
   };
   double norm = 0;
   auto& e5 = error5_;
@@ -124,7 +124,7 @@ double Motion::ErrorNorm(double h) const {
   for (int i = 0; i < 2 * n; ++i) {
     e5[At(i)] = rk_.Error5(i);
     e3[At(i)] = rk_.Error3(i);
-    const double e = combined(e5[At(i)], e3[At(i)], i < n ? length : speed);
+    const double e = combined(e5[At(i)], e3[At(i)], i < n ? body_length : body_speed);
     if (!(e <= norm)) norm = e;  // Keeps a NaN.
   }
   for (const ActiveContact& active : equations_.active) {
@@ -144,7 +144,7 @@ double Motion::ErrorNorm(double h) const {
 void Motion::Land(const Found& found) {
   const bool parting = found.event.kind == EventKind::kSeparation;
   const double longest = 2 * step_.h;
-  if (found.event.theta < 1) Repeat(step_.At(found.event.theta) - time_, parting);
+  if (found.event.theta < 1) Repeat(step_.Offset(found.event.theta), parting);
   for (int i = 0; i < kMaxLandings; ++i) {
     const double correction = Correction(found);
     const double h = step_.h + correction;

@@ -32,7 +32,7 @@ class Runner {
       if (InCycle(state_)) {
         Episode();
       } else {
-        Settle(Advance());
+        Settle(Advance(scenario_.end_time));
       }
       observer_.OnProgress({.time = state_.time,
                             .steps = motion_.steps(),
@@ -46,11 +46,11 @@ class Runner {
   }
 
  private:
-  Motion::Pause Advance() {
+  Motion::Pause Advance(double until) {
     motion_.Begin(state_, true);
     solver_.BeginRecording();
     const Motion::Pause pause =
-        motion_.Advance(scenario_.end_time, solver_, &recorder_, stop_, scenario_.solver.max_steps);
+        motion_.Advance(until, solver_, &recorder_, stop_, scenario_.solver.max_steps);
     for (const Cycle& cycle : solver_.accepted) Emit(cycle);
     return pause;
   }
@@ -59,7 +59,7 @@ class Runner {
     const Motion::Pause solved = solver_.Solve(state_, static_cast<int>(++outcome_.episodes), stop_,
                                                scenario_.solver.max_steps);
     if (solved != Motion::Pause::kQuiet) return Settle(solved);
-    Settle(Advance());
+    Settle(Advance(solver_.SolvedUntil(scenario_.end_time)));
   }
 
   // Keeps the state that the accepted trajectory has reached, and sees why it paused.

@@ -41,12 +41,21 @@ TEST(FirstEvent, FindsATouchThatIsOverBeforeTheStepEnds) {
 
 TEST(FirstEvent, FindsNothingWhereBodiesPartOrStayApart) {
   EXPECT_FALSE(FirstEvent(Phase::kOpen, Parabola(0, -1, 0)));
+  EXPECT_FALSE(FirstEvent(Phase::kOpen, Parabola(1e-20, -1, 0), 0, 1e-16));
   EXPECT_FALSE(FirstEvent(Phase::kOpen, Parabola(-1, 0.5, 0)));
   EXPECT_FALSE(FirstEvent(Phase::kOpen, Parabola(0, 0, 0)));
 }
 
 TEST(FirstEvent, ATouchFromRestBeginsAtOnce) {
   const auto event = FirstEvent(Phase::kOpen, Parabola(0, 0, 1));
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->kind, EventKind::kRestTouch);
+  EXPECT_EQ(event->theta, 0);
+}
+
+TEST(FirstEvent, RoundOffIsNoTouch) {
+  EXPECT_FALSE(FirstEvent(Phase::kOpen, Parabola(-1e-20, 0, 3e-20), 0, 1e-16));
+  const auto event = FirstEvent(Phase::kOpen, Parabola(-1e-20, 0, 1e-9), 0, 1e-16);
   ASSERT_TRUE(event);
   EXPECT_EQ(event->kind, EventKind::kRestTouch);
   EXPECT_EQ(event->theta, 0);
