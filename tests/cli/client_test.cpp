@@ -15,7 +15,7 @@ using testing::HasSubstr;
 // What a call that the server answers with this status ends in.
 CallFailure FailureOf(grpc::Status status) {
   FakeServer server;
-  server.on_create = [&](const auto&, auto*) { return status; };
+  server.OnCreate([&](const auto&, auto*) { return status; });
   Client client(server.address(), 5s);
   try {
     client.Call(&Client::Stub::CreateJob, v1::CreateJobRequest());
@@ -63,16 +63,17 @@ TEST(Client, UnreadableDetailsAreNoDetails) {
 TEST(Client, SubmitsAgainWithTheSameIdWhileTheServerIsUnavailable) {
   FakeServer server;
   std::vector<std::string> ids;
-  server.on_create = [&](const v1::CreateJobRequest& request, v1::Job* job) {
+  server.OnCreate([&](const v1::CreateJobRequest& request, v1::Job* job) {
     ids.push_back(request.request_id());
     if (ids.size() < 3) return grpc::Status(grpc::StatusCode::UNAVAILABLE, "draining");
     job->set_name("jobs/x");
     return grpc::Status::OK;
-  };
+  });
   Client client(server.address(), 5s);
   v1::CreateJobRequest request;
   request.set_request_id("id");
   EXPECT_EQ(client.Call(&Client::Stub::CreateJob, request).name(), "jobs/x");
+  server.Settle();
   EXPECT_THAT(ids, testing::ElementsAre("id", "id", "id"));
 }
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "contact/v1/job_service.grpc.pb.h"
 
@@ -31,23 +31,34 @@ class FakeServer : public v1::JobService::Service {
 
   const std::string& address() const { return address_; }
 
-  /// Set before the first call. Handlers run one at a time.
-  WatchHandler on_watch;
-  CreateHandler on_create;
+  /// Handlers run one at a time.
+  void OnWatch(WatchHandler handler) {
+    const std::scoped_lock lock(mutex_);
+    on_watch_ = std::move(handler);
+  }
+  void OnCreate(CreateHandler handler) {
+    const std::scoped_lock lock(mutex_);
+    on_create_ = std::move(handler);
+  }
+
+  /// After it, what handlers wrote can be read.
+  void Settle() { const std::scoped_lock lock(mutex_); }
 
  private:
   grpc::Status WatchJob(grpc::ServerContext*, const v1::WatchJobRequest* request,
                         Writer* writer) override {
     const std::scoped_lock lock(mutex_);
-    return on_watch(*request, *writer);
+    return on_watch_(*request, *writer);
   }
   grpc::Status CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request,
                          v1::Job* job) override {
     const std::scoped_lock lock(mutex_);
-    return on_create(*request, job);
+    return on_create_(*request, job);
   }
 
   std::mutex mutex_;
+  WatchHandler on_watch_;
+  CreateHandler on_create_;
   std::string address_;
   std::unique_ptr<grpc::Server> server_;
 };

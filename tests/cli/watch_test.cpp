@@ -57,6 +57,10 @@ class WatchTest : public testing::Test {
     options_.deadline = std::chrono::steady_clock::now() + 60s;
   }
   WatchEnd Follow() {
+    struct Settler {
+      ~Settler() { server.Settle(); }
+      FakeServer& server;
+    } settler{server_};
     Client client(server_.address(), 5s);
     return Watch(client, options_, recorder_);
   }
@@ -81,33 +85,33 @@ TEST_F(WatchTest, HearsEachEventOnceAcrossTwentyCuts) {
       grpc::Status::OK,
   };
   int streams = 0;
-  server_.on_watch = [&](const v1::WatchJobRequest& request, FakeServer::Writer& writer) {
+  server_.OnWatch([&](const v1::WatchJobRequest& request, FakeServer::Writer& writer) {
     SendSnapshot(writer, v1::Job::RUNNING, kLast);
     const std::uint64_t from = request.after_sequence() + 1;
     for (std::uint64_t s = from; s < from + 2; ++s) Send(writer, EventAt(s));
     if (from + 1 == kLast) return grpc::Status::OK;
     return ends[static_cast<std::size_t>(streams++) % ends.size()];
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
   EXPECT_EQ(recorder_.sequences, All());
   EXPECT_EQ(recorder_.pauses.size(), 19U);
 }
 
 TEST_F(WatchTest, RepeatedEventsAreHeardOnce) {
-  server_.on_watch = [](const auto&, FakeServer::Writer& writer) {
+  server_.OnWatch([](const auto&, FakeServer::Writer& writer) {
     for (std::uint64_t s = 1; s <= kLast; ++s) {
       Send(writer, EventAt(s > 3 ? s - 3 : s));
       Send(writer, EventAt(s));
     }
     return grpc::Status::OK;
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
   EXPECT_EQ(recorder_.sequences, All());
 }
 
 TEST_F(WatchTest, BookmarksMoveThePlaceToResumeFrom) {
   std::vector<std::uint64_t> asked;
-  server_.on_watch = [&](const v1::WatchJobRequest& request, FakeServer::Writer& writer) {
+  server_.OnWatch([&](const v1::WatchJobRequest& request, FakeServer::Writer& writer) {
     asked.push_back(request.after_sequence());
     if (asked.size() == 2) {
       Send(writer, EventAt(kLast));
@@ -121,28 +125,28 @@ TEST_F(WatchTest, BookmarksMoveThePlaceToResumeFrom) {
     progress.mutable_progress();
     Send(writer, progress);
     return grpc::Status(grpc::StatusCode::UNAVAILABLE, "");
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
   EXPECT_THAT(asked, ElementsAre(0, 7));
 }
 
 TEST_F(WatchTest, EndOfTheStreamIsNotTheEndOfTheJob) {
   int streams = 0;
-  server_.on_watch = [&](const auto&, FakeServer::Writer& writer) {
+  server_.OnWatch([&](const auto&, FakeServer::Writer& writer) {
     SendSnapshot(writer, v1::Job::RUNNING, 0);
     if (++streams == 3) Send(writer, EventAt(kLast));
     return grpc::Status::OK;
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
   EXPECT_EQ(streams, 3);
 }
 
 TEST_F(WatchTest, NothingIsLeftToHearAfterTheLastEvent) {
   options_.after_sequence = kLast;
-  server_.on_watch = [&](const auto&, FakeServer::Writer& writer) {
+  server_.OnWatch([&](const auto&, FakeServer::Writer& writer) {
     SendSnapshot(writer, v1::Job::SUCCEEDED, kLast);
     return grpc::Status::OK;
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
   EXPECT_THAT(recorder_.sequences, testing::IsEmpty());
 }
@@ -151,11 +155,11 @@ TEST_F(WatchTest, PausesGrowWithJitterUpToALimit) {
   options_.first_pause = 8ms;
   options_.longest_pause = 20ms;
   int streams = 0;
-  server_.on_watch = [&](const auto&, FakeServer::Writer& writer) {
+  server_.OnWatch([&](const auto&, FakeServer::Writer& writer) {
     if (++streams == 1) SendSnapshot(writer, v1::Job::RUNNING, 0);
     if (streams == 5) Send(writer, EventAt(kLast));
     return grpc::Status(grpc::StatusCode::UNAVAILABLE, "", "details");
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
   using testing::AllOf;
   using testing::Ge;
@@ -169,10 +173,10 @@ TEST_F(WatchTest, NeverAsksAgainWhereTheAnswerWillBeTheSame) {
   for (const S code : {S::NOT_FOUND, S::OUT_OF_RANGE, S::INVALID_ARGUMENT, S::UNIMPLEMENTED,
                        S::RESOURCE_EXHAUSTED}) {
     int streams = 0;
-    server_.on_watch = [&](const auto&, auto&) {
+    server_.OnWatch([&](const auto&, auto&) {
       ++streams;
       return grpc::Status(code, "");
-    };
+    });
     EXPECT_THROW(Follow(), CallFailure) << code;
     EXPECT_EQ(streams, 1) << code;
   }
@@ -180,45 +184,45 @@ TEST_F(WatchTest, NeverAsksAgainWhereTheAnswerWillBeTheSame) {
 
 TEST_F(WatchTest, WatcherLimitIsWaitedForOnceTheWatchHasBegun) {
   int streams = 0;
-  server_.on_watch = [&](const auto&, FakeServer::Writer& writer) {
+  server_.OnWatch([&](const auto&, FakeServer::Writer& writer) {
     ++streams;
     if (streams == 2) return grpc::Status(grpc::StatusCode::RESOURCE_EXHAUSTED, "");
     SendSnapshot(writer, v1::Job::RUNNING, 0);
     if (streams == 3) Send(writer, EventAt(kLast));
     return grpc::Status(grpc::StatusCode::UNAVAILABLE, "");
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
 }
 
 TEST_F(WatchTest, GivesUpWhenNobodyAnswersForTooLong) {
   options_.give_up_after = 20ms;
   int streams = 0;
-  server_.on_watch = [&](const auto&, FakeServer::Writer& writer) {
+  server_.OnWatch([&](const auto&, FakeServer::Writer& writer) {
     if (++streams == 1) SendSnapshot(writer, v1::Job::RUNNING, 0);
     return grpc::Status(grpc::StatusCode::UNAVAILABLE, "");
-  };
+  });
   EXPECT_THROW(Follow(), CallFailure);
   EXPECT_GT(streams, 2);
 }
 
 TEST_F(WatchTest, StopsWhenAsked) {
   options_.stopped = [this] { return !recorder_.sequences.empty(); };
-  server_.on_watch = [](const auto&, FakeServer::Writer& writer) {
+  server_.OnWatch([](const auto&, FakeServer::Writer& writer) {
     Send(writer, EventAt(1));
     while (writer.Write({})) {  // Until the watcher has left.
     }
     return grpc::Status::OK;
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kStopped);
 }
 
 TEST_F(WatchTest, EndsAtItsDeadline) {
   options_.deadline = std::chrono::steady_clock::now() + 50ms;
-  server_.on_watch = [](const auto&, FakeServer::Writer& writer) {
+  server_.OnWatch([](const auto&, FakeServer::Writer& writer) {
     while (writer.Write({})) {
     }
     return grpc::Status::OK;
-  };
+  });
   EXPECT_EQ(Follow(), WatchEnd::kTimedOut);
 }
 
