@@ -37,6 +37,7 @@ LogWriter::~LogWriter() {
 }
 
 void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
+  pending_.take = true;
   pending_.job = std::move(job);
   pending_.events = std::move(events);
   Advance(steady_clock::now());
@@ -81,10 +82,9 @@ void LogWriter::Advance(Time now) {
 void LogWriter::Send(Time now) {
   last_write_ = now;
   Become(Disk::kWriting);
-  const bool take = !std::exchange(taken_, true);
   store_.Update({.name = name_,
-                 .epoch = take ? epoch_++ : epoch_,
-                 .take = take,
+                 .epoch = epoch_,
+                 .take = batch_.take,
                  .job = batch_.job ? &*batch_.job : nullptr,
                  .events = batch_.events},
                 [this](const absl::StatusOr<std::uint64_t>& first) { Written(first); });
@@ -107,11 +107,14 @@ LogWriter::Disk LogWriter::Settle() {
 // On the store's thread.
 void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
   if (first.ok()) {
+    if (batch_.take) ++epoch_;
     log_->Append(*first, std::move(batch_.events));
     if (batch_.committed) batch_.committed();
     return Become(Disk::kIdle);
   }
-  spdlog::error("{}: cannot store events: {}", name_, first.status().ToString());
+  if (!std::exchange(batch_.failed, true)) {
+    spdlog::error("{}: cannot store events: {}", name_, first.status().ToString());
+  }
   if (absl::IsResourceExhausted(first.status())) return Become(Disk::kFull);
   log_->Fail();
   run_.request_stop();

@@ -64,6 +64,8 @@ class LogWriter {
   struct Batch {
     std::vector<v1::Event> events;
     std::size_t bytes = 0;
+    bool take = false;
+    bool failed = false;  ///< Once at least.
     std::optional<v1::Job> job;
     std::function<void()> committed;
   };
@@ -83,11 +85,11 @@ class LogWriter {
 
   // Of the worker's thread.
   Batch pending_;
-  std::uint64_t epoch_;
-  bool taken_ = false;
   Time last_write_ = {};
 
-  Batch batch_;  // Of the store's thread while kWriting, else of the worker's.
+  // Of the store's thread while kWriting, else of the worker's.
+  Batch batch_;
+  std::uint64_t epoch_;
 
   Mutex mutex_;
   std::condition_variable_any changed_;

@@ -169,6 +169,21 @@ TEST_F(JobsTest, RefusedJobsKeepNoPlaceInTheQueue) {
   EXPECT_EQ(manager_->Info().queued_jobs(), 1);
 }
 
+TEST_F(JobsTest, FullStoreRefusesJobsAndTellsTheOthers) {
+  Open(WithFakeRun(), {.max_bytes = 300'000});
+  const std::string first = Create();
+  run_.AwaitStarted(1);
+  int accepted = 0;
+  Result<v1::Job> last = Create(RequestFor(BouncingBall()));
+  for (; last.ok() && accepted < 1000; ++accepted) last = Create(RequestFor(BouncingBall()));
+  ASSERT_FALSE(last.ok());
+  EXPECT_EQ(last.error().code, absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(last.error().reason, "STORE_FULL");
+  EXPECT_GT(last.error().retry_after.count(), 0);
+  EXPECT_TRUE(Get(first).ok());
+  EXPECT_EQ(manager_->Info().queued_jobs(), accepted) << "what was refused has no place";
+}
+
 TEST_F(JobsTest, JobsRunFirstComeFirstServed) {
   std::vector<double> order;
   FakeRun run([&](const Scenario& scenario, Observer&, std::stop_token) {

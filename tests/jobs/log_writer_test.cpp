@@ -84,6 +84,23 @@ TEST_F(LogWriterTest, WaitsForSpaceAndLosesNothing) {
   EXPECT_FALSE(run_.stop_requested());
 }
 
+TEST_F(LogWriterTest, TakesTheJobOnceThereIsSpace) {
+  Open(3'000'000);
+  v1::Event small;
+  for (const v1::Event& event : {Big(), small}) {
+    while (Append("jobs/old", {event}).ok()) {
+    }
+  }
+  const auto writer = Writer();
+  ASSERT_EQ(Stored()->job.state(), v1::Job::QUEUED) << "it is stuck";
+  Await<absl::StatusOr<bool>> deleted;
+  store_->Delete("jobs/old", deleted.callback());
+  ASSERT_TRUE(deleted.Get().ok());
+  EXPECT_TRUE(writer->Finish(Job(v1::Job::SUCCEEDED), v1::Event(), {}));
+  EXPECT_EQ(Stored()->epoch, 1U);
+  EXPECT_EQ(Stored()->job.last_sequence(), 3U);
+}
+
 TEST_F(LogWriterTest, ShutdownEndsTheWaitForSpace) {
   Open(1'000'000);
   const auto writer = Writer();
