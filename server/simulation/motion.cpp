@@ -6,8 +6,14 @@
 namespace contact {
 namespace {
 
-constexpr int kMaxCyclesInStretch = 16;
+// A stretch may hold every contact of a row that touches once, and some again; but no more
+// than can be solved together in bounded time and memory.
+constexpr int kMinCyclesInStretch = 16, kSpareCycles = 8, kMaxCyclesInStretch = 32;
 constexpr int kMaxEventsAtOnce = 1000;
+// What is this many times the error allowed is motion.
+constexpr double kResolved = 100;
+// A step meant to end in a separation has found it when so little of δ is left.
+constexpr double kShort = 1e-3;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -63,7 +69,9 @@ Motion::Motion(const Scenario& scenario)
       error5_(2 * scenario.bodies.size()),
       error3_(2 * scenario.bodies.size()),
       forcing_time_(equations_.ForcingTime()),
-      event_(scenario.contacts.size()) {}
+      event_(scenario.contacts.size()),
+      max_cycles_(std::clamp(static_cast<int>(scenario.contacts.size()) + kSpareCycles,
+                             kMinCyclesInStretch, kMaxCyclesInStretch)) {}
 
 void Motion::Begin(const State& state, bool recording) {
   const int n = equations_.bodies();
@@ -147,9 +155,9 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (stop.stop_requested()) return Pause::kStopped;
     if (steps_ >= step_limit) return Pause::kStepLimit;
     if (!TakeStep(until)) return Pause::kNumeric;
-    const Found found = PassTurns();
+    Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
-    if (moves && found.contact != kNone) Land(found);
+    if (moves && found.contact != kNone && !Land(found)) found.contact = kNone;
     if (moves && !rk_.y1.allFinite()) return Pause::kNumeric;
     if (moves) Accept(listener);
     if (found.contact != kNone) Apply(found, host);
@@ -161,7 +169,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (!busy && std::any_of(contacts_.begin(), contacts_.end(), IsStarting)) {
       return Pause::kCycleStarts;
     }
-    if (cycles_in_stretch_ >= kMaxCyclesInStretch) return Pause::kCrowded;
+    if (cycles_in_stretch_ >= max_cycles_) return Pause::kCrowded;
   }
 }
 
@@ -192,10 +200,15 @@ DeformationPath Motion::Path(int contact) const {
   return {end(rk_.y0, rk_.slope0, 0), end(rk_.y1, rk_.slope1, 1)};
 }
 
-// What round-off may make of the deformation of two bodies at relative rest [m].
+// What round-off and the integrator's error may make of the deformation of two bodies at relative
+// rest [m].
 double Motion::Noise(int contact) const {
   const Contact& c = scenario_.contacts[At(contact)];
   double noise = 0;
+  for (const ActiveContact& active : equations_.active) {
+    noise = std::max(noise, kResolved * scenario_.solver.relative_tolerance *
+                                deformation_scale_[At(active.contact)]);
+  }
   for (const int body : {c.left, c.right}) {
     if (body == kNone) continue;
     noise += 1e-12 * std::max(std::abs(rk_.y0[body]), std::abs(rk_.y1[body])) +
@@ -211,8 +224,9 @@ Motion::Found Motion::FindEvent() const {
     if (!event) continue;
     if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
   }
-  if (first.contact == kNone && separating_ != kNone) {
-    first = {separating_, {EventKind::kSeparation, 1}};  // Just short of it.
+  if (first.contact == kNone && separating_ != kNone &&
+      Deformation(separating_, rk_.y1.data()) < kShort * Deformation(separating_, rk_.y0.data())) {
+    first = {separating_, {EventKind::kSeparation, 1}};
   }
   // Within round-off of the step's start is at its start.
   if (first.contact != kNone && first.event.theta < 1e-13) first.event.theta = 0;

@@ -130,7 +130,7 @@ class Motion {
   Found FindEvent() const;
   Found PassTurns();
   DeformationPath Path(int contact) const;
-  void Land(const Found& found);
+  bool Land(const Found& found);
   double Correction(const Found& found) const;
   void Repeat(double h, bool parting);
   void Accept(StepListener* listener);
@@ -166,6 +166,7 @@ class Motion {
   std::int64_t evaluations_ = 0;
   double contact_loss_ = 0;
   int cycles_in_stretch_ = 0;
+  int max_cycles_;
 };
 
 }  // namespace contact

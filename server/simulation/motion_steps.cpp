@@ -140,25 +140,29 @@ double Motion::ErrorNorm(double h) const {
 }
 
 // Makes the step end on the event: Newton on its length with the true solution, started from the
-// interpolated one, until the event's time is good to round-off.
-void Motion::Land(const Found& found) {
+// interpolated one, until the event's time is good to round-off. False if a predicted separation is
+// not there after all; the step is then one like others.
+bool Motion::Land(const Found& found) {
   const bool parting = found.event.kind == EventKind::kSeparation;
-  const double longest = 2 * step_.h;
+  const StepTime planned = step_;
   if (found.event.theta < 1) Repeat(step_.Offset(found.event.theta), parting);
   for (int i = 0; i < kMaxLandings; ++i) {
     const double correction = Correction(found);
     const double h = step_.h + correction;
-    if (!(h > 0) || h > longest) return;
+    if (!(h > 0) || h > 2 * planned.h) break;
     if (std::abs(correction) <= 1e-7 * step_.h) {
       // So near that the tangent leads there: its error is of second order.
       rk_.y1 += correction * rk_.slope1;
       step_.h = h;
       rk_.FinishStep(equations_, step_);
       ++evaluations_;
-      return;
+      return true;
     }
     Repeat(h, parting);
   }
+  if (!parting) return true;  // As near as it gets.
+  Repeat(planned.h, planned.warp == 2);
+  return false;
 }
 
 void Motion::Repeat(double h, bool parting) {
