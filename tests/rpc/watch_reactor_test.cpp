@@ -140,7 +140,7 @@ TEST(WatchReactorTest, BookmarkIntervalOutOfRangeIsRefused) {
 }
 
 TEST(WatchReactorTest, StalledWatcherIsDroppedAndOthersAreNot) {
-  TestServer server({.write_stall = milliseconds(100)});
+  TestServer server({.write_stall = milliseconds(1500)});
   const std::string name = server.Create(Endless());
   const auto stalled_stub = v1::JobService::NewStub(server.Connect());
   Watch stalled(*stalled_stub, name);
