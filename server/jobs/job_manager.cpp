@@ -176,7 +176,7 @@ void JobManager::Delete(const std::string& name, Callback<bool> done) {
 }
 
 void JobManager::Watch(const std::string& name, std::uint64_t after_sequence,
-                       std::vector<std::string> kinds, std::function<void()> wake,
+                       const std::vector<std::string>& kinds, std::function<void()> wake,
                        Callback<Watched> done) {
   Result<std::uint32_t> set = KindSet(kinds);
   if (!set.ok()) return done(set.error());

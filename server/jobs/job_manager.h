@@ -56,8 +56,9 @@ class JobManager {
     v1::Job snapshot;
     std::unique_ptr<LogCursor> cursor;
   };
-  void Watch(const std::string& name, std::uint64_t after_sequence, std::vector<std::string> kinds,
-             std::function<void()> wake, Callback<Watched> done);
+  void Watch(const std::string& name, std::uint64_t after_sequence,
+             const std::vector<std::string>& kinds, std::function<void()> wake,
+             Callback<Watched> done);
 
   /// Numbers of GetServerInfo: workers, queued and running jobs, limits.
   v1::ServerInfo Info() const;

@@ -13,7 +13,7 @@ using std::chrono::steady_clock;
 
 // A batch goes to the store when it is large enough to be worth a sync of the disk, or old enough
 // for a watcher to notice.
-constexpr std::size_t kBatchBytes = 64 * 1024;
+constexpr std::size_t kBatchBytes = 1 << 16;
 constexpr std::chrono::milliseconds kBatchTime{20};
 // Events that may wait beside the batch that is being written.
 constexpr std::size_t kMaxPendingBytes = 2 << 20;

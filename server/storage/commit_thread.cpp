@@ -43,14 +43,13 @@ void CommitThread::Post(Operation operation) {
 
 void CommitThread::Loop() {
   while (std::optional<Batch> batch = NextBatch()) {
+    const bool idle = batch->empty() && !untidy_;
     if (!batch->empty()) {
       Commit(*batch);
       untidy_ = true;
-    } else if (untidy_) {
-      Tidy();
-    } else {
-      Checkpoint();
     }
+    if (untidy_) Tidy();
+    if (idle) Checkpoint();
     if (database_->log_pages() > kMaxLogPages) Checkpoint();
   }
 }
@@ -104,7 +103,7 @@ absl::Status CommitThread::Try(const std::function<void()>& work) {
     transaction.commit();
     return absl::OkStatus();
   } catch (const SQLite::Exception& error) {
-    const absl::Status status = ToStatus(error);
+    absl::Status status = ToStatus(error);
     if (absl::IsUnavailable(status)) Fail(status);
     return status;
   }

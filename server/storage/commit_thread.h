@@ -27,9 +27,9 @@ class CommitThread {
     std::function<void(const absl::Status&)> done;
   };
 
-  /// `tidy` is run in transactions of its own while there is nothing else to do, after each batch
-  /// until it returns false. `on_failure` is called once, on the thread, when the disk fails in a
-  /// way that leaves open what it holds. From then on no operation runs.
+  /// `tidy` is run in a transaction of its own after each batch, and again while there is nothing
+  /// else to do, until it returns false. `on_failure` is called once, on the thread, when the disk
+  /// fails in a way that leaves open what it holds. From then on no operation runs.
   CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
                std::function<void(const absl::Status&)> on_failure);
   /// Commits what was posted, then joins.

@@ -59,9 +59,9 @@ struct JobPage {
 
 struct EventQuery {
   std::string name;
-  std::uint64_t after = 0;             ///< Only events after this sequence.
-  std::uint32_t kinds = ~0U;           ///< Only kinds k with bit k set; see KindBit.
-  std::size_t max_bytes = 256 * 1024;  ///< About; at least one event is read.
+  std::uint64_t after = 0;          ///< Only events after this sequence.
+  std::uint32_t kinds = ~0U;        ///< Only kinds k with bit k set; see KindBit.
+  std::size_t max_bytes = 1 << 18;  ///< About; at least one event is read.
 };
 
 inline std::uint32_t KindBit(v1::Event::PayloadCase kind) { return 1U << kind; }

@@ -186,7 +186,7 @@ TEST_F(JobsTest, FullStoreRefusesJobsAndTellsTheOthers) {
 
 TEST_F(JobsTest, JobsRunFirstComeFirstServed) {
   std::vector<double> order;
-  FakeRun run([&](const Scenario& scenario, Observer&, std::stop_token) {
+  FakeRun run([&](const Scenario& scenario, Observer&, const std::stop_token&) {
     order.push_back(scenario.end_time);
     return Outcome{};
   });
@@ -268,7 +268,7 @@ TEST_F(JobsTest, OnlyEndedJobsAreDeleted) {
 }
 
 TEST_F(JobsTest, ThrowingRunFailsItsJobOnly) {
-  FakeRun run([](const Scenario& scenario, Observer&, std::stop_token) -> Outcome {
+  FakeRun run([](const Scenario& scenario, Observer&, const std::stop_token&) -> Outcome {
     if (scenario.end_time == 13) throw std::runtime_error("it broke");
     return {};
   });
@@ -289,7 +289,7 @@ TEST_F(JobsTest, ThrowingRunFailsItsJobOnly) {
 }
 
 TEST_F(JobsTest, FailedRunKeepsItsReasonAndWarnings) {
-  FakeRun run([](const Scenario&, Observer& observer, std::stop_token) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
     observer.OnWarning("careful");
     return Ending(Outcome::End::kNumeric, "at t = 1 s");
   });
@@ -307,7 +307,7 @@ TEST_F(JobsTest, FailedRunKeepsItsReasonAndWarnings) {
 }
 
 TEST_F(JobsTest, LargeSamplesAreCutIntoChunksThatFitMessages) {
-  FakeRun run([](const Scenario&, Observer& observer, std::stop_token) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
     observer.OnSamples({.first = 5, .columns = 7, .values = std::vector<double>(7 * 40'000, 1)});
     return Outcome{};
   });

@@ -113,9 +113,8 @@ class JobsTest : public testing::Test {
     manager_ = std::make_unique<JobManager>(*store_, clock_, ids_, std::move(options));
   }
   JobManagerOptions WithFakeRun(JobManagerOptions options = {}) {
-    options.run = [this](const Scenario& scenario, Observer& observer, std::stop_token stop) {
-      return run_(scenario, observer, std::move(stop));
-    };
+    options.run = [this](const Scenario& scenario, Observer& observer,
+                         const std::stop_token& stop) { return run_(scenario, observer, stop); };
     return options;
   }
   void OpenWithFakeRun() { Open(WithFakeRun()); }
@@ -151,19 +150,20 @@ class JobsTest : public testing::Test {
     return result.Get();
   }
   Result<JobManager::Watched> Watch(const std::string& name, LogReader& reader,
-                                    std::uint64_t after = 0, std::vector<std::string> kinds = {}) {
+                                    std::uint64_t after = 0,
+                                    const std::vector<std::string>& kinds = {}) {
     // A promise of what can only be moved.
     auto box = std::make_shared<std::promise<Result<JobManager::Watched>>>();
-    manager_->Watch(
-        name, after, std::move(kinds), reader.wake(),
-        [box](Result<JobManager::Watched> result) { box->set_value(std::move(result)); });
+    manager_->Watch(name, after, kinds, reader.wake(), [box](Result<JobManager::Watched> result) {
+      box->set_value(std::move(result));
+    });
     return box->get_future().get();
   }
   /// The log of a job, waiting for its end.
   std::vector<v1::Event> Log(const std::string& name, std::uint64_t after = 0,
-                             std::vector<std::string> kinds = {}) {
+                             const std::vector<std::string>& kinds = {}) {
     LogReader reader;
-    const auto watched = Watch(name, reader, after, std::move(kinds));
+    const auto watched = Watch(name, reader, after, kinds);
     return reader.ToEnd(*watched.value().cursor);
   }
   /// Waits for the end of a job and returns it.

@@ -10,7 +10,6 @@
 namespace contact {
 namespace {
 
-using testing::StartsWith;
 using State = v1::Job::State;
 
 constexpr std::chrono::system_clock::time_point kNow{std::chrono::milliseconds(1500)};

@@ -60,7 +60,7 @@ TEST_F(RecoveryTest, JobsGoOnAfterACrash) {
 
 TEST_F(RecoveryTest, QueueKeepsItsOrder) {
   std::vector<double> order;
-  FakeRun run([&](const Scenario& scenario, Observer&, std::stop_token) {
+  FakeRun run([&](const Scenario& scenario, Observer&, const std::stop_token&) {
     order.push_back(scenario.end_time);
     return Outcome{};
   });
@@ -95,7 +95,7 @@ TEST_F(RecoveryTest, WishToCancelSurvivesACrash) {
   const auto released = release.get_future().share();
   JobManagerOptions options;
   std::promise<void> started;
-  options.run = [&](const Scenario&, Observer&, std::stop_token) {
+  options.run = [&](const Scenario&, Observer&, const std::stop_token&) {
     started.set_value();
     released.wait();  // Does not look at the stop token.
     return Ending(Outcome::End::kStopped);
@@ -155,7 +155,7 @@ TEST_F(RecoveryTest, RunsAgainToTheSameResult) {
   const std::string name = Create(BouncingBall(20));
   LogReader reader;
   auto watched = Watch(name, reader, 0, {"cycle"});
-  while (reader.Next(*watched.value().cursor).size() < 1) {
+  while (reader.Next(*watched.value().cursor).empty()) {
   }
   watched.value().cursor.reset();
   Crash();

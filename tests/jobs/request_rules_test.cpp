@@ -15,6 +15,7 @@ v1::CreateJobRequest Good() {
 
 std::vector<std::string> Fields(const std::vector<Violation>& violations) {
   std::vector<std::string> fields;
+  fields.reserve(violations.size());
   for (const Violation& violation : violations) fields.push_back(violation.field);
   return fields;
 }

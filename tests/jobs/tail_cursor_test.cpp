@@ -72,6 +72,7 @@ class TailCursorTest : public testing::Test {
 
 std::vector<std::uint64_t> Sequences(const std::vector<v1::Event>& events) {
   std::vector<std::uint64_t> sequences;
+  sequences.reserve(events.size());
   for (const v1::Event& event : events) sequences.push_back(event.sequence());
   return sequences;
 }
@@ -92,6 +93,7 @@ TEST_F(TailCursorTest, EveryReaderSeesTheLogWithoutGapOrRepeat) {
   std::vector<Watch> watches = {{0, kAll, 1 << 16},    {0, kCycles, 1 << 16}, {7000, kAll, 100},
                                 {0, kCycles, 1 << 10}, {0, kAll, 1 << 20},    {19'999, kAll, 1}};
   std::vector<std::thread> readers;
+  readers.reserve(watches.size());
   for (Watch& watch : watches) {
     readers.emplace_back([&] {
       LogReader reader;

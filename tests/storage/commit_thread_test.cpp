@@ -44,10 +44,11 @@ TEST_F(StoreTest, FullStoreWorksAgainAfterADelete) {
 TEST_F(StoreTest, ManyWritersLoseNothing) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
-  constexpr int kThreads = 4;
-  constexpr int kAppends = 500;
+  constexpr std::ptrdiff_t kThreads = 4;
+  constexpr std::ptrdiff_t kAppends = 500;
   std::latch done(kThreads * kAppends);
   std::vector<std::thread> threads;
+  threads.reserve(kThreads);
   for (int t = 0; t < kThreads; ++t) {
     threads.emplace_back([&] {
       const std::string name = "jobs/a";

@@ -32,8 +32,7 @@ class DamageTest : public StoreTest {
     Open();
     for (const char* name : {"jobs/a", "jobs/b", "jobs/c"}) {
       ASSERT_TRUE(Create(MakeJob(name)).ok());
-      std::vector<v1::Event> events;
-      for (int i = 0; i < 50; ++i) events.push_back(LogEvent(std::string(500, 'x')));
+      const std::vector<v1::Event> events(50, LogEvent(std::string(500, 'x')));
       ASSERT_TRUE(Append(name, events).ok());
     }
     store_.reset();
@@ -42,7 +41,7 @@ class DamageTest : public StoreTest {
   // Opens the store, which must refuse and leave the database alone.
   absl::Status Refusal() {
     const std::string before = Contents(database());
-    const absl::Status status = Store::Open(path()).status();
+    absl::Status status = Store::Open(path()).status();
     EXPECT_EQ(Contents(database()), before);
     return status;
   }

@@ -18,6 +18,7 @@ std::vector<std::string> Names(const JobPage& page) {
 
 std::vector<std::uint64_t> Sequences(const EventPage& page) {
   std::vector<std::uint64_t> sequences;
+  sequences.reserve(page.events.size());
   for (const StoredEvent& event : page.events) sequences.push_back(event.sequence);
   return sequences;
 }
@@ -140,8 +141,7 @@ TEST_F(StoreTest, WishToCancelIsRemembered) {
 TEST_F(StoreTest, EventsArePagedBySize) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
-  std::vector<v1::Event> events;
-  for (int i = 0; i < 10; ++i) events.push_back(LogEvent(std::string(1000, 'x')));
+  const std::vector<v1::Event> events(10, LogEvent(std::string(1000, 'x')));
   ASSERT_TRUE(Append("jobs/a", events).ok());
   EventQuery query{.name = "jobs/a", .max_bytes = 2500};
   std::vector<std::uint64_t> all;

@@ -25,12 +25,12 @@ inline Outcome Ending(Outcome::End end, std::string message = "") {
 class FakeRun {
  public:
   /// What a run does once it is let go.
-  using Script = std::function<Outcome(const Scenario&, Observer&, std::stop_token)>;
+  using Script = std::function<Outcome(const Scenario&, Observer&, const std::stop_token&)>;
 
   explicit FakeRun(Script script = [](const auto&...) { return Outcome{}; })
       : script_(std::move(script)) {}
 
-  Outcome operator()(const Scenario& scenario, Observer& observer, std::stop_token stop) {
+  Outcome operator()(const Scenario& scenario, Observer& observer, const std::stop_token& stop) {
     {
       std::unique_lock lock(mutex_);
       ++started_;
