@@ -35,6 +35,7 @@ double CoordinateSlope(double squared, double restitution_in) {
 
 EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer)
     : scenario_(scenario),
+      as_paper_(scenario.solver.update != UpdateRule::kNewtonCoupled),
       motion_(motion),
       observer_(observer),
       warned_(scenario.contacts.size()) {}
@@ -67,7 +68,9 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
     }
     const bool done = std::none_of(unknowns_.begin(), unknowns_.end(),
                                    [&](const Unknown& u) { return Live(u) && !Converged(u); });
-    if (done || number >= std::min(scenario_.solver.max_iterations, best_number + kPatience)) {
+    // Newton that finds nothing better has failed; the paper's rules may be slow.
+    const int patience = as_paper_ ? scenario_.solver.max_iterations : best_number + kPatience;
+    if (done || number >= std::min(scenario_.solver.max_iterations, patience)) {
       for (Unknown& u : unknowns_) u.update = Iteration::Update::kNothing;
       Report(number, start.time, true);
       if (!done) {
@@ -75,7 +78,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
       }
       return Motion::Pause::kQuiet;
     }
-    Correct();
+    as_paper_ ? CorrectAsPaper() : Correct();
     Report(number, start.time, false);
     ++iterations_;
     ++total_iterations_;
@@ -142,7 +145,7 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
   }
   u->pass_mu = u->mu;
   u->start_time = cycle.start_time;
-  if (u->iterated && u->mu > 0) u->column = columns_++;
+  if (!as_paper_ && u->iterated && u->mu > 0) u->column = columns_++;
   return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
 }
 
@@ -163,6 +166,7 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
              "Give reference_velocity_m_per_s");
     return std::isnan(state.last_mu) ? 0 : state.last_mu;
   }
+  if (as_paper_) return PaperStartFactor(state, contact, own);
   if (own > 0) return alpha * contact.stiffness / own;
   if (state.last_mu > 0) return state.last_mu;
   if (reference_speed_ > 0) return alpha * contact.stiffness / reference_speed_;
@@ -196,6 +200,7 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
       u->speed = speed;
     }
     u->squared = -cycle.work_restitution / cycle.work_compression;
+    u->frozen_slope = FrozenSlope(cycle);
     u->gradient =
         -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
     if (weak && u->iterated) {

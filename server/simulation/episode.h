@@ -13,7 +13,8 @@
 namespace contact {
 
 /// Finds the μ of every cycle of an episode together, so that ε_out = ε_in in each: damped Newton
-/// with true sensitivities, (N1) to (N4) of README.md. Then plays host to the recording pass.
+/// with true sensitivities, (N1) to (N4) of README.md, or as the paper does it, (P1) to (P5).
+/// Then plays host to the recording pass.
 class EpisodeSolver final : public CycleHost {
  public:
   EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer);
@@ -62,6 +63,7 @@ class EpisodeSolver final : public CycleHost {
     double length = 0, speed = 0;  // Scales of its motion in the first pass.
     double squared = kNaN;         // ε_out² = −W_r/W_c of the last pass.
     Eigen::ArrayXd gradient;       // ∂ε_out²/∂μ of each column.
+    double frozen_slope = kNaN;    // Paper (30).
     double low = 0, high = 0;      // μ known to give too much, too little restitution; 0: none.
     int shrinks = 0;               // Corrections in a row that wanted μ ≤ 0.
     bool zero_tried = false;
@@ -80,10 +82,16 @@ class EpisodeSolver final : public CycleHost {
   void Correct();
   Eigen::VectorXd NewtonStep(const std::vector<Unknown*>& live) const;
   void MoveBy(Unknown& unknown, double relative_step, bool alone);
+  static double PaperStartFactor(const ContactState& state, const Contact& contact,
+                                 double velocity);
+  static double FrozenSlope(const Cycle& cycle);
+  void CorrectAsPaper();
+  void MoveAsPaper(Unknown& unknown) const;
   void Report(int number, double time, bool accepted);
   void WarnOnce(const Contact& contact, const std::string& text);
 
   const Scenario& scenario_;
+  const bool as_paper_;
   Motion& motion_;
   Observer& observer_;
   std::vector<Unknown> unknowns_;  // In order of appearance.

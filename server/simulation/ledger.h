@@ -46,7 +46,16 @@ struct Cycle {
 
 /// One pass through an episode with one set of μ.
 struct Iteration {
-  enum class Update { kNothing, kNewton, kDampedNewton, kBisection, kZero };
+  enum class Update {
+    kNothing,
+    kNewton,
+    kDampedNewton,
+    kBisection,
+    kZero,
+    kPaperNewton,  ///< Paper (29).
+    kPaperRatio,   ///< Paper (31).
+    kBracketing,   ///< Doubling or halving in search of a bracket.
+  };
   struct Unknown {
     int contact = 0;
     int number = 1;  ///< Place among the cycles of its contact.

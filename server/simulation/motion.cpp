@@ -61,7 +61,10 @@ State InitialState(const Scenario& scenario) {
 
 Motion::Motion(const Scenario& scenario)
     : scenario_(scenario),
+      fixed_step_(scenario.solver.fixed_step),
+      split_at_force_(scenario.solver.phase_split == PhaseSplit::kPeakForce),
       equations_(scenario),
+      rk_(fixed_step_ > 0 ? RungeKutta::Method::kClassical : RungeKutta::Method::kDormandPrince),
       deformation_scale_(scenario.contacts.size()),
       velocity_scale_(scenario.contacts.size()),
       start_gradient_(scenario.contacts.size()),
@@ -259,10 +262,10 @@ Motion::Found Motion::PassTurns() {
 
 void Motion::Accept(StepListener* listener) {
   const int n = equations_.bodies();
-  if (equations_.recording) {
+  if (equations_.recording || split_at_force_) {
     for (const ActiveContact& active : equations_.active) ObserveForce(active.contact);
-    if (listener != nullptr) listener->OnStep(step_);
   }
+  if (listener != nullptr) listener->OnStep(step_);
   time_ += step_.h;
   rk_.Advance();
   if (equations_.active.empty()) {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "simulation/contact_events.h"
-#include "simulation/dormand_prince.h"
 #include "simulation/equations.h"
 #include "simulation/ledger.h"
+#include "simulation/runge_kutta.h"
 
 namespace contact {
 
@@ -23,7 +23,13 @@ struct ContactState {
   double work = 0;           ///< W since the cycle's start [J].
   double external_work = 0;  ///< E since the cycle's start [J].
   int column = kNone;        ///< Sensitivity column of its μ in the running pass.
-  Cycle cycle;               ///< The running cycle.
+  /// Where F was largest so far in the running cycle, with PhaseSplit::kPeakForce.
+  struct Peak {
+    double time = kNaN;
+    double deformation = 0, velocity = 0;  ///< δ [m], δ̇ [m/s].
+    double work = 0, external_work = 0;    ///< W, E [J].
+  } peak;
+  Cycle cycle;  ///< The running cycle.
 };
 
 /// The system at an instant, between two steps. Copied to roll back.
@@ -103,8 +109,8 @@ class Motion {
   std::int64_t steps() const { return steps_; }  ///< Tried so far, in all.
   std::int64_t evaluations() const { return evaluations_; }
   const Equations& equations() const { return equations_; }
-  DormandPrince& integrator() { return rk_; }
-  const DormandPrince& integrator() const { return rk_; }
+  RungeKutta& integrator() { return rk_; }
+  const RungeKutta& integrator() const { return rk_; }
   /// Prepares integrator().Interpolate for the step that the listener hears of.
   void PrepareInterpolation();
   const std::vector<ContactState>& contacts() const { return contacts_; }
@@ -123,6 +129,7 @@ class Motion {
   double FirstStep(int contact) const;
   bool TakeStep(double until);
   StepTime Plan(double until);
+  void TakeFixedStep(double until);
   double TouchWarp(double h) const;
   double TimeToSeparation(const ActiveContact& active) const;
   double ErrorNorm(double h) const;
@@ -137,14 +144,18 @@ class Motion {
   void Apply(const Found& found, CycleHost& host);
   void WakeResting(CycleHost& host);
   void Turn(ContactState& state, double time, const Eigen::ArrayXd& y);
+  double SplitAtPeakForce(ContactState& state) const;
   void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
   void ObserveForce(int contact);
+  void KeepPeak(int contact, double theta);
   Eigen::ArrayXd WorkGradient(int contact, const Eigen::ArrayXd& y) const;
   void RefreshActive();
 
   const Scenario& scenario_;
+  const double fixed_step_;  // Of the classical method [s]; 0: error control.
+  const bool split_at_force_;
   Equations equations_;
-  DormandPrince rk_;
+  RungeKutta rk_;
   std::vector<ContactState> contacts_;
   std::vector<double> deformation_scale_;        // Largest |δ − δ_s| of the running cycle.
   std::vector<double> velocity_scale_;           // Largest |δ̇|.

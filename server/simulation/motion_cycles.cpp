@@ -42,6 +42,7 @@ void Motion::StartCycle(int contact, CycleHost& host) {
     state.cycle.start_deformation = std::max(0.0, Deformation(contact, rk_.y0.data()));
   }
   state.cycle.max_deformation = state.cycle.start_deformation;
+  state.peak = {};
   if (kind == Cycle::Kind::kCollision) {
     state.cycle.approach_velocity = std::max(0.0, equations_.Relative(contact, rk_.y0.data() + n));
   }
@@ -164,6 +165,19 @@ void Motion::Turn(ContactState& state, double time, const Eigen::ArrayXd& y) {
   turn_gradient_[At(cycle.contact)] = WorkGradient(cycle.contact, y);
 }
 
+// Moves the end of compression to where F was largest. Returns the elastic energy there.
+double Motion::SplitAtPeakForce(ContactState& state) const {
+  Cycle& cycle = state.cycle;
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
+  const double energy = ElasticEnergy(contact, state.peak.deformation);
+  cycle.turn_time = state.peak.time;
+  cycle.work_compression = state.peak.work;
+  cycle.external_compression = state.peak.external_work;
+  cycle.dissipated_compression =
+      state.peak.work - energy + ElasticEnergy(contact, cycle.start_deformation);
+  return energy;
+}
+
 void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
@@ -175,17 +189,23 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   cycle.end_time = time_;
   cycle.end_deformation = separates ? 0 : Deformation(cycle.contact, rk_.y0.data());
   cycle.separation_velocity = separates ? equations_.Relative(cycle.contact, rk_.y0.data() + n) : 0;
+  double split_energy = ElasticEnergy(contact, cycle.max_deformation);
+  double split_velocity = 0;
+  if (split_at_force_ && !std::isnan(state.peak.time)) {
+    split_energy = SplitAtPeakForce(state);
+    split_velocity = state.peak.velocity;
+  }
   cycle.work_restitution = rk_.y0[2 * n + cycle.contact] - cycle.work_compression;
-  cycle.dissipated_restitution = cycle.work_restitution -
-                                 ElasticEnergy(contact, cycle.end_deformation) +
-                                 ElasticEnergy(contact, cycle.max_deformation);
+  cycle.dissipated_restitution =
+      cycle.work_restitution - ElasticEnergy(contact, cycle.end_deformation) + split_energy;
   const double ratio = -cycle.work_restitution / cycle.work_compression;
   cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
   if (equations_.recording) {
     cycle.external_restitution =
         rk_.y0[equations_.external_work(cycle.contact)] - cycle.external_compression;
-    const double kinetic = 0.5 * equations_.effective_mass(cycle.contact) *
-                           cycle.approach_velocity * cycle.approach_velocity;
+    const double kinetic =
+        0.5 * equations_.effective_mass(cycle.contact) *
+        (cycle.approach_velocity * cycle.approach_velocity - split_velocity * split_velocity);
     cycle.identity_residual =
         std::abs(cycle.work_compression - kinetic - cycle.external_compression) /
         cycle.work_compression;  // (W4)
@@ -243,7 +263,21 @@ void Motion::ObserveForce(int contact) {
   const double high = std::min(kPieces, best + 1) / 8.0;
   const auto peak = boost::math::tools::brent_find_minima(
       [&](double theta) { return -force(theta); }, low, high, 40);
-  cycle.peak_force = std::max(cycle.peak_force, -peak.second);
+  if (-peak.second <= cycle.peak_force) return;
+  cycle.peak_force = -peak.second;
+  if (split_at_force_) KeepPeak(contact, peak.first);
+}
+
+void Motion::KeepPeak(int contact, double theta) {
+  const int n = equations_.bodies();
+  PrepareInterpolation();
+  rk_.Interpolate(theta, &inside_);
+  contacts_[At(contact)].peak = {
+      .time = step_.At(theta),
+      .deformation = Deformation(contact, inside_.data()),
+      .velocity = equations_.Relative(contact, inside_.data() + n),
+      .work = inside_[2 * n + contact],
+      .external_work = equations_.recording ? inside_[equations_.external_work(contact)] : 0};
 }
 
 }  // namespace contact

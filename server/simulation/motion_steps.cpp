@@ -21,7 +21,7 @@ std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // How a step is warped after a touch, whose force grows with a fractional power of time.
 double Motion::TouchWarp(double h) const {
-  if (std::isnan(touch_time_)) return 1;
+  if (std::isnan(touch_time_) || fixed_step_ > 0) return 1;
   const double since = std::sqrt(time_ - touch_time_);
   return 2 * since / (since + std::sqrt(time_ - touch_time_ + h));
 }
@@ -65,14 +65,30 @@ StepTime Motion::Plan(double until) {
   return {.start = time_, .h = h, .warp = TouchWarp(h)};
 }
 
+// The classical method's step is what it is.
+void Motion::TakeFixedStep(double until) {
+  const double left = until - time_;
+  const bool last = left < (1 + 1e-6) * fixed_step_;  // Leave no sliver.
+  separating_ = kNone;
+  step_ = {.start = time_, .h = last ? left : fixed_step_};
+  rk_.Step(equations_, step_);
+  rk_.FinishStep(equations_, step_);
+  ++steps_;
+  evaluations_ += 4;
+}
+
 bool Motion::TakeStep(double until) {
   const int n = equations_.bodies();
+  std::fill(event_.begin(), event_.end(), 0.0);
+  if (fixed_step_ > 0) {
+    TakeFixedStep(until);
+    return true;
+  }
   if (next_step_ == 0) {
     const double speed = rk_.y0.segment(n, n).abs().maxCoeff();
     const double acceleration = rk_.slope0.segment(n, n).abs().maxCoeff();
     next_step_ = speed > 0 && acceleration > 0 ? 0.01 * speed / acceleration : 1e-6;
   }
-  std::fill(event_.begin(), event_.end(), 0.0);
   for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
     step_ = Plan(until);
     rk_.Step(equations_, step_);
@@ -166,7 +182,7 @@ bool Motion::Land(const Found& found) {
 }
 
 void Motion::Repeat(double h, bool parting) {
-  step_ = {.start = time_, .h = h, .warp = parting ? 2 : TouchWarp(h)};
+  step_ = {.start = time_, .h = h, .warp = parting && fixed_step_ == 0 ? 2 : TouchWarp(h)};
   rk_.Step(equations_, step_);
   rk_.FinishStep(equations_, step_);
   ++steps_;

@@ -60,7 +60,24 @@ struct Load {
   double phase = 0;              ///< φ [rad].
 };
 
+/// How μ is corrected between passes through an episode.
+enum class UpdateRule {
+  kNewtonCoupled,   ///< (N2) to (N4) of README.md.
+  kPaperNewton,     ///< Paper (29), then (27).
+  kPaperRatio,      ///< Paper (31), then (27).
+  kPaperBisection,  ///< Doubling or halving, then paper (27).
+};
+
+/// Where a cycle's compression ends and its restitution begins.
+enum class PhaseSplit {
+  kPeakDeformation,  ///< δ̇ = 0.
+  kPeakForce,        ///< The largest F, as in the paper's Table 2. Not with kNewtonCoupled.
+};
+
 struct SolverOptions {
+  double fixed_step = 0;  ///< Step of the classical Runge-Kutta method [s]; 0: error control.
+  UpdateRule update = UpdateRule::kNewtonCoupled;
+  PhaseSplit phase_split = PhaseSplit::kPeakDeformation;
   double relative_tolerance = 1e-11;    ///< Local error of a step, relative to the contact's scale.
   double restitution_tolerance = 1e-8;  ///< ξ [-].
   int max_iterations = 50;              ///< Corrections of μ in an episode.

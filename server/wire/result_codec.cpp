@@ -59,6 +59,12 @@ v1::Iteration::Update Encode(Iteration::Update update) {
       return v1::Iteration::BISECTION;
     case Iteration::Update::kZero:
       return v1::Iteration::ZERO;
+    case Iteration::Update::kPaperNewton:
+      return v1::Iteration::PAPER_NEWTON;
+    case Iteration::Update::kPaperRatio:
+      return v1::Iteration::PAPER_RATIO;
+    case Iteration::Update::kBracketing:
+      return v1::Iteration::BRACKETING;
   }
   return v1::Iteration::UPDATE_UNSPECIFIED;
 }

@@ -129,6 +129,56 @@ std::vector<Load> DecodeLoads(const v1::Scenario& message, const std::vector<Bod
   return loads;
 }
 
+constexpr double kDefaultStep = 1e-6;  // The paper's [s].
+
+UpdateRule DecodeUpdate(v1::Solver::Update update) {
+  switch (update) {
+    case v1::Solver::PAPER_NEWTON:
+      return UpdateRule::kPaperNewton;
+    case v1::Solver::PAPER_RATIO:
+      return UpdateRule::kPaperRatio;
+    case v1::Solver::PAPER_BISECTION:
+      return UpdateRule::kPaperBisection;
+    default:
+      return UpdateRule::kNewtonCoupled;
+  }
+}
+
+// The method, how μ is corrected, and what a cycle's phases are.
+void DecodeProcess(const v1::Solver& message, const Rules& rules, SolverOptions* options) {
+  rules.RequireAvailable("method", message.method(), {v1::Solver::ADAPTIVE, v1::Solver::RK4});
+  if (message.method() == v1::Solver::RK4) {
+    options->fixed_step = message.has_step_s() ? message.step_s() : kDefaultStep;
+    rules.Require("step_s", options->fixed_step, kStep);
+  } else if (message.has_step_s()) {
+    rules.Require("step_s", message.step_s(), kStep);
+    rules.Break("step_s", "is given, but goes only with method RK4", "remove it");
+  }
+  rules.RequireAvailable("update", message.update(),
+                         {v1::Solver::NEWTON_COUPLED, v1::Solver::PAPER_NEWTON,
+                          v1::Solver::PAPER_RATIO, v1::Solver::PAPER_BISECTION});
+  options->update = DecodeUpdate(message.update());
+  rules.RequireAvailable("phase_split", message.phase_split(),
+                         {v1::Solver::PEAK_DEFORMATION, v1::Solver::PEAK_FORCE});
+  if (message.phase_split() == v1::Solver::PEAK_FORCE) {
+    options->phase_split = PhaseSplit::kPeakForce;
+  }
+}
+
+// Newton's sensitivities hold only where F δ̇ = 0 at the split.
+void RequireSplitSolvable(const Scenario& scenario, const Rules& rules) {
+  if (scenario.solver.phase_split != PhaseSplit::kPeakForce ||
+      scenario.solver.update != UpdateRule::kNewtonCoupled) {
+    return;
+  }
+  for (const Contact& contact : scenario.contacts) {
+    if (contact.damping != DampingLaw::kEnergyRestitution) continue;
+    rules.Break("phase_split", "is PEAK_FORCE, which update NEWTON_COUPLED cannot solve",
+                "take update PAPER_RATIO, or phase_split PEAK_DEFORMATION");
+    return;
+  }
+}
+
 SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
   SolverOptions options;
   if (message.has_relative_tolerance()) options.relative_tolerance = message.relative_tolerance();
@@ -140,17 +190,9 @@ SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
   if (message.has_max_steps()) options.max_steps = message.max_steps();
   options.fail_if_not_converged = message.on_not_converged() == v1::Solver::FAIL;
 
-  rules.RequireAvailable("method", message.method(), {v1::Solver::ADAPTIVE});
-  if (message.has_step_s()) {
-    rules.Require("step_s", message.step_s(), kStep);
-    if (message.method() != v1::Solver::RK4) {
-      rules.Break("step_s", "is given, but goes only with method RK4", "remove it");
-    }
-  }
+  DecodeProcess(message, rules, &options);
   rules.Require("relative_tolerance", options.relative_tolerance, kRelativeTolerance);
   rules.Require("restitution_tolerance", options.restitution_tolerance, kRestitutionTolerance);
-  rules.RequireAvailable("update", message.update(), {v1::Solver::NEWTON_COUPLED});
-  rules.RequireAvailable("phase_split", message.phase_split(), {v1::Solver::PEAK_DEFORMATION});
   rules.Require("max_iterations", options.max_iterations, kMaxIterations);
   rules.RequireAvailable("tension", message.tension(), {v1::Solver::ALLOW});
   rules.RequireAvailable("on_not_converged", message.on_not_converged(),
@@ -217,6 +259,7 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   scenario.supports = DecodeSupports(message, scenario.bodies, names, violations);
   scenario.loads = DecodeLoads(message, scenario.bodies, names, violations);
   scenario.solver = DecodeSolver(message.solver(), Rules(violations, "solver"));
+  RequireSplitSolvable(scenario, Rules(violations, "solver"));
   scenario.sample_interval = DecodeSampleInterval(message, limits, Rules(violations, "output"));
   scenario.end_time = message.end_time_s();
   if (message.end_time_s() == 0) {

@@ -39,6 +39,18 @@ TEST(DecodeScenario, FillsEveryDefault) {
   EXPECT_EQ(scenario.sample_interval, 4e-6);
 }
 
+TEST(DecodeScenario, TakesThePapersProcess) {
+  v1::Scenario message = TwoBalls();
+  message.mutable_solver()->set_method(v1::Solver::RK4);
+  message.mutable_solver()->set_update(v1::Solver::PAPER_RATIO);
+  message.mutable_solver()->set_phase_split(v1::Solver::PEAK_FORCE);
+  const DecodedScenario decoded = DecodeScenario(message);
+  ASSERT_THAT(Lines(decoded.violations), IsEmpty());
+  EXPECT_EQ(decoded.scenario.solver.fixed_step, 1e-6);
+  EXPECT_EQ(decoded.scenario.solver.update, UpdateRule::kPaperRatio);
+  EXPECT_EQ(decoded.scenario.solver.phase_split, PhaseSplit::kPeakForce);
+}
+
 TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
   const DecodedScenario decoded = DecodeScenario(FromText(R"(
       title: "All of it"

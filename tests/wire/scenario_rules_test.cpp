@@ -357,26 +357,18 @@ std::vector<Case> Cases() {
        [](S& s) { s.add_loads()->mutable_gravity(); },
        {"loads[3].gravity: repeats the gravity of every body — give it once"}},
 
-      {"MethodRk4",
+      {"StepTooLong",
        [](S& s) {
-         s.mutable_solver()->set_method(v1::Solver::RK4), s.mutable_solver()->set_step_s(1e-6);
+         s.mutable_solver()->set_method(v1::Solver::RK4), s.mutable_solver()->set_step_s(2);
        },
-       {"solver.method: RK4 is not available in this version"}},
+       {"solver.step_s: is 2; must be in (0, 1]"}},
       {"StepWithoutRk4",
        [](S& s) { s.mutable_solver()->set_step_s(1e-6); },
        {"solver.step_s: is given, but goes only with method RK4 — remove it"}},
-      {"UpdatePaperNewton",
-       [](S& s) { s.mutable_solver()->set_update(v1::Solver::PAPER_NEWTON); },
-       {"solver.update: PAPER_NEWTON is not available in this version"}},
-      {"UpdatePaperRatio",
-       [](S& s) { s.mutable_solver()->set_update(v1::Solver::PAPER_RATIO); },
-       {"solver.update: PAPER_RATIO is not available in this version"}},
-      {"UpdatePaperBisection",
-       [](S& s) { s.mutable_solver()->set_update(v1::Solver::PAPER_BISECTION); },
-       {"solver.update: PAPER_BISECTION is not available in this version"}},
-      {"PhaseSplitPeakForce",
+      {"PeakForceSplitUnderNewton",
        [](S& s) { s.mutable_solver()->set_phase_split(v1::Solver::PEAK_FORCE); },
-       {"solver.phase_split: PEAK_FORCE is not available in this version"}},
+       {"solver.phase_split: is PEAK_FORCE, which update NEWTON_COUPLED cannot solve — take update "
+        "PAPER_RATIO, or phase_split PEAK_DEFORMATION"}},
       {"TensionClip",
        [](S& s) { s.mutable_solver()->set_tension(v1::Solver::CLIP); },
        {"solver.tension: CLIP is not available in this version"}},

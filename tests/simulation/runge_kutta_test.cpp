@@ -1,4 +1,4 @@
-#include "simulation/dormand_prince.h"
+#include "simulation/runge_kutta.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ const auto kPendulum = [](double, const double* y, double* dy) {
 };
 
 Eigen::ArrayXd Integrate(int steps, double until) {
-  DormandPrince rk;
+  RungeKutta rk;
   rk.Resize(2);
   rk.y0 << 2, 0;
   kPendulum(0, rk.y0.data(), rk.slope0.data());
@@ -29,9 +29,9 @@ Eigen::ArrayXd Integrate(int steps, double until) {
 }
 
 // y' = y cos t, whose solution is e^{sin t}.
-double Error(int steps) {
+double Error(int steps, RungeKutta::Method method = RungeKutta::Method::kDormandPrince) {
   const auto f = [](double t, const double* y, double* dy) { dy[0] = y[0] * std::cos(t); };
-  DormandPrince rk;
+  RungeKutta rk(method);
   rk.Resize(1);
   rk.y0 << 1;
   f(0, rk.y0.data(), rk.slope0.data());
@@ -44,13 +44,18 @@ double Error(int steps) {
   return std::abs(rk.y0[0] - std::exp(std::sin(5.0)));
 }
 
-TEST(DormandPrince, HalvingTheStepDividesTheErrorByTwoToTheEight) {
+TEST(RungeKutta, HalvingTheStepDividesTheErrorByTwoToTheEight) {
   EXPECT_NEAR(std::log2(Error(8) / Error(16)), 8, 0.7);
   EXPECT_NEAR(std::log2(Error(16) / Error(32)), 8, 0.5);
 }
 
+TEST(RungeKutta, TheClassicalMethodHasOrderFour) {
+  const auto classical = RungeKutta::Method::kClassical;
+  EXPECT_NEAR(std::log2(Error(80, classical) / Error(160, classical)), 4, 0.1);
+}
+
 double DenseError(double h) {
-  DormandPrince rk;
+  RungeKutta rk;
   rk.Resize(2);
   rk.y0 << 2, 0;
   kPendulum(0, rk.y0.data(), rk.slope0.data());
@@ -66,13 +71,13 @@ double DenseError(double h) {
   return worst;
 }
 
-TEST(DormandPrince, DenseOutputHasOrderSeven) {
+TEST(RungeKutta, DenseOutputHasOrderSeven) {
   // The error inside one step is of order h^8.
   EXPECT_NEAR(std::log2(DenseError(0.8) / DenseError(0.4)), 8, 0.6);
 }
 
-TEST(DormandPrince, InterpolantMeetsBothEnds) {
-  DormandPrince rk;
+TEST(RungeKutta, InterpolantMeetsBothEnds) {
+  RungeKutta rk;
   rk.Resize(2);
   rk.y0 << 1, 0.5;
   kPendulum(0, rk.y0.data(), rk.slope0.data());
@@ -101,7 +106,7 @@ TEST(StepTime, ThetaInvertsAt) {
 // y' = 3/2 √t from 0: smooth only in √t.
 TEST(StepTime, AWarpMakesAFractionalPowerSmooth) {
   const auto f = [](double t, const double*, double* dy) { dy[0] = 1.5 * std::sqrt(t); };
-  DormandPrince rk;
+  RungeKutta rk;
   rk.Resize(1);
   rk.y0 << 0;
   rk.slope0 << 0;
@@ -112,8 +117,8 @@ TEST(StepTime, AWarpMakesAFractionalPowerSmooth) {
 }
 
 // The error estimate must not be smaller than the error by much, nor vanish.
-TEST(DormandPrince, ErrorEstimatesFollowTheError) {
-  DormandPrince rk;
+TEST(RungeKutta, ErrorEstimatesFollowTheError) {
+  RungeKutta rk;
   rk.Resize(2);
   for (const double h : {0.5, 1.0}) {
     rk.y0 << 2, 0;

@@ -1,4 +1,4 @@
-#include "simulation/dormand_prince.h"
+#include "simulation/runge_kutta.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,17 +12,17 @@ double StepTime::Theta(double t) const {
   return warp + root > 0 ? 2 * x / (warp + root) : 0;
 }
 
-void DormandPrince::Resize(Eigen::Index size) {
+void RungeKutta::Resize(Eigen::Index size) {
   y0.conservativeResize(size);
   y1.resize(size);
   slope0.resize(size);
   slope1.resize(size);
   stage_.resize(size);
   k_.resize(size, 16);
-  dense_.resize(size, 7);
+  dense_.setZero(size, 7);
 }
 
-double DormandPrince::Error5(Eigen::Index i) const {
+double RungeKutta::Error5(Eigen::Index i) const {
   return 0.1312004499419488073250102996e-1 * k_(i, 0) -
          0.1225156446376204440720569753e1 * k_(i, 5) - 0.4957589496572501915214079952 * k_(i, 6) +
          0.1664377182454986536961530415e1 * k_(i, 7) - 0.3503288487499736816886487290 * k_(i, 8) +
@@ -30,7 +30,7 @@ double DormandPrince::Error5(Eigen::Index i) const {
          0.2235530786388629525884427845e-1 * k_(i, 11);
 }
 
-double DormandPrince::Error3(Eigen::Index i) const {
+double RungeKutta::Error3(Eigen::Index i) const {
   return (5.42937341165687622380535766363e-2 - 0.244094488188976377952755905512) * k_(i, 0) +
          4.45031289275240888144113950566 * k_(i, 5) + 1.89151789931450038304281599044 * k_(i, 6) -
          5.8012039600105847814672114227 * k_(i, 7) +
@@ -40,11 +40,15 @@ double DormandPrince::Error3(Eigen::Index i) const {
          (4.47106157277725905176885569043e-2 - 0.220588235294117647058823529412e-1) * k_(i, 11);
 }
 
-void DormandPrince::PrepareCoefficients(double h) {
-  const auto& k = k_;
+// The cubic through value and slope at both ends, to which the others add.
+void RungeKutta::PrepareCubic(double h) {
   dense_.col(0) = y1 - y0;
-  dense_.col(1) = h * k.col(0) - dense_.col(0);
-  dense_.col(2) = 2 * dense_.col(0) - h * (k.col(0) + k.col(12));
+  dense_.col(1) = h * k_.col(0) - dense_.col(0);
+  dense_.col(2) = 2 * dense_.col(0) - h * (k_.col(0) + k_.col(12));
+}
+
+void RungeKutta::PrepareCoefficients(double h) {
+  const auto& k = k_;
   dense_.col(3) =
       h *
       (-0.84289382761090128651353491142e1 * k.col(0) + 0.56671495351937776962531783590 * k.col(5) -
@@ -90,7 +94,7 @@ void DormandPrince::PrepareCoefficients(double h) {
        0.14972683625798562581422125276e3 * k.col(15));
 }
 
-void DormandPrince::Interpolate(double theta, Vector* y) const {
+void RungeKutta::Interpolate(double theta, Vector* y) const {
   // Powers of θ and 1 − θ in turn, from the inside out.
   const double rest = 1 - theta;
   *y = dense_.col(6) * theta;

@@ -1,10 +1,10 @@
-// The stages of DormandPrince; included by dormand_prince.h only. Table: see there.
+// The stages of RungeKutta; included by runge_kutta.h only. Table: see there.
 #pragma once
 
 namespace contact {
 
 template <std::size_t N>
-void DormandPrince::Combine(Vector& out, double h, const Term (&terms)[N]) {
+void RungeKutta::Combine(Vector& out, double h, const Term (&terms)[N]) {
   const double* k[N];
   for (std::size_t j = 0; j < N; ++j) k[j] = k_.col(terms[j].slope).data();
   const double* y = y0.data();
@@ -18,15 +18,32 @@ void DormandPrince::Combine(Vector& out, double h, const Term (&terms)[N]) {
 }
 
 template <class F>
-void DormandPrince::Evaluate(F&& f, const StepTime& time, double theta, const double* y, int i) {
+void RungeKutta::Evaluate(F&& f, const StepTime& time, double theta, const double* y, int i) {
   f(time.At(theta), y, k_.col(i).data());
   if (time.warp != 1) k_.col(i) *= time.Rate(theta);
 }
 
 template <class F>
-void DormandPrince::Step(F&& f, const StepTime& time) {
-  const double h = time.h;
+void RungeKutta::Step(F&& f, const StepTime& time) {
   k_.col(0) = slope0 * time.Rate(0);
+  method_ == Method::kClassical ? ClassicalStep(f, time) : DormandPrinceStep(f, time);
+}
+
+template <class F>
+void RungeKutta::ClassicalStep(F&& f, const StepTime& time) {
+  const double h = time.h;
+  Combine(stage_, h, {{1.0 / 2, 0}});
+  Evaluate(f, time, 1.0 / 2, stage_.data(), 1);
+  Combine(stage_, h, {{1.0 / 2, 1}});
+  Evaluate(f, time, 1.0 / 2, stage_.data(), 2);
+  Combine(stage_, h, {{1.0, 2}});
+  Evaluate(f, time, 1.0, stage_.data(), 3);
+  Combine(y1, h, {{1.0 / 6, 0}, {1.0 / 3, 1}, {1.0 / 3, 2}, {1.0 / 6, 3}});
+}
+
+template <class F>
+void RungeKutta::DormandPrinceStep(F&& f, const StepTime& time) {
+  const double h = time.h;
   const auto evaluate = [&](int i, double c) { Evaluate(f, time, c, stage_.data(), i); };
   Combine(stage_, h, {{5.26001519587677318785587544488e-2, 0}});
   evaluate(1, 0.526001519587677318785587544488e-01);
@@ -109,9 +126,11 @@ void DormandPrince::Step(F&& f, const StepTime& time) {
 }
 
 template <class F>
-void DormandPrince::PrepareInterpolation(F&& f, const StepTime& time) {
+void RungeKutta::PrepareInterpolation(F&& f, const StepTime& time) {
   const double h = time.h;
   k_.col(12) = slope1 * time.Rate(1);
+  PrepareCubic(h);
+  if (method_ == Method::kClassical) return;
   const auto evaluate = [&](int i, double c) { Evaluate(f, time, c, stage_.data(), i); };
   Combine(stage_, h,
           {{5.61675022830479523392909219681e-2, 0},

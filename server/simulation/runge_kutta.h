@@ -20,15 +20,19 @@ struct StepTime {
   double Theta(double t) const;
 };
 
-/// The explicit Runge-Kutta pair of order 8(5,3) of Dormand and Prince, with the dense output of
-/// order 7 of Hairer. Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential
-/// Equations I, 2nd ed., Springer 1993, II.5 and II.6 (DOP853).
+/// Two explicit Runge-Kutta methods: the pair of order 8(5,3) of Dormand and Prince, with the
+/// dense output of order 7 of Hairer, and the classical one of order 4 without error estimate,
+/// with the cubic through both ends. Source: Hairer, Nørsett, Wanner, Solving Ordinary
+/// Differential Equations I, 2nd ed., Springer 1993, II.1, II.5 and II.6 (DOP853).
 ///
 /// Holds one step from y0 to y1 of y' = f(t, y), taken in θ. `f(t, y, dy)` gets arrays of
 /// `size` numbers. Does not allocate between calls of Resize.
-class DormandPrince {
+class RungeKutta {
  public:
   using Vector = Eigen::ArrayXd;
+  enum class Method { kDormandPrince, kClassical };
+
+  explicit RungeKutta(Method method = Method::kDormandPrince) : method_(method) {}
 
   void Resize(Eigen::Index size);
   Eigen::Index size() const { return y0.size(); }
@@ -53,10 +57,10 @@ class DormandPrince {
   template <class F>
   void PrepareInterpolation(F&& f, const StepTime& time);
 
-  /// y at θ, to order 7.
+  /// y at θ, to order 7; to order 3 with the classical method.
   void Interpolate(double theta, Vector* y) const;
 
-  /// The two error estimates of row i in units of h, to be combined.
+  /// The two error estimates of row i in units of h, to be combined. Dormand and Prince only.
   double Error5(Eigen::Index i) const;
   double Error3(Eigen::Index i) const;
 
@@ -73,8 +77,14 @@ class DormandPrince {
   /// out = y0 + h Σ weight · slope.
   template <std::size_t N>
   void Combine(Vector& out, double h, const Term (&terms)[N]);
+  template <class F>
+  void DormandPrinceStep(F&& f, const StepTime& time);
+  template <class F>
+  void ClassicalStep(F&& f, const StepTime& time);
+  void PrepareCubic(double h);
   void PrepareCoefficients(double h);
 
+  Method method_;
   Eigen::ArrayXXd k_;  // dy/dθ/h: 12 stages, the end, 3 for the dense output.
   Vector stage_;
   Eigen::ArrayXXd dense_;  // Coefficients of the interpolant.
@@ -82,4 +92,4 @@ class DormandPrince {
 
 }  // namespace contact
 
-#include "simulation/dormand_prince_steps.h"  // IWYU pragma: export
+#include "simulation/runge_kutta_steps.h"  // IWYU pragma: export
