@@ -15,4 +15,6 @@ void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
 
+void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);  // paper
+
 }  // namespace contact::cli

@@ -16,6 +16,7 @@ enum class ExitCode {
   kTimeout = 5,
   kNotFound = 6,
   kNotConverged = 7,  ///< The job succeeded, but not every cycle has its restitution.
+  kDiffers = 8,       ///< A number is further from its reference than documented.
   kAuth = 9,
   kOverload = 10,  ///< Try again later.
   kLocal = 11,     ///< A local file.

@@ -1,0 +1,108 @@
+#include "cli/paper/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/failure.h"
+#include "cli/number.h"
+#include "cli/table.h"
+
+namespace contact::cli {
+namespace {
+
+void WriteFile(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Failure(ExitCode::kLocal, fmt::format("cannot write {}", path.string()));
+}
+
+std::string Csv(const Data& data) {
+  std::string text = fmt::format("{}\n", fmt::join(data.columns, ","));
+  for (const std::vector<double>& row : data.rows) text += fmt::format("{}\n", fmt::join(row, ","));
+  return text;
+}
+
+// JSON has no NaN.
+nlohmann::ordered_json Number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return value;
+}
+
+std::string Json(const PaperItem& item) {
+  nlohmann::ordered_json json;
+  json["id"] = item.id;
+  json["title"] = item.title;
+  json["holds"] = item.holds();
+  json["numbers"] = nlohmann::ordered_json::array();
+  for (const Comparison& n : item.numbers) {
+    json["numbers"].push_back({{"what", n.what},
+                               {"published", Number(n.published)},
+                               {"process", Number(n.process)},
+                               {"deviation", Number(n.deviation())},
+                               {"documented_deviation", Number(n.limit)},
+                               {"converged", Number(n.converged)},
+                               {"holds", n.holds()},
+                               {"why", n.why}});
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string Short(double value) { return std::isnan(value) ? "" : fmt::format("{:.5g}", value); }
+
+Table::Cell Verdict(const Comparison& n) {
+  if (std::isnan(n.limit)) return {""};
+  return n.holds() ? Table::Cell("ok", Tone::kGood) : Table::Cell("DIFFERS", Tone::kBad);
+}
+
+void AddRows(const PaperItem& item, Table* table) {
+  for (const Comparison& n : item.numbers) {
+    table->Add({item.id, n.what, Short(n.published), Short(n.process),
+                std::isnan(n.limit) ? "" : fmt::format("{:+.1e}", n.deviation()),
+                std::isnan(n.limit) ? "" : fmt::format("{:.1g}", n.limit), Verdict(n),
+                Short(n.converged), n.why});
+  }
+}
+
+Table Numbers() {
+  return Table({{"ITEM"},
+                {"NUMBER"},
+                {"PUBLISHED", true},
+                {"PROCESS", true},
+                {"DEVIATION", true},
+                {"LIMIT", true, 2},
+                {""},
+                {"CONVERGED", true},
+                {"WHY", false, 1}});
+}
+
+}  // namespace
+
+bool Comparison::holds() const {
+  return std::isnan(limit) || std::abs(deviation()) <= limit * (1 + 1e-12);
+}
+
+bool PaperItem::holds() const {
+  return std::all_of(numbers.begin(), numbers.end(), [](const Comparison& n) { return n.holds(); });
+}
+
+void Write(const PaperItem& item, const std::filesystem::path& directory) {
+  for (const Data& data : item.data) WriteFile(directory / (data.name + ".csv"), Csv(data));
+  if (item.numbers.empty()) return;
+  Table table = Numbers();
+  AddRows(item, &table);
+  WriteFile(directory / (item.id + ".txt"), item.title + "\n\n" + table.Text(Style{}));
+  WriteFile(directory / (item.id + ".json"), Json(item));
+}
+
+std::string Summary(const std::vector<PaperItem>& items, const Style& style) {
+  Table table = Numbers();
+  for (const PaperItem& item : items) AddRows(item, &table);
+  return table.Text(style);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,52 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/paper/report.h"
+#include "testing/temp_directory.h"
+
+namespace contact::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+Comparison Number(double published, double process, double limit) {
+  return {.what = "a", .published = published, .process = process, .limit = limit};
+}
+
+std::string Read(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(PaperReport, AnItemHoldsWhileEveryDeviationIsWithinItsLimit) {
+  PaperItem item{"table2", "t", {Number(0.8, 0.8006, 7e-4), Number(6, 6, 0)}, {}};
+  EXPECT_TRUE(item.holds());
+  item.numbers.push_back(Number(0.8, 0.8008, 7e-4));
+  EXPECT_FALSE(item.holds());
+  EXPECT_THAT(Summary({item}, Style{}), HasSubstr("DIFFERS"));
+}
+
+TEST(PaperReport, ANumberThatIsMissingDoesNotHold) {
+  EXPECT_FALSE(Number(6, kNoNumber, 1).holds());
+  EXPECT_TRUE(Number(kNoNumber, 6, kNoNumber).holds());  // Nothing to compare with.
+}
+
+TEST(PaperReport, FilesHoldWhatTheItemHolds) {
+  const testing::TempDirectory directory;
+  const PaperItem item{
+      "fig1", "t", {Number(1, 2, 0.5)}, {{"fig1", {"time_s", "force_n"}, {{0, 0.1}, {1, 1e-300}}}}};
+  Write(item, directory.path());
+  EXPECT_EQ(Read(directory.path() / "fig1.csv"), "time_s,force_n\n0,0.1\n1,1e-300\n");
+  const auto json = nlohmann::json::parse(Read(directory.path() / "fig1.json"));
+  EXPECT_FALSE(json["holds"]);
+  EXPECT_EQ(json["numbers"][0]["deviation"], 1.0);
+  EXPECT_TRUE(json["numbers"][0]["converged"].is_null());
+}
+
+}  // namespace
+}  // namespace contact::cli

@@ -1,0 +1,76 @@
+"""contactctl paper: the paper's numbers, made again by a real contactd."""
+
+import csv
+import json
+import math
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+from contactd import PATIENCE_S, ServerTest
+
+CONTACTCTL = os.environ["CONTACTCTL"]
+
+
+class Paper(ServerTest):
+
+    def make(self, *items, code=0):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        run = subprocess.run([CONTACTCTL, "--server", f"127.0.0.1:{self.server.port}", "paper",
+                              *items, "-o", directory.name], capture_output=True, encoding="utf-8",
+                             timeout=PATIENCE_S)
+        self.assertEqual(run.returncode, code, run.stdout + run.stderr)
+        return pathlib.Path(directory.name), run
+
+    def test_every_figure_and_table_is_made_and_every_number_holds(self):
+        made, _ = self.make()
+        for name in ("fig3 fig4 fig5 fig9 fig10 fig11 fig12 fig14 fig15 fig16 fig17 table3 "
+                     "exponent").split():
+            rows = list(csv.reader((made / f"{name}.csv").open(encoding="utf-8")))
+            self.assertGreater(len(rows), 15, name)
+            self.assertEqual({len(row) for row in rows}, {len(rows[0])}, name)
+        for name in "table2 table3 table4 fig4 fig15 exponent".split():
+            self.assertTrue((made / f"{name}.txt").is_file(), name)
+            item = json.loads((made / f"{name}.json").read_text("utf-8"))
+            self.assertTrue(item["holds"], item)
+
+    def test_table_2_and_4_are_those_of_the_paper(self):
+        made, _ = self.make("table2", "table4")
+        self.assertEqual(sorted(path.name for path in made.iterdir()),
+                         ["table2.json", "table2.txt", "table4.json", "table4.txt"])
+        numbers = json.loads((made / "table2.json").read_text("utf-8"))["numbers"]
+        published = [0.8453, 0.8661, 0.8020, 0.8306, 0.8067, 0.7059, 6]
+        self.assertEqual([n["published"] for n in numbers], published)
+        for n in numbers:
+            self.assertLessEqual(abs(n["process"] - n["published"]), 7e-4)
+        self.assertAlmostEqual(numbers[4]["converged"], 0.8, delta=1e-8)
+        row = json.loads((made / "table4.json").read_text("utf-8"))["numbers"][:11]
+        self.assertEqual([n["process"] for n in row], [0, 0, 1, 1, 5, 1, 1, 1, 1, 1, 0])
+
+    def test_every_cell_of_table_3_converges_alike_at_every_velocity(self):
+        made, _ = self.make("table3")
+        cells = {}
+        for row in csv.DictReader((made / "table3.csv").open(encoding="utf-8")):
+            passes = float(row["passes_converged"])
+            self.assertFalse(math.isnan(passes))
+            self.assertLessEqual(passes - 1, 6)
+            cells.setdefault(row["restitution"], set()).add(passes)
+        self.assertEqual(len(cells), 10)
+        self.assertEqual({len(passes) for passes in cells.values()}, {1})
+
+    def test_an_unknown_item_is_named(self):
+        _, run = self.make("fig99", code=2)
+        self.assertIn("unknown item 'fig99'", run.stderr)
+
+    def test_leaves_no_jobs_behind(self):
+        self.make("table2")
+        listed = subprocess.run([CONTACTCTL, "--server", f"127.0.0.1:{self.server.port}", "list",
+                                 "-o", "name"], capture_output=True, encoding="utf-8", timeout=60)
+        self.assertEqual(listed.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
