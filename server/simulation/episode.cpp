@@ -11,6 +11,8 @@ namespace {
 constexpr double kForever = 1e300;
 constexpr std::int64_t kStepsPerPass = 20'000;
 constexpr int kPatience = 12;                 // Corrections without a better pass.
+constexpr double kCoarse = 1e-7;              // Relative tolerance of the first passes, and
+constexpr double kCoarseError = 1e-4;         // the residual that it may feign.
 constexpr double kLeast = 1e-8, kMost = 1e8;  // Of the first guess.
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -49,10 +51,13 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
   start_time_ = start.time;
   damping_ = 1;
   best_merit_ = merit_ = std::numeric_limits<double>::infinity();
+  const bool adaptive = !as_paper_ && scenario_.solver.fixed_step == 0;
+  tolerance_ = adaptive ? std::max(kCoarse, scenario_.solver.relative_tolerance) : 0;
+  sensitive_ = !as_paper_;
   int best_number = 0;
-  for (int number = 0;; ++number) {
+  while (true) {
     const Motion::Pause pause = Pass(start, stop, step_limit);
-    if (pause == Motion::Pause::kNumeric && number > 0) {  // The correction led astray.
+    if (pause == Motion::Pause::kNumeric && iterations_ > 0) {  // The correction led astray.
       for (Unknown& u : unknowns_) u.mu = u.best_mu;
       return Motion::Pause::kQuiet;
     }
@@ -60,29 +65,49 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
         pause != Motion::Pause::kTimeUp) {
       return pause;
     }
+    const bool done = Done();
+    if ((!Exact() && (done || Merit() < kCoarseError)) || (!done && !sensitive_ && !as_paper_)) {
+      tolerance_ = 0;  // The same once more, exactly and with sensitivities.
+      sensitive_ = true;
+      continue;
+    }
     const double merit = Merit();
     if (merit < best_merit_) {
       best_merit_ = merit;
-      best_number = number;
+      best_number = iterations_;
       for (Unknown& u : unknowns_) u.best_mu = u.mu;
     }
-    const bool done = std::none_of(unknowns_.begin(), unknowns_.end(),
-                                   [&](const Unknown& u) { return Live(u) && !Converged(u); });
     // Newton that finds nothing better has failed; the paper's rules may be slow.
     const int patience = as_paper_ ? scenario_.solver.max_iterations : best_number + kPatience;
-    if (done || number >= std::min(scenario_.solver.max_iterations, patience)) {
+    if (done || iterations_ >= std::min(scenario_.solver.max_iterations, patience)) {
       for (Unknown& u : unknowns_) u.update = Iteration::Update::kNothing;
-      Report(number, start.time, true);
+      Report(iterations_, start.time, true);
       if (!done) {
         for (Unknown& u : unknowns_) u.mu = u.best_mu;
       }
       return Motion::Pause::kQuiet;
     }
     as_paper_ ? CorrectAsPaper() : Correct();
-    Report(number, start.time, false);
+    Report(iterations_, start.time, false);
+    if (!as_paper_) PlanNextPass();
     ++iterations_;
     ++total_iterations_;
   }
+}
+
+bool EpisodeSolver::Done() const {
+  return std::none_of(unknowns_.begin(), unknowns_.end(),
+                      [&](const Unknown& u) { return Live(u) && !Converged(u); });
+}
+
+// (N5): Newton squares the residual. A pass that is not the last but one need not be exact, and
+// one that is expected to be the last needs no sensitivities.
+void EpisodeSolver::PlanNextPass() {
+  const double wanted = scenario_.solver.restitution_tolerance;
+  const double next = merit_ * merit_;
+  const bool full = damping_ == 1;
+  sensitive_ = !(Exact() && full && next <= 0.1 * wanted);
+  if (full && next * next <= 10 * wanted) tolerance_ = 0;
 }
 
 Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& stop,
@@ -94,7 +119,7 @@ Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& sto
     u.squared = kNaN;
     u.column = kNone;
   }
-  motion_.Begin(start, false);
+  motion_.Begin(start, false, tolerance_);
   const std::int64_t limit = std::min(step_limit, motion_.steps() + kStepsPerPass);
   const Motion::Pause pause = motion_.Advance(kForever, *this, nullptr, stop, limit);
   // A contact at rest may never end its cycle; what has ended can still be solved.
@@ -145,7 +170,7 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
   }
   u->pass_mu = u->mu;
   u->start_time = cycle.start_time;
-  if (!as_paper_ && u->iterated && u->mu > 0) u->column = columns_++;
+  if (sensitive_ && u->iterated && u->mu > 0) u->column = columns_++;
   return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
 }
 

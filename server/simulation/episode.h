@@ -79,6 +79,9 @@ class EpisodeSolver final : public CycleHost {
   double Residual(const Unknown& unknown) const;
   double Merit() const;
   Motion::Pause Pass(const State& start, const std::stop_token& stop, std::int64_t step_limit);
+  bool Done() const;
+  bool Exact() const { return tolerance_ <= scenario_.solver.relative_tolerance; }
+  void PlanNextPass();
   void Correct();
   Eigen::VectorXd NewtonStep(const std::vector<Unknown*>& live) const;
   void MoveBy(Unknown& unknown, double relative_step, bool alone);
@@ -100,6 +103,8 @@ class EpisodeSolver final : public CycleHost {
   double damping_ = 1;             // Of the Newton step.
   double merit_ = 0, best_merit_ = 0;
   double start_time_ = 0;  // Of the episode.
+  double tolerance_ = 0;   // Of the integration in this pass, and whether it has
+  bool sensitive_ = true;  // sensitivities.
   int columns_ = 0;
   int episode_ = 0;
   int iterations_ = 0;

@@ -72,12 +72,14 @@ Motion::Motion(const Scenario& scenario)
       error5_(2 * scenario.bodies.size()),
       error3_(2 * scenario.bodies.size()),
       forcing_time_(equations_.ForcingTime()),
+      tolerance_(scenario.solver.relative_tolerance),
       event_(scenario.contacts.size()),
       max_cycles_(std::clamp(static_cast<int>(scenario.contacts.size()) + kSpareCycles,
                              kMinCyclesInStretch, kMaxCyclesInStretch)) {}
 
-void Motion::Begin(const State& state, bool recording) {
+void Motion::Begin(const State& state, bool recording, double tolerance) {
   const int n = equations_.bodies();
+  tolerance_ = tolerance > 0 ? tolerance : scenario_.solver.relative_tolerance;
   time_ = state.time;
   next_step_ = state.step;
   contacts_ = state.contacts;
@@ -209,8 +211,7 @@ double Motion::Noise(int contact) const {
   const Contact& c = scenario_.contacts[At(contact)];
   double noise = 0;
   for (const ActiveContact& active : equations_.active) {
-    noise = std::max(noise, kResolved * scenario_.solver.relative_tolerance *
-                                deformation_scale_[At(active.contact)]);
+    noise = std::max(noise, kResolved * tolerance_ * deformation_scale_[At(active.contact)]);
   }
   for (const int body : {c.left, c.right}) {
     if (body == kNone) continue;

@@ -95,8 +95,9 @@ class Motion {
 
   explicit Motion(const Scenario& scenario);
 
-  /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities.
-  void Begin(const State& state, bool recording);
+  /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities. `tolerance`
+  /// takes the place of the scenario's; 0: the scenario's.
+  void Begin(const State& state, bool recording, double tolerance = 0);
 
   /// Moves on until something of Pause happens. Begun where a cycle runs or starts, it goes on
   /// until none does; begun elsewhere, until one wants to start. Resting contacts do not count.
@@ -166,6 +167,7 @@ class Motion {
   double flight_speed_ = 0;                      // |v| while no cycle ran.
   State totals_;                                 // The balances at Begin.
   double forcing_time_;
+  double tolerance_;  // Relative, of a step.
   double time_ = 0;
   StepTime step_;              // The step in the integrator.
   int separating_ = kNone;     // The contact whose predicted separation ends it.

@@ -152,7 +152,7 @@ double Motion::ErrorNorm(double h) const {
         combined(active.Relative(e5.data() + n), active.Relative(e3.data() + n), own_speed));
     if (!(e <= norm)) norm = e;
   }
-  return norm / scenario_.solver.relative_tolerance;
+  return norm / tolerance_;
 }
 
 // Makes the step end on the event: Newton on its length with the true solution, started from the

@@ -37,7 +37,7 @@ TEST(PaperReport, ANumberThatIsMissingDoesNotHold) {
 }
 
 TEST(PaperReport, FilesHoldWhatTheItemHolds) {
-  const testing::TempDirectory directory;
+  const TempDirectory directory;
   const PaperItem item{
       "fig1", "t", {Number(1, 2, 0.5)}, {{"fig1", {"time_s", "force_n"}, {{0, 0.1}, {1, 1e-300}}}}};
   Write(item, directory.path());
