@@ -38,6 +38,9 @@ double CoordinateSlope(double squared, double restitution_in) {
 EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer)
     : scenario_(scenario),
       as_paper_(scenario.solver.update != UpdateRule::kNewtonCoupled),
+      nothing_to_find_(std::none_of(
+          scenario.contacts.begin(), scenario.contacts.end(),
+          [](const Contact& c) { return c.damping == DampingLaw::kEnergyRestitution; })),
       motion_(motion),
       observer_(observer),
       warned_(scenario.contacts.size()) {}
@@ -54,6 +57,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
   const bool adaptive = !as_paper_ && scenario_.solver.fixed_step == 0;
   tolerance_ = adaptive ? std::max(kCoarse, scenario_.solver.relative_tolerance) : 0;
   sensitive_ = !as_paper_;
+  if (nothing_to_find_) return Motion::Pause::kQuiet;
   int best_number = 0;
   while (true) {
     const Motion::Pause pause = Pass(start, stop, step_limit);

@@ -95,6 +95,7 @@ class EpisodeSolver final : public CycleHost {
 
   const Scenario& scenario_;
   const bool as_paper_;
+  const bool nothing_to_find_;  // Every μ comes from a law.
   Motion& motion_;
   Observer& observer_;
   std::vector<Unknown> unknowns_;  // In order of appearance.

@@ -10,7 +10,10 @@ std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-Equations::Equations(const Scenario& scenario) : scenario_(scenario) {
+Equations::Equations(const Scenario& scenario)
+    : scenario_(scenario),
+      bodies_(static_cast<int>(scenario.bodies.size())),
+      contacts_(static_cast<int>(scenario.contacts.size())) {
   for (const Body& body : scenario.bodies) {
     base.push_back(body.position);
     inverse_mass_.push_back(body.fixed ? 0 : 1 / body.mass);
@@ -78,10 +81,14 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
 void Equations::operator()(double t, const double* y, double* dy) const {
   const int n = bodies();
   const int blocks = recording ? 1 : columns + 1;
-  std::fill(dy, dy + size(), 0.0);
-  for (std::ptrdiff_t i = 0; i < blocks; ++i) {  // u̇ = v, in each block
-    std::copy(y + i * block() + n, y + i * block() + 2 * n, dy + i * block());
+  const std::ptrdiff_t block_size = block();
+  for (std::ptrdiff_t i = 0; i < blocks; ++i) {  // u̇ = v, in each block; to the rest is added.
+    const double* from = y + i * block_size + n;
+    double* to = dy + i * block_size;
+    for (int j = 0; j < n; ++j) to[j] = from[j];
+    for (std::ptrdiff_t j = n; j < block_size; ++j) to[j] = 0;
   }
+  if (recording) std::fill(dy + block_size, dy + size(), 0.0);
   for (const Load& load : scenario_.loads) {
     dy[n + load.body] += LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
@@ -112,11 +119,13 @@ void Equations::AddContacts(const double* y, double* dy) const {
   const int n = bodies();
   for (const ActiveContact& c : active) {
     const double rate = c.Relative(y + n);
-    const ActiveContact::Force f = c.At(c.Relative(y) - c.gap, rate);
-    dy[n + c.left] -= f.force * c.left_inverse;
-    dy[n + c.right] += f.force * c.right_inverse;
-    dy[2 * n + c.contact] = f.force * rate;  // (W1)
-    if (recording) continue;
+    const double deformation = c.Relative(y) - c.gap;
+    const double force = c.At(deformation, rate).force;
+    dy[n + c.left] -= force * c.left_inverse;
+    dy[n + c.right] += force * c.right_inverse;
+    dy[2 * n + c.contact] = force * rate;  // (W1)
+    if (recording || columns == 0) continue;
+    const ActiveContact::Force f = c.At(deformation, rate);
     // The variational equations (S1): y' = f(y, μ) differentiated by the μ of each column.
     for (int column = 0; column < columns; ++column) {
       const double* s = y + (column + 1) * block();
@@ -126,7 +135,7 @@ void Equations::AddContacts(const double* y, double* dy) const {
       if (column == c.column) force_s += f.damping;
       ds[n + c.left] -= force_s * c.left_inverse;
       ds[n + c.right] += force_s * c.right_inverse;
-      ds[2 * n + c.contact] = force_s * rate + f.force * rate_s;
+      ds[2 * n + c.contact] = force_s * rate + force * rate_s;
     }
   }
 }

@@ -62,8 +62,8 @@ class Equations {
  public:
   explicit Equations(const Scenario& scenario);
 
-  int bodies() const { return static_cast<int>(inverse_mass_.size()); }
-  int contacts() const { return static_cast<int>(scenario_.contacts.size()); }
+  int bodies() const { return bodies_; }
+  int contacts() const { return contacts_; }
   std::ptrdiff_t block() const { return 2 * std::ptrdiff_t{bodies()} + contacts(); }
   std::ptrdiff_t size() const { return block() + (recording ? contacts() + 3 : columns * block()); }
   std::ptrdiff_t external_work(int contact) const { return block() + contact; }
@@ -104,6 +104,7 @@ class Equations {
   double SupportForce(const Support& s, const double* u, const double* v) const;
 
   const Scenario& scenario_;
+  int bodies_, contacts_;             // Counts.
   std::vector<double> inverse_mass_;  // 0 for a fixed body.
 };
 

@@ -137,9 +137,8 @@ double Motion::ErrorNorm(double h) const {
   double norm = 0;
   auto& e5 = error5_;
   auto& e3 = error3_;
+  rk_.Errors(2 * n, e5.data(), e3.data());
   for (int i = 0; i < 2 * n; ++i) {
-    e5[At(i)] = rk_.Error5(i);
-    e3[At(i)] = rk_.Error3(i);
     const double e = combined(e5[At(i)], e3[At(i)], i < n ? body_length : body_speed);
     if (!(e <= norm)) norm = e;  // Keeps a NaN.
   }

@@ -60,9 +60,9 @@ class RungeKutta {
   /// y at θ, to order 7; to order 3 with the classical method.
   void Interpolate(double theta, Vector* y) const;
 
-  /// The two error estimates of row i in units of h, to be combined. Dormand and Prince only.
-  double Error5(Eigen::Index i) const;
-  double Error3(Eigen::Index i) const;
+  /// The two error estimates of the first rows in units of h, to be combined. Dormand and Prince
+  /// only.
+  void Errors(Eigen::Index rows, double* error5, double* error3) const;
 
   Vector y0, y1;
   Vector slope0, slope1;  ///< dy/dt at the ends.

@@ -19,8 +19,12 @@ void RungeKutta::Combine(Vector& out, double h, const Term (&terms)[N]) {
 
 template <class F>
 void RungeKutta::Evaluate(F&& f, const StepTime& time, double theta, const double* y, int i) {
-  f(time.At(theta), y, k_.col(i).data());
-  if (time.warp != 1) k_.col(i) *= time.Rate(theta);
+  double* slope = k_.col(i).data();
+  f(time.At(theta), y, slope);
+  if (time.warp == 1) return;
+  const double rate = time.Rate(theta);
+  const Eigen::Index n = size();
+  for (Eigen::Index j = 0; j < n; ++j) slope[j] *= rate;
 }
 
 template <class F>
