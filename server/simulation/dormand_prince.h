@@ -30,6 +30,7 @@ class DormandPrince {
  public:
   using Vector = Eigen::ArrayXd;
 
+  /// Keeps what there is of y0 and slope0.
   void Resize(Eigen::Index size);
   Eigen::Index size() const { return y0.size(); }
 
