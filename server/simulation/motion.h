@@ -141,6 +141,7 @@ class Motion {
   void ObserveForce(int contact);
   Eigen::ArrayXd WorkGradient(int contact, const Eigen::ArrayXd& y) const;
   void RefreshActive();
+  void SelectLoads();
 
   const Scenario& scenario_;
   Equations equations_;
@@ -154,7 +155,8 @@ class Motion {
   double flight_length_ = 0;                     // Largest |u| and
   double flight_speed_ = 0;                      // |v| while no cycle ran.
   State totals_;                                 // The balances at Begin.
-  double forcing_time_;
+  double forcing_time_ = 0;
+  double breakpoint_ = 0;  // The next instant at which a load begins or ends.
   double time_ = 0;
   StepTime step_;              // The step in the integrator.
   int separating_ = kNone;     // The contact whose predicted separation ends it.
