@@ -18,6 +18,21 @@ Equations::Equations(const Scenario& scenario)
     base.push_back(body.position);
     inverse_mass_.push_back(body.fixed ? 0 : 1 / body.mass);
   }
+  for (const Load& load : scenario.loads) {
+    breakpoints_.push_back(load.begin);
+    breakpoints_.push_back(load.end);
+  }
+  std::sort(breakpoints_.begin(), breakpoints_.end());
+  SelectLoads(0);
+}
+
+double Equations::SelectLoads(double time) {
+  acting_.clear();
+  for (const Load& load : scenario_.loads) {
+    if (load.begin <= time && time < load.end) acting_.push_back(load);
+  }
+  const auto next = std::upper_bound(breakpoints_.begin(), breakpoints_.end(), time);
+  return next == breakpoints_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
 double Equations::effective_mass(int contact) const {
@@ -28,7 +43,7 @@ double Equations::effective_mass(int contact) const {
 
 double Equations::ForcingTime() const {
   double rate = 0;
-  for (const Load& load : scenario_.loads) {
+  for (const Load& load : acting_) {
     if (load.amplitude != 0) rate = std::max(rate, load.angular_frequency);
   }
   for (const Support& s : scenario_.supports) {
@@ -40,9 +55,10 @@ double Equations::ForcingTime() const {
 }
 
 double Equations::LoadForce(const Load& load, double t) const {
-  double force = load.constant;
+  const double since = t - load.begin;
+  double force = load.constant + load.slope * since;
   if (load.amplitude != 0) {
-    force += load.amplitude * std::sin(load.angular_frequency * t + load.phase);
+    force += load.amplitude * std::sin(load.angular_frequency * since + load.phase);
   }
   return force;
 }
@@ -89,7 +105,7 @@ void Equations::operator()(double t, const double* y, double* dy) const {
     for (std::ptrdiff_t j = n; j < block_size; ++j) to[j] = 0;
   }
   if (recording) std::fill(dy + block_size, dy + size(), 0.0);
-  for (const Load& load : scenario_.loads) {
+  for (const Load& load : acting_) {
     dy[n + load.body] += LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
   if (!scenario_.supports.empty()) AddSupports(y, dy);
@@ -153,7 +169,7 @@ void Equations::AddRecord(double t, const double* y, double* dy) const {
     dy[external_work(c.contact)] = external * rate;  // F_e δ̇
     impulse_rate += force * ((c.right_inverse != 0) - (c.left_inverse != 0));
   }
-  for (const Load& load : scenario_.loads) {
+  for (const Load& load : acting_) {
     const double force = LoadForce(load, t);
     dy[load_work()] += force * v[load.body];
     impulse_rate += force * free(load.body);

@@ -88,7 +88,11 @@ class Equations {
   double Energy(const double* y) const;    ///< Kinetic, springs, contacts: (B1) [J].
   double Momentum(const double* y) const;  ///< Of the bodies that are not fixed [N·s].
 
-  /// Shortest time in which a load or a support changes [s]; infinite without any.
+  /// Takes the loads that act from `time` on, until the instant returned, the next at which one
+  /// begins or ends; infinite if none does. Each goes on as its formula does past that instant.
+  double SelectLoads(double time);
+
+  /// Shortest time in which a selected load or a support changes [s]; infinite without any.
   double ForcingTime() const;
 
   std::vector<double> base;           ///< Positions from which u is measured [m].
@@ -106,6 +110,8 @@ class Equations {
   const Scenario& scenario_;
   int bodies_, contacts_;             // Counts.
   std::vector<double> inverse_mass_;  // 0 for a fixed body.
+  std::vector<Load> acting_;          // The loads selected.
+  std::vector<double> breakpoints_;   // Where loads begin and end; sorted.
 };
 
 /// U = k δⁿ⁺¹/(n + 1) [J].

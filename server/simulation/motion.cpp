@@ -71,7 +71,6 @@ Motion::Motion(const Scenario& scenario)
       turn_gradient_(scenario.contacts.size()),
       error5_(2 * scenario.bodies.size()),
       error3_(2 * scenario.bodies.size()),
-      forcing_time_(equations_.ForcingTime()),
       tolerance_(scenario.solver.relative_tolerance),
       event_(scenario.contacts.size()),
       max_cycles_(std::clamp(static_cast<int>(scenario.contacts.size()) + kSpareCycles,
@@ -95,6 +94,7 @@ void Motion::Begin(const State& state, bool recording, double tolerance) {
   equations_.base = state.positions;
   equations_.recording = recording;
   equations_.columns = 0;
+  SelectLoads();
   rk_.Resize(equations_.size());
   rk_.y0.setZero();
   for (int i = 0; i < n; ++i) rk_.y0[n + i] = state.velocities[At(i)];
@@ -179,6 +179,11 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
 }
 
 bool Motion::Busy() const { return std::any_of(contacts_.begin(), contacts_.end(), IsRunning); }
+
+void Motion::SelectLoads() {
+  breakpoint_ = equations_.SelectLoads(time_);
+  forcing_time_ = equations_.ForcingTime();
+}
 
 void Motion::RefreshActive() {
   equations_.active.clear();
@@ -267,8 +272,13 @@ void Motion::Accept(StepListener* listener) {
     for (const ActiveContact& active : equations_.active) ObserveForce(active.contact);
   }
   if (listener != nullptr) listener->OnStep(step_);
-  time_ += step_.h;
+  const bool breaks = step_.h >= breakpoint_ - time_;
+  time_ = breaks ? breakpoint_ : time_ + step_.h;
   rk_.Advance();
+  if (breaks) {
+    SelectLoads();
+    RefreshActive();
+  }
   if (equations_.active.empty()) {
     flight_length_ = std::max(flight_length_, rk_.y0.head(n).abs().maxCoeff());
     flight_speed_ = std::max(flight_speed_, rk_.y0.segment(n, n).abs().maxCoeff());

@@ -151,6 +151,7 @@ class Motion {
   void KeepPeak(int contact, double theta);
   Eigen::ArrayXd WorkGradient(int contact, const Eigen::ArrayXd& y) const;
   void RefreshActive();
+  void SelectLoads();
 
   const Scenario& scenario_;
   const double fixed_step_;  // Of the classical method [s]; 0: error control.
@@ -166,8 +167,9 @@ class Motion {
   double flight_length_ = 0;                     // Largest |u| and
   double flight_speed_ = 0;                      // |v| while no cycle ran.
   State totals_;                                 // The balances at Begin.
-  double forcing_time_;
-  double tolerance_;  // Relative, of a step.
+  double forcing_time_ = 0;
+  double breakpoint_ = 0;  // The next instant at which a load begins or ends.
+  double tolerance_;       // Relative, of a step.
   double time_ = 0;
   StepTime step_;              // The step in the integrator.
   int separating_ = kNone;     // The contact whose predicted separation ends it.

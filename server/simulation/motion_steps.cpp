@@ -44,7 +44,7 @@ double Motion::TimeToSeparation(const ActiveContact& active) const {
 }
 
 StepTime Motion::Plan(double until) {
-  const double left = until - time_;
+  const double left = std::min(until, breakpoint_) - time_;
   double h = std::min({next_step_, left, 0.5 * forcing_time_});
   if (left - h < 1e-3 * h) h = left;  // Leave no sliver.
   separating_ = kNone;
@@ -67,7 +67,7 @@ StepTime Motion::Plan(double until) {
 
 // The classical method's step is what it is.
 void Motion::TakeFixedStep(double until) {
-  const double left = until - time_;
+  const double left = std::min(until, breakpoint_) - time_;
   const bool last = left < (1 + 1e-6) * fixed_step_;  // Leave no sliver.
   separating_ = kNone;
   step_ = {.start = time_, .h = last ? left : fixed_step_};
@@ -117,6 +117,7 @@ bool Motion::TakeStep(double until) {
 // the scale of its own cycle, that of each body relative to the largest motion of all.
 double Motion::ErrorNorm(double h) const {
   const int n = equations_.bodies();
+  if (!rk_.y1.head(2 * n).allFinite()) return std::numeric_limits<double>::infinity();
   double length = 0, speed = 0;
   for (const ActiveContact& active : equations_.active) {
     const int c = active.contact;
@@ -160,11 +161,16 @@ double Motion::ErrorNorm(double h) const {
 bool Motion::Land(const Found& found) {
   const bool parting = found.event.kind == EventKind::kSeparation;
   const StepTime planned = step_;
+  const double left = breakpoint_ - time_;
   if (found.event.theta < 1) Repeat(step_.Offset(found.event.theta), parting);
   for (int i = 0; i < kMaxLandings; ++i) {
     const double correction = Correction(found);
     const double h = step_.h + correction;
     if (!(h > 0) || h > 2 * planned.h) break;
+    if (h > left) {  // The event is past a load's breakpoint, after which all is different.
+      Repeat(left, false);
+      return false;
+    }
     if (std::abs(correction) <= 1e-7 * step_.h) {
       // So near that the tangent leads there: its error is of second order.
       rk_.y1 += correction * rk_.slope1;

@@ -15,7 +15,7 @@ double StepTime::Theta(double t) const {
 void RungeKutta::Resize(Eigen::Index size) {
   y0.conservativeResize(size);
   y1.resize(size);
-  slope0.resize(size);
+  slope0.conservativeResize(size);
   slope1.resize(size);
   stage_.resize(size);
   k_.resize(size, 16);

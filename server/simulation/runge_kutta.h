@@ -34,6 +34,7 @@ class RungeKutta {
 
   explicit RungeKutta(Method method = Method::kDormandPrince) : method_(method) {}
 
+  /// Keeps what there is of y0 and slope0.
   void Resize(Eigen::Index size);
   Eigen::Index size() const { return y0.size(); }
 

@@ -50,14 +50,18 @@ struct Support {
   double rest_position = 0;  ///< [m].
 };
 
-/// A force on a body that depends on time only: F(t) = constant + amplitude sin(ω t + φ).
-/// Gravity is a constant m a.
+/// A smooth piece of a force on a body that depends on time only: in begin ≤ t < end
+///   F(t) = constant + slope (t − begin) + amplitude sin(ω (t − begin) + φ),
+/// else 0. Gravity is a constant m a; a table is a piece for each interval.
 struct Load {
   int body = 0;
-  double constant = 0;           ///< [N].
-  double amplitude = 0;          ///< [N].
-  double angular_frequency = 0;  ///< ω [rad/s], ≥ 0.
-  double phase = 0;              ///< φ [rad].
+  double begin = 0;                                      ///< [s], ≥ 0.
+  double end = std::numeric_limits<double>::infinity();  ///< [s].
+  double constant = 0;                                   ///< [N].
+  double slope = 0;                                      ///< [N/s].
+  double amplitude = 0;                                  ///< [N].
+  double angular_frequency = 0;                          ///< ω [rad/s], ≥ 0.
+  double phase = 0;                                      ///< φ [rad].
 };
 
 /// How μ is corrected between passes through an episode.

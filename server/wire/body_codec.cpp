@@ -7,6 +7,7 @@
 #include <numbers>
 #include <unordered_set>
 
+#include "wire/material_codec.h"
 #include "wire/spelling.h"
 
 namespace contact {
@@ -63,6 +64,7 @@ Body DecodeBody(const v1::Body& message, const Rules& rules) {
   rules.Require("radius_m", message.radius_m(), kRadius);
   rules.Require("position_m", message.position_m(), kPosition);
   rules.Require("velocity_m_per_s", message.velocity_m_per_s(), kVelocity);
+  if (message.has_material()) CheckMaterial(message.material(), "material", rules);
   if (message.fixed() && message.velocity_m_per_s() != 0) {
     rules.Break("velocity_m_per_s",
                 fmt::format("is {}; must be 0 for a fixed body", message.velocity_m_per_s()));

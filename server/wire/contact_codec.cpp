@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "wire/material_codec.h"
 #include "wire/spelling.h"
 
 namespace contact {
@@ -91,11 +92,7 @@ Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
   contact.mu = message.mu();
   contact.reference_velocity = message.reference_velocity_m_per_s();
 
-  if (message.has_stiffness()) {
-    rules.Require("stiffness", message.stiffness(), kStiffness);
-  } else {
-    rules.Break("stiffness", "is missing", "k, in N/m^exponent");
-  }
+  if (message.has_stiffness()) rules.Require("stiffness", message.stiffness(), kStiffness);
   rules.Require("exponent", contact.exponent, kExponent);
   CheckRestitution(message, rules);
   contact.damping = DecodeDamping(message, rules);
@@ -109,8 +106,9 @@ Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
 // Reads the contacts one after the other and keeps what they must not share.
 class ContactDecoder {
  public:
-  ContactDecoder(const std::vector<Body>& bodies, const BodyNames& names)
-      : bodies_(bodies), names_(names) {}
+  ContactDecoder(const v1::Scenario& scenario, const std::vector<Body>& bodies,
+                 const BodyNames& names)
+      : scenario_(scenario), bodies_(bodies), names_(names) {}
 
   void Decode(const v1::Contact& message, const Rules& rules) {
     if (!message.name().empty() && !IsName(message.name())) {
@@ -124,6 +122,7 @@ class ContactDecoder {
       touching.push_back(names_.Find(message.between(i), field, rules));
     }
     CheckWall(message, rules);
+    CheckStiffness(message, touching, rules);
     const Contact law = DecodeLaw(message, rules);
     if (message.has_wall()) {
       if (touching.size() == 1 && touching[0] != kNone) AddWall(message, law, touching[0], rules);
@@ -158,6 +157,69 @@ class ContactDecoder {
     } else {
       rules.RequireAvailable("wall.side", message.wall().side(), {v1::Wall::LEFT, v1::Wall::RIGHT});
     }
+    if (!message.wall().has_material()) return;
+    CheckMaterial(message.wall().material(), "wall.material", rules);
+    if (message.has_stiffness()) {
+      rules.Break("wall.material", "is given beside stiffness", "give one of the two");
+    }
+  }
+
+  const v1::Body& Message(int body) const { return scenario_.bodies(body); }
+
+  // A stiffness is given, or follows from materials.
+  void CheckStiffness(const v1::Contact& message, const std::vector<int>& touching,
+                      const Rules& rules) const {
+    if (message.has_stiffness()) return;
+    const bool materials =
+        message.wall().has_material() || std::ranges::any_of(touching, [this](int body) {
+          return body != kNone && Message(body).has_material();
+        });
+    if (!materials) {
+      rules.Break("stiffness", "is missing", "k, in N/m^exponent; or the material of both sides");
+      return;
+    }
+    for (const int body : touching) {
+      if (body != kNone) CheckHertz(body, rules);
+    }
+    if (message.has_wall() && !message.wall().has_material()) {
+      rules.Break("wall.material", "is missing, and so is stiffness", "give one of the two");
+    }
+    if (message.has_exponent() && message.exponent() != 1.5) {
+      rules.Break(
+          "exponent",
+          fmt::format("is {}; must be 1.5 where stiffness is not given", message.exponent()),
+          "materials make a Hertz contact");
+    }
+  }
+
+  void CheckHertz(int body, const Rules& rules) const {
+    const std::string name = Quoted(Message(body).name());
+    if (!Message(body).has_material()) {
+      rules.Break("stiffness", fmt::format("is missing, and {} has no material", name),
+                  "give stiffness, or the material of both sides");
+    }
+    if (Message(body).radius_m() == 0) {
+      rules.Break("stiffness", fmt::format("is missing, and {} has no radius", name),
+                  "that of a Hertz contact needs radius_m > 0");
+    }
+  }
+
+  // Fills the stiffness that follows from materials, once they and the radii are right.
+  void FillStiffness(const v1::Contact& message, Contact* contact, const Rules& rules) const {
+    if (message.has_stiffness()) return;
+    double compliance = message.has_wall() ? Compliance(message.wall().material()) : 0;
+    double curvature = 0;
+    for (const int body : {contact->left, contact->right}) {
+      if (body == kNone) continue;
+      compliance += Compliance(Message(body).material());
+      curvature += 1 / Message(body).radius_m();
+    }
+    contact->stiffness = HertzStiffness(compliance, curvature);
+    if (rules.empty() && !kStiffness.Contains(contact->stiffness)) {
+      rules.Break("stiffness", fmt::format("is missing, and follows as {} from the materials; must "
+                                           "be in {}",
+                                           contact->stiffness, kStiffness.text));
+    }
   }
 
   void AddWall(const v1::Contact& message, Contact contact, int index, const Rules& rules) {
@@ -166,6 +228,7 @@ class ContactDecoder {
     const double wall = message.wall().position_m();
     (left ? contact.right : contact.left) = index;
     contact.wall_position = wall;
+    FillStiffness(message, &contact, rules);
     contact.name = message.name().empty() ? body.name + "-wall" : message.name();
 
     if (body.fixed) {
@@ -188,6 +251,7 @@ class ContactDecoder {
     const Body& b = bodies_[static_cast<std::size_t>(right)];
     contact.left = left;
     contact.right = right;
+    FillStiffness(message, &contact, rules);
     contact.name = message.name().empty()       ? a.name + "-" + b.name
                    : message.between_size() > 2 ? fmt::format("{}-{}", message.name(), number)
                                                 : message.name();
@@ -243,6 +307,7 @@ class ContactDecoder {
     contacts_.push_back(std::move(contact));
   }
 
+  const v1::Scenario& scenario_;
   const std::vector<Body>& bodies_;
   const BodyNames& names_;
   std::vector<Contact> contacts_;
@@ -262,7 +327,7 @@ std::int64_t CountContacts(const v1::Scenario& message) {
 
 std::vector<Contact> DecodeContacts(const v1::Scenario& message, const std::vector<Body>& bodies,
                                     const BodyNames& names, std::vector<Violation>* violations) {
-  ContactDecoder decoder(bodies, names);
+  ContactDecoder decoder(message, bodies, names);
   for (int i = 0; i < message.contacts_size(); ++i) {
     decoder.Decode(message.contacts(i), Rules(violations, "contacts", i));
   }

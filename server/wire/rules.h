@@ -49,6 +49,9 @@ class Rules {
     BreakChoice(field, *descriptor, value);
   }
 
+  /// True while no rule of the scenario is broken.
+  bool empty() const { return violations_->empty(); }
+
   /// True when nothing more is noted, so that work on hints can be spared.
   bool full() const { return violations_->size() >= kMostViolations; }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "wire/body_codec.h"
 #include "wire/contact_codec.h"
+#include "wire/load_codec.h"
 #include "wire/rules.h"
 
 namespace contact {
@@ -14,10 +14,6 @@ namespace {
 
 constexpr Range kCoefficient{0, 1e30, "[0, 1e30]"};
 constexpr Range kPosition{-1e9, 1e9, "[-1e9, 1e9]"};
-constexpr Range kForce{-1e15, 1e15, "[-1e15, 1e15]"};
-constexpr Range kAngularFrequency{0, 1e9, "[0, 1e9]"};
-constexpr Range kPhase{-1e3, 1e3, "[-1e3, 1e3]"};
-constexpr Range kAcceleration{-1e9, 1e9, "[-1e9, 1e9]"};
 constexpr Range kStep{0, 1, "(0, 1]"};
 constexpr Range kRelativeTolerance{1e-13, 1e-3, "[1e-13, 1e-3]"};
 constexpr Range kRestitutionTolerance{1e-12, 0.1, "[1e-12, 0.1]"};
@@ -26,15 +22,8 @@ constexpr Range kSettledFraction{0, 0.1, "[0, 0.1]"};
 constexpr Range kMaxSteps{1, 1e12, "[1, 1e12]"};
 constexpr Range kEndTime{0, 1e6, "(0, 1e6]"};
 
-constexpr double kStandardGravity = 9.80665;  // m/s²
 constexpr std::int64_t kLongestTitle = 200;
 constexpr int kDefaultSamples = 1000;
-
-// A fixed body takes no force.
-void RequireMovable(const std::vector<Body>& bodies, int body, const Rules& rules) {
-  if (body == kNone || !bodies[static_cast<std::size_t>(body)].fixed) return;
-  rules.Break("body", "is fixed; forces do not move it");
-}
 
 std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vector<Body>& bodies,
                                     const BodyNames& names, std::vector<Violation>* violations) {
@@ -58,75 +47,6 @@ std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vect
                         .rest_position = support.rest_position_m()});
   }
   return supports;
-}
-
-Load DecodeSine(const v1::Load::Sine& sine, int body, const Rules& rules) {
-  rules.Require("sine.amplitude_n", sine.amplitude_n(), kForce);
-  rules.Require("sine.angular_frequency_rad_per_s", sine.angular_frequency_rad_per_s(),
-                kAngularFrequency);
-  rules.Require("sine.phase_rad", sine.phase_rad(), kPhase);
-  return {.body = body,
-          .amplitude = sine.amplitude_n(),
-          .angular_frequency = sine.angular_frequency_rad_per_s(),
-          .phase = sine.phase_rad()};
-}
-
-double DecodeAcceleration(const v1::Load::Gravity& gravity, const Rules& rules) {
-  const double acceleration =
-      gravity.has_acceleration_m_per_s2() ? gravity.acceleration_m_per_s2() : -kStandardGravity;
-  rules.Require("gravity.acceleration_m_per_s2", acceleration, kAcceleration);
-  return acceleration;
-}
-
-void AddGravityOfAll(const std::vector<Body>& bodies, double acceleration,
-                     std::vector<Load>* loads) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].fixed) continue;
-    loads->push_back({.body = static_cast<int>(i), .constant = bodies[i].mass * acceleration});
-  }
-}
-
-// The load that acts on one named body.
-Load DecodeLoad(const v1::Load& load, const std::vector<Body>& bodies, const BodyNames& names,
-                const Rules& rules) {
-  const int body = names.Find(load.body(), "body", rules);
-  RequireMovable(bodies, body, rules);
-  switch (load.kind_case()) {
-    case v1::Load::kConstant:
-      rules.Require("constant.force_n", load.constant().force_n(), kForce);
-      return {.body = body, .constant = load.constant().force_n()};
-    case v1::Load::kSine:
-      return DecodeSine(load.sine(), body, rules);
-    case v1::Load::kGravity: {
-      const double acceleration = DecodeAcceleration(load.gravity(), rules);
-      const double mass = body == kNone ? 0 : bodies[static_cast<std::size_t>(body)].mass;
-      return {.body = body, .constant = mass * acceleration};
-    }
-    case v1::Load::KIND_NOT_SET:
-      rules.Break("", "has no kind", "give one of constant, sine and gravity");
-  }
-  return {.body = body};
-}
-
-std::vector<Load> DecodeLoads(const v1::Scenario& message, const std::vector<Body>& bodies,
-                              const BodyNames& names, std::vector<Violation>* violations) {
-  std::vector<Load> loads;
-  bool gravity_of_all = false;
-  for (int i = 0; i < message.loads_size(); ++i) {
-    const Rules rules(violations, "loads", i);
-    const v1::Load& load = message.loads(i);
-    if (!load.has_gravity() || !load.body().empty()) {
-      loads.push_back(DecodeLoad(load, bodies, names, rules));
-      continue;
-    }
-    const double acceleration = DecodeAcceleration(load.gravity(), rules);
-    if (std::exchange(gravity_of_all, true)) {
-      rules.Break("gravity", "repeats the gravity of every body", "give it once");
-    } else {
-      AddGravityOfAll(bodies, acceleration, &loads);
-    }
-  }
-  return loads;
 }
 
 constexpr double kDefaultStep = 1e-6;  // The paper's [s].

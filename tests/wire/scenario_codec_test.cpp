@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "wire/scenario_builder.h"
@@ -180,6 +182,60 @@ TEST(DecodeScenario, GravityOfEveryBodyLeavesOutFixedOnes) {
   ASSERT_THAT(decoded.scenario.loads, SizeIs(1));
   EXPECT_EQ(decoded.scenario.loads[0].body, 0);
   EXPECT_THAT(decoded.scenario.loads[0].constant, DoubleEq(-0.5 * 9.80665));
+}
+
+TEST(DecodeScenario, LoadsBecomePiecesThatBeginAndEnd) {
+  v1::Scenario message = TwoBalls();
+  *message.mutable_loads() = FromText(R"(
+      loads { body: "B1" step { force_n: 3 start_time_s: 0.5 } }
+      loads { body: "B1" rectangular_pulse { force_n: 4 start_time_s: 1 duration_s: 2 } }
+      loads { body: "B2" half_sine_pulse { amplitude_n: 5 start_time_s: 1 duration_s: 4 } }
+      loads { body: "B2" table { points { time_s: 1 } points { time_s: 3 force_n: 8 }
+                                 points { time_s: 4 force_n: 6 } } })")
+                                 .loads();
+  const DecodedScenario decoded = DecodeScenario(message);
+  ASSERT_THAT(Lines(decoded.violations), IsEmpty());
+  const std::vector<Load>& loads = decoded.scenario.loads;
+  ASSERT_THAT(loads, SizeIs(5));
+  EXPECT_EQ(loads[0].begin, 0.5);
+  EXPECT_EQ(loads[0].end, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(loads[0].constant, 3);
+  EXPECT_EQ(loads[1].begin, 1);
+  EXPECT_EQ(loads[1].end, 3);
+  EXPECT_EQ(loads[1].constant, 4);
+  EXPECT_EQ(loads[2].body, 1);
+  EXPECT_EQ(loads[2].end, 5);
+  EXPECT_EQ(loads[2].amplitude, 5);
+  EXPECT_THAT(loads[2].angular_frequency, DoubleEq(std::numbers::pi / 4));
+  EXPECT_EQ(loads[3].constant, 0);
+  EXPECT_EQ(loads[3].slope, 4);
+  EXPECT_EQ(loads[3].end, 3);
+  EXPECT_EQ(loads[4].constant, 8);
+  EXPECT_EQ(loads[4].slope, -2);
+  EXPECT_EQ(loads[4].end, 4);
+}
+
+// Glass, E = 48 GPa, ν = 0.2, R = 10 mm, on itself, on steel, and on a glass wall.
+TEST(DecodeScenario, StiffnessFollowsFromMaterials) {
+  v1::Scenario message = FromText(R"(
+      bodies { name: "A" density_kg_per_m3: 2800 radius_m: 0.01
+               material { youngs_modulus_pa: 48e9 poisson_ratio: 0.2 } }
+      bodies { name: "B" density_kg_per_m3: 2800 radius_m: 0.01 position_m: 0.02
+               material { youngs_modulus_pa: 48e9 poisson_ratio: 0.2 } }
+      bodies { name: "C" density_kg_per_m3: 7800 radius_m: 0.02 position_m: 0.05
+               material { youngs_modulus_pa: 2.1e11 poisson_ratio: 0.3 } }
+      contacts { between: "A" between: "B" between: "C" restitution: 1 }
+      contacts { between: "A" restitution: 1
+                 wall { side: LEFT position_m: -0.01
+                        material { youngs_modulus_pa: 48e9 poisson_ratio: 0.2 } } }
+      end_time_s: 1e-4)");
+  const DecodedScenario decoded = DecodeScenario(message);
+  ASSERT_THAT(Lines(decoded.violations), IsEmpty());
+  const double glass = 0.96 / 48e9, steel = 0.91 / 2.1e11;
+  const auto& contacts = decoded.scenario.contacts;
+  EXPECT_THAT(contacts[0].stiffness, DoubleEq(4.0 / 3 / (2 * glass) * std::sqrt(0.005)));
+  EXPECT_THAT(contacts[1].stiffness, DoubleEq(4.0 / 3 / (glass + steel) * std::sqrt(0.02 / 3)));
+  EXPECT_THAT(contacts[2].stiffness, DoubleEq(4.0 / 3 / (2 * glass) * std::sqrt(0.01)));
 }
 
 TEST(DecodeScenario, FixedBodyNeedsNoMass) {

@@ -30,6 +30,44 @@ v1::Scenario Everything() {
       end_time_s: 1)");
 }
 
+v1::Load::RectangularPulse& Rectangular(v1::Scenario& s) {
+  auto& pulse = *s.mutable_loads(0)->mutable_rectangular_pulse();
+  pulse.set_duration_s(1);
+  return pulse;
+}
+
+v1::Load::HalfSinePulse& HalfSine(v1::Scenario& s) {
+  auto& pulse = *s.mutable_loads(0)->mutable_half_sine_pulse();
+  pulse.set_duration_s(1);
+  return pulse;
+}
+
+v1::Load::Table& Table(v1::Scenario& s) {
+  auto& table = *s.mutable_loads(0)->mutable_table();
+  for (int i = 0; i < 3; ++i) table.add_points()->set_time_s(i);
+  return table;
+}
+
+v1::Material* Glass(v1::Material* material) {
+  material->set_youngs_modulus_pa(48e9);
+  material->set_poisson_ratio(0.2);
+  return material;
+}
+
+// Makes the contact of B1 and B2 one of glass balls.
+void HertzPair(v1::Scenario& s) {
+  for (int i = 0; i < 2; ++i) Glass(s.mutable_bodies(i)->mutable_material());
+  s.mutable_contacts(0)->clear_stiffness();
+}
+
+// Makes the contact of B3 and its wall one of glass.
+void HertzWall(v1::Scenario& s) {
+  s.mutable_bodies(2)->set_radius_m(0.05);
+  Glass(s.mutable_bodies(2)->mutable_material());
+  Glass(s.mutable_contacts(1)->mutable_wall()->mutable_material());
+  s.mutable_contacts(1)->clear_stiffness();
+}
+
 // ---- Numbers: both ends of each range, one step past them, NaN and infinity -------------------
 
 struct NumberRule {
@@ -92,6 +130,33 @@ std::vector<NumberRule> NumberRules() {
        [](S& s, double v) { s.mutable_loads(1)->mutable_sine()->set_phase_rad(v); }},
       {"loads[2].gravity.acceleration_m_per_s2", -1e9, 1e9, "[-1e9, 1e9]",
        [](S& s, double v) { s.mutable_loads(2)->mutable_gravity()->set_acceleration_m_per_s2(v); }},
+      {"loads[0].step.force_n", -1e15, 1e15, "[-1e15, 1e15]",
+       [](S& s, double v) { s.mutable_loads(0)->mutable_step()->set_force_n(v); }},
+      {"loads[0].step.start_time_s", 0, 1e6, "[0, 1e6]",
+       [](S& s, double v) { s.mutable_loads(0)->mutable_step()->set_start_time_s(v); }},
+      {"loads[0].rectangular_pulse.force_n", -1e15, 1e15, "[-1e15, 1e15]",
+       [](S& s, double v) { Rectangular(s).set_force_n(v); }},
+      {"loads[0].rectangular_pulse.start_time_s", 0, 1e6, "[0, 1e6]",
+       [](S& s, double v) { Rectangular(s).set_start_time_s(v); }},
+      {"loads[0].rectangular_pulse.duration_s", 1e-12, 1e6, "[1e-12, 1e6]",
+       [](S& s, double v) { Rectangular(s).set_duration_s(v); }},
+      {"loads[0].half_sine_pulse.amplitude_n", -1e15, 1e15, "[-1e15, 1e15]",
+       [](S& s, double v) { HalfSine(s).set_amplitude_n(v); }},
+      {"loads[0].half_sine_pulse.start_time_s", 0, 1e6, "[0, 1e6]",
+       [](S& s, double v) { HalfSine(s).set_start_time_s(v); }},
+      {"loads[0].half_sine_pulse.duration_s", 1e-12, 1e6, "[1e-12, 1e6]",
+       [](S& s, double v) { HalfSine(s).set_duration_s(v); }},
+      {"loads[0].table.points[0].force_n", -1e15, 1e15, "[-1e15, 1e15]",
+       [](S& s, double v) { Table(s).mutable_points(0)->set_force_n(v); }},
+      {"bodies[0].material.poisson_ratio", -1, 0.5, "(-1, 0.5]",
+       [](S& s, double v) {
+         Glass(s.mutable_bodies(0)->mutable_material())->set_poisson_ratio(v);
+       }},
+      {"contacts[1].wall.material.poisson_ratio", -1, 0.5, "(-1, 0.5]",
+       [](S& s, double v) {
+         HertzWall(s);
+         s.mutable_contacts(1)->mutable_wall()->mutable_material()->set_poisson_ratio(v);
+       }},
       {"solver.relative_tolerance", 1e-13, 1e-3, "[1e-13, 1e-3]",
        [](S& s, double v) { s.mutable_solver()->set_relative_tolerance(v); }},
       {"solver.restitution_tolerance", 1e-12, 0.1, "[1e-12, 0.1]",
@@ -309,7 +374,49 @@ std::vector<Case> Cases() {
         "to move"}},
       {"NoStiffness",
        [&](S& s) { contact(s).clear_stiffness(); },
-       {"contacts[0].stiffness: is missing — k, in N/m^exponent"}},
+       {"contacts[0].stiffness: is missing — k, in N/m^exponent; or the material of both sides"}},
+      {"Materials", [](S& s) { HertzPair(s), HertzWall(s); }, {}},
+      {"MaterialBesideStiffness", [](S& s) { Glass(s.mutable_bodies(0)->mutable_material()); }, {}},
+      {"MaterialOfOneSide",
+       [](S& s) { HertzPair(s), s.mutable_bodies(1)->clear_material(); },
+       {"contacts[0].stiffness: is missing, and 'B2' has no material — give stiffness, or the "
+        "material of both sides"}},
+      {"MaterialWithoutRadius",
+       [](S& s) { HertzWall(s), s.mutable_bodies(2)->clear_radius_m(); },
+       {"contacts[1].stiffness: is missing, and 'B3' has no radius — that of a Hertz contact needs "
+        "radius_m > 0"}},
+      {"MaterialWithAnotherExponent",
+       [&](S& s) { HertzPair(s), contact(s).set_exponent(1); },
+       {"contacts[0].exponent: is 1; must be 1.5 where stiffness is not given — materials make a "
+        "Hertz contact"}},
+      {"MaterialOfTheBodyAndNotOfTheWall",
+       [](S& s) { HertzWall(s), s.mutable_contacts(1)->mutable_wall()->clear_material(); },
+       {"contacts[1].wall.material: is missing, and so is stiffness — give one of the two"}},
+      {"MaterialOfTheWallBesideStiffness",
+       [](S& s) { HertzWall(s), s.mutable_contacts(1)->set_stiffness(1); },
+       {"contacts[1].wall.material: is given beside stiffness — give one of the two"}},
+      {"MaterialWithoutNumbers",
+       [](S& s) { HertzPair(s), s.mutable_bodies(0)->mutable_material()->Clear(); },
+       {"bodies[0].material.youngs_modulus_pa: is missing; must be in (0, 1e15] — steel has 2.1e11",
+        "bodies[0].material.poisson_ratio: is missing — steel has 0.3"}},
+      {"MaterialWithANegativeModulus",
+       [](S& s) {
+         HertzPair(s), s.mutable_bodies(0)->mutable_material()->set_youngs_modulus_pa(-1);
+       },
+       {"bodies[0].material.youngs_modulus_pa: is -1; must be in (0, 1e15]"}},
+      {"MaterialsThatMakeTooMuchStiffness",
+       [](S& s) {
+         HertzWall(s);
+         const double ratio = std::nextafter(-1, 0);
+         s.mutable_bodies(2)->mutable_material()->set_youngs_modulus_pa(1e15);
+         s.mutable_bodies(2)->mutable_material()->set_poisson_ratio(ratio);
+         s.mutable_contacts(1)->mutable_wall()->mutable_material()->set_youngs_modulus_pa(1e15);
+         s.mutable_contacts(1)->mutable_wall()->mutable_material()->set_poisson_ratio(ratio);
+         s.mutable_contacts(1)->mutable_wall()->set_position_m(1e9);
+         s.mutable_bodies(2)->set_radius_m(1e6);
+       },
+       {"contacts[1].stiffness: is missing, and follows as 3.0023997515803305e+33 from the "
+        "materials; must be in (0, 1e30]"}},
       {"NoRestitution",
        [&](S& s) { contact(s).clear_restitution(); },
        {"contacts[0].restitution: is missing — 1 is elastic; damping MU with mu needs none"}},
@@ -346,13 +453,30 @@ std::vector<Case> Cases() {
        {"loads[0].body: is missing — give the name of a body"}},
       {"LoadOfNoKind",
        [](S& s) { s.mutable_loads(0)->clear_constant(); },
-       {"loads[0]: has no kind — give one of constant, sine and gravity"}},
+       {"loads[0]: has no kind — give one of constant, sine, gravity, step, rectangular_pulse, "
+        "half_sine_pulse and table"}},
       {"LoadOnAFixedBody",
        [](S& s) {
          s.mutable_bodies(0)->set_fixed(true), s.clear_supports();
          s.mutable_loads()->DeleteSubrange(1, 2);
        },
        {"loads[0].body: is fixed; forces do not move it"}},
+      {"PulseWithoutDuration",
+       [](S& s) { Rectangular(s).clear_duration_s(); },
+       {"loads[0].rectangular_pulse.duration_s: is missing; must be in [1e-12, 1e6]"}},
+      {"HalfSineWithoutDuration",
+       [](S& s) { HalfSine(s).clear_duration_s(); },
+       {"loads[0].half_sine_pulse.duration_s: is missing; must be in [1e-12, 1e6]"}},
+      {"TableOfOnePoint",
+       [](S& s) { s.mutable_loads(0)->mutable_table()->add_points(); },
+       {"loads[0].table.points: holds 1; must hold 2 to 10000"}},
+      {"TableThatGoesBackInTime",
+       [](S& s) { Table(s).mutable_points(2)->set_time_s(1); },
+       {"loads[0].table.points[2].time_s: is 1, which is not after the 1 before — points follow "
+        "one another in time"}},
+      {"TableBeforeTheStart",
+       [](S& s) { Table(s).mutable_points(0)->set_time_s(-1); },
+       {"loads[0].table.points[0].time_s: is -1; must be in [0, 1e6]"}},
       {"GravityOfEveryBodyTwice",
        [](S& s) { s.add_loads()->mutable_gravity(); },
        {"loads[3].gravity: repeats the gravity of every body — give it once"}},
