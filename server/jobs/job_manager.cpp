@@ -9,6 +9,7 @@
 #include "jobs/lifecycle.h"
 #include "jobs/request_rules.h"
 #include "jobs/scheduler.h"
+#include "jobs/series_reader.h"
 #include "jobs/sources.h"
 #include "jobs/tail_cursor.h"
 #include "storage/store.h"
@@ -64,7 +65,7 @@ struct JobManager::Impl {
   std::atomic<bool> draining = false;
   std::shared_ptr<std::atomic<int>> watchers = std::make_shared<std::atomic<int>>(0);
   Scheduler scheduler;
-  Executor executor;  ///< Checks scenarios: that takes too long for the callers' threads.
+  Executor executor;  ///< Checks scenarios and reads series: too long for the callers' threads.
 };
 
 JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options)
@@ -173,6 +174,11 @@ void JobManager::Delete(const std::string& name, Callback<bool> done) {
     if (!deleted.ok()) return done(ToError(deleted.status(), name));
     done(true);
   });
+}
+
+void JobManager::Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done) {
+  SeriesReader::Read(impl_->store, impl_->executor, impl_->options.scenario_limits, request,
+                     std::move(done));
 }
 
 void JobManager::Watch(const std::string& name, std::uint64_t after_sequence,

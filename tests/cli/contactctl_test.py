@@ -69,6 +69,48 @@ def read_until(stream, text):
     return seen
 
 
+class SeriesTest(CliTest):
+
+    def setUp(self):
+        super().setUp()
+        self.job = self.run_it("run", CHAIN, "-o", "name")[0].strip()
+
+    def test_csv_holds_the_recorded_motion_with_units_in_its_header(self):
+        lines = self.run_it("series", self.job, "--raw", "-o", "csv")[0].splitlines()
+        header = lines[0].split(",")
+        self.assertEqual(header[:3], ["time_s", "B1.position_m", "B1.velocity_m_per_s"])
+        self.assertEqual(header[-2:], ["B2-B3.contact_force_n", "B2-B3.external_force_n"])
+        self.assertEqual(len(lines), 1 + 1001)
+        last = dict(zip(header, map(float, lines[-1].split(","))))
+        self.assertEqual(last["time_s"], 4e-3)
+        self.assertAlmostEqual(last["B3.velocity_m_per_s"], 0.155004951207, delta=1e-8)
+
+    def test_few_points_keep_the_peak(self):
+        def forces(*arguments):
+            text, _ = self.run_it("series", self.job, "--channel", "B1-B2.contact_force",
+                                  "-o", "json", *arguments)
+            series = json.loads(text)
+            self.assertEqual(series["columns"][1]["unit"], "N")
+            return series["columns"][1]["values"]
+        every, few = forces("--raw"), forces("--points", "10")
+        self.assertLessEqual(len(few), 10)
+        self.assertEqual(max(few), max(every))
+
+    def test_table_shows_part_of_a_time_range(self):
+        text, _ = self.run_it("series", self.job, "--channel", "B2.velocity", "--from", "1e-3",
+                              "--to", "2e-3", "--points", "100")
+        self.assertIn("time [s]  B2.velocity [m/s]", text)
+        self.assertRegex(text, r"\d+ of 251 samples, no peak left out")
+
+    def test_unknown_channels_are_told_with_those_that_exist(self):
+        _, words = self.run_it("series", self.job, "--channel", "B1.velocty", "--channel", "x",
+                               code=2)
+        self.assertIn("channels[0]: 'B1.velocty' is no channel of this job — "
+                      "did you mean 'B1.velocity'?", words)
+        self.assertIn("channels[1]: 'x' is no channel of this job — channels are time, ", words)
+        self.run_it("series", "none", code=6)
+
+
 class RunTest(CliTest):
 
     def job(self, *arguments, code=0):
