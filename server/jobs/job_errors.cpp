@@ -31,12 +31,6 @@ Error WatcherLimit(int max_watchers) {
           .retry_after = kRetryAfter};
 }
 
-Error SweepNotAvailable() {
-  return {.code = absl::StatusCode::kUnimplemented,
-          .reason = "SWEEP_NOT_AVAILABLE",
-          .message = "sweeps are not available yet; create a job for each scenario"};
-}
-
 Error NoTrajectory(const std::string& name) {
   return {.code = absl::StatusCode::kFailedPrecondition,
           .reason = "NO_TRAJECTORY",

@@ -13,7 +13,6 @@ namespace contact {
 Error Draining();
 Error QueueFull(int max_queued_jobs);
 Error WatcherLimit(int max_watchers);
-Error SweepNotAvailable();
 Error NoTrajectory(const std::string& name);
 /// `most`: samples that would be possible.
 Error SeriesTooLarge(std::size_t most);

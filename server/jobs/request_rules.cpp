@@ -132,7 +132,7 @@ std::vector<Violation> CheckCreate(const v1::CreateJobRequest& request) {
     violations.push_back({"request_id", "must be at most 64 printable ASCII characters", ""});
   }
   CheckLabels(request.job().labels(), &violations);
-  if (!request.job().has_scenario()) {
+  if (request.job().spec_case() == v1::Job::SPEC_NOT_SET) {
     violations.push_back({"scenario", "is missing", "say what to compute"});
   }
   return violations;
