@@ -14,6 +14,7 @@ void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);   
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series
+void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action);   // sweep run, …
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
 
 }  // namespace contact::cli
