@@ -115,6 +115,9 @@ void AddLimits(CLI::App* app, Config* config, Switches* switches) {
   app->add_option("--max-samples", scenario.max_samples, "Samples in a recorded trajectory")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
       ->capture_default_str();
+  app->add_option("--max-cells", scenario.max_cells, "Cells of a sweep")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
   app->add_option("--max-queued-jobs", config->jobs.max_queued_jobs, "Jobs that wait for a worker")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();

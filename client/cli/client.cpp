@@ -80,7 +80,7 @@ std::string Words(const grpc::Status& status, const std::string& reason,
 // The server sends paths from the job and appends the hint; the scenario is the file here.
 Violation FromServer(const google::rpc::BadRequest::FieldViolation& violation) {
   std::string_view field = violation.field();
-  for (const std::string_view prefix : {"job.", "scenario."}) {
+  for (const std::string_view prefix : {"job.", "scenario.", "sweep."}) {
     if (field.starts_with(prefix)) field.remove_prefix(prefix.size());
   }
   return {.field = std::string(field), .description = violation.description(), .hint = {}};

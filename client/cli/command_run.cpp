@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <random>
 
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
@@ -20,11 +19,6 @@ struct RunArguments {
   std::string request_id;
 };
 
-std::string RandomId() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
-}
-
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_scenario() = scenario;
@@ -38,7 +32,8 @@ v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& 
 // How much is too much is for the server to say.
 constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
                                    .max_contacts = std::numeric_limits<std::int32_t>::max(),
-                                   .max_samples = std::numeric_limits<std::int64_t>::max()};
+                                   .max_samples = std::numeric_limits<std::int64_t>::max(),
+                                   .max_cells = std::numeric_limits<std::int32_t>::max()};
 
 // What the server finds wrong is shown at its place in the file, as what is found here.
 v1::Job Create(Client& client, const RunArguments& arguments) {

@@ -13,6 +13,8 @@ void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action); 
 void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);    // list, …
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
+void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series
+void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action);   // sweep run, …
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
 
 void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);  // paper

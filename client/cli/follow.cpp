@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <random>
 
 #include "cli/interrupt.h"
 #include "cli/render_live.h"
@@ -47,6 +48,11 @@ std::string NextSteps(const v1::Job& job) {
         "       for cycles that did not converge; an INFEASIBLE one has no μ that would do\n";
   }
   return text;
+}
+
+std::string RandomId() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
 }
 
 std::string ShortName(const std::string& name) {

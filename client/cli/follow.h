@@ -23,6 +23,9 @@ ExitCode Detach(WatchEnd end, const std::string& name);
 /// What to type after a job has ended.
 std::string NextSteps(const v1::Job& job);
 
+/// A request id that nobody else has.
+std::string RandomId();
+
 /// `ID` for `jobs/ID`.
 std::string ShortName(const std::string& name);
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "cli/failure.h"
-#include "cli/field_path.h"
 #include "cli/yaml_reader.h"
+#include "wire/field_path.h"
 
 namespace contact::cli {
 namespace {
@@ -29,7 +29,7 @@ class Assignment {
     const FieldDescriptor* field = message->GetDescriptor()->FindFieldByName(step.name);
     if (field == nullptr) {
       const auto& type = *message->GetDescriptor();
-      return Add(here, "unknown field", YamlReader::FieldHint(type, step.name));
+      return Add(here, "unknown field", FieldHint(type, step.name));
     }
     if (step.index) {
       AssignEntries(path, here, *field, message);

@@ -22,6 +22,10 @@ std::string Title(const v1::Job& job, const Style& style) {
                         Count(job.cycles_size(), "cycle", "cycles"),
                         Count(job.summary().iterations(), "iteration", "iterations"),
                         Seconds(job.summary().wall_time_s()));
+  } else if (job.progress().cells() > 0) {
+    line += fmt::format("  {} of {} cells, {} failed, {} not converged",
+                        job.progress().cells_done(), job.progress().cells(),
+                        job.progress().cells_failed(), job.progress().cells_not_converged());
   } else if (job.has_progress() && job.progress().end_time_s() > 0) {
     line += fmt::format("  {} of {} simulated, {} cycles", Seconds(job.progress().time_s()),
                         Seconds(job.progress().end_time_s()), job.progress().cycles());
@@ -93,6 +97,9 @@ std::string RenderJob(const v1::Job& job, const Style& style) {
   std::string text = Title(job, style);
   if (job.has_error()) text += Paint("error: ", Tone::kBad, style) + job.error().message() + "\n";
   text += Ledger(job, style) + Bodies(job, style) + Balances(job, style);
+  if (job.has_sweep()) {
+    text += fmt::format("cells: contactctl sweep watch {}\n", job.name());
+  }
   for (const std::string& warning : job.warnings()) {
     text += Paint("warning: ", Tone::kWarning, style) + warning + "\n";
   }

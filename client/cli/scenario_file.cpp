@@ -4,64 +4,24 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <fstream>
-#include <iostream>
-#include <span>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
-#include "cli/failure.h"
-#include "cli/field_path.h"
 #include "cli/override.h"
 #include "cli/scalar.h"
+#include "cli/text_file.h"
 #include "cli/yaml_reader.h"
+#include "wire/field_path.h"
 
 namespace contact::cli {
 namespace {
 
 constexpr std::string_view kOverride = "--set";
 
-// The innermost node on the way to a field that the file has.
-struct Found {
-  YAML::Node node;
-  bool exact;
-};
-
-YAML::Node Child(const YAML::Node& node, const std::string& name) {
-  if (!node.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
-  for (const auto& entry : node) {
-    if (entry.first.IsScalar() && entry.first.Scalar() == name) return entry.second;
-  }
-  return YAML::Node(YAML::NodeType::Undefined);
-}
-
-Found Find(const YAML::Node& node, std::span<const PathStep> path) {
-  if (path.empty()) return {node, true};
-  const YAML::Node child = Child(node, path.front().name);
-  if (!child.IsDefined()) return {node, false};
-  if (!path.front().index) return Find(child, path.subspan(1));
-  const auto index = static_cast<std::size_t>(*path.front().index);
-  if (!child.IsSequence() || index >= child.size()) return {child, false};
-  return Find(child[index], path.subspan(1));
-}
-
 // True if `path` is `whole` or lies within it.
 bool Within(std::string_view path, std::string_view whole) {
   if (!path.starts_with(whole)) return false;
   return path.size() == whole.size() || path[whole.size()] == '.' || path[whole.size()] == '[';
-}
-
-// False if the stream cannot be read, as that of a folder. An empty one can.
-bool ReadAll(std::istream& stream, std::string* text) {
-  if (!stream) return false;
-  std::array<char, 1 << 16> block;
-  while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
-    text->append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  return stream.eof() && !stream.bad();
 }
 
 }  // namespace
@@ -76,14 +36,7 @@ std::string Format(const Diagnostic& diagnostic) {
 }
 
 ScenarioFile ScenarioFile::Open(const std::string& path) {
-  std::string text;
-  std::ifstream file;
-  if (path != "-") file.open(path, std::ios::binary);
-  if (!ReadAll(path == "-" ? std::cin : file, &text)) {
-    throw Failure(ExitCode::kLocal,
-                  fmt::format("cannot read {}: {}", path, std::generic_category().message(errno)));
-  }
-  return {path == "-" ? "<stdin>" : path, text};
+  return {path == "-" ? "<stdin>" : path, ReadText(path)};
 }
 
 ScenarioFile::ScenarioFile(std::string name, const std::string& text) : name_(std::move(name)) {
@@ -134,7 +87,7 @@ void ScenarioFile::Add(const Violation& violation) {
                             .hint = violation.hint});
     return;
   }
-  AddAt(Find(root_, ParsePath(violation.field)).node.Mark(), violation.field, violation.description,
+  AddAt(FindNode(root_, violation.field).node.Mark(), violation.field, violation.description,
         violation.hint);
 }
 
@@ -148,7 +101,7 @@ bool ScenarioFile::MayFollowFrom(const std::vector<Diagnostic>& mistakes,
            (!message.empty() && Within(violation.field, message));
   };
   if (std::ranges::any_of(mistakes, beside)) return true;
-  const Found found = Find(root_, ParsePath(violation.field));
+  const FoundNode found = FindNode(root_, violation.field);
   return !found.exact || !found.node.IsScalar() || !ParseNumber(found.node.Scalar());
 }
 

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "cli/scalar.h"
+#include "wire/field_path.h"
 #include "wire/spelling.h"
 
 namespace contact::cli {
@@ -69,7 +71,29 @@ void Store(const FieldDescriptor& field, Message* message, Value value, Set set,
   }
 }
 
+YAML::Node Child(const YAML::Node& node, const std::string& name) {
+  if (!node.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
+  for (const auto& entry : node) {
+    if (entry.first.IsScalar() && entry.first.Scalar() == name) return entry.second;
+  }
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+FoundNode Find(const YAML::Node& node, std::span<const PathStep> path) {
+  if (path.empty()) return {node, true};
+  const YAML::Node child = Child(node, path.front().name);
+  if (!child.IsDefined()) return {node, false};
+  if (!path.front().index) return Find(child, path.subspan(1));
+  const auto index = static_cast<std::size_t>(*path.front().index);
+  if (!child.IsSequence() || index >= child.size()) return {child, false};
+  return Find(child[index], path.subspan(1));
+}
+
 }  // namespace
+
+FoundNode FindNode(const YAML::Node& root, const std::string& path) {
+  return Find(root, ParsePath(path));
+}
 
 void YamlReader::ReadMessage(const YAML::Node& node, const std::string& path,
                              Message* message) const {
@@ -197,15 +221,6 @@ void YamlReader::ReadEnum(const YAML::Node& node, const std::string& path,
 void YamlReader::Refuse(const YAML::Node& node, const std::string& path,
                         const std::string& expected, const std::string& hint) const {
   report_(node.Mark(), path, fmt::format("expected {}, got {}", expected, Shown(node)), hint);
-}
-
-std::string YamlReader::FieldHint(const Descriptor& message, const std::string& name) {
-  std::vector<std::string_view> names;
-  names.reserve(static_cast<std::size_t>(message.field_count()));
-  for (int i = 0; i < message.field_count(); ++i) names.push_back(message.field(i)->name());
-  const std::string_view nearest = Nearest(name, names);
-  if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
-  return fmt::format("fields are {}", fmt::join(names, ", "));
 }
 
 }  // namespace contact::cli

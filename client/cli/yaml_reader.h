@@ -8,6 +8,13 @@
 
 namespace contact::cli {
 
+/// The innermost node on the way to a field that the document has.
+struct FoundNode {
+  YAML::Node node;
+  bool exact;  ///< It is that of the field itself.
+};
+FoundNode FindNode(const YAML::Node& root, const std::string& path);
+
 /// Reads YAML nodes into messages by reflection: keys are field names, enum values their names in
 /// either case. Goes on after a mistake, so that all are reported. A key without a value leaves
 /// its field out, but makes a message of nothing where the field is one (`gravity:`).
@@ -27,10 +34,6 @@ class YamlReader {
   void ReadField(const YAML::Node& node, const std::string& path,
                  const google::protobuf::FieldDescriptor& field,
                  google::protobuf::Message* message) const;
-
-  /// Hint for a field that `message` does not have.
-  static std::string FieldHint(const google::protobuf::Descriptor& message,
-                               const std::string& name);
 
  private:
   void ReadEntry(const YAML::Node& key, const YAML::Node& value, const std::string& path,

@@ -31,10 +31,23 @@ Error WatcherLimit(int max_watchers) {
           .retry_after = kRetryAfter};
 }
 
-Error SweepNotAvailable() {
-  return {.code = absl::StatusCode::kUnimplemented,
-          .reason = "SWEEP_NOT_AVAILABLE",
-          .message = "sweeps are not available yet; create a job for each scenario"};
+Error NoTrajectory(const std::string& name) {
+  return {.code = absl::StatusCode::kFailedPrecondition,
+          .reason = "NO_TRAJECTORY",
+          .message = name + " records no trajectory",
+          .metadata = {{"name", name}}};
+}
+
+Error SeriesTooLarge(std::size_t most) {
+  return {.code = absl::StatusCode::kOutOfRange,
+          .reason = "SERIES_TOO_LARGE",
+          .message = fmt::format("there are more than the {} samples that may be answered; ask for "
+                                 "fewer channels, a shorter time range, or MINMAX",
+                                 most)};
+}
+
+Error Damaged(const std::string& name) {
+  return ToError(absl::DataLossError(name + " fails its checksum in the store"), name);
 }
 
 Error ToError(const absl::Status& status, const std::string& name) {

@@ -2,6 +2,7 @@
 
 #include <absl/status/status.h>
 
+#include <cstddef>
 #include <string>
 
 #include "jobs/error.h"
@@ -12,7 +13,11 @@ namespace contact {
 Error Draining();
 Error QueueFull(int max_queued_jobs);
 Error WatcherLimit(int max_watchers);
-Error SweepNotAvailable();
+Error NoTrajectory(const std::string& name);
+/// `most`: samples that would be possible.
+Error SeriesTooLarge(std::size_t most);
+/// What is stored of the job fails its checksum.
+Error Damaged(const std::string& name);
 
 /// What a failed operation of the store on the job `name` (may be empty) means for its caller.
 Error ToError(const absl::Status& status, const std::string& name);

@@ -9,25 +9,43 @@
 #include "jobs/lifecycle.h"
 #include "jobs/request_rules.h"
 #include "jobs/scheduler.h"
+#include "jobs/series_reader.h"
 #include "jobs/sources.h"
 #include "jobs/tail_cursor.h"
 #include "storage/store.h"
 #include "wire/scenario_codec.h"
+#include "wire/sweep_codec.h"
 
 namespace contact {
 namespace {
 
-Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_scenario) {
+Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec) {
   Error error{.code = absl::StatusCode::kInvalidArgument,
-              .reason = of_scenario.empty() ? "FIELD_INVALID" : "SCENARIO_INVALID"};
+              .reason = of_spec.empty() ? "FIELD_INVALID" : "SCENARIO_INVALID"};
   error.violations = std::move(of_request);
-  for (Violation& violation : of_scenario) {
-    violation.field = "scenario." + violation.field;
-    error.violations.push_back(std::move(violation));
-  }
+  error.violations.insert(error.violations.end(), of_spec.begin(), of_spec.end());
   const Violation& first = error.violations.front();
   error.message = first.field + ": " + first.description;
   return error;
+}
+
+// The rules that the scenario or sweep breaks, with paths from the job.
+std::vector<Violation> CheckSpec(const v1::Job& job, const ScenarioLimits& limits) {
+  std::vector<Violation> violations = job.has_sweep()
+                                          ? DecodeSweep(job.sweep(), limits).violations
+                                          : DecodeScenario(job.scenario(), limits).violations;
+  for (Violation& violation : violations) {
+    violation.field = (job.has_sweep() ? "sweep." : "scenario.") + violation.field;
+  }
+  return violations;
+}
+
+void MoveSpec(v1::Job* from, v1::Job* to) {
+  if (from->has_sweep()) {
+    to->mutable_sweep()->Swap(from->mutable_sweep());
+  } else {
+    to->mutable_scenario()->Swap(from->mutable_scenario());
+  }
 }
 
 // What the store tells of a job that it cannot read.
@@ -64,7 +82,7 @@ struct JobManager::Impl {
   std::atomic<bool> draining = false;
   std::shared_ptr<std::atomic<int>> watchers = std::make_shared<std::atomic<int>>(0);
   Scheduler scheduler;
-  Executor executor;  ///< Checks scenarios: that takes too long for the callers' threads.
+  Executor executor;  ///< Checks scenarios and reads series: too long for the callers' threads.
 };
 
 JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options)
@@ -74,7 +92,6 @@ JobManager::~JobManager() { Stop(); }
 
 void JobManager::Create(const v1::CreateJobRequest& request, Callback<v1::Job> done) {
   if (impl_->draining) return done(Draining());
-  if (request.job().has_sweep()) return done(SweepNotAvailable());
   const bool reserved = !request.validate_only() && impl_->scheduler.Reserve();
   // A full queue still answers a request that was accepted before.
   if (!reserved && !request.validate_only() && request.request_id().empty()) {
@@ -95,15 +112,15 @@ void JobManager::Impl::Refuse(const Creation& creation, Error error) {
 void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
   const v1::CreateJobRequest& request = creation->request;
   std::vector<Violation> of_request = CheckCreate(request);
-  std::vector<Violation> of_scenario;
-  if (request.job().has_scenario()) {
-    of_scenario = DecodeScenario(request.job().scenario(), options.scenario_limits).violations;
+  std::vector<Violation> of_spec;
+  if (request.job().spec_case() != v1::Job::SPEC_NOT_SET) {
+    of_spec = CheckSpec(request.job(), options.scenario_limits);
   }
-  if (!of_request.empty() || !of_scenario.empty()) {
-    return Refuse(*creation, Invalid(std::move(of_request), std::move(of_scenario)));
+  if (!of_request.empty() || !of_spec.empty()) {
+    return Refuse(*creation, Invalid(std::move(of_request), std::move(of_spec)));
   }
   v1::Job job;
-  *job.mutable_scenario() = std::move(*creation->request.mutable_job()->mutable_scenario());
+  MoveSpec(creation->request.mutable_job(), &job);
   *job.mutable_labels() = request.job().labels();
   *creation->request.mutable_job() = std::move(job);
   if (request.validate_only()) return creation->done(std::move(*creation->request.mutable_job()));
@@ -115,22 +132,21 @@ void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
   job.set_name("jobs/" + ids.NextJobId());
   const std::vector<v1::Event> events = {
       Apply({v1::Job::QUEUED, reason::kWaitingForWorker}, clock.Now(), &job)};
-  store.Create(
-      {job, creation->request.request_id(), events, creation->reserved},
-      [this, creation, events](absl::StatusOr<StoredJob> stored) {
-        if (!creation->reserved && absl::IsResourceExhausted(stored.status())) {
-          return Refuse(*creation, QueueFull(options.max_queued_jobs));
-        }
-        if (!stored.ok()) return Refuse(*creation, ToError(stored.status(), ""));
-        v1::Job& answer = stored->job;
-        if (stored->created) {
-          scheduler.Enqueue(answer, events);
-          answer.mutable_scenario()->Swap(creation->request.mutable_job()->mutable_scenario());
-        } else if (creation->reserved) {
-          scheduler.Release();
-        }
-        creation->done(std::move(answer));
-      });
+  store.Create({job, creation->request.request_id(), events, creation->reserved},
+               [this, creation, events](absl::StatusOr<StoredJob> stored) {
+                 if (!creation->reserved && absl::IsResourceExhausted(stored.status())) {
+                   return Refuse(*creation, QueueFull(options.max_queued_jobs));
+                 }
+                 if (!stored.ok()) return Refuse(*creation, ToError(stored.status(), ""));
+                 v1::Job& answer = stored->job;
+                 if (stored->created) {
+                   scheduler.Enqueue(answer, events);
+                   MoveSpec(creation->request.mutable_job(), &answer);
+                 } else if (creation->reserved) {
+                   scheduler.Release();
+                 }
+                 creation->done(std::move(answer));
+               });
 }
 
 void JobManager::Get(const std::string& name, Callback<v1::Job> done) {
@@ -175,6 +191,11 @@ void JobManager::Delete(const std::string& name, Callback<bool> done) {
   });
 }
 
+void JobManager::Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done) {
+  SeriesReader::Read(impl_->store, impl_->executor, impl_->options.scenario_limits, request,
+                     std::move(done));
+}
+
 void JobManager::Watch(const std::string& name, std::uint64_t after_sequence,
                        const std::vector<std::string>& kinds, std::function<void()> wake,
                        Callback<Watched> done) {
@@ -216,6 +237,7 @@ v1::ServerInfo JobManager::Info() const {
   limits.set_max_samples(options.scenario_limits.max_samples);
   limits.set_max_queued_jobs(options.max_queued_jobs);
   limits.set_max_watchers(options.max_watchers);
+  limits.set_max_cells(options.scenario_limits.max_cells);
   return info;
 }
 

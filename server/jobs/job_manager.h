@@ -48,6 +48,9 @@ class JobManager {
   void Cancel(const std::string& name, Callback<v1::Job> done);
   void Delete(const std::string& name, Callback<bool> done);
 
+  /// Recorded motion, thinned.
+  void Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done);
+
   /// Opens a cursor over the log of a job, and the job as it is (without ledger) beside it.
   /// `wake` is called, from any thread and possibly more often than needed, when Read may have
   /// something new; it must not block and must not call the cursor from within. A call that has

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jobs/run_recorder.h"
+#include "jobs/sweep_runner.h"
 #include "version.h"
 #include "wire/result_codec.h"
 #include "wire/scenario_codec.h"
@@ -55,18 +56,25 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
 Move JobRunner::Solve(const absl::StatusOr<StoredJob>& stored, const Assignment& assignment,
                       LogWriter& writer) const {
   if (!stored.ok()) return MoveAfterFault(std::string(stored.status().message()));
-  const DecodedScenario decoded = DecodeScenario(stored->job.scenario(), options_.scenario_limits);
-  if (!decoded.violations.empty()) {
-    const Violation& first = decoded.violations.front();
-    return MoveAfterFault("scenario." + first.field + ": " + first.description);
-  }
+  const v1::Job& job = stored->job;
   try {
-    return MoveAfter(RunScenario(decoded.scenario, assignment, writer));
+    if (!job.has_sweep()) return SolveScenario(job.scenario(), assignment, writer);
+    return SweepRunner(store_, clock_, options_, assignment, writer).Run(job.sweep());
   } catch (const std::exception& error) {
     return MoveAfterFault(error.what());
   } catch (...) {
     return MoveAfterFault("unknown exception");
   }
+}
+
+Move JobRunner::SolveScenario(const v1::Scenario& message, const Assignment& assignment,
+                              LogWriter& writer) const {
+  const DecodedScenario decoded = DecodeScenario(message, options_.scenario_limits);
+  if (decoded.violations.empty()) {
+    return MoveAfter(RunScenario(decoded.scenario, assignment, writer));
+  }
+  const Violation& first = decoded.violations.front();
+  return MoveAfterFault("scenario." + first.field + ": " + first.description);
 }
 
 Outcome JobRunner::RunScenario(const Scenario& scenario, const Assignment& assignment,

@@ -18,6 +18,8 @@
 
 namespace contact {
 
+class SweepRun;
+
 /// A job handed to a worker.
 struct Assignment {
   v1::Job job;          ///< Header, RUNNING now.
@@ -25,8 +27,9 @@ struct Assignment {
   std::uint64_t epoch;  ///< Of the stored job.
   std::shared_ptr<JobLog> log;
   std::shared_ptr<RunRecord> record;
-  std::stop_source stop;                         ///< Of the run.
-  std::shared_ptr<std::atomic<bool>> cancelled;  ///< Its user has asked to stop it.
+  std::stop_source stop;                                 ///< Of the run.
+  std::shared_ptr<std::atomic<bool>> cancelled;          ///< Its user has asked to stop it.
+  std::function<void(std::shared_ptr<SweepRun>)> offer;  ///< Lets idle workers help with a sweep.
 };
 
 /// Runs one job at a time, from its spec in the store to its result there. Of one worker thread;
@@ -44,6 +47,8 @@ class JobRunner {
  private:
   Move Solve(const absl::StatusOr<StoredJob>& stored, const Assignment& assignment,
              LogWriter& writer) const;
+  Move SolveScenario(const v1::Scenario& message, const Assignment& assignment,
+                     LogWriter& writer) const;
   Outcome RunScenario(const Scenario& scenario, const Assignment& assignment,
                       LogWriter& writer) const;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,17 @@ std::string PageToken(std::int64_t number);
 
 /// The set of kinds, state_changed among them; all if there are none. FIELD_INVALID: no such kind.
 Result<std::uint32_t> KindSet(const std::vector<std::string>& kinds);
+
+/// What GetSeries is to return of a trajectory.
+struct SeriesSelection {
+  std::vector<int> columns;  ///< Among those of the trajectory; the first is the time.
+  double start_time = 0;     ///< [s], itself included.
+  double end_time = 0;       ///< [s], itself included.
+  std::size_t max_rows = 0;
+  bool raw = false;  ///< Every sample; else thinned so that no peak is lost.
+};
+/// FIELD_INVALID; SERIES_TOO_LARGE if not even the fewest points would fit into an answer.
+Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request,
+                                    const std::vector<v1::FrameChunk::Column>& channels);
 
 }  // namespace contact

@@ -7,6 +7,12 @@
 #include <utility>
 
 namespace contact {
+namespace {
+
+// After so long a helper looks whether a job has come that needs a worker.
+constexpr std::chrono::milliseconds kHelpTime{10};
+
+}  // namespace
 
 Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options)
     : store_(store), clock_(clock), options_(options) {
@@ -83,24 +89,54 @@ void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
 
 void Scheduler::Work() {
   JobRunner runner(store_, clock_, options_, shutdown_.get_token());
-  while (auto assignment = Next()) {
-    const std::string name = assignment->job.name();
-    runner.Run(*std::move(assignment), [this, name] { Remove(name); });
+  for (Task task = Next(); task.job || task.sweep; task = Next()) {
+    if (task.sweep) {
+      task.sweep->Work(kHelpTime);
+      continue;
+    }
+    const std::string name = task.job->job.name();
+    runner.Run(*std::move(task.job), [this, name] { Remove(name); });
   }
 }
 
-// Waits for a job; none when it is time to stop.
-std::optional<Assignment> Scheduler::Next() {
+// Waits for something to do.
+Scheduler::Task Scheduler::Next() {
   const MutexLock lock(mutex_);
-  while (queue_.empty() && !shutdown_.stop_requested()) changed_.wait(mutex_);
-  if (shutdown_.stop_requested()) return std::nullopt;
-  Active& active = active_.at(queue_.front());
-  queue_.pop_front();
+  for (;;) {
+    if (shutdown_.stop_requested()) return {};
+    if (!queue_.empty()) {
+      Active& active = active_.at(queue_.front());
+      queue_.pop_front();
+      return {Assign(active), nullptr};
+    }
+    if (auto sweep = FindSweep()) return {std::nullopt, std::move(sweep)};
+    changed_.wait(mutex_);
+  }
+}
+
+Assignment Scheduler::Assign(Active& active) {
   ++running_;
   active.job.set_attempt(active.job.attempt() + 1);
   v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);
-  return Assignment{active.job,    std::move(event), active.epoch,    active.log,
-                    active.record, active.stop,      active.cancelled};
+  return {active.job,       std::move(event),
+          active.epoch,     active.log,
+          active.record,    active.stop,
+          active.cancelled, [this](std::shared_ptr<SweepRun> sweep) { Offer(std::move(sweep)); }};
+}
+
+void Scheduler::Offer(std::shared_ptr<SweepRun> sweep) {
+  const MutexLock lock(mutex_);
+  sweeps_.push_back(std::move(sweep));
+  changed_.notify_all();
+}
+
+// The oldest sweep that has a cell to compute.
+std::shared_ptr<SweepRun> Scheduler::FindSweep() {
+  std::erase_if(sweeps_, [](const auto& sweep) {
+    const auto run = sweep.lock();
+    return !run || !run->HasWork();
+  });
+  return sweeps_.empty() ? nullptr : sweeps_.front().lock();
 }
 
 void Scheduler::Remove(const std::string& name) {

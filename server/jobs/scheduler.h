@@ -16,11 +16,12 @@
 #include <vector>
 
 #include "jobs/job_runner.h"
+#include "jobs/sweep_run.h"
 
 namespace contact {
 
 /// Decides when a job runs: knows the jobs that have not ended, queues them first come, first
-/// served, and has the worker threads. Thread-safe.
+/// served, and has the worker threads. A worker without a job helps with a sweep. Thread-safe.
 ///
 /// Jobs enter and leave it on the store's thread, in the order of their commits; so in a callback
 /// of the store a job is known here just if the store says that it has not ended.
@@ -67,7 +68,15 @@ class Scheduler {
   void Recover(StoredJob stored);
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Work();
-  std::optional<Assignment> Next();
+  /// What a worker does next: a job, or help; neither when it is time to stop.
+  struct Task {
+    std::optional<Assignment> job;
+    std::shared_ptr<SweepRun> sweep;
+  };
+  Task Next();
+  Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Offer(std::shared_ptr<SweepRun> sweep);
+  std::shared_ptr<SweepRun> FindSweep() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Remove(const std::string& name);
   void Withdraw(const Active& active, Done done);
 
@@ -80,6 +89,7 @@ class Scheduler {
   std::condition_variable_any changed_;
   std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
   std::deque<std::string> queue_ ABSL_GUARDED_BY(mutex_);
+  std::vector<std::weak_ptr<SweepRun>> sweeps_ ABSL_GUARDED_BY(mutex_);
   int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
   int running_ ABSL_GUARDED_BY(mutex_) = 0;
   std::vector<std::thread> workers_;  // Last: they use all of the above.

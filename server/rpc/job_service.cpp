@@ -73,6 +73,14 @@ grpc::ServerWriteReactor<v1::WatchJobResponse>* JobService::WatchJob(
   return WatchReactor::Start(jobs_, watches_, context, *request, write_stall_);
 }
 
+grpc::ServerUnaryReactor* JobService::GetSeries(grpc::CallbackServerContext* context,
+                                                const v1::GetSeriesRequest* request,
+                                                v1::Series* response) {
+  auto* reactor = context->DefaultReactor();
+  jobs_.Series(*request, Answer(reactor, response));
+  return reactor;
+}
+
 grpc::ServerUnaryReactor* JobService::GetServerInfo(grpc::CallbackServerContext* context,
                                                     const v1::GetServerInfoRequest* /*request*/,
                                                     v1::ServerInfo* response) {

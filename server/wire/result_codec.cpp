@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace contact {
 namespace {
@@ -69,36 +70,25 @@ v1::Iteration::Update Encode(Iteration::Update update) {
   return v1::Iteration::UPDATE_UNSPECIFIED;
 }
 
-// Adds columns to a chunk in the order in which they stand in a row of the samples.
-class ColumnWriter {
- public:
-  ColumnWriter(const Samples& samples, v1::FrameChunk* chunk) : samples_(samples), chunk_(chunk) {}
+v1::FrameChunk::Column Channel(std::string_view owner, const char* quantity, const char* unit) {
+  v1::FrameChunk::Column column;
+  column.set_name(owner.empty() ? quantity : std::string(owner) + "." + quantity);
+  column.set_quantity(quantity);
+  column.set_unit(unit);
+  return column;
+}
 
-  void Add(std::string_view owner, const char* quantity, const char* unit) {
-    v1::FrameChunk::Column& column = *chunk_->add_columns();
-    column.set_name(owner.empty() ? quantity : std::string(owner) + "." + quantity);
-    column.set_quantity(quantity);
-    column.set_unit(unit);
-    *column.mutable_values() = Values();
-    ++next_;
+// One column of the samples.
+std::string ValuesOf(const Samples& samples, std::size_t column) {
+  const auto rows = static_cast<std::size_t>(samples.rows());
+  const auto stride = static_cast<std::size_t>(samples.columns);
+  std::string bytes(rows * sizeof(double), '\0');
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::memcpy(&bytes[row * sizeof(double)], &samples.values[row * stride + column],
+                sizeof(double));
   }
-
- private:
-  std::string Values() const {
-    const auto rows = static_cast<std::size_t>(samples_.rows());
-    const auto stride = static_cast<std::size_t>(samples_.columns);
-    std::string bytes(rows * sizeof(double), '\0');
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::memcpy(&bytes[row * sizeof(double)], &samples_.values[row * stride + next_],
-                  sizeof(double));
-    }
-    return bytes;
-  }
-
-  const Samples& samples_;
-  v1::FrameChunk* chunk_;
-  std::size_t next_ = 0;
-};
+  return bytes;
+}
 
 }  // namespace
 
@@ -163,19 +153,27 @@ v1::FrameChunk Encode(const Scenario& scenario, const Samples& samples) {
   v1::FrameChunk message;
   message.set_first_sample(samples.first);
   message.set_samples(samples.rows());
-  ColumnWriter columns(samples, &message);
-  columns.Add("", "time", "s");
-  for (const Body& body : scenario.bodies) {
-    columns.Add(body.name, "position", "m");
-    columns.Add(body.name, "velocity", "m/s");
-  }
-  for (const Contact& contact : scenario.contacts) {
-    columns.Add(contact.name, "deformation", "m");
-    columns.Add(contact.name, "deformation_velocity", "m/s");
-    columns.Add(contact.name, "contact_force", "N");
-    columns.Add(contact.name, "external_force", "N");
+  std::vector<v1::FrameChunk::Column> columns = Channels(scenario);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    *columns[i].mutable_values() = ValuesOf(samples, i);
+    *message.add_columns() = std::move(columns[i]);
   }
   return message;
+}
+
+std::vector<v1::FrameChunk::Column> Channels(const Scenario& scenario) {
+  std::vector<v1::FrameChunk::Column> columns = {Channel("", "time", "s")};
+  for (const Body& body : scenario.bodies) {
+    columns.push_back(Channel(body.name, "position", "m"));
+    columns.push_back(Channel(body.name, "velocity", "m/s"));
+  }
+  for (const Contact& contact : scenario.contacts) {
+    columns.push_back(Channel(contact.name, "deformation", "m"));
+    columns.push_back(Channel(contact.name, "deformation_velocity", "m/s"));
+    columns.push_back(Channel(contact.name, "contact_force", "N"));
+    columns.push_back(Channel(contact.name, "external_force", "N"));
+  }
+  return columns;
 }
 
 v1::Progress Encode(const Scenario& scenario, const Progress& progress) {

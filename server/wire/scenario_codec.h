@@ -21,6 +21,7 @@ struct ScenarioLimits {
   std::int32_t max_bodies = 20'000;
   std::int32_t max_contacts = 20'000;     ///< After neighbours are expanded.
   std::int64_t max_samples = 10'000'000;  ///< Rows of the recorded trajectory.
+  std::int32_t max_cells = 100'000;       ///< Of a sweep.
 };
 
 struct DecodedScenario {

@@ -6,6 +6,7 @@ import os
 import pathlib
 import pty
 import select
+import shutil
 import signal
 import socket
 import struct
@@ -67,6 +68,112 @@ def read_until(stream, text):
     if text not in seen:
         raise AssertionError(f"{text!r} did not come, but {seen[-2000:]!r}")
     return seen
+
+
+class SeriesTest(CliTest):
+
+    def setUp(self):
+        super().setUp()
+        self.job = self.run_it("run", CHAIN, "-o", "name")[0].strip()
+
+    def test_csv_holds_the_recorded_motion_with_units_in_its_header(self):
+        lines = self.run_it("series", self.job, "--raw", "-o", "csv")[0].splitlines()
+        header = lines[0].split(",")
+        self.assertEqual(header[:3], ["time_s", "B1.position_m", "B1.velocity_m_per_s"])
+        self.assertEqual(header[-2:], ["B2-B3.contact_force_n", "B2-B3.external_force_n"])
+        self.assertEqual(len(lines), 1 + 1001)
+        last = dict(zip(header, map(float, lines[-1].split(","))))
+        self.assertEqual(last["time_s"], 4e-3)
+        self.assertAlmostEqual(last["B3.velocity_m_per_s"], 0.155004951207, delta=1e-8)
+
+    def test_few_points_keep_the_peak(self):
+        def forces(*arguments):
+            text, _ = self.run_it("series", self.job, "--channel", "B1-B2.contact_force",
+                                  "-o", "json", *arguments)
+            series = json.loads(text)
+            self.assertEqual(series["columns"][1]["unit"], "N")
+            return series["columns"][1]["values"]
+        every, few = forces("--raw"), forces("--points", "10")
+        self.assertLessEqual(len(few), 10)
+        self.assertEqual(max(few), max(every))
+
+    def test_table_shows_part_of_a_time_range(self):
+        text, _ = self.run_it("series", self.job, "--channel", "B2.velocity", "--from", "1e-3",
+                              "--to", "2e-3", "--points", "100")
+        self.assertIn("time [s]  B2.velocity [m/s]", text)
+        self.assertRegex(text, r"\d+ of 251 samples, no peak left out")
+
+    def test_unknown_channels_are_told_with_those_that_exist(self):
+        _, words = self.run_it("series", self.job, "--channel", "B1.velocty", "--channel", "x",
+                               code=2)
+        self.assertIn("channels[0]: 'B1.velocty' is no channel of this job — "
+                      "did you mean 'B1.velocity'?", words)
+        self.assertIn("channels[1]: 'x' is no channel of this job — channels are time, ", words)
+        self.run_it("series", "none", code=6)
+
+
+class SweepTest(CliTest):
+
+    def file(self, text):
+        path = self.folder / "sweep.yaml"
+        path.write_text(text)
+        return path
+
+    def test_table_3_of_the_paper_converges_in_every_cell(self):
+        text, words = self.run_it("sweep", "run", SCENARIOS / "table-3-sweep.yaml")
+        self.assertIn("SUCCEEDED  50 of 50 cells\n", text)
+        self.assertIn("iterations over bodies[0].velocity_m_per_s (down) and "
+                      "contacts[*].restitution (across, 0.95 … 0.5)", text)
+        self.assertNotIn("!", text.split("░")[0].rsplit("across", 1)[1])
+        job = words.split()[0]
+        lines = self.run_it("sweep", "export", job, "-o", "csv")[0].splitlines()
+        self.assertEqual(lines[0], "cell,bodies[0].velocity_m_per_s,contacts[*].restitution,"
+                         "iterations,cycles[B1-B2].alpha,cycles[B2-B3].mu_over_k_s_per_m,"
+                         "final_bodies[B3].velocity_m_per_s,state,convergence,message")
+        rows = [line.split(",") for line in lines[1:]]
+        self.assertEqual([int(row[0]) for row in rows], list(range(50)))
+        alpha = {0.9: 0.188225042195671, 0.7: 0.8260690232648109, 0.5: 2.206095738306658}
+        for row in rows:  # One solution for all velocities, as tests/reference/table3.json knows.
+            self.assertEqual(row[7:], ["SUCCEEDED", "FULL", ""])
+            if float(row[2]) in alpha:
+                self.assertAlmostEqual(float(row[4]), alpha[float(row[2])], delta=1e-6)
+
+    def test_cells_that_fail_are_marked_and_the_others_go_on(self):
+        base = CHAIN.read_text().replace("\n", "\n  ")
+        path = self.file(f"base:\n  {base}\naxes:\n"
+                         "- {field: 'contacts[0].restitution', values: [0.5, 1.5]}\n"
+                         "- {field: 'solver.max_iterations', values: [1, 50]}\n"
+                         "metrics: ['iterations']\n")
+        text, _ = self.run_it("sweep", "run", path, code=7)
+        self.assertIn("4 of 4 cells, 2 failed, 1 not converged", text)
+        self.assertIn("SCENARIO_INVALID", text)
+        self.assertRegex(text, r"0\.5  .! ..\n")
+        self.assertRegex(text, r"1\.5  ×× ××\n")
+        job = json.loads(self.run_it("list", "-o", "json")[0])["jobs"][0]["name"]
+        exported = json.loads(self.run_it("sweep", "export", job, "-o", "json")[0])
+        self.assertEqual([cell["index"] for cell in exported["cells"]], [0, 1, 2, 3])
+        self.assertIn("is 1.5; must be in (0, 1]", exported["cells"][2]["message"])
+
+    def test_mistakes_are_told_at_their_place(self):
+        shutil.copy(CHAIN, self.folder / "chain.yaml")
+        path = self.file("base: chain.yaml\n"
+                         "axes:\n"
+                         "- {field: 'contacts[0].restituton', values: [0.5]}\n"
+                         "- {field: 'bodies[0].mass_kg'}\n"
+                         "metrics: [mu]\n")
+        _, words = self.run_it("sweep", "run", path, code=3)
+        self.assertIn(f"{path}:3:11: axes[0].field: 'contacts[0].restituton': unknown field — "
+                      "did you mean 'restitution'?", words)
+        self.assertIn(f"{path}:4:3: axes[1]: has no values", words)
+        self.assertIn("metrics[0]: 'mu': unknown field 'mu'", words)
+        self.assertIn("3 errors", words)
+
+    def test_sweep_of_a_missing_base_or_job_says_so(self):
+        path = self.file("base: none.yaml\naxes: []\n")
+        self.run_it("sweep", "run", path, code=11)
+        self.run_it("sweep", "watch", "none", code=6)
+        job = self.run_it("run", CHAIN, "-o", "name")[0].strip()
+        self.assertIn("is no sweep", self.run_it("sweep", "watch", job, code=2)[1])
 
 
 class RunTest(CliTest):

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cli/scenario_file.h"
+#include "cli/sweep_file.h"
 
 namespace contact::cli {
 namespace {
@@ -15,10 +16,12 @@ namespace {
 const std::filesystem::path kScenarios =
     std::filesystem::path(CONTACT_SOURCE_DIR) / "client" / "scenarios";
 
+bool IsSweep(const std::filesystem::path& file) { return file.stem().string().ends_with("-sweep"); }
+
 TEST(Templates, AreTheShippedScenarios) {
   std::set<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(kScenarios)) {
-    files.insert(entry.path().stem());
+    if (!IsSweep(entry.path())) files.insert(entry.path().stem());
   }
   std::set<std::string> names;
   for (const Template& scenario : Templates()) {
@@ -37,6 +40,16 @@ TEST(Templates, ObeyTheRulesAndSayWhatTheyShow) {
     EXPECT_NE(file.scenario().title(), "") << scenario.name;
     for (const Diagnostic& diagnostic : file.diagnostics()) ADD_FAILURE() << Format(diagnostic);
   }
+}
+
+TEST(Templates, ShippedSweepsObeyTheRules) {
+  int sweeps = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kScenarios)) {
+    if (!IsSweep(entry.path())) continue;
+    ++sweeps;
+    EXPECT_NO_THROW(OpenSweep(entry.path())) << entry.path();
+  }
+  EXPECT_GT(sweeps, 0);
 }
 
 }  // namespace

@@ -89,14 +89,6 @@ TEST_F(JobsTest, BadRequestWithGoodScenarioIsFieldInvalid) {
   EXPECT_EQ(Create(v1::CreateJobRequest()).error().reason, "FIELD_INVALID");
 }
 
-TEST_F(JobsTest, SweepIsNotAvailable) {
-  OpenWithFakeRun();
-  v1::CreateJobRequest request;
-  request.mutable_job()->mutable_sweep();
-  EXPECT_EQ(Create(request).error().code, absl::StatusCode::kUnimplemented);
-  EXPECT_EQ(Create(request).error().reason, "SWEEP_NOT_AVAILABLE");
-}
-
 TEST_F(JobsTest, ValidateOnlyStoresNothing) {
   OpenWithFakeRun();
   v1::CreateJobRequest request = RequestFor(BouncingBall(), "id");

@@ -152,5 +152,38 @@ TEST(JobServiceTest, DrainingManagerRefusesNewJobsOnly) {
   EXPECT_EQ(Jobs(server), 1);
 }
 
+TEST(JobServiceTest, SeriesAnswersColumnsAndTellsUnknownChannels) {
+  TestServer server;
+  const std::string name = server.Create(Collision());
+  ASSERT_TRUE(Eventually([&] {
+    grpc::ClientContext context;
+    v1::GetJobRequest request;
+    request.set_name(name);
+    v1::Job job;
+    return server.stub().GetJob(&context, request, &job).ok() && job.state() == v1::Job::SUCCEEDED;
+  }));
+  v1::GetSeriesRequest request;
+  request.set_name(name);
+  request.add_channels("A-B.contact_force");
+  request.set_max_points(50);
+  v1::Series series;
+  grpc::ClientContext first;
+  ASSERT_TRUE(server.stub().GetSeries(&first, request, &series).ok());
+  EXPECT_LE(series.samples(), 50);
+  EXPECT_EQ(series.recorded_samples(), 1001);
+  ASSERT_EQ(series.columns_size(), 2);
+  EXPECT_EQ(series.columns(1).unit(), "N");
+  EXPECT_EQ(series.columns(1).values().size(), 8U * static_cast<unsigned>(series.samples()));
+
+  request.add_channels("A.force");
+  grpc::ClientContext second;
+  const grpc::Status refused = server.stub().GetSeries(&second, request, &series);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(Reason(refused), "FIELD_INVALID");
+  const auto request_detail = Find<google::rpc::BadRequest>(refused);
+  EXPECT_EQ(request_detail.field_violations(0).field(), "channels[1]");
+  EXPECT_THAT(request_detail.field_violations(0).description(), HasSubstr("A-B.contact_force"));
+}
+
 }  // namespace
 }  // namespace contact

@@ -5,8 +5,8 @@ import unittest
 
 import grpc
 from contact.v1 import job_pb2, job_service_pb2, scenario_pb2
-from contactd import (Job, ServerTest, endless, is_cycle, seconds, spring_wall, stored,
-                      three_ball_chain, to_bytes)
+from contactd import (PATIENCE_S, Job, ServerTest, endless, is_cycle, seconds, spring_wall,
+                      stored, three_ball_chain, to_bytes)
 
 Cycle = job_pb2.Cycle
 
@@ -192,10 +192,35 @@ class RefusalTest(ServerTest):
                          self.server.create, spring_wall(0.01), request_id="a")
         self.assertEqual(len(self.server.list().jobs), 1)
 
-    def test_sweep_is_not_available_yet(self):
-        job = Job(sweep=scenario_pb2.Sweep(base=three_ball_chain()))
-        self.assertFails(grpc.StatusCode.UNIMPLEMENTED, "SWEEP_NOT_AVAILABLE",
-                         self.server.stub.CreateJob, job_service_pb2.CreateJobRequest(job=job))
+    def test_sweep_streams_its_cells_and_refuses_what_breaks_its_rules(self):
+        axis = scenario_pb2.Sweep.Axis
+        sweep = scenario_pb2.Sweep(
+            base=three_ball_chain(),
+            axes=[axis(field="contacts[*].restitution", values=[0.9, 0.7, 0.5]),
+                  axis(field="bodies[0].velocity_m_per_s",
+                       linear=scenario_pb2.Sweep.Range(low=0.1, high=0.5, count=5))],
+            metrics=["iterations", "final_bodies[B3].velocity_m_per_s"])
+        name = self.server.stub.CreateJob(
+            job_service_pb2.CreateJobRequest(job=Job(sweep=sweep)), timeout=PATIENCE_S).name
+        events = self.server.events(name)
+        self.assertWholeLog(events)
+        cells = {e.sweep_cell.index: e.sweep_cell for e in events
+                 if e.WhichOneof("payload") == "sweep_cell"}
+        self.assertEqual(sorted(cells), list(range(15)))
+        for cell in cells.values():  # The chain has one solution for all velocities.
+            expected = {0.9: 0.9025012796940577, 0.7: 0.7340472754915564, 0.5: 0.5918216365543338}
+            self.assertAlmostEqual(cell.metrics[1] / cell.values[1], expected[cell.values[0]],
+                                   delta=1e-7)
+        job = self.server.get(name)
+        self.assertEqual((job.state, job.convergence), (Job.SUCCEEDED, Job.FULL))
+
+        sweep.axes[0].field = "contacts[*].restituton"
+        details = self.assertFails(
+            grpc.StatusCode.INVALID_ARGUMENT, "SCENARIO_INVALID", self.server.stub.CreateJob,
+            job_service_pb2.CreateJobRequest(job=Job(sweep=sweep)))
+        violation = details["BadRequest"].field_violations[0]
+        self.assertEqual(violation.field, "sweep.axes[0].field")
+        self.assertIn("did you mean 'restitution'?", violation.description)
 
     def test_oversized_request_is_refused_and_the_server_lives(self):
         scenario = three_ball_chain(title="x" * (9 << 20))

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/render_series.h"
+
+namespace contact::cli {
+namespace {
+
+struct SeriesArguments {
+  std::string job;
+  std::vector<std::string> channels;
+  std::optional<double> from;
+  std::optional<double> to;
+  int points = 0;
+  bool raw = false;
+};
+
+v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
+  v1::GetSeriesRequest request;
+  request.set_name(JobName(arguments.job));
+  for (const std::string& channel : arguments.channels) request.add_channels(channel);
+  if (arguments.from) request.set_start_time_s(*arguments.from);
+  if (arguments.to) request.set_end_time_s(*arguments.to);
+  request.set_max_points(arguments.points);
+  request.set_decimation(arguments.raw ? v1::GetSeriesRequest::RAW : v1::GetSeriesRequest::MINMAX);
+  return request;
+}
+
+// Tells every mistake of the request, where the call alone tells the first.
+v1::Series Get(Client& client, const SeriesArguments& arguments) {
+  try {
+    return client.Call(&Client::Stub::GetSeries, Request(arguments));
+  } catch (const CallFailure& failure) {
+    if (failure.violations().empty()) throw;
+    std::string text;
+    for (const Violation& violation : failure.violations()) {
+      text +=
+          fmt::format("{}{}: {}", text.empty() ? "" : "\n", violation.field, violation.description);
+    }
+    throw Failure(failure.code(), text);
+  }
+}
+
+ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "csv", "json"});
+  Client client = settings.Connect();
+  const v1::Series series = Get(client, arguments);
+  if (settings.output == "csv") {
+    fmt::print("{}", SeriesCsv(series));
+  } else if (settings.output == "json") {
+    fmt::print("{}", SeriesJson(series));
+  } else {
+    fmt::print("{}", RenderSeries(series, settings.OutputStyle()));
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action) {
+  auto arguments = std::make_shared<SeriesArguments>();
+  CLI::App* series = app.add_subcommand("series", "Print the recorded motion of a job");
+  series->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  series
+      ->add_option("--channel", arguments->channels,
+                   "Such as B1.velocity or B1-B2.contact_force; repeatable. Default: all")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  series->add_option("--from", arguments->from, "Only from this simulated time on")
+      ->type_name("SECONDS");
+  series->add_option("--to", arguments->to, "Only up to this simulated time")->type_name("SECONDS");
+  series
+      ->add_option("--points", arguments->points,
+                   "At most so many samples, without losing a peak. Default: 1000")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  series->add_flag("--raw", arguments->raw, "Every sample");
+  series->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Series(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include "cli/commands.h"
+#include "cli/follow.h"
+#include "cli/interrupt.h"
+#include "cli/render_sweep.h"
+#include "cli/sweep_file.h"
+#include "cli/watch.h"
+
+namespace contact::cli {
+namespace {
+
+struct SweepArguments {
+  std::string file;
+  std::string job;
+  std::vector<std::string> labels;
+  std::string request_id;
+  std::string metric;  ///< Of the heat map.
+};
+
+// Gathers cells, and shows how far the sweep is while someone looks.
+class CellWatcher final : public WatchObserver {
+ public:
+  explicit CellWatcher(const Style& style) : style_(style) {}
+  ~CellWatcher() override { Erase(); }
+
+  void OnEvent(const v1::Event& event) override {
+    if (event.has_sweep_cell()) cells_[event.sweep_cell().index()] = event.sweep_cell();
+    if (event.has_progress()) Show(event.progress());
+  }
+  void OnLost(const std::string& why, std::chrono::milliseconds /*pause*/) override {
+    Erase();
+    fmt::print(stderr, "connection lost ({}); trying again\n", why);
+  }
+  const SweepCells& cells() const { return cells_; }
+
+ private:
+  void Show(const v1::Progress& progress) {
+    if (!style_.terminal) return;
+    fmt::print(stderr, "\r\x1b[K{} of {} cells, {} failed, {} not converged", progress.cells_done(),
+               progress.cells(), progress.cells_failed(), progress.cells_not_converged());
+    std::fflush(stderr);
+    shown_ = true;
+  }
+  void Erase() {
+    if (std::exchange(shown_, false)) fmt::print(stderr, "\r\x1b[K");
+  }
+
+  const Style style_;
+  SweepCells cells_;
+  bool shown_ = false;
+};
+
+v1::Job Get(Client& client, const std::string& name) {
+  v1::GetJobRequest request;
+  request.set_name(name);
+  return client.Call(&Client::Stub::GetJob, request);
+}
+
+// The metric of the heat map: the one named, or the first.
+int MetricOf(const v1::Sweep& sweep, const std::string& name) {
+  if (name.empty()) return 0;
+  const auto found = std::ranges::find(sweep.metrics(), name);
+  if (found != sweep.metrics().end()) {
+    return static_cast<int>(found - sweep.metrics().begin());
+  }
+  throw Failure(ExitCode::kUsage,
+                fmt::format("--metric {}: the sweep has none of this name", name));
+}
+
+void Print(const v1::Job& job, const SweepCells& cells, const std::string& metric,
+           const Settings& settings) {
+  if (settings.output == "csv") {
+    fmt::print("{}", SweepCsv(job.sweep(), cells));
+  } else if (settings.output == "json") {
+    fmt::print("{}", SweepJson(job, cells));
+  } else if (settings.output == "name") {
+    fmt::print("{}\n", job.name());
+  } else {
+    const Style style = settings.OutputStyle();
+    fmt::print("{}{}", RenderSweep(job, cells, style),
+               HeatMap(job.sweep(), cells, MetricOf(job.sweep(), metric), style));
+  }
+}
+
+// Follows a sweep to its end, from its first cell on, and prints it.
+ExitCode Follow(Client& client, const std::string& name, const std::string& metric,
+                const Settings& settings) {
+  if (const v1::Job job = Get(client, name); !job.has_sweep()) {
+    throw Failure(ExitCode::kUsage, fmt::format("{} is no sweep; see contactctl describe", name));
+  } else {
+    MetricOf(job.sweep(), metric);
+  }
+  WatchOptions options;
+  options.name = name;
+  options.kinds = {"sweep_cell", "progress"};
+  options.deadline = settings.Deadline();
+  options.stopped = Interrupt::raised;
+  const Interrupt interrupt;
+  SweepCells cells;
+  {
+    CellWatcher watcher(settings.MessageStyle());
+    const WatchEnd end = Watch(client, options, watcher);
+    if (end != WatchEnd::kFinished) return Detach(end, name);
+    cells = watcher.cells();
+  }
+  const v1::Job job = Get(client, name);
+  Print(job, cells, metric, settings);
+  return Outcome(job);
+}
+
+// Tells every rule that the server finds broken.
+v1::Job Create(Client& client, const v1::CreateJobRequest& request) {
+  try {
+    return client.Call(&Client::Stub::CreateJob, request);
+  } catch (const CallFailure& failure) {
+    if (failure.violations().empty()) throw;
+    std::string text;
+    for (const Violation& violation : failure.violations()) {
+      text +=
+          fmt::format("{}{}: {}", text.empty() ? "" : "\n", violation.field, violation.description);
+    }
+    throw Failure(failure.code(), text);
+  }
+}
+
+ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "csv", "json", "name"});
+  v1::CreateJobRequest request;
+  *request.mutable_job()->mutable_sweep() = OpenSweep(arguments.file);
+  MetricOf(request.job().sweep(), arguments.metric);
+  request.set_request_id(arguments.request_id.empty() ? RandomId() : arguments.request_id);
+  for (const auto& [key, value] : ParseLabels(arguments.labels)) {
+    (*request.mutable_job()->mutable_labels())[key] = value;
+  }
+  Client client = settings.Connect();
+  const std::string name = Create(client, request).name();
+  if (settings.output == "table") fmt::print(stderr, "{} submitted\n", name);
+  const ExitCode code = Follow(client, name, arguments.metric, settings);
+  if (settings.output == "table") {
+    fmt::print(stderr, "Next:  contactctl sweep export {} -o csv\n", ShortName(name));
+  }
+  return code;
+}
+
+ExitCode Show(const SweepArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "csv", "json", "name"});
+  Client client = settings.Connect();
+  return Follow(client, JobName(arguments.job), arguments.metric, settings);
+}
+
+// Whatever became of the cells, they were printed.
+ExitCode Export(const SweepArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "csv", "json"});
+  Client client = settings.Connect();
+  const ExitCode code = Follow(client, JobName(arguments.job), arguments.metric, settings);
+  return code == ExitCode::kNotConverged || code == ExitCode::kRunFailed ? ExitCode::kOk : code;
+}
+
+CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::string& description,
+                          const std::shared_ptr<SweepArguments>& arguments,
+                          ExitCode (*act)(const SweepArguments&, const Settings&),
+                          const Settings& settings, Action* action) {
+  CLI::App* command = sweep.add_subcommand(name, description);
+  command->add_option("--metric", arguments->metric, "Of the heat map. Default: the first")
+      ->type_name("METRIC");
+  command->callback([arguments, act, &settings, action] {
+    *action = [arguments, act, &settings] { return act(*arguments, settings); };
+  });
+  return command;
+}
+
+}  // namespace
+
+void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
+  CLI::App* sweep = app.add_subcommand("sweep", "Solve a scenario for many values of its fields");
+  sweep->require_subcommand(1);
+  auto arguments = std::make_shared<SweepArguments>();
+  CLI::App* run = AddSweepCommand(*sweep, "run", "Submit a sweep, watch it, show its cells",
+                                  arguments, Run, settings, action);
+  run->add_option("FILE", arguments->file, "Sweep in YAML or JSON; - is the standard input")
+      ->required();
+  run->add_option("--label", arguments->labels, "Label of the job; repeatable")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  run->add_option("--request-id", arguments->request_id,
+                  "The same id and sweep make one job, however often submitted")
+      ->type_name("ID");
+  AddSweepCommand(*sweep, "watch", "Follow a sweep to its end, show its cells", arguments, Show,
+                  settings, action)
+      ->add_option("JOB", arguments->job, "ID or jobs/ID")
+      ->required();
+  AddSweepCommand(*sweep, "export", "Print the cells of a sweep, with -o csv or json all of them",
+                  arguments, Export, settings, action)
+      ->add_option("JOB", arguments->job, "ID or jobs/ID")
+      ->required();
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "cli/style.h"
+#include "contact/v1/event.pb.h"
+#include "contact/v1/job.pb.h"
+
+namespace contact::cli {
+
+using SweepCells = std::map<int, v1::SweepCell>;  ///< By number.
+
+/// A sweep for people: state, and a line for each cell, the middle of many left out.
+std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style& style);
+
+/// A metric over two axes as shades, the first axis down, the second across. Cells that did not
+/// converge carry a `!`, those that failed are `××`. Empty unless the sweep is a grid of two axes
+/// that fits into the terminal, and has this metric.
+std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
+                    const Style& style);
+
+/// All cells as CSV: cell, axes, metrics, state, convergence, message.
+std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells);
+
+/// The job and all cells as one JSON document.
+std::string SweepJson(const v1::Job& job, const SweepCells& cells);
+
+}  // namespace contact::cli

@@ -1,0 +1,105 @@
+#include "cli/sweep_file.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/failure.h"
+#include "cli/scenario_file.h"
+#include "cli/text_file.h"
+#include "cli/yaml_reader.h"
+#include "wire/sweep_codec.h"
+
+namespace contact::cli {
+namespace {
+
+// How much is too much is for the server to say; it has to fit into memory here, though.
+constexpr ScenarioLimits kLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
+                                 .max_contacts = std::numeric_limits<std::int32_t>::max(),
+                                 .max_samples = std::numeric_limits<std::int64_t>::max(),
+                                 .max_cells = 1'000'000};
+
+// A sweep while it is read: gathers mistakes at their places.
+class SweepFile {
+ public:
+  explicit SweepFile(std::string path) : path_(std::move(path)) {}
+
+  v1::Sweep Read() {
+    try {
+      root_.reset(YAML::Load(ReadText(path_)));
+      ReadRoot();
+    } catch (const YAML::Exception& error) {
+      AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
+    }
+    if (mistakes_.empty()) Check();
+    if (mistakes_.empty()) return std::move(sweep_);
+    std::string text;
+    for (const Diagnostic& mistake : mistakes_) text += Format(mistake) + "\n";
+    text += mistakes_.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes_.size());
+    throw Failure(ExitCode::kInvalidScenario, text);
+  }
+
+ private:
+  void ReadRoot() {
+    if (root_.IsNull()) return AddAt(root_.Mark(), "", "is empty", "a sweep has base and axes");
+    YAML::Node rest = YAML::Clone(root_);
+    if (rest.IsMap() && rest["base"].IsDefined() && rest["base"].IsScalar()) {
+      OpenBase(rest["base"].Scalar());
+      rest.remove("base");
+    }
+    const YamlReader reader([this](const YAML::Mark& mark, const std::string& field,
+                                   const std::string& what,
+                                   const std::string& hint) { AddAt(mark, field, what, hint); });
+    reader.ReadMessage(rest, "", &sweep_);
+  }
+
+  void OpenBase(const std::string& name) {
+    base_ = ScenarioFile::Open((std::filesystem::path(path_).parent_path() / name).string());
+    mistakes_ = base_->diagnostics();
+    *sweep_.mutable_base() = base_->scenario();
+  }
+
+  void Check() {
+    constexpr std::string_view kBase = "base.";
+    if (!sweep_.has_base()) {
+      return AddAt(root_.Mark(), "base", "is missing", "name a scenario file, or write one here");
+    }
+    for (Violation& violation : DecodeSweep(sweep_, kLimits).violations) {
+      if (base_ && violation.field.starts_with(kBase)) {
+        violation.field.erase(0, kBase.size());
+        base_->Add(violation);
+      } else {
+        AddAt(FindNode(root_, violation.field).node.Mark(), violation.field, violation.description,
+              violation.hint);
+      }
+    }
+    if (!base_) return;
+    for (Diagnostic& mistake : base_->diagnostics()) mistakes_.push_back(std::move(mistake));
+  }
+
+  void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint) {
+    mistakes_.push_back({.source = path_ == "-" ? "<stdin>" : path_,
+                         .line = mark.line + 1,
+                         .column = mark.column + 1,
+                         .field = std::move(field),
+                         .what = std::move(what),
+                         .hint = std::move(hint)});
+  }
+
+  const std::string path_;
+  YAML::Node root_;
+  std::optional<ScenarioFile> base_;  ///< If it is a file of its own.
+  v1::Sweep sweep_;
+  std::vector<Diagnostic> mistakes_;
+};
+
+}  // namespace
+
+v1::Sweep OpenSweep(const std::string& path) { return SweepFile(path).Read(); }
+
+}  // namespace contact::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+#include "contact/v1/event.pb.h"
+#include "jobs/job_manager.h"
+#include "wire/sweep_codec.h"
+#include "wire/sweep_fields.h"
+
+namespace contact {
+
+/// Computes cells of a sweep, one at a time. Has a copy of the base scenario; of one thread.
+class CellSolver {
+ public:
+  /// All outlive the solver.
+  CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan, const JobManagerOptions& options);
+
+  /// The cell with this number; none if it was stopped. `pulse` is called now and then meanwhile.
+  /// A pure function of the sweep and the number.
+  std::optional<v1::SweepCell> Solve(std::int32_t index, const std::stop_token& stop,
+                                     const std::function<void()>& pulse);
+
+ private:
+  bool Run(const Scenario& scenario, const std::stop_token& stop,
+           const std::function<void()>& pulse, v1::SweepCell* cell) const;
+
+  const DecodedSweep& plan_;
+  const JobManagerOptions& options_;
+  std::vector<Violation> none_;  ///< The fields were checked when the sweep was.
+  SweepFields fields_;
+};
+
+}  // namespace contact

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace contact {
+
+/// Thins a series of rows so that no peak is lost: cuts it into stretches of equally many rows and
+/// keeps, of each, the rows in which some channel is smallest or largest; and the first and last
+/// row of all. As long as all rows fit, all are kept.
+///
+/// The stretches grow while rows come in, so memory does not, and nothing need be known about the
+/// length of the series before.
+class MinMaxDecimator {
+ public:
+  /// For rows of `columns` ≥ 1 values, the first of which is the time and has no peaks. Keeps at
+  /// most `max_rows` ≥ 2 · columns.
+  MinMaxDecimator(std::size_t columns, std::size_t max_rows);
+
+  /// Adds a row of finite values.
+  void Add(std::span<const double> row);
+
+  /// The rows kept, one after the other, in the order in which they came.
+  std::vector<double> Rows() const;
+
+ private:
+  using Values = std::vector<double>;  ///< Whole rows.
+
+  void Close();
+  void Widen();
+  Values Extremes(std::span<const double> rows, bool first, bool last) const;
+  std::size_t closed_rows() const { return closed_.size() / columns_; }
+
+  const std::size_t columns_;
+  const std::size_t budget_;       ///< Rows that stretches may keep.
+  const std::size_t most_;         ///< Rows that one stretch keeps at most, beside the very first.
+  std::size_t width_ = 1;          ///< Rows in a stretch.
+  Values closed_;                  ///< What full stretches keep.
+  std::vector<std::size_t> ends_;  ///< Where each of them ends in `closed_`.
+  Values open_;                    ///< Of the stretch that is being filled; ends with the last row.
+  std::size_t filled_ = 0;         ///< Rows that came into it.
+};
+
+}  // namespace contact

@@ -1,0 +1,150 @@
+#include "jobs/series_reader.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "jobs/executor.h"
+#include "jobs/job_errors.h"
+#include "wire/result_codec.h"
+#include "wire/scenario_codec.h"
+
+namespace contact {
+namespace {
+
+constexpr std::size_t kPageBytes = 1 << 18;
+
+double ValueAt(const v1::FrameChunk::Column& column, int row) {
+  double value;
+  std::memcpy(&value, &column.values()[static_cast<std::size_t>(row) * sizeof(double)],
+              sizeof(double));
+  return value;
+}
+
+}  // namespace
+
+SeriesBuilder::SeriesBuilder(SeriesSelection selection,
+                             std::vector<v1::FrameChunk::Column> channels)
+    : selection_(std::move(selection)), channels_(std::move(channels)) {
+  Restart();
+}
+
+void SeriesBuilder::Restart() {
+  decimator_.reset();
+  if (!selection_.raw) decimator_.emplace(selection_.columns.size(), selection_.max_rows);
+  rows_.clear();
+  recorded_ = 0;
+}
+
+bool SeriesBuilder::Add(const v1::FrameChunk& chunk) {
+  const std::size_t bytes = static_cast<std::size_t>(chunk.samples()) * sizeof(double);
+  const auto whole = [bytes](const auto& column) { return column.values().size() == bytes; };
+  if (chunk.columns_size() != static_cast<int>(channels_.size()) ||
+      !std::ranges::all_of(chunk.columns(), whole)) {
+    return false;
+  }
+  for (int row = 0; row < chunk.samples(); ++row) {
+    const double time = ValueAt(chunk.columns(0), row);
+    if (time < selection_.start_time || time > selection_.end_time) continue;
+    AddRow(chunk, row);
+  }
+  return true;
+}
+
+void SeriesBuilder::AddRow(const v1::FrameChunk& chunk, int row) {
+  ++recorded_;
+  if (selection_.raw && recorded_ > static_cast<std::int64_t>(selection_.max_rows)) return;
+  const std::size_t begin = rows_.size();
+  for (const int column : selection_.columns) rows_.push_back(ValueAt(chunk.columns(column), row));
+  if (!decimator_) return;
+  decimator_->Add(std::span(rows_).subspan(begin));
+  rows_.clear();
+}
+
+Result<v1::Series> SeriesBuilder::Finish() const {
+  if (selection_.raw && recorded_ > static_cast<std::int64_t>(selection_.max_rows)) {
+    return SeriesTooLarge(selection_.max_rows);
+  }
+  const std::vector<double> rows = decimator_ ? decimator_->Rows() : rows_;
+  const std::size_t width = selection_.columns.size();
+  v1::Series series;
+  series.set_samples(static_cast<std::int32_t>(rows.size() / width));
+  series.set_recorded_samples(recorded_);
+  for (std::size_t i = 0; i < width; ++i) {
+    v1::FrameChunk::Column& column = *series.add_columns();
+    column = channels_[static_cast<std::size_t>(selection_.columns[i])];
+    std::string& bytes = *column.mutable_values();
+    bytes.resize(rows.size() / width * sizeof(double));
+    for (std::size_t row = 0; row * width < rows.size(); ++row) {
+      std::memcpy(&bytes[row * sizeof(double)], &rows[row * width + i], sizeof(double));
+    }
+  }
+  return series;
+}
+
+SeriesReader::SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
+                           v1::GetSeriesRequest request, Done done)
+    : store_(store),
+      executor_(executor),
+      limits_(limits),
+      request_(std::move(request)),
+      done_(std::move(done)) {}
+
+void SeriesReader::Read(Store& store, Executor& executor, const ScenarioLimits& limits,
+                        const v1::GetSeriesRequest& request, Done done) {
+  const std::shared_ptr<SeriesReader> self(
+      new SeriesReader(store, executor, limits, request, std::move(done)));
+  store.Read(request.name(), JobPart::kSpec, [self](absl::StatusOr<StoredJob> stored) {
+    const auto shared = std::make_shared<absl::StatusOr<StoredJob>>(std::move(stored));
+    if (!self->executor_.Post([self, shared] { self->Open(*shared); })) self->done_(Draining());
+  });
+}
+
+void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
+  if (!stored.ok()) return done_(ToError(stored.status(), request_.name()));
+  const v1::Job& job = stored->job;
+  if (!job.has_scenario()) return done_(NoTrajectory(job.name()));
+  const DecodedScenario decoded = DecodeScenario(job.scenario(), limits_);
+  if (!decoded.violations.empty() || decoded.scenario.sample_interval == 0) {
+    return done_(NoTrajectory(job.name()));
+  }
+  std::vector<v1::FrameChunk::Column> channels = Channels(decoded.scenario);
+  Result<SeriesSelection> selection = ToSelection(request_, channels);
+  if (!selection.ok()) return done_(selection.error());
+  builder_.emplace(std::move(selection.value()), std::move(channels));
+  last_ = job.last_sequence();
+  ReadPage();
+}
+
+void SeriesReader::ReadPage() {
+  constexpr std::uint32_t kKinds =
+      (1U << v1::Event::kAttemptStarted) | (1U << v1::Event::kFrameChunk);
+  store_.ReadEvents({request_.name(), position_, kKinds, kPageBytes},
+                    [self = shared_from_this()](absl::StatusOr<EventPage> page) {
+                      const auto shared =
+                          std::make_shared<absl::StatusOr<EventPage>>(std::move(page));
+                      if (!self->executor_.Post([self, shared] { self->Take(*shared); }))
+                        self->done_(Draining());
+                    });
+}
+
+void SeriesReader::Take(const absl::StatusOr<EventPage>& page) {
+  if (!page.ok()) return done_(ToError(page.status(), request_.name()));
+  for (const StoredEvent& event : page->events) {
+    if (!Take(event)) return done_(Damaged(request_.name()));
+  }
+  position_ = page->position;
+  if (position_ < last_) return ReadPage();
+  Result<v1::Series> series = builder_->Finish();
+  if (series.ok()) series.value().set_name(request_.name());
+  done_(std::move(series));
+}
+
+bool SeriesReader::Take(const StoredEvent& stored) {
+  v1::Event event;
+  if (!stored.intact || !event.ParseFromString(stored.payload)) return false;
+  if (event.has_attempt_started()) builder_->Restart();
+  return !event.has_frame_chunk() || builder_->Add(event.frame_chunk());
+}
+
+}  // namespace contact

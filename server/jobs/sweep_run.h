@@ -1,0 +1,59 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "contact/v1/event.pb.h"
+#include "contact/v1/scenario.pb.h"
+#include "jobs/job_manager.h"
+#include "storage/mutex.h"
+#include "wire/sweep_codec.h"
+
+namespace contact {
+
+/// A sweep while it runs: hands its cells out to the threads that compute them. Thread-safe.
+class SweepRun {
+ public:
+  /// Both are called by the threads that compute, several at a time.
+  struct Sink {
+    std::function<void(v1::SweepCell)> store;  ///< Of each cell, as it is finished.
+    std::function<void()> pulse;               ///< Now and then while a cell is computed.
+  };
+
+  /// Cells for which `done` is true have been computed before. `options` outlives the run, the sink
+  /// what was begun.
+  SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done,
+           const JobManagerOptions& options, std::stop_token stop, Sink sink);
+
+  /// True while there is a cell that nobody has begun.
+  bool HasWork() const;
+  /// Computes cells for about so long, one at least. False: there was none.
+  bool Work(std::chrono::milliseconds slice);
+  /// Waits until nobody computes a cell, for so long at most. False: somebody does.
+  bool AwaitIdle(std::chrono::milliseconds limit);
+
+ private:
+  std::optional<std::int32_t> Claim();
+  void Release();
+  void SkipDone() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool HasWorkLocked() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+
+  const v1::Sweep sweep_;
+  const DecodedSweep plan_;
+  const std::vector<bool> done_;
+  const JobManagerOptions& options_;
+  const std::stop_token stop_;
+  const Sink sink_;
+
+  mutable Mutex mutex_;
+  std::condition_variable_any released_;
+  std::int32_t next_ ABSL_GUARDED_BY(mutex_) = 0;  ///< To be begun; past the last if there is none.
+  int begun_ ABSL_GUARDED_BY(mutex_) = 0;          ///< And not stored yet.
+};
+
+}  // namespace contact

@@ -1,0 +1,125 @@
+#include "jobs/sweep_runner.h"
+
+#include <fmt/format.h>
+
+#include <future>
+#include <utility>
+#include <vector>
+
+namespace contact {
+namespace {
+
+constexpr std::chrono::milliseconds kSlice{1000};
+// How often what was handed to the log is written while its owner only waits for helpers.
+constexpr std::chrono::milliseconds kPulseTime{20};
+constexpr std::chrono::milliseconds kProgressTime{100};
+constexpr std::size_t kPageBytes = 1 << 20;
+
+absl::StatusOr<EventPage> ReadPage(Store& store, const std::string& name, std::uint64_t after) {
+  const auto promise = std::make_shared<std::promise<absl::StatusOr<EventPage>>>();
+  store.ReadEvents(
+      {name, after, KindBit(v1::Event::kSweepCell), kPageBytes},
+      [promise](absl::StatusOr<EventPage> page) { promise->set_value(std::move(page)); });
+  return promise->get_future().get();
+}
+
+}  // namespace
+
+SweepRunner::SweepRunner(Store& store, const Clock& clock, const JobManagerOptions& options,
+                         const Assignment& assignment, LogWriter& writer)
+    : store_(store), clock_(clock), options_(options), assignment_(assignment), writer_(writer) {}
+
+Move SweepRunner::Run(const v1::Sweep& sweep) {
+  DecodedSweep plan = DecodeSweep(sweep, options_.scenario_limits);
+  if (!plan.violations.empty()) {
+    const Violation& first = plan.violations.front();
+    return MoveAfterFault("sweep." + first.field + ": " + first.description);
+  }
+  const std::int32_t cells = plan.axes.cells();
+  std::vector<bool> done(static_cast<std::size_t>(cells));
+  if (!ReadDone(&done)) return MoveAfterFault("the cells of an earlier attempt cannot be read");
+  {
+    const MutexLock lock(mutex_);
+    progress_.set_cells(cells);
+    Publish();
+  }
+  const SweepRun::Sink sink{[this](v1::SweepCell cell) { StoreCell(std::move(cell)); },
+                            [this] { Pulse(); }};
+  const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), options_,
+                                              assignment_.stop.get_token(), sink);
+  assignment_.offer(run);
+  while (run->Work(kSlice)) {
+  }
+  while (!run->AwaitIdle(kPulseTime)) Pulse();
+  return Conclude();
+}
+
+// What is stored already. A damaged cell is computed again.
+bool SweepRunner::ReadDone(std::vector<bool>* done) {
+  const MutexLock lock(mutex_);
+  const std::uint64_t last = assignment_.job.last_sequence();
+  for (std::uint64_t position = 0; position < last;) {
+    const absl::StatusOr<EventPage> page = ReadPage(store_, assignment_.job.name(), position);
+    if (!page.ok()) return false;
+    position = page->position;
+    for (const StoredEvent& stored : page->events) {
+      v1::Event event;
+      if (!stored.intact || !event.ParseFromString(stored.payload)) continue;
+      const auto index = static_cast<std::size_t>(event.sweep_cell().index());
+      if (index >= done->size() || (*done)[index]) continue;
+      (*done)[index] = true;
+      Count(event.sweep_cell());
+    }
+  }
+  return true;
+}
+
+void SweepRunner::Count(const v1::SweepCell& cell) {
+  progress_.set_cells_done(progress_.cells_done() + 1);
+  if (cell.state() == v1::Job::FAILED) {
+    progress_.set_cells_failed(progress_.cells_failed() + 1);
+  } else if (cell.convergence() != v1::Job::FULL) {
+    progress_.set_cells_not_converged(progress_.cells_not_converged() + 1);
+  }
+}
+
+void SweepRunner::StoreCell(v1::SweepCell cell) {
+  v1::Event event = EventAt(clock_.Now());
+  *event.mutable_sweep_cell() = std::move(cell);
+  const MutexLock lock(mutex_);
+  Count(event.sweep_cell());
+  writer_.Add(std::move(event));
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_progress_ < kProgressTime) return;
+  last_progress_ = now;
+  Publish();
+}
+
+void SweepRunner::Pulse() {
+  const MutexLock lock(mutex_);
+  writer_.Pump();
+}
+
+void SweepRunner::Publish() {
+  assignment_.record->Do([this](v1::Job& job) { *job.mutable_progress() = progress_; });
+  v1::Event event = EventAt(clock_.Now());
+  *event.mutable_progress() = progress_;
+  assignment_.log->SetProgress(std::move(event));
+}
+
+Move SweepRunner::Conclude() {
+  const MutexLock lock(mutex_);
+  Publish();
+  if (progress_.cells_done() < progress_.cells()) return {v1::Job::CANCELLED, reason::kUserRequest};
+  const bool full = progress_.cells_failed() == 0 && progress_.cells_not_converged() == 0;
+  assignment_.record->Do([&](v1::Job& job) {
+    job.set_convergence(full ? v1::Job::FULL : v1::Job::PARTIAL);
+    if (progress_.cells_failed() > 0) {
+      job.add_warnings(
+          fmt::format("{} of {} cells failed", progress_.cells_failed(), progress_.cells()));
+    }
+  });
+  return {v1::Job::SUCCEEDED};
+}
+
+}  // namespace contact

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+
+#include "jobs/job_runner.h"
+#include "jobs/sweep_run.h"
+
+namespace contact {
+
+/// Runs a sweep on the worker that took it, with the help of idle ones. Whoever has computed a cell
+/// hands it to the log, which is written in batches. Cells that an earlier attempt has stored are
+/// not computed again.
+class SweepRunner {
+ public:
+  /// All outlive the runner.
+  SweepRunner(Store& store, const Clock& clock, const JobManagerOptions& options,
+              const Assignment& assignment, LogWriter& writer);
+
+  /// The end of the job. What it amounts to is in the record of the assignment.
+  Move Run(const v1::Sweep& sweep);
+
+ private:
+  bool ReadDone(std::vector<bool>* done);
+  void Count(const v1::SweepCell& cell) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void StoreCell(v1::SweepCell cell);
+  void Pulse();
+  void Publish() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Move Conclude();
+
+  Store& store_;
+  const Clock& clock_;
+  const JobManagerOptions& options_;
+  const Assignment& assignment_;
+
+  Mutex mutex_;  ///< Held while the writer waits for the disk: then nobody has to run ahead of it.
+  LogWriter& writer_ ABSL_GUARDED_BY(mutex_);
+  v1::Progress progress_ ABSL_GUARDED_BY(mutex_);
+  std::chrono::steady_clock::time_point last_progress_ ABSL_GUARDED_BY(mutex_) = {};
+};
+
+}  // namespace contact

@@ -1,0 +1,98 @@
+// Cells of a sweep a second, beside the solver called in a bare loop on as many threads.
+#include <benchmark/benchmark.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <future>
+#include <thread>
+#include <vector>
+
+#include "jobs/job_manager.h"
+#include "jobs/sources.h"
+#include "storage/store.h"
+#include "testing/await.h"
+#include "testing/cases.h"
+#include "testing/temp_directory.h"
+
+namespace contact {
+namespace {
+
+constexpr int kCells = 10'000;
+
+double RestitutionOf(int cell) { return 0.5 + 0.4 * cell / (kCells - 1); }
+
+void BareLoop(benchmark::State& state) {
+  for (auto _ : state) {
+    std::atomic<int> next = 0;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < state.range(0); ++i) {
+      threads.emplace_back([&next] {
+        Scenario scenario = testing::TripleChain();
+        for (int cell = next++; cell < kCells; cell = next++) {
+          for (Contact& contact : scenario.contacts) contact.restitution = RestitutionOf(cell);
+          Observer nobody;
+          benchmark::DoNotOptimize(Run(scenario, nobody));
+        }
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+  }
+  state.SetItemsProcessed(state.iterations() * kCells);
+}
+
+v1::CreateJobRequest Study() {
+  v1::CreateJobRequest request;
+  v1::Sweep& sweep = *request.mutable_job()->mutable_sweep();
+  v1::Scenario& base = *sweep.mutable_base();
+  for (int i = 0; i < 3; ++i) {
+    v1::Body& body = *base.add_bodies();
+    body.set_name("B" + std::to_string(i + 1));
+    body.set_mass_kg(0.5);
+    body.set_radius_m(0.05);
+    body.set_position_m(0.1 * i);
+  }
+  base.mutable_bodies(0)->set_velocity_m_per_s(0.2);
+  v1::Contact& contact = *base.add_contacts();
+  for (const v1::Body& body : base.bodies()) contact.add_between(body.name());
+  contact.set_stiffness(1e8);
+  base.set_end_time_s(4e-3);
+  v1::Sweep::Axis& axis = *sweep.add_axes();
+  axis.set_field("contacts[0].restitution");
+  axis.mutable_linear()->set_low(RestitutionOf(0));
+  axis.mutable_linear()->set_high(RestitutionOf(kCells - 1));
+  axis.mutable_linear()->set_count(kCells);
+  sweep.add_metrics("iterations");
+  sweep.add_metrics("final_bodies[B3].velocity_m_per_s");
+  return request;
+}
+
+// Until every cell is on disk.
+void SweepJob(benchmark::State& state) {
+  spdlog::set_level(spdlog::level::warn);
+  const TempDirectory folder;
+  const auto store = *Store::Open(folder.path());
+  SystemClock clock;
+  RandomIds ids;
+  JobManager jobs(*store, clock, ids, {.workers = static_cast<int>(state.range(0))});
+  for (auto _ : state) {
+    Await<Result<v1::Job>> created;
+    jobs.Create(Study(), created.callback());
+    const std::string name = created.Get().value().name();
+    for (bool ended = false; !ended;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      Await<Result<v1::Job>> job;
+      jobs.Get(name, job.callback());
+      ended = job.Get().value().state() == v1::Job::SUCCEEDED;
+    }
+  }
+  jobs.Stop();
+  state.SetItemsProcessed(state.iterations() * kCells);
+}
+
+BENCHMARK(BareLoop)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(SweepJob)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace contact
+
+BENCHMARK_MAIN();

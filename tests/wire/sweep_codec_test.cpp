@@ -1,0 +1,281 @@
+#include "wire/sweep_codec.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "wire/sweep_fields.h"
+
+namespace contact {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+v1::Scenario Chain() {
+  v1::Scenario scenario;
+  for (int i = 0; i < 3; ++i) {
+    v1::Body& body = *scenario.add_bodies();
+    body.set_name("B" + std::to_string(i + 1));
+    body.set_mass_kg(0.5);
+    body.set_radius_m(0.05);
+    body.set_position_m(0.1 * i);
+  }
+  v1::Contact& contact = *scenario.add_contacts();
+  for (const auto* name : {"B1", "B2", "B3"}) contact.add_between(name);
+  contact.set_stiffness(1e8);
+  contact.set_restitution(0.8);
+  contact.set_name("C");
+  scenario.set_end_time_s(4e-3);
+  return scenario;
+}
+
+v1::Sweep::Axis& AddAxis(v1::Sweep& sweep, const std::string& field,
+                         const std::vector<double>& values = {}) {
+  v1::Sweep::Axis& axis = *sweep.add_axes();
+  axis.set_field(field);
+  axis.mutable_values()->Add(values.begin(), values.end());
+  return axis;
+}
+
+void SetRange(v1::Sweep::Range& range, double low, double high, int count = 0) {
+  range.set_low(low);
+  range.set_high(high);
+  range.set_count(count);
+}
+
+v1::Sweep Grid() {
+  v1::Sweep sweep;
+  *sweep.mutable_base() = Chain();
+  AddAxis(sweep, "contacts[0].restitution", {0.9, 0.5});
+  AddAxis(sweep, "bodies[0].velocity_m_per_s", {0.1, 0.2, 0.3});
+  sweep.add_metrics("iterations");
+  return sweep;
+}
+
+std::vector<std::vector<double>> Cells(const v1::Sweep& sweep) {
+  const DecodedSweep decoded = DecodeSweep(sweep);
+  for (const Violation& violation : decoded.violations) {
+    ADD_FAILURE() << violation.field << ": " << violation.description;
+  }
+  std::vector<std::vector<double>> cells;
+  for (int i = 0; i < decoded.axes.cells(); ++i) cells.push_back(decoded.axes.Values(i));
+  return cells;
+}
+
+std::vector<std::string> Mistakes(const v1::Sweep& sweep, const ScenarioLimits& limits = {}) {
+  std::vector<std::string> mistakes;
+  for (const Violation& violation : DecodeSweep(sweep, limits).violations) {
+    mistakes.push_back(violation.field + ": " + violation.description +
+                       (violation.hint.empty() ? "" : " — " + violation.hint));
+  }
+  return mistakes;
+}
+
+TEST(SweepAxes, GridVariesTheLastAxisFastest) {
+  using Cell = std::vector<double>;
+  EXPECT_THAT(Cells(Grid()), ElementsAre(Cell{0.9, 0.1}, Cell{0.9, 0.2}, Cell{0.9, 0.3},
+                                         Cell{0.5, 0.1}, Cell{0.5, 0.2}, Cell{0.5, 0.3}));
+}
+
+TEST(SweepAxes, ZipTakesValuesTogether) {
+  using Cell = std::vector<double>;
+  v1::Sweep sweep = Grid();
+  sweep.set_combination(v1::Sweep::ZIP);
+  EXPECT_THAT(Mistakes(sweep), ElementsAre("axes[1]: has 3 values, but axes[0] has 2 — axes of a "
+                                           "ZIP are equally long"));
+  sweep.mutable_axes(0)->add_values(0.3);
+  EXPECT_THAT(Cells(sweep), ElementsAre(Cell{0.9, 0.1}, Cell{0.5, 0.2}, Cell{0.3, 0.3}));
+}
+
+TEST(SweepAxes, RangesReachBothEndsExactly) {
+  v1::Sweep sweep = Grid();
+  sweep.mutable_axes()->DeleteSubrange(0, 2);
+  SetRange(*AddAxis(sweep, "contacts[0].restitution").mutable_linear(), 0.1, 0.7, 3);
+  SetRange(*AddAxis(sweep, "contacts[0].stiffness").mutable_log(), 1e6, 1e9, 4);
+  const auto cells = Cells(sweep);
+  ASSERT_EQ(cells.size(), 12U);
+  EXPECT_EQ(cells.front(), (std::vector<double>{0.1, 1e6}));
+  EXPECT_EQ(cells.back(), (std::vector<double>{0.7, 1e9}));
+  EXPECT_DOUBLE_EQ(cells[4][0], 0.4);
+  EXPECT_NEAR(cells[1][1], 1e7, 1e-7);
+  EXPECT_NEAR(cells[2][1], 1e8, 1e-6);
+}
+
+TEST(SweepAxes, LatinHypercubeHasOneCellInEveryPartOfEveryAxis) {
+  v1::Sweep sweep = Grid();
+  sweep.mutable_axes()->DeleteSubrange(0, 2);
+  SetRange(*AddAxis(sweep, "contacts[0].restitution").mutable_linear(), 0, 1);
+  SetRange(*AddAxis(sweep, "contacts[0].stiffness").mutable_log(), 1e6, 1e9);
+  AddAxis(sweep, "bodies[0].velocity_m_per_s", {0.1, 0.2, 0.3, 0.4});
+  sweep.set_combination(v1::Sweep::LATIN_HYPERCUBE);
+  sweep.set_count(100);
+  sweep.set_seed(5);
+  std::set<int> linear;
+  std::set<int> log;
+  std::multiset<double> listed;
+  const auto cells = Cells(sweep);
+  for (const auto& cell : cells) {
+    linear.insert(static_cast<int>(cell[0] * 100));
+    log.insert(static_cast<int>(std::log(cell[1] / 1e6) / std::log(1e3) * 100));
+    listed.insert(cell[2]);
+  }
+  EXPECT_EQ(linear.size(), 100U);
+  EXPECT_EQ(log.size(), 100U);
+  for (const double value : {0.1, 0.2, 0.3, 0.4}) EXPECT_EQ(listed.count(value), 25U);
+  // The axes are shuffled on their own.
+  EXPECT_FALSE(std::ranges::is_sorted(cells, {}, [](const auto& cell) { return cell[0]; }));
+  double correlation = 0;
+  for (const auto& cell : cells) {
+    correlation += (cell[0] - 0.5) * (std::log(cell[1] / 1e6) / std::log(1e3) - 0.5) * 12 / 100;
+  }
+  EXPECT_LT(std::abs(correlation), 0.3);
+}
+
+TEST(SweepAxes, SeedDecidesTheDraw) {
+  v1::Sweep sweep = Grid();
+  sweep.mutable_axes()->DeleteSubrange(0, 2);
+  SetRange(*AddAxis(sweep, "contacts[0].restitution").mutable_linear(), 0.2, 0.8);
+  AddAxis(sweep, "bodies[0].velocity_m_per_s", {0.1, 0.2});
+  sweep.set_count(500);
+  for (const auto combination : {v1::Sweep::RANDOM, v1::Sweep::LATIN_HYPERCUBE}) {
+    sweep.set_combination(combination);
+    sweep.set_seed(1);
+    const auto first = Cells(sweep);
+    EXPECT_EQ(Cells(sweep), first);
+    for (const auto& cell : first) {
+      EXPECT_TRUE(cell[0] >= 0.2 && cell[0] <= 0.8);
+      EXPECT_TRUE(cell[1] == 0.1 || cell[1] == 0.2);
+    }
+    sweep.set_seed(2);
+    EXPECT_NE(Cells(sweep), first);
+  }
+}
+
+TEST(SweepAxes, CellsAreLimitedBeforeTheyAreMade) {
+  v1::Sweep sweep = Grid();
+  EXPECT_THAT(Mistakes(sweep, {.max_cells = 6}), IsEmpty());
+  EXPECT_THAT(Mistakes(sweep, {.max_cells = 5}),
+              ElementsAre("axes: make 6 cells; must make at most 5"));
+  for (int i = 0; i < 6; ++i) {
+    const std::string field = "bodies[" + std::to_string(i % 3) + "].";
+    SetRange(*AddAxis(sweep, field + (i < 3 ? "position_m" : "mass_kg")).mutable_linear(), 1, 2,
+             100'000);
+  }
+  EXPECT_THAT(Mistakes(sweep), ElementsAre("axes: make 6e+30 cells; must make at most 100000"));
+}
+
+TEST(SweepAxes, MistakesAreToldTogether) {
+  v1::Sweep sweep = Grid();
+  sweep.mutable_axes(0)->add_values(std::nan(""));
+  sweep.mutable_axes(1)->set_field("bodies[0].velocity");
+  SetRange(*AddAxis(sweep, "bodies[7].mass_kg").mutable_log(), 0, -1, 0);
+  AddAxis(sweep, "contacts[0].damping");
+  AddAxis(sweep, "contacts[*].restitution", {0.5});
+  AddAxis(sweep, "loads[0].sine.phase_rad", {0.5});
+  sweep.set_seed(3);
+  sweep.add_metrics("cycles.mu");
+  sweep.add_metrics("final_bodies[B1].velocity_m_per_");
+  sweep.add_metrics("title");
+  EXPECT_THAT(
+      Mistakes(sweep),
+      ElementsAre(
+          "seed: goes only with RANDOM and LATIN_HYPERCUBE", "axes[0].values[2]: is nan",
+          "axes[2].log.low: is 0; must be in (0, 1.8e308)",
+          "axes[2].log.high: is -1; must be in (0, 1.8e308)",
+          "axes[2].log.high: is -1, which is below low, 0",
+          "axes[2].log.count: is 0; must be in [1, 100000]",
+          "axes[3]: has no values — give one of values, linear and log",
+          "axes[1].field: 'bodies[0].velocity': unknown field — did you mean 'velocity_m_per_s'?",
+          "axes[2].field: bodies: there are only 3",
+          "axes[3].field: contacts[0].damping is not a number, so it cannot vary",
+          "axes[4].field: contacts[0].restitution has an axis already",
+          "axes[5].field: loads: there are only 0",
+          "metrics[1]: 'cycles.mu': cycles is a list — say which entry, by index or name",
+          "metrics[2]: 'final_bodies[B1].velocity_m_per_': unknown field 'velocity_m_per_' — did "
+          "you mean 'velocity_m_per_s'?",
+          "metrics[3]: 'title': unknown field 'title' — fields are steps, evaluations, iterations, "
+          "episodes, wall_time_s, worst_identity_residual, momentum_residual, energy_residual, "
+          "kinetic_energy_j, time_reached_s"));
+}
+
+TEST(SweepBase, IsCheckedWithTheFirstCell) {
+  v1::Sweep sweep = Grid();
+  sweep.mutable_base()->mutable_contacts(0)->clear_restitution();  // The axis gives it.
+  EXPECT_THAT(Mistakes(sweep), IsEmpty());
+  sweep.mutable_axes(0)->set_values(0, 7);  // A cell that fails, no more.
+  EXPECT_THAT(Mistakes(sweep), IsEmpty());
+  sweep.mutable_base()->mutable_bodies(1)->set_mass_kg(-1);
+  EXPECT_THAT(Mistakes(sweep), ElementsAre("base.bodies[1].mass_kg: is -1; must be in (0, 1e12]"));
+}
+
+TEST(SweepBase, MetricsNameWhatItHas) {
+  v1::Sweep sweep = Grid();
+  sweep.add_metrics("cycles[C-1].mu");
+  sweep.add_metrics("final_bodies[B3].position_m");
+  EXPECT_THAT(Mistakes(sweep), IsEmpty());
+  sweep.add_metrics("cycles[C-3].mu");
+  EXPECT_THAT(Mistakes(sweep),
+              ElementsAre("metrics[3]: the base has no 'C-3' — did you mean 'C-1'?"));
+}
+
+TEST(SweepFields, SetEveryEntryAndRoundWholeNumbers) {
+  v1::Sweep sweep = Grid();
+  sweep.mutable_axes(0)->set_field("bodies[*].mass_kg");
+  sweep.mutable_axes(1)->set_field("solver.max_iterations");
+  std::vector<Violation> violations;
+  SweepFields fields(sweep, &violations);
+  ASSERT_TRUE(violations.empty());
+  std::vector<double> values = {2.5, 7.6};
+  const v1::Scenario& scenario = fields.Set(values);
+  for (const v1::Body& body : scenario.bodies()) EXPECT_EQ(body.mass_kg(), 2.5);
+  EXPECT_EQ(scenario.solver().max_iterations(), 8);
+  EXPECT_THAT(values, ElementsAre(2.5, 8));
+  EXPECT_TRUE(fields.Sets("bodies[2].mass_kg"));
+  EXPECT_FALSE(fields.Sets("bodies[2].radius_m"));
+}
+
+TEST(SweepFields, DoNotChangeTheKindOfALoad) {
+  v1::Sweep sweep = Grid();
+  sweep.mutable_base()->add_loads()->mutable_gravity();
+  sweep.mutable_axes(0)->set_field("loads[0].sine.amplitude_n");
+  sweep.mutable_axes(1)->set_field("loads[0].gravity.acceleration_m_per_s2");
+  EXPECT_THAT(Mistakes(sweep), ElementsAre("axes[0].field: the base has no loads[0].sine"));
+}
+
+TEST(SweepMetrics, ReadNumbersOfAResult) {
+  v1::Sweep sweep;
+  for (const auto* metric : {"iterations", "summary.energy_residual", "convergence", "cycles[1].mu",
+                             "cycles[C-2].number", "cycles[0].status",
+                             "final_bodies[B.2].velocity_m_per_s", "cycles[9].mu"}) {
+    sweep.add_metrics(metric);
+  }
+  std::vector<Violation> violations;
+  const SweepMetrics metrics(sweep, &violations);
+  ASSERT_TRUE(violations.empty());
+  v1::Job job;
+  job.mutable_summary()->set_iterations(12);
+  job.mutable_summary()->set_energy_residual(1e-9);
+  job.set_convergence(v1::Job::PARTIAL);
+  for (const int number : {3, 4}) {
+    v1::Cycle& cycle = *job.add_cycles();
+    cycle.set_contact("C-" + std::to_string(number - 2));
+    cycle.set_number(number);
+    cycle.set_mu(number * 100);
+    cycle.set_status(v1::Cycle::SETTLED);
+  }
+  job.add_final_bodies()->set_name("B1");
+  v1::FinalBody& body = *job.add_final_bodies();
+  body.set_name("B.2");
+  body.set_velocity_m_per_s(0.25);
+  const std::vector<double> values = metrics.Of(job);
+  EXPECT_THAT(std::vector(values.begin(), values.end() - 1),
+              ElementsAre(12, 1e-9, 2, 400, 4, 4, 0.25));
+  EXPECT_TRUE(std::isnan(values.back()));
+}
+
+}  // namespace
+}  // namespace contact
