@@ -140,7 +140,8 @@ std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
     text += Pad(labels[r], -label) + " ";
     for (const double column : columns) {
       const auto found = at.find({rows[r], column});
-      text += " " + Glyph(found == at.end() ? nullptr : found->second, metric, scale, style);
+      const v1::SweepCell* cell = found == at.end() ? nullptr : found->second;
+      text.append(" ").append(Glyph(cell, metric, scale, style));
     }
     text += "\n";
   }
@@ -150,8 +151,8 @@ std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
 
 std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells) {
   std::string text = "cell";
-  for (const auto& axis : sweep.axes()) text += "," + CsvText(axis.field());
-  for (const std::string& metric : sweep.metrics()) text += "," + CsvText(metric);
+  for (const auto& axis : sweep.axes()) text.append(",").append(CsvText(axis.field()));
+  for (const std::string& metric : sweep.metrics()) text.append(",").append(CsvText(metric));
   text += ",state,convergence,message\n";
   for (const auto& [index, cell] : cells) {
     text += fmt::to_string(index);
