@@ -138,7 +138,8 @@ class Motion {
   void WakeResting(CycleHost& host);
   void Turn(ContactState& state, double time, const Eigen::ArrayXd& y);
   void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
-  void ObserveForce(int contact);
+  void ShiftAtJump(int contact, double sign);
+  void ObserveForce(const ActiveContact& active);
   Eigen::ArrayXd WorkGradient(int contact, const Eigen::ArrayXd& y) const;
   void RefreshActive();
   void SelectLoads();

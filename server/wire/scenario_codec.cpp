@@ -58,6 +58,7 @@ SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
   if (message.has_max_iterations()) options.max_iterations = message.max_iterations();
   if (message.has_settled_fraction()) options.settled_fraction = message.settled_fraction();
   if (message.has_max_steps()) options.max_steps = message.max_steps();
+  options.clip_tension = message.tension() == v1::Solver::CLIP;
   options.fail_if_not_converged = message.on_not_converged() == v1::Solver::FAIL;
 
   rules.RequireAvailable("method", message.method(), {v1::Solver::ADAPTIVE});
@@ -72,7 +73,7 @@ SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
   rules.RequireAvailable("update", message.update(), {v1::Solver::NEWTON_COUPLED});
   rules.RequireAvailable("phase_split", message.phase_split(), {v1::Solver::PEAK_DEFORMATION});
   rules.Require("max_iterations", options.max_iterations, kMaxIterations);
-  rules.RequireAvailable("tension", message.tension(), {v1::Solver::ALLOW});
+  rules.RequireAvailable("tension", message.tension(), {v1::Solver::ALLOW, v1::Solver::CLIP});
   rules.RequireAvailable("on_not_converged", message.on_not_converged(),
                          {v1::Solver::REPORT, v1::Solver::FAIL});
   rules.Require("settled_fraction", options.settled_fraction, kSettledFraction);

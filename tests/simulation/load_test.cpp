@@ -123,7 +123,7 @@ TEST(Load, AStepLoadSatisfiesItsEnergyIdentityFromWhereItBegins) {
     s.bodies = {testing::Ball(-0.05)};
     s.contacts = {{.name = "wall", .left = 0, .stiffness = 1e8, .restitution = e}};
     s.loads = {{.body = 0, .begin = 0.0123, .constant = 700}};
-    s.end_time = 0.0133;
+    s.end_time = 0.0183;
     const Record r = RunAndRecord(s);
     ASSERT_FALSE(r.cycles.empty()) << r.outcome.message;
     const Cycle& c = r.cycles[0];
