@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <random>
 
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
@@ -20,15 +19,10 @@ struct RunArguments {
   std::string request_id;
 };
 
-std::string RandomId() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
-}
-
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_scenario() = scenario;
-  request.set_request_id(arguments.request_id.empty() ? RandomId() : arguments.request_id);
+  request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }

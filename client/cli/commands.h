@@ -14,5 +14,6 @@ void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);   
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
+void AddModelCommands(CLI::App& app, const Settings& settings, Action* action);   // model
 
 }  // namespace contact::cli

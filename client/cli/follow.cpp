@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <random>
 
 #include "cli/interrupt.h"
 #include "cli/render_live.h"
@@ -52,6 +53,11 @@ std::string NextSteps(const v1::Job& job) {
 std::string ShortName(const std::string& name) {
   constexpr std::string_view kCollection = "jobs/";
   return name.starts_with(kCollection) ? name.substr(kCollection.size()) : name;
+}
+
+std::string RandomRequestId() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
 }
 
 std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts) {

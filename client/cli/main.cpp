@@ -31,8 +31,8 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   app.add_option("-o,--output", settings->output,
-                 "How to print: table, json, jsonl (watch) or name")
-      ->check(CLI::IsMember({"table", "json", "jsonl", "name"}))
+                 "How to print: table, json, jsonl (watch), csv (model) or name")
+      ->check(CLI::IsMember({"table", "json", "jsonl", "csv", "name"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
@@ -95,6 +95,7 @@ int Main(int argc, char** argv) {
   AddJobCommands(app, settings, &action);
   AddScenarioCommands(app, settings, &action);
   AddServerCommands(app, settings, &action);
+  AddModelCommands(app, settings, &action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
