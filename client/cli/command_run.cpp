@@ -22,7 +22,7 @@ struct RunArguments {
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_scenario() = scenario;
-  request.set_request_id(arguments.request_id.empty() ? RandomId() : arguments.request_id);
+  request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }

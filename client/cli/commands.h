@@ -16,6 +16,7 @@ void AddScenarioCommands(CLI::App& app, const Settings& settings,
 void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series
 void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action);   // sweep run, …
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
+void AddModelCommands(CLI::App& app, const Settings& settings, Action* action);   // model
 
 void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);  // paper
 

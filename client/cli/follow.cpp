@@ -60,6 +60,11 @@ std::string ShortName(const std::string& name) {
   return name.starts_with(kCollection) ? name.substr(kCollection.size()) : name;
 }
 
+std::string RandomRequestId() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
+}
+
 std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> labels;
   for (const std::string& text : texts) {

@@ -29,6 +29,9 @@ std::string RandomId();
 /// `ID` for `jobs/ID`.
 std::string ShortName(const std::string& name);
 
+/// A request id that no other call has.
+std::string RandomRequestId();
+
 /// Reads KEY=VALUE texts. Throws Failure (kUsage).
 std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts);
 

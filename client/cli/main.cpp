@@ -31,7 +31,7 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   app.add_option("-o,--output", settings->output,
-                 "How to print: table, json, jsonl (watch), csv (series, sweep) or name")
+                 "How to print: table, json, jsonl (watch), csv (series, sweep, model) or name")
       ->check(CLI::IsMember({"table", "json", "jsonl", "csv", "name"}))
       ->type_name("FORMAT")
       ->capture_default_str();
@@ -98,6 +98,7 @@ int Main(int argc, char** argv) {
   AddSweepCommands(app, settings, &action);
   AddServerCommands(app, settings, &action);
   AddPaperCommand(app, settings, &action);
+  AddModelCommands(app, settings, &action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -35,7 +35,8 @@ std::optional<double> FirstPositive(F f, double at_end, double from = 0) {
 }
 
 std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise) {
-  if (std::abs(path.start_value()) <= noise) {
+  // What plainly moves apart is not at rest; it may come back in the step.
+  if (std::abs(path.start_value()) <= noise && path.start_slope() >= -noise) {
     if (path.end_value() <= noise) return std::nullopt;
     return ContactEvent{EventKind::kRestTouch, 0};
   }

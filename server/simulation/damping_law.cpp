@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace contact {
 namespace {
@@ -67,6 +68,22 @@ double MaximumDeformation(double effective_mass, double velocity, double stiffne
                   1 / (exponent + 1));
 }
 
+bool NeedsNoVelocity(DampingLaw law) {
+  return law == DampingLaw::kKelvinVoigt || law == DampingLaw::kHertzQuarterPower;
+}
+
+double DampingExponent(DampingLaw law, double exponent) {
+  if (law == DampingLaw::kKelvinVoigt) return 0;
+  return law == DampingLaw::kHertzQuarterPower ? 0.25 : exponent;
+}
+
+double DampingFactor(DampingLaw law, double restitution, double stiffness, double effective_mass) {
+  assert(NeedsNoVelocity(law));
+  const double ratio = -std::log(restitution) / std::hypot(std::numbers::pi, std::log(restitution));
+  const double factor = law == DampingLaw::kKelvinVoigt ? 2 : std::sqrt(5.0);
+  return factor * ratio * std::sqrt(stiffness * effective_mass);
+}
+
 double DampingCoefficient(DampingLaw law, double restitution) {
   const double e = restitution;
   assert(e > 0 && e <= 1);
@@ -96,10 +113,12 @@ double DampingCoefficient(DampingLaw law, double restitution) {
       return 1.5 * (1 - e) * (11 - e) / (1 + 9 * e);
     case DampingLaw::kGharibHurmuzlu:
       return 1 / e;
+    case DampingLaw::kKelvinVoigt:
+    case DampingLaw::kHertzQuarterPower:
     case DampingLaw::kGiven:
       break;
   }
-  assert(false && "a given factor has no coefficient");
+  assert(false && "the law has no coefficient");
   return 0;
 }
 

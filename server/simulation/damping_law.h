@@ -4,8 +4,9 @@
 
 namespace contact {
 
-/// How the hysteresis damping factor μ of a cycle is found. All but the first and the last are
-/// closed forms α(ε) with μ = α k / δ̇⁻ (L0); README.md lists formula and source of each.
+/// How the damping factor μ of a cycle, in F = k δⁿ + μ δᵖ δ̇, is found. Those from kExact to
+/// kGharibHurmuzlu are closed forms α(ε) with p = n and μ = α k / δ̇⁻; kKelvinVoigt and
+/// kHertzQuarterPower need no δ̇⁻. README.md lists formula and source of each.
 enum class DampingLaw {
   kEnergyRestitution,  ///< μ is iterated until ε_out = ε_in.
   kExact,
@@ -20,11 +21,22 @@ enum class DampingLaw {
   kGonthier,
   kCarvalhoMartins,
   kGharibHurmuzlu,
-  kGiven,  ///< μ is a number of the scenario.
+  kKelvinVoigt,        ///< n = 1, p = 0.
+  kHertzQuarterPower,  ///< n = 1.5, p = ¼.
+  kGiven,              ///< μ is a number of the scenario.
 };
 
+/// Whether μ follows from ε, k and m_e alone: kKelvinVoigt and kHertzQuarterPower.
+bool NeedsNoVelocity(DampingLaw law);
+
+/// p of the law for the exponent n.
+double DampingExponent(DampingLaw law, double exponent);
+
+/// μ of a law that needs no velocity [N·s/mᵖ⁺¹], for ε in (0, 1]; (L7), (L8).
+double DampingFactor(DampingLaw law, double restitution, double stiffness, double effective_mass);
+
 /// α(ε) of a law [-], for ε in (0, 1]. For kEnergyRestitution and kExact: (L1).
-/// Not for kGiven, which has no α.
+/// Not for kGiven and laws that need no velocity, which have no α.
 double DampingCoefficient(DampingLaw law, double restitution);
 
 /// The α of an isolated collision that has the restitution ε, the root of            (L1)

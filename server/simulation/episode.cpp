@@ -9,6 +9,7 @@ namespace contact {
 namespace {
 
 constexpr double kForever = 1e300;
+constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
 constexpr std::int64_t kStepsPerPass = 20'000;
 constexpr int kPatience = 12;                 // Corrections without a better pass.
 constexpr double kCoarse = 1e-7;              // Relative tolerance of the first passes, and
@@ -43,7 +44,8 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
           [](const Contact& c) { return c.damping == DampingLaw::kEnergyRestitution; })),
       motion_(motion),
       observer_(observer),
-      warned_(scenario.contacts.size()) {}
+      warned_(scenario.contacts.size()),
+      missed_(static_cast<std::size_t>(DampingLaw::kGiven)) {}
 
 Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::stop_token& stop,
                                    std::int64_t step_limit) {
@@ -184,6 +186,9 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
   const Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   if (contact.damping == DampingLaw::kGiven) return contact.mu;
+  if (NeedsNoVelocity(contact.damping)) {
+    return DampingFactor(contact.damping, contact.restitution, contact.stiffness, effective_mass);
+  }
   const double alpha = DampingCoefficient(contact.damping, contact.restitution);
   const double own =
       contact.reference_velocity > 0 ? contact.reference_velocity : cycle.approach_velocity;
@@ -214,9 +219,23 @@ void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
   observer_.OnWarning("contact " + contact.name + " " + text);
 }
 
+// Says once for each law that it does not deliver what was asked of it.
+void EpisodeSolver::WarnOfMiss(const Contact& contact, const Cycle& cycle) {
+  const double miss = cycle.restitution_out / contact.restitution - 1;
+  const auto law = static_cast<std::size_t>(contact.damping);
+  if (!(std::abs(miss) > kToldMiss) || missed_[law]) return;
+  missed_[law] = true;
+  observer_.OnWarning("contact " + contact.name + ", cycle " + std::to_string(cycle.number) +
+                      ": its law delivers a restitution of " +
+                      std::to_string(cycle.restitution_out) + " where " +
+                      std::to_string(contact.restitution) + " was asked for; misses of this law " +
+                      "above 1 % are told once, and the ledger has them all");
+}
+
 void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
                           const Eigen::ArrayXd& restitution_gradient, double length, double speed) {
   Cycle& cycle = state.cycle;
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
   const bool weak =
       cycle.work_compression <= scenario_.solver.settled_fraction * state.largest_work;
   const bool rested = state.settled;
@@ -239,6 +258,9 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
   }
   if (!recording_) return;
   Label(cycle, rested);
+  if (cycle.status == Cycle::Status::kGivenLaw && contact.damping != DampingLaw::kGiven) {
+    WarnOfMiss(contact, cycle);
+  }
   accepted.push_back(cycle);
 }
 

@@ -92,6 +92,7 @@ class EpisodeSolver final : public CycleHost {
   void MoveAsPaper(Unknown& unknown) const;
   void Report(int number, double time, bool accepted);
   void WarnOnce(const Contact& contact, const std::string& text);
+  void WarnOfMiss(const Contact& contact, const Cycle& cycle);
 
   const Scenario& scenario_;
   const bool as_paper_;
@@ -100,6 +101,7 @@ class EpisodeSolver final : public CycleHost {
   Observer& observer_;
   std::vector<Unknown> unknowns_;  // In order of appearance.
   std::vector<bool> warned_;       // Per contact.
+  std::vector<bool> missed_;       // Per law.
   double reference_speed_ = 0;     // Largest approach velocity in the episode.
   double damping_ = 1;             // Of the Newton step.
   double merit_ = 0, best_merit_ = 0;

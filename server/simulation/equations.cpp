@@ -90,7 +90,8 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
   }
   made.stiffness = c.stiffness;
   made.exponent = c.exponent;
-  made.damping_exponent = c.exponent;
+  made.damping_exponent = DampingExponent(c.damping, c.exponent);
+  made.clipped = scenario_.solver.clip_tension;
   return made;
 }
 

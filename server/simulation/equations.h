@@ -33,20 +33,28 @@ struct ActiveContact {
   double left_inverse = 0, right_inverse = 0;  ///< 1/m [1/kg]; 0 for a wall or a fixed body.
   double gap = 0;                              ///< δ = u_left − u_right − gap [m].
   double stiffness = 0, exponent = 1.5, damping_exponent = 1.5, mu = 0;
+  bool clipped = false;  ///< A force below 0 counts as 0.
 
   double Relative(const double* of_bodies) const {
     return left_counts * of_bodies[left] - right_counts * of_bodies[right];
   }
 
-  /// F = k δⁿ + μ δᵖ δ̇ and its derivatives, (M2).
+  /// F = k δⁿ + μ δᵖ δ̇ and its derivatives, (M2). δ⁰ is 1 also where round-off or a stage of the
+  /// integrator takes δ past 0.
   struct Force {
     double force, by_deformation, by_rate, damping;  ///< damping = ∂F/∂μ = δᵖ δ̇.
   };
   Force At(double deformation, double rate) const {
     const Power n(deformation, exponent);
-    const Power p = damping_exponent == exponent ? n : Power(deformation, damping_exponent);
-    return {stiffness * n.value + mu * p.value * rate, stiffness * n.slope + mu * p.slope * rate,
-            mu * p.value, p.value * rate};
+    const Power p = damping_exponent == exponent ? n : DampingPower(deformation);
+    const double force = stiffness * n.value + mu * p.value * rate;
+    if (clipped && force < 0) return {};
+    return {force, stiffness * n.slope + mu * p.slope * rate, mu * p.value, p.value * rate};
+  }
+  Power DampingPower(double deformation) const {
+    Power p(deformation, damping_exponent);
+    if (damping_exponent == 0) p.value = 1, p.slope = 0;
+    return p;
   }
 };
 

@@ -163,7 +163,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone && !Land(found)) found.contact = kNone;
-    if (moves && !rk_.y1.allFinite()) return Pause::kNumeric;
+    if (moves && !rk_.y1.head(equations_.block()).allFinite()) return Pause::kNumeric;
     if (moves) Accept(listener);
     if (found.contact != kNone) Apply(found, host);
     WakeResting(host);
@@ -269,7 +269,7 @@ Motion::Found Motion::PassTurns() {
 void Motion::Accept(StepListener* listener) {
   const int n = equations_.bodies();
   if (equations_.recording || split_at_force_) {
-    for (const ActiveContact& active : equations_.active) ObserveForce(active.contact);
+    for (const ActiveContact& active : equations_.active) ObserveForce(active);
   }
   if (listener != nullptr) listener->OnStep(step_);
   const bool breaks = step_.h >= breakpoint_ - time_;

@@ -147,7 +147,8 @@ class Motion {
   void Turn(ContactState& state, double time, const Eigen::ArrayXd& y);
   double SplitAtPeakForce(ContactState& state) const;
   void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
-  void ObserveForce(int contact);
+  void ShiftAtJump(int contact, double sign);
+  void ObserveForce(const ActiveContact& active);
   void KeepPeak(int contact, double theta);
   Eigen::ArrayXd WorkGradient(int contact, const Eigen::ArrayXd& y) const;
   void RefreshActive();

@@ -72,11 +72,12 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   deformation_scale_[At(contact)] = factor.length;
   velocity_scale_[At(contact)] = std::max(factor.speed, state.cycle.approach_velocity);
   if (factor.length == 0 && kind == Cycle::Kind::kCollision) {
-    deformation_scale_[At(contact)] =
-        MaximumDeformation(mass, state.cycle.approach_velocity, c.stiffness, c.exponent,
-                           state.cycle.mu * state.cycle.approach_velocity / c.stiffness);
+    const double v = state.cycle.approach_velocity;
+    const double alpha = NeedsNoVelocity(c.damping) ? 0 : state.cycle.mu * v / c.stiffness;
+    deformation_scale_[At(contact)] = MaximumDeformation(mass, v, c.stiffness, c.exponent, alpha);
   }
   if (kind == Cycle::Kind::kCollision) touch_time_ = time_;
+  ShiftAtJump(contact, 1);
   if (state.settled) SetRestingScale(contact);
   const double first = FirstStep(contact);
   next_step_ = next_step_ == 0 ? first : std::min(next_step_, first);
@@ -219,6 +220,7 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   };
   const Eigen::ArrayXd start = extended(start_gradient_[At(cycle.contact)]);
   const Eigen::ArrayXd turn = extended(turn_gradient_[At(cycle.contact)]);
+  if (separates) ShiftAtJump(cycle.contact, -1);
   state.phase = separates ? Phase::kOpen : Phase::kStarting;
   state.last_mu = cycle.mu;
   host.OnEnd(state, turn - start, extended(WorkGradient(cycle.contact, rk_.y0)) - turn,
@@ -228,6 +230,23 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   rk_.y0[2 * n + cycle.contact] = 0;
   if (equations_.recording) rk_.y0[equations_.external_work(cycle.contact)] = 0;
   RefreshActive();
+}
+
+// (S3): where a force that is not 0 begins (sign 1) or ends (−1), a change of that instant changes
+// the velocities after it.
+void Motion::ShiftAtJump(int contact, double sign) {
+  const int n = equations_.bodies();
+  const ContactState& state = contacts_[At(contact)];
+  const ActiveContact c = equations_.Activate(contact, state.gap, state.cycle.mu, kNone);
+  const double rate = c.Relative(rk_.y0.data() + n);
+  if (c.damping_exponent != 0 || equations_.recording || rate == 0) return;
+  const double force = sign * c.At(0, rate).force;
+  for (int column = 1; column <= equations_.columns; ++column) {
+    double* tangent = rk_.y0.data() + column * equations_.block();
+    const double late = -c.Relative(tangent) / rate;
+    tangent[n + c.left] += force * c.left_inverse * late;
+    tangent[n + c.right] -= force * c.right_inverse * late;
+  }
 }
 
 // ∂W/∂μ of a contact for each column, (S2).
@@ -240,23 +259,22 @@ Eigen::ArrayXd Motion::WorkGradient(int contact, const Eigen::ArrayXd& y) const 
 }
 
 // Peak force and pulling time over the step, with δ(t) from its path.
-void Motion::ObserveForce(int contact) {
-  const Contact& c = scenario_.contacts[At(contact)];
-  Cycle& cycle = contacts_[At(contact)].cycle;
-  const DeformationPath path = Path(contact);
-  const auto factor = [&](double theta) {
-    const double dt = step_.h * step_.Rate(theta);
-    return c.stiffness + cycle.mu * (dt > 0 ? path.Slope(theta) / dt : 0);
-  };
+void Motion::ObserveForce(const ActiveContact& active) {
+  Cycle& cycle = contacts_[At(active.contact)].cycle;
+  const DeformationPath path = Path(active.contact);
+  ActiveContact law = active;
+  law.clipped = false;
   const auto force = [&](double theta) {
-    return Power(path.Value(theta), c.exponent).value * factor(theta);
+    const double dt = step_.h * step_.Rate(theta);
+    return law.At(path.Value(theta), dt > 0 ? path.Slope(theta) / dt : 0).force;
   };
   constexpr int kPieces = 8;
   int best = 0;
   for (int i = 1; i <= kPieces; ++i) {
     if (force(i / 8.0) > force(best / 8.0)) best = i;
-    if (factor((i - 0.5) / 8.0) < 0)
+    if (force((i - 0.5) / 8.0) < 0) {
       cycle.tension_time += step_.At(i / 8.0) - step_.At((i - 1) / 8.0);
+    }
   }
   if (force(best / 8.0) <= cycle.peak_force && best % kPieces == 0) return;
   const double low = std::max(0, best - 1) / 8.0;
@@ -265,7 +283,7 @@ void Motion::ObserveForce(int contact) {
       [&](double theta) { return -force(theta); }, low, high, 40);
   if (-peak.second <= cycle.peak_force) return;
   cycle.peak_force = -peak.second;
-  if (split_at_force_) KeepPeak(contact, peak.first);
+  if (split_at_force_) KeepPeak(active.contact, peak.first);
 }
 
 void Motion::KeepPeak(int contact, double theta) {

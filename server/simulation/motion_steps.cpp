@@ -135,22 +135,28 @@ double Motion::ErrorNorm(double h) const {
     const double denominator = e5 * e5 + 0.01 * e3 * e3;
     return denominator == 0 || scale == 0 ? 0.0 : h * e5 * e5 / std::sqrt(denominator) / scale;
   };
+  // What is no number any more is refused for good: no finite error that follows may hide it.
+  const auto worst = [](double e) {
+    return std::isnan(e) ? std::numeric_limits<double>::infinity() : e;
+  };
   double norm = 0;
   auto& e5 = error5_;
   auto& e3 = error3_;
   rk_.Errors(2 * n, e5.data(), e3.data());
   for (int i = 0; i < 2 * n; ++i) {
     const double e = combined(e5[At(i)], e3[At(i)], i < n ? body_length : body_speed);
-    if (!(e <= norm)) norm = e;  // Keeps a NaN.
+    if (!(e <= norm)) norm = worst(e);
   }
+  // What the round-off of velocities makes of lengths in a step is no error of the step.
+  const double round_off = 1e-15 * body_speed * h / scenario_.solver.relative_tolerance;
   for (const ActiveContact& active : equations_.active) {
     const int c = active.contact;
-    const double own_length = std::max(deformation_scale_[At(c)], 1e-3 * length);
+    const double own_length = std::max({deformation_scale_[At(c)], 1e-3 * length, round_off});
     const double own_speed = std::max(velocity_scale_[At(c)], 1e-3 * speed);
     const double e = std::max(
         combined(active.Relative(e5.data()), active.Relative(e3.data()), own_length),
         combined(active.Relative(e5.data() + n), active.Relative(e3.data() + n), own_speed));
-    if (!(e <= norm)) norm = e;
+    if (!(e <= norm)) norm = worst(e);
   }
   return norm / tolerance_;
 }

@@ -43,15 +43,14 @@ void Recorder::Record(double time, const Eigen::ArrayXd& y) {
     row.push_back(equations.base[static_cast<std::size_t>(i)] + y[i]);
     row.push_back(y[n + i]);
   }
+  auto active = equations.active.begin();  // In the order of the contacts, as this loop.
   for (int c = 0; c < equations.contacts(); ++c) {
-    const ContactState& state = motion_.contacts()[static_cast<std::size_t>(c)];
-    const Contact& contact = scenario_.contacts[static_cast<std::size_t>(c)];
-    const bool running = state.phase == Phase::kCompression || state.phase == Phase::kRestitution;
     const double deformation = motion_.Deformation(c, y.data());
     const double rate = equations.Relative(c, y.data() + n);
-    const double force = running ? Power(deformation, contact.exponent).value *
-                                       (contact.stiffness + state.cycle.mu * rate)
-                                 : 0;
+    double force = 0;
+    if (active != equations.active.end() && active->contact == c) {
+      force = (active++)->At(deformation, rate).force;
+    }
     const double external =
         equations.effective_mass(c) * equations.Relative(c, slope_.data() + n) + force;
     row.insert(row.end(), {deformation, rate, force, external});

@@ -88,6 +88,7 @@ struct SolverOptions {
   double settled_fraction = 1e-9;       ///< Of the contact's largest W_c; below it: settled.
   std::int64_t max_steps = 100'000'000;
   bool fail_if_not_converged = false;
+  bool clip_tension = false;  ///< A contact force below 0 counts as 0.
 };
 
 struct Scenario {

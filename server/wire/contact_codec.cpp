@@ -53,6 +53,10 @@ std::optional<DampingLaw> Law(v1::Contact::Damping damping) {
       return DampingLaw::kCarvalhoMartins;
     case v1::Contact::GHARIB_HURMUZLU:
       return DampingLaw::kGharibHurmuzlu;
+    case v1::Contact::KELVIN_VOIGT:
+      return DampingLaw::kKelvinVoigt;
+    case v1::Contact::HERTZ_QUARTER_POWER:
+      return DampingLaw::kHertzQuarterPower;
     case v1::Contact::MU:
       return DampingLaw::kGiven;
     default:
@@ -83,6 +87,20 @@ void CheckMu(const v1::Contact& message, const Rules& rules) {
   }
 }
 
+// Two laws are made for one exponent each.
+void CheckExponent(const v1::Contact& message, double exponent, const Rules& rules) {
+  rules.Require("exponent", exponent, kExponent);
+  const auto needs = [&](double needed) {
+    if (exponent == needed) return;
+    rules.Break("exponent",
+                fmt::format("is {}; damping {} needs {}", exponent,
+                            v1::Contact::Damping_Name(message.damping()), needed),
+                fmt::format("set exponent: {}", needed));
+  };
+  if (message.damping() == v1::Contact::KELVIN_VOIGT) needs(1);
+  if (message.damping() == v1::Contact::HERTZ_QUARTER_POWER) needs(1.5);
+}
+
 // Everything about a contact but where it is.
 Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
   Contact contact;
@@ -93,7 +111,7 @@ Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
   contact.reference_velocity = message.reference_velocity_m_per_s();
 
   if (message.has_stiffness()) rules.Require("stiffness", message.stiffness(), kStiffness);
-  rules.Require("exponent", contact.exponent, kExponent);
+  CheckExponent(message, contact.exponent, rules);
   CheckRestitution(message, rules);
   contact.damping = DecodeDamping(message, rules);
   CheckMu(message, rules);

@@ -112,8 +112,8 @@ v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle) {
   message.set_separation_velocity_m_per_s(cycle.separation_velocity);
   message.set_mu(cycle.mu);
   message.set_mu_over_k_s_per_m(cycle.mu / contact.stiffness);
-  const bool collision = cycle.kind == Cycle::Kind::kCollision;
-  message.set_alpha(collision ? cycle.mu * cycle.approach_velocity / contact.stiffness : 0);
+  const bool has_alpha = cycle.kind == Cycle::Kind::kCollision && !NeedsNoVelocity(contact.damping);
+  message.set_alpha(has_alpha ? cycle.mu * cycle.approach_velocity / contact.stiffness : 0);
   message.set_work_compression_j(cycle.work_compression);
   message.set_work_restitution_j(cycle.work_restitution);
   message.set_dissipated_compression_j(cycle.dissipated_compression);

@@ -108,13 +108,14 @@ SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
   if (message.has_max_iterations()) options.max_iterations = message.max_iterations();
   if (message.has_settled_fraction()) options.settled_fraction = message.settled_fraction();
   if (message.has_max_steps()) options.max_steps = message.max_steps();
+  options.clip_tension = message.tension() == v1::Solver::CLIP;
   options.fail_if_not_converged = message.on_not_converged() == v1::Solver::FAIL;
 
   DecodeProcess(message, rules, &options);
   rules.Require("relative_tolerance", options.relative_tolerance, kRelativeTolerance);
   rules.Require("restitution_tolerance", options.restitution_tolerance, kRestitutionTolerance);
   rules.Require("max_iterations", options.max_iterations, kMaxIterations);
-  rules.RequireAvailable("tension", message.tension(), {v1::Solver::ALLOW});
+  rules.RequireAvailable("tension", message.tension(), {v1::Solver::ALLOW, v1::Solver::CLIP});
   rules.RequireAvailable("on_not_converged", message.on_not_converged(),
                          {v1::Solver::REPORT, v1::Solver::FAIL});
   rules.Require("settled_fraction", options.settled_fraction, kSettledFraction);

@@ -1,5 +1,6 @@
 """contactctl where no server is needed."""
 
+import json
 import os
 import pathlib
 import shutil
@@ -115,6 +116,27 @@ class Usage(unittest.TestCase):
         self.assertIn("spring-wall", self.run_it("init", "--list", code=0)[0])
         self.assertEqual(self.run_it("init", "spring-wall", "--file", "-", code=0)[0],
                          (SCENARIOS / "spring-wall.yaml").read_text())
+
+    def test_models_are_shown_without_a_server(self):
+        self.assertIn("α = 3(1−ε)/2", self.run_it("model", "list", code=0)[0])
+        laws = json.loads(self.run_it("model", "list", "-o", "json", code=0)[0])
+        self.assertEqual(len(laws), 15)
+        shown = self.run_it("model", "show", "hunt-crossley", code=0)[0]
+        self.assertIn("0.5   0.75    0.6629622   +32.59 %", shown)
+        self.assertEqual(json.loads(self.run_it("model", "show", "FLORES", "-o", "json",
+                                                code=0)[0])["source"], "Flores et al. 2011")
+        compared = self.run_it("model", "compare", "exact", "lee-wang", "--restitution", "0.5",
+                               code=0)[0]
+        self.assertEqual(compared, "LAW           0.5\n"
+                                   "EXACT     0.50000\n"
+                                   "LEE_WANG  0.79920\n")
+        points = json.loads(self.run_it("model", "compare", "exact", "-o", "json", code=0)[0])
+        self.assertEqual({point["method"] for point in points}, {"closed form"})
+
+    def test_wrong_models_are_code_2(self):
+        self.assertIn("did you mean 'FLORES'?", self.run_it("model", "show", "flors", code=2)[1])
+        self.run_it("model", "compare", "exact", "--restitution", "1.5", code=2)
+        self.run_it("model", "show", "exact", "-o", "csv", code=2)
 
     def test_local_files_that_fail_are_code_11(self):
         self.run_it("validate", "no-such.yaml", code=11)

@@ -30,9 +30,27 @@ Contact Law(Dice& dice) {
   c.restitution = dice.Chance(0.1) ? 1 : dice.Uniform(0.1, 0.99);
   if (dice.Chance(0.3)) {
     c.damping = static_cast<DampingLaw>(dice.Below(static_cast<int>(DampingLaw::kGiven)));
+    if (c.damping == DampingLaw::kKelvinVoigt) c.exponent = 1;
+    if (c.damping == DampingLaw::kHertzQuarterPower) c.exponent = 1.5;
     if (dice.Chance(0.5)) c.reference_velocity = dice.Log(0.01, 10);
   }
   return c;
+}
+
+// A piece of a load that begins and ends in the run: of a step, a pulse or a table.
+Load Piece(Dice& dice, int body, double end_time) {
+  Load load{.body = body, .begin = dice.Chance(0.3) ? 0 : dice.Uniform(0, end_time)};
+  if (dice.Chance(0.7)) load.end = load.begin + dice.Log(1e-6, 1e-2);
+  if (dice.Chance(0.5)) {
+    load.constant = dice.Uniform(-200, 200);
+    if (dice.Chance(0.5) && std::isfinite(load.end)) {
+      load.slope = dice.Uniform(-400, 400) / (load.end - load.begin);
+    }
+  } else {
+    load.amplitude = dice.Uniform(-300, 300);
+    load.angular_frequency = std::isfinite(load.end) ? 3.14159 / (load.end - load.begin) : 100;
+  }
+  return load;
 }
 
 Scenario Roll(Dice& dice) {
@@ -62,9 +80,12 @@ Scenario Roll(Dice& dice) {
   for (std::size_t i = 0; i < s.contacts.size(); ++i) s.contacts[i].name = std::to_string(i);
   if (dice.Chance(0.4)) {
     s.supports.push_back({.body = dice.Below(n),
+                          .other = n > 1 && dice.Chance(0.3) ? -2 : kNone,
                           .stiffness = dice.Log(1e3, 1e6),
                           .damping = dice.Log(1, 100),
                           .rest_position = dice.Uniform(0, 0.1)});
+    Support& support = s.supports.back();
+    if (support.other != kNone) support.other = (support.body + 1) % n;
   }
   if (dice.Chance(0.3)) {
     for (int i = 0; i < n; ++i) {
@@ -79,9 +100,11 @@ Scenario Roll(Dice& dice) {
                        .angular_frequency = dice.Log(1, 3000),
                        .phase = dice.Uniform(0, 6)});
   }
-  s.end_time = dice.Log(1e-3, 0.03);
+  s.end_time = dice.Log(1e-3, 0.02);
+  while (dice.Chance(0.4)) s.loads.push_back(Piece(dice, dice.Below(n), s.end_time));
+  s.solver.clip_tension = dice.Chance(0.15);
   s.sample_interval = s.end_time / 50;
-  s.solver.max_steps = 60'000;
+  s.solver.max_steps = 4'000;
   return s;
 }
 
@@ -98,7 +121,8 @@ void ExpectSound(const Scenario& s, const testing::Record& r) {
     EXPECT_LE(c.iterations, s.solver.max_iterations);
     if (c.status != Cycle::Status::kConverged || c.end == Cycle::End::kRunEnd) continue;
     if (c.restitution_in == 1) continue;
-    EXPECT_NEAR(c.restitution_out / c.restitution_in, 1, 2e-8) << "contact " << c.contact;
+    EXPECT_NEAR(c.restitution_out / c.restitution_in, 1, s.solver.clip_tension ? 1e-5 : 2e-8)
+        << "contact " << c.contact;
   }
   if (o.end != Outcome::End::kFinished) return;
   EXPECT_LT(o.energy_residual, 1e-7);
@@ -125,10 +149,10 @@ TEST_P(RandomScenario, EndsSoundly) {
   RecordProperty("finished", finished);
   RecordProperty("cycles", cycles);
   RecordProperty("answered", converged);
-  EXPECT_GE(finished, 5);  // The others spend their step budget; a few break down and say so.
+  EXPECT_GE(finished, 1);  // The others spend their step budget; a few break down and say so.
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomScenario, ::testing::Range(0, 10));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomScenario, ::testing::Range(0, 30));
 
 }  // namespace
 }  // namespace contact

@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/law_study.h"
+#include "cli/number.h"
+#include "cli/table.h"
+#include "wire/spelling.h"
+
+namespace contact::cli {
+namespace {
+
+struct CompareArguments {
+  std::vector<std::string> laws;
+  std::vector<double> restitutions = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
+};
+
+// `hunt-crossley` is as good as HUNT_CROSSLEY.
+const LawEntry& FindLaw(const std::string& text) {
+  std::string name = text;
+  std::ranges::transform(name, name.begin(), [](unsigned char c) {
+    return c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  });
+  std::vector<std::string_view> names;
+  for (const LawEntry& law : LawCatalogue()) {
+    if (law.name() == name) return law;
+    names.push_back(law.name());
+  }
+  const std::string_view nearest = Nearest(name, names);
+  throw Failure(ExitCode::kUsage,
+                fmt::format("there is no law {} — {}", Quoted(text),
+                            nearest.empty() ? "see contactctl model list"
+                                            : fmt::format("did you mean '{}'?", nearest)));
+}
+
+std::string Json(const LawEntry& law) {
+  return fmt::format(
+      R"({{"law": "{}", "formula": "{}", "source": "{}", "range": "{}", "closed_form": {}}})",
+      law.name(), law.formula, law.source, law.range, law.closed_form());
+}
+
+std::string Json(const LawPoint& point) {
+  return fmt::format(
+      R"({{"law": "{}", "requested": {}, "delivered": {}, "miss": {}, "method": "{}"}})",
+      point.law->name(), point.requested, point.delivered, point.miss(), point.method);
+}
+
+template <class Items>
+std::string JsonList(const Items& items) {
+  std::string text = "[\n";
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    text += fmt::format("  {}{}\n", Json(items[i]), i + 1 < items.size() ? "," : "");
+  }
+  return text + "]\n";
+}
+
+std::string Percent(double miss) { return fmt::format("{:+.2f} %", 100 * miss); }
+
+ExitCode List(const Settings& settings) {
+  settings.RequireOutput({"table", "json"});
+  if (settings.output == "json") {
+    fmt::print("{}", JsonList(LawCatalogue()));
+    return ExitCode::kOk;
+  }
+  Table table({{"LAW"}, {"FORMULA"}, {"SOURCE", false, 1}});
+  for (const LawEntry& law : LawCatalogue()) {
+    table.Add({std::string(law.name()), std::string(law.formula), std::string(law.source)});
+  }
+  fmt::print("{}", table.Text(settings.OutputStyle()));
+  return ExitCode::kOk;
+}
+
+ExitCode Show(const std::string& name, const Settings& settings) {
+  settings.RequireOutput({"table", "json"});
+  const LawEntry& law = FindLaw(name);
+  if (settings.output == "json") {
+    fmt::print("{}\n", Json(law));
+    return ExitCode::kOk;
+  }
+  fmt::print("{}\nformula  {}\nsource   {}\nrange    {}\n", law.name(), law.formula, law.source,
+             law.range);
+  if (!law.closed_form()) {
+    fmt::print("delivers what a run shows: contactctl model compare {}\n", law.name());
+    return ExitCode::kOk;
+  }
+  fmt::print("\nIn an isolated collision:\n");
+  Table table({{"ε ASKED", true}, {"α", true}, {"ε DELIVERED", true}, {"MISS", true}});
+  for (const double e : CompareArguments().restitutions) {
+    const double delivered = law.Delivered(e);
+    const double miss = delivered / e - 1;
+    table.Add({Digits(e, 6),
+               Digits(law.Coefficient(e), 8),
+               Digits(delivered, 8),
+               {Percent(miss), std::abs(miss) > 0.01 ? Tone::kWarning : Tone::kPlain}});
+  }
+  fmt::print("{}", table.Text(settings.OutputStyle()));
+  return ExitCode::kOk;
+}
+
+std::vector<LawPoint> Points(const CompareArguments& arguments) {
+  std::vector<const LawEntry*> laws;
+  for (const std::string& name : arguments.laws) laws.push_back(&FindLaw(name));
+  if (laws.empty()) {
+    for (const LawEntry& law : LawCatalogue()) laws.push_back(&law);
+  }
+  std::vector<LawPoint> points;
+  for (const LawEntry* law : laws) {
+    for (const double e : arguments.restitutions) {
+      if (!(e > 0 && e <= 1)) {
+        throw Failure(ExitCode::kUsage, fmt::format("--restitution {}: must be in (0, 1]", e));
+      }
+      points.push_back({.law = law,
+                        .requested = e,
+                        .delivered = law->closed_form() ? law->Delivered(e) : 0,
+                        .method = law->closed_form() ? "closed form" : "simulation"});
+    }
+  }
+  return points;
+}
+
+// A row for each law, a column for each restitution asked for.
+std::string CompareTable(const std::vector<LawPoint>& points, std::size_t columns,
+                         const Style& style) {
+  std::vector<Table::Column> header = {{"LAW"}};
+  for (std::size_t i = 0; i < columns; ++i) {
+    header.push_back({fmt::format("{}", points[i].requested), true});
+  }
+  Table table(std::move(header));
+  for (std::size_t first = 0; first < points.size(); first += columns) {
+    std::vector<Table::Cell> row = {std::string(points[first].law->name())};
+    for (std::size_t i = first; i < first + columns; ++i) {
+      const bool misses = std::abs(points[i].miss()) > 0.01;
+      row.emplace_back(fmt::format("{:.5f}", points[i].delivered),
+                       misses ? Tone::kWarning : Tone::kGood);
+    }
+    table.Add(std::move(row));
+  }
+  return table.Text(style);
+}
+
+ExitCode Compare(const CompareArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "json", "csv"});
+  std::vector<LawPoint> points = Points(arguments);
+  Simulate(&points, settings);
+  if (settings.output == "json") {
+    fmt::print("{}", JsonList(points));
+  } else if (settings.output == "csv") {
+    fmt::print("law,requested,delivered,miss,method\n");
+    for (const LawPoint& p : points) {
+      fmt::print("{},{},{},{},{}\n", p.law->name(), p.requested, p.delivered, p.miss(), p.method);
+    }
+  } else {
+    fmt::print("{}", CompareTable(points, arguments.restitutions.size(), settings.OutputStyle()));
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddModelCommands(CLI::App& app, const Settings& settings, Action* action) {
+  CLI::App* model = app.add_subcommand("model", "Show and compare damping laws");
+  model->require_subcommand(1);
+  model->add_subcommand("list", "List the laws with formula and source")
+      ->callback([&settings, action] { *action = [&settings] { return List(settings); }; });
+
+  CLI::App* show = model->add_subcommand("show", "Show one law and what it delivers");
+  auto name = std::make_shared<std::string>();
+  show->add_option("LAW", *name, "Its name, such as hunt-crossley")->required();
+  show->callback(
+      [name, &settings, action] { *action = [name, &settings] { return Show(*name, settings); }; });
+
+  CLI::App* compare = model->add_subcommand(
+      "compare", "Compare the restitution asked for with the one delivered, law by law");
+  auto arguments = std::make_shared<CompareArguments>();
+  compare->add_option("LAW", arguments->laws, "Laws to compare. Default: all");
+  compare
+      ->add_option("--restitution", arguments->restitutions,
+                   "Restitutions to ask for, with commas between. Default: 0.05 to 0.95")
+      ->type_name("ε,…")
+      ->delimiter(',')
+      ->take_all()
+      ->allow_extra_args(false);
+  compare->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Compare(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli
