@@ -140,8 +140,8 @@ std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
     text += Pad(labels[r], -label) + " ";
     for (const double column : columns) {
       const auto found = at.find({rows[r], column});
-      const v1::SweepCell* cell = found == at.end() ? nullptr : found->second;
-      text.append(" ").append(Glyph(cell, metric, scale, style));
+      text.append(" ").append(
+          Glyph(found == at.end() ? nullptr : found->second, metric, scale, style));
     }
     text += "\n";
   }

@@ -39,27 +39,33 @@ CellSolver::CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan,
 
 std::optional<v1::SweepCell> CellSolver::Solve(std::int32_t index, const std::stop_token& stop,
                                                const std::function<void()>& pulse) {
-  std::vector<double> values = plan_.axes.Values(index);
-  DecodedScenario decoded = DecodeScenario(fields_.Set(values), options_.scenario_limits);
   v1::SweepCell cell;
   cell.set_index(index);
-  cell.mutable_values()->Add(values.begin(), values.end());
-  if (!decoded.violations.empty()) {
-    const Violation& first = decoded.violations.front();
-    Fail("SCENARIO_INVALID", first.field + ": " + first.description, &cell);
-    for (const double metric : plan_.metrics.Of({})) cell.add_metrics(metric);
-    return cell;
-  }
-  decoded.scenario.sample_interval = 0;  // No trajectory.
   try {
-    if (!Run(decoded.scenario, stop, pulse, &cell)) return std::nullopt;
+    if (!Compute(stop, pulse, &cell)) return std::nullopt;
   } catch (const std::exception& error) {
     Fail(reason::kInternal, error.what(), &cell);
+  } catch (...) {
+    Fail(reason::kInternal, "unknown exception", &cell);
   }
   return cell;
 }
 
-// False if the run was stopped.
+bool CellSolver::Compute(const std::stop_token& stop, const std::function<void()>& pulse,
+                         v1::SweepCell* cell) {
+  std::vector<double> values = plan_.axes.Values(cell->index());
+  DecodedScenario decoded = DecodeScenario(fields_.Set(values), options_.scenario_limits);
+  cell->mutable_values()->Add(values.begin(), values.end());
+  if (!decoded.violations.empty()) {
+    const Violation& first = decoded.violations.front();
+    Fail("SCENARIO_INVALID", first.field + ": " + first.description, cell);
+    for (const double metric : plan_.metrics.Of({})) cell->add_metrics(metric);
+    return true;
+  }
+  decoded.scenario.sample_interval = 0;  // No trajectory.
+  return Run(decoded.scenario, stop, pulse, cell);
+}
+
 bool CellSolver::Run(const Scenario& scenario, const std::stop_token& stop,
                      const std::function<void()>& pulse, v1::SweepCell* cell) const {
   v1::Job result;

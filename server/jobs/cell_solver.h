@@ -24,6 +24,9 @@ class CellSolver {
                                      const std::function<void()>& pulse);
 
  private:
+  // False if the run was stopped.
+  bool Compute(const std::stop_token& stop, const std::function<void()>& pulse,
+               v1::SweepCell* cell);
   bool Run(const Scenario& scenario, const std::stop_token& stop,
            const std::function<void()>& pulse, v1::SweepCell* cell) const;
 

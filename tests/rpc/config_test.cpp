@@ -64,13 +64,18 @@ TEST_F(ConfigTest, DefaultsAreThoseOfTheReadme) {
 }
 
 TEST_F(ConfigTest, EveryFlagArrives) {
-  const Config config =
-      Good({"--listen",    "[::1]:0",        "--workers=3", "--max-message-bytes",
-            "65536",       "--max-bodies",   "7",           "--max-contacts",
-            "8",           "--max-samples",  "9",           "--max-queued-jobs",
-            "10",          "--max-watchers", "11",          "--write-stall-seconds",
-            "0.5",         "--log-level",    "warn",        "--no-reflection",
-            "--port-file", "/port"});
+  const Config config = Good({"--listen",    "[::1]:0",
+                              "--workers=3", "--max-message-bytes",
+                              "65536",       "--max-bodies",
+                              "7",           "--max-contacts",
+                              "8",           "--max-samples",
+                              "9",           "--max-queued-jobs",
+                              "10",          "--max-watchers",
+                              "11",          "--max-cells",
+                              "12",          "--write-stall-seconds",
+                              "0.5",         "--log-level",
+                              "warn",        "--no-reflection",
+                              "--port-file", "/port"});
   EXPECT_EQ(config.listen, "[::1]:0");
   EXPECT_EQ(config.data_dir, "/data");
   EXPECT_EQ(config.jobs.workers, 3);
@@ -80,6 +85,7 @@ TEST_F(ConfigTest, EveryFlagArrives) {
   EXPECT_EQ(config.jobs.scenario_limits.max_samples, 9);
   EXPECT_EQ(config.jobs.max_queued_jobs, 10);
   EXPECT_EQ(config.jobs.max_watchers, 11);
+  EXPECT_EQ(config.jobs.scenario_limits.max_cells, 12);
   EXPECT_EQ(config.rpc.write_stall, std::chrono::milliseconds(500));
   EXPECT_EQ(config.log_level, spdlog::level::warn);
   EXPECT_FALSE(config.rpc.reflection);
@@ -122,6 +128,7 @@ TEST_F(ConfigTest, BadValuesAreUsageErrorsThatNameTheFlag) {
       {"--workers", "many"},
       {"--max-message-bytes", "-1"},
       {"--max-samples", "1e99"},
+      {"--max-cells", "0"},
       {"--write-stall-seconds", "0"},
       {"--log-level", "loud"},
       {"--listen", "127.0.0.1"},

@@ -1,0 +1,93 @@
+#include "cli/render_sweep.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace contact::cli {
+namespace {
+
+using testing::HasSubstr;
+
+v1::Job Job() {
+  v1::Job job;
+  job.set_name("jobs/s");
+  job.set_state(v1::Job::SUCCEEDED);
+  v1::Sweep& sweep = *job.mutable_sweep();
+  sweep.add_axes()->set_field("bodies[0].mass_kg");
+  sweep.add_axes()->set_field("contacts[0].restitution");
+  sweep.add_metrics("iterations");
+  job.mutable_progress()->set_cells(4);
+  job.mutable_progress()->set_cells_done(4);
+  job.mutable_progress()->set_cells_failed(1);
+  job.mutable_progress()->set_cells_not_converged(1);
+  return job;
+}
+
+v1::SweepCell Cell(int index, double mass, double restitution, double iterations) {
+  v1::SweepCell cell;
+  cell.set_index(index);
+  cell.add_values(mass);
+  cell.add_values(restitution);
+  cell.add_metrics(iterations);
+  cell.set_state(v1::Job::SUCCEEDED);
+  cell.set_convergence(v1::Job::FULL);
+  return cell;
+}
+
+SweepCells Cells() {
+  SweepCells cells{{0, Cell(0, 0.5, 0.9, 2)},
+                   {1, Cell(1, 0.5, 0.8, 10)},
+                   {2, Cell(2, 2, 0.9, 50)},
+                   {3, Cell(3, 2, 0.8, NAN)}};
+  cells[2].set_convergence(v1::Job::PARTIAL);
+  cells[3].set_state(v1::Job::FAILED);
+  cells[3].clear_convergence();
+  cells[3].set_state_reason("NUMERIC");
+  cells[3].set_message("at 1 s, \"B1\"");
+  return cells;
+}
+
+TEST(RenderSweep, SaysWhatBecameOfEveryCell) {
+  const std::string text = RenderSweep(Job(), Cells(), {});
+  EXPECT_THAT(text, HasSubstr("jobs/s  SUCCEEDED  4 of 4 cells, 1 failed, 1 not converged"));
+  EXPECT_THAT(text,
+              HasSubstr("   2                  2                      0.9          50  PARTIAL"));
+  EXPECT_THAT(text,
+              HasSubstr("   3                  2                      0.8           -  NUMERIC"));
+}
+
+TEST(RenderSweep, HeatMapMarksWhatDidNotConvergeOrFailed) {
+  EXPECT_EQ(HeatMap(Job().sweep(), Cells(), 0, {}),
+            "\niterations over bodies[0].mass_kg (down) and contacts[0].restitution (across, "
+            "0.9 … 0.8)\n"
+            "0.5  ░░ ░░\n"
+            "  2  █! ××\n"
+            "░ 2 … █ 50;  ! not converged, ×× failed, -- no value\n");
+}
+
+TEST(RenderSweep, HeatMapShowsHolesOfAnUnfinishedSweep) {
+  SweepCells cells = Cells();
+  cells.erase(1);
+  EXPECT_THAT(HeatMap(Job().sweep(), cells, 0, {}), HasSubstr("0.5  ░░ ··\n"));
+}
+
+TEST(RenderSweep, HeatMapIsOfGridsOfTwoAxesThatFit) {
+  v1::Sweep sweep = Job().sweep();
+  EXPECT_EQ(HeatMap(sweep, Cells(), 0, {.width = 10}), "");
+  EXPECT_EQ(HeatMap(sweep, Cells(), 1, {}), "");
+  sweep.set_combination(v1::Sweep::ZIP);
+  EXPECT_EQ(HeatMap(sweep, Cells(), 0, {}), "");
+}
+
+TEST(RenderSweep, CsvQuotesWhatNeedsIt) {
+  EXPECT_EQ(SweepCsv(Job().sweep(), Cells()),
+            "cell,bodies[0].mass_kg,contacts[0].restitution,iterations,state,convergence,message\n"
+            "0,0.5,0.9,2,SUCCEEDED,FULL,\n"
+            "1,0.5,0.8,10,SUCCEEDED,FULL,\n"
+            "2,2,0.9,50,SUCCEEDED,PARTIAL,\n"
+            "3,2,0.8,nan,FAILED,,\"NUMERIC: at 1 s, \"\"B1\"\"\"\n");
+}
+
+}  // namespace
+}  // namespace contact::cli
