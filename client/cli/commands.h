@@ -11,6 +11,7 @@ namespace contact::cli {
 void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);    // run, submit
 void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);  // watch, wait
 void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);    // list, …
+void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);  // export
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server

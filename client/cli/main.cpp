@@ -31,8 +31,9 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   app.add_option("-o,--output", settings->output,
-                 "How to print: table, json, jsonl (watch) or name")
-      ->check(CLI::IsMember({"table", "json", "jsonl", "name"}))
+                 "How to print: table, json, name; jsonl (watch, export); csv, netcdf (export)")
+      ->check(CLI::IsMember(
+          {"table", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
@@ -93,6 +94,7 @@ int Main(int argc, char** argv) {
   AddRunCommands(app, settings, &action);
   AddWatchCommands(app, settings, &action);
   AddJobCommands(app, settings, &action);
+  AddExportCommand(app, settings, &action);
   AddScenarioCommands(app, settings, &action);
   AddServerCommands(app, settings, &action);
   try {
