@@ -12,6 +12,7 @@ void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);   
 void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);  // watch, wait
 void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);    // list, …
 void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);  // export
+void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);    // plot
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server

@@ -18,7 +18,7 @@ enum class ExitCode {
   kNotConverged = 7,  ///< The job succeeded, but not every cycle has its restitution.
   kAuth = 9,
   kOverload = 10,  ///< Try again later.
-  kLocal = 11,     ///< A local file.
+  kLocal = 11,     ///< A local file or tool.
   kInterrupted = 130,
 };
 

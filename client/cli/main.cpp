@@ -31,7 +31,8 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   app.add_option("-o,--output", settings->output,
-                 "How to print: table, json, name; jsonl (watch, export); csv, netcdf (export)")
+                 "How to print: table, json, name; jsonl (watch, export); csv, netcdf (export); "
+                 "svg, png, pdf, gp, csv (plot)")
       ->check(CLI::IsMember(
           {"table", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")
@@ -95,6 +96,7 @@ int Main(int argc, char** argv) {
   AddWatchCommands(app, settings, &action);
   AddJobCommands(app, settings, &action);
   AddExportCommand(app, settings, &action);
+  AddPlotCommand(app, settings, &action);
   AddScenarioCommands(app, settings, &action);
   AddServerCommands(app, settings, &action);
   try {
