@@ -27,17 +27,17 @@ class ClientTest(ServerTest):
         self.assertTrue(result.converged)
         self.assertEqual(list(result.cycles.contact), ["B1-B2", "B2-B3"])
         self.assertEqual(list(result.cycles.status), ["CONVERGED"] * 2)
-        np.testing.assert_allclose(result.cycles.mu, [2.259378079e8, 4.563828953e8], rtol=1e-8)
+        np.testing.assert_allclose(result.cycles.mu, [2.259378079e8, 4.563828953e8], rtol=1e-6)
         np.testing.assert_allclose(
             result.bodies.velocity_m_per_s,
-            [-0.003731206344, 0.048726255138, 0.155004951207], atol=1e-10)
+            [-0.003731206344, 0.048726255138, 0.155004951207], atol=1e-8)
         self.assertEqual(result["time"][-1], 4e-3)
         self.assertEqual(result.series.shape, (1001, 15))
         self.assertEqual(result.series.columns[2], "B1.velocity [m/s]")
         self.assertTrue(np.shares_memory(result.series["B1.velocity [m/s]"].to_numpy(),
                                          result["B1.velocity"]))
         last = result.iterations[result.iterations.accepted]
-        self.assertTrue((last.residual.abs() < 1e-8).all())
+        self.assertTrue((last.residual.abs() < 2e-8).all())
         self.assertEqual(len(result.provenance["scenario_sha256"]), 64)
 
     def test_dict_and_message_make_the_same_run(self):

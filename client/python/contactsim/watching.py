@@ -16,7 +16,7 @@ FINAL = (job_pb2.Job.SUCCEEDED, job_pb2.Job.FAILED, job_pb2.Job.CANCELLED)
 _FIRST_PAUSE_S = 0.2
 _LONGEST_PAUSE_S = 10.0
 _GIVE_UP_AFTER_S = 300.0
-_FIRST_TRIES = 3  # Until the first message: there may be no server at all.
+_GIVE_UP_AT_FIRST_S = 3.0  # Without any message yet: there may be no server at all.
 
 # Ends of a stream after which the same question may be asked again.
 _PASSING = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED, grpc.StatusCode.UNKNOWN,
@@ -35,7 +35,6 @@ class Position:
         self._deadline = deadline  # Of time.monotonic().
         self._pause_s = _FIRST_PAUSE_S
         self._connected = False  # Ever.
-        self._tries = 0
         self._lost_since: float | None = None
 
     def request(self) -> job_service_pb2.WatchJobRequest:
@@ -80,12 +79,11 @@ class Position:
 
     def _require_hope(self, error: grpc.RpcError) -> None:
         failure = from_rpc(error, self._address)
-        self._tries += 1
-        refused = not self._connected and self._tries >= _FIRST_TRIES and not failure.reason
         now = time.monotonic()
         if self._lost_since is None:
             self._lost_since = now
         full = not self._connected and failure.code == grpc.StatusCode.RESOURCE_EXHAUSTED
-        if (failure.code not in _PASSING or refused or full or self.time_left() == 0
-                or now - self._lost_since > _GIVE_UP_AFTER_S):
+        patience_s = _GIVE_UP_AFTER_S if self._connected else _GIVE_UP_AT_FIRST_S
+        if (failure.code not in _PASSING or full or self.time_left() == 0
+                or now - self._lost_since > patience_s):
             raise failure from error
