@@ -19,7 +19,7 @@ enum class ExitCode {
   kDiffers = 8,       ///< A number is further from its reference than documented.
   kAuth = 9,
   kOverload = 10,  ///< Try again later.
-  kLocal = 11,     ///< A local file.
+  kLocal = 11,     ///< A local file or tool.
   kInterrupted = 130,
 };
 

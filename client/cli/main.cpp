@@ -31,8 +31,10 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   app.add_option("-o,--output", settings->output,
-                 "How to print: table, json, jsonl (watch), csv (series, sweep, model) or name")
-      ->check(CLI::IsMember({"table", "json", "jsonl", "csv", "name"}))
+                 "How to print: table, json, name; jsonl (watch, export); csv (series, sweep, model, "
+                 "export); netcdf (export); svg, png, pdf, gp, csv (plot)")
+      ->check(CLI::IsMember(
+          {"table", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
@@ -93,6 +95,8 @@ int Main(int argc, char** argv) {
   AddRunCommands(app, settings, &action);
   AddWatchCommands(app, settings, &action);
   AddJobCommands(app, settings, &action);
+  AddExportCommand(app, settings, &action);
+  AddPlotCommand(app, settings, &action);
   AddScenarioCommands(app, settings, &action);
   AddSeriesCommands(app, settings, &action);
   AddSweepCommands(app, settings, &action);

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/data_table.h"
+#include "cli/export_netcdf.h"
+#include "cli/export_text.h"
+#include "cli/number.h"
+#include "cli/output_file.h"
+#include "cli/recording.h"
+
+namespace contact::cli {
+namespace {
+
+struct ExportArguments {
+  std::string job;
+  std::string file;
+  std::string table = "series";
+};
+
+// As -o says, or as the file is called.
+std::string Format(const ExportArguments& arguments, const Settings& settings) {
+  if (settings.output != "table") {
+    settings.RequireOutput({"csv", "jsonl", "netcdf"});
+    return settings.output;
+  }
+  if (arguments.file.ends_with(".nc")) return "netcdf";
+  return arguments.file.ends_with(".jsonl") ? "jsonl" : "csv";
+}
+
+DataTable Chosen(const std::string& name, Recording&& recording) {
+  if (name == "cycles") return CyclesTable(recording.job);
+  if (name == "iterations") return IterationsTable(recording.iterations);
+  if (name == "bodies") return BodiesTable(recording.job);
+  return SeriesTable(std::move(recording));
+}
+
+void WriteText(const DataTable& table, bool json, const std::string& path) {
+  OutputFile file(path);
+  (json ? WriteJsonLines : WriteCsv)(table, file.get());
+  file.Close();
+}
+
+std::string WriteAll(Recording&& recording, const std::string& path) {
+  const OutputFile writable(path);  // Told in our words, before those of the library.
+  const Attributes attributes = Provenance(recording.job, recording.revision);
+  std::vector<DataTable> tables{CyclesTable(recording.job), IterationsTable(recording.iterations),
+                                BodiesTable(recording.job)};
+  tables.insert(tables.begin(), SeriesTable(std::move(recording)));
+  WriteNetcdf(tables, attributes, path);
+  return fmt::format("{}, {}",
+                     Count(static_cast<std::int64_t>(tables[0].rows()), "sample", "samples"),
+                     Count(static_cast<std::int64_t>(tables[1].rows()), "cycle", "cycles"));
+}
+
+ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
+  const std::string format = Format(arguments, settings);
+  if (format == "netcdf" && arguments.file.empty()) {
+    throw Failure(ExitCode::kUsage, "netcdf is no text; give a file with -f");
+  }
+  Client client = settings.Connect();
+  Recording recording = ReadRecording(client, arguments.job, settings);
+  std::string what;
+  if (format == "netcdf") {
+    what = WriteAll(std::move(recording), arguments.file);
+  } else {
+    const DataTable table = Chosen(arguments.table, std::move(recording));
+    WriteText(table, format == "jsonl", arguments.file);
+    what = Count(static_cast<std::int64_t>(table.rows()), "row", "rows");
+  }
+  if (!arguments.file.empty()) fmt::print(stderr, "{}  {}\n", arguments.file, what);
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddExportCommand(CLI::App& app, const Settings& settings, Action* action) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command = app.add_subcommand(
+      "export", "Write what a job recorded, once it has ended: -o csv, jsonl or netcdf");
+  command->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  command
+      ->add_option("-f,--file", arguments->file,
+                   "Where to; without -o its ending, .csv, .jsonl or .nc, tells the format. "
+                   "Default: the standard output")
+      ->type_name("FILE");
+  command
+      ->add_option("--table", arguments->table,
+                   "For csv and jsonl: series, cycles, iterations or bodies; netcdf has them all")
+      ->check(CLI::IsMember({"series", "cycles", "iterations", "bodies"}))
+      ->type_name("TABLE")
+      ->capture_default_str();
+  command->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Export(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

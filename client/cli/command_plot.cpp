@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "cli/commands.h"
+#include "cli/gnuplot.h"
+#include "cli/output_file.h"
+#include "cli/presets.h"
+
+namespace contact::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlotArguments {
+  std::string job;
+  std::string preset;
+  std::string file;
+  std::string keep;
+};
+
+// A folder for the script that is gone when the plot is drawn.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (fs::temp_directory_path() / "contactctl-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw Failure(ExitCode::kLocal, "cannot make " + name);
+    path_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// As -o says, or as the file is called.
+std::string Format(const PlotArguments& arguments, const Settings& settings) {
+  if (settings.output != "table") {
+    settings.RequireOutput({"svg", "png", "pdf", "gp", "csv"});
+    return settings.output;
+  }
+  for (const char* format : {"png", "pdf", "gp", "csv"}) {
+    if (fs::path(arguments.file).extension() == fmt::format(".{}", format)) return format;
+  }
+  return "svg";
+}
+
+void WriteText(const std::string& text, const std::string& path) {
+  OutputFile file(path);
+  std::fwrite(text.data(), 1, text.size(), file.get());
+  file.Close();
+}
+
+void WriteData(const Figure& figure, const std::string& path) {
+  OutputFile file(path);
+  WriteCsv(figure, file.get());
+  file.Close();
+}
+
+void Render(const Figure& figure, const std::string& format, const PlotArguments& arguments,
+            const std::string& path) {
+  const OutputFile writable(path);  // Told in our words, before gnuplot's.
+  const std::string script = GnuplotScript(figure, format, path);
+  const ScratchFolder scratch;
+  const fs::path folder = arguments.keep.empty() ? scratch.path() : fs::path(arguments.keep);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const std::string script_path = folder / (arguments.preset + ".gp");
+  WriteText(script, script_path);
+  if (!arguments.keep.empty()) WriteData(figure, folder / (arguments.preset + ".csv"));
+  RunGnuplot(script_path);
+}
+
+ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
+  const std::string format = Format(arguments, settings);
+  const std::string path =
+      arguments.file.empty() ? arguments.preset + "." + format : arguments.file;
+  Client client = settings.Connect();
+  const Figure figure =
+      DrawPreset(arguments.preset, ReadRecording(client, arguments.job, settings));
+  if (format == "csv") {
+    WriteData(figure, path);
+  } else if (format == "gp") {
+    WriteText(GnuplotScript(figure, "svg", fs::path(path).replace_extension("svg")), path);
+  } else {
+    Render(figure, format, arguments, path);
+  }
+  fmt::print("{}\n", path);
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action) {
+  auto arguments = std::make_shared<PlotArguments>();
+  CLI::App* command = app.add_subcommand(
+      "plot", "Draw a job that has ended, through gnuplot: -o svg, png, pdf, gp or csv");
+  command->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  command->add_option("PRESET", arguments->preset, "What to draw")
+      ->check(CLI::IsMember(PresetNames()))
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("-f,--file", arguments->file,
+                   "Where to; without -o its ending tells the format. Default: PRESET.svg")
+      ->type_name("FILE");
+  command
+      ->add_option("--keep", arguments->keep,
+                   "Keep gnuplot's script and the data as CSV in this folder")
+      ->type_name("DIR");
+  command->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Plot(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

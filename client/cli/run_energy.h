@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/recording.h"
+#include "wire/scenario_codec.h"
+
+namespace contact::cli {
+
+/// Energy [J] at each sample by what holds it: bodies, contacts, supports if any, and the sum,
+/// which damping and loads change. Throws Failure (kUsage) without a recorded trajectory.
+std::vector<std::pair<std::string, std::vector<double>>> MechanicalEnergy(
+    const Scenario& scenario, const Recording& recording);
+
+}  // namespace contact::cli

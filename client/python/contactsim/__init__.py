@@ -1,0 +1,14 @@
+"""Contact simulations on a contactd server, with results as numpy arrays and pandas DataFrames."""
+
+from .aio import AsyncClient
+from .client import Client
+from .errors import (CallError, ContactError, InvalidScenario, JobNotFound, Overloaded, RunFailed,
+                     Timeout, Unreachable, Violation)
+from .result import Result
+from .scenario import load_scenario
+
+__all__ = [
+    "AsyncClient", "CallError", "Client", "ContactError", "InvalidScenario", "JobNotFound",
+    "Overloaded", "Result", "RunFailed", "Timeout", "Unreachable", "Violation", "load_scenario"
+]
+__version__ = "0.1.0"

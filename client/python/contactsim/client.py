@@ -1,0 +1,193 @@
+"""The client: submits scenarios, watches jobs, fetches results."""
+
+from __future__ import annotations
+
+import os
+import time
+import uuid
+from typing import Any, Callable, Iterable, Iterator, Mapping, Union
+
+import grpc
+from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
+
+from .errors import RunFailed, from_rpc
+from .recording import KINDS, Recording
+from .result import Result
+from .scenario import ScenarioLike, load_scenario
+from .watching import Position
+
+JobLike = Union[str, job_pb2.Job, Result]
+
+DEFAULT_ADDRESS = "127.0.0.1:7070"
+OPTIONS = (
+    ("grpc.max_receive_message_length", 256 << 20),  # A ledger has no limit but this.
+    ("grpc.initial_reconnect_backoff_ms", 100),
+    ("grpc.min_reconnect_backoff_ms", 100),
+    ("grpc.max_reconnect_backoff_ms", 5000),
+    ("grpc.keepalive_time_ms", 30_000),
+    ("grpc.keepalive_timeout_ms", 20_000),
+    ("grpc.http2.max_pings_without_data", 0),
+    ("grpc.enable_http_proxy", 0),  # A proxy for the web does not know contactd.
+)
+_TRIES = 3
+
+
+class Client:
+    """A connection to one contactd. Thread-safe; also a context manager.
+
+    `address` is HOST:PORT; by default the environment variable CONTACT_SERVER, or
+    127.0.0.1:7070. `timeout_s` limits each call, not the run of a job.
+    """
+
+    def __init__(self, address: str | None = None, *, timeout_s: float = 10.0) -> None:
+        self.address = address or os.environ.get("CONTACT_SERVER", DEFAULT_ADDRESS)
+        self._timeout_s = timeout_s
+        self._channel = grpc.insecure_channel(self.address, options=OPTIONS)
+        self._stub = job_service_pb2_grpc.JobServiceStub(self._channel)
+
+    def close(self) -> None:
+        self._channel.close()
+
+    def __enter__(self) -> Client:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def run(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
+            on_event: Callable[[event_pb2.Event], None] | None = None,
+            timeout_s: float | None = None) -> Result:
+        """Submits a scenario, follows it to its end and returns its result.
+
+        `on_event` hears every event as it happens. Raises InvalidScenario, RunFailed, and Timeout
+        after `timeout_s`; the job then goes on.
+        """
+        deadline = _deadline(timeout_s)
+        return self._follow(self.submit(scenario, labels=labels).name, on_event, deadline)
+
+    def submit(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
+               request_id: str | None = None) -> job_pb2.Job:
+        """Submits a scenario and returns its job at once.
+
+        The same `request_id` and scenario make one job, however often submitted.
+        """
+        return self._call(self._stub.CreateJob, create_request(scenario, labels, request_id))
+
+    def validate(self, scenario: ScenarioLike) -> None:
+        """Raises InvalidScenario unless the server would accept the scenario."""
+        request = create_request(scenario, None, None)
+        request.validate_only = True
+        self._call(self._stub.CreateJob, request)
+
+    def watch(self, job: JobLike, *, after_sequence: int = 0, kinds: Iterable[str] = (),
+              timeout_s: float | None = None) -> Iterator[event_pb2.Event]:
+        """The events of a job: those stored, then new ones as they happen, until it has ended.
+
+        Reconnects with growing pauses when the link breaks; no durable event is missed or
+        repeated. `kinds` are names of Event.payload, such as `cycle`; state_changed always comes.
+        """
+        return self._watch(Position(job_name(job), self.address, after_sequence, kinds,
+                                    _deadline(timeout_s)))
+
+    def _watch(self, position: Position) -> Iterator[event_pb2.Event]:
+        while not position.finished:
+            call = self._stub.WatchJob(position.request(), timeout=position.time_left())
+            error = None
+            try:
+                for message in call:
+                    yield from position.take(message)
+                    if position.finished:
+                        return
+            except grpc.RpcError as caught:
+                error = caught
+            finally:
+                call.cancel()
+            time.sleep(position.lost(error))
+
+    def wait(self, job: JobLike, *, timeout_s: float | None = None) -> job_pb2.Job:
+        """The job once it has ended, however it did."""
+        for _ in self.watch(job, kinds=["state_changed"], timeout_s=timeout_s):
+            pass
+        return self.get(job)
+
+    def result(self, job: JobLike, *, timeout_s: float | None = None) -> Result:
+        """The result of a job: waits for its end and fetches all that it recorded."""
+        return self._follow(job_name(job), None, _deadline(timeout_s))
+
+    def get(self, job: JobLike) -> job_pb2.Job:
+        """The job as it is now, with its ledger so far."""
+        return self._call(self._stub.GetJob, job_service_pb2.GetJobRequest(name=job_name(job)))
+
+    def list(self, *, states: Iterable[str] = (),
+             labels: Mapping[str, str] | None = None) -> Iterator[job_pb2.Job]:
+        """Jobs, newest first, page by page; without specs and ledgers."""
+        request = job_service_pb2.ListJobsRequest(
+            states=[job_pb2.Job.State.Value(state) for state in states], labels=labels)
+        while True:
+            page = self._call(self._stub.ListJobs, request)
+            yield from page.jobs
+            request.page_token = page.next_page_token
+            if not request.page_token:
+                return
+
+    def cancel(self, job: JobLike) -> job_pb2.Job:
+        """Asks a job to stop; what it recorded is kept."""
+        return self._call(self._stub.CancelJob,
+                          job_service_pb2.CancelJobRequest(name=job_name(job)))
+
+    def delete(self, job: JobLike) -> None:
+        """Removes an ended job and its events."""
+        self._call(self._stub.DeleteJob, job_service_pb2.DeleteJobRequest(name=job_name(job)))
+
+    def server_info(self) -> job_service_pb2.ServerInfo:
+        """What the server is and accepts."""
+        return self._call(self._stub.GetServerInfo, job_service_pb2.GetServerInfoRequest())
+
+    def _follow(self, name: str, on_event: Callable[[event_pb2.Event], None] | None,
+                deadline: float | None) -> Result:
+        recording = Recording()
+        kinds = () if on_event else KINDS
+        for event in self._watch(Position(name, self.address, 0, kinds, deadline)):
+            recording.add(event)
+            if on_event:
+                on_event(event)
+        # A slow reader is spared frames; they are in the log for a second reading.
+        if recording.has_holes:
+            for event in self._watch(Position(name, self.address, 0, KINDS, deadline)):
+                recording.add(event)
+        return ended(self.get(name), recording)
+
+    def _call(self, method: Any, request: Any) -> Any:
+        for attempt in range(_TRIES):
+            try:
+                return method(request, timeout=self._timeout_s)
+            except grpc.RpcError as error:
+                failure = from_rpc(error, self.address)
+                if failure.code != grpc.StatusCode.UNAVAILABLE or attempt == _TRIES - 1:
+                    raise failure from error
+            time.sleep(0.1 * 2**attempt)
+
+
+def ended(job: job_pb2.Job, recording: Recording) -> Result:
+    """The result of a job that has ended; raises RunFailed if it did not succeed."""
+    if job.state != job_pb2.Job.SUCCEEDED:
+        raise RunFailed(job)
+    return Result(job, recording)
+
+
+def create_request(scenario: ScenarioLike, labels: Mapping[str, str] | None,
+                   request_id: str | None) -> job_service_pb2.CreateJobRequest:
+    job = job_pb2.Job(scenario=load_scenario(scenario), labels=labels)
+    return job_service_pb2.CreateJobRequest(job=job, request_id=request_id or str(uuid.uuid4()))
+
+
+def job_name(job: JobLike) -> str:
+    """`jobs/ID` for a job, a result, `jobs/ID` or `ID`."""
+    if isinstance(job, Result):
+        job = job.job
+    name = job.name if isinstance(job, job_pb2.Job) else job
+    return name if name.startswith("jobs/") else f"jobs/{name}"
+
+
+def _deadline(timeout_s: float | None) -> float | None:
+    return None if timeout_s is None else time.monotonic() + timeout_s

@@ -1,0 +1,75 @@
+"""What a scenario says about its contacts and bodies, as far as plots need it."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+from contact.v1 import scenario_pb2
+
+
+@dataclasses.dataclass(frozen=True)
+class ContactLaw:
+    """One contact after neighbours are expanded."""
+
+    name: str
+    bodies: tuple[str, ...]
+    stiffness: float  #: N/m^exponent
+    exponent: float
+
+
+def contact_laws(scenario: scenario_pb2.Scenario) -> list[ContactLaw]:
+    """The contacts with the names that the server gives them."""
+    laws = []
+    for contact in scenario.contacts:
+        exponent = contact.exponent if contact.HasField("exponent") else 1.5
+        between = list(contact.between)
+        groups = list(zip(between, between[1:])) or [tuple(between)]
+        for number, bodies in enumerate(groups, 1):
+            name = contact.name or "-".join(bodies if len(bodies) > 1 else [*bodies, "wall"])
+            if contact.name and len(groups) > 1:
+                name = f"{contact.name}-{number}"
+            laws.append(ContactLaw(name, bodies, contact.stiffness, exponent))
+    return laws
+
+
+def wall_touches(scenario: scenario_pb2.Scenario) -> list[float]:
+    """Positions of a body's centre, in m, at which it touches its wall."""
+    radii = {body.name: body.radius_m for body in scenario.bodies}
+    return [c.wall.position_m - radii[c.between[0]] * (
+                1 if c.wall.side == scenario_pb2.Wall.RIGHT else -1)
+            for c in scenario.contacts if c.HasField("wall")]
+
+
+def mass(body: scenario_pb2.Body) -> float:
+    """In kg; 0 for a fixed body without one, which never moves."""
+    if body.HasField("density_kg_per_m3"):
+        return 4 / 3 * math.pi * body.radius_m**3 * body.density_kg_per_m3
+    return body.mass_kg
+
+
+def mechanical_energy(scenario: scenario_pb2.Scenario,
+                      arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Kinetic energy, elastic energy of contacts and supports, and their sum, in J."""
+    zero = np.zeros_like(arrays["time"])
+    kinetic = sum((0.5 * mass(b) * arrays[f"{b.name}.velocity"]**2 for b in scenario.bodies), zero)
+    contacts = sum((_elastic(law, arrays) for law in contact_laws(scenario)), zero)
+    supports = sum((_spring(support, arrays) for support in scenario.supports), zero)
+    parts = {"kinetic": kinetic, "contacts": contacts}
+    if scenario.supports:
+        parts["supports"] = supports
+    return {**parts, "sum": kinetic + contacts + supports}
+
+
+def _elastic(law: ContactLaw, arrays: dict[str, np.ndarray]) -> np.ndarray:
+    """∫ k δⁿ dδ."""
+    deformation = np.maximum(arrays[f"{law.name}.deformation"], 0)
+    return law.stiffness * deformation**(law.exponent + 1) / (law.exponent + 1)
+
+
+def _spring(support: scenario_pb2.Support, arrays: dict[str, np.ndarray]) -> np.ndarray:
+    stretch = arrays[f"{support.body}.position"] - support.rest_position_m
+    if support.other:
+        stretch = stretch - arrays[f"{support.other}.position"]
+    return 0.5 * support.stiffness_n_per_m * stretch**2

@@ -1,0 +1,66 @@
+"""What a run recorded, gathered from its events."""
+
+from __future__ import annotations
+
+import numpy as np
+from contact.v1 import event_pb2
+
+KINDS = ("attempt_started", "iteration", "frame_chunk")  #: The events that a recording needs.
+
+
+class Recording:
+    """The iterations and the trajectory of the last attempt of a job."""
+
+    def __init__(self) -> None:
+        self.iterations: dict[tuple[int, int], event_pb2.Iteration] = {}
+        self.units: dict[str, str] = {}  #: Unit by name of column, in their order.
+        self._chunks: dict[int, tuple[int, list[bytes]]] = {}  # By first sample.
+        self._columns: dict[str, np.ndarray] | None = None
+
+    def add(self, event: event_pb2.Event) -> None:
+        """Takes an event; one that was taken before changes nothing."""
+        kind = event.WhichOneof("payload")
+        if kind == "attempt_started":
+            self.__init__()  # type: ignore[misc]  # What came before is of an earlier attempt.
+        elif kind == "iteration":
+            iteration = event.iteration
+            self.iterations[iteration.episode, iteration.number] = iteration
+        elif kind == "frame_chunk":
+            self._add_chunk(event.frame_chunk)
+
+    def _add_chunk(self, chunk: event_pb2.FrameChunk) -> None:
+        if not self.units:
+            self.units = {column.name: column.unit for column in chunk.columns}
+        values = [column.values for column in chunk.columns]
+        self._chunks[chunk.first_sample] = (chunk.samples, values)
+        self._columns = None
+
+    @property
+    def has_holes(self) -> bool:
+        """True if chunks are missing between those that came."""
+        following = 0
+        for first, (samples, _) in sorted(self._chunks.items()):
+            if first != following:
+                return True
+            following = first + samples
+        return False
+
+    @property
+    def columns(self) -> dict[str, np.ndarray]:
+        """The samples by name of column, read-only.
+
+        They lie in the bytes of the message where there is one chunk; several are joined once.
+        """
+        if self._columns is None:
+            chunks = [values for _, (_, values) in sorted(self._chunks.items())]
+            self._columns = {name: _join([chunk[index] for chunk in chunks])
+                             for index, name in enumerate(self.units)}
+        return self._columns
+
+
+def _join(parts: list[bytes]) -> np.ndarray:
+    if len(parts) == 1:
+        return np.frombuffer(parts[0], dtype="<f8")
+    joined = np.concatenate([np.frombuffer(part, dtype="<f8") for part in parts])
+    joined.flags.writeable = False
+    return joined

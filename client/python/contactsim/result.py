@@ -1,0 +1,134 @@
+"""The result of a job."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import html
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from contact.v1 import event_pb2, job_pb2, scenario_pb2
+from google.protobuf.descriptor import FieldDescriptor
+
+from .plotting import Plots
+from .recording import Recording
+
+_LEDGER = ("contact", "number", "kind", "end", "status", "mu", "restitution_in",
+           "restitution_out", "start_time_s", "end_time_s", "peak_force_n")
+
+
+class Result:
+    """What an ended job computed. Everything is made when it is first asked for, and kept."""
+
+    def __init__(self, job: job_pb2.Job, recording: Recording) -> None:
+        self.job = job  #: The Job message, with its spec, ledger and summary.
+        self._recording = recording
+
+    @property
+    def name(self) -> str:
+        """Format: `jobs/{id}`."""
+        return self.job.name
+
+    @property
+    def scenario(self) -> scenario_pb2.Scenario:
+        """What was computed."""
+        return self.job.scenario
+
+    @property
+    def converged(self) -> bool:
+        """True if every cycle has the restitution asked for."""
+        return self.job.convergence == job_pb2.Job.FULL
+
+    @property
+    def arrays(self) -> dict[str, np.ndarray]:
+        """The trajectory as read-only arrays by name, such as `B1.velocity`; `time` is first."""
+        return self._recording.columns
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each array."""
+        return self._recording.units
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """One column of the trajectory, such as `B1-B2.contact_force`."""
+        try:
+            return self.arrays[name]
+        except KeyError:
+            raise KeyError(f"{name!r}; there are {', '.join(self.arrays)}") from None
+
+    @functools.cached_property
+    def series(self) -> pd.DataFrame:
+        """The trajectory: a row a sample, columns such as `B1.velocity [m/s]`.
+
+        The frame shares the memory of `arrays`, which is read-only: copy() it to change it.
+        """
+        named = {f"{name} [{self.units[name]}]": values for name, values in self.arrays.items()}
+        return pd.DataFrame(named, copy=False)
+
+    @functools.cached_property
+    def cycles(self) -> pd.DataFrame:
+        """The ledger: a row a cycle. `mu` is in N·s/m^(n+1), n the exponent of its contact."""
+        return _frame(job_pb2.Cycle.DESCRIPTOR, self.job.cycles)
+
+    @functools.cached_property
+    def bodies(self) -> pd.DataFrame:
+        """The bodies at the end of the run."""
+        return _frame(job_pb2.FinalBody.DESCRIPTOR, self.job.final_bodies)
+
+    @functools.cached_property
+    def iterations(self) -> pd.DataFrame:
+        """The search for μ: a row for each cycle in each pass. `mu` and the bracket are in
+        N·s/m^(n+1)."""
+        rows = [{"episode": key[0], "pass": key[1], "start_time_s": iteration.start_time_s,
+                 **_row(unknown), "accepted": iteration.accepted}
+                for key, iteration in sorted(self._recording.iterations.items())
+                for unknown in iteration.unknowns]
+        fields = [field.name for field in event_pb2.Iteration.Unknown.DESCRIPTOR.fields]
+        return pd.DataFrame(
+            rows, columns=["episode", "pass", "start_time_s", *fields, "accepted"])
+
+    @property
+    def plot(self) -> Plots:
+        """Plots by preset, such as `plot.hysteresis()`; each returns its matplotlib Axes."""
+        return Plots(self)
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """What makes the result repeatable."""
+        spec = self.scenario.SerializeToString(deterministic=True)
+        return {"job": self.name, "server_version": self.job.server_version,
+                "scenario_sha256": hashlib.sha256(spec).hexdigest()}
+
+    def __repr__(self) -> str:
+        return f"<Result {self._headline()}>"
+
+    def _headline(self) -> str:
+        job = self.job
+        convergence = job_pb2.Job.Convergence.Name(job.convergence)
+        title = f" '{self.scenario.title}'" if self.scenario.title else ""
+        return (f"{job.name}{title}: {job_pb2.Job.State.Name(job.state)}, convergence "
+                f"{convergence}, {len(job.cycles)} cycles, {job.summary.iterations} iterations")
+
+    def _repr_html_(self) -> str:
+        ledger = self.cycles[list(_LEDGER)].to_html(index=False, max_rows=20)
+        bodies = self.bodies.to_html(index=False, max_rows=20)
+        return f"<p><b>{html.escape(self._headline())}</b></p>{ledger}{bodies}"
+
+
+def _row(message: Any) -> dict[str, Any]:
+    return {field.name: _value(field, getattr(message, field.name))
+            for field in message.DESCRIPTOR.fields}
+
+
+def _value(field: FieldDescriptor, value: Any) -> Any:
+    """Enum values by name; the unspecified one is empty."""
+    if not field.enum_type:
+        return value
+    return field.enum_type.values_by_number[value].name if value else ""
+
+
+def _frame(type_: Any, messages: Any) -> pd.DataFrame:
+    return pd.DataFrame([_row(message) for message in messages],
+                        columns=[field.name for field in type_.fields])

@@ -1,0 +1,89 @@
+"""Where a watch stands in a job's log, across connections."""
+
+from __future__ import annotations
+
+import random
+import time
+from typing import Iterable
+
+import grpc
+from contact.v1 import event_pb2, job_pb2, job_service_pb2
+
+from .errors import from_rpc
+
+FINAL = (job_pb2.Job.SUCCEEDED, job_pb2.Job.FAILED, job_pb2.Job.CANCELLED)
+
+_FIRST_PAUSE_S = 0.2
+_LONGEST_PAUSE_S = 10.0
+_GIVE_UP_AFTER_S = 300.0
+_GIVE_UP_AT_FIRST_S = 3.0  # Without any message yet: there may be no server at all.
+
+# Ends of a stream after which the same question may be asked again.
+_PASSING = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED, grpc.StatusCode.UNKNOWN,
+            grpc.StatusCode.INTERNAL, grpc.StatusCode.ABORTED,
+            grpc.StatusCode.DEADLINE_EXCEEDED, grpc.StatusCode.RESOURCE_EXHAUSTED)
+
+
+class Position:
+    """Takes what streams bring, so that each event is heard once and in order."""
+
+    def __init__(self, name: str, address: str, after_sequence: int = 0,
+                 kinds: Iterable[str] = (), deadline: float | None = None) -> None:
+        self.finished = False  #: The job ended, and all was heard.
+        self._name, self._address, self._kinds = name, address, tuple(kinds)
+        self._sequence = after_sequence
+        self._deadline = deadline  # Of time.monotonic().
+        self._pause_s = _FIRST_PAUSE_S
+        self._connected = False  # Ever.
+        self._lost_since: float | None = None
+
+    def request(self) -> job_service_pb2.WatchJobRequest:
+        """What to ask now."""
+        return job_service_pb2.WatchJobRequest(
+            name=self._name, after_sequence=self._sequence, kinds=self._kinds)
+
+    def time_left(self) -> float | None:
+        """Seconds until the watch must end; None for ever."""
+        return None if self._deadline is None else max(0.0, self._deadline - time.monotonic())
+
+    def take(self, message: job_service_pb2.WatchJobResponse) -> list[event_pb2.Event]:
+        """The events of a message that were not heard before."""
+        self._connected, self._lost_since, self._pause_s = True, None, _FIRST_PAUSE_S
+        if message.HasField("snapshot"):
+            # Asked for events after the last one: nothing but the end of the stream will come.
+            snapshot = message.snapshot
+            self.finished |= (snapshot.state in FINAL
+                              and self._sequence >= snapshot.last_sequence)
+        return [event for event in message.events if self._is_new(event)]
+
+    def _is_new(self, event: event_pb2.Event) -> bool:
+        kind = event.WhichOneof("payload")
+        if 0 < event.sequence <= self._sequence and kind not in ("bookmark", "gap"):
+            return False  # Heard before the connection was lost.
+        self._sequence = max(self._sequence, event.sequence)
+        self.finished |= kind == "state_changed" and event.state_changed.state in FINAL
+        return True
+
+    def lost(self, error: grpc.RpcError | None) -> float:
+        """How long to wait before another try, in seconds; `error` is None for an early end.
+
+        Raises CallError if another try is hopeless.
+        """
+        if error is not None:
+            self._require_hope(error)
+        # From half the pause to all of it: watchers of a restarted server do not come at once.
+        pause = self._pause_s * random.uniform(0.5, 1.0)
+        self._pause_s = min(2 * self._pause_s, _LONGEST_PAUSE_S)
+        left = self.time_left()
+        return pause if left is None else min(pause, left)
+
+    def _require_hope(self, error: grpc.RpcError) -> None:
+        failure = from_rpc(error, self._address)
+        now = time.monotonic()
+        if self._lost_since is None:
+            self._lost_since = now
+        full = not self._connected and failure.code == grpc.StatusCode.RESOURCE_EXHAUSTED
+        patience_s = _GIVE_UP_AFTER_S if self._connected else _GIVE_UP_AT_FIRST_S
+        if (failure.code not in _PASSING or full or self.time_left() == 0
+                or now - self._lost_since > patience_s):
+            raise failure from error

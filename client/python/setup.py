@@ -1,0 +1,25 @@
+"""Adds the modules generated from the contract to the package when it is built."""
+
+import pathlib
+import subprocess
+
+from setuptools import setup
+from setuptools.command.build_py import build_py
+
+PROTO = pathlib.Path(__file__).resolve().parents[2] / "proto"
+
+
+class BuildWithContract(build_py):
+    """Runs protoc with gRPC's plugin, as the build of the server does."""
+
+    def run(self):
+        super().run()
+        out = pathlib.Path(self.build_lib).resolve()
+        protos = sorted(str(path.relative_to(PROTO)) for path in PROTO.rglob("*.proto"))
+        services = [path for path in protos if path.endswith("service.proto")]
+        subprocess.run(["protoc", f"--python_out={out}", *protos], cwd=PROTO, check=True)
+        subprocess.run(["protoc", "--plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin",
+                        f"--grpc_out={out}", *services], cwd=PROTO, check=True)
+
+
+setup(cmdclass={"build_py": BuildWithContract})

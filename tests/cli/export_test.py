@@ -1,0 +1,113 @@
+"""contactctl export: what is written is what the job recorded, with units."""
+
+import csv
+import hashlib
+import io
+import json
+import re
+import unittest
+
+import netCDF4
+import numpy as np
+from contactctl_test import CHAIN, CliTest
+
+
+class ExportTest(CliTest):
+
+    def setUp(self):
+        super().setUp()
+        self.name = self.run_it("run", CHAIN, "-o", "name")[0].strip()
+        self.job = self.server.get(self.name)
+
+    def recorded(self):
+        """The trajectory as the server sends it, by name of column."""
+        columns = {}
+        for event in self.server.events(self.name, kinds=["frame_chunk"]):
+            for column in event.frame_chunk.columns:
+                columns.setdefault(column.name, []).append(np.frombuffer(column.values, "<f8"))
+        return {name: np.concatenate(parts) for name, parts in columns.items()}
+
+    def rows(self, *flags):
+        return list(csv.reader(io.StringIO(
+            self.run_it("export", self.name, "-o", "csv", *flags)[0])))
+
+    def test_csv_gives_every_double_back(self):
+        header, *rows = self.rows()
+        values = np.array(rows, dtype=float).T
+        recorded = self.recorded()
+        self.assertEqual([name.split(" [")[0] for name in header], list(recorded))
+        for column, expected in zip(values, recorded.values()):
+            np.testing.assert_array_equal(column, expected)
+
+    def test_every_column_of_numbers_names_its_unit(self):
+        for table in ("series", "cycles", "iterations", "bodies"):
+            header, first, *_ = self.rows("--table", table)
+            for name, value in zip(header, first):
+                if re.fullmatch(r"-?[0-9.e+-]+|nan", value):
+                    self.assertRegex(name, r" \[[^]]+\]$")
+                else:
+                    self.assertIn(name, ("contact", "kind", "end", "status", "update", "name"))
+
+    def test_every_number_of_the_ledger_is_exported(self):
+        header, *rows = self.rows("--table", "cycles")
+        fields = self.job.cycles[0].DESCRIPTOR.fields
+        self.assertEqual(len(header), len(fields))
+        for row, cycle in zip(rows, self.job.cycles):
+            for text, field in zip(row, fields):
+                value = getattr(cycle, field.name)
+                if field.enum_type:
+                    value = field.enum_type.values_by_number[value].name
+                self.assertEqual(text if isinstance(value, str) else float(text), value)
+
+    def test_json_lines_hold_a_row_each(self):
+        printed, _ = self.run_it("export", self.name, "-o", "jsonl", "--table", "iterations")
+        rows = [json.loads(line) for line in printed.splitlines()]
+        events = self.server.events(self.name, kinds=["iteration"])
+        unknowns = [u for e in events for u in e.iteration.unknowns]
+        self.assertEqual([row["mu [N s/m^(n+1)]"] for row in rows], [u.mu for u in unknowns])
+        self.assertEqual([row["accepted [1]"] for row in rows][-1], 1)
+
+    def test_netcdf_holds_all_tables_with_units_and_provenance(self):
+        path = self.folder / "chain.nc"
+        _, said = self.run_it("export", self.name, "-f", path)
+        self.assertIn("1001 samples, 2 cycles", said)
+        with netCDF4.Dataset(path) as data:
+            self.assertEqual(data.data_model, "NETCDF4")
+            for group in data.groups.values():
+                self.assertTrue(group.variables)
+                for variable in group.variables.values():
+                    self.assertTrue(variable.units)
+                    self.assertTrue(variable.long_name)
+            for name, expected in self.recorded().items():
+                np.testing.assert_array_equal(data["series"][name][:], expected)
+            self.assertEqual(data["series"]["B1-B2.contact_force"].units, "N")
+            self.assertEqual(list(data["cycles"]["contact"][:]), ["B1-B2", "B2-B3"])
+            self.assertEqual(list(data["cycles"]["mu"][:]), [c.mu for c in self.job.cycles])
+            scenario = self.job.scenario.SerializeToString(deterministic=True)
+            self.assertEqual(data.scenario_sha256, hashlib.sha256(scenario).hexdigest())
+            self.assertEqual(json.loads(data.scenario)["title"], "Triple-ball chain")
+            self.assertEqual(data.version, self.job.server_version)
+            self.assertEqual(data.job, self.name)
+            self.assertIsInstance(data.revision, str)
+
+    def test_run_without_contact_has_empty_tables(self):
+        name = self.run_it("run", CHAIN, "--set", "bodies[0].velocity_m_per_s=0",
+                           "--set", "output.ledger_only=true", "-o", "name")[0].strip()
+        path = self.folder / "still.nc"
+        self.run_it("export", name, "-f", path)
+        with netCDF4.Dataset(path) as data:
+            self.assertEqual(len(data["cycles"].dimensions["cycle"]), 0)
+            self.assertEqual(len(data["bodies"]["position"]), 3)
+
+    def test_wrong_uses_are_told(self):
+        self.assertIn("-f", self.run_it("export", self.name, "-o", "netcdf", code=2)[1])
+        self.run_it("export", self.name, "-o", "json", code=2)
+        self.run_it("export", self.name, "--table", "x", code=2)
+        self.run_it("export", "nix", code=6)
+        for name in ("x.csv", "x.nc"):
+            _, said = self.run_it("export", self.name, "-f", f"/nowhere/{name}", code=11)
+            self.assertIn(f"/nowhere/{name}: No such file or directory", said)
+
+
+if __name__ == "__main__":
+    unittest.main()

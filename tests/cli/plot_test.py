@@ -1,0 +1,123 @@
+"""contactctl plot: figures of a run, drawn by gnuplot."""
+
+import csv
+import os
+import subprocess
+import unittest
+
+import numpy as np
+from contactctl_test import CHAIN, PATIENCE_S, SCENARIOS, CliTest
+
+PRESETS = ("position", "velocity", "force", "deformation-velocity", "hysteresis", "restitution",
+           "iterations", "energy")
+
+
+class PlotTest(CliTest):
+
+    def setUp(self):
+        super().setUp()
+        self.name = self.submit(CHAIN)
+        self.job = self.server.get(self.name)
+
+    def submit(self, scenario, *flags):
+        return self.run_it("run", scenario, *flags, "-o", "name")[0].strip()
+
+    def plot(self, preset, file, *flags, name=None, code=0):
+        path = self.folder / file
+        printed, said = self.run_it("plot", name or self.name, preset, "-f", path, *flags,
+                                    code=code)
+        if code == 0:
+            self.assertEqual((printed, said), (f"{path}\n", ""))
+        return path.read_bytes() if code == 0 else said
+
+    def curves(self, preset):
+        """Points by name of curve."""
+        rows = list(csv.reader(self.plot(preset, "data.csv").decode().splitlines()))
+        curves = {}
+        for name, x, y in rows:
+            if name != "curve":
+                curves.setdefault(name, []).append((float(x), float(y)))
+        return {name: np.array(points) for name, points in curves.items()}
+
+    def test_every_preset_draws_every_shipped_scenario_in_silence(self):
+        for scenario in sorted(SCENARIOS.glob("*.yaml")):
+            name = self.submit(scenario)
+            for preset in PRESETS:
+                with self.subTest(f"{scenario.stem} {preset}"):
+                    self.assertIn(b"</svg>", self.plot(preset, "plot.svg", name=name))
+
+    def test_format_is_that_of_the_file_or_of_the_flag(self):
+        self.assertTrue(self.plot("force", "a.png").startswith(b"\x89PNG"))
+        self.assertTrue(self.plot("force", "a.pdf").startswith(b"%PDF"))
+        self.assertTrue(self.plot("force", "a.dat", "-o", "png").startswith(b"\x89PNG"))
+        self.assertTrue(self.plot("force", "a.csv").startswith(b"curve,time [s],force [N]"))
+
+    def test_same_run_gives_the_same_svg(self):
+        first = self.plot("hysteresis", "same.svg")
+        self.assertEqual(self.plot("hysteresis", "same.svg"), first)
+
+    def test_script_draws_the_figure_without_us(self):
+        drawn = self.plot("force", "alone.svg")
+        (self.folder / "alone.svg").unlink()
+        self.plot("force", "alone.gp")
+        subprocess.run(["gnuplot", "-d", self.folder / "alone.gp"], check=True,
+                       timeout=PATIENCE_S)
+        self.assertEqual((self.folder / "alone.svg").read_bytes(), drawn)
+
+    def test_script_and_data_are_kept_on_request(self):
+        keep = self.folder / "new" / "kept"
+        self.plot("energy", "e.png", "--keep", keep)
+        self.assertEqual({path.name for path in keep.iterdir()}, {"energy.gp", "energy.csv"})
+
+    def test_loops_have_the_area_of_the_energy_lost(self):
+        curves = self.curves("hysteresis")
+        for cycle in self.job.cycles:
+            delta, force = curves[cycle.contact].T
+            lost = cycle.work_compression_j + cycle.work_restitution_j
+            self.assertAlmostEqual(np.trapz(force, delta), lost, delta=1e-3 * lost)
+
+    def test_marks_stand_where_cycles_start_and_end(self):
+        curves = self.curves("deformation-velocity")
+        np.testing.assert_allclose(curves[" starts"],
+                                   [(c.start_time_s, c.approach_velocity_m_per_s)
+                                    for c in self.job.cycles], atol=1e-9)
+        np.testing.assert_allclose(curves[" ends"],
+                                   [(c.end_time_s, c.separation_velocity_m_per_s)
+                                    for c in self.job.cycles], atol=1e-5)
+
+    def test_energy_ends_at_the_kinetic_energy_of_the_summary(self):
+        total = self.curves("energy")["sum"][:, 1]
+        self.assertAlmostEqual(total[0], 0.01, delta=1e-15)
+        self.assertAlmostEqual(total[-1], self.job.summary.kinetic_energy_j, delta=1e-12)
+
+    def test_residual_falls_to_the_tolerance(self):
+        points = self.curves("iterations")["B1-B2 #1"]
+        passes = len(points) // 2  # μ, then the residual.
+        self.assertEqual(points[passes - 1, 1], self.job.cycles[0].mu)
+        self.assertLess(points[-1, 1], 2e-8)  # 2 ε² ξ
+
+    def test_words_of_a_user_cannot_become_commands(self):
+        title = "it's '; system \"touch pwned\" \\\" `touch pwned` $x @x {/Bold x}"
+        name = self.submit(CHAIN, "--set", f"title={title}")
+        svg = self.plot("force", "title.svg", name=name).decode()
+        self.assertIn("touch pwned", svg)
+        self.assertFalse(os.path.exists("pwned"))
+
+    def test_what_cannot_be_drawn_is_told(self):
+        name = self.submit(CHAIN, "--set", "output.ledger_only=true")
+        self.assertIn("ledger_only", self.plot("force", "x.svg", name=name, code=2))
+        self.assertIn("</svg>", self.plot("iterations", "x.svg", name=name).decode())
+        self.assertIn("hysteresis", self.plot("histeresis", "x.svg", code=2))
+        self.assertIn("/nowhere/x.svg: No such file",
+                      self.run_it("plot", self.name, "force", "-f", "/nowhere/x.svg", code=11)[1])
+
+    def test_missing_gnuplot_is_told_with_what_to_do(self):
+        run = subprocess.run(self.command("plot", self.name, "force", "-f", self.folder / "x.svg"),
+                             env={**os.environ, "PATH": str(self.folder)}, capture_output=True,
+                             text=True, timeout=PATIENCE_S)
+        self.assertEqual(run.returncode, 11)
+        self.assertIn("apt-get install gnuplot-nox", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,75 @@
+#include "cli/recording.h"
+
+#include <gmock/gmock.h>
+
+#include <cstring>
+
+namespace contact::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+v1::Event Chunk(std::int64_t first, const std::vector<double>& values) {
+  v1::Event event;
+  v1::FrameChunk& chunk = *event.mutable_frame_chunk();
+  chunk.set_first_sample(first);
+  chunk.set_samples(static_cast<std::int32_t>(values.size()));
+  v1::FrameChunk::Column& column = *chunk.add_columns();
+  column.set_name("time");
+  column.set_unit("s");
+  column.mutable_values()->resize(values.size() * sizeof(double));
+  std::memcpy(column.mutable_values()->data(), values.data(), values.size() * sizeof(double));
+  return event;
+}
+
+v1::Event Pass(int episode, int number) {
+  v1::Event event;
+  event.mutable_iteration()->set_episode(episode);
+  event.mutable_iteration()->set_number(number);
+  return event;
+}
+
+TEST(Recorder, JoinsChunksInOrderAndHearsEachOnce) {
+  Recorder recorder;
+  for (const auto& event : {Chunk(2, {3, 4}), Chunk(0, {1, 2}), Chunk(2, {3, 4})}) {
+    recorder.OnEvent(event);
+  }
+  EXPECT_FALSE(recorder.has_holes());
+  ASSERT_EQ(recorder.Columns().size(), 1U);
+  EXPECT_EQ(recorder.Columns()[0].unit, "s");
+  EXPECT_THAT(recorder.Columns()[0].values, ElementsAre(1, 2, 3, 4));
+}
+
+TEST(Recorder, NoticesChunksThatDidNotCome) {
+  Recorder recorder;
+  EXPECT_FALSE(recorder.has_holes());
+  recorder.OnEvent(Chunk(0, {1}));
+  recorder.OnEvent(Chunk(2, {3}));
+  EXPECT_TRUE(recorder.has_holes());
+  recorder.OnEvent(Chunk(1, {2}));
+  EXPECT_FALSE(recorder.has_holes());
+}
+
+TEST(Recorder, ForgetsEarlierAttempts) {
+  Recorder recorder;
+  recorder.OnEvent(Chunk(0, {1, 2}));
+  recorder.OnEvent(Pass(1, 0));
+  v1::Event again;
+  again.mutable_attempt_started()->set_attempt(2);
+  recorder.OnEvent(again);
+  EXPECT_THAT(recorder.Columns(), IsEmpty());
+  EXPECT_THAT(recorder.Iterations(), IsEmpty());
+}
+
+TEST(Recorder, OrdersPassesByEpisode) {
+  Recorder recorder;
+  for (const auto& event : {Pass(2, 0), Pass(1, 1), Pass(1, 0)}) recorder.OnEvent(event);
+  std::vector<int> order;
+  for (const auto& pass : recorder.Iterations())
+    order.push_back(10 * pass.episode() + pass.number());
+  EXPECT_THAT(order, ElementsAre(10, 11, 20));
+}
+
+}  // namespace
+}  // namespace contact::cli

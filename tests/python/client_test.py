@@ -1,0 +1,152 @@
+"""contactsim against a real contactd."""
+
+import asyncio
+import pathlib
+import threading
+import unittest
+
+import numpy as np
+from contactd import Job, ServerTest, endless, is_cycle, three_ball_chain
+from contactsim import (AsyncClient, Client, InvalidScenario, JobNotFound, RunFailed, Timeout,
+                        Unreachable)
+
+SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
+PATIENCE_S = 60
+
+
+class ClientTest(ServerTest):
+
+    def setUp(self):
+        super().setUp()
+        self.address = f"127.0.0.1:{self.server.port}"
+        self.client = Client(self.address)
+        self.addCleanup(self.client.close)
+
+    def test_run_of_a_file_gives_the_known_result_in_tables(self):
+        result = self.client.run(SCENARIOS / "three-ball-chain.yaml", timeout_s=PATIENCE_S)
+        self.assertTrue(result.converged)
+        self.assertEqual(list(result.cycles.contact), ["B1-B2", "B2-B3"])
+        self.assertEqual(list(result.cycles.status), ["CONVERGED"] * 2)
+        np.testing.assert_allclose(result.cycles.mu, [2.259378079e8, 4.563828953e8], rtol=1e-6)
+        np.testing.assert_allclose(
+            result.bodies.velocity_m_per_s,
+            [-0.003731206344, 0.048726255138, 0.155004951207], atol=1e-8)
+        self.assertEqual(result["time"][-1], 4e-3)
+        self.assertEqual(result.series.shape, (1001, 15))
+        self.assertEqual(result.series.columns[2], "B1.velocity [m/s]")
+        self.assertTrue(np.shares_memory(result.series["B1.velocity [m/s]"].to_numpy(),
+                                         result["B1.velocity"]))
+        last = result.iterations[result.iterations.accepted]
+        self.assertTrue((last.residual.abs() < 2e-8).all())
+        self.assertEqual(len(result.provenance["scenario_sha256"]), 64)
+
+    def test_dict_and_message_make_the_same_run(self):
+        source = {"bodies": [{"name": "A", "mass_kg": 1, "velocity_m_per_s": 1},
+                             {"name": "B", "mass_kg": 1, "position_m": 0.001}],
+                  "contacts": [{"between": ["A", "B"], "stiffness": 1e8, "restitution": 0.5}],
+                  "end_time_s": 0.01}
+        first = self.client.run(source)
+        self.assertAlmostEqual(first.bodies.velocity_m_per_s[0], 0.25, delta=1e-8)
+        again = self.client.run(first.scenario)
+        self.assertTrue(first.series.equals(again.series))
+
+    def test_result_can_be_fetched_later_and_shown_in_a_notebook(self):
+        name = self.client.submit(three_ball_chain(title="<b>&")).name
+        result = self.client.result(name.removeprefix("jobs/"), timeout_s=PATIENCE_S)
+        self.assertEqual(len(result.series), 1001)
+        shown = result._repr_html_()
+        self.assertIn("&lt;b&gt;&amp;", shown)
+        self.assertIn("COLLISION", shown)
+        self.assertIn("SUCCEEDED", repr(result))
+
+    def test_events_are_heard_while_the_job_runs_and_once(self):
+        events = []
+        self.client.run(three_ball_chain(), on_event=events.append)
+        self.assertWholeLog(events)
+
+    def test_watch_survives_a_server_that_restarts(self):
+        name = self.client.submit(endless()).name
+        seen = []
+        for event in self.client.watch(name, timeout_s=PATIENCE_S):
+            seen.append(event)
+            if sum(map(is_cycle, seen)) == 3:
+                break
+        port = self.server.port
+        flags = self.server.flags
+        self.server.kill()
+        after = max(event.sequence for event in seen)
+        self.addCleanup(self.server.kill)
+        heard = []
+
+        def listen():
+            for event in self.client.watch(name, after_sequence=after, timeout_s=PATIENCE_S):
+                heard.append(event)
+
+        # A listener that is connected when the link breaks again.
+        self.server.flags = (*flags, f"--listen=127.0.0.1:{port}")
+        self.server.start()
+        listener = threading.Thread(target=listen)
+        listener.start()
+        self.server.wait_until(name, lambda e: e.sequence > after and is_cycle(e))
+        self.server.kill()
+        self.server.start()
+        self.server.wait_until(name, lambda e: e.HasField("attempt_started")
+                               and e.attempt_started.attempt == 3)
+        self.server.cancel(name)
+        listener.join(PATIENCE_S)
+        self.assertFalse(listener.is_alive())
+        self.assertWholeLog(heard, after)
+
+    def test_asynchronous_client_runs_jobs_side_by_side(self):
+
+        async def run():
+            async with AsyncClient(self.address) as client:
+                return await asyncio.gather(*(
+                    client.run(three_ball_chain(), timeout_s=PATIENCE_S) for _ in range(3)))
+
+        results = asyncio.run(run())
+        self.assertEqual(len({result.name for result in results}), 3)
+        for result in results:
+            np.testing.assert_array_equal(result["B3.velocity"], results[0]["B3.velocity"])
+
+    def test_list_finds_jobs_by_state_and_label(self):
+        self.client.run(three_ball_chain(), labels={"law": "a"})
+        second = self.client.run(three_ball_chain(), labels={"law": "b"})
+        self.assertEqual([job.name for job in self.client.list(labels={"law": "b"})],
+                         [second.name])
+        self.assertEqual(len(list(self.client.list(states=["SUCCEEDED"]))), 2)
+        self.client.delete(second)
+        with self.assertRaises(JobNotFound) as caught:
+            self.client.get(second)
+        self.assertEqual(caught.exception.reason, "JOB_NOT_FOUND")
+
+    def test_cancelled_job_is_no_result_but_keeps_what_it_recorded(self):
+        job = self.client.submit(endless())
+        next(filter(is_cycle, self.client.watch(job, timeout_s=PATIENCE_S)))
+        with self.assertRaises(Timeout):
+            self.client.wait(job, timeout_s=0.05)
+        self.client.cancel(job)
+        self.assertEqual(self.client.wait(job, timeout_s=PATIENCE_S).state, Job.CANCELLED)
+        with self.assertRaisesRegex(RunFailed, "CANCELLED") as caught:
+            self.client.result(job)
+        self.assertGreater(len(caught.exception.job.cycles), 0)
+
+    def test_rules_of_the_server_are_told_with_field_path(self):
+        scenario = three_ball_chain()
+        scenario.bodies[0].mass_kg = -1
+        scenario.contacts[1].between[1] = "B4"
+        for check in (self.client.submit, self.client.validate):
+            with self.assertRaises(InvalidScenario) as caught:
+                check(scenario)
+            fields = [v.field for v in caught.exception.violations]
+            self.assertEqual(fields, ["bodies[0].mass_kg", "contacts[1].between[1]"])
+        self.assertIn("bodies[0].mass_kg: is -1; must be in (0, 1e12]", str(caught.exception))
+
+    def test_missing_server_is_told_with_what_to_do(self):
+        with Client("127.0.0.1:1") as client, self.assertRaises(Unreachable) as caught:
+            client.run(three_ball_chain())
+        self.assertIn("contactd --listen 127.0.0.1:1", str(caught.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,36 @@
+"""The package as it is installed: with the modules generated from the contract."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).parents[2]
+
+
+class PackageTest(unittest.TestCase):
+
+    def test_built_package_needs_nothing_of_the_source_tree(self):
+        with tempfile.TemporaryDirectory() as folder:
+            # A copy, because setuptools leaves files beside the sources.
+            for part in ("client/python", "proto"):
+                shutil.copytree(ROOT / part, pathlib.Path(folder) / part)
+            built = pathlib.Path(folder) / "built"
+            subprocess.run([sys.executable, "setup.py", "-q", "build", "--build-lib", built],
+                           cwd=pathlib.Path(folder) / "client/python", check=True, timeout=120,
+                           capture_output=True)
+            self.assertTrue((built / "contactsim" / "py.typed").exists())
+            environment = {**os.environ, "PYTHONPATH": str(built)}
+            said = subprocess.run(
+                [sys.executable, "-B", "-c",
+                 "import contactsim, contact.v1.job_pb2 as j; print(j.__file__)"],
+                cwd=folder, env=environment, check=True, timeout=120, capture_output=True,
+                text=True)
+            self.assertTrue(said.stdout.startswith(str(built)), said.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

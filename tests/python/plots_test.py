@@ -1,0 +1,66 @@
+"""The plots show the data of the run, with a mark where each cycle starts and ends."""
+
+import pathlib
+import unittest
+
+import matplotlib.pyplot as plt
+import numpy as np
+from contactd import ServerTest
+from contactsim import Client
+from contactsim.plotting import PRESETS
+
+SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
+
+
+class PlotsTest(ServerTest):
+
+    def setUp(self):
+        super().setUp()
+        self.addCleanup(plt.close, "all")
+        self.client = Client(f"127.0.0.1:{self.server.port}")
+        self.addCleanup(self.client.close)
+        self.chain = self.client.run(SCENARIOS / "three-ball-chain.yaml")
+
+    def test_every_preset_draws_every_shipped_scenario(self):
+        for path in sorted(SCENARIOS.glob("*.yaml")):
+            result = self.client.run(path)
+            for preset in PRESETS:
+                with self.subTest(f"{path.stem} {preset}"):
+                    axes = np.ravel(result.plot(preset))
+                    axes[0].figure.savefig(self.folder / "plot.svg")
+                    for ax in axes:
+                        self.assertTrue(ax.get_ylabel())
+                        self.assertTrue(ax.lines)
+                    plt.close("all")
+
+    def test_loop_of_the_hysteresis_has_the_area_of_the_energy_lost(self):
+        ax = self.chain.plot.hysteresis()
+        loops = [line.get_xydata() for line in ax.lines if len(line.get_xydata()) > 10]
+        for cycle, loop in zip(self.chain.job.cycles, loops):
+            area = np.trapz(loop[:, 1], loop[:, 0])
+            lost = cycle.work_compression_j + cycle.work_restitution_j
+            self.assertAlmostEqual(area, lost, delta=1e-3 * lost)
+
+    def test_energy_falls_by_what_the_cycles_dissipate(self):
+        total = self.chain.plot.energy().lines[-1].get_ydata()
+        self.assertAlmostEqual(total[0], 0.01, delta=1e-15)
+        self.assertAlmostEqual(total[-1], self.chain.job.summary.kinetic_energy_j, delta=1e-12)
+        self.assertTrue((np.diff(total) < 1e-9).all())
+
+    def test_marks_stand_where_cycles_start_and_end(self):
+        ax = self.chain.plot.deformation_velocity()
+        marks = {line.get_marker(): line.get_xydata()[0] for line in ax.lines[:3]}
+        cycle = self.chain.job.cycles[0]
+        self.assertAlmostEqual(marks["o"][1], cycle.approach_velocity_m_per_s, delta=1e-9)
+        self.assertEqual(marks["x"][0], cycle.end_time_s)
+        self.assertAlmostEqual(marks["x"][1], cycle.separation_velocity_m_per_s, delta=1e-5)
+
+    def test_presets_share_axes_and_unknown_ones_are_refused(self):
+        ax = plt.subplots()[1]
+        self.assertIs(self.chain.plot("deformation-velocity", ax), ax)
+        with self.assertRaisesRegex(ValueError, "hysteresis"):
+            self.chain.plot("histeresis")
+
+
+if __name__ == "__main__":
+    unittest.main()

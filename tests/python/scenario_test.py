@@ -1,0 +1,85 @@
+"""Scenarios from dicts and files, and what is said of wrong ones."""
+
+import pathlib
+import tempfile
+import unittest
+
+from contact.v1 import scenario_pb2
+from contactsim import InvalidScenario, load_scenario
+
+SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
+
+
+class LoadTest(unittest.TestCase):
+
+    def load_text(self, text):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            return load_scenario(file.name)
+
+    def assertInvalid(self, source, *lines):
+        with self.assertRaises(InvalidScenario) as caught:
+            load_scenario(source)
+        self.assertEqual([str(v) for v in caught.exception.violations], list(lines))
+
+    def test_every_shipped_scenario_is_read(self):
+        for path in SCENARIOS.glob("*.yaml"):
+            with self.subTest(path.name):
+                scenario = load_scenario(path)
+                self.assertGreater(scenario.end_time_s, 0)
+                self.assertGreater(scenario.contacts[0].stiffness, 1e6)
+
+    def test_numbers_need_no_point_and_names_may_look_like_truths(self):
+        scenario = self.load_text(
+            "bodies: [{name: on, mass_kg: 1e3, fixed: true}]\nsolver: {max_steps: 1e9}\n"
+            "end_time_s: .inf\n")
+        self.assertEqual(scenario.bodies[0].name, "on")
+        self.assertEqual(scenario.bodies[0].mass_kg, 1000)
+        self.assertTrue(scenario.bodies[0].fixed)
+        self.assertEqual(scenario.solver.max_steps, 10**9)
+        self.assertEqual(scenario.end_time_s, float("inf"))
+
+    def test_json_file_and_dict_and_message_are_one(self):
+        text = '{"bodies": [{"name": "A", "mass_kg": 2}], "loads": [{"gravity": {}}]}'
+        message = scenario_pb2.Scenario(
+            bodies=[scenario_pb2.Body(name="A", mass_kg=2)],
+            loads=[scenario_pb2.Load(gravity=scenario_pb2.Load.Gravity())])
+        source = {"bodies": [{"name": "A", "mass_kg": 2}], "loads": [{"gravity": {}}]}
+        self.assertEqual(self.load_text(text), message)
+        self.assertEqual(load_scenario(source), message)
+        self.assertIs(load_scenario(message), message)
+
+    def test_enum_is_read_in_any_case(self):
+        scenario = load_scenario({"contacts": [{"damping": "hunt-crossley"}]})
+        self.assertEqual(scenario.contacts[0].damping, scenario_pb2.Contact.HUNT_CROSSLEY)
+
+    def test_all_mistakes_are_told_at_once_with_path_and_hint(self):
+        with self.assertRaises(InvalidScenario) as caught:
+            load_scenario({
+                "bodies": [{"name": 7, "mas_kg": 1}],
+                "contacts": [{"restitution": "0,8", "damping": "FLORS"}],
+                "supports": {},
+                "loads": [{"constant": {}, "sine": {}}],
+                "solver": {"max_iterations": 1.5},
+                "output": {"ledger_only": 1},
+                "end_time_s": True,
+            })
+        violations = {v.field: v for v in caught.exception.violations}
+        self.assertEqual(list(violations), [
+            "bodies[0].name", "bodies[0].mas_kg", "contacts[0].restitution",
+            "contacts[0].damping", "supports", "loads[0].sine", "solver.max_iterations",
+            "output.ledger_only", "end_time_s"])
+        self.assertEqual(violations["bodies[0].mas_kg"].hint, "did you mean 'mass_kg'?")
+        self.assertIn("did you mean FLORES?", violations["contacts[0].damping"].hint)
+        self.assertIn("contacts[0].restitution: expected a number, got '0,8'",
+                      str(caught.exception))
+
+    def test_document_that_is_no_mapping_is_refused(self):
+        self.assertInvalid({"bodies": "A"}, "bodies: expected a list, got 'A'")
+        with self.assertRaises(InvalidScenario):
+            self.load_text("just a word")
+
+
+if __name__ == "__main__":
+    unittest.main()
