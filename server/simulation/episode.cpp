@@ -56,8 +56,10 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
   start_time_ = start.time;
   damping_ = 1;
   best_merit_ = merit_ = std::numeric_limits<double>::infinity();
-  const bool adaptive = !as_paper_ && scenario_.solver.fixed_step == 0;
-  tolerance_ = adaptive ? std::max(kCoarse, scenario_.solver.relative_tolerance) : 0;
+  const SolverOptions& options = scenario_.solver;
+  // A clipped force has a kink that a coarse pass may miss.
+  const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
+  tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
   sensitive_ = !as_paper_;
   if (nothing_to_find_) return Motion::Pause::kQuiet;
   int best_number = 0;
@@ -113,7 +115,7 @@ void EpisodeSolver::PlanNextPass() {
   const double next = merit_ * merit_;
   const bool full = damping_ == 1;
   sensitive_ = !(Exact() && full && next <= 0.1 * wanted);
-  if (full && next * next <= 10 * wanted) tolerance_ = 0;
+  if (!full || next * next <= 10 * wanted) tolerance_ = 0;
 }
 
 Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& stop,
