@@ -121,6 +121,15 @@ CallFailure::CallFailure(const grpc::Status& status, const std::string& server)
   }
 }
 
+Failure CallFailure::AllTold() const {
+  std::string text;
+  for (const Violation& violation : violations_) {
+    text +=
+        fmt::format("{}{}: {}", text.empty() ? "" : "\n", violation.field, violation.description);
+  }
+  return {code(), violations_.empty() ? what() : text};
+}
+
 Client::Client(std::string server, std::chrono::milliseconds call_timeout)
     : server_(std::move(server)), call_timeout_(call_timeout) {
   RequireAddress(server_);

@@ -20,7 +20,10 @@ class CallFailure : public Failure {
 
   grpc::StatusCode status() const { return status_; }
   const std::string& reason() const { return reason_; }  ///< ErrorInfo.reason; may be empty.
-  const std::vector<Violation>& violations() const { return violations_; }  ///< Of a scenario.
+  const std::vector<Violation>& violations() const { return violations_; }  ///< Of a request.
+
+  /// The same with every violation in its message, a line each; itself without any.
+  Failure AllTold() const;
 
  private:
   grpc::StatusCode status_;

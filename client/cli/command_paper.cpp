@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "cli/commands.h"
-#include "cli/interrupt.h"
 #include "cli/number.h"
 #include "cli/paper/items.h"
 
@@ -42,8 +41,7 @@ ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
                   fmt::format("cannot make {}: {}", arguments.directory, error.message()));
   }
   Client client = settings.Connect();
-  Interrupt interrupt;
-  Lab lab(client);
+  Lab lab(client, settings);
   const std::vector<PaperItem> items = MakePaperItems(chosen, lab);
   for (const PaperItem& item : items) Write(item, arguments.directory);
   fmt::print("{}", Summary(items, settings.OutputStyle()));

@@ -34,13 +34,7 @@ v1::Series Get(Client& client, const SeriesArguments& arguments) {
   try {
     return client.Call(&Client::Stub::GetSeries, Request(arguments));
   } catch (const CallFailure& failure) {
-    if (failure.violations().empty()) throw;
-    std::string text;
-    for (const Violation& violation : failure.violations()) {
-      text +=
-          fmt::format("{}{}: {}", text.empty() ? "" : "\n", violation.field, violation.description);
-    }
-    throw Failure(failure.code(), text);
+    throw failure.AllTold();
   }
 }
 

@@ -119,13 +119,7 @@ v1::Job Create(Client& client, const v1::CreateJobRequest& request) {
   try {
     return client.Call(&Client::Stub::CreateJob, request);
   } catch (const CallFailure& failure) {
-    if (failure.violations().empty()) throw;
-    std::string text;
-    for (const Violation& violation : failure.violations()) {
-      text +=
-          fmt::format("{}{}: {}", text.empty() ? "" : "\n", violation.field, violation.description);
-    }
-    throw Failure(failure.code(), text);
+    throw failure.AllTold();
   }
 }
 

@@ -147,7 +147,7 @@ double Motion::Deformation(int contact, const double* y) const {
 
 void Motion::PrepareInterpolation() {
   rk_.PrepareInterpolation(equations_, step_);
-  evaluations_ += 3;
+  if (fixed_step_ == 0) evaluations_ += 3;
 }
 
 Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* listener,

@@ -9,6 +9,7 @@ namespace contact {
 namespace {
 
 constexpr int kMaxRejections = 60;
+constexpr int kClassicalEvaluations = 4;  // In a step with its end.
 constexpr int kMaxLandings = 8;
 // A step that would come this near to a separation goes for it,
 constexpr double kReach = 0.7;
@@ -74,7 +75,7 @@ void Motion::TakeFixedStep(double until) {
   rk_.Step(equations_, step_);
   rk_.FinishStep(equations_, step_);
   ++steps_;
-  evaluations_ += 4;
+  evaluations_ += kClassicalEvaluations;
 }
 
 bool Motion::TakeStep(double until) {
@@ -197,7 +198,7 @@ void Motion::Repeat(double h, bool parting) {
   rk_.Step(equations_, step_);
   rk_.FinishStep(equations_, step_);
   ++steps_;
-  evaluations_ += 12;
+  evaluations_ += fixed_step_ > 0 ? kClassicalEvaluations : 12;
 }
 
 // By how much the step must be longer to end on the event, to first order.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <condition_variable>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -104,6 +105,20 @@ class LogReader {
 /// A manager with its store in a folder of its own, a fake solver, and calls that wait.
 class JobsTest : public testing::Test {
  protected:
+  // Leaves what a killed process would leave: a copy of its files at this moment.
+  void Crash() {
+    TempDirectory image;
+    for (const char* file : {"contactd.db", "contactd.db-wal", "initialised"}) {
+      std::filesystem::copy(directory_.path() / file, image.path() / file);
+    }
+    manager_.reset();
+    store_.reset();
+    for (const auto& file : std::filesystem::directory_iterator(directory_.path())) {
+      std::filesystem::remove(file);
+    }
+    std::filesystem::copy(image.path(), directory_.path());
+  }
+
   void Open(JobManagerOptions options = {}, StoreOptions store_options = {}) {
     manager_.reset();
     store_.reset();

@@ -22,22 +22,7 @@ std::vector<std::string> Story(const std::vector<v1::Event>& log) {
   return story;
 }
 
-class RecoveryTest : public JobsTest {
- protected:
-  // Leaves what a killed process would leave: a copy of its files at this moment.
-  void Crash() {
-    TempDirectory image;
-    for (const char* file : {"contactd.db", "contactd.db-wal", "initialised"}) {
-      std::filesystem::copy(directory_.path() / file, image.path() / file);
-    }
-    manager_.reset();
-    store_.reset();
-    for (const auto& file : std::filesystem::directory_iterator(directory_.path())) {
-      std::filesystem::remove(file);
-    }
-    std::filesystem::copy(image.path(), directory_.path());
-  }
-};
+class RecoveryTest : public JobsTest {};
 
 TEST_F(RecoveryTest, JobsGoOnAfterACrash) {
   OpenWithFakeRun();

@@ -50,19 +50,6 @@ class SweepTest : public JobsTest {
     }
     return cells;
   }
-  // Leaves what a killed process would leave: a copy of its files at this moment.
-  void Crash() {
-    TempDirectory image;
-    for (const char* file : {"contactd.db", "contactd.db-wal", "initialised"}) {
-      std::filesystem::copy(directory_.path() / file, image.path() / file);
-    }
-    manager_.reset();
-    store_.reset();
-    for (const auto& file : std::filesystem::directory_iterator(directory_.path())) {
-      std::filesystem::remove(file);
-    }
-    std::filesystem::copy(image.path(), directory_.path());
-  }
 };
 
 TEST_F(SweepTest, ManyWorkersFindWhatOneFinds) {

@@ -2,40 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <bit>
-#include <cstdint>
-#include <cstring>
-
-#include "cli/interrupt.h"
-#include "cli/watch.h"
-
 namespace contact::cli {
 namespace {
 
-// So many wait for a worker at once, below what any server's queue takes.
+// So many wait for a worker at once, well below what a server's queue takes by default.
 constexpr std::size_t kBatch = 32;
 
-static_assert(std::endian::native == std::endian::little, "columns are little-endian");
-
-class Frames : public WatchObserver {
- public:
-  explicit Frames(Solved* solved) : solved_(solved) {}
-
-  void OnEvent(const v1::Event& event) override {
-    for (const v1::FrameChunk::Column& column : event.frame_chunk().columns()) {
-      std::vector<double>& values = solved_->series[column.name()];
-      const std::size_t old = values.size();
-      values.resize(old + column.values().size() / sizeof(double));
-      std::memcpy(values.data() + old, column.values().data(),
-                  (values.size() - old) * sizeof(double));
-    }
-  }
-
- private:
-  Solved* solved_;
-};
-
 }  // namespace
+
+const std::vector<double>& Solved::operator[](const std::string& column) const {
+  const SampleColumn* found = Find(column);
+  if (found == nullptr) {
+    throw Failure(ExitCode::kRunFailed,
+                  fmt::format("{} has no column {}", job.scenario().title(), column));
+  }
+  return found->values;
+}
 
 std::vector<v1::Cycle> Solved::Cycles(const std::string& contact) const {
   std::vector<v1::Cycle> cycles;
@@ -68,18 +50,7 @@ std::string Lab::Submit(const v1::Scenario& scenario) {
 }
 
 Solved Lab::Collect(const std::string& name) {
-  Solved solved;
-  Frames frames(&solved);
-  WatchOptions options;
-  options.name = name;
-  options.kinds = {"frame_chunk"};
-  options.stopped = Interrupt::raised;
-  if (Watch(client_, options, frames) != WatchEnd::kFinished) {
-    throw Failure(ExitCode::kInterrupted, "interrupted; its jobs carry made-by=contactctl-paper");
-  }
-  v1::GetJobRequest get;
-  get.set_name(name);
-  solved.job = client_.Call(&Client::Stub::GetJob, get);
+  Solved solved{ReadRecording(client_, name, settings_)};
   if (solved.job.state() != v1::Job::SUCCEEDED) {
     throw Failure(ExitCode::kRunFailed,
                   fmt::format("{} ({}): {}", name, solved.job.scenario().title(),

@@ -1,25 +1,17 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "cli/client.h"
-#include "contact/v1/event.pb.h"
-#include "contact/v1/job.pb.h"
+#include "cli/recording.h"
 
 namespace contact::cli {
 
 /// What a scenario came to.
-struct Solved {
-  v1::Job job;  ///< With its ledger.
-  /// The trajectory by column name, such as `time` or `B1.velocity`; empty if none was recorded.
-  std::map<std::string, std::vector<double>> series;
-
-  /// A column. Throws std::out_of_range.
-  const std::vector<double>& operator[](const std::string& column) const {
-    return series.at(column);
-  }
+struct Solved : Recording {
+  /// The values of a column of the trajectory, such as `B1.velocity`. Throws Failure if there is
+  /// none.
+  const std::vector<double>& operator[](const std::string& column) const;
   /// The ledger's rows of a contact, in order.
   std::vector<v1::Cycle> Cycles(const std::string& contact) const;
 };
@@ -27,7 +19,7 @@ struct Solved {
 /// Has scenarios solved by a server.
 class Lab {
  public:
-  explicit Lab(Client& client) : client_(client) {}
+  Lab(Client& client, const Settings& settings) : client_(client), settings_(settings) {}
 
   /// Solves all of them, as far as the server can at the same time, in the order given. Their jobs
   /// are deleted. Throws Failure if one does not end well.
@@ -39,6 +31,7 @@ class Lab {
   Solved Collect(const std::string& name);
 
   Client& client_;
+  const Settings& settings_;
 };
 
 }  // namespace contact::cli
