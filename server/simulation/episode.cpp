@@ -9,10 +9,13 @@ namespace {
 
 constexpr double kForever = 1e300;
 constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
-constexpr std::int64_t kStepsPerPass = 20'000;
+constexpr std::int64_t kStepsPerPass = 5'000;
 constexpr int kPatience = 12;          // Corrections without a better pass.
 constexpr double kCoarse = 1e-6;       // Relative tolerance of the first passes, and
 constexpr double kCoarseError = 1e-4;  // the residual that it may feign.
+constexpr int kFirstWindow = 12;       // Cycles in the first passes,
+constexpr double kNear = 0.02;         // half as many more where the merit is below this.
+constexpr double kWeak = 1e-5;         // W_c of a contact's largest.
 constexpr double kLeastGoal = 1e-6;    // A(ε_in) to which residuals are relative.
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -45,6 +48,7 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
   tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
   sensitive_ = !as_paper_;
+  window_ = as_paper_ ? motion_.max_cycles() : kFirstWindow;
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
 }
 
@@ -61,6 +65,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, const std::stop_token& st
           pause != Motion::Pause::kTimeUp) {
         return pause;
       }
+      crowded_ = pause == Motion::Pause::kCrowded && window_ < motion_.max_cycles();
       closed_ = pause == Motion::Pause::kQuiet && motion_.time() < until_;
     }
     stage_ = Stage::kSolving;
@@ -88,6 +93,11 @@ void EpisodeSolver::BeginRecording() {
 
 // Looks at the pass that has been, and decides on the next.
 void EpisodeSolver::NextPass() {
+  if (crowded_ && Merit() < kNear) {
+    window_ = std::min(window_ + window_ / 2, motion_.max_cycles());
+    best_merit_ = merit_ = std::numeric_limits<double>::infinity();
+    return;
+  }
   const bool done = Done();
   if (!Exact() && (done || Merit() < kCoarseError)) {
     // The same once more, exactly.
@@ -144,7 +154,12 @@ void EpisodeSolver::ForgetPass() {
   columns_ = 0;
   reference_speed_ = 0;
   for (Unknown& u : unknowns_) {
-    u.ended = false;
+    if (!u.seen && u.iterated) {  // A phantom; should it come back, it begins anew.
+      u.corrected = false;
+      u.low = u.high = 0;
+      u.shrinks = u.grows = 0;
+    }
+    u.seen = u.ended = false;
     u.squared = u.residual = kNaN;
     u.column = kNone;
   }
@@ -153,7 +168,7 @@ void EpisodeSolver::ForgetPass() {
 Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& stop,
                                   std::int64_t step_limit) {
   ForgetPass();
-  motion_.Begin(start, false, tolerance_);
+  motion_.Begin(start, false, tolerance_, window_);
   const std::int64_t limit = std::min(step_limit, motion_.steps() + kStepsPerPass);
   const Motion::Pause pause = motion_.Advance(kForever, *this, nullptr, stop, limit);
   // A contact at rest may never end its cycle; what has ended can still be solved.
@@ -177,7 +192,7 @@ double EpisodeSolver::SolvedUntil(double until) const {
   bool any = false;
   for (const Unknown& u : unknowns_) {
     any |= u.ended;
-    if (!u.ended) solved = std::min(solved, u.start_time);
+    if (u.seen && !u.ended) solved = std::min(solved, u.start_time);
   }
   return any && solved > start_time_ ? solved : until;
 }
@@ -193,7 +208,6 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
     Unknown made;
     made.contact = cycle.contact;
     made.number = cycle.number;
-    made.mu = made.start_mu = made.best_mu = StartFactor(state, effective_mass, external_force);
     made.iterated = contact.damping == DampingLaw::kEnergyRestitution && contact.restitution < 1;
     if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
     if (made.iterated) made.goal = std::max(ExactCoefficient(contact.restitution), kLeastGoal);
@@ -202,6 +216,10 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
     }
     unknowns_.push_back(made);
     u = &unknowns_.back();
+  }
+  u->seen = true;
+  if (!u->corrected) {  // The μ of its neighbours may tell more by now.
+    u->mu = u->start_mu = u->best_mu = StartFactor(state, effective_mass, external_force);
   }
   u->pass_mu = u->mu;
   u->start_time = cycle.start_time;
@@ -232,6 +250,9 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
   if (as_paper_) return PaperStartFactor(state, contact, own);
   if (own > 0) return alpha * contact.stiffness / own;
   if (state.last_mu > 0) return state.last_mu;
+  if (const double speed = NeighbourSpeed(contact); speed > 0) {
+    return alpha * contact.stiffness / speed;
+  }
   if (reference_speed_ > 0) return alpha * contact.stiffness / reference_speed_;
   // At rest under a load: the speed with which it swings through its equilibrium.
   const double depth =
@@ -239,6 +260,20 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
   const double stiffness = contact.stiffness * Power(depth, contact.exponent).slope;
   const double speed = depth * std::sqrt(stiffness / effective_mass);
   return speed > 0 ? alpha * contact.stiffness / speed : alpha * contact.stiffness;
+}
+
+// The approach velocity that an isolated collision with the μ of the cycle last begun by a
+// neighbour would have; 0 without such.
+double EpisodeSolver::NeighbourSpeed(const Contact& contact) const {
+  for (auto u = unknowns_.rbegin(); u != unknowns_.rend(); ++u) {
+    const Contact& other = scenario_.contacts[At(u->contact)];
+    const bool shares = (contact.left != kNone && contact.left == other.right) ||
+                        (contact.right != kNone && contact.right == other.left);
+    if (shares && u->seen && u->iterated && u->mu > 0 && u->number == 1) {
+      return u->goal * other.stiffness / u->mu;
+    }
+  }
+  return 0;
 }
 
 void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
@@ -265,8 +300,10 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
                           const Eigen::ArrayXd& restitution_gradient, double length, double speed) {
   Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  const bool weak =
-      cycle.work_compression <= scenario_.solver.settled_fraction * state.largest_work;
+  const SolverOptions& options = scenario_.solver;
+  const double fraction =
+      cycle.kind == Cycle::Kind::kNirv ? options.settled_nirv_fraction : options.settled_fraction;
+  const bool weak = cycle.work_compression <= fraction * state.largest_work;
   const bool rested = state.settled;
   state.settled = weak;
   Unknown* u = Find(cycle.contact, cycle.number);
@@ -281,6 +318,7 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
     if (u->iterated && std::isfinite(u->squared)) Measure(*u);
     u->gradient =
         -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
+    u->weak = cycle.work_compression <= kWeak * state.largest_work;
     if (weak && u->iterated) {
       u->iterated = false;
       u->status = Cycle::Status::kSettled;
@@ -336,12 +374,17 @@ bool EpisodeSolver::Live(const Unknown& u) const {
   return u.iterated && u.ended && std::isfinite(u.squared);
 }
 
+// Weak cycles do not tell whether a correction was good: they come and go with it.
 double EpisodeSolver::Merit() const {
-  double merit = 0;
+  double merit = 0, weak = 0;
+  bool strong = false;
   for (const Unknown& u : unknowns_) {
-    if (Live(u)) merit = std::max(merit, std::abs(u.residual));
+    if (!Live(u)) continue;
+    strong |= !u.weak;
+    double& worst = u.weak ? weak : merit;
+    worst = std::max(worst, std::abs(u.residual));
   }
-  return merit;
+  return strong ? merit : weak;
 }
 
 void EpisodeSolver::Report(int number, double time, bool accepted_pass) {

@@ -68,13 +68,15 @@ class EpisodeSolver final : public CycleHost {
     bool iterated = false;              // By Newton; else given, settled or found infeasible.
     Cycle::Status status = Cycle::Status::kNotConverged;
     int column = kNone;
-    bool ended = false;            // In the last pass.
-    double length = 0, speed = 0;  // Scales of its motion in the first pass.
-    double squared = kNaN;         // ε_out² = −W_r/W_c of the last pass.
-    Eigen::ArrayXd gradient;       // ∂ε_out²/∂μ of each column.
-    double frozen_slope = kNaN;    // Paper (30).
-    double low = 0, high = 0;      // μ known to give too much, too little restitution; 0: none.
-    int shrinks = 0;               // Corrections in a row that wanted μ ≤ 0.
+    bool seen = false, ended = false;  // In the last pass.
+    bool corrected = false;            // Its μ is no mere guess any more.
+    bool weak = false;                 // Its W_c is next to nothing.
+    double length = 0, speed = 0;      // Scales of its motion in the first pass.
+    double squared = kNaN;             // ε_out² = −W_r/W_c of the last pass.
+    Eigen::ArrayXd gradient;           // ∂ε_out²/∂μ of each column.
+    double frozen_slope = kNaN;        // Paper (30).
+    double low = 0, high = 0;    // μ known to give too much, too little restitution; 0: none.
+    int shrinks = 0, grows = 0;  // Corrections in a row that wanted μ ≤ 0, or far more.
     bool zero_tried = false;
     Iteration::Update update = Iteration::Update::kNothing;
   };
@@ -83,6 +85,7 @@ class EpisodeSolver final : public CycleHost {
   Unknown* Find(int contact, int number);
   const Unknown* Find(int contact, int number) const;
   double StartFactor(const ContactState& state, double effective_mass, double external_force);
+  double NeighbourSpeed(const Contact& contact) const;
   bool Converged(const Unknown& unknown) const;
   bool Live(const Unknown& unknown) const;
   void ForgetPass();
@@ -133,6 +136,8 @@ class EpisodeSolver final : public CycleHost {
   } stage_ = Stage::kSolved;
   double start_time_ = 0;  // Of the episode, and
   double until_ = 0;       // up to where it may be recorded.
+  int window_ = 0;         // Cycles in a pass at most.
+  bool crowded_ = false;   // The last pass had so many.
   bool closed_ = false;    // The last pass came to a quiet instant before that.
   double tolerance_ = 0;   // Of the integration in this pass, and whether it has
   bool sensitive_ = true;  // sensitivities.

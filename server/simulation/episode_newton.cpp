@@ -97,6 +97,7 @@ void EpisodeSolver::Correct() {
 
 // (N3): keeps μ > 0, the step within a factor of 8, and, for a cycle alone, within the bracket.
 void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
+  u.corrected = true;
   u.update = damping_ < 1 ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
   if (u.mu == 0) {  // Feasible after all: somewhere between 0 and what was tried before.
     u.mu = (u.high > 0 ? u.high : u.start_mu) / 2;
@@ -104,6 +105,13 @@ void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
     return;
   }
   u.shrinks = relative_step <= -1 ? u.shrinks + 1 : 0;
+  u.grows = relative_step >= 7 ? u.grows + 1 : 0;
+  if (u.weak && std::max(u.shrinks, u.grows) >= 3) {
+    u.iterated = false;
+    u.status = Cycle::Status::kSettled;
+    u.mu = u.start_mu;
+    return;
+  }
   if (u.shrinks >= 3 && !u.zero_tried) {
     u.zero_tried = true;
     u.mu = 0;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <stop_token>
 #include <vector>
 
@@ -96,8 +97,11 @@ class Motion {
   explicit Motion(const Scenario& scenario);
 
   /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities. `tolerance`
-  /// takes the place of the scenario's; 0: the scenario's.
-  void Begin(const State& state, bool recording, double tolerance = 0);
+  /// takes the place of the scenario's; 0: the scenario's. A stretch with `most_cycles` is crowded.
+  void Begin(const State& state, bool recording, double tolerance = 0,
+             int most_cycles = std::numeric_limits<int>::max());
+  /// The most cycles that a stretch may have at all.
+  int max_cycles() const { return max_cycles_; }
 
   /// Moves on until something of Pause happens. Begun where a cycle runs or starts, it goes on
   /// until none does; begun elsewhere, until one wants to start. Resting contacts do not count.
@@ -183,6 +187,7 @@ class Motion {
   double contact_loss_ = 0;
   int cycles_in_stretch_ = 0;
   int max_cycles_;
+  int most_cycles_ = 0;  // In this stretch.
 };
 
 }  // namespace contact

@@ -142,7 +142,7 @@ void Motion::WakeResting(CycleHost& host) {
     const double deformation = Deformation(c, rk_.y0.data());
     const double work = contact.stiffness * Power(deformation, contact.exponent).value *
                         std::abs(deformation - state.cycle.start_deformation);
-    if (work > kWakeFactor * scenario_.solver.settled_fraction * state.largest_work) {
+    if (work > kWakeFactor * scenario_.solver.settled_nirv_fraction * state.largest_work) {
       EndCycle(state, Cycle::End::kNonSeparation, host);
       state.settled = false;
     }
