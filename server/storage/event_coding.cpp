@@ -60,8 +60,8 @@ void AppendPlanes(const Values& values, std::string* bytes) {
 
 Values JoinPlanes(std::string_view planes) {
   Values values(planes.size() / kDouble);
-  for (std::size_t plane = 0; plane < kDouble; ++plane) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t plane = 0; plane < kDouble; ++plane) {
       const auto byte = static_cast<unsigned char>(planes[plane * values.size() + i]);
       values[i] |= std::uint64_t{byte} << (8 * plane);
     }
