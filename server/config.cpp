@@ -161,6 +161,9 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   AddFlags(&app, &config, &switches);
   AddLimits(&app, &config, &switches);
+  const CLI::App* fsck =
+      app.add_subcommand("fsck", "Check what is in --data-dir, without a change to it, and end")
+          ->fallthrough();
   for (CLI::Option* option : app.get_options()) {
     if (option != app.get_help_ptr()) option->envname(VariableOf(*option));
   }
@@ -183,6 +186,7 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
     return Exit{kExitUsage,
                 fmt::format("contactd: {}\nRun contactd --help for the settings.\n", error.what())};
   }
+  config.fsck = fsck->parsed();
   return config;
 }
 

@@ -15,8 +15,9 @@ namespace contact {
 enum ExitCode : int {
   kExitOk = 0,
   kExitInternal = 1,
-  kExitUsage = 2,  ///< Bad flag, or a data directory that cannot be used.
-  kExitHeld = 3,   ///< Another process holds the data directory or the address.
+  kExitDamaged = 1,  ///< Of `fsck`: it found damage.
+  kExitUsage = 2,    ///< Bad flag, or a data directory that cannot be used.
+  kExitHeld = 3,     ///< Another process holds the data directory or the address.
 };
 
 /// What contactd was asked to do, checked.
@@ -25,6 +26,7 @@ struct Config {
   std::filesystem::path data_dir;
   std::filesystem::path port_file;  ///< Receives the port; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;
+  bool fsck = false;  ///< Check the data directory and end.
   JobManagerOptions jobs;
   GrpcServerOptions rpc;
 };

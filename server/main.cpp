@@ -18,6 +18,7 @@
 #include "jobs/sources.h"
 #include "rpc/grpc_log.h"
 #include "rpc/grpc_server.h"
+#include "storage/fsck.h"
 #include "storage/store.h"
 #include "version.h"
 
@@ -90,13 +91,25 @@ bool Announce(const Config& config, int port) {
   return true;
 }
 
+// Says what cannot be done with the data directory, and gives the code for it.
+int Refuse(const absl::Status& status) {
+  fmt::print(stderr, "contactd: {}\n", std::string(status.message()));
+  return absl::IsUnavailable(status) ? kExitHeld : kExitUsage;
+}
+
+int CheckData(const std::filesystem::path& directory) {
+  const auto report =
+      Fsck(directory, [](const std::string& finding) { fmt::print("{}\n", finding); });
+  if (!report.ok()) return Refuse(report.status());
+  fmt::print("{}: {} jobs, {} events, {} findings\n", directory.string(), report->jobs,
+             report->events, report->findings);
+  return report->findings == 0 ? kExitOk : kExitDamaged;
+}
+
 // Serves until a signal comes, and cleans up.
 int Serve(const Config& config, const sigset_t& signals) {
   const auto store = Store::Open(config.data_dir, {.on_failure = EndAfterDiskFailure});
-  if (!store.ok()) {
-    fmt::print(stderr, "contactd: {}\n", std::string(store.status().message()));
-    return absl::IsUnavailable(store.status()) ? kExitHeld : kExitUsage;
-  }
+  if (!store.ok()) return Refuse(store.status());
   JobManager jobs(**store, SystemClock(), RandomIds(), config.jobs);
   GrpcServer server(jobs, config.rpc, Identity());
   const auto port = server.Start(config.listen);
@@ -126,6 +139,7 @@ int main(int argc, char** argv) {
     return exit->code;
   }
   const auto& config = std::get<contact::Config>(read);
+  if (config.fsck) return contact::CheckData(config.data_dir);
   contact::SetUpLog(config.log_level);
   contact::RouteGrpcLog();
   return contact::Serve(config, signals);

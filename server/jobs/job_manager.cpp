@@ -196,6 +196,16 @@ void JobManager::Series(const v1::GetSeriesRequest& request, Callback<v1::Series
                      std::move(done));
 }
 
+void JobManager::Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFile>> done) {
+  impl_->store.Backup(std::move(stop),
+                      [done = std::move(done)](absl::StatusOr<std::unique_ptr<BackupFile>> file) {
+                        // Nobody asks any more, or the store is being closed.
+                        if (absl::IsCancelled(file.status())) return done(Draining());
+                        if (!file.ok()) return done(ToError(file.status(), ""));
+                        done(std::shared_ptr<BackupFile>(*std::move(file)));
+                      });
+}
+
 void JobManager::Watch(const std::string& name, std::uint64_t after_sequence,
                        const std::vector<std::string>& kinds, std::function<void()> wake,
                        Callback<Watched> done) {

@@ -14,6 +14,7 @@
 
 namespace contact {
 
+class BackupFile;
 class Clock;
 class IdSource;
 class Store;
@@ -62,6 +63,9 @@ class JobManager {
   void Watch(const std::string& name, std::uint64_t after_sequence,
              const std::vector<std::string>& kinds, std::function<void()> wake,
              Callback<Watched> done);
+
+  /// Copies the store into a file of its own, while everything goes on. `stop` gives it up.
+  void Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFile>> done);
 
   /// Numbers of GetServerInfo: workers, queued and running jobs, limits.
   v1::ServerInfo Info() const;

@@ -142,7 +142,7 @@ void SeriesReader::Take(const absl::StatusOr<EventPage>& page) {
 
 bool SeriesReader::Take(const StoredEvent& stored) {
   v1::Event event;
-  if (!stored.intact || !event.ParseFromString(stored.payload)) return false;
+  if (!stored.Parse(&event)) return false;
   if (event.has_attempt_started()) builder_->Restart();
   return !event.has_frame_chunk() || builder_->Add(event.frame_chunk());
 }

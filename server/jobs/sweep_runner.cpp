@@ -64,7 +64,7 @@ bool SweepRunner::ReadDone(std::vector<bool>* done) {
     position = page->position;
     for (const StoredEvent& stored : page->events) {
       v1::Event event;
-      if (!stored.intact || !event.ParseFromString(stored.payload)) continue;
+      if (!stored.Parse(&event)) continue;
       const auto index = static_cast<std::size_t>(event.sweep_cell().index());
       if (index >= done->size() || (*done)[index]) continue;
       (*done)[index] = true;

@@ -88,7 +88,7 @@ std::optional<LogCursor::Next> TailCursor::ReadFetched(Events* out) {
   position_ = (*page)->position;
   for (const StoredEvent& stored : (*page)->events) {
     v1::Event* const event = out->Add();
-    if (!stored.intact || !event->ParseFromString(stored.payload)) {
+    if (!stored.Parse(event)) {
       ReportDamage(name_, stored.sequence, event);
     }
     event->set_sequence(stored.sequence);

@@ -88,8 +88,8 @@ v1::ServerInfo WithMessageLimit(v1::ServerInfo identity, const GrpcServerOptions
 GrpcServer::GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity)
     : options_(options),
       watches_(std::make_shared<WatchLoop>(std::clamp(options.write_stall / 4, 10ms, 500ms))),
-      service_(jobs, watches_, WithMessageLimit(std::move(identity), options),
-               options.write_stall) {}
+      service_(jobs, watches_, WithMessageLimit(std::move(identity), options), options.write_stall),
+      admin_(jobs, options.write_stall) {}
 
 GrpcServer::~GrpcServer() { Shutdown(1s); }
 
@@ -100,6 +100,7 @@ std::optional<int> GrpcServer::Start(const std::string& address) {
   int port = 0;
   builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
   builder.RegisterService(&service_);
+  builder.RegisterService(&admin_);
   Configure(options_, &builder);
   server_ = builder.BuildAndStart();
   if (!server_ || port == 0) return std::nullopt;

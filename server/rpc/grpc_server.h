@@ -9,6 +9,7 @@
 #include <string>
 
 #include "jobs/job_manager.h"
+#include "rpc/admin_service.h"
 #include "rpc/job_service.h"
 #include "rpc/watch_loop.h"
 
@@ -17,7 +18,7 @@ namespace contact {
 struct GrpcServerOptions {
   int max_message_bytes = 8 << 20;  ///< Of one request.
   std::chrono::milliseconds write_stall{
-      30'000};             ///< A watcher that takes nothing for so long is dropped.
+      30'000};             ///< A reader that takes nothing for so long is dropped.
   bool reflection = true;  ///< Answer which services and messages there are.
 };
 
@@ -51,6 +52,7 @@ class GrpcServer {
   const GrpcServerOptions options_;
   const std::shared_ptr<WatchLoop> watches_;
   JobService service_;
+  AdminService admin_;
   std::unique_ptr<grpc::Server> server_;
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,6 +29,15 @@ class CommitThread {
     std::function<void(const absl::Status&)> done;
   };
 
+  /// Work that takes too long for a transaction.
+  struct Task {
+    /// Runs outside of transactions, between two batches, again and again until it answers false
+    /// or an error. An SQLite::Exception is an error of the task, not of the store.
+    std::function<absl::StatusOr<bool>(Database&)> step;
+    /// Runs once, after the last step. CANCELLED: the thread ends.
+    std::function<void(const absl::Status&)> done;
+  };
+
   /// `tidy` is run in a transaction of its own after each batch, and again while there is nothing
   /// else to do, until it returns false. `on_failure` is called once, on the thread, when the disk
   /// fails in a way that leaves open what it holds. From then on no operation runs.
@@ -37,6 +48,8 @@ class CommitThread {
 
   /// Thread-safe; returns at once. Operations run in the order of their posting.
   void Post(Operation operation);
+  /// The same; tasks run one after the other.
+  void Post(Task task);
 
  private:
   using Batch = std::vector<Operation>;
@@ -46,18 +59,23 @@ class CommitThread {
   void Commit(Batch& batch);
   absl::Status Try(const std::function<void()>& work);
   void Tidy();
+  void StepTask();
+  void EndTask(const absl::Status& status);
+  void CancelTasks();
   void Checkpoint();
   void Fail(const absl::Status& failure);
 
   const std::unique_ptr<Database> database_;  // Of the thread.
   const std::function<bool(Database&)> tidy_;
   const std::function<void(const absl::Status&)> on_failure_;
-  bool untidy_ = true;    // Of the thread: `tidy_` may have something to do.
-  absl::Status failure_;  // Of the thread.
+  bool untidy_ = true;        // Of the thread: `tidy_` may have something to do.
+  absl::Status failure_;      // Of the thread.
+  std::optional<Task> task_;  // Of the thread: the one under way.
 
   Mutex mutex_;
   std::condition_variable_any posted_;
   Batch queue_ ABSL_GUARDED_BY(mutex_);
+  std::deque<Task> tasks_ ABSL_GUARDED_BY(mutex_);
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   std::thread thread_;  // Last: it uses all of the above.
 };

@@ -44,14 +44,15 @@ v1::Job HeaderOf(const v1::Job& job) {
 }  // namespace
 
 JobParts Split(const v1::Job& job) {
-  return {Deterministic(HeaderOf(job)), Deterministic(SpecOf(job)), Deterministic(ResultOf(job))};
+  return {Deterministic(HeaderOf(job)), Deterministic(SpecOf(job)), Deterministic(ResultOf(job)),
+          job.end_time().seconds()};
 }
 
 std::vector<EventRow> ToRows(absl::Span<const v1::Event> events) {
   std::vector<EventRow> rows;
   rows.reserve(events.size());
   for (const v1::Event& event : events) {
-    rows.push_back({static_cast<int>(event.payload_case()), event.SerializeAsString()});
+    rows.push_back({static_cast<int>(event.payload_case()), EncodeEvent(event)});
   }
   return rows;
 }

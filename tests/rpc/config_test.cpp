@@ -54,6 +54,15 @@ class ConfigTest : public testing::Test {
   std::map<std::string, std::string> environment_;
 };
 
+TEST_F(ConfigTest, FsckIsAskedForByItsNameAndTakesTheSameFlags) {
+  EXPECT_FALSE(Good({}).fsck);
+  const Config config = Good({"fsck", "--data-dir", "/other"});
+  EXPECT_TRUE(config.fsck);
+  EXPECT_EQ(config.data_dir, "/other");
+  EXPECT_EQ(Bad({"fsck", "--no-such-flag"}).code, 2);
+  EXPECT_EQ(Bad({"fsk"}).code, 2);
+}
+
 TEST_F(ConfigTest, DefaultsAreThoseOfTheReadme) {
   const Config config = Good({});
   EXPECT_EQ(config.listen, "127.0.0.1:7070");
