@@ -44,7 +44,7 @@ v1::Job Create(Client& client, const RunArguments& arguments) {
   try {
     return client.Call(&Client::Stub::CreateJob, Request(arguments, file.scenario()));
   } catch (const CallFailure& failure) {
-    if (failure.code() != ExitCode::kInvalidScenario) throw;
+    if (failure.code() != ExitCode::kInvalidScenario) throw failure.AllTold();
     for (const Violation& violation : failure.violations()) file.Add(violation);
     RequireNoMistakes(file);
     throw;
