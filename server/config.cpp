@@ -5,7 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -76,12 +79,24 @@ const std::map<std::string, spdlog::level::level_enum> kLogLevels{
     {"error", spdlog::level::err},   {"off", spdlog::level::off},
 };
 
-// Flags whose value needs a second look.
+// Flags whose value needs a second look. Times in seconds.
 struct Switches {
   bool no_reflection = false;
   bool insecure = false;
   double write_stall_s = 30;
+  double max_wall_time_s = 0;
+  double step_timeout_s = 60;
+  double retain_for_s = 0;
 };
+
+constexpr double kDay = 24 * 3600;
+const std::map<std::string, double> kTimeUnits{
+    {"ms", 1e-3}, {"s", 1}, {"m", 60}, {"h", 3600}, {"d", kDay},
+};
+
+std::chrono::milliseconds Milliseconds(double seconds) {
+  return std::chrono::milliseconds(std::llround(seconds * 1000));
+}
 
 void AddFlags(CLI::App* app, Config* config, Switches* switches) {
   app->add_option("--listen", config->listen, "Address, HOST:PORT; port 0 is any free one")
@@ -130,6 +145,40 @@ void AddLimits(CLI::App* app, Config* config, Switches* switches) {
       ->capture_default_str();
 }
 
+// `10s`, `5m`, `12h`, `30d`; seconds without a unit.
+CLI::Option* AddTime(CLI::App* app, const std::string& name, double* seconds,
+                     const std::string& description) {
+  return app->add_option(name, *seconds, description)
+      ->transform(CLI::AsNumberWithUnit(kTimeUnits))
+      ->check(CLI::Range(0.0, 36'500 * kDay))
+      ->type_name("TIME")
+      ->capture_default_str();
+}
+
+void AddLifecycle(CLI::App* app, Config* config, Switches* switches) {
+  JobManagerOptions& jobs = config->jobs;
+  AddTime(app, "--max-wall-time", &switches->max_wall_time_s,
+          "Wall time of one attempt of a job, such as 10m; 0 is any");
+  app->add_option("--max-steps", jobs.max_budget.steps,
+                  "Integration steps of a job, all its cells together; 0 is any")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+      ->capture_default_str();
+  app->add_option("--max-output-bytes", jobs.max_budget.output_bytes,
+                  "Bytes that a job may record, such as 2GB; 0 is any")
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES")
+      ->capture_default_str();
+  AddTime(app, "--step-timeout", &switches->step_timeout_s,
+          "A run that makes no step for so long is ended; 0 is never");
+  app->add_option("--max-attempts", jobs.max_attempts,
+                  "A job that was running at so many crashes of the server is set aside")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  AddTime(app, "--retain-for", &switches->retain_for_s,
+          "Ended jobs are deleted after so long, such as 30d, unless they say so themselves; "
+          "0 is never");
+}
+
 // Throws CLI::ValidationError for what one flag alone cannot tell.
 void Check(const Switches& switches, Config* config) {
   const auto address = ParseAddress(config->listen);
@@ -145,8 +194,11 @@ void Check(const Switches& switches, Config* config) {
   }
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
   config->rpc.reflection = loopback && !switches.no_reflection;
-  config->rpc.write_stall =
-      std::chrono::milliseconds{static_cast<int>(switches.write_stall_s * 1000)};
+  config->rpc.write_stall = Milliseconds(switches.write_stall_s);
+  config->jobs.max_budget.wall_time = Milliseconds(switches.max_wall_time_s);
+  config->jobs.step_timeout = Milliseconds(switches.step_timeout_s);
+  config->jobs.retention.age =
+      std::chrono::ceil<std::chrono::seconds>(Milliseconds(switches.retain_for_s));
 }
 
 }  // namespace
@@ -164,6 +216,7 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
   const CLI::App* fsck =
       app.add_subcommand("fsck", "Check what is in --data-dir, without a change to it, and end")
           ->fallthrough();
+  AddLifecycle(&app, &config, &switches);
   for (CLI::Option* option : app.get_options()) {
     if (option != app.get_help_ptr()) option->envname(VariableOf(*option));
   }

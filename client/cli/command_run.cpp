@@ -8,6 +8,7 @@
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
 #include "cli/follow.h"
+#include "cli/job_options.h"
 
 namespace contact::cli {
 namespace {
@@ -17,6 +18,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::vector<std::string> labels;
   std::string request_id;
+  JobOptions job;
 };
 
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
@@ -26,6 +28,7 @@ v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& 
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }
+  arguments.job.Apply(request.mutable_job());
   return request;
 }
 
@@ -41,7 +44,7 @@ v1::Job Create(Client& client, const RunArguments& arguments) {
   try {
     return client.Call(&Client::Stub::CreateJob, Request(arguments, file.scenario()));
   } catch (const CallFailure& failure) {
-    if (failure.code() != ExitCode::kInvalidScenario) throw;
+    if (failure.code() != ExitCode::kInvalidScenario) throw failure.AllTold();
     for (const Violation& violation : failure.violations()) file.Add(violation);
     RequireNoMistakes(file);
     throw;
@@ -94,6 +97,7 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
       .add_option("--request-id", arguments->request_id,
                   "The same id and scenario make one job, however often submitted")
       ->type_name("ID");
+  arguments->job.AddTo(command);
   return arguments;
 }
 

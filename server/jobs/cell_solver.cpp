@@ -1,6 +1,5 @@
 #include "jobs/cell_solver.h"
 
-#include <exception>
 #include <string>
 #include <utility>
 
@@ -13,14 +12,17 @@ namespace {
 // Keeps of a run what metrics may ask for.
 class CellObserver final : public Observer {
  public:
-  CellObserver(const Scenario& scenario, const std::function<void()>& pulse, v1::Job* result)
-      : scenario_(scenario), pulse_(pulse), result_(result) {}
+  CellObserver(const Scenario& scenario, RunControl& control, const std::function<void()>& pulse,
+               v1::Job* result)
+      : scenario_(scenario), control_(control), pulse_(pulse), result_(result) {}
 
   void OnCycle(const Cycle& cycle) override { *result_->add_cycles() = Encode(scenario_, cycle); }
   void OnProgress(const Progress& /*progress*/) override { pulse_(); }
+  void OnStep() override { control_.CountStep(); }
 
  private:
   const Scenario& scenario_;
+  RunControl& control_;
   const std::function<void()>& pulse_;
   v1::Job* result_;
 };
@@ -37,21 +39,20 @@ CellSolver::CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan,
                        const JobManagerOptions& options)
     : plan_(plan), options_(options), fields_(sweep, &none_) {}
 
-std::optional<v1::SweepCell> CellSolver::Solve(std::int32_t index, const std::stop_token& stop,
+std::optional<v1::SweepCell> CellSolver::Solve(std::int32_t index, RunControl& control,
                                                const std::function<void()>& pulse) {
   v1::SweepCell cell;
   cell.set_index(index);
   try {
-    if (!Compute(stop, pulse, &cell)) return std::nullopt;
-  } catch (const std::exception& error) {
-    Fail(reason::kInternal, error.what(), &cell);
+    if (!Compute(control, pulse, &cell)) return std::nullopt;
   } catch (...) {
-    Fail(reason::kInternal, "unknown exception", &cell);
+    const Move move = MoveAfterException();
+    Fail(move.state_reason, move.message, &cell);
   }
   return cell;
 }
 
-bool CellSolver::Compute(const std::stop_token& stop, const std::function<void()>& pulse,
+bool CellSolver::Compute(RunControl& control, const std::function<void()>& pulse,
                          v1::SweepCell* cell) {
   std::vector<double> values = plan_.axes.Values(cell->index());
   DecodedScenario decoded = DecodeScenario(fields_.Set(values), options_.scenario_limits);
@@ -63,14 +64,14 @@ bool CellSolver::Compute(const std::stop_token& stop, const std::function<void()
     return true;
   }
   decoded.scenario.sample_interval = 0;  // No trajectory.
-  return Run(decoded.scenario, stop, pulse, cell);
+  return Run(decoded.scenario, control, pulse, cell);
 }
 
-bool CellSolver::Run(const Scenario& scenario, const std::stop_token& stop,
+bool CellSolver::Run(const Scenario& scenario, RunControl& control,
                      const std::function<void()>& pulse, v1::SweepCell* cell) const {
   v1::Job result;
-  CellObserver observer(scenario, pulse, &result);
-  const Outcome outcome = options_.run(scenario, observer, stop);
+  CellObserver observer(scenario, control, pulse, &result);
+  const Outcome outcome = options_.run(scenario, observer, control.token());
   const Move move = MoveAfter(outcome);
   if (move.to == v1::Job::CANCELLED) return false;
   EncodeOutcome(scenario, outcome, &result);

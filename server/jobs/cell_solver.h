@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <stop_token>
 
 #include "contact/v1/event.pb.h"
 #include "jobs/job_manager.h"
+#include "jobs/run_control.h"
 #include "wire/sweep_codec.h"
 #include "wire/sweep_fields.h"
 
@@ -20,15 +20,14 @@ class CellSolver {
 
   /// The cell with this number; none if it was stopped. `pulse` is called now and then meanwhile.
   /// A pure function of the sweep and the number.
-  std::optional<v1::SweepCell> Solve(std::int32_t index, const std::stop_token& stop,
+  std::optional<v1::SweepCell> Solve(std::int32_t index, RunControl& control,
                                      const std::function<void()>& pulse);
 
  private:
   // False if the run was stopped.
-  bool Compute(const std::stop_token& stop, const std::function<void()>& pulse,
-               v1::SweepCell* cell);
-  bool Run(const Scenario& scenario, const std::stop_token& stop,
-           const std::function<void()>& pulse, v1::SweepCell* cell) const;
+  bool Compute(RunControl& control, const std::function<void()>& pulse, v1::SweepCell* cell);
+  bool Run(const Scenario& scenario, RunControl& control, const std::function<void()>& pulse,
+           v1::SweepCell* cell) const;
 
   const DecodedSweep& plan_;
   const JobManagerOptions& options_;

@@ -1,5 +1,7 @@
 #include "jobs/job_manager.h"
 
+#include <google/protobuf/util/time_util.h>
+
 #include <atomic>
 #include <future>
 #include <utility>
@@ -48,10 +50,21 @@ void MoveSpec(v1::Job* from, v1::Job* to) {
   }
 }
 
+// How a job is to be treated.
+void CopySettings(const v1::Job& from, v1::Job* to) {
+  to->set_priority(from.priority());
+  if (from.has_budget()) *to->mutable_budget() = from.budget();
+  if (from.has_time_to_live()) *to->mutable_time_to_live() = from.time_to_live();
+}
+
 // What the store tells of a job that it cannot read.
 void DescribeDamage(v1::Job* job) {
   job->mutable_error()->set_code(static_cast<int>(absl::StatusCode::kDataLoss));
   job->mutable_error()->set_message("the stored job fails its checksum");
+}
+
+void SetSpan(std::chrono::milliseconds span, google::protobuf::Duration* duration) {
+  *duration = google::protobuf::util::TimeUtil::MillisecondsToDuration(span.count());
 }
 
 }  // namespace
@@ -62,7 +75,8 @@ struct JobManager::Impl {
         clock(the_clock),
         ids(the_ids),
         options(std::move(the_options)),
-        scheduler(store, clock, options) {}
+        scheduler(store, clock, options),
+        retention(store, clock, options.retention) {}
 
   // One CreateJob on its way.
   struct Creation {
@@ -74,6 +88,11 @@ struct JobManager::Impl {
   void Check(const std::shared_ptr<Creation>& creation);
   void Accept(const std::shared_ptr<Creation>& creation);
   void Refuse(const Creation& creation, Error error);
+  /// Adds to a stored job what is not stored.
+  void Complete(bool with_ledger, v1::Job* job) const {
+    scheduler.AddRecord(with_ledger, job);
+    SetExpireTime(options.retention, job);
+  }
 
   Store& store;
   const Clock& clock;
@@ -82,11 +101,14 @@ struct JobManager::Impl {
   std::atomic<bool> draining = false;
   std::shared_ptr<std::atomic<int>> watchers = std::make_shared<std::atomic<int>>(0);
   Scheduler scheduler;
+  Retention retention;
   Executor executor;  ///< Checks scenarios and reads series: too long for the callers' threads.
 };
 
 JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options)
-    : impl_(std::make_unique<Impl>(store, clock, ids, std::move(options))) {}
+    : impl_(std::make_unique<Impl>(store, clock, ids, std::move(options))) {
+  impl_->retention.Start();
+}
 
 JobManager::~JobManager() { Stop(); }
 
@@ -111,7 +133,7 @@ void JobManager::Impl::Refuse(const Creation& creation, Error error) {
 
 void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
   const v1::CreateJobRequest& request = creation->request;
-  std::vector<Violation> of_request = CheckCreate(request);
+  std::vector<Violation> of_request = CheckCreate(request, options.max_budget);
   std::vector<Violation> of_spec;
   if (request.job().spec_case() != v1::Job::SPEC_NOT_SET) {
     of_spec = CheckSpec(request.job(), options.scenario_limits);
@@ -122,6 +144,7 @@ void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
   v1::Job job;
   MoveSpec(creation->request.mutable_job(), &job);
   *job.mutable_labels() = request.job().labels();
+  CopySettings(request.job(), &job);
   *creation->request.mutable_job() = std::move(job);
   if (request.validate_only()) return creation->done(std::move(*creation->request.mutable_job()));
   Accept(creation);
@@ -154,7 +177,7 @@ void JobManager::Get(const std::string& name, Callback<v1::Job> done) {
       name, JobPart::kAll,
       [impl = impl_.get(), name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
         if (!stored.ok()) return done(ToError(stored.status(), name));
-        impl->scheduler.AddRecord(true, &stored->job);
+        impl->Complete(true, &stored->job);
         done(std::move(stored->job));
       });
 }
@@ -168,7 +191,7 @@ void JobManager::List(const v1::ListJobsRequest& request, Callback<v1::ListJobsR
                       v1::ListJobsResponse response;
                       for (StoredJob& stored : page->jobs) {
                         if (!stored.intact) DescribeDamage(&stored.job);
-                        impl->scheduler.AddRecord(false, &stored.job);
+                        impl->Complete(false, &stored.job);
                         *response.add_jobs() = std::move(stored.job);
                       }
                       response.set_next_page_token(PageToken(page->next));
@@ -227,7 +250,7 @@ void JobManager::Watch(const std::string& name, std::uint64_t after_sequence,
         v1::Job& job = stored->job;
         auto log = impl->scheduler.Log(name);
         if (!log) log = std::make_shared<JobLog>(job.last_sequence(), true);
-        impl->scheduler.AddRecord(false, &job);
+        impl->Complete(false, &job);
         auto cursor =
             std::make_unique<TailCursor>(impl->store, name, std::move(log), after_sequence, set,
                                          std::move(wake), impl->watchers);
@@ -248,6 +271,15 @@ v1::ServerInfo JobManager::Info() const {
   limits.set_max_queued_jobs(options.max_queued_jobs);
   limits.set_max_watchers(options.max_watchers);
   limits.set_max_cells(options.scenario_limits.max_cells);
+  SetSpan(options.max_budget.wall_time, limits.mutable_max_budget()->mutable_wall_time());
+  limits.mutable_max_budget()->set_steps(options.max_budget.steps);
+  limits.mutable_max_budget()->set_output_bytes(options.max_budget.output_bytes);
+  if (options.step_timeout.count() > 0) {
+    SetSpan(options.step_timeout, limits.mutable_step_timeout());
+  }
+  limits.set_max_attempts(options.max_attempts);
+  if (options.retention.age.count() > 0) SetSpan(options.retention.age, limits.mutable_retention());
+  limits.set_retained_bytes(options.retention.bytes);
   return info;
 }
 
@@ -256,6 +288,7 @@ void JobManager::Drain() { impl_->draining = true; }
 void JobManager::Stop() {
   Drain();
   impl_->executor.Stop();
+  impl_->retention.Stop();
   impl_->scheduler.Stop();
   std::promise<void> flushed;
   // Twice: what Cancel asks of the store first makes it ask once more.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,6 +11,8 @@
 #include "contact/v1/job_service.pb.h"
 #include "jobs/error.h"
 #include "jobs/log_cursor.h"
+#include "jobs/retention.h"
+#include "jobs/run_control.h"
 #include "simulation/run.h"
 
 namespace contact {
@@ -24,6 +27,11 @@ struct JobManagerOptions {
   int max_queued_jobs = 10'000;  ///< Past it CreateJob answers QUEUE_FULL.
   int max_watchers = 10'000;     ///< Past it Watch answers WATCHER_LIMIT.
   ScenarioLimits scenario_limits = {};
+  RunBudget max_budget = {};  ///< Of a job, and of one that asks for none.
+  int max_attempts = 3;       ///< A job that is running whenever the server dies fails then.
+  std::chrono::milliseconds step_timeout = std::chrono::minutes(1);  ///< See Watchdog; 0: never.
+  std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);  ///< See Watchdog.
+  RetentionLimits retention = {};
   /// What solves a scenario; tests put something else here.
   std::function<Outcome(const Scenario&, Observer&, std::stop_token)> run = Run;
 };

@@ -6,6 +6,7 @@
 
 #include "contact/v1/job_service.pb.h"
 #include "jobs/error.h"
+#include "jobs/run_control.h"
 #include "storage/records.h"
 
 namespace contact {
@@ -13,7 +14,8 @@ namespace contact {
 /// The rules that job_service.proto gives for requests, each checked in one place.
 
 /// Violations of everything in the request but the scenario.
-std::vector<Violation> CheckCreate(const v1::CreateJobRequest& request);
+std::vector<Violation> CheckCreate(const v1::CreateJobRequest& request,
+                                   const RunBudget& max_budget = {});
 
 /// What to ask the store; FIELD_INVALID if the request breaks a rule.
 Result<JobQuery> ToQuery(const v1::ListJobsRequest& request);

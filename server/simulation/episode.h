@@ -49,6 +49,7 @@ class EpisodeSolver final : public CycleHost {
   Factor OnStart(const ContactState& state, double effective_mass, double external_force) override;
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
              const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
+  void OnStep() override { observer_.OnStep(); }
 
   std::vector<Cycle> accepted;  ///< Cycles ended since BeginRecording.
   std::int64_t iterations() const { return total_iterations_; }

@@ -160,6 +160,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (time_ >= until) return Pause::kTimeUp;
     if (stop.stop_requested()) return Pause::kStopped;
     if (steps_ >= step_limit) return Pause::kStepLimit;
+    host.OnStep();
     if (!TakeStep(until)) return Pause::kNumeric;
     Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;

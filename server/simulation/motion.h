@@ -70,6 +70,8 @@ class CycleHost {
   /// May change status and bookkeeping of `state`. `length` and `speed` are what Factor expects.
   virtual void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
                      const Eigen::ArrayXd& restitution_gradient, double length, double speed) = 0;
+  /// A step begins.
+  virtual void OnStep() {}
 };
 
 /// Hears of accepted steps when recording.

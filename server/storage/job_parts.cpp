@@ -23,6 +23,9 @@ v1::Job SpecOf(const v1::Job& job) {
   if (job.has_scenario()) *spec.mutable_scenario() = job.scenario();
   if (job.has_sweep()) *spec.mutable_sweep() = job.sweep();
   *spec.mutable_labels() = job.labels();
+  spec.set_priority(job.priority());
+  if (job.has_budget()) *spec.mutable_budget() = job.budget();
+  if (job.has_time_to_live()) *spec.mutable_time_to_live() = job.time_to_live();
   return spec;
 }
 

@@ -59,6 +59,47 @@ TEST(CheckCreate, NamesAllViolationsAtOnce) {
   EXPECT_THAT(Fields(CheckCreate(request)), ElementsAre("request_id", "labels[ö]", "scenario"));
 }
 
+TEST(CheckCreate, TakesSettingsUpToTheirLimits) {
+  v1::CreateJobRequest request = Good();
+  v1::Job& job = *request.mutable_job();
+  for (const int priority : {-100, 100}) {
+    job.set_priority(priority);
+    EXPECT_THAT(CheckCreate(request), testing::IsEmpty());
+  }
+  job.mutable_budget()->mutable_wall_time()->set_nanos(1'000'000);
+  job.mutable_budget()->set_steps(10);
+  job.mutable_budget()->set_output_bytes(20);
+  job.mutable_time_to_live()->set_seconds(1);
+  EXPECT_THAT(CheckCreate(request), testing::IsEmpty());
+  const RunBudget most{std::chrono::milliseconds(1), 10, 20};
+  EXPECT_THAT(CheckCreate(request, most), testing::IsEmpty());
+  job.mutable_budget()->mutable_wall_time()->set_seconds(1);
+  job.mutable_budget()->set_steps(11);
+  job.mutable_budget()->set_output_bytes(21);
+  const auto violations = CheckCreate(request, most);
+  EXPECT_THAT(Fields(violations),
+              ElementsAre("budget.wall_time", "budget.steps", "budget.output_bytes"));
+  EXPECT_EQ(violations[1].description, "is 11; must be at most 10, the server's limit");
+  EXPECT_FALSE(violations[1].hint.empty());
+}
+
+TEST(CheckCreate, RefusesSettingsThatAreNone) {
+  v1::CreateJobRequest request = Good();
+  v1::Job& job = *request.mutable_job();
+  job.set_priority(101);
+  job.mutable_budget()->mutable_wall_time()->set_nanos(999'999);
+  job.mutable_budget()->set_steps(-1);
+  job.mutable_budget()->set_output_bytes(-1);
+  job.mutable_time_to_live()->set_seconds(INT64_MAX);
+  EXPECT_THAT(Fields(CheckCreate(request)),
+              ElementsAre("priority", "budget.wall_time", "budget.steps", "budget.output_bytes",
+                          "time_to_live"));
+  job.set_priority(-101);
+  job.mutable_budget()->mutable_wall_time()->set_seconds(1);
+  job.mutable_budget()->mutable_wall_time()->set_nanos(-1);
+  EXPECT_EQ(CheckCreate(request).size(), 5U);
+}
+
 TEST(ToQuery, HasDefaultsAndLimits) {
   v1::ListJobsRequest request;
   EXPECT_EQ(ToQuery(request).value().limit, 50);
