@@ -23,6 +23,7 @@ struct Address {
 };
 
 std::optional<Address> ParseAddress(const std::string& text) {
+  if (text.starts_with("unix:")) return std::nullopt;
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos || colon == 0) return std::nullopt;
   const std::string host = text.substr(0, colon);
@@ -84,7 +85,8 @@ struct Switches {
 };
 
 void AddFlags(CLI::App* app, Config* config, Switches* switches) {
-  app->add_option("--listen", config->listen, "Address, HOST:PORT; port 0 is any free one")
+  app->add_option("--listen", config->listen,
+                  "HOST:PORT, port 0 being any free one; or unix:PATH, a socket file")
       ->capture_default_str();
   app->add_option("--data-dir", config->data_dir, "Directory of jobs and results; made if missing")
       ->capture_default_str();
@@ -124,6 +126,13 @@ void AddLimits(CLI::App* app, Config* config, Switches* switches) {
   app->add_option("--max-watchers", config->jobs.max_watchers, "Watchers of all jobs together")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
+  app->add_option("--max-connections", config->rpc.connections.in_all, "Connections in all")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app->add_option("--max-connections-per-peer", config->rpc.connections.per_peer,
+                  "Connections of one address of the network")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
   app->add_option("--write-stall-seconds", switches->write_stall_s,
                   "A watcher that takes nothing for so long is dropped")
       ->check(CLI::Range(0.01, 3600.0))
@@ -133,10 +142,11 @@ void AddLimits(CLI::App* app, Config* config, Switches* switches) {
 // Throws CLI::ValidationError for what one flag alone cannot tell.
 void Check(const Switches& switches, Config* config) {
   const auto address = ParseAddress(config->listen);
-  if (!address) {
-    throw CLI::ValidationError("--listen", config->listen + " is not HOST:PORT");
+  const bool file = config->listen.starts_with("unix:") && config->listen.size() > 5;
+  if (!address && !file) {
+    throw CLI::ValidationError("--listen", config->listen + " is not HOST:PORT or unix:PATH");
   }
-  const bool loopback = IsLoopback(address->host);
+  const bool loopback = file || IsLoopback(address->host);
   if (!loopback && !switches.insecure) {
     throw CLI::ValidationError(
         "--listen", config->listen +

@@ -21,7 +21,7 @@ enum ExitCode : int {
 
 /// What contactd was asked to do, checked.
 struct Config {
-  std::string listen = "127.0.0.1:7070";  ///< HOST:PORT; port 0 is any free one.
+  std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
   std::filesystem::path data_dir;
   std::filesystem::path port_file;  ///< Receives the port; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;

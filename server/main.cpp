@@ -84,7 +84,8 @@ bool Announce(const Config& config, int port) {
     return false;
   }
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));
-  fmt::print("contactd {} listening on {}:{}, data in {}\n", kVersion, host, port,
+  const std::string address = port == 0 ? config.listen : fmt::format("{}:{}", host, port);
+  fmt::print("contactd {} listening on {}, data in {}\n", kVersion, address,
              config.data_dir.string());
   std::fflush(stdout);
   return true;

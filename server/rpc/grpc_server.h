@@ -9,6 +9,7 @@
 #include <string>
 
 #include "jobs/job_manager.h"
+#include "rpc/connection_acceptor.h"
 #include "rpc/job_service.h"
 #include "rpc/watch_loop.h"
 
@@ -16,8 +17,11 @@ namespace contact {
 
 struct GrpcServerOptions {
   int max_message_bytes = 8 << 20;  ///< Of one request.
-  std::chrono::milliseconds write_stall{
-      30'000};             ///< A watcher that takes nothing for so long is dropped.
+  ConnectionLimits connections = {};
+  /// A connection that has not begun to speak HTTP/2 by then is closed.
+  std::chrono::milliseconds handshake_timeout{5'000};
+  /// A watcher that takes nothing for so long is dropped.
+  std::chrono::milliseconds write_stall{30'000};
   bool reflection = true;  ///< Answer which services and messages there are.
 };
 
@@ -34,7 +38,8 @@ class GrpcServer {
   GrpcServer& operator=(const GrpcServer&) = delete;
 
   /// Listens on `HOST:PORT`, port 0 being any free one, and serves. Returns the port; nothing if
-  /// the address cannot be had. Another server on the same port is such a case.
+  /// the address cannot be had. Another server on the same port is such a case. `unix:PATH` is a
+  /// socket file that its owner and group may use; its port is 0.
   std::optional<int> Start(const std::string& address);
 
   /// Health turns NOT_SERVING; watches, also those to come, end with SERVER_DRAINING.
@@ -48,10 +53,14 @@ class GrpcServer {
   std::size_t watchers() const { return watches_->watchers(); }
 
  private:
+  std::optional<int> ListenOnFile(const std::string& address, grpc::ServerBuilder& builder);
+  std::optional<int> ListenOnNetwork(const std::string& address, grpc::ServerBuilder& builder);
+
   const GrpcServerOptions options_;
   const std::shared_ptr<WatchLoop> watches_;
   JobService service_;
   std::unique_ptr<grpc::Server> server_;
+  std::unique_ptr<ConnectionAcceptor> acceptor_;  // Hands connections to server_.
 };
 
 }  // namespace contact

@@ -73,7 +73,9 @@ TEST_F(ConfigTest, EveryFlagArrives) {
                               "10",          "--max-watchers",
                               "11",          "--max-cells",
                               "12",          "--write-stall-seconds",
-                              "0.5",         "--log-level",
+                              "0.5",         "--max-connections",
+                              "13",          "--max-connections-per-peer",
+                              "14",          "--log-level",
                               "warn",        "--no-reflection",
                               "--port-file", "/port"});
   EXPECT_EQ(config.listen, "[::1]:0");
@@ -87,6 +89,8 @@ TEST_F(ConfigTest, EveryFlagArrives) {
   EXPECT_EQ(config.jobs.max_watchers, 11);
   EXPECT_EQ(config.jobs.scenario_limits.max_cells, 12);
   EXPECT_EQ(config.rpc.write_stall, std::chrono::milliseconds(500));
+  EXPECT_EQ(config.rpc.connections.in_all, 13);
+  EXPECT_EQ(config.rpc.connections.per_peer, 14);
   EXPECT_EQ(config.log_level, spdlog::level::warn);
   EXPECT_FALSE(config.rpc.reflection);
   EXPECT_EQ(config.port_file, "/port");
@@ -136,7 +140,8 @@ TEST_F(ConfigTest, BadValuesAreUsageErrorsThatNameTheFlag) {
       {"--listen", "127.0.0.1:http"},
       {"--listen", "127.0.0.1:65536"},
       {"--listen", "::1:70"},
-      {"--listen", "unix:x"},
+      {"--listen", "unix:"},
+      {"--max-connections", "0"},
   };
   for (const auto& [flag, value] : cases) {
     const Exit exit = Bad({flag, value});
@@ -158,6 +163,12 @@ TEST_F(ConfigTest, AddressOthersCanReachNeedsConsent) {
   for (const char* address : {"127.0.0.1:1", "127.8.9.10:1", "localhost:1", "[::1]:1"}) {
     EXPECT_EQ(Good({"--listen", address}).listen, address);
   }
+}
+
+TEST_F(ConfigTest, SocketFileIsLocal) {
+  const Config config = Good({"--listen", "unix:/run/contactd.sock"});
+  EXPECT_EQ(config.listen, "unix:/run/contactd.sock");
+  EXPECT_TRUE(config.rpc.reflection);
 }
 
 TEST_F(ConfigTest, DataDirDefaultsToTheStateFolderOfTheUser) {
