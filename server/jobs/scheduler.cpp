@@ -37,7 +37,7 @@ void Scheduler::Recover() {
 
 // A job that was running has lost its worker. One that a user wanted to stop has its wish.
 void Scheduler::Recover(StoredJob stored) {
-  if (!stored.intact) spdlog::error("{} fails its checksum in the store", stored.job.name());
+  if (!stored.intact) spdlog::error("job={} fails its checksum in the store", stored.job.name());
   Active active;
   active.log = std::make_shared<JobLog>(stored.job.last_sequence(), false);
   active.epoch = stored.epoch;
@@ -46,6 +46,7 @@ void Scheduler::Recover(StoredJob stored) {
     const Move move = stored.cancel_requested ? Move{v1::Job::CANCELLED, reason::kUserRequest}
                                               : Move{v1::Job::QUEUED, reason::kServerRestarted};
     const std::vector<v1::Event> events = {Apply(move, clock_.Now(), &job)};
+    options_.metrics->Moved(v1::Job::RUNNING, job);
     store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
                   [log = active.log, events](const absl::StatusOr<std::uint64_t>& first) {
                     if (first.ok()) log->Append(*first, events);
@@ -118,6 +119,7 @@ Assignment Scheduler::Assign(Active& active) {
   ++running_;
   active.job.set_attempt(active.job.attempt() + 1);
   v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);
+  options_.metrics->Moved(v1::Job::QUEUED, active.job);
   return {active.job,       std::move(event),
           active.epoch,     active.log,
           active.record,    active.stop,
@@ -173,9 +175,12 @@ void Scheduler::Withdraw(const Active& active, Done done) {
   const std::vector<v1::Event> events = {
       Apply({v1::Job::CANCELLED, reason::kUserRequest}, clock_.Now(), &job)};
   store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
-                [this, events, name = job.name(), log = active.log,
+                [this, events, job, name = job.name(), log = active.log,
                  done = std::move(done)](const absl::StatusOr<std::uint64_t>& first) {
-                  if (first.ok()) log->Append(*first, events);
+                  if (first.ok()) {
+                    options_.metrics->Moved(v1::Job::QUEUED, job);
+                    log->Append(*first, events);
+                  }
                   {
                     const MutexLock lock(mutex_);
                     if (first.ok()) {
