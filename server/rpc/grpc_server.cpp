@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "rpc/call_monitor.h"
 #include "rpc/file_descriptor.h"
 #include "rpc/tcp_listener.h"
 
@@ -37,13 +38,12 @@ class NoReflection final : public grpc::ServerBuilderOption {
   }
 };
 
-// Memory of all connections and calls together. Past it gRPC refuses and closes.
-constexpr std::size_t kMaxGrpcBytes = std::size_t{512} << 20;
 constexpr int kMaxGrpcThreads = 32;
 
 void Configure(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
-  builder->SetResourceQuota(
-      grpc::ResourceQuota("contactd").Resize(kMaxGrpcBytes).SetMaxThreads(kMaxGrpcThreads));
+  builder->SetResourceQuota(grpc::ResourceQuota("contactd")
+                                .Resize(static_cast<std::size_t>(options.max_memory_bytes))
+                                .SetMaxThreads(kMaxGrpcThreads));
   builder->SetMaxReceiveMessageSize(options.max_message_bytes);
   // A few compressed bytes must not become hundreds of megabytes.
   builder->SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
@@ -51,7 +51,7 @@ void Configure(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
   // Two servers on one port would share its connections without a word.
   builder->AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 1000);
-  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, 8192);
+  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, options.calls.max_metadata_bytes);
   builder->AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS,
                               static_cast<int>(options.handshake_timeout.count()));
   // Idle watches are probed. A client of gRPC's synchronous kind answers pings only every 5 s
@@ -116,6 +116,10 @@ GrpcServerOptions Fitted(GrpcServerOptions options) {
 v1::ServerInfo WithLimits(v1::ServerInfo identity, const GrpcServerOptions& options) {
   v1::ServerLimits& limits = *identity.mutable_limits();
   limits.set_max_message_bytes(options.max_message_bytes);
+  limits.set_max_watchers_per_peer(options.calls.max_watchers_per_peer);
+  limits.set_max_creates_per_second(options.calls.max_creates_per_second);
+  limits.set_max_create_burst(options.calls.max_create_burst);
+  limits.set_max_metadata_bytes(options.calls.max_metadata_bytes);
   limits.set_max_connections(options.connections.in_all);
   limits.set_max_connections_per_peer(options.connections.per_peer);
   return identity;
@@ -126,7 +130,9 @@ v1::ServerInfo WithLimits(v1::ServerInfo identity, const GrpcServerOptions& opti
 GrpcServer::GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity)
     : options_(Fitted(options)),
       watches_(std::make_shared<WatchLoop>(std::clamp(options.write_stall / 4, 10ms, 500ms))),
-      service_(jobs, watches_, WithLimits(std::move(identity), options_), options.write_stall) {}
+      guard_(options_.calls, streams_, metrics_),
+      service_(jobs, watches_, guard_, WithLimits(std::move(identity), options_),
+               options.write_stall) {}
 
 GrpcServer::~GrpcServer() { Shutdown(1s); }
 
@@ -136,6 +142,9 @@ std::optional<int> GrpcServer::Start(const std::string& address) {
   grpc::ServerBuilder builder;
   builder.RegisterService(&service_);
   Configure(options_, &builder);
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> monitors;
+  monitors.push_back(std::make_unique<CallMonitor>(metrics_, streams_));
+  builder.experimental().SetInterceptorCreators(std::move(monitors));
   const auto port = address.starts_with(kUnix) ? ListenOnFile(address, builder)
                                                : ListenOnNetwork(address, builder);
   if (!port) return std::nullopt;

@@ -4,11 +4,13 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "jobs/job_manager.h"
+#include "rpc/call_guard.h"
 #include "rpc/connection_acceptor.h"
 #include "rpc/job_service.h"
 #include "rpc/watch_loop.h"
@@ -16,8 +18,10 @@
 namespace contact {
 
 struct GrpcServerOptions {
-  int max_message_bytes = 8 << 20;  ///< Of one request.
+  int max_message_bytes = 8 << 20;   ///< Of one request.
+  int max_memory_bytes = 512 << 20;  ///< Of all connections and messages; past it gRPC cuts some.
   ConnectionLimits connections = {};
+  CallLimits calls = {};
   /// A connection that has not begun to speak HTTP/2 by then is closed.
   std::chrono::milliseconds handshake_timeout{5'000};
   /// A watcher that takes nothing for so long is dropped.
@@ -52,12 +56,22 @@ class GrpcServer {
   /// WatchJob calls that are open.
   std::size_t watchers() const { return watches_->watchers(); }
 
+  /// Connections that are open, and those that were past a limit. Of a socket file: none.
+  std::size_t connections() const { return acceptor_ ? acceptor_->open() : 0; }
+  std::int64_t refused_connections() const { return acceptor_ ? acceptor_->refused() : 0; }
+
+  /// What calls have come to.
+  std::shared_ptr<const RpcMetrics> metrics() const { return metrics_; }
+
  private:
   std::optional<int> ListenOnFile(const std::string& address, grpc::ServerBuilder& builder);
   std::optional<int> ListenOnNetwork(const std::string& address, grpc::ServerBuilder& builder);
 
   const GrpcServerOptions options_;
   const std::shared_ptr<WatchLoop> watches_;
+  const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
+  const std::shared_ptr<RpcMetrics> metrics_ = std::make_shared<RpcMetrics>();
+  CallGuard guard_;
   JobService service_;
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<ConnectionAcceptor> acceptor_;  // Hands connections to server_.

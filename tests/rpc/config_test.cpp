@@ -75,7 +75,15 @@ TEST_F(ConfigTest, EveryFlagArrives) {
                               "12",          "--write-stall-seconds",
                               "0.5",         "--max-connections",
                               "13",          "--max-connections-per-peer",
-                              "14",          "--log-level",
+                              "14",          "--max-watchers-per-peer",
+                              "15",          "--max-creates-per-second",
+                              "1.5",         "--max-create-burst",
+                              "16",          "--max-metadata-bytes",
+                              "2048",        "--max-stored-bytes",
+                              "1000000",     "--metrics-listen",
+                              "127.0.0.1:0", "--log-format",
+                              "json",        "--max-rpc-memory-bytes",
+                              "16777216",    "--log-level",
                               "warn",        "--no-reflection",
                               "--port-file", "/port"});
   EXPECT_EQ(config.listen, "[::1]:0");
@@ -91,6 +99,14 @@ TEST_F(ConfigTest, EveryFlagArrives) {
   EXPECT_EQ(config.rpc.write_stall, std::chrono::milliseconds(500));
   EXPECT_EQ(config.rpc.connections.in_all, 13);
   EXPECT_EQ(config.rpc.connections.per_peer, 14);
+  EXPECT_EQ(config.rpc.calls.max_watchers_per_peer, 15);
+  EXPECT_EQ(config.rpc.calls.max_creates_per_second, 1.5);
+  EXPECT_EQ(config.rpc.calls.max_create_burst, 16);
+  EXPECT_EQ(config.rpc.calls.max_metadata_bytes, 2048);
+  EXPECT_EQ(config.store.max_bytes, 1'000'000);
+  EXPECT_EQ(config.metrics_listen, "127.0.0.1:0");
+  EXPECT_EQ(config.rpc.max_memory_bytes, 16 << 20);
+  EXPECT_EQ(config.log_format, LogFormat::kJson);
   EXPECT_EQ(config.log_level, spdlog::level::warn);
   EXPECT_FALSE(config.rpc.reflection);
   EXPECT_EQ(config.port_file, "/port");
@@ -135,6 +151,7 @@ TEST_F(ConfigTest, BadValuesAreUsageErrorsThatNameTheFlag) {
       {"--max-cells", "0"},
       {"--write-stall-seconds", "0"},
       {"--log-level", "loud"},
+      {"--log-format", "xml"},
       {"--listen", "127.0.0.1"},
       {"--listen", ":7070"},
       {"--listen", "127.0.0.1:http"},
@@ -142,6 +159,10 @@ TEST_F(ConfigTest, BadValuesAreUsageErrorsThatNameTheFlag) {
       {"--listen", "::1:70"},
       {"--listen", "unix:"},
       {"--max-connections", "0"},
+      {"--max-creates-per-second", "-1"},
+      {"--metrics-listen", "9464"},
+      {"--metrics-listen", "0.0.0.0:9464"},
+      {"--max-stored-bytes", "-1"},
   };
   for (const auto& [flag, value] : cases) {
     const Exit exit = Bad({flag, value});
