@@ -7,7 +7,9 @@
 #include <variant>
 
 #include "jobs/job_manager.h"
+#include "log.h"
 #include "rpc/grpc_server.h"
+#include "storage/store.h"
 
 namespace contact {
 
@@ -22,11 +24,14 @@ enum ExitCode : int {
 
 /// What contactd was asked to do, checked.
 struct Config {
-  std::string listen = "127.0.0.1:7070";  ///< HOST:PORT; port 0 is any free one.
+  std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
+  std::string metrics_listen;             ///< HOST:PORT of the metrics; empty: none.
   std::filesystem::path data_dir;
   std::filesystem::path port_file;  ///< Receives the port; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;
   bool fsck = false;  ///< Check the data directory and end.
+  LogFormat log_format = LogFormat::kText;
+  StoreOptions store;
   JobManagerOptions jobs;
   GrpcServerOptions rpc;
 };

@@ -17,6 +17,12 @@ Error Draining() {
           .retry_after = kRetryAfter};
 }
 
+Error TooLate() {
+  return {.code = absl::StatusCode::kDeadlineExceeded,
+          .reason = "DEADLINE_EXCEEDED",
+          .message = "the deadline of the call passed before its turn came"};
+}
+
 Error QueueFull(int max_queued_jobs) {
   return {.code = absl::StatusCode::kResourceExhausted,
           .reason = "QUEUE_FULL",
@@ -74,7 +80,7 @@ Error ToError(const absl::Status& status, const std::string& name) {
       error.code = absl::StatusCode::kUnavailable;
       error.reason = "STORE_FAILED";
   }
-  spdlog::error("{}: {}", name.empty() ? "store" : name, error.message);
+  spdlog::error("job={} reason={} message={}", name, error.reason, error.message);
   return error;
 }
 

@@ -11,6 +11,8 @@ namespace contact {
 
 /// The errors of job_service.proto that concern whole calls.
 Error Draining();
+/// The deadline of the call has passed, or its caller has left.
+Error TooLate();
 Error QueueFull(int max_queued_jobs);
 Error WatcherLimit(int max_watchers);
 Error NoTrajectory(const std::string& name);

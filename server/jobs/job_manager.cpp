@@ -82,6 +82,7 @@ struct JobManager::Impl {
   struct Creation {
     v1::CreateJobRequest request;
     Callback<v1::Job> done;
+    Abandoned abandoned;
     bool reserved;  ///< A place in the queue is kept for it.
   };
 
@@ -112,15 +113,15 @@ JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobManag
 
 JobManager::~JobManager() { Stop(); }
 
-void JobManager::Create(const v1::CreateJobRequest& request, Callback<v1::Job> done) {
+void JobManager::Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned) {
   if (impl_->draining) return done(Draining());
   const bool reserved = !request.validate_only() && impl_->scheduler.Reserve();
   // A full queue still answers a request that was accepted before.
   if (!reserved && !request.validate_only() && request.request_id().empty()) {
     return done(QueueFull(impl_->options.max_queued_jobs));
   }
-  const auto creation =
-      std::make_shared<Impl::Creation>(Impl::Creation{request, std::move(done), reserved});
+  const auto creation = std::make_shared<Impl::Creation>(
+      Impl::Creation{std::move(request), std::move(done), std::move(abandoned), reserved});
   if (!impl_->executor.Post([impl = impl_.get(), creation] { impl->Check(creation); })) {
     impl_->Refuse(*creation, Draining());
   }
@@ -132,6 +133,7 @@ void JobManager::Impl::Refuse(const Creation& creation, Error error) {
 }
 
 void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
+  if (creation->abandoned && creation->abandoned()) return Refuse(*creation, TooLate());
   const v1::CreateJobRequest& request = creation->request;
   std::vector<Violation> of_request = CheckCreate(request, options.max_budget);
   std::vector<Violation> of_spec;
@@ -163,6 +165,7 @@ void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
                  if (!stored.ok()) return Refuse(*creation, ToError(stored.status(), ""));
                  v1::Job& answer = stored->job;
                  if (stored->created) {
+                   options.metrics->Moved(v1::Job::STATE_UNSPECIFIED, answer);
                    scheduler.Enqueue(answer, events);
                    MoveSpec(creation->request.mutable_job(), &answer);
                  } else if (creation->reserved) {
@@ -214,9 +217,10 @@ void JobManager::Delete(const std::string& name, Callback<bool> done) {
   });
 }
 
-void JobManager::Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done) {
+void JobManager::Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
+                        Abandoned abandoned) {
   SeriesReader::Read(impl_->store, impl_->executor, impl_->options.scenario_limits, request,
-                     std::move(done));
+                     {std::move(done), std::move(abandoned)});
 }
 
 void JobManager::Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFile>> done) {

@@ -10,6 +10,7 @@
 
 #include "contact/v1/job_service.pb.h"
 #include "jobs/error.h"
+#include "jobs/job_metrics.h"
 #include "jobs/log_cursor.h"
 #include "jobs/retention.h"
 #include "jobs/run_control.h"
@@ -32,6 +33,8 @@ struct JobManagerOptions {
   std::chrono::milliseconds step_timeout = std::chrono::minutes(1);  ///< See Watchdog; 0: never.
   std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);  ///< See Watchdog.
   RetentionLimits retention = {};
+  /// Where what becomes of jobs is counted.
+  std::shared_ptr<JobMetrics> metrics = std::make_shared<JobMetrics>();
   /// What solves a scenario; tests put something else here.
   std::function<Outcome(const Scenario&, Observer&, std::stop_token)> run = Run;
 };
@@ -45,20 +48,24 @@ class JobManager {
  public:
   template <class T>
   using Callback = std::function<void(Result<T>)>;
+  /// Tells that nobody waits for the answer any more, so that what is not begun need not be. Asked
+  /// until the callback is called; none: somebody always waits.
+  using Abandoned = std::function<bool()>;
 
   /// Takes over what the store holds: jobs that were running when the process ended are queued
   /// again with reason SERVER_RESTARTED. Starts the workers.
   JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options);
   ~JobManager();
 
-  void Create(const v1::CreateJobRequest& request, Callback<v1::Job> done);
+  void Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned = {});
   void Get(const std::string& name, Callback<v1::Job> done);
   void List(const v1::ListJobsRequest& request, Callback<v1::ListJobsResponse> done);
   void Cancel(const std::string& name, Callback<v1::Job> done);
   void Delete(const std::string& name, Callback<bool> done);
 
   /// Recorded motion, thinned.
-  void Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done);
+  void Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
+              Abandoned abandoned = {});
 
   /// Opens a cursor over the log of a job, and the job as it is (without ledger) beside it.
   /// `wake` is called, from any thread and possibly more often than needed, when Read may have

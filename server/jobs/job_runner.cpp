@@ -64,6 +64,7 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
     job.set_server_version(kVersion);
   }
   const v1::Event last = Apply(move, clock_.Now(), &job);
+  options_.metrics->Moved(v1::Job::RUNNING, job);
   writer.Finish(std::move(job), last, std::move(ended));
 }
 

@@ -68,9 +68,9 @@ v1::Event Apply(const Move& move, std::chrono::system_clock::time_point now, v1:
   changed.set_state_reason(move.state_reason);
   changed.set_message(move.message);
   changed.set_convergence(job->convergence());
-  spdlog::info("{}: {}{}{}{}{}", job->name(), v1::Job::State_Name(move.to),
-               move.state_reason.empty() ? "" : " ", move.state_reason,
-               move.message.empty() ? "" : ": ", move.message);
+  spdlog::info("job={} state={} attempt={}{}{}{}{}", job->name(), v1::Job::State_Name(move.to),
+               job->attempt(), move.state_reason.empty() ? "" : " reason=", move.state_reason,
+               move.message.empty() ? "" : " message=", move.message);
   return event;
 }
 

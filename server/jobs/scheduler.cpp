@@ -58,7 +58,7 @@ void Scheduler::Recover() {
 
 // A job that was running has lost its worker.
 void Scheduler::Recover(StoredJob stored) {
-  if (!stored.intact) spdlog::error("{} fails its checksum in the store", stored.job.name());
+  if (!stored.intact) spdlog::error("job={} fails its checksum in the store", stored.job.name());
   const Move move = MoveAfterCrash(stored, options_.max_attempts);
   Active active;
   active.log = std::make_shared<JobLog>(stored.job.last_sequence(), false);
@@ -66,6 +66,7 @@ void Scheduler::Recover(StoredJob stored) {
   v1::Job& job = active.job = std::move(stored.job);
   if (job.state() == v1::Job::RUNNING) {
     const std::vector<v1::Event> events = {Apply(move, clock_.Now(), &job)};
+    options_.metrics->Moved(v1::Job::RUNNING, job);
     store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
                   [log = active.log, events](const absl::StatusOr<std::uint64_t>& first) {
                     if (first.ok()) log->Append(*first, events);
@@ -162,6 +163,7 @@ Assignment Scheduler::Assign(Active& active) {
   active.control = std::make_shared<RunControl>(BudgetOf(active.job, options_.max_budget));
   active.job.set_attempt(active.job.attempt() + 1);
   v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);
+  options_.metrics->Moved(v1::Job::QUEUED, active.job);
   return {active.job,
           std::move(event),
           active.epoch,
@@ -218,20 +220,23 @@ void Scheduler::Withdraw(const Active& active, Done done) {
   v1::Job job = active.job;
   const std::vector<v1::Event> events = {
       Apply({v1::Job::CANCELLED, reason::kUserRequest}, clock_.Now(), &job)};
-  store_.Update(
-      {.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
-      [this, events, active, done = std::move(done)](const absl::StatusOr<std::uint64_t>& first) {
-        if (first.ok()) active.log->Append(*first, events);
-        {
-          const MutexLock lock(mutex_);
-          if (first.ok()) {
-            active_.erase(active.job.name());
-          } else {
-            Queue(active);
-          }
-        }
-        done(first.status());
-      });
+  store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
+                [this, events, job, active,
+                 done = std::move(done)](const absl::StatusOr<std::uint64_t>& first) {
+                  if (first.ok()) {
+                    options_.metrics->Moved(v1::Job::QUEUED, job);
+                    active.log->Append(*first, events);
+                  }
+                  {
+                    const MutexLock lock(mutex_);
+                    if (first.ok()) {
+                      active_.erase(active.job.name());
+                    } else {
+                      Queue(active);
+                    }
+                  }
+                  done(first.status());
+                });
 }
 
 std::shared_ptr<JobLog> Scheduler::Log(const std::string& name) const {

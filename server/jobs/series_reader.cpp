@@ -83,34 +83,35 @@ Result<v1::Series> SeriesBuilder::Finish() const {
 }
 
 SeriesReader::SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
-                           v1::GetSeriesRequest request, Done done)
+                           v1::GetSeriesRequest request, Caller caller)
     : store_(store),
       executor_(executor),
       limits_(limits),
       request_(std::move(request)),
-      done_(std::move(done)) {}
+      caller_(std::move(caller)) {}
 
 void SeriesReader::Read(Store& store, Executor& executor, const ScenarioLimits& limits,
-                        const v1::GetSeriesRequest& request, Done done) {
+                        const v1::GetSeriesRequest& request, Caller caller) {
   const std::shared_ptr<SeriesReader> self(
-      new SeriesReader(store, executor, limits, request, std::move(done)));
+      new SeriesReader(store, executor, limits, request, std::move(caller)));
   store.Read(request.name(), JobPart::kSpec, [self](absl::StatusOr<StoredJob> stored) {
     const auto shared = std::make_shared<absl::StatusOr<StoredJob>>(std::move(stored));
-    if (!self->executor_.Post([self, shared] { self->Open(*shared); })) self->done_(Draining());
+    if (!self->executor_.Post([self, shared] { self->Open(*shared); }))
+      self->caller_.done(Draining());
   });
 }
 
 void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
-  if (!stored.ok()) return done_(ToError(stored.status(), request_.name()));
+  if (!stored.ok()) return caller_.done(ToError(stored.status(), request_.name()));
   const v1::Job& job = stored->job;
-  if (!job.has_scenario()) return done_(NoTrajectory(job.name()));
+  if (!job.has_scenario()) return caller_.done(NoTrajectory(job.name()));
   const DecodedScenario decoded = DecodeScenario(job.scenario(), limits_);
   if (!decoded.violations.empty() || decoded.scenario.sample_interval == 0) {
-    return done_(NoTrajectory(job.name()));
+    return caller_.done(NoTrajectory(job.name()));
   }
   std::vector<v1::FrameChunk::Column> channels = Channels(decoded.scenario);
   Result<SeriesSelection> selection = ToSelection(request_, channels);
-  if (!selection.ok()) return done_(selection.error());
+  if (!selection.ok()) return caller_.done(selection.error());
   builder_.emplace(std::move(selection.value()), std::move(channels));
   last_ = job.last_sequence();
   ReadPage();
@@ -124,20 +125,21 @@ void SeriesReader::ReadPage() {
                       const auto shared =
                           std::make_shared<absl::StatusOr<EventPage>>(std::move(page));
                       if (!self->executor_.Post([self, shared] { self->Take(*shared); }))
-                        self->done_(Draining());
+                        self->caller_.done(Draining());
                     });
 }
 
 void SeriesReader::Take(const absl::StatusOr<EventPage>& page) {
-  if (!page.ok()) return done_(ToError(page.status(), request_.name()));
+  if (caller_.abandoned && caller_.abandoned()) return caller_.done(TooLate());
+  if (!page.ok()) return caller_.done(ToError(page.status(), request_.name()));
   for (const StoredEvent& event : page->events) {
-    if (!Take(event)) return done_(Damaged(request_.name()));
+    if (!Take(event)) return caller_.done(Damaged(request_.name()));
   }
   position_ = page->position;
   if (position_ < last_) return ReadPage();
   Result<v1::Series> series = builder_->Finish();
   if (series.ok()) series.value().set_name(request_.name());
-  done_(std::move(series));
+  caller_.done(std::move(series));
 }
 
 bool SeriesReader::Take(const StoredEvent& stored) {

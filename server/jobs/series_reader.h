@@ -41,15 +41,19 @@ class SeriesBuilder {
 /// other work of the executor has its turn. Owns itself until `done` is called.
 class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
  public:
-  using Done = std::function<void(Result<v1::Series>)>;
+  /// Who waits for the answer.
+  struct Caller {
+    std::function<void(Result<v1::Series>)> done;
+    std::function<bool()> abandoned;  ///< Nobody does any more; may be empty.
+  };
 
   /// Store and executor outlive the reading.
   static void Read(Store& store, Executor& executor, const ScenarioLimits& limits,
-                   const v1::GetSeriesRequest& request, Done done);
+                   const v1::GetSeriesRequest& request, Caller caller);
 
  private:
   SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
-               v1::GetSeriesRequest request, Done done);
+               v1::GetSeriesRequest request, Caller caller);
   void Open(const absl::StatusOr<StoredJob>& stored);
   void ReadPage();
   void Take(const absl::StatusOr<EventPage>& page);
@@ -59,7 +63,7 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
   Executor& executor_;
   const ScenarioLimits limits_;
   const v1::GetSeriesRequest request_;
-  const Done done_;
+  const Caller caller_;
   std::optional<SeriesBuilder> builder_;
   std::uint64_t position_ = 0;
   std::uint64_t last_ = 0;  ///< What comes after it while we read is left to the next call.

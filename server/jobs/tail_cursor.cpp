@@ -10,7 +10,7 @@ namespace {
 
 // The reader learns in place of a damaged event that there was one.
 void ReportDamage(const std::string& name, std::uint64_t sequence, v1::Event* event) {
-  spdlog::error("{}: event {} fails its checksum", name, sequence);
+  spdlog::error("job={} event={} fails its checksum", name, sequence);
   event->Clear();
   event->mutable_log_entry()->set_severity(v1::LogEntry::WARNING);
   event->mutable_log_entry()->set_message(

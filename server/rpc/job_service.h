@@ -7,6 +7,7 @@
 
 #include "contact/v1/job_service.grpc.pb.h"
 #include "jobs/job_manager.h"
+#include "rpc/call_guard.h"
 #include "rpc/watch_loop.h"
 
 namespace contact {
@@ -16,10 +17,14 @@ namespace contact {
 class JobService final : public v1::JobService::CallbackService {
  public:
   /// `identity` is what GetServerInfo answers, but for the numbers that the manager knows.
-  JobService(JobManager& jobs, std::shared_ptr<WatchLoop> watches, v1::ServerInfo identity,
-             std::chrono::milliseconds write_stall);
+  JobService(JobManager& jobs, std::shared_ptr<WatchLoop> watches, CallGuard& guard,
+             v1::ServerInfo identity, std::chrono::milliseconds write_stall);
 
  private:
+  template <class T, class Response, class Run>
+  grpc::ServerUnaryReactor* Serve(grpc::CallbackServerContext* context, Response* response,
+                                  Run run);
+
   grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context,
                                       const v1::CreateJobRequest* request,
                                       v1::Job* response) override;
@@ -45,6 +50,7 @@ class JobService final : public v1::JobService::CallbackService {
 
   JobManager& jobs_;
   const std::shared_ptr<WatchLoop> watches_;
+  CallGuard& guard_;
   const v1::ServerInfo identity_;
   const std::chrono::milliseconds write_stall_;
 };

@@ -108,7 +108,7 @@ void WatchReactor::Tick(steady_clock::time_point now) {
   {
     const std::lock_guard lock(mutex_);
     if (state_ == State::kWriting && now - last_write_ > write_stall_) {
-      spdlog::warn("{}: a watcher took nothing for {} ms and is dropped", name_,
+      spdlog::warn("job={} a watcher took nothing for {} ms and is dropped", name_,
                    write_stall_.count());
       context_->TryCancel();
       last_write_ = now;

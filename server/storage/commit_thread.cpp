@@ -18,10 +18,12 @@ constexpr std::chrono::seconds kIdle{1};
 }  // namespace
 
 CommitThread::CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
-                           std::function<void(const absl::Status&)> on_failure)
+                           std::function<void(const absl::Status&)> on_failure,
+                           std::shared_ptr<StoreMetrics> metrics)
     : database_(std::move(database)),
       tidy_(std::move(tidy)),
       on_failure_(std::move(on_failure)),
+      metrics_(std::move(metrics)),
       thread_([this] { Loop(); }) {}
 
 CommitThread::~CommitThread() {
@@ -94,9 +96,11 @@ std::optional<CommitThread::Batch> CommitThread::NextBatch() {
 }
 
 void CommitThread::Commit(Batch& batch) {
+  const auto begin = std::chrono::steady_clock::now();
   const absl::Status status = Try([&] {
     for (const Operation& operation : batch) operation.run(*database_);
   });
+  Count(begin, batch.size(), status);
   if (status.ok() || !failure_.ok() || batch.size() == 1) {
     for (const Operation& operation : batch) operation.done(status);
     return;
@@ -107,6 +111,17 @@ void CommitThread::Commit(Batch& batch) {
     alone.push_back(std::move(operation));
     Commit(alone);
   }
+}
+
+void CommitThread::Count(std::chrono::steady_clock::time_point begin, std::size_t operations,
+                         const absl::Status& status) {
+  if (!status.ok()) {
+    ++metrics_->failed_commits;
+    return;
+  }
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  metrics_->commit_seconds.Count(time.count());
+  metrics_->commit_operations.Count(static_cast<double>(operations));
 }
 
 // Does it in a transaction; on error nothing is done.

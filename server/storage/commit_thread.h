@@ -3,7 +3,9 @@
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
 
+#include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "storage/mutex.h"
+#include "storage/store_metrics.h"
 
 namespace contact {
 
@@ -42,7 +45,8 @@ class CommitThread {
   /// else to do, until it returns false. `on_failure` is called once, on the thread, when the disk
   /// fails in a way that leaves open what it holds. From then on no operation runs.
   CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
-               std::function<void(const absl::Status&)> on_failure);
+               std::function<void(const absl::Status&)> on_failure,
+               std::shared_ptr<StoreMetrics> metrics);
   /// Commits what was posted, then joins.
   ~CommitThread();
 
@@ -57,6 +61,8 @@ class CommitThread {
   void Loop();
   std::optional<Batch> NextBatch();
   void Commit(Batch& batch);
+  void Count(std::chrono::steady_clock::time_point begin, std::size_t operations,
+             const absl::Status& status);
   absl::Status Try(const std::function<void()>& work);
   void Tidy();
   void StepTask();
@@ -68,6 +74,7 @@ class CommitThread {
   const std::unique_ptr<Database> database_;  // Of the thread.
   const std::function<bool(Database&)> tidy_;
   const std::function<void(const absl::Status&)> on_failure_;
+  const std::shared_ptr<StoreMetrics> metrics_;
   bool untidy_ = true;        // Of the thread: `tidy_` may have something to do.
   absl::Status failure_;      // Of the thread.
   std::optional<Task> task_;  // Of the thread: the one under way.

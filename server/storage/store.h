@@ -14,6 +14,7 @@
 #include "storage/backup.h"
 #include "storage/commit_thread.h"
 #include "storage/records.h"
+#include "storage/store_metrics.h"
 
 namespace contact {
 
@@ -25,6 +26,8 @@ struct StoreOptions {
   /// Called once, on the store's thread, if the disk fails such that nothing can be promised any
   /// more. The process should end; the store refuses all that follows with UNAVAILABLE.
   std::function<void(const absl::Status&)> on_failure = {};
+  /// Where the store counts what it does.
+  std::shared_ptr<StoreMetrics> metrics = std::make_shared<StoreMetrics>();
 };
 
 /// What survives a restart: jobs and their event logs, in one SQLite database.

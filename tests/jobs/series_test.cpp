@@ -113,6 +113,15 @@ TEST_F(SeriesTest, TimeRangeIncludesItsEnds) {
   EXPECT_THAT(Values(series.columns(0)), ElementsAre(1, 1.25, 1.5, 1.75, 2));
 }
 
+TEST_F(SeriesTest, NothingIsReadForACallerThatHasLeft) {
+  Open();
+  const std::string name = Create(BouncingBall(2));
+  Ended(name);
+  Await<Result<v1::Series>> left;
+  manager_->Series(Ask(name), left.callback(), [] { return true; });
+  EXPECT_EQ(left.Get().error().reason, "DEADLINE_EXCEEDED");
+}
+
 TEST_F(SeriesTest, ReadsWhatARunningJobHasRecorded) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token& stop) {
     observer.OnSamples({0, 7, std::vector<double>(14, 3)});

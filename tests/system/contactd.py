@@ -33,11 +33,11 @@ class Server:
         self.process = None
         self.channel = None
 
-    def start(self):
+    def start(self, **popen):
         with open(self.log_path, "ab") as log:
             self.process = subprocess.Popen(
                 [BINARY, "--listen=127.0.0.1:0", f"--data-dir={self.data_dir}", *self.flags],
-                stdout=subprocess.PIPE, stderr=log, text=True)
+                stdout=subprocess.PIPE, stderr=log, text=True, **popen)
         ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE_S)
         self.greeting = self.process.stdout.readline() if ready else ""
         match = re.search(r"listening on 127\.0\.0\.1:(\d+)", self.greeting)
