@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "jobs/job_log.h"
 #include "jobs/log_writer.h"
@@ -10,6 +11,9 @@
 #include "simulation/run.h"
 
 namespace contact {
+
+/// Samples as chunks that each fit into a message.
+std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples);
 
 /// Makes events of what a run reports.
 class RunRecorder final : public Observer {

@@ -14,13 +14,18 @@ constexpr std::chrono::milliseconds kHelpTime{10};
 
 }  // namespace
 
-Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options)
-    : store_(store), clock_(clock), options_(options) {
+Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options,
+                     JobFeed& feed)
+    : store_(store), clock_(clock), options_(options), feed_(feed) {
   Recover();
   for (int i = 0; i < options_.workers; ++i) workers_.emplace_back([this] { Work(); });
 }
 
 Scheduler::~Scheduler() { Stop(); }
+
+std::shared_ptr<JobLog> Scheduler::NewLog(const std::string& name, std::uint64_t last) {
+  return std::make_shared<JobLog>(last, false, [this, name] { feed_.Changed(name); });
+}
 
 void Scheduler::Recover() {
   std::promise<void> recovered;
@@ -39,7 +44,7 @@ void Scheduler::Recover() {
 void Scheduler::Recover(StoredJob stored) {
   if (!stored.intact) spdlog::error("{} fails its checksum in the store", stored.job.name());
   Active active;
-  active.log = std::make_shared<JobLog>(stored.job.last_sequence(), false);
+  active.log = NewLog(stored.job.name(), stored.job.last_sequence());
   active.epoch = stored.epoch;
   v1::Job& job = active.job = std::move(stored.job);
   if (job.state() == v1::Job::RUNNING) {
@@ -80,7 +85,7 @@ void Scheduler::Release() {
 void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
   Active active;
   active.job = std::move(job);
-  active.log = std::make_shared<JobLog>(0, false);
+  active.log = NewLog(active.job.name(), 0);
   active.log->Append(1, std::move(events));
   const MutexLock lock(mutex_);
   --reserved_;

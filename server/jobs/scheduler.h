@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "jobs/job_feed.h"
 #include "jobs/job_runner.h"
 #include "jobs/sweep_run.h"
 
@@ -27,8 +28,9 @@ namespace contact {
 /// of the store a job is known here just if the store says that it has not ended.
 class Scheduler {
  public:
-  /// Queues the jobs that an earlier process left unfinished, and starts the workers.
-  Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options);
+  /// Queues the jobs that an earlier process left unfinished, and starts the workers. Every change
+  /// of a job's state is told to `feed`.
+  Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options, JobFeed& feed);
   ~Scheduler();
 
   /// Keeps a place in the queue for a job that is being stored. False: the queue is full.
@@ -66,6 +68,7 @@ class Scheduler {
 
   void Recover();
   void Recover(StoredJob stored);
+  std::shared_ptr<JobLog> NewLog(const std::string& name, std::uint64_t last);
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Work();
   /// What a worker does next: a job, or help; neither when it is time to stop.
@@ -83,6 +86,7 @@ class Scheduler {
   Store& store_;
   const Clock& clock_;
   const JobManagerOptions& options_;
+  JobFeed& feed_;
   std::stop_source shutdown_;
 
   mutable Mutex mutex_;

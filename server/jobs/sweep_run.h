@@ -8,8 +8,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "contact/v1/event.pb.h"
 #include "contact/v1/scenario.pb.h"
+#include "jobs/cell_solver.h"
 #include "jobs/job_manager.h"
 #include "storage/mutex.h"
 #include "wire/sweep_codec.h"
@@ -21,8 +21,8 @@ class SweepRun {
  public:
   /// Both are called by the threads that compute, several at a time.
   struct Sink {
-    std::function<void(v1::SweepCell)> store;  ///< Of each cell, as it is finished.
-    std::function<void()> pulse;               ///< Now and then while a cell is computed.
+    std::function<void(SolvedCell)> store;  ///< Of each cell, as it is finished.
+    std::function<void()> pulse;            ///< Now and then while a cell is computed.
   };
 
   /// Cells for which `done` is true have been computed before. `options` outlives the run, the sink

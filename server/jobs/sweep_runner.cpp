@@ -43,7 +43,7 @@ Move SweepRunner::Run(const v1::Sweep& sweep) {
     progress_.set_cells(cells);
     Publish();
   }
-  const SweepRun::Sink sink{[this](v1::SweepCell cell) { StoreCell(std::move(cell)); },
+  const SweepRun::Sink sink{[this](SolvedCell solved) { StoreCell(std::move(solved)); },
                             [this] { Pulse(); }};
   const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), options_,
                                               assignment_.stop.get_token(), sink);
@@ -83,10 +83,16 @@ void SweepRunner::Count(const v1::SweepCell& cell) {
   }
 }
 
-void SweepRunner::StoreCell(v1::SweepCell cell) {
+// What was kept of the cell stands before it in the log, and nothing between.
+void SweepRunner::StoreCell(SolvedCell solved) {
   v1::Event event = EventAt(clock_.Now());
-  *event.mutable_sweep_cell() = std::move(cell);
+  *event.mutable_sweep_cell() = std::move(solved.cell);
   const MutexLock lock(mutex_);
+  for (v1::FrameChunk& chunk : solved.trajectory) {
+    v1::Event frame = EventAt(clock_.Now());
+    *frame.mutable_frame_chunk() = std::move(chunk);
+    writer_.Add(std::move(frame));
+  }
   Count(event.sweep_cell());
   writer_.Add(std::move(event));
   const auto now = std::chrono::steady_clock::now();

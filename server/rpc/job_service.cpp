@@ -2,7 +2,9 @@
 
 #include <utility>
 
+#include "rpc/artifact_reactor.h"
 #include "rpc/status.h"
+#include "rpc/watch_jobs_reactor.h"
 #include "rpc/watch_reactor.h"
 
 namespace contact {
@@ -68,9 +70,19 @@ grpc::ServerUnaryReactor* JobService::DeleteJob(grpc::CallbackServerContext* con
   return reactor;
 }
 
-grpc::ServerWriteReactor<v1::WatchJobResponse>* JobService::WatchJob(
-    grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
+grpc::ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(
+    grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) {
   return WatchReactor::Start(jobs_, watches_, context, *request, write_stall_);
+}
+
+grpc::ServerWriteReactor<v1::WatchJobsResponse>* JobService::WatchJobs(
+    grpc::CallbackServerContext* context, const v1::WatchJobsRequest* request) {
+  return WatchJobsReactor::Start(jobs_, watches_, context, *request, write_stall_);
+}
+
+grpc::ServerWriteReactor<v1::ReadArtifactResponse>* JobService::ReadArtifact(
+    grpc::CallbackServerContext* context, const v1::ReadArtifactRequest* request) {
+  return ArtifactReactor::Start(jobs_, watches_, context, *request, write_stall_);
 }
 
 grpc::ServerUnaryReactor* JobService::GetSeries(grpc::CallbackServerContext* context,

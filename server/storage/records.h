@@ -68,6 +68,7 @@ inline std::uint32_t KindBit(v1::Event::PayloadCase kind) { return 1U << kind; }
 
 struct StoredEvent {
   std::uint64_t sequence = 0;
+  v1::Event::PayloadCase kind = v1::Event::PAYLOAD_NOT_SET;
   std::string payload;  ///< A serialised v1::Event without sequence.
   bool intact = true;   ///< False: fails its checksum; the payload is empty.
 };
