@@ -215,6 +215,12 @@ void AddLifecycle(CLI::App* app, Config* config, Switches* switches) {
                   "A job that was running at so many crashes of the server is set aside")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app->add_option("--retain-bytes", jobs.retention.bytes,
+                  "Ended jobs are deleted, the first to end first, while they take more than this, "
+                  "such as 20GB; 0 is any")
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES")
+      ->capture_default_str();
   AddTime(app, "--retain-for", &switches->retain_for_s,
           "Ended jobs are deleted after so long, such as 30d, unless they say so themselves; "
           "0 is never");

@@ -8,11 +8,12 @@ namespace contact::cli {
 
 /// Each adds its commands to the command line; the one that is chosen sets `action`.
 
-void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);    // run, submit
-void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);  // watch, wait
-void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);    // list, …
-void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);  // export
-void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);    // plot
+void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);       // run, submit
+void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);     // watch, wait
+void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);       // list, …
+void AddArtifactCommands(CLI::App& app, const Settings& settings, Action* action);  // artifact …
+void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);     // export
+void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);       // plot
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series

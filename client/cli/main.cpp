@@ -30,10 +30,9 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->envname("CONTACT_SERVER")
       ->type_name("HOST:PORT")
       ->capture_default_str();
-  app.add_option(
-         "-o,--output", settings->output,
-         "How to print: table, json, name; jsonl (watch, export); csv (series, sweep, model, "
-         "export); netcdf (export); svg, png, pdf, gp, csv (plot)")
+  app.add_option("-o,--output", settings->output,
+                 "How to print: table, json, name; jsonl (watch, list --watch, export); csv "
+                 "(series, sweep, model, export); netcdf (export); svg, png, pdf, gp, csv (plot)")
       ->check(CLI::IsMember(
           {"table", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")
@@ -96,6 +95,7 @@ int Main(int argc, char** argv) {
   AddRunCommands(app, settings, &action);
   AddWatchCommands(app, settings, &action);
   AddJobCommands(app, settings, &action);
+  AddArtifactCommands(app, settings, &action);
   AddExportCommand(app, settings, &action);
   AddPlotCommand(app, settings, &action);
   AddScenarioCommands(app, settings, &action);

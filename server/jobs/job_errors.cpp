@@ -37,6 +37,36 @@ Error WatcherLimit(int max_watchers) {
           .retry_after = kRetryAfter};
 }
 
+Error SlowWatcher(const std::string& what) {
+  return {.code = absl::StatusCode::kResourceExhausted,
+          .reason = "SLOW_WATCHER",
+          .message = fmt::format("the watcher of {} fell behind; watch again, or take less", what),
+          .retry_after = kRetryAfter};
+}
+
+Error NotEnded(const std::string& name) {
+  return {.code = absl::StatusCode::kFailedPrecondition,
+          .reason = "INVALID_STATE",
+          .message = fmt::format("{} has not ended", name),
+          .metadata = {{"name", name}}};
+}
+
+Error NoArtifact(const std::string& name, const std::string& artifact) {
+  return {.code = absl::StatusCode::kNotFound,
+          .reason = "ARTIFACT_NOT_FOUND",
+          .message = fmt::format("{} has no artifact '{}'", name, artifact.substr(0, 64)),
+          .metadata = {{"name", name}}};
+}
+
+Error OffsetOutOfRange(std::int64_t offset, std::int64_t size) {
+  Error error{
+      .code = absl::StatusCode::kOutOfRange,
+      .reason = "OFFSET_OUT_OF_RANGE",
+      .message = fmt::format("offset is {}; must be in [0, the size of the artifact]", offset)};
+  if (size >= 0) error.metadata["size_bytes"] = fmt::format("{}", size);
+  return error;
+}
+
 Error NoTrajectory(const std::string& name) {
   return {.code = absl::StatusCode::kFailedPrecondition,
           .reason = "NO_TRAJECTORY",

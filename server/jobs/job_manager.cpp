@@ -6,8 +6,10 @@
 #include <future>
 #include <utility>
 
+#include "jobs/delivery_cursor.h"
 #include "jobs/executor.h"
 #include "jobs/job_errors.h"
+#include "jobs/job_feed.h"
 #include "jobs/lifecycle.h"
 #include "jobs/request_rules.h"
 #include "jobs/scheduler.h"
@@ -75,8 +77,8 @@ struct JobManager::Impl {
         clock(the_clock),
         ids(the_ids),
         options(std::move(the_options)),
-        scheduler(store, clock, options),
-        retention(store, clock, options.retention) {}
+        scheduler(store, clock, options, feed),
+        retention(store, clock, options.retention, feed) {}
 
   // One CreateJob on its way.
   struct Creation {
@@ -95,12 +97,20 @@ struct JobManager::Impl {
     SetExpireTime(options.retention, job);
   }
 
+  /// Counts one more; false if there are too many.
+  bool AddWatcher();
+  Watched Open(const v1::WatchJobRequest& request, WatchRules rules, v1::Job job,
+               std::function<void()> wake);
+  /// Makes a header of what the store and the worker know.
+  void Complete(StoredJob* stored) const;
+
   Store& store;
   const Clock& clock;
   IdSource& ids;
   const JobManagerOptions options;
   std::atomic<bool> draining = false;
   std::shared_ptr<std::atomic<int>> watchers = std::make_shared<std::atomic<int>>(0);
+  JobFeed feed;
   Scheduler scheduler;
   Retention retention;
   Executor executor;  ///< Checks scenarios and reads series: too long for the callers' threads.
@@ -175,12 +185,24 @@ void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
                });
 }
 
+bool JobManager::Impl::AddWatcher() {
+  if (++*watchers <= options.max_watchers) return true;
+  --*watchers;
+  return false;
+}
+
+void JobManager::Impl::Complete(StoredJob* stored) const {
+  if (!stored->intact) DescribeDamage(&stored->job);
+  Complete(false, &stored->job);
+}
+
 void JobManager::Get(const std::string& name, Callback<v1::Job> done) {
   impl_->store.Read(
       name, JobPart::kAll,
       [impl = impl_.get(), name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
         if (!stored.ok()) return done(ToError(stored.status(), name));
         impl->Complete(true, &stored->job);
+        AddArtifacts(&stored->job);
         done(std::move(stored->job));
       });
 }
@@ -193,8 +215,7 @@ void JobManager::List(const v1::ListJobsRequest& request, Callback<v1::ListJobsR
                       if (!page.ok()) return done(ToError(page.status(), ""));
                       v1::ListJobsResponse response;
                       for (StoredJob& stored : page->jobs) {
-                        if (!stored.intact) DescribeDamage(&stored.job);
-                        impl->Complete(false, &stored.job);
+                        impl->Complete(&stored);
                         *response.add_jobs() = std::move(stored.job);
                       }
                       response.set_next_page_token(PageToken(page->next));
@@ -211,8 +232,10 @@ void JobManager::Cancel(const std::string& name, Callback<v1::Job> done) {
 }
 
 void JobManager::Delete(const std::string& name, Callback<bool> done) {
-  impl_->store.Delete(name, [name, done = std::move(done)](const absl::StatusOr<bool>& deleted) {
+  impl_->store.Delete(name, [impl = impl_.get(), name,
+                             done = std::move(done)](const absl::StatusOr<bool>& deleted) {
     if (!deleted.ok()) return done(ToError(deleted.status(), name));
+    impl->feed.Changed(name);
     done(true);
   });
 }
@@ -233,32 +256,67 @@ void JobManager::Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFil
                       });
 }
 
-void JobManager::Watch(const std::string& name, std::uint64_t after_sequence,
-                       const std::vector<std::string>& kinds, std::function<void()> wake,
+void JobManager::Watch(const v1::WatchJobRequest& request, std::function<void()> wake,
                        Callback<Watched> done) {
-  Result<std::uint32_t> set = KindSet(kinds);
-  if (!set.ok()) return done(set.error());
-  const int limit = impl_->options.max_watchers;
-  if (++*impl_->watchers > limit) {
-    --*impl_->watchers;
-    return done(WatcherLimit(limit));
-  }
+  Result<WatchRules> rules = ToRules(request);
+  if (!rules.ok()) return done(rules.error());
+  if (!impl_->AddWatcher()) return done(WatcherLimit(impl_->options.max_watchers));
+  impl_->store.Read(request.name(), JobPart::kSpec,
+                    [impl = impl_.get(), request, rules = rules.value(), wake = std::move(wake),
+                     done = std::move(done)](absl::StatusOr<StoredJob> stored) mutable {
+                      if (!stored.ok()) {
+                        --*impl->watchers;
+                        return done(ToError(stored.status(), request.name()));
+                      }
+                      done(impl->Open(request, rules, std::move(stored->job), std::move(wake)));
+                    });
+}
+
+JobManager::Watched JobManager::Impl::Open(const v1::WatchJobRequest& request, WatchRules rules,
+                                           v1::Job job, std::function<void()> wake) {
+  auto log = scheduler.Log(request.name());
+  if (!log) log = std::make_shared<JobLog>(job.last_sequence(), true);
+  Complete(false, &job);
+  if (job.has_sweep() && request.kinds().empty()) rules.kinds &= ~KindBit(v1::Event::kFrameChunk);
+  auto tail = std::make_unique<TailCursor>(
+      store, request.name(), std::move(log),
+      request.live_only() ? job.last_sequence() : request.after_sequence(), rules.kinds,
+      std::move(wake), watchers);
+  auto behind = [&cursor = *tail] { return cursor.behind(); };
+  auto cursor =
+      std::make_unique<DeliveryCursor>(std::move(tail), std::move(behind), rules.delivery);
+  return {std::move(job), std::move(cursor), rules.bookmark_interval,
+          rules.delivery.min_frame_interval.count() > 0};
+}
+
+Result<JobManager::WatchedJobs> JobManager::Watch(const v1::WatchJobsRequest& request,
+                                                  std::function<void()> wake) {
+  Result<JobsRules> rules = ToRules(request);
+  if (!rules.ok()) return rules.error();
+  if (!impl_->AddWatcher()) return WatcherLimit(impl_->options.max_watchers);
+  return WatchedJobs{std::make_unique<JobsCursor>(
+                         impl_->store, impl_->feed, std::move(rules.value().filter),
+                         [impl = impl_.get()](StoredJob* stored) { impl->Complete(stored); },
+                         std::move(wake), impl_->watchers),
+                     rules.value().bookmark_interval};
+}
+
+void JobManager::ReadArtifact(const v1::ReadArtifactRequest& request, std::function<void()> wake,
+                              Callback<std::unique_ptr<ArtifactReader>> done) {
+  if (request.offset() < 0) return done(OffsetOutOfRange(request.offset(), -1));
+  if (!impl_->AddWatcher()) return done(WatcherLimit(impl_->options.max_watchers));
   impl_->store.Read(
-      name, JobPart::kSpec,
-      [impl = impl_.get(), name, after_sequence, set = set.value(), wake = std::move(wake),
+      request.name(), JobPart::kAll,
+      [impl = impl_.get(), request, wake = std::move(wake),
        done = std::move(done)](absl::StatusOr<StoredJob> stored) mutable {
-        if (!stored.ok()) {
+        Result<ArtifactPlan> plan = stored.ok() ? PlanArtifact(std::move(stored->job), request)
+                                                : ToError(stored.status(), request.name());
+        if (!plan.ok()) {
           --*impl->watchers;
-          return done(ToError(stored.status(), name));
+          return done(plan.error());
         }
-        v1::Job& job = stored->job;
-        auto log = impl->scheduler.Log(name);
-        if (!log) log = std::make_shared<JobLog>(job.last_sequence(), true);
-        impl->Complete(false, &job);
-        auto cursor =
-            std::make_unique<TailCursor>(impl->store, name, std::move(log), after_sequence, set,
-                                         std::move(wake), impl->watchers);
-        done(Watched{std::move(job), std::move(cursor)});
+        done(std::make_unique<ArtifactReader>(impl->store, impl->executor, std::move(plan.value()),
+                                              std::move(wake), impl->watchers));
       });
 }
 

@@ -6,11 +6,12 @@
 #include <memory>
 #include <stop_token>
 #include <string>
-#include <vector>
 
 #include "contact/v1/job_service.pb.h"
+#include "jobs/artifact_reader.h"
 #include "jobs/error.h"
 #include "jobs/job_metrics.h"
+#include "jobs/jobs_cursor.h"
 #include "jobs/log_cursor.h"
 #include "jobs/retention.h"
 #include "jobs/run_control.h"
@@ -74,13 +75,25 @@ class JobManager {
   struct Watched {
     v1::Job snapshot;
     std::unique_ptr<LogCursor> cursor;
+    std::chrono::milliseconds bookmark_interval{0};
+    bool paced = false;  ///< The cursor may have something new because time has passed.
   };
-  void Watch(const std::string& name, std::uint64_t after_sequence,
-             const std::vector<std::string>& kinds, std::function<void()> wake,
+  void Watch(const v1::WatchJobRequest& request, std::function<void()> wake,
              Callback<Watched> done);
 
   /// Copies the store into a file of its own, while everything goes on. `stop` gives it up.
   void Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFile>> done);
+
+  /// The same for all jobs of a filter.
+  struct WatchedJobs {
+    std::unique_ptr<JobsCursor> cursor;
+    std::chrono::milliseconds bookmark_interval{0};
+  };
+  Result<WatchedJobs> Watch(const v1::WatchJobsRequest& request, std::function<void()> wake);
+
+  /// Opens an artifact of an ended job. `wake` as above.
+  void ReadArtifact(const v1::ReadArtifactRequest& request, std::function<void()> wake,
+                    Callback<std::unique_ptr<ArtifactReader>> done);
 
   /// Numbers of GetServerInfo: workers, queued and running jobs, limits.
   v1::ServerInfo Info() const;

@@ -26,6 +26,7 @@ constexpr int kMaxPriority = 100;
 constexpr std::size_t kMaxViolations = 100;
 constexpr int kDefaultPageSize = 50;
 constexpr int kMaxPageSize = 1000;
+constexpr std::chrono::milliseconds kDefaultBookmarkInterval{10'000};
 
 bool IsLabelCharacter(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
@@ -107,6 +108,48 @@ Error FieldInvalid(std::vector<Violation> violations) {
   error.message = first.field + ": " + first.description;
   error.violations = std::move(violations);
   return error;
+}
+
+// The set of kinds, state_changed among them; all if there are none.
+std::uint32_t KindSet(const v1::WatchJobRequest& request, std::vector<Violation>* violations) {
+  if (request.kinds().empty()) return ~0U;
+  std::uint32_t set = KindBit(v1::Event::kStateChanged);
+  const auto& payload = *v1::Event::descriptor()->FindOneofByName("payload");
+  for (const std::string& kind : request.kinds()) {
+    const auto* field = v1::Event::descriptor()->FindFieldByName(kind);
+    if (field != nullptr && field->containing_oneof() == &payload) {
+      set |= 1U << field->number();
+      continue;
+    }
+    violations->push_back({"kinds", fmt::format("'{}' is no kind of event", kind.substr(0, 64)),
+                           "name a field of Event.payload, such as cycle"});
+    break;  // There may be millions.
+  }
+  return set;
+}
+
+// Whether an interval has a length that is allowed: from so many seconds to an hour.
+struct IntervalRange {
+  std::int64_t least_s;
+  const char* text;
+};
+std::chrono::milliseconds Interval(const std::string& field,
+                                   const google::protobuf::Duration& interval,
+                                   const IntervalRange& range, std::vector<Violation>* violations) {
+  constexpr std::int64_t kMostNanos = 999'999'999;
+  if (interval.seconds() < range.least_s || interval.nanos() < 0 || interval.nanos() > kMostNanos ||
+      interval.seconds() > 3600 || (interval.seconds() == 3600 && interval.nanos() > 0)) {
+    violations->push_back({field, fmt::format("must be in {}", range.text), ""});
+    return {};
+  }
+  return std::chrono::milliseconds{interval.seconds() * 1000 + interval.nanos() / 1'000'000};
+}
+
+template <class Request>
+std::chrono::milliseconds BookmarkInterval(const Request& request,
+                                           std::vector<Violation>* violations) {
+  if (!request.has_bookmark_interval()) return kDefaultBookmarkInterval;
+  return Interval("bookmark_interval", request.bookmark_interval(), {1, "[1 s, 1 h]"}, violations);
 }
 
 // The number that PageToken has written; negative if it did not write this.
@@ -222,19 +265,39 @@ Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
 
 std::string PageToken(std::int64_t number) { return number > 0 ? fmt::format("{}", number) : ""; }
 
-Result<std::uint32_t> KindSet(const std::vector<std::string>& kinds) {
-  if (kinds.empty()) return ~0U;
-  std::uint32_t set = KindBit(v1::Event::kStateChanged);
-  const auto& payload = *v1::Event::descriptor()->FindOneofByName("payload");
-  for (const std::string& kind : kinds) {
-    const auto* field = v1::Event::descriptor()->FindFieldByName(kind);
-    if (field == nullptr || field->containing_oneof() != &payload) {
-      return FieldInvalid({{"kinds", fmt::format("'{}' is no kind of event", kind.substr(0, 64)),
-                            "name a field of Event.payload, such as cycle"}});
-    }
-    set |= 1U << field->number();
+Result<WatchRules> ToRules(const v1::WatchJobRequest& request) {
+  std::vector<Violation> violations;
+  WatchRules rules;
+  rules.kinds = KindSet(request, &violations);
+  rules.bookmark_interval = BookmarkInterval(request, &violations);
+  const v1::DeliveryOptions& delivery = request.delivery();
+  if (delivery.has_min_frame_interval()) {
+    rules.delivery.min_frame_interval = Interval(
+        "delivery.min_frame_interval", delivery.min_frame_interval(), {0, "[0, 1 h]"}, &violations);
   }
-  return set;
+  if (!v1::DeliveryOptions::OverflowPolicy_IsValid(delivery.overflow())) {
+    violations.push_back({"delivery.overflow", "is neither CONFLATE nor DISCONNECT nor LAG", ""});
+  } else if (delivery.overflow() != v1::DeliveryOptions::OVERFLOW_POLICY_UNSPECIFIED) {
+    rules.delivery.overflow = delivery.overflow();
+  }
+  if (request.live_only() && request.after_sequence() > 0) {
+    violations.push_back(
+        {"live_only", "goes only with after_sequence 0", "to resume, leave it out"});
+  }
+  if (!violations.empty()) return FieldInvalid(std::move(violations));
+  return rules;
+}
+
+Result<JobsRules> ToRules(const v1::WatchJobsRequest& request) {
+  v1::ListJobsRequest list;
+  *list.mutable_states() = request.states();
+  *list.mutable_labels() = request.labels();
+  Result<JobQuery> filter = ToQuery(list);
+  if (!filter.ok()) return filter.error();
+  std::vector<Violation> violations;
+  JobsRules rules{std::move(filter.value()), BookmarkInterval(request, &violations)};
+  if (!violations.empty()) return FieldInvalid(std::move(violations));
+  return rules;
 }
 
 Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request, const Columns& channels) {

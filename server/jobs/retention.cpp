@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <future>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 
+#include "jobs/job_feed.h"
 #include "jobs/lifecycle.h"
 #include "jobs/sources.h"
 #include "storage/store.h"
@@ -35,6 +37,16 @@ absl::StatusOr<JobPage> ReadPage(Store& store, std::int64_t before) {
               .limit = kPage},
              Fulfil(&page));
   return page.get();
+}
+
+std::unordered_map<std::string, std::int64_t> ReadBytes(Store& store) {
+  std::future<absl::StatusOr<std::vector<JobSize>>> sizes;
+  store.Sizes(Fulfil(&sizes));
+  std::unordered_map<std::string, std::int64_t> bytes;
+  const absl::StatusOr<std::vector<JobSize>> read = sizes.get();
+  if (!read.ok()) return bytes;
+  for (const JobSize& size : *read) bytes.emplace(size.name, size.bytes);
+  return bytes;
 }
 
 bool Delete(Store& store, const std::string& name) {
@@ -78,8 +90,8 @@ std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now
   return expired;
 }
 
-Retention::Retention(Store& store, const Clock& clock, RetentionLimits limits)
-    : store_(store), clock_(clock), limits_(limits) {}
+Retention::Retention(Store& store, const Clock& clock, RetentionLimits limits, JobFeed& feed)
+    : store_(store), clock_(clock), limits_(limits), feed_(feed) {}
 
 Retention::~Retention() { Stop(); }
 
@@ -113,7 +125,9 @@ int Retention::Sweep() {
   int deleted = 0;
   for (const std::string& name : Expired(ListEnded(), clock_.Now(), limits_)) {
     if (stopped()) break;
-    deleted += Delete(store_, name) ? 1 : 0;
+    if (!Delete(store_, name)) continue;
+    feed_.Changed(name);
+    ++deleted;
   }
   return deleted;
 }
@@ -121,14 +135,17 @@ int Retention::Sweep() {
 // Oldest end first.
 std::vector<EndedJob> Retention::ListEnded() {
   std::vector<std::pair<std::int64_t, EndedJob>> found;
+  const auto bytes = limits_.bytes > 0 ? ReadBytes(store_)
+                                       : std::unordered_map<std::string, std::int64_t>();
   std::int64_t before = 0;
   do {
     const absl::StatusOr<JobPage> page = ReadPage(store_, before);
     if (!page.ok()) break;
     for (const StoredJob& stored : page->jobs) {
       const v1::Job& job = stored.job;
-      found.push_back(
-          {TimeUtil::TimestampToNanoseconds(job.end_time()), {job.name(), ExpiryOf(job, limits_)}});
+      const auto size = bytes.find(job.name());
+      found.push_back({TimeUtil::TimestampToNanoseconds(job.end_time()),
+                       {job.name(), ExpiryOf(job, limits_), size == bytes.end() ? 0 : size->second}});
     }
     before = page->next;
   } while (before > 0 && !stopped());

@@ -14,6 +14,7 @@
 namespace contact {
 
 class Clock;
+class JobFeed;
 class Store;
 
 /// How much the server keeps of jobs that have ended.
@@ -44,7 +45,7 @@ std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now
 class Retention {
  public:
   /// All outlive it.
-  Retention(Store& store, const Clock& clock, RetentionLimits limits);
+  Retention(Store& store, const Clock& clock, RetentionLimits limits, JobFeed& feed);
   ~Retention();
 
   void Start();
@@ -61,6 +62,7 @@ class Retention {
   Store& store_;
   const Clock& clock_;
   const RetentionLimits limits_;
+  JobFeed& feed_;
   mutable Mutex mutex_;
   std::condition_variable_any changed_;
   bool stopped_ ABSL_GUARDED_BY(mutex_) = false;

@@ -34,15 +34,23 @@ void RunRecorder::OnCycle(const Cycle& cycle) {
   record_.Do([&](v1::Job& job) { *job.add_cycles() = std::move(row); });
 }
 
-void RunRecorder::OnSamples(const Samples& samples) {
-  if (control_.stopping() && ++chunks_ > kMostChunks) throw RunStopped();
+std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples) {
   const std::ptrdiff_t rows = std::max<std::ptrdiff_t>(1, kMaxChunkValues / samples.columns);
+  std::vector<v1::FrameChunk> chunks;
   for (std::ptrdiff_t first = 0; first < samples.rows(); first += rows) {
     const auto begin = samples.values.begin() + first * samples.columns;
     const auto count = std::min<std::ptrdiff_t>(rows, samples.rows() - first) * samples.columns;
+    chunks.push_back(
+        Encode(scenario, Samples{samples.first + first, samples.columns, {begin, begin + count}}));
+  }
+  return chunks;
+}
+
+void RunRecorder::OnSamples(const Samples& samples) {
+  if (control_.stopping() && ++chunks_ > kMostChunks) throw RunStopped();
+  for (v1::FrameChunk& chunk : ChunksOf(scenario_, samples)) {
     v1::Event event = Event();
-    *event.mutable_frame_chunk() =
-        Encode(scenario_, Samples{samples.first + first, samples.columns, {begin, begin + count}});
+    *event.mutable_frame_chunk() = std::move(chunk);
     writer_.Add(std::move(event));
   }
 }

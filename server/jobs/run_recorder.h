@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "jobs/job_log.h"
 #include "jobs/log_writer.h"
@@ -11,6 +12,9 @@
 #include "simulation/run.h"
 
 namespace contact {
+
+/// Samples as chunks that each fit into a message.
+std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples);
 
 /// Thrown through a run that was asked to stop while it takes samples of one step without end.
 struct RunStopped {};

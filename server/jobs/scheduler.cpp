@@ -31,10 +31,12 @@ Move MoveAfterCrash(const StoredJob& stored, int max_attempts) {
 
 }  // namespace
 
-Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options)
+Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options,
+                     JobFeed& feed)
     : store_(store),
       clock_(clock),
       options_(options),
+      feed_(feed),
       workers_([this](Worker& worker) { Work(worker); }) {
   Recover();
   workers_.Start(options_.workers);
@@ -42,6 +44,10 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& 
 }
 
 Scheduler::~Scheduler() { Stop(); }
+
+std::shared_ptr<JobLog> Scheduler::NewLog(const std::string& name, std::uint64_t last) {
+  return std::make_shared<JobLog>(last, false, [this, name] { feed_.Changed(name); });
+}
 
 void Scheduler::Recover() {
   std::promise<void> recovered;
@@ -61,7 +67,7 @@ void Scheduler::Recover(StoredJob stored) {
   if (!stored.intact) spdlog::error("job={} fails its checksum in the store", stored.job.name());
   const Move move = MoveAfterCrash(stored, options_.max_attempts);
   Active active;
-  active.log = std::make_shared<JobLog>(stored.job.last_sequence(), false);
+  active.log = NewLog(stored.job.name(), stored.job.last_sequence());
   active.epoch = stored.epoch;
   v1::Job& job = active.job = std::move(stored.job);
   if (job.state() == v1::Job::RUNNING) {
@@ -112,7 +118,7 @@ void Scheduler::Release() {
 void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
   Active active;
   active.job = std::move(job);
-  active.log = std::make_shared<JobLog>(0, false);
+  active.log = NewLog(active.job.name(), 0);
   active.log->Append(1, std::move(events));
   const MutexLock lock(mutex_);
   --reserved_;
@@ -314,11 +320,12 @@ void Scheduler::Bury(const Active& active) {
                        .take = true,
                        .job = &job,
                        .events = events},
-                      [this, events, active](const absl::StatusOr<std::uint64_t>& first) {
+                      [this, events, active, job](const absl::StatusOr<std::uint64_t>& first) {
                         if (!first.ok()) {
-                          return spdlog::error("{}: cannot store its end: {}", active.job.name(),
+                          return spdlog::error("job={} cannot store its end: {}", active.job.name(),
                                                first.status().ToString());
                         }
+                        options_.metrics->Moved(v1::Job::RUNNING, job);
                         active.log->Append(*first, events);
                         Remove(active.job.name());
                       });

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "jobs/job_feed.h"
 #include "jobs/job_queue.h"
 #include "jobs/job_runner.h"
 #include "jobs/sweep_run.h"
@@ -31,8 +32,9 @@ namespace contact {
 /// of the store a job is known here just if the store says that it has not ended.
 class Scheduler {
  public:
-  /// Queues the jobs that an earlier process left unfinished, and starts the workers.
-  Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options);
+  /// Queues the jobs that an earlier process left unfinished, and starts the workers. Every change
+  /// of a job's state is told to `feed`.
+  Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options, JobFeed& feed);
   ~Scheduler();
 
   /// Keeps a place in the queue for a job that is being stored. False: the queue is full.
@@ -74,6 +76,7 @@ class Scheduler {
 
   void Recover();
   void Recover(StoredJob stored);
+  std::shared_ptr<JobLog> NewLog(const std::string& name, std::uint64_t last);
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Queue(const Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool LastAttempt(const v1::Job& job) const;
@@ -97,6 +100,7 @@ class Scheduler {
   Store& store_;
   const Clock& clock_;
   const JobManagerOptions& options_;
+  JobFeed& feed_;
   std::stop_source shutdown_;
 
   mutable Mutex mutex_;

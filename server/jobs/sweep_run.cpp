@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "jobs/cell_solver.h"
-
 namespace contact {
 
 SweepRun::SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done,

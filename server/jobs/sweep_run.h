@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "contact/v1/event.pb.h"
 #include "contact/v1/scenario.pb.h"
+#include "jobs/cell_solver.h"
 #include "jobs/job_manager.h"
 #include "jobs/run_control.h"
 #include "storage/mutex.h"
@@ -22,8 +22,8 @@ class SweepRun {
  public:
   /// Both are called by the threads that compute, several at a time.
   struct Sink {
-    std::function<void(v1::SweepCell)> store;  ///< Of each cell, as it is finished.
-    std::function<void()> pulse;               ///< Now and then while a cell is computed.
+    std::function<void(SolvedCell)> store;  ///< Of each cell, as it is finished.
+    std::function<void()> pulse;            ///< Now and then while a cell is computed.
   };
 
   /// Cells for which `done` is true have been computed before. `options` outlives the run, the sink

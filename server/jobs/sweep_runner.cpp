@@ -43,7 +43,7 @@ Move SweepRunner::Run(const v1::Sweep& sweep) {
     progress_.set_cells(cells);
     Publish();
   }
-  const SweepRun::Sink sink{[this](v1::SweepCell cell) { StoreCell(std::move(cell)); },
+  const SweepRun::Sink sink{[this](SolvedCell solved) { StoreCell(std::move(solved)); },
                             [this] { Pulse(); }};
   const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), options_,
                                               assignment_.control, sink);
@@ -85,12 +85,18 @@ void SweepRunner::Count(v1::Job::State state, v1::Job::Convergence convergence) 
   }
 }
 
-void SweepRunner::StoreCell(v1::SweepCell cell) {
-  const v1::Job::State state = cell.state();
-  const v1::Job::Convergence convergence = cell.convergence();
+// What was kept of the cell stands before it in the log, and nothing between.
+void SweepRunner::StoreCell(SolvedCell solved) {
+  const v1::Job::State state = solved.cell.state();
+  const v1::Job::Convergence convergence = solved.cell.convergence();
   v1::Event event = EventAt(clock_.Now());
-  *event.mutable_sweep_cell() = std::move(cell);
+  *event.mutable_sweep_cell() = std::move(solved.cell);
   const MutexLock lock(mutex_);
+  for (v1::FrameChunk& chunk : solved.trajectory) {
+    v1::Event frame = EventAt(clock_.Now());
+    *frame.mutable_frame_chunk() = std::move(chunk);
+    if (!writer_.Add(std::move(frame))) return;
+  }
   if (!writer_.Add(std::move(event))) return;
   Count(state, convergence);
   const auto now = std::chrono::steady_clock::now();

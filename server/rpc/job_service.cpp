@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "rpc/artifact_reactor.h"
 #include "rpc/refused_stream.h"
 #include "rpc/status.h"
+#include "rpc/watch_jobs_reactor.h"
 #include "rpc/watch_reactor.h"
 
 namespace contact {
@@ -82,12 +84,28 @@ grpc::ServerUnaryReactor* JobService::DeleteJob(grpc::CallbackServerContext* con
                      [&](auto answer) { jobs_.Delete(request->name(), answer); });
 }
 
-grpc::ServerWriteReactor<v1::WatchJobResponse>* JobService::WatchJob(
-    grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
+grpc::ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(
+    grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) {
   if (const auto refusal = guard_.CheckStream(*context)) {
-    return new RefusedStream<v1::WatchJobResponse>(*refusal);
+    return new RefusedStream<grpc::ByteBuffer>(*refusal);
   }
   return WatchReactor::Start(jobs_, watches_, context, *request, write_stall_);
+}
+
+grpc::ServerWriteReactor<v1::WatchJobsResponse>* JobService::WatchJobs(
+    grpc::CallbackServerContext* context, const v1::WatchJobsRequest* request) {
+  if (const auto refusal = guard_.CheckStream(*context)) {
+    return new RefusedStream<v1::WatchJobsResponse>(*refusal);
+  }
+  return WatchJobsReactor::Start(jobs_, watches_, context, *request, write_stall_);
+}
+
+grpc::ServerWriteReactor<v1::ReadArtifactResponse>* JobService::ReadArtifact(
+    grpc::CallbackServerContext* context, const v1::ReadArtifactRequest* request) {
+  if (const auto refusal = guard_.CheckStream(*context)) {
+    return new RefusedStream<v1::ReadArtifactResponse>(*refusal);
+  }
+  return ArtifactReactor::Start(jobs_, watches_, context, *request, write_stall_);
 }
 
 grpc::ServerUnaryReactor* JobService::GetSeries(grpc::CallbackServerContext* context,

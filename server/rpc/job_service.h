@@ -14,7 +14,10 @@ namespace contact {
 
 /// The calls of the contract, each handed to the JobManager. No handler waits for anything: gRPC
 /// runs all of them on a few threads.
-class JobService final : public v1::JobService::CallbackService {
+///
+/// WatchJob works on bytes, so that an event is serialised once for all who watch.
+class JobService final
+    : public v1::JobService::WithRawCallbackMethod_WatchJob<v1::JobService::CallbackService> {
  public:
   /// `identity` is what GetServerInfo answers, but for the numbers that the manager knows.
   JobService(JobManager& jobs, std::shared_ptr<WatchLoop> watches, CallGuard& guard,
@@ -39,8 +42,12 @@ class JobService final : public v1::JobService::CallbackService {
   grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context,
                                       const v1::DeleteJobRequest* request,
                                       google::protobuf::Empty* response) override;
-  grpc::ServerWriteReactor<v1::WatchJobResponse>* WatchJob(
-      grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) override;
+  grpc::ServerWriteReactor<grpc::ByteBuffer>* WatchJob(grpc::CallbackServerContext* context,
+                                                       const grpc::ByteBuffer* request) override;
+  grpc::ServerWriteReactor<v1::WatchJobsResponse>* WatchJobs(
+      grpc::CallbackServerContext* context, const v1::WatchJobsRequest* request) override;
+  grpc::ServerWriteReactor<v1::ReadArtifactResponse>* ReadArtifact(
+      grpc::CallbackServerContext* context, const v1::ReadArtifactRequest* request) override;
   grpc::ServerUnaryReactor* GetSeries(grpc::CallbackServerContext* context,
                                       const v1::GetSeriesRequest* request,
                                       v1::Series* response) override;

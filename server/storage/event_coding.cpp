@@ -155,4 +155,13 @@ bool StoredEvent::Parse(v1::Event* event) const {
   return intact && DecodeEvent(coding, bytes, event);
 }
 
+bool StoredEvent::TakePayload(std::string* payload) {
+  if (coding == Coding::kPlain) {
+    *payload = std::move(bytes);
+    return intact;
+  }
+  v1::Event event;
+  return Parse(&event) && event.SerializeToString(payload);
+}
+
 }  // namespace contact

@@ -137,7 +137,7 @@ absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query
   if (query.after >= last) return page;
   page.position = query.after + std::min(kMaxScan, last - query.after);
   Query rows(database,
-             "SELECT sequence, crc32, coding, payload FROM events WHERE job=? AND sequence>?"
+             "SELECT sequence, crc32, coding, payload, kind FROM events WHERE job=? AND sequence>?"
              " AND sequence<=? AND (1<<kind)&? ORDER BY sequence",
              job.Integer(0), query.after, page.position, query.kinds);
   for (std::size_t bytes = 0; rows.Next();) {
@@ -147,6 +147,7 @@ absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query
       page.position = page.events.back().sequence;
       break;
     }
+    event.kind = static_cast<v1::Event::PayloadCase>(rows.Integer(4));
     CodedEvent coded{static_cast<Coding>(rows.Integer(2)), rows.Bytes(3)};
     event.intact = Checksum(coded, event.sequence) == rows.Integer(1);
     if (event.intact) {

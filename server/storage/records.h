@@ -76,6 +76,7 @@ inline std::uint32_t KindBit(v1::Event::PayloadCase kind) { return 1U << kind; }
 
 struct StoredEvent {
   std::uint64_t sequence = 0;
+  v1::Event::PayloadCase kind = v1::Event::PAYLOAD_NOT_SET;
   Coding coding = Coding::kPlain;
   std::string bytes;   ///< As they are stored; empty if not intact.
   bool intact = true;  ///< False: fails its checksum.
@@ -83,6 +84,8 @@ struct StoredEvent {
   /// Decodes the event, without sequence. Takes a while for a frame chunk: not for the store's
   /// thread. False if it is damaged.
   bool Parse(v1::Event* event) const;
+  /// The same as a serialised message. Takes the bytes.
+  bool TakePayload(std::string* payload);
 };
 
 struct EventPage {

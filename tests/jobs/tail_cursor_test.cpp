@@ -162,7 +162,7 @@ TEST_F(TailCursorTest, ProgressIsTheNewestOnlyAndHasNoSequence) {
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].sequence(), 0U);
   EXPECT_EQ(events[0].progress().steps(), 3);
-  google::protobuf::RepeatedPtrField<v1::Event> none;
+  std::vector<LogRecord> none;
   EXPECT_EQ(cursor->Read(1, &none), LogCursor::Next::kWait) << "it was seen";
 }
 
@@ -201,7 +201,7 @@ TEST_F(TailCursorTest, CursorsMayLeaveWhileTheLogIsWritten) {
     for (int i = 0; i < 500; ++i) {
       LogReader reader;
       const auto cursor = Cursor(reader, static_cast<std::uint64_t>(i % 3) * 1000);
-      google::protobuf::RepeatedPtrField<v1::Event> events;
+      std::vector<LogRecord> events;
       cursor->Read(1 << 12, &events);
       cursor->Read(1 << 12, &events);
     }
