@@ -92,6 +92,7 @@ int Main(int argc, char** argv) {
   CLI::App app(kTour, "contactctl");
   app.footer(kCodes);
   app.fallthrough();
+  app.require_subcommand(0, 1);  // So `schema sweep` is an argument, not the command sweep.
   AddGlobalFlags(app, &settings);
   AddRunCommands(app, settings, &action);
   AddWatchCommands(app, settings, &action);
@@ -99,6 +100,7 @@ int Main(int argc, char** argv) {
   AddExportCommand(app, settings, &action);
   AddPlotCommand(app, settings, &action);
   AddScenarioCommands(app, settings, &action);
+  AddSchemaCommand(app, settings, &action);
   AddSeriesCommands(app, settings, &action);
   AddSweepCommands(app, settings, &action);
   AddServerCommands(app, settings, &action);
