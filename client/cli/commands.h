@@ -20,7 +20,9 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action); 
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
 void AddModelCommands(CLI::App& app, const Settings& settings, Action* action);   // model
 
-void AddSchemaCommand(CLI::App& app, const Settings& settings, Action* action);  // schema
-void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);   // paper
+void AddSchemaCommand(CLI::App& app, const Settings& settings, Action* action);   // schema
+void AddConfigCommands(CLI::App& app, const Settings& settings, Action* action);  // config
+void AddCompletionCommand(CLI::App& app, Action* action);                         // completion
+void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);    // paper
 
 }  // namespace contact::cli

@@ -6,6 +6,8 @@
 #include <system_error>
 
 #include "cli/commands.h"
+#include "cli/completion.h"
+#include "cli/resolve.h"
 #include "wire/spelling.h"
 
 namespace contact::cli {
@@ -27,7 +29,6 @@ constexpr char kCodes[] =
 
 void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--server", settings->server, "The server")
-      ->envname("CONTACT_SERVER")
       ->type_name("HOST:PORT")
       ->capture_default_str();
   app.add_option(
@@ -45,6 +46,32 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--timeout", settings->timeout,
                  "Give up after this time. Default: 10s for a call, none for run, watch and wait")
       ->type_name("TIME");
+  app.add_option("--profile", settings->profile, "Use the values of this section of config files")
+      ->type_name("PROFILE");
+}
+
+// A config file that is wrong must not keep its owner from finding out.
+bool NeedsSettings(const CLI::App& app) {
+  const std::string& command = app.get_subcommands().front()->get_name();
+  return command != "config" && command != "version" && command != "schema" &&
+         command != "completion" && command != "doctor";
+}
+
+void AddCommands(CLI::App& app, const Settings& settings, Action* action) {
+  AddRunCommands(app, settings, action);
+  AddWatchCommands(app, settings, action);
+  AddJobCommands(app, settings, action);
+  AddExportCommand(app, settings, action);
+  AddPlotCommand(app, settings, action);
+  AddScenarioCommands(app, settings, action);
+  AddSchemaCommand(app, settings, action);
+  AddSeriesCommands(app, settings, action);
+  AddSweepCommands(app, settings, action);
+  AddServerCommands(app, settings, action);
+  AddPaperCommand(app, settings, action);
+  AddModelCommands(app, settings, action);
+  AddConfigCommands(app, settings, action);
+  AddCompletionCommand(app, action);
 }
 
 std::vector<std::string_view> Known(const CLI::App& app, bool flags,
@@ -94,18 +121,11 @@ int Main(int argc, char** argv) {
   app.fallthrough();
   app.require_subcommand(0, 1);  // So `schema sweep` is an argument, not the command sweep.
   AddGlobalFlags(app, &settings);
-  AddRunCommands(app, settings, &action);
-  AddWatchCommands(app, settings, &action);
-  AddJobCommands(app, settings, &action);
-  AddExportCommand(app, settings, &action);
-  AddPlotCommand(app, settings, &action);
-  AddScenarioCommands(app, settings, &action);
-  AddSchemaCommand(app, settings, &action);
-  AddSeriesCommands(app, settings, &action);
-  AddSweepCommands(app, settings, &action);
-  AddServerCommands(app, settings, &action);
-  AddPaperCommand(app, settings, &action);
-  AddModelCommands(app, settings, &action);
+  AddCommands(app, settings, &action);
+  if (argc > 1 && std::string_view(argv[1]) == "__complete") {
+    fmt::print("{}", Complete(app, {argv + 2, argv + argc}, &settings));
+    return 0;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -116,6 +136,10 @@ int Main(int argc, char** argv) {
   if (!action) {
     fmt::print("{}", app.help());
     return 0;
+  }
+  ResolveSettings(app, &settings);
+  if (!settings.problems.empty() && NeedsSettings(app)) {
+    throw Failure(settings.problems.front().code, settings.problems.front().text);
   }
   const ExitCode code = action();
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
