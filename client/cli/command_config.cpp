@@ -156,9 +156,7 @@ ExitCode ListProfiles(const CLI::App& app, const Settings& settings) {
 }
 
 constexpr char kAbout[] =
-    R"(Show and change the settings of contactctl.
-
-Every global flag is also an environment variable and a line of a config file in TOML: --server is
+    R"(Every global flag is also an environment variable and a line of a config file in TOML: --server is
 CONTACT_SERVER and server = "HOST:PORT". The first of these wins: the flag, the variable,
 ./contact.toml, ~/.config/contact/config.toml, /etc/contact/config.toml. A section [profile.lab] has
 the values of a profile, which --profile lab, CONTACT_PROFILE=lab or use_profile = "lab" chooses.)";
@@ -167,7 +165,8 @@ the values of a profile, which --profile lab, CONTACT_PROFILE=lab or use_profile
 
 void AddConfigCommands(CLI::App& app, const Settings& settings, Action* action) {
   auto arguments = std::make_shared<ConfigArguments>();
-  CLI::App* config = app.add_subcommand("config", kAbout);
+  CLI::App* config = app.add_subcommand("config", "Show and change the settings of contactctl");
+  config->footer(kAbout);
   config->require_subcommand(1);
   CLI::App* view = config->add_subcommand("view", "Show all settings as they are now");
   view->add_flag("--show-origin", arguments->show_origin, "Show where each comes from");

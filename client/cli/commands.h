@@ -23,6 +23,8 @@ void AddModelCommands(CLI::App& app, const Settings& settings, Action* action); 
 void AddSchemaCommand(CLI::App& app, const Settings& settings, Action* action);   // schema
 void AddConfigCommands(CLI::App& app, const Settings& settings, Action* action);  // config
 void AddCompletionCommand(CLI::App& app, Action* action);                         // completion
+void AddDevCommand(CLI::App& app, const Settings& settings, Action* action);      // dev
+void AddDoctorCommand(CLI::App& app, const Settings& settings, Action* action);   // doctor
 void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);    // paper
 
 }  // namespace contact::cli

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/completion.h"
+#include "cli/manual.h"
 #include "cli/resolve.h"
 #include "wire/spelling.h"
 
@@ -15,13 +16,15 @@ namespace {
 
 constexpr char kTour[] =
     R"(Simulates contacts whose restitution is what you asked for, on a contactd server.
+A scenario is a YAML file: bodies on a line, their contacts, what holds and drives them.
+A job is a scenario that the server solves, and it goes on when you leave.
+Its result is a ledger of every contact cycle, the recorded motion, and figures.
+No server yet?  contactctl dev starts one. Something wrong?  contactctl doctor looks.
+All commands:   contactctl --help, and for one of them contactctl run --help.
 
-Start here:
-  contactd --listen 127.0.0.1:7070 --data-dir data &   a server
-  contactctl init three-ball-chain                     an example scenario
-  contactctl run three-ball-chain.yaml                 submit it, watch it, see its ledger
-  contactctl run three-ball-chain.yaml --set contacts[0].restitution=0.7 -o json
-  contactctl list                                      what the server has)";
+  contactctl init three-ball-chain        write an example scenario
+  contactctl run three-ball-chain.yaml    submit it, watch it, see its ledger
+  contactctl plot JOB hysteresis          draw the force over the deformation)";
 
 constexpr char kCodes[] =
     R"(Exit codes: 0 ok, 1 run failed, 2 usage, 3 invalid scenario, 4 unreachable, 5 timeout,
@@ -72,6 +75,8 @@ void AddCommands(CLI::App& app, const Settings& settings, Action* action) {
   AddModelCommands(app, settings, action);
   AddConfigCommands(app, settings, action);
   AddCompletionCommand(app, action);
+  AddDevCommand(app, settings, action);
+  AddDoctorCommand(app, settings, action);
 }
 
 std::vector<std::string_view> Known(const CLI::App& app, bool flags,
@@ -126,6 +131,10 @@ int Main(int argc, char** argv) {
     fmt::print("{}", Complete(app, {argv + 2, argv + argc}, &settings));
     return 0;
   }
+  if (argc == 4 && std::string_view(argv[1]) == "__man") {
+    WriteManual(app, argv[2], argv[3]);
+    return 0;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -134,7 +143,7 @@ int Main(int argc, char** argv) {
     throw Failure(ExitCode::kUsage, UsageMessage(app, error) + "\nSee contactctl --help.");
   }
   if (!action) {
-    fmt::print("{}", app.help());
+    fmt::print("{}\n", kTour);
     return 0;
   }
   ResolveSettings(app, &settings);

@@ -30,9 +30,13 @@ class Usage(unittest.TestCase):
 
     def test_without_arguments_it_shows_where_to_start(self):
         printed, said = self.run_it(code=0)
+        about, examples = printed.split("\n\n")
+        self.assertEqual(len(about.splitlines()), 6)
+        self.assertEqual(len(examples.splitlines()), 3)
+        self.assertTrue(all(len(line) <= 90 for line in printed.splitlines()))
         self.assertIn("contactctl run three-ball-chain.yaml", printed)
-        self.assertIn("Exit codes:", printed)
         self.assertEqual(said, "")
+        self.assertIn("Exit codes:", self.run_it("--help", code=0)[0])
 
     def test_help_of_every_command_is_an_answer_and_not_a_failure(self):
         for command in ("run", "submit", "watch", "wait", "list", "describe", "result", "cancel",
