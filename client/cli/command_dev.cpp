@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>  // Some file of the library must have all of it, or it lacks vtables.
 #include <cerrno>
 #include <chrono>
 #include <csignal>
