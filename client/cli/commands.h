@@ -21,6 +21,11 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action); 
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
 void AddModelCommands(CLI::App& app, const Settings& settings, Action* action);   // model
 
-void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);  // paper
+void AddSchemaCommand(CLI::App& app, const Settings& settings, Action* action);   // schema
+void AddConfigCommands(CLI::App& app, const Settings& settings, Action* action);  // config
+void AddCompletionCommand(CLI::App& app, Action* action);                         // completion
+void AddDevCommand(CLI::App& app, const Settings& settings, Action* action);      // dev
+void AddDoctorCommand(CLI::App& app, const Settings& settings, Action* action);   // doctor
+void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);    // paper
 
 }  // namespace contact::cli
