@@ -44,11 +44,11 @@ void WriteText(const DataTable& table, bool json, const std::string& path) {
 
 std::string WriteAll(Recording&& recording, const std::string& path) {
   const OutputFile writable(path);  // Told in our words, before those of the library.
-  const Attributes attributes = Provenance(recording.job, recording.revision);
+  const Provenance provenance = ProvenanceOf(recording.job);
   std::vector<DataTable> tables{CyclesTable(recording.job), IterationsTable(recording.iterations),
                                 BodiesTable(recording.job)};
   tables.insert(tables.begin(), SeriesTable(std::move(recording)));
-  WriteNetcdf(tables, attributes, path);
+  WriteNetcdf(tables, provenance, path);
   return fmt::format("{}, {}",
                      Count(static_cast<std::int64_t>(tables[0].rows()), "sample", "samples"),
                      Count(static_cast<std::int64_t>(tables[1].rows()), "cycle", "cycles"));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>  // All of it: App.hpp alone leaves vtables to others.
 
 #include "cli/settings.h"
 
@@ -8,11 +8,11 @@ namespace contact::cli {
 
 /// Each adds its commands to the command line; the one that is chosen sets `action`.
 
-void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);    // run, submit
-void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);  // watch, wait
-void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);    // list, …
-void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);  // export
-void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);    // plot
+void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);     // run, submit
+void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);   // watch, wait
+void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);     // list, …
+void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);   // export
+void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);     // plot
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series

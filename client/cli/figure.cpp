@@ -43,7 +43,9 @@ std::string_view Style(Figure::Mark mark) {
     case Figure::Mark::kLine:
       return "lines lw 1.5";
     case Figure::Mark::kDashed:
-      return "lines lw 0.8 dt 2";
+      return "lines lw 1.5 dt 2";
+    case Figure::Mark::kDotted:
+      return "lines lw 1.5 dt 3";
     case Figure::Mark::kStart:
       return "points pt 6";
     case Figure::Mark::kEnd:
@@ -135,7 +137,7 @@ class Script {
                                                   : "center offset 0,0.6");
     }
     if (panel.labels.size() > kMostLevelLabels)
-      Line("set offsets graph 0.02, graph 0.02, graph 0.45, graph 0.03");
+      Line("set offsets graph 0.02, graph 0.02, graph 0.55, graph 0.03");
     for (const double y : panel.dotted_lines) {
       Line(
           "set arrow from graph 0, first {0} to graph 1, first {0} nohead front lc rgb '#444444' "
@@ -162,6 +164,22 @@ class Script {
   int drawn_ = 0;
 };
 
+// Of the points in [begin, end), those that Thin keeps, in order.
+void AddOutline(const Figure::Curve& curve, std::size_t begin, std::size_t end,
+                Figure::Curve* thinned) {
+  const auto y = curve.y.begin();
+  const auto first = static_cast<std::ptrdiff_t>(begin);
+  const auto last = static_cast<std::ptrdiff_t>(end);
+  const auto [low, high] = std::minmax_element(y + first, y + last);
+  std::array<std::ptrdiff_t, 4> kept{first, low - y, high - y, last - 1};
+  std::ranges::sort(kept);
+  const auto same = std::ranges::unique(kept);
+  for (auto i = kept.begin(); i != same.begin(); ++i) {
+    thinned->x.push_back(curve.x[static_cast<std::size_t>(*i)]);
+    thinned->y.push_back(curve.y[static_cast<std::size_t>(*i)]);
+  }
+}
+
 std::string_view Name(Figure::Mark mark) {
   if (mark == Figure::Mark::kStart) return " starts";
   return mark == Figure::Mark::kEnd ? " ends" : "";
@@ -171,6 +189,21 @@ std::string_view Name(Figure::Mark mark) {
 
 std::string GnuplotScript(const Figure& figure, std::string_view format, const std::string& path) {
   return Script().Write(figure, format, path);
+}
+
+void Thin(std::size_t points, Figure* figure) {
+  const std::size_t parts = std::max<std::size_t>(points / 4, 1);
+  for (Figure::Panel& panel : figure->panels) {
+    for (Figure::Curve& curve : panel.curves) {
+      const std::size_t size = curve.x.size();
+      if (size <= points) continue;
+      Figure::Curve thinned{curve.label, curve.colour, curve.mark, {}, {}};
+      for (std::size_t i = 0; i < parts; ++i) {
+        AddOutline(curve, size * i / parts, size * (i + 1) / parts, &thinned);
+      }
+      curve = std::move(thinned);
+    }
+  }
 }
 
 void WriteCsv(const Figure& figure, std::FILE* file) {

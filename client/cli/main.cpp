@@ -23,7 +23,7 @@ Start here:
 
 constexpr char kCodes[] =
     R"(Exit codes: 0 ok, 1 run failed, 2 usage, 3 invalid scenario, 4 unreachable, 5 timeout,
-6 not found, 7 not converged, 8 differs from the paper, 9 not allowed, 10 overload, 11 local file, 130 interrupted.)";
+6 not found, 7 not converged, 8 differs, 9 not allowed, 10 overload, 11 local file, 130 interrupted.)";
 
 void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--server", settings->server, "The server")

@@ -94,11 +94,9 @@ Recording ReadRecording(Client& client, const std::string& job, const Settings& 
   }
   v1::GetJobRequest request;
   request.set_name(JobName(job));
-  return {
-      .job = client.Call(&Client::Stub::GetJob, request),
-      .revision = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest()).revision(),
-      .columns = recorder.Columns(),
-      .iterations = recorder.Iterations()};
+  return {.job = client.Call(&Client::Stub::GetJob, request),
+          .columns = recorder.Columns(),
+          .iterations = recorder.Iterations()};
 }
 
 }  // namespace contact::cli

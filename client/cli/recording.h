@@ -22,7 +22,6 @@ struct SampleColumn {
 /// What the last attempt of an ended job recorded.
 struct Recording {
   v1::Job job;
-  std::string revision;               ///< Of the server that was asked; may be empty.
   std::vector<SampleColumn> columns;  ///< `time` first. Empty if no trajectory was recorded.
   std::vector<v1::Iteration> iterations;
 

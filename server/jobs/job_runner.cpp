@@ -11,6 +11,7 @@
 #include "version.h"
 #include "wire/result_codec.h"
 #include "wire/scenario_codec.h"
+#include "wire/spec_digest.h"
 
 namespace contact {
 namespace {
@@ -41,13 +42,16 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
   attempt.mutable_attempt_started()->set_attempt(job.attempt());
   writer.Take(job, {assignment.event, attempt});
 
-  Move move = Solve(spec.get(), assignment, writer);
+  const absl::StatusOr<StoredJob> stored = spec.get();
+  Move move = Solve(stored, assignment, writer);
   if (move.to == v1::Job::CANCELLED && !*assignment.cancelled) {
     move = BackToQueue(assignment, &job);
     ended = nullptr;
   } else {
     job.MergeFrom(assignment.record->Get(true));
     job.set_server_version(kVersion);
+    job.set_server_revision(kRevision);
+    if (stored.ok()) job.set_spec_sha256(SpecSha256(stored->job));
   }
   const v1::Event last = Apply(move, clock_.Now(), &job);
   writer.Finish(std::move(job), last, std::move(ended));

@@ -88,7 +88,10 @@ class ExportTest(CliTest):
             self.assertEqual(json.loads(data.scenario)["title"], "Triple-ball chain")
             self.assertEqual(data.version, self.job.server_version)
             self.assertEqual(data.job, self.name)
-            self.assertIsInstance(data.revision, str)
+            self.assertEqual(data.scenario_sha256, self.job.spec_sha256)
+            self.assertEqual(data.revision, self.job.server_revision)
+            solver = json.loads(data.solver)
+            self.assertEqual((solver["method"], solver["update"]), ("ADAPTIVE", "NEWTON_COUPLED"))
 
     def test_run_without_contact_has_empty_tables(self):
         name = self.run_it("run", CHAIN, "--set", "bodies[0].velocity_m_per_s=0",
