@@ -13,6 +13,8 @@ void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action); 
 void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);     // list, …
 void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);   // export
 void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);     // plot
+void AddCompareCommand(CLI::App& app, const Settings& settings, Action* action);  // compare
+void AddReportCommand(CLI::App& app, const Settings& settings, Action* action);   // report
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series

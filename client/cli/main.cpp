@@ -98,6 +98,8 @@ int Main(int argc, char** argv) {
   AddJobCommands(app, settings, &action);
   AddExportCommand(app, settings, &action);
   AddPlotCommand(app, settings, &action);
+  AddCompareCommand(app, settings, &action);
+  AddReportCommand(app, settings, &action);
   AddScenarioCommands(app, settings, &action);
   AddSeriesCommands(app, settings, &action);
   AddSweepCommands(app, settings, &action);
