@@ -17,11 +17,15 @@ void Remove(std::string_view part, std::string* text) {
 }  // namespace
 
 void Draw(const Figure& figure, std::string_view format, const std::string& path) {
+  DrawScript(GnuplotScript(figure, format, path), path);
+}
+
+void DrawScript(const std::string& script, const std::string& path) {
   const OutputFile writable(path);  // Told in our words, before gnuplot's.
   const ScratchFolder scratch;
-  const std::string script = scratch.path() / "figure.gp";
-  WriteText(GnuplotScript(figure, format, path), script);
-  RunGnuplot(script);
+  const std::string script_path = scratch.path() / "figure.gp";
+  WriteText(script, script_path);
+  RunGnuplot(script_path);
 }
 
 std::string DrawInline(const Figure& figure) {

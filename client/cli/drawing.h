@@ -11,6 +11,9 @@ namespace contact::cli {
 /// cannot be written, or gnuplot is not installed or fails.
 void Draw(const Figure& figure, std::string_view format, const std::string& path);
 
+/// Runs a script that draws to a file. Throws as Draw does.
+void DrawScript(const std::string& script, const std::string& path);
+
 /// The figure as SVG that can stand in an HTML page: no declarations, nothing from elsewhere.
 /// Throws as Draw does.
 std::string DrawInline(const Figure& figure);

@@ -10,6 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "cli/gnuplot.h"
+
 namespace contact::cli {
 namespace {
 
@@ -27,16 +29,6 @@ std::size_t Longest(const Figure::Panel& panel) {
 }
 
 std::string_view Colour(int colour) { return kColours[static_cast<std::size_t>(colour) % 7]; }
-
-// Text of a user as a gnuplot string, in which only the quote is special.
-std::string Quote(std::string_view text) {
-  std::string quoted = "'";
-  for (const char c : text) {
-    if (c == '\'') quoted += '\'';
-    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return quoted + "'";
-}
 
 std::string_view Style(Figure::Mark mark) {
   switch (mark) {
@@ -89,12 +81,12 @@ class Script {
   std::string Write(const Figure& figure, std::string_view format, const std::string& path) {
     Line("set encoding utf8");
     Line("set terminal {}", Terminal(format, figure.panels.size()));
-    Line("set output {}", Quote(path));
+    Line("set output {}", GnuplotString(path));
     for (const Figure::Panel& panel : figure.panels) Data(panel);
     Line("set grid lc rgb '#dddddd' lt 1");
     Line("set key tmargin center horizontal font ',10'");
     Line("set offsets graph 0.02, graph 0.02, graph 0.08, graph 0.03");
-    Line("set multiplot layout {},1 title {}", figure.panels.size(), Quote(figure.title));
+    Line("set multiplot layout {},1 title {}", figure.panels.size(), GnuplotString(figure.title));
     for (const Figure::Panel& panel : figure.panels) Draw(panel);
     Line("unset multiplot");
     Line("unset output");
@@ -117,8 +109,8 @@ class Script {
   }
 
   void Draw(const Figure::Panel& panel) {
-    Line("set xlabel {}", Quote(panel.x_label));
-    Line("set ylabel {}", Quote(panel.y_label));
+    Line("set xlabel {}", GnuplotString(panel.x_label));
+    Line("set ylabel {}", GnuplotString(panel.y_label));
     Line("{} logscale y", panel.log_y ? "set" : "unset");
     Line("{}", panel.log_y ? "set format y '%.0e'" : "set format y '%g'");
     Line("set xtics {}", panel.counted_x && Longest(panel) <= kMostCounted ? "1" : "autofreq");
@@ -132,7 +124,7 @@ class Script {
           band.start, band.end, Colour(band.colour));
     }
     for (const Figure::Label& label : panel.labels) {
-      Line("set label {} at {},{} {} font ',9'", Quote(label.text), label.x, label.y,
+      Line("set label {} at {},{} {} font ',9'", GnuplotString(label.text), label.x, label.y,
            panel.labels.size() > kMostLevelLabels ? "left rotate by 90 offset 0,0.4"
                                                   : "center offset 0,0.6");
     }
@@ -153,7 +145,7 @@ class Script {
     for (const Figure::Curve& curve : panel.curves) {
       text_ += fmt::format("{}$curve{} with {} lc rgb '{}' ", separator, ++drawn_,
                            Style(curve.mark), Colour(curve.colour));
-      text_ += curve.label.empty() ? "notitle" : "title " + Quote(curve.label);
+      text_ += curve.label.empty() ? "notitle" : "title " + GnuplotString(curve.label);
       separator = ", \\\n     ";
     }
     text_ += '\n';

@@ -21,10 +21,12 @@ void Append(const std::string& bytes, std::vector<double>* values) {
   std::memcpy(values->data() + values->size() - count, bytes.data(), count * sizeof(double));
 }
 
-void Replay(Client& client, const std::string& name, const Settings& settings, Recorder* recorder) {
+void Replay(Client& client, const std::string& name, const Settings& settings, bool trajectory,
+            Recorder* recorder) {
   WatchOptions options;
   options.name = name;
-  options.kinds = {"attempt_started", "iteration", "frame_chunk"};
+  options.kinds = {"attempt_started", "iteration"};
+  if (trajectory) options.kinds.emplace_back("frame_chunk");
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
   const WatchEnd end = Watch(client, options, *recorder);
@@ -83,11 +85,12 @@ std::vector<v1::Iteration> Recorder::Iterations() const {
   return all;
 }
 
-Recording ReadRecording(Client& client, const std::string& job, const Settings& settings) {
+Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
+                        bool trajectory) {
   const Interrupt interrupt;
   Recorder recorder;
-  Replay(client, JobName(job), settings, &recorder);
-  if (recorder.has_holes()) Replay(client, JobName(job), settings, &recorder);
+  Replay(client, JobName(job), settings, trajectory, &recorder);
+  if (recorder.has_holes()) Replay(client, JobName(job), settings, trajectory, &recorder);
   if (recorder.has_holes()) {
     throw Failure(ExitCode::kRunFailed,
                   fmt::format("parts of the trajectory of {} do not come; try again", job));

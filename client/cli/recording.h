@@ -46,7 +46,8 @@ class Recorder : public WatchObserver {
 };
 
 /// Waits for the end of a job and fetches all that it recorded. Throws CallFailure, and Failure
-/// (kTimeout, kInterrupted) when the wait ends first.
-Recording ReadRecording(Client& client, const std::string& job, const Settings& settings);
+/// (kTimeout, kInterrupted) when the wait ends first. The trajectory can be left out.
+Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
+                        bool trajectory = true);
 
 }  // namespace contact::cli

@@ -29,19 +29,19 @@ class SweepFile {
  public:
   explicit SweepFile(std::string path) : path_(std::move(path)) {}
 
-  v1::Sweep Read() {
+  v1::Sweep Read(const std::string& text) {
     try {
-      root_.reset(YAML::Load(ReadText(path_)));
+      root_.reset(YAML::Load(text));
       ReadRoot();
     } catch (const YAML::Exception& error) {
       AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
     }
     if (mistakes_.empty()) Check();
     if (mistakes_.empty()) return std::move(sweep_);
-    std::string text;
-    for (const Diagnostic& mistake : mistakes_) text += Format(mistake) + "\n";
-    text += mistakes_.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes_.size());
-    throw Failure(ExitCode::kInvalidScenario, text);
+    std::string list;
+    for (const Diagnostic& mistake : mistakes_) list += Format(mistake) + "\n";
+    list += mistakes_.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes_.size());
+    throw Failure(ExitCode::kInvalidScenario, list);
   }
 
  private:
@@ -100,6 +100,19 @@ class SweepFile {
 
 }  // namespace
 
-v1::Sweep OpenSweep(const std::string& path) { return SweepFile(path).Read(); }
+v1::Sweep OpenSweep(const std::string& path) { return ReadSweep(path, ReadText(path)); }
+
+v1::Sweep ReadSweep(const std::string& path, const std::string& text) {
+  return SweepFile(path).Read(text);
+}
+
+bool IsSweep(const std::string& text) {
+  try {
+    const YAML::Node root = YAML::Load(text);
+    return root.IsMap() && (root["base"].IsDefined() || root["axes"].IsDefined());
+  } catch (const YAML::Exception&) {
+    return false;
+  }
+}
 
 }  // namespace contact::cli

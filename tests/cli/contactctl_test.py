@@ -139,6 +139,33 @@ class SweepTest(CliTest):
             if float(row[2]) in alpha:
                 self.assertAlmostEqual(float(row[4]), alpha[float(row[2])], delta=1e-6)
 
+    def test_heat_map_hatches_and_crosses(self):
+        base = CHAIN.read_text().replace("\n", "\n  ")
+        path = self.file(f"base:\n  {base}\naxes:\n"
+                         "- {field: 'contacts[0].restitution', values: [0.5, 1.5]}\n"
+                         "- {field: 'solver.max_iterations', values: [1, 50]}\n"
+                         "metrics: ['iterations']\n")
+        job = self.run_it("sweep", "run", path, "-o", "name", code=7)[0].strip()
+        picture = self.folder / "map.svg"
+        self.run_it("sweep", "export", job, "--heatmap", picture)
+        svg = picture.read_text("utf-8")
+        self.assertEqual(svg.count("<pattern"), 1)  # One cell did not converge.
+        self.assertEqual(svg.count("rgb(176,   0,  32)"), 2)  # Two failed.
+        self.assertIn("contacts[0].restitution", svg)
+        png = self.folder / "map.png"
+        self.run_it("sweep", "export", job, "--heatmap", png)
+        self.assertTrue(png.read_bytes().startswith(b"\x89PNG"))
+
+    def test_validate_checks_sweep_files_in_the_same_words(self):
+        said, _ = self.run_it("validate", SCENARIOS / "table-3-sweep.yaml")
+        self.assertIn("valid; 50 cells, 2 axes, 4 metrics", said)
+        path = self.file(f"base: {CHAIN}\naxes:\n- {{field: 'contacts[0].restituton', "
+                         "values: [0.5]}\nmetrics: [iterations]\n")
+        _, checked = self.run_it("validate", path, code=3)
+        _, run = self.run_it("sweep", "run", path, code=3)
+        self.assertEqual(checked, run)
+        self.assertIn("did you mean 'restitution'?", checked)
+
     def test_cells_that_fail_are_marked_and_the_others_go_on(self):
         base = CHAIN.read_text().replace("\n", "\n  ")
         path = self.file(f"base:\n  {base}\naxes:\n"
