@@ -92,6 +92,9 @@ void Write(const PaperItem& item, const std::filesystem::path& directory) {
 }
 
 std::string Summary(const std::vector<PaperItem>& items, const Style& style) {
+  if (std::ranges::all_of(items, [](const PaperItem& item) { return item.numbers.empty(); })) {
+    return "";
+  }
   Table table = Numbers();
   for (const PaperItem& item : items) AddRows(item, &table);
   return table.Text(style);
