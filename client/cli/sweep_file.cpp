@@ -1,6 +1,7 @@
 #include "cli/sweep_file.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
 
 #include <filesystem>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "cli/scenario_file.h"
 #include "cli/text_file.h"
 #include "cli/yaml_reader.h"
+#include "wire/field_path.h"
 #include "wire/sweep_codec.h"
 
 namespace contact::cli {
@@ -23,6 +25,18 @@ constexpr ScenarioLimits kLimits{.max_bodies = std::numeric_limits<std::int32_t>
                                  .max_contacts = std::numeric_limits<std::int32_t>::max(),
                                  .max_samples = std::numeric_limits<std::int64_t>::max(),
                                  .max_cells = 1'000'000};
+
+// The type of the field at a path in a scenario, if it is an enum.
+const google::protobuf::EnumDescriptor* EnumAt(const std::string& path) {
+  const google::protobuf::Descriptor* message = v1::Scenario::descriptor();
+  const google::protobuf::FieldDescriptor* field = nullptr;
+  for (const PathStep& step : ParsePath(path)) {
+    field = message == nullptr ? nullptr : message->FindFieldByName(step.name);
+    if (field == nullptr) return nullptr;
+    message = field->message_type();
+  }
+  return field == nullptr ? nullptr : field->enum_type();
+}
 
 // A sweep while it is read: gathers mistakes at their places.
 class SweepFile {
@@ -52,10 +66,25 @@ class SweepFile {
       OpenBase(rest["base"].Scalar());
       rest.remove("base");
     }
+    NumberEnums(&rest);
     const YamlReader reader([this](const YAML::Mark& mark, const std::string& field,
                                    const std::string& what,
                                    const std::string& hint) { AddAt(mark, field, what, hint); });
     reader.ReadMessage(rest, "", &sweep_);
+  }
+
+  // The values of an enum are its numbers on the wire; here they may be its words.
+  static void NumberEnums(YAML::Node* sweep) {
+    if (!sweep->IsMap() || !(*sweep)["axes"].IsSequence()) return;
+    for (YAML::Node axis : (*sweep)["axes"]) {
+      if (!axis.IsMap() || !axis["field"].IsScalar() || !axis["values"].IsSequence()) continue;
+      const auto* type = EnumAt(axis["field"].Scalar());
+      for (std::size_t i = 0; type != nullptr && i < axis["values"].size(); ++i) {
+        YAML::Node entry = axis["values"][i];
+        const auto* value = entry.IsScalar() ? type->FindValueByName(entry.Scalar()) : nullptr;
+        if (value != nullptr) entry = value->number();
+      }
+    }
   }
 
   void OpenBase(const std::string& name) {

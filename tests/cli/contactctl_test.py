@@ -139,6 +139,19 @@ class SweepTest(CliTest):
             if float(row[2]) in alpha:
                 self.assertAlmostEqual(float(row[4]), alpha[float(row[2])], delta=1e-6)
 
+    def test_an_axis_of_laws_takes_their_names(self):
+        path = self.file(f"base: {CHAIN}\naxes:\n- {{field: 'contacts[*].damping', "
+                         "values: [EXACT, HUNT_CROSSLEY]}\n"
+                         "- {field: 'contacts[*].reference_velocity_m_per_s', values: [0.2]}\n"
+                         "metrics: ['cycles[B1-B2].restitution_out']\n")
+        job = self.run_it("sweep", "run", path, "-o", "name")[0].strip()
+        rows = self.run_it("sweep", "export", job, "-o", "csv")[0].splitlines()[1:]
+        for row, law in zip(rows, ("EXACT", "HUNT_CROSSLEY")):
+            one = self.run_it("run", CHAIN, "--set", f"contacts[*].damping={law}", "--set",
+                              "contacts[*].reference_velocity_m_per_s=0.2", "-o", "name")[0].strip()
+            cycle = next(c for c in self.server.get(one).cycles if c.contact == "B1-B2")
+            self.assertEqual(float(row.split(",")[3]), cycle.restitution_out)
+
     def test_heat_map_hatches_and_crosses(self):
         base = CHAIN.read_text().replace("\n", "\n  ")
         path = self.file(f"base:\n  {base}\naxes:\n"
