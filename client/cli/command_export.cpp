@@ -9,6 +9,7 @@
 #include "cli/number.h"
 #include "cli/output_file.h"
 #include "cli/recording.h"
+#include "cli/series_selection.h"
 
 namespace contact::cli {
 namespace {
@@ -17,6 +18,7 @@ struct ExportArguments {
   std::string job;
   std::string file;
   std::string table = "series";
+  SeriesSelection part;
 };
 
 // As -o says, or as the file is called.
@@ -44,14 +46,49 @@ void WriteText(const DataTable& table, bool json, const std::string& path) {
 
 std::string WriteAll(Recording&& recording, const std::string& path) {
   const OutputFile writable(path);  // Told in our words, before those of the library.
-  const Attributes attributes = Provenance(recording.job, recording.revision);
+  const Provenance provenance = ProvenanceOf(recording.job);
   std::vector<DataTable> tables{CyclesTable(recording.job), IterationsTable(recording.iterations),
                                 BodiesTable(recording.job)};
   tables.insert(tables.begin(), SeriesTable(std::move(recording)));
-  WriteNetcdf(tables, attributes, path);
+  WriteNetcdf(tables, provenance, path);
   return fmt::format("{}, {}",
                      Count(static_cast<std::int64_t>(tables[0].rows()), "sample", "samples"),
                      Count(static_cast<std::int64_t>(tables[1].rows()), "cycle", "cycles"));
+}
+
+Recording Read(const ExportArguments& arguments, const Settings& settings) {
+  const SeriesSelection& part = arguments.part;
+  if (part.max_points > 0 && part.every > 1) {
+    throw Failure(ExitCode::kUsage, "--every and --max-points do not go together");
+  }
+  Client client = settings.Connect();
+  Recording recording = ReadRecording(client, arguments.job, settings, part.max_points == 0);
+  if (part.max_points > 0) {
+    recording.columns = ThinnedSeries(client, arguments.job, part);
+  } else {
+    Narrow(part, &recording.columns);
+  }
+  return recording;
+}
+
+void AddPart(CLI::App& command, SeriesSelection* part) {
+  command
+      .add_option("--channels", part->channels,
+                  "Only these columns of the series, such as B1.velocity,B1-B2.contact_force")
+      ->delimiter(',')
+      ->type_name("NAME,…");
+  command.add_option("--from", part->from, "Only samples from this simulated time on")
+      ->type_name("SECONDS");
+  command.add_option("--to", part->to, "Only samples up to this simulated time")
+      ->type_name("SECONDS");
+  command.add_option("--every", part->every, "Only the first of so many samples")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command
+      .add_option("--max-points", part->max_points,
+                  "At most so many samples, chosen by the server without losing a peak")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
 }
 
 ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
@@ -59,8 +96,10 @@ ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
   if (format == "netcdf" && arguments.file.empty()) {
     throw Failure(ExitCode::kUsage, "netcdf is no text; give a file with -f");
   }
-  Client client = settings.Connect();
-  Recording recording = ReadRecording(client, arguments.job, settings);
+  if (format != "netcdf" && arguments.table != "series" && !arguments.part.empty()) {
+    throw Failure(ExitCode::kUsage, "channels, time range and thinning are of the series");
+  }
+  Recording recording = Read(arguments, settings);
   std::string what;
   if (format == "netcdf") {
     what = WriteAll(std::move(recording), arguments.file);
@@ -91,6 +130,7 @@ void AddExportCommand(CLI::App& app, const Settings& settings, Action* action) {
       ->check(CLI::IsMember({"series", "cycles", "iterations", "bodies"}))
       ->type_name("TABLE")
       ->capture_default_str();
+  AddPart(*command, &arguments->part);
   command->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Export(*arguments, settings); };
   });

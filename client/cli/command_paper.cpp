@@ -3,19 +3,29 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <system_error>
 
 #include "cli/commands.h"
+#include "cli/drawing.h"
 #include "cli/number.h"
+#include "cli/paper/cases.h"
+#include "cli/paper/index.h"
 #include "cli/paper/items.h"
+#include "cli/provenance.h"
+#include "cli/render_json.h"
+#include "cli/text_file.h"
 
 namespace contact::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct PaperArguments {
   std::vector<std::string> items;
   std::string directory = "paper";
+  std::string format;  ///< Empty: svg if gnuplot is there.
 };
 
 std::vector<std::string> Chosen(const std::vector<std::string>& asked) {
@@ -30,25 +40,62 @@ std::vector<std::string> Chosen(const std::vector<std::string>& asked) {
   return asked;
 }
 
+// Draws the figures beside their data; returns them as SVG for the page. A drawing that nobody
+// asked for may fail: the note tells it.
+std::map<std::string, std::string> DrawAll(const std::vector<PaperItem>& items,
+                                           const PaperArguments& arguments) {
+  const std::string format = arguments.format.empty() ? "svg" : arguments.format;
+  std::map<std::string, std::string> inlined;
+  try {
+    for (const PaperItem& item : items) {
+      if (!item.figure) continue;
+      const std::string path = fs::path(arguments.directory) / (item.id + "." + format);
+      Draw(*item.figure, format, path);
+      inlined[item.id] = format == "svg" ? InlineSvg(ReadText(path)) : DrawInline(*item.figure);
+    }
+  } catch (const Failure& failure) {
+    if (!arguments.format.empty()) throw;
+    fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
+  }
+  return inlined;
+}
+
+Origin OriginOf(Client& client, const PaperArguments& arguments) {
+  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  const std::string items =
+      arguments.items.empty() ? "all" : fmt::format("{}", fmt::join(arguments.items, " "));
+  return {.server = info.revision().empty()
+                        ? fmt::format("contactd {}", info.version())
+                        : fmt::format("contactd {} ({})", info.version(), info.revision()),
+          .solver = ToJsonLine(SolverInFull(TripleChain(0.8, 0.7))),
+          .command = fmt::format("contactctl paper {} -o {}", items, arguments.directory)};
+}
+
+void MakeFolder(const std::string& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) {
+    throw Failure(ExitCode::kLocal, fmt::format("cannot make {}: {}", directory, error.message()));
+  }
+}
+
 ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table"});
   const std::vector<std::string> chosen = Chosen(arguments.items);
   const auto start = std::chrono::steady_clock::now();
-  std::error_code error;
-  std::filesystem::create_directories(arguments.directory, error);
-  if (error) {
-    throw Failure(ExitCode::kLocal,
-                  fmt::format("cannot make {}: {}", arguments.directory, error.message()));
-  }
+  MakeFolder(arguments.directory);
   Client client = settings.Connect();
   Lab lab(client, settings);
   const std::vector<PaperItem> items = MakePaperItems(chosen, lab);
   for (const PaperItem& item : items) Write(item, arguments.directory);
+  const std::map<std::string, std::string> figures = DrawAll(items, arguments);
+  WriteText(IndexPage(items, figures, OriginOf(client, arguments)),
+            fs::path(arguments.directory) / "index.html");
   fmt::print("{}", Summary(items, settings.OutputStyle()));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  fmt::print(stderr, "{} in {}, in {}\n",
-             Count(static_cast<std::int64_t>(items.size()), "item", "items"), arguments.directory,
-             Seconds(took.count()));
+  fmt::print(stderr, "{}, {} drawn, index.html in {}, in {}\n",
+             Count(static_cast<std::int64_t>(items.size()), "item", "items"), figures.size(),
+             arguments.directory, Seconds(took.count()));
   const bool holds =
       std::all_of(items.begin(), items.end(), [](const PaperItem& item) { return item.holds(); });
   return holds ? ExitCode::kOk : ExitCode::kDiffers;
@@ -62,9 +109,16 @@ void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action) {
   auto arguments = std::make_shared<PaperArguments>();
   paper->add_option("ITEM", arguments->items,
                     fmt::format("{}, or all (default)", fmt::join(PaperItems(), " ")));
-  paper->add_option("-o,--directory", arguments->directory, "Where to write data and tables")
+  paper
+      ->add_option("-o,--directory", arguments->directory,
+                   "Where to write data, tables, figures and index.html")
       ->type_name("DIR")
       ->capture_default_str();
+  paper
+      ->add_option("--format", arguments->format,
+                   "Draw the figures as svg, png or pdf. Default: svg, if gnuplot is there")
+      ->check(CLI::IsMember({"svg", "png", "pdf"}))
+      ->type_name("FORMAT");
   paper->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Paper(*arguments, settings); };
   });

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <system_error>
 
 #include "cli/commands.h"
-#include "cli/gnuplot.h"
+#include "cli/drawing.h"
 #include "cli/output_file.h"
 #include "cli/presets.h"
+#include "cli/text_file.h"
 
 namespace contact::cli {
 namespace {
@@ -20,26 +20,6 @@ struct PlotArguments {
   std::string preset;
   std::string file;
   std::string keep;
-};
-
-// A folder for the script that is gone when the plot is drawn.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "contactctl-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw Failure(ExitCode::kLocal, "cannot make " + name);
-    path_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 // As -o says, or as the file is called.
@@ -54,30 +34,19 @@ std::string Format(const PlotArguments& arguments, const Settings& settings) {
   return "svg";
 }
 
-void WriteText(const std::string& text, const std::string& path) {
-  OutputFile file(path);
-  std::fwrite(text.data(), 1, text.size(), file.get());
-  file.Close();
-}
-
 void WriteData(const Figure& figure, const std::string& path) {
   OutputFile file(path);
   WriteCsv(figure, file.get());
   file.Close();
 }
 
-void Render(const Figure& figure, const std::string& format, const PlotArguments& arguments,
-            const std::string& path) {
-  const OutputFile writable(path);  // Told in our words, before gnuplot's.
-  const std::string script = GnuplotScript(figure, format, path);
-  const ScratchFolder scratch;
-  const fs::path folder = arguments.keep.empty() ? scratch.path() : fs::path(arguments.keep);
+void Keep(const Figure& figure, const std::string& format, const PlotArguments& arguments,
+          const std::string& path) {
+  const fs::path folder = arguments.keep;
   std::error_code error;
   fs::create_directories(folder, error);
-  const std::string script_path = folder / (arguments.preset + ".gp");
-  WriteText(script, script_path);
-  if (!arguments.keep.empty()) WriteData(figure, folder / (arguments.preset + ".csv"));
-  RunGnuplot(script_path);
+  WriteText(GnuplotScript(figure, format, path), folder / (arguments.preset + ".gp"));
+  WriteData(figure, folder / (arguments.preset + ".csv"));
 }
 
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
@@ -92,7 +61,8 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   } else if (format == "gp") {
     WriteText(GnuplotScript(figure, "svg", fs::path(path).replace_extension("svg")), path);
   } else {
-    Render(figure, format, arguments, path);
+    if (!arguments.keep.empty()) Keep(figure, format, arguments, path);
+    Draw(figure, format, path);
   }
   fmt::print("{}\n", path);
   return ExitCode::kOk;

@@ -11,12 +11,14 @@
 #include "cli/follow.h"
 #include "cli/interrupt.h"
 #include "cli/job_options.h"
+#include "cli/render_json.h"
 
 namespace contact::cli {
 namespace {
 
 struct RunArguments {
   std::string file;
+  std::string like;  ///< The job that is repeated instead of a file.
   std::vector<std::string> overrides;
   std::vector<std::string> labels;
   std::string request_id;
@@ -40,9 +42,45 @@ constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_
                                    .max_samples = std::numeric_limits<std::int64_t>::max(),
                                    .max_cells = std::numeric_limits<std::int32_t>::max()};
 
+// The same bits are promised of the same server only.
+void TellOfOtherServer(Client& client, const v1::Job& job) {
+  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  if (job.server_version().empty() ||
+      (job.server_version() == info.version() && job.server_revision() == info.revision())) {
+    return;
+  }
+  fmt::print(stderr, "{} was made by contactd {} {}, this one is {} {}: last digits may differ\n",
+             job.name(), job.server_version(), job.server_revision(), info.version(),
+             info.revision());
+}
+
+// The scenario of an earlier job, with the overrides.
+ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
+  v1::GetJobRequest request;
+  request.set_name(JobName(arguments.like));
+  const v1::Job job = client.Call(&Client::Stub::GetJob, request);
+  if (job.has_sweep()) {
+    throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
+  }
+  TellOfOtherServer(client, job);
+  ScenarioFile file(job.name(), ToJsonLine(job.scenario()));
+  for (const std::string& assignment : arguments.overrides) file.Set(assignment);
+  file.Check(kNoLimits);
+  RequireNoMistakes(file);
+  return file;
+}
+
+ScenarioFile Open(Client& client, const RunArguments& arguments) {
+  if (arguments.file.empty() == arguments.like.empty()) {
+    throw Failure(ExitCode::kUsage, "give either a FILE or --like JOB");
+  }
+  return arguments.like.empty() ? OpenChecked(arguments.file, arguments.overrides, kNoLimits)
+                                : OpenLike(client, arguments);
+}
+
 // What the server finds wrong is shown at its place in the file, as what is found here.
 v1::Job Create(Client& client, const RunArguments& arguments) {
-  ScenarioFile file = OpenChecked(arguments.file, arguments.overrides, kNoLimits);
+  ScenarioFile file = Open(client, arguments);
   try {
     return client.Call(&Client::Stub::CreateJob, Request(arguments, file.scenario()));
   } catch (const CallFailure& failure) {
@@ -102,8 +140,11 @@ ExitCode Run(const RunArguments& arguments, const Settings& settings) {
 
 std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
   auto arguments = std::make_shared<RunArguments>();
-  command.add_option("FILE", arguments->file, "Scenario in YAML or JSON; - is the standard input")
-      ->required();
+  command.add_option("FILE", arguments->file, "Scenario in YAML or JSON; - is the standard input");
+  command
+      .add_option("--like", arguments->like,
+                  "Repeat this job instead of a file; on the same server bit for bit")
+      ->type_name("JOB");
   command
       .add_option("--set", arguments->overrides,
                   "Override a field, such as contacts[0].restitution=0.7; repeatable")

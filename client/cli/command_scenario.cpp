@@ -5,16 +5,20 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <system_error>
 
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
 #include "cli/number.h"
+#include "cli/sweep_file.h"
 #include "cli/table.h"
 #include "cli/templates.h"
+#include "cli/text_file.h"
 #include "wire/contact_codec.h"
 #include "wire/spelling.h"
+#include "wire/sweep_codec.h"
 
 namespace contact::cli {
 namespace {
@@ -31,9 +35,28 @@ struct InitArguments {
   bool force = false;
 };
 
+ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& text) {
+  if (!arguments.overrides.empty()) {
+    throw Failure(ExitCode::kUsage, "--set is for scenarios; a sweep has axes");
+  }
+  const v1::Sweep sweep = ReadSweep(arguments.file, text);
+  fmt::print(
+      "{}: valid; {}, {}, {}\n", arguments.file,
+      Count(
+          DecodeSweep(sweep, {.max_cells = std::numeric_limits<std::int32_t>::max()}).axes.cells(),
+          "cell", "cells"),
+      Count(sweep.axes_size(), "axis", "axes"), Count(sweep.metrics_size(), "metric", "metrics"));
+  return ExitCode::kOk;
+}
+
 ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table"});
-  const ScenarioFile file = OpenChecked(arguments.file, arguments.overrides);
+  const std::string text = ReadText(arguments.file);
+  if (IsSweep(text)) return ValidateSweep(arguments, text);
+  ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text);
+  for (const std::string& assignment : arguments.overrides) file.Set(assignment);
+  file.Check();
+  RequireNoMistakes(file);
   const v1::Scenario& scenario = file.scenario();
   fmt::print("{}: valid; {}, {}, {}, {}, {}\n", arguments.file,
              Count(scenario.bodies_size(), "body", "bodies"),
@@ -103,8 +126,11 @@ ExitCode Init(const InitArguments& arguments, const Settings& settings) {
 
 void AddScenarioCommands(CLI::App& app, const Settings& settings, Action* action) {
   auto scenario = std::make_shared<ValidateArguments>();
-  CLI::App* validate = app.add_subcommand("validate", "Check a scenario file, without a server");
-  validate->add_option("FILE", scenario->file, "Scenario in YAML or JSON; - is the standard input")
+  CLI::App* validate =
+      app.add_subcommand("validate", "Check a scenario or sweep file, without a server");
+  validate
+      ->add_option("FILE", scenario->file,
+                   "Scenario or sweep in YAML or JSON; - is the standard input")
       ->required();
   validate->add_option("--set", scenario->overrides, "Override a field first; repeatable")
       ->type_name("FIELD=VALUE")

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/drawing.h"
 #include "cli/follow.h"
+#include "cli/heat_map.h"
 #include "cli/interrupt.h"
 #include "cli/job_options.h"
 #include "cli/render_sweep.h"
@@ -22,7 +24,8 @@ struct SweepArguments {
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions settings;
-  std::string metric;  ///< Of the heat map.
+  std::string metric;    ///< Of the heat map.
+  std::string heat_map;  ///< File to draw it to.
 };
 
 // Gathers cells, and shows how far the sweep is while someone looks.
@@ -90,13 +93,24 @@ void Print(const v1::Job& job, const SweepCells& cells, const std::string& metri
   }
 }
 
+void DrawHeatMap(const v1::Sweep& sweep, const SweepCells& cells, const SweepArguments& arguments) {
+  std::string format = "svg";
+  for (const char* other : {"png", "pdf"}) {
+    if (arguments.heat_map.ends_with(fmt::format(".{}", other))) format = other;
+  }
+  DrawScript(
+      HeatMapScript(sweep, cells, MetricOf(sweep, arguments.metric), format, arguments.heat_map),
+      arguments.heat_map);
+  fmt::print(stderr, "{}\n", arguments.heat_map);
+}
+
 // Follows a sweep to its end, from its first cell on, and prints it.
-ExitCode Follow(Client& client, const std::string& name, const std::string& metric,
+ExitCode Follow(Client& client, const std::string& name, const SweepArguments& arguments,
                 const Settings& settings) {
   if (const v1::Job job = Get(client, name); !job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is no sweep; see contactctl describe", name));
   } else {
-    MetricOf(job.sweep(), metric);
+    MetricOf(job.sweep(), arguments.metric);
   }
   WatchOptions options;
   options.name = name;
@@ -112,7 +126,8 @@ ExitCode Follow(Client& client, const std::string& name, const std::string& metr
     cells = watcher.cells();
   }
   const v1::Job job = Get(client, name);
-  Print(job, cells, metric, settings);
+  if (!arguments.heat_map.empty()) DrawHeatMap(job.sweep(), cells, arguments);
+  Print(job, cells, arguments.metric, settings);
   return Outcome(job);
 }
 
@@ -138,7 +153,7 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   Client client = settings.Connect();
   const std::string name = Create(client, request).name();
   if (settings.output == "table") fmt::print(stderr, "{} submitted\n", name);
-  const ExitCode code = Follow(client, name, arguments.metric, settings);
+  const ExitCode code = Follow(client, name, arguments, settings);
   if (settings.output == "table") {
     fmt::print(stderr, "Next:  contactctl sweep export {} -o csv\n", ShortName(name));
   }
@@ -148,14 +163,14 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
 ExitCode Show(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "csv", "json", "name"});
   Client client = settings.Connect();
-  return Follow(client, JobName(arguments.job), arguments.metric, settings);
+  return Follow(client, JobName(arguments.job), arguments, settings);
 }
 
 // Whatever became of the cells, they were printed.
 ExitCode Export(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "csv", "json"});
   Client client = settings.Connect();
-  const ExitCode code = Follow(client, JobName(arguments.job), arguments.metric, settings);
+  const ExitCode code = Follow(client, JobName(arguments.job), arguments, settings);
   return code == ExitCode::kNotConverged || code == ExitCode::kRunFailed ? ExitCode::kOk : code;
 }
 
@@ -166,6 +181,10 @@ CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::s
   CLI::App* command = sweep.add_subcommand(name, description);
   command->add_option("--metric", arguments->metric, "Of the heat map. Default: the first")
       ->type_name("METRIC");
+  command
+      ->add_option("--heatmap", arguments->heat_map,
+                   "Draw it to this file too, through gnuplot: .svg, .png or .pdf")
+      ->type_name("FILE");
   command->callback([arguments, act, &settings, action] {
     *action = [arguments, act, &settings] { return act(*arguments, settings); };
   });

@@ -1,11 +1,19 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <thread>
 
 #include "cli/commands.h"
 #include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "cli/live_plot.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
 #include "cli/render_live.h"
@@ -18,6 +26,8 @@ struct WatchArguments {
   std::uint64_t after_sequence = 0;
   std::vector<std::string> kinds;
   bool live_only = false;
+  std::vector<std::string> plot;
+  std::string replay;
 };
 
 // One event a line, for programs.
@@ -52,8 +62,52 @@ std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const S
                                     LiveView::Options{.job = arguments.job});
 }
 
+// `1e-3x`: simulated seconds in a second.
+double ParseReplay(const std::string& text) {
+  if (text.empty()) return 0;
+  char* end = nullptr;
+  const double speed = std::strtod(text.c_str(), &end);
+  const std::string_view rest = end;
+  if (!std::isfinite(speed) || speed <= 0 || (!rest.empty() && rest != "x")) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--replay {}: must be a speed > 0 such as 1e-3x", text));
+  }
+  return speed;
+}
+
+ExitCode WatchPlot(const WatchArguments& arguments, const Settings& settings) {
+  const double replay = ParseReplay(arguments.replay);
+  if (isatty(STDOUT_FILENO) == 0) {
+    throw Failure(ExitCode::kUsage,
+                  "--plot draws on a terminal; contactctl plot draws files, contactctl series -o "
+                  "csv prints the numbers");
+  }
+  Client client = settings.Connect();
+  WatchOptions options = Options(arguments.job, settings);
+  options.kinds = {"attempt_started", "frame_chunk"};
+  const Interrupt interrupt;
+  std::optional<std::string> mistake;
+  WatchEnd end = WatchEnd::kStopped;
+  {
+    LivePlot plot(stdout, {arguments.plot, replay, TerminalHasUtf8()});
+    options.stopped = [&plot] { return Interrupt::raised() || plot.mistake(); };
+    end = Watch(client, options, plot);
+    plot.OnTick();
+    while (plot.replaying() && !options.stopped()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      plot.OnTick();
+    }
+    mistake = plot.mistake();
+  }
+  if (mistake) throw Failure(ExitCode::kUsage, *mistake);
+  return end == WatchEnd::kFinished ? Outcome(Get(client, arguments.job))
+                                    : Detach(end, options.name);
+}
+
 ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "jsonl"});
+  if (!arguments.plot.empty()) return WatchPlot(arguments, settings);
+  if (!arguments.replay.empty()) throw Failure(ExitCode::kUsage, "--replay goes with --plot");
   Client client = settings.Connect();
   WatchOptions options = Options(arguments.job, settings);
   options.after_sequence = arguments.after_sequence;
@@ -103,6 +157,13 @@ void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action) {
       ->type_name("KIND,…");
   watch->add_flag("--live", arguments->live_only, "Only what happens from now on")
       ->excludes("--after-sequence");
+  watch
+      ->add_option("--plot", arguments->plot,
+                   "Draw these channels on the terminal, such as B1.velocity,B1-B2.contact_force")
+      ->delimiter(',')
+      ->type_name("NAME,…");
+  watch->add_option("--replay", arguments->replay, "With --plot: simulated seconds in a second")
+      ->type_name("SPEEDx");
   watch->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return WatchEvents(*arguments, settings); };
   });

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>  // All of it: App.hpp alone leaves vtables to others.
 
 #include "cli/settings.h"
 
@@ -14,6 +14,8 @@ void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);   
 void AddArtifactCommands(CLI::App& app, const Settings& settings, Action* action);  // artifact …
 void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);     // export
 void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);       // plot
+void AddCompareCommand(CLI::App& app, const Settings& settings, Action* action);    // compare
+void AddReportCommand(CLI::App& app, const Settings& settings, Action* action);     // report
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series

@@ -1,15 +1,11 @@
 #include "cli/export_netcdf.h"
 
 #include <fmt/format.h>
-#include <google/protobuf/io/coded_stream.h>
-#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <netcdf.h>
-#include <openssl/sha.h>
 
-#include <array>
-#include <iterator>
+#include <utility>
 
-#include "cli/render_json.h"
+#include "cli/failure.h"
 
 namespace contact::cli {
 namespace {
@@ -78,40 +74,14 @@ class NetcdfFile {
   bool open_ = false;
 };
 
-// Of the message as every language writes it: fields in order of their numbers.
-std::string Sha256(const v1::Scenario& scenario) {
-  std::string bytes;
-  {
-    google::protobuf::io::StringOutputStream stream(&bytes);
-    google::protobuf::io::CodedOutputStream out(&stream);
-    out.SetSerializationDeterministic(true);
-    scenario.SerializeToCodedStream(&out);
-  }
-  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
-  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest.data());
-  std::string hex;
-  for (const unsigned char byte : digest) fmt::format_to(std::back_inserter(hex), "{:02x}", byte);
-  return hex;
-}
-
 }  // namespace
 
-void WriteNetcdf(const std::vector<DataTable>& tables, const Attributes& attributes,
+void WriteNetcdf(const std::vector<DataTable>& tables, const Provenance& provenance,
                  const std::string& path) {
   NetcdfFile file(path);
-  for (const auto& [name, text] : attributes) file.Attribute(name, text);
+  for (const auto& [name, text] : provenance) file.Attribute(name, text);
   for (const DataTable& table : tables) file.Table(table);
   file.Close();
-}
-
-Attributes Provenance(const v1::Job& job, const std::string& revision) {
-  return {{"title", job.scenario().title()},
-          {"job", job.name()},
-          {"scenario", ToJson(job.scenario())},
-          {"scenario_sha256", Sha256(job.scenario())},
-          {"version", job.server_version()},
-          {"revision", revision},
-          {"convergence", v1::Job::Convergence_Name(job.convergence())}};
 }
 
 }  // namespace contact::cli

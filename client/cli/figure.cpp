@@ -10,6 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "cli/gnuplot.h"
+
 namespace contact::cli {
 namespace {
 
@@ -28,22 +30,14 @@ std::size_t Longest(const Figure::Panel& panel) {
 
 std::string_view Colour(int colour) { return kColours[static_cast<std::size_t>(colour) % 7]; }
 
-// Text of a user as a gnuplot string, in which only the quote is special.
-std::string Quote(std::string_view text) {
-  std::string quoted = "'";
-  for (const char c : text) {
-    if (c == '\'') quoted += '\'';
-    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return quoted + "'";
-}
-
 std::string_view Style(Figure::Mark mark) {
   switch (mark) {
     case Figure::Mark::kLine:
       return "lines lw 1.5";
     case Figure::Mark::kDashed:
-      return "lines lw 0.8 dt 2";
+      return "lines lw 1.5 dt 2";
+    case Figure::Mark::kDotted:
+      return "lines lw 1.5 dt 3";
     case Figure::Mark::kStart:
       return "points pt 6";
     case Figure::Mark::kEnd:
@@ -87,12 +81,12 @@ class Script {
   std::string Write(const Figure& figure, std::string_view format, const std::string& path) {
     Line("set encoding utf8");
     Line("set terminal {}", Terminal(format, figure.panels.size()));
-    Line("set output {}", Quote(path));
+    Line("set output {}", GnuplotString(path));
     for (const Figure::Panel& panel : figure.panels) Data(panel);
     Line("set grid lc rgb '#dddddd' lt 1");
     Line("set key tmargin center horizontal font ',10'");
     Line("set offsets graph 0.02, graph 0.02, graph 0.08, graph 0.03");
-    Line("set multiplot layout {},1 title {}", figure.panels.size(), Quote(figure.title));
+    Line("set multiplot layout {},1 title {}", figure.panels.size(), GnuplotString(figure.title));
     for (const Figure::Panel& panel : figure.panels) Draw(panel);
     Line("unset multiplot");
     Line("unset output");
@@ -115,8 +109,8 @@ class Script {
   }
 
   void Draw(const Figure::Panel& panel) {
-    Line("set xlabel {}", Quote(panel.x_label));
-    Line("set ylabel {}", Quote(panel.y_label));
+    Line("set xlabel {}", GnuplotString(panel.x_label));
+    Line("set ylabel {}", GnuplotString(panel.y_label));
     Line("{} logscale y", panel.log_y ? "set" : "unset");
     Line("{}", panel.log_y ? "set format y '%.0e'" : "set format y '%g'");
     Line("set xtics {}", panel.counted_x && Longest(panel) <= kMostCounted ? "1" : "autofreq");
@@ -130,12 +124,12 @@ class Script {
           band.start, band.end, Colour(band.colour));
     }
     for (const Figure::Label& label : panel.labels) {
-      Line("set label {} at {},{} {} font ',9'", Quote(label.text), label.x, label.y,
+      Line("set label {} at {},{} {} font ',9'", GnuplotString(label.text), label.x, label.y,
            panel.labels.size() > kMostLevelLabels ? "left rotate by 90 offset 0,0.4"
                                                   : "center offset 0,0.6");
     }
     if (panel.labels.size() > kMostLevelLabels)
-      Line("set offsets graph 0.02, graph 0.02, graph 0.45, graph 0.03");
+      Line("set offsets graph 0.02, graph 0.02, graph 0.55, graph 0.03");
     for (const double y : panel.dotted_lines) {
       Line(
           "set arrow from graph 0, first {0} to graph 1, first {0} nohead front lc rgb '#444444' "
@@ -151,7 +145,7 @@ class Script {
     for (const Figure::Curve& curve : panel.curves) {
       text_ += fmt::format("{}$curve{} with {} lc rgb '{}' ", separator, ++drawn_,
                            Style(curve.mark), Colour(curve.colour));
-      text_ += curve.label.empty() ? "notitle" : "title " + Quote(curve.label);
+      text_ += curve.label.empty() ? "notitle" : "title " + GnuplotString(curve.label);
       separator = ", \\\n     ";
     }
     text_ += '\n';
@@ -162,6 +156,22 @@ class Script {
   int drawn_ = 0;
 };
 
+// Of the points in [begin, end), those that Thin keeps, in order.
+void AddOutline(const Figure::Curve& curve, std::size_t begin, std::size_t end,
+                Figure::Curve* thinned) {
+  const auto y = curve.y.begin();
+  const auto first = static_cast<std::ptrdiff_t>(begin);
+  const auto last = static_cast<std::ptrdiff_t>(end);
+  const auto [low, high] = std::minmax_element(y + first, y + last);
+  std::array<std::ptrdiff_t, 4> kept{first, low - y, high - y, last - 1};
+  std::ranges::sort(kept);
+  const auto same = std::ranges::unique(kept);
+  for (auto i = kept.begin(); i != same.begin(); ++i) {
+    thinned->x.push_back(curve.x[static_cast<std::size_t>(*i)]);
+    thinned->y.push_back(curve.y[static_cast<std::size_t>(*i)]);
+  }
+}
+
 std::string_view Name(Figure::Mark mark) {
   if (mark == Figure::Mark::kStart) return " starts";
   return mark == Figure::Mark::kEnd ? " ends" : "";
@@ -171,6 +181,21 @@ std::string_view Name(Figure::Mark mark) {
 
 std::string GnuplotScript(const Figure& figure, std::string_view format, const std::string& path) {
   return Script().Write(figure, format, path);
+}
+
+void Thin(std::size_t points, Figure* figure) {
+  const std::size_t parts = std::max<std::size_t>(points / 4, 1);
+  for (Figure::Panel& panel : figure->panels) {
+    for (Figure::Curve& curve : panel.curves) {
+      const std::size_t size = curve.x.size();
+      if (size <= points) continue;
+      Figure::Curve thinned{curve.label, curve.colour, curve.mark, {}, {}};
+      for (std::size_t i = 0; i < parts; ++i) {
+        AddOutline(curve, size * i / parts, size * (i + 1) / parts, &thinned);
+      }
+      curve = std::move(thinned);
+    }
+  }
 }
 
 void WriteCsv(const Figure& figure, std::FILE* file) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@ struct Figure {
   enum class Mark {
     kLine,
     kDashed,
+    kDotted,
     kStart,       ///< o where cycles start.
     kEnd,         ///< × where they end.
     kLinePoints,  ///< Points joined by lines.
@@ -52,6 +54,10 @@ struct Figure {
 
 /// A gnuplot script with its data inside that draws the figure as svg, png or pdf to a file.
 std::string GnuplotScript(const Figure& figure, std::string_view format, const std::string& path);
+
+/// Leaves at most about `points` of each curve: of points that follow each other the first, the
+/// last, the lowest and the highest.
+void Thin(std::size_t points, Figure* figure);
 
 /// Writes the points as CSV: panel, curve, and x and y with what the axes say.
 void WriteCsv(const Figure& figure, std::FILE* file);

@@ -31,6 +31,16 @@ pid_t Start(std::string program, std::string flag, std::string argument) {
 
 }  // namespace
 
+// In single quotes only the quote is special.
+std::string GnuplotString(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += '\'';
+    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return quoted + "'";
+}
+
 void RunGnuplot(const std::string& script_path) {
   const pid_t process = Start("gnuplot", "-d", script_path);  // -d: no settings of the user.
   int status = 0;

@@ -28,7 +28,7 @@ All commands:   contactctl --help, and for one of them contactctl run --help.
 
 constexpr char kCodes[] =
     R"(Exit codes: 0 ok, 1 run failed, 2 usage, 3 invalid scenario, 4 unreachable, 5 timeout,
-6 not found, 7 not converged, 8 differs from the paper, 9 not allowed, 10 overload, 11 local file, 130 interrupted.)";
+6 not found, 7 not converged, 8 differs, 9 not allowed, 10 overload, 11 local file, 130 interrupted.)";
 
 void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--server", settings->server, "The server")
@@ -66,6 +66,8 @@ void AddCommands(CLI::App& app, const Settings& settings, Action* action) {
   AddArtifactCommands(app, settings, action);
   AddExportCommand(app, settings, action);
   AddPlotCommand(app, settings, action);
+  AddCompareCommand(app, settings, action);
+  AddReportCommand(app, settings, action);
   AddScenarioCommands(app, settings, action);
   AddSchemaCommand(app, settings, action);
   AddSeriesCommands(app, settings, action);

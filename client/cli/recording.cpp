@@ -21,10 +21,12 @@ void Append(const std::string& bytes, std::vector<double>* values) {
   std::memcpy(values->data() + values->size() - count, bytes.data(), count * sizeof(double));
 }
 
-void Replay(Client& client, const std::string& name, const Settings& settings, Recorder* recorder) {
+void Replay(Client& client, const std::string& name, const Settings& settings, bool trajectory,
+            Recorder* recorder) {
   WatchOptions options;
   options.name = name;
-  options.kinds = {"attempt_started", "iteration", "frame_chunk"};
+  options.kinds = {"attempt_started", "iteration"};
+  if (trajectory) options.kinds.emplace_back("frame_chunk");
   options.overflow = v1::DeliveryOptions::LAG;
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
@@ -84,22 +86,21 @@ std::vector<v1::Iteration> Recorder::Iterations() const {
   return all;
 }
 
-Recording ReadRecording(Client& client, const std::string& job, const Settings& settings) {
+Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
+                        bool trajectory) {
   const Interrupt interrupt;
   Recorder recorder;
-  Replay(client, JobName(job), settings, &recorder);
-  if (recorder.has_holes()) Replay(client, JobName(job), settings, &recorder);
+  Replay(client, JobName(job), settings, trajectory, &recorder);
+  if (recorder.has_holes()) Replay(client, JobName(job), settings, trajectory, &recorder);
   if (recorder.has_holes()) {
     throw Failure(ExitCode::kRunFailed,
                   fmt::format("parts of the trajectory of {} do not come; try again", job));
   }
   v1::GetJobRequest request;
   request.set_name(JobName(job));
-  return {
-      .job = client.Call(&Client::Stub::GetJob, request),
-      .revision = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest()).revision(),
-      .columns = recorder.Columns(),
-      .iterations = recorder.Iterations()};
+  return {.job = client.Call(&Client::Stub::GetJob, request),
+          .columns = recorder.Columns(),
+          .iterations = recorder.Iterations()};
 }
 
 }  // namespace contact::cli

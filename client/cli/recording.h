@@ -22,7 +22,6 @@ struct SampleColumn {
 /// What the last attempt of an ended job recorded.
 struct Recording {
   v1::Job job;
-  std::string revision;               ///< Of the server that was asked; may be empty.
   std::vector<SampleColumn> columns;  ///< `time` first. Empty if no trajectory was recorded.
   std::vector<v1::Iteration> iterations;
 
@@ -47,7 +46,8 @@ class Recorder : public WatchObserver {
 };
 
 /// Waits for the end of a job and fetches all that it recorded. Throws CallFailure, and Failure
-/// (kTimeout, kInterrupted) when the wait ends first.
-Recording ReadRecording(Client& client, const std::string& job, const Settings& settings);
+/// (kTimeout, kInterrupted) when the wait ends first. The trajectory can be left out.
+Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
+                        bool trajectory = true);
 
 }  // namespace contact::cli

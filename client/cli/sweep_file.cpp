@@ -1,6 +1,7 @@
 #include "cli/sweep_file.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
 
 #include <filesystem>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "cli/scenario_file.h"
 #include "cli/text_file.h"
 #include "cli/yaml_reader.h"
+#include "wire/field_path.h"
 #include "wire/sweep_codec.h"
 
 namespace contact::cli {
@@ -24,24 +26,36 @@ constexpr ScenarioLimits kLimits{.max_bodies = std::numeric_limits<std::int32_t>
                                  .max_samples = std::numeric_limits<std::int64_t>::max(),
                                  .max_cells = 1'000'000};
 
+// The type of the field at a path in a scenario, if it is an enum.
+const google::protobuf::EnumDescriptor* EnumAt(const std::string& path) {
+  const google::protobuf::Descriptor* message = v1::Scenario::descriptor();
+  const google::protobuf::FieldDescriptor* field = nullptr;
+  for (const PathStep& step : ParsePath(path)) {
+    field = message == nullptr ? nullptr : message->FindFieldByName(step.name);
+    if (field == nullptr) return nullptr;
+    message = field->message_type();
+  }
+  return field == nullptr ? nullptr : field->enum_type();
+}
+
 // A sweep while it is read: gathers mistakes at their places.
 class SweepFile {
  public:
   explicit SweepFile(std::string path) : path_(std::move(path)) {}
 
-  v1::Sweep Read() {
+  v1::Sweep Read(const std::string& text) {
     try {
-      root_.reset(YAML::Load(ReadText(path_)));
+      root_.reset(YAML::Load(text));
       ReadRoot();
     } catch (const YAML::Exception& error) {
       AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
     }
     if (mistakes_.empty()) Check();
     if (mistakes_.empty()) return std::move(sweep_);
-    std::string text;
-    for (const Diagnostic& mistake : mistakes_) text += Format(mistake) + "\n";
-    text += mistakes_.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes_.size());
-    throw Failure(ExitCode::kInvalidScenario, text);
+    std::string list;
+    for (const Diagnostic& mistake : mistakes_) list += Format(mistake) + "\n";
+    list += mistakes_.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes_.size());
+    throw Failure(ExitCode::kInvalidScenario, list);
   }
 
  private:
@@ -52,10 +66,25 @@ class SweepFile {
       OpenBase(rest["base"].Scalar());
       rest.remove("base");
     }
+    NumberEnums(&rest);
     const YamlReader reader([this](const YAML::Mark& mark, const std::string& field,
                                    const std::string& what,
                                    const std::string& hint) { AddAt(mark, field, what, hint); });
     reader.ReadMessage(rest, "", &sweep_);
+  }
+
+  // The values of an enum are its numbers on the wire; here they may be its words.
+  static void NumberEnums(YAML::Node* sweep) {
+    if (!sweep->IsMap() || !(*sweep)["axes"].IsSequence()) return;
+    for (YAML::Node axis : (*sweep)["axes"]) {
+      if (!axis.IsMap() || !axis["field"].IsScalar() || !axis["values"].IsSequence()) continue;
+      const auto* type = EnumAt(axis["field"].Scalar());
+      for (std::size_t i = 0; type != nullptr && i < axis["values"].size(); ++i) {
+        YAML::Node entry = axis["values"][i];
+        const auto* value = entry.IsScalar() ? type->FindValueByName(entry.Scalar()) : nullptr;
+        if (value != nullptr) entry = value->number();
+      }
+    }
   }
 
   void OpenBase(const std::string& name) {
@@ -100,6 +129,19 @@ class SweepFile {
 
 }  // namespace
 
-v1::Sweep OpenSweep(const std::string& path) { return SweepFile(path).Read(); }
+v1::Sweep OpenSweep(const std::string& path) { return ReadSweep(path, ReadText(path)); }
+
+v1::Sweep ReadSweep(const std::string& path, const std::string& text) {
+  return SweepFile(path).Read(text);
+}
+
+bool IsSweep(const std::string& text) {
+  try {
+    const YAML::Node root = YAML::Load(text);
+    return root.IsMap() && (root["base"].IsDefined() || root["axes"].IsDefined());
+  } catch (const YAML::Exception&) {
+    return false;
+  }
+}
 
 }  // namespace contact::cli

@@ -11,4 +11,10 @@ namespace contact::cli {
 /// kInvalidScenario, which lists every mistake at its place, or kLocal.
 v1::Sweep OpenSweep(const std::string& path);
 
+/// The same of text that stands in the file at `path`.
+v1::Sweep ReadSweep(const std::string& path, const std::string& text);
+
+/// True if a document has a part that only a sweep has: `base` or `axes`.
+bool IsSweep(const std::string& text);
+
 }  // namespace contact::cli

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <system_error>
 
 #include "cli/failure.h"
+#include "cli/output_file.h"
 
 namespace contact::cli {
 namespace {
@@ -34,6 +36,12 @@ std::string ReadText(const std::string& path) {
                   fmt::format("cannot read {}: {}", path, std::generic_category().message(errno)));
   }
   return text;
+}
+
+void WriteText(const std::string& text, const std::string& path) {
+  OutputFile file(path);
+  std::fwrite(text.data(), 1, text.size(), file.get());
+  file.Close();
 }
 
 }  // namespace contact::cli

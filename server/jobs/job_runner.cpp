@@ -11,6 +11,7 @@
 #include "version.h"
 #include "wire/result_codec.h"
 #include "wire/scenario_codec.h"
+#include "wire/spec_digest.h"
 
 namespace contact {
 namespace {
@@ -52,7 +53,8 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
   attempt.mutable_attempt_started()->set_attempt(job.attempt());
   writer.Take(job, {assignment.event, attempt});
 
-  Move move = Solve(Await(std::move(spec), control), assignment, writer);
+  const absl::StatusOr<StoredJob> stored = Await(std::move(spec), control);
+  Move move = Solve(stored, assignment, writer);
   if (control.given_up()) return;
   const bool stopped = Stopped(move, control.cause());
   if (stopped && control.cause() == StopCause::kServer) {
@@ -62,6 +64,8 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
     if (stopped) move = MoveAfterStop(control.cause(), control.budget());
     job.MergeFrom(assignment.record->Get(true));
     job.set_server_version(kVersion);
+    job.set_server_revision(kRevision);
+    if (stored.ok()) job.set_spec_sha256(SpecSha256(stored->job));
   }
   const v1::Event last = Apply(move, clock_.Now(), &job);
   options_.metrics->Moved(v1::Job::RUNNING, job);

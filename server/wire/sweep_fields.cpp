@@ -20,10 +20,12 @@ double SetNumber(const FieldDescriptor& field, double value, google::protobuf::M
     reflection->SetDouble(message, &field, value);
     return value;
   }
-  const bool small = field.cpp_type() == FieldDescriptor::CPPTYPE_INT32;
+  const bool small = field.cpp_type() != FieldDescriptor::CPPTYPE_INT64;
   const double most = small ? std::numeric_limits<std::int32_t>::max() : 0x1p62;
   const double whole = std::clamp(std::round(value), -most, most);
-  if (small) {
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
+    reflection->SetEnumValue(message, &field, static_cast<int>(whole));
+  } else if (small) {
     reflection->SetInt32(message, &field, static_cast<std::int32_t>(whole));
   } else {
     reflection->SetInt64(message, &field, static_cast<std::int64_t>(whole));
@@ -31,8 +33,10 @@ double SetNumber(const FieldDescriptor& field, double value, google::protobuf::M
   return whole;
 }
 
+// An enum is its number.
 bool IsNumber(const FieldDescriptor& field) {
   return !field.is_repeated() && (field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ||
+                                  field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM ||
                                   field.cpp_type() == FieldDescriptor::CPPTYPE_INT32 ||
                                   field.cpp_type() == FieldDescriptor::CPPTYPE_INT64);
 }

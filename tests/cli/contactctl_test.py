@@ -139,6 +139,46 @@ class SweepTest(CliTest):
             if float(row[2]) in alpha:
                 self.assertAlmostEqual(float(row[4]), alpha[float(row[2])], delta=1e-6)
 
+    def test_an_axis_of_laws_takes_their_names(self):
+        path = self.file(f"base: {CHAIN}\naxes:\n- {{field: 'contacts[*].damping', "
+                         "values: [EXACT, HUNT_CROSSLEY]}\n"
+                         "- {field: 'contacts[*].reference_velocity_m_per_s', values: [0.2]}\n"
+                         "metrics: ['cycles[B1-B2].restitution_out']\n")
+        job = self.run_it("sweep", "run", path, "-o", "name")[0].strip()
+        rows = self.run_it("sweep", "export", job, "-o", "csv")[0].splitlines()[1:]
+        for row, law in zip(rows, ("EXACT", "HUNT_CROSSLEY")):
+            one = self.run_it("run", CHAIN, "--set", f"contacts[*].damping={law}", "--set",
+                              "contacts[*].reference_velocity_m_per_s=0.2", "-o", "name")[0].strip()
+            cycle = next(c for c in self.server.get(one).cycles if c.contact == "B1-B2")
+            self.assertEqual(float(row.split(",")[3]), cycle.restitution_out)
+
+    def test_heat_map_hatches_and_crosses(self):
+        base = CHAIN.read_text().replace("\n", "\n  ")
+        path = self.file(f"base:\n  {base}\naxes:\n"
+                         "- {field: 'contacts[0].restitution', values: [0.5, 1.5]}\n"
+                         "- {field: 'solver.max_iterations', values: [1, 50]}\n"
+                         "metrics: ['iterations']\n")
+        job = self.run_it("sweep", "run", path, "-o", "name", code=7)[0].strip()
+        picture = self.folder / "map.svg"
+        self.run_it("sweep", "export", job, "--heatmap", picture)
+        svg = picture.read_text("utf-8")
+        self.assertEqual(svg.count("<pattern"), 1)  # One cell did not converge.
+        self.assertEqual(svg.count("rgb(176,   0,  32)"), 2)  # Two failed.
+        self.assertIn("contacts[0].restitution", svg)
+        png = self.folder / "map.png"
+        self.run_it("sweep", "export", job, "--heatmap", png)
+        self.assertTrue(png.read_bytes().startswith(b"\x89PNG"))
+
+    def test_validate_checks_sweep_files_in_the_same_words(self):
+        said, _ = self.run_it("validate", SCENARIOS / "table-3-sweep.yaml")
+        self.assertIn("valid; 50 cells, 2 axes, 4 metrics", said)
+        path = self.file(f"base: {CHAIN}\naxes:\n- {{field: 'contacts[0].restituton', "
+                         "values: [0.5]}\nmetrics: [iterations]\n")
+        _, checked = self.run_it("validate", path, code=3)
+        _, run = self.run_it("sweep", "run", path, code=3)
+        self.assertEqual(checked, run)
+        self.assertIn("did you mean 'restitution'?", checked)
+
     def test_cells_that_fail_are_marked_and_the_others_go_on(self):
         base = CHAIN.read_text().replace("\n", "\n  ")
         path = self.file(f"base:\n  {base}\naxes:\n"

@@ -5,11 +5,13 @@ import hashlib
 import io
 import json
 import re
+import shutil
+import subprocess
 import unittest
 
 import netCDF4
 import numpy as np
-from contactctl_test import CHAIN, CliTest
+from contactctl_test import CHAIN, PATIENCE_S, CliTest
 
 
 class ExportTest(CliTest):
@@ -88,7 +90,48 @@ class ExportTest(CliTest):
             self.assertEqual(json.loads(data.scenario)["title"], "Triple-ball chain")
             self.assertEqual(data.version, self.job.server_version)
             self.assertEqual(data.job, self.name)
-            self.assertIsInstance(data.revision, str)
+            self.assertEqual(data.scenario_sha256, self.job.spec_sha256)
+            self.assertEqual(data.revision, self.job.server_revision)
+            solver = json.loads(data.solver)
+            self.assertEqual((solver["method"], solver["update"]), ("ADAPTIVE", "NEWTON_COUPLED"))
+
+    def test_part_of_the_series_is_exact(self):
+        recorded = self.recorded()
+        inside = (recorded["time"] >= 1e-3) & (recorded["time"] <= 2e-3)
+        header, *rows = self.rows("--channels", "B2.velocity,B1-B2.contact_force", "--from", "1e-3",
+                                  "--to", "2e-3", "--every", 3)
+        self.assertEqual(header, ["time [s]", "B2.velocity [m/s]", "B1-B2.contact_force [N]"])
+        for values, name in zip(np.array(rows, dtype=float).T,
+                                ("time", "B2.velocity", "B1-B2.contact_force")):
+            np.testing.assert_array_equal(values, recorded[name][inside][::3])
+
+    def test_thinned_series_keeps_the_peak(self):
+        _, *rows = self.rows("--channels", "B1-B2.contact_force", "--max-points", 20)
+        self.assertLessEqual(len(rows), 20)
+        self.assertEqual(max(float(row[1]) for row in rows),
+                         self.recorded()["B1-B2.contact_force"].max())
+
+    def test_part_reaches_netcdf_and_ncdump_reads_it(self):
+        path = self.folder / "part.nc"
+        self.run_it("export", self.name, "-f", path, "--channels", "B1.velocity", "--every", 100)
+        with netCDF4.Dataset(path) as data:
+            self.assertEqual(list(data["series"].variables), ["time", "B1.velocity"])
+            np.testing.assert_array_equal(data["series"]["B1.velocity"][:],
+                                          self.recorded()["B1.velocity"][::100])
+        if shutil.which("ncdump"):
+            dump = subprocess.run(["ncdump", "-p", "9,17", path], check=True, capture_output=True,
+                                  text=True, timeout=PATIENCE_S).stdout
+            self.assertIn('B1.velocity:units = "m/s"', dump)
+            self.assertIn("scenario_sha256", dump)
+
+    @unittest.skipUnless(shutil.which("octave-cli"), "octave-cli is not installed")
+    def test_octave_reads_the_csv(self):
+        path = self.folder / "chain.csv"
+        self.run_it("export", self.name, "-f", path)
+        said = subprocess.run(["octave-cli", "--eval",
+                               f"a=csvread('{path}',1,0); printf('%.17g', a(end,3))"], check=True,
+                              capture_output=True, text=True, timeout=PATIENCE_S).stdout
+        self.assertEqual(float(said), self.recorded()["B1.velocity"][-1])
 
     def test_run_without_contact_has_empty_tables(self):
         name = self.run_it("run", CHAIN, "--set", "bodies[0].velocity_m_per_s=0",
@@ -103,6 +146,11 @@ class ExportTest(CliTest):
         self.assertIn("-f", self.run_it("export", self.name, "-o", "netcdf", code=2)[1])
         self.run_it("export", self.name, "-o", "json", code=2)
         self.run_it("export", self.name, "--table", "x", code=2)
+        self.run_it("export", self.name, "--table", "cycles", "--every", "2", code=2)
+        self.run_it("export", self.name, "--every", "2", "--max-points", "20", code=2)
+        for flag in ((), ("--max-points", "20")):
+            _, said = self.run_it("export", self.name, "--channels", "B1.velocty", *flag, code=2)
+            self.assertIn("did you mean 'B1.velocity'?", said)
         self.run_it("export", "nix", code=6)
         for name in ("x.csv", "x.nc"):
             _, said = self.run_it("export", self.name, "-f", f"/nowhere/{name}", code=11)

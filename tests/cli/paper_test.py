@@ -14,14 +14,17 @@ from contactd import PATIENCE_S, ServerTest
 CONTACTCTL = os.environ["CONTACTCTL"]
 
 
+FIGURES = "fig3 fig4 fig5 fig9 fig10 fig11 fig12 fig14 fig15 fig16 fig17".split()
+
+
 class Paper(ServerTest):
 
-    def make(self, *items, code=0):
+    def make(self, *items, code=0, env=None):
         directory = tempfile.TemporaryDirectory()
         self.addCleanup(directory.cleanup)
         run = subprocess.run([CONTACTCTL, "--server", f"127.0.0.1:{self.server.port}", "paper",
                               *items, "-o", directory.name], capture_output=True, encoding="utf-8",
-                             timeout=PATIENCE_S)
+                             timeout=PATIENCE_S, env=env)
         self.assertEqual(run.returncode, code, run.stdout + run.stderr)
         return pathlib.Path(directory.name), run
 
@@ -32,6 +35,13 @@ class Paper(ServerTest):
             rows = list(csv.reader((made / f"{name}.csv").open(encoding="utf-8")))
             self.assertGreater(len(rows), 15, name)
             self.assertEqual({len(row) for row in rows}, {len(rows[0])}, name)
+        page = (made / "index.html").read_text("utf-8")
+        for name in FIGURES:
+            self.assertIn("</svg>", (made / f"{name}.svg").read_text("utf-8"), name)
+            self.assertIn(f'<h2 id="{name}">', page)
+        self.assertEqual(page.count("<svg"), len(FIGURES))
+        self.assertNotIn("http", page)  # Nothing comes from elsewhere.
+        self.assertNotIn("<script", page)
         for name in "table2 table3 table4 fig4 fig15 exponent".split():
             self.assertTrue((made / f"{name}.txt").is_file(), name)
             item = json.loads((made / f"{name}.json").read_text("utf-8"))
@@ -40,7 +50,7 @@ class Paper(ServerTest):
     def test_table_2_and_4_are_those_of_the_paper(self):
         made, _ = self.make("table2", "table4")
         self.assertEqual(sorted(path.name for path in made.iterdir()),
-                         ["table2.json", "table2.txt", "table4.json", "table4.txt"])
+                         ["index.html", "table2.json", "table2.txt", "table4.json", "table4.txt"])
         numbers = json.loads((made / "table2.json").read_text("utf-8"))["numbers"]
         published = [0.8453, 0.8661, 0.8020, 0.8306, 0.8067, 0.7059, 6]
         self.assertEqual([n["published"] for n in numbers], published)
@@ -60,6 +70,28 @@ class Paper(ServerTest):
             cells.setdefault(row["restitution"], set()).add(passes)
         self.assertEqual(len(cells), 10)
         self.assertEqual({len(passes) for passes in cells.values()}, {1})
+
+    def test_figures_carry_the_marks_of_the_paper(self):
+        made, _ = self.make("fig10", "fig15")
+        for name, labels in (("fig10", 2), ("fig15", 11)):
+            svg = (made / f"{name}.svg").read_text("utf-8")
+            self.assertEqual(svg.count("μ/k = "), labels, name)
+        for words in ("contact force", "equivalent external force", "start of a cycle",
+                      "end of a cycle"):
+            self.assertIn(words, svg)
+
+    def test_figures_are_drawn_in_the_format_asked_for(self):
+        made, _ = self.make("fig9", "--format", "png")
+        self.assertTrue((made / "fig9.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertIn("<svg", (made / "index.html").read_text("utf-8"))
+
+    def test_without_gnuplot_data_and_page_are_made(self):
+        bare = {**os.environ, "PATH": "/nowhere"}
+        made, run = self.make("fig9", env=bare)
+        self.assertIn("apt-get install gnuplot-nox", run.stderr)
+        self.assertTrue((made / "fig9.csv").is_file())
+        self.assertIn("not drawn", (made / "index.html").read_text("utf-8"))
+        self.make("fig9", "--format", "svg", code=11, env=bare)
 
     def test_an_unknown_item_is_named(self):
         _, run = self.make("fig99", code=2)

@@ -4,6 +4,7 @@
 
 #include "jobs/lifecycle.h"
 #include "jobs_fixture.h"
+#include "wire/spec_digest.h"
 
 namespace contact {
 namespace {
@@ -55,6 +56,7 @@ TEST_F(JobsTest, JobRunsToItsResult) {
   EXPECT_GT(job.summary().steps(), 0);
   EXPECT_GT(job.summary().wall_time_s(), 0);
   EXPECT_FALSE(job.server_version().empty());
+  EXPECT_EQ(job.spec_sha256(), SpecSha256(job));
   EXPECT_TRUE(job.has_scenario());
   EXPECT_FALSE(job.progress().steps() == 0);
 

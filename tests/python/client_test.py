@@ -1,6 +1,7 @@
 """contactsim against a real contactd."""
 
 import asyncio
+import hashlib
 import pathlib
 import threading
 import unittest
@@ -38,7 +39,8 @@ class ClientTest(ServerTest):
                                          result["B1.velocity"]))
         last = result.iterations[result.iterations.accepted]
         self.assertTrue((last.residual.abs() < 2e-8).all())
-        self.assertEqual(len(result.provenance["scenario_sha256"]), 64)
+        spec = result.scenario.SerializeToString(deterministic=True)
+        self.assertEqual(result.provenance["scenario_sha256"], hashlib.sha256(spec).hexdigest())
 
     def test_dict_and_message_make_the_same_run(self):
         source = {"bodies": [{"name": "A", "mass_kg": 1, "velocity_m_per_s": 1},
@@ -49,6 +51,37 @@ class ClientTest(ServerTest):
         self.assertAlmostEqual(first.bodies.velocity_m_per_s[0], 0.25, delta=1e-8)
         again = self.client.run(first.scenario)
         self.assertTrue(first.series.equals(again.series))
+
+    def test_sweep_gives_a_tidy_frame_and_a_heat_map(self):
+        sweep = self.client.sweep(
+            SCENARIOS / "three-ball-chain.yaml",
+            {"bodies[0].velocity_m_per_s": [0.1, 0.5], "contacts[*].restitution": [0.9, 0.7, 0.5]},
+            ["iterations", "cycles[B1-B2].alpha"], timeout_s=PATIENCE_S)
+        self.assertEqual(sweep.frame.shape, (6, 7))
+        self.assertEqual(set(sweep.frame.convergence), {"FULL"})
+        half = sweep.frame[sweep.frame["contacts[*].restitution"] == 0.5]
+        np.testing.assert_allclose(half["cycles[B1-B2].alpha"], 2.206095738306658, rtol=1e-6)
+        ax = sweep.heatmap("cycles[B1-B2].alpha")
+        self.assertEqual(ax.get_xlabel(), "contacts[*].restitution")
+        self.assertEqual(len(ax.images), 1)
+        self.assertEqual(len(ax.lines) + len(ax.patches), 0)  # Nothing failed.
+        self.assertIn("6 of 6 cells", sweep._repr_html_())
+        again = self.client.sweep_result(sweep.name, timeout_s=PATIENCE_S)
+        self.assertTrue(again.frame.equals(sweep.frame))
+        self.assertRaises(ValueError, sweep.heatmap, "steps")
+
+    def test_cells_of_a_sweep_that_fail_are_marked(self):
+        sweep = self.client.sweep(
+            SCENARIOS / "three-ball-chain.yaml",
+            {"contacts[0].restitution": [0.5, 1.5], "solver.max_iterations": [1, 50]},
+            timeout_s=PATIENCE_S)
+        self.assertEqual(list(sweep.frame.state), ["SUCCEEDED", "SUCCEEDED", "FAILED", "FAILED"])
+        self.assertEqual(list(sweep.frame.convergence), ["PARTIAL", "FULL", "", ""])
+        self.assertTrue(sweep.frame.iterations[2:].isna().all())
+        ax = sweep.heatmap()
+        self.assertEqual((len(ax.lines), len(ax.patches)), (4, 1))  # Two crosses, one hatched.
+        with self.assertRaises(InvalidScenario):
+            self.client.sweep(SCENARIOS / "three-ball-chain.yaml", {"nothing": [1]})
 
     def test_result_can_be_fetched_later_and_shown_in_a_notebook(self):
         name = self.client.submit(three_ball_chain(title="<b>&")).name

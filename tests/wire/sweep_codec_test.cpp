@@ -173,7 +173,7 @@ TEST(SweepAxes, MistakesAreToldTogether) {
   sweep.mutable_axes(0)->add_values(std::nan(""));
   sweep.mutable_axes(1)->set_field("bodies[0].velocity");
   SetRange(*AddAxis(sweep, "bodies[7].mass_kg").mutable_log(), 0, -1, 0);
-  AddAxis(sweep, "contacts[0].damping");
+  AddAxis(sweep, "contacts[0].name");
   AddAxis(sweep, "contacts[*].restitution", {0.5});
   AddAxis(sweep, "loads[0].sine.phase_rad", {0.5});
   sweep.set_seed(3);
@@ -191,7 +191,7 @@ TEST(SweepAxes, MistakesAreToldTogether) {
           "axes[3]: has no values — give one of values, linear and log",
           "axes[1].field: 'bodies[0].velocity': unknown field — did you mean 'velocity_m_per_s'?",
           "axes[2].field: bodies: there are only 3",
-          "axes[3].field: contacts[0].damping is not a number, so it cannot vary",
+          "axes[3].field: contacts[0].name is not a number, so it cannot vary",
           "axes[4].field: contacts[0].restitution has an axis already",
           "axes[5].field: loads: there are only 0",
           "metrics[1]: 'cycles.mu': cycles is a list — say which entry, by index or name",

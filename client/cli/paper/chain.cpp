@@ -1,7 +1,10 @@
 // The paper's 6.1: the triple-ball chain.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cli/paper/cases.h"
+#include "cli/paper/drawings.h"
 #include "cli/paper/items.h"
 
 namespace contact::cli {
@@ -137,22 +140,28 @@ std::vector<PaperItem> MakeChainFigures(Lab& lab) {
   for (const Model& model : kModels) scenarios.push_back(AsPublished(model));
   scenarios.push_back(Converged(kModels[2]));
   const std::vector<Solved> runs = lab.Solve(scenarios);
-  const auto figure = [&](const std::string& id, const std::string& title,
-                          const std::vector<std::string>& columns,
-                          const std::vector<std::string>& headers) {
-    return PaperItem{id, title + kRuns, {}, {Rows(id, columns, headers, runs)}};
+  const auto item = [&](const std::string& id, const std::string& title, Figure drawn,
+                        const std::vector<std::string>& columns,
+                        const std::vector<std::string>& headers) {
+    drawn.title = title;
+    return PaperItem{id, title + kRuns, {}, {Rows(id, columns, headers, runs)}, std::move(drawn)};
   };
-  return {figure("fig9", "Velocities of the balls", {"B1.velocity", "B2.velocity", "B3.velocity"},
-                 {"velocity_b1_m_per_s", "velocity_b2_m_per_s", "velocity_b3_m_per_s"}),
-          figure("fig10", "Contact forces", {"B1-B2.contact_force", "B2-B3.contact_force"},
-                 {"force_b12_n", "force_b23_n"}),
-          figure("fig11", "Deformation velocities",
-                 {"B1-B2.deformation_velocity", "B2-B3.deformation_velocity"},
-                 {"deformation_velocity_b12_m_per_s", "deformation_velocity_b23_m_per_s"}),
-          figure("fig12", "Hysteresis loops: force against deformation",
-                 {"B1-B2.deformation", "B1-B2.contact_force", "B2-B3.deformation",
-                  "B2-B3.contact_force"},
-                 {"deformation_b12_m", "force_b12_n", "deformation_b23_m", "force_b23_n"})};
+  const auto models = [&](const std::string& preset) {
+    return DrawModels(preset, {&runs[0], &runs[1], &runs[2]},
+                      {kModels[0].name, kModels[1].name, kModels[2].name});
+  };
+  return {
+      item("fig9", "Velocities of the balls", DrawVelocities(runs[2]),
+           {"B1.velocity", "B2.velocity", "B3.velocity"},
+           {"velocity_b1_m_per_s", "velocity_b2_m_per_s", "velocity_b3_m_per_s"}),
+      item("fig10", "Contact forces", models("force"),
+           {"B1-B2.contact_force", "B2-B3.contact_force"}, {"force_b12_n", "force_b23_n"}),
+      item("fig11", "Deformation velocities", models("deformation-velocity"),
+           {"B1-B2.deformation_velocity", "B2-B3.deformation_velocity"},
+           {"deformation_velocity_b12_m_per_s", "deformation_velocity_b23_m_per_s"}),
+      item("fig12", "Hysteresis loops: force against deformation", models("hysteresis"),
+           {"B1-B2.deformation", "B1-B2.contact_force", "B2-B3.deformation", "B2-B3.contact_force"},
+           {"deformation_b12_m", "force_b12_n", "deformation_b23_m", "force_b23_n"})};
 }
 
 std::vector<PaperItem> MakeChainTables(Lab& lab) {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cli/paper/cases.h"
+#include "cli/paper/drawings.h"
 #include "cli/paper/items.h"
 
 namespace contact::cli {
@@ -60,7 +62,11 @@ PaperItem DeformationVelocity(Lab& lab) {
       if (deformation[i] >= 0) data.rows.push_back({restitutions[c], deformation[i], rate[i]});
     }
   }
-  return {"fig3", "Deformation velocity against deformation at several restitutions", {}, {data}};
+  return {"fig3",
+          "Deformation velocity against deformation at several restitutions",
+          {},
+          {data},
+          DrawDeformationVelocities(data)};
 }
 
 // α = 3(1−ε²)/(2(ε²+ε^a)), paper (21), for one a; the exponent is sought from 1.00 down.
@@ -96,6 +102,17 @@ PaperItem Exponent(const std::vector<double>& grid, Lab& lab) {
           {data}};
 }
 
+Figure DrawPostRestitution(const Data& data) {
+  Figure figure = DrawColumns(data, "post-restitution coefficient",
+                              {"Hunt and Crossley", "Lankarani and Nikravesh", "Flores et al.",
+                               "Hu and Guo", "paper, (23)"});
+  figure.title = "Restitution that each law delivers; ideal dotted";
+  std::vector<Figure::Curve>& curves = figure.panels.front().curves;
+  curves.back().mark = Figure::Mark::kDashed;  // As printed.
+  curves.push_back({"", 6, Figure::Mark::kDotted, {0, 1}, {0, 1}});
+  return figure;
+}
+
 PaperItem PostRestitution(const std::vector<double>& grid, const std::vector<Solved>& laws) {
   Data data{"fig4", {"restitution_in"}, {}};
   for (const Law& law : kLaws) data.columns.push_back(fmt::format("restitution_out_{}", law.name));
@@ -117,7 +134,8 @@ PaperItem PostRestitution(const std::vector<double>& grid, const std::vector<Sol
             .process = LargestMiss(own, grid, 0.35, 0.95),
             .limit = 2e-4,
             .why = "0.0081; the paper says less than 0.008"}},
-          {data}};
+          {data},
+          DrawPostRestitution(data)};
 }
 
 PaperItem Coefficients(const std::vector<double>& grid, const std::vector<Solved>& laws) {
@@ -125,7 +143,14 @@ PaperItem Coefficients(const std::vector<double>& grid, const std::vector<Solved
   for (std::size_t i = 0; i < grid.size(); ++i) {
     data.rows.push_back({grid[i], CycleOf(laws[3], i).alpha(), CycleOf(laws[4], i).alpha()});
   }
-  return {"fig5", "Coefficient α against restitution: Hu–Guo and (23)", {}, {data}};
+  Figure figure =
+      DrawColumns(data, "hysteresis damping factor coefficient α", {"Hu and Guo", "paper, (23)"});
+  figure.title = "Coefficient α of the damping factor";
+  for (Figure::Curve& curve : figure.panels.front().curves) {
+    curve.mark = Figure::Mark::kLinePoints;
+  }
+  return {
+      "fig5", "Coefficient α against restitution: Hu–Guo and (23)", {}, {data}, std::move(figure)};
 }
 
 }  // namespace

@@ -4,22 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/failure.h"
 #include "cli/number.h"
 #include "cli/table.h"
+#include "cli/text_file.h"
 
 namespace contact::cli {
 namespace {
-
-void WriteFile(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Failure(ExitCode::kLocal, fmt::format("cannot write {}", path.string()));
-}
 
 std::string Csv(const Data& data) {
   std::string text = fmt::format("{}\n", fmt::join(data.columns, ","));
@@ -51,8 +43,6 @@ std::string Json(const PaperItem& item) {
   }
   return json.dump(2) + "\n";
 }
-
-std::string Short(double value) { return std::isnan(value) ? "" : fmt::format("{:.5g}", value); }
 
 Table::Cell Verdict(const Comparison& n) {
   if (std::isnan(n.limit)) return {""};
@@ -90,16 +80,21 @@ bool PaperItem::holds() const {
   return std::all_of(numbers.begin(), numbers.end(), [](const Comparison& n) { return n.holds(); });
 }
 
+std::string Short(double value) { return std::isnan(value) ? "" : fmt::format("{:.5g}", value); }
+
 void Write(const PaperItem& item, const std::filesystem::path& directory) {
-  for (const Data& data : item.data) WriteFile(directory / (data.name + ".csv"), Csv(data));
+  for (const Data& data : item.data) WriteText(Csv(data), directory / (data.name + ".csv"));
   if (item.numbers.empty()) return;
   Table table = Numbers();
   AddRows(item, &table);
-  WriteFile(directory / (item.id + ".txt"), item.title + "\n\n" + table.Text(Style{}));
-  WriteFile(directory / (item.id + ".json"), Json(item));
+  WriteText(item.title + "\n\n" + table.Text(Style{}), directory / (item.id + ".txt"));
+  WriteText(Json(item), directory / (item.id + ".json"));
 }
 
 std::string Summary(const std::vector<PaperItem>& items, const Style& style) {
+  if (std::ranges::all_of(items, [](const PaperItem& item) { return item.numbers.empty(); })) {
+    return "";
+  }
   Table table = Numbers();
   for (const PaperItem& item : items) AddRows(item, &table);
   return table.Text(style);

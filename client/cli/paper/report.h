@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/figure.h"
 #include "cli/style.h"
 
 namespace contact::cli {
@@ -38,12 +40,16 @@ struct PaperItem {
   std::string title;  ///< What it shows.
   std::vector<Comparison> numbers;
   std::vector<Data> data;
+  std::optional<Figure> figure = {};  ///< None for tables.
 
   bool holds() const;
 };
 
 /// Writes the item's data as CSV, and its numbers as ID.txt and ID.json. Throws Failure (kLocal).
 void Write(const PaperItem& item, const std::filesystem::path& directory);
+
+/// Five significant digits; empty for NaN.
+std::string Short(double value);
 
 /// The numbers of all items as one table.
 std::string Summary(const std::vector<PaperItem>& items, const Style& style);

@@ -1,8 +1,11 @@
 // The paper's 6.2: the ball on a spring that is pushed against a wall.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cli/paper/cases.h"
 #include "cli/paper/items.h"
+#include "cli/presets.h"
 
 namespace contact::cli {
 namespace {
@@ -65,15 +68,36 @@ Data Marks(const std::string& name, const Solved& run) {
   return data;
 }
 
-PaperItem Figure(const std::string& id, const std::string& title, const Solved& run,
-                 const std::vector<std::string>& columns, const std::vector<std::string>& headers) {
+// The key says what the paper's does. A mark is named once.
+void NameCurves(Figure* figure) {
+  bool starts = false;
+  bool ends = false;
+  for (Figure::Curve& curve : figure->panels.front().curves) {
+    if (curve.mark == Figure::Mark::kStart && !std::exchange(starts, true)) {
+      curve.label = "start of a cycle";
+    } else if (curve.mark == Figure::Mark::kEnd && !std::exchange(ends, true)) {
+      curve.label = "end of a cycle";
+    } else if (curve.mark == Figure::Mark::kDashed) {
+      curve.label = "equivalent external force";
+    } else if (curve.label == kContact) {
+      curve.label = "contact force";
+    }
+  }
+}
+
+PaperItem Draw(const std::string& id, const std::string& preset, const std::string& title,
+               const Solved& run, const std::vector<std::string>& columns,
+               const std::vector<std::string>& headers) {
   Data data{id, {"time_s"}, {}};
   data.columns.insert(data.columns.end(), headers.begin(), headers.end());
   for (std::size_t i = 0; i < run["time"].size(); ++i) {
     data.rows.push_back({run["time"][i]});
     for (const std::string& column : columns) data.rows.back().push_back(run[column][i]);
   }
-  return {id, title, {}, {data, Marks(id + "_cycles", run)}};
+  Figure figure = DrawPreset(preset, run);
+  figure.title = title;
+  NameCurves(&figure);
+  return {id, title, {}, {data, Marks(id + "_cycles", run)}, std::move(figure)};
 }
 
 }  // namespace
@@ -86,16 +110,17 @@ std::vector<PaperItem> MakeSpringItems(Lab& lab) {
   const std::vector<Solved> runs = lab.Solve({newton, ratio, SpringWall()});
   const Solved& run = runs[0];
   std::vector<PaperItem> items;
-  items.push_back(Figure("fig14", "Position of the ball", run, {"ball.position"}, {"position_m"}));
-  items.push_back(Figure("fig15", "Contact force and equivalent external force", run,
-                         {"ball-wall.contact_force", "ball-wall.external_force"},
-                         {"contact_force_n", "external_force_n"}));
-  items.back().numbers = Factors(runs);
   items.push_back(
-      Figure("fig16", "Velocity of the ball", run, {"ball.velocity"}, {"velocity_m_per_s"}));
-  items.push_back(Figure("fig17", "Hysteresis loops: force against deformation", run,
-                         {"ball-wall.deformation", "ball-wall.contact_force"},
-                         {"deformation_m", "contact_force_n"}));
+      Draw("fig14", "position", "Position of the ball", run, {"ball.position"}, {"position_m"}));
+  items.push_back(Draw("fig15", "force", "Contact force and equivalent external force", run,
+                       {"ball-wall.contact_force", "ball-wall.external_force"},
+                       {"contact_force_n", "external_force_n"}));
+  items.back().numbers = Factors(runs);
+  items.push_back(Draw("fig16", "velocity", "Velocity of the ball", run, {"ball.velocity"},
+                       {"velocity_m_per_s"}));
+  items.push_back(Draw("fig17", "hysteresis", "Hysteresis loops: force against deformation", run,
+                       {"ball-wall.deformation", "ball-wall.contact_force"},
+                       {"deformation_m", "contact_force_n"}));
   items.push_back(Table4(runs));
   return items;
 }

@@ -6,9 +6,11 @@ from .errors import (CallError, ContactError, InvalidScenario, JobNotFound, Over
                      Timeout, Unreachable, Violation)
 from .result import Result
 from .scenario import load_scenario
+from .sweeping import SweepResult
 
 __all__ = [
     "AsyncClient", "CallError", "Client", "ContactError", "InvalidScenario", "JobNotFound",
-    "Overloaded", "Result", "RunFailed", "Timeout", "Unreachable", "Violation", "load_scenario"
+    "Overloaded", "Result", "RunFailed", "SweepResult", "Timeout", "Unreachable", "Violation",
+    "load_scenario"
 ]
 __version__ = "0.1.0"

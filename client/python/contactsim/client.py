@@ -14,6 +14,7 @@ from .errors import RunFailed, from_rpc
 from .recording import KINDS, Recording
 from .result import Result
 from .scenario import ScenarioLike, load_scenario
+from .sweeping import SweepResult, make_sweep
 from .watching import WHOLE, Position, delivery_options
 
 JobLike = Union[str, job_pb2.Job, Result]
@@ -72,6 +73,35 @@ class Client:
         The same `request_id` and scenario make one job, however often submitted.
         """
         return self._call(self._stub.CreateJob, create_request(scenario, labels, request_id))
+
+    def sweep(self, scenario: ScenarioLike, grid: Mapping[str, Iterable[float]],
+              metrics: Iterable[str] = ("iterations",), *,
+              labels: Mapping[str, str] | None = None,
+              timeout_s: float | None = None) -> SweepResult:
+        """Solves a scenario for every combination of values of its fields, as one job.
+
+        `grid` has the values by path, such as `{"contacts[*].restitution": [0.9, 0.8]}`; `metrics`
+        are paths of numbers in the result, such as `cycles[B1-B2].alpha`. Cells that fail or do
+        not converge do not raise: the result tells which. Raises InvalidScenario, RunFailed if the
+        whole sweep ended early, and Timeout after `timeout_s`; the job then goes on.
+        """
+        deadline = _deadline(timeout_s)
+        job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics), labels=labels)
+        request = job_service_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
+        return self._sweep(self._call(self._stub.CreateJob, request).name, deadline)
+
+    def sweep_result(self, job: JobLike, *, timeout_s: float | None = None) -> SweepResult:
+        """The cells of a sweep, once it has ended."""
+        return self._sweep(job_name(job), _deadline(timeout_s))
+
+    def _sweep(self, name: str, deadline: float | None) -> SweepResult:
+        position = Position(name, self.address, 0, ["sweep_cell"], deadline)
+        cells = [event.sweep_cell for event in self._watch(position)
+                 if event.WhichOneof("payload") == "sweep_cell"]
+        job = self.get(name)
+        if job.state != job_pb2.Job.SUCCEEDED:
+            raise RunFailed(job)
+        return SweepResult(job, cells)
 
     def validate(self, scenario: ScenarioLike) -> None:
         """Raises InvalidScenario unless the server would accept the scenario."""

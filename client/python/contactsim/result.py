@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import hashlib
 import html
 from typing import Any
 
@@ -97,9 +96,9 @@ class Result:
     @property
     def provenance(self) -> dict[str, str]:
         """What makes the result repeatable."""
-        spec = self.scenario.SerializeToString(deterministic=True)
         return {"job": self.name, "server_version": self.job.server_version,
-                "scenario_sha256": hashlib.sha256(spec).hexdigest()}
+                "server_revision": self.job.server_revision,
+                "scenario_sha256": self.job.spec_sha256}
 
     def __repr__(self) -> str:
         return f"<Result {self._headline()}>"

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/job_source.h"
+#include "cli/render_comparison.h"
+
+namespace contact::cli {
+namespace {
+
+struct CompareArguments {
+  std::vector<std::string> jobs;
+  Tolerance tolerance;
+  std::string format;
+};
+
+std::string Format(const CompareArguments& arguments, const Settings& settings) {
+  if (!arguments.format.empty()) return arguments.format;
+  settings.RequireOutput({"table", "json", "csv"});
+  return settings.output;
+}
+
+ExitCode CompareJobs(const CompareArguments& arguments, const Settings& settings) {
+  const std::string format = Format(arguments, settings);
+  std::vector<v1::Job> jobs;
+  JobSource source(settings);
+  for (const std::string& job : arguments.jobs) {
+    jobs.push_back(source.Get(job));
+    if (jobs.back().has_sweep()) {
+      throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job));
+    }
+  }
+  const JobComparison comparison = Compare(jobs, arguments.tolerance);
+  if (format == "json") {
+    fmt::print("{}", ComparisonJson(comparison));
+  } else if (format == "csv") {
+    fmt::print("{}", ComparisonCsv(comparison));
+  } else if (format == "latex") {
+    fmt::print("{}", ComparisonLatex(comparison));
+  } else {
+    fmt::print("{}", RenderComparison(comparison, settings.OutputStyle()));
+  }
+  return comparison.Holds() ? ExitCode::kOk : ExitCode::kDiffers;
+}
+
+}  // namespace
+
+void AddCompareCommand(CLI::App& app, const Settings& settings, Action* action) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "Show where runs differ: parameters, then results; exit code 8 if these do");
+  command
+      ->add_option("JOB", arguments->jobs,
+                   "Two or more: IDs, or files with what describe -o json printed; the first is "
+                   "the baseline")
+      ->required()
+      ->expected(2, 1000);
+  command->add_option("--abs", arguments->tolerance.absolute, "Deviation that does not matter")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--rel", arguments->tolerance.relative,
+                   "The same relative to the baseline; the larger one counts")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--format", arguments->format, "table, json, csv or latex, instead of -o")
+      ->check(CLI::IsMember({"table", "json", "csv", "latex"}))
+      ->type_name("FORMAT");
+  command->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return CompareJobs(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "cli/figure.h"
+
+namespace contact::cli {
+
+/// Draws a figure through gnuplot to a file: svg, png or pdf. Throws Failure (kLocal) if the file
+/// cannot be written, or gnuplot is not installed or fails.
+void Draw(const Figure& figure, std::string_view format, const std::string& path);
+
+/// Runs a script that draws to a file. Throws as Draw does.
+void DrawScript(const std::string& script, const std::string& path);
+
+/// The figure as SVG that can stand in an HTML page: no declarations, nothing from elsewhere.
+/// Throws as Draw does.
+std::string DrawInline(const Figure& figure);
+
+/// The part of an SVG document that can stand in an HTML page.
+std::string InlineSvg(std::string_view document);
+
+}  // namespace contact::cli

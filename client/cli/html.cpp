@@ -1,0 +1,72 @@
+#include "cli/html.h"
+
+#include <fmt/format.h>
+
+namespace contact::cli {
+namespace {
+
+constexpr char kStyle[] =
+    "body{font:15px/1.45 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;"
+    "color:#1a1a1a;background:#fff}"
+    "h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2.2rem}"
+    "table{border-collapse:collapse;display:block;overflow-x:auto;font-variant-numeric:tabular-"
+    "nums;"
+    "font-size:.87rem}"
+    "th,td{padding:.2rem .6rem;text-align:left;border-bottom:1px solid #ddd;vertical-align:top}"
+    "td.n{text-align:right;white-space:nowrap}tr.d{background:#fde7d9;font-weight:600}"
+    "svg{max-width:100%;height:auto}"
+    "pre{background:#f5f5f5;padding:.7rem;overflow-x:auto;font-size:.82rem}"
+    "figure{margin:1rem 0}";
+
+bool IsNumber(std::string_view cell) {
+  return !cell.empty() && cell.find_first_of("0123456789+-") == 0;
+}
+
+}  // namespace
+
+std::string HtmlText(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string HtmlTable(const std::vector<std::string>& headers, const std::vector<HtmlRow>& rows) {
+  std::string table = "<table>\n<tr>";
+  for (const std::string& header : headers) table += fmt::format("<th>{}</th>", HtmlText(header));
+  table += "</tr>\n";
+  for (const HtmlRow& row : rows) {
+    table += row.differs ? "<tr class=\"d\">" : "<tr>";
+    for (const std::string& cell : row.cells) {
+      table += fmt::format("<td{}>{}</td>", IsNumber(cell) ? " class=\"n\"" : "", HtmlText(cell));
+    }
+    table += "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+std::string HtmlPage(std::string_view title, std::string_view body) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n"
+      "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n{2}</body>\n</html>\n",
+      HtmlText(title), kStyle, body);
+}
+
+}  // namespace contact::cli

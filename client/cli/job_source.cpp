@@ -1,0 +1,36 @@
+#include "cli/job_source.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <filesystem>
+
+#include "cli/text_file.h"
+
+namespace contact::cli {
+namespace {
+
+v1::Job ReadJob(const std::string& path) {
+  v1::Job job;
+  google::protobuf::util::JsonParseOptions options;
+  options.ignore_unknown_fields = true;  // Of a newer program.
+  const auto status = google::protobuf::util::JsonStringToMessage(ReadText(path), &job, options);
+  if (!status.ok() || job.name().empty()) {
+    throw Failure(ExitCode::kInvalidScenario,
+                  fmt::format("{}: holds no job as describe -o json prints it{}{}", path,
+                              status.ok() ? "" : ": ", std::string(status.message())));
+  }
+  return job;
+}
+
+}  // namespace
+
+v1::Job JobSource::Get(const std::string& name) {
+  if (std::filesystem::is_regular_file(name)) return ReadJob(name);
+  if (!client_) client_.emplace(settings_.Connect());
+  v1::GetJobRequest request;
+  request.set_name(JobName(name));
+  return client_->Call(&Client::Stub::GetJob, request);
+}
+
+}  // namespace contact::cli

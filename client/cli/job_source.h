@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/settings.h"
+
+namespace contact::cli {
+
+/// Jobs of the server, and of files with what `describe -o json` printed.
+class JobSource {
+ public:
+  explicit JobSource(const Settings& settings) : settings_(settings) {}
+
+  /// `name` is a file if there is one of that name, else an ID. Throws Failure: kInvalidScenario if
+  /// the file holds no job, or what the server answers.
+  v1::Job Get(const std::string& name);
+
+ private:
+  const Settings& settings_;
+  std::optional<Client> client_;  ///< Once it is needed.
+};
+
+}  // namespace contact::cli

@@ -1,0 +1,82 @@
+#include "cli/paper/index.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/html.h"
+#include "cli/number.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr char kReading[] =
+    "<p><b>Published</b> is what the paper prints. <b>By its process</b> is ours, computed as the "
+    "paper says it did: Runge-Kutta with 1e-6 s, its updates of μ, its tolerance and its "
+    "definition of the phases. <b>Converged</b> is ours by the default solver, to 1e-8. A "
+    "deviation of process from print beyond the documented limit is marked.</p>\n";
+
+std::string Deviation(const Comparison& number) {
+  return std::isnan(number.limit) ? "" : fmt::format("{:+.1e}", number.deviation());
+}
+
+std::string Limit(const Comparison& number) {
+  return std::isnan(number.limit) ? "" : fmt::format("{:.1g}", number.limit);
+}
+
+std::string Numbers(const PaperItem& item) {
+  std::vector<HtmlRow> rows;
+  for (const Comparison& n : item.numbers) {
+    rows.push_back({{n.what, Short(n.published), Short(n.process), Short(n.converged), Deviation(n),
+                     Limit(n), n.why},
+                    !n.holds()});
+  }
+  return HtmlTable(
+      {"Number", "Published", "By its process", "Converged", "Deviation", "Limit", "Why"}, rows);
+}
+
+std::string Files(const PaperItem& item) {
+  std::string links;
+  for (const Data& data : item.data) {
+    links +=
+        fmt::format("{0}<a href=\"{1}.csv\">{1}.csv</a>, {2}", links.empty() ? "" : "; ", data.name,
+                    Count(static_cast<std::int64_t>(data.rows.size()), "row", "rows"));
+  }
+  return links.empty() ? "" : fmt::format("<p>Data: {}.</p>\n", links);
+}
+
+std::string Section(const PaperItem& item, const std::map<std::string, std::string>& figures) {
+  std::string section =
+      fmt::format("<h2 id=\"{0}\">{0}: {1}</h2>\n", item.id, HtmlText(item.title));
+  const auto figure = figures.find(item.id);
+  if (figure != figures.end()) section += fmt::format("<figure>{}</figure>\n", figure->second);
+  if (!item.numbers.empty()) section += Numbers(item);
+  return section + Files(item);
+}
+
+}  // namespace
+
+std::string IndexPage(const std::vector<PaperItem>& items,
+                      const std::map<std::string, std::string>& figures, const Origin& origin) {
+  std::string body = kReading;
+  std::vector<HtmlRow> verdicts;
+  for (const PaperItem& item : items) {
+    verdicts.push_back({{item.id, item.title,
+                         item.numbers.empty() ? "shown"
+                         : item.holds()       ? "holds"
+                                              : "DIFFERS"},
+                        !item.holds()});
+  }
+  body += HtmlTable({"Item", "What it shows", "Verdict"}, verdicts);
+  if (figures.empty()) {
+    body += "<p>Figures were not drawn: gnuplot was not there. Their data are.</p>\n";
+  }
+  for (const PaperItem& item : items) body += Section(item, figures);
+  body += fmt::format(
+      "<h2>How to make this again</h2>\n<pre>{}</pre>\n<p>Made by {}. Solver of the converged "
+      "numbers: <code>{}</code></p>\n",
+      HtmlText(origin.command), HtmlText(origin.server), HtmlText(origin.solver));
+  return HtmlPage("The paper's figures and tables, made again", body);
+}
+
+}  // namespace contact::cli

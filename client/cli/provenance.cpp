@@ -1,0 +1,57 @@
+#include "cli/provenance.h"
+
+#include <limits>
+
+#include "cli/render_json.h"
+#include "wire/scenario_codec.h"
+
+namespace contact::cli {
+namespace {
+
+std::string Line(const google::protobuf::Message& message) {
+  std::string line = ToJsonLine(message);
+  line.pop_back();
+  return line;
+}
+
+}  // namespace
+
+v1::Solver SolverInFull(const v1::Scenario& scenario) {
+  constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
+                                     .max_contacts = std::numeric_limits<std::int32_t>::max(),
+                                     .max_samples = std::numeric_limits<std::int64_t>::max()};
+  const SolverOptions options = DecodeScenario(scenario, kNoLimits).scenario.solver;
+  v1::Solver solver = scenario.solver();
+  solver.set_method(options.fixed_step > 0 ? v1::Solver::RK4 : v1::Solver::ADAPTIVE);
+  if (options.fixed_step > 0) {
+    solver.set_step_s(options.fixed_step);
+  } else {
+    solver.set_relative_tolerance(options.relative_tolerance);
+  }
+  solver.set_restitution_tolerance(options.restitution_tolerance);
+  if (solver.update() == v1::Solver::UPDATE_UNSPECIFIED) {
+    solver.set_update(v1::Solver::NEWTON_COUPLED);
+  }
+  const bool at_force = options.phase_split == PhaseSplit::kPeakForce;
+  solver.set_phase_split(at_force ? v1::Solver::PEAK_FORCE : v1::Solver::PEAK_DEFORMATION);
+  solver.set_max_iterations(options.max_iterations);
+  solver.set_tension(options.clip_tension ? v1::Solver::CLIP : v1::Solver::ALLOW);
+  solver.set_on_not_converged(options.fail_if_not_converged ? v1::Solver::FAIL
+                                                            : v1::Solver::REPORT);
+  solver.set_settled_fraction(options.settled_fraction);
+  solver.set_max_steps(options.max_steps);
+  return solver;
+}
+
+Provenance ProvenanceOf(const v1::Job& job) {
+  return {{"title", job.scenario().title()},
+          {"job", job.name()},
+          {"scenario", ToJson(job.scenario())},
+          {"scenario_sha256", job.spec_sha256()},
+          {"version", job.server_version()},
+          {"revision", job.server_revision()},
+          {"solver", Line(SolverInFull(job.scenario()))},
+          {"convergence", v1::Job::Convergence_Name(job.convergence())}};
+}
+
+}  // namespace contact::cli

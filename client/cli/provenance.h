@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact/v1/job.pb.h"
+
+namespace contact::cli {
+
+/// Names and values, in the order in which they are shown.
+using Provenance = std::vector<std::pair<std::string, std::string>>;
+
+/// What makes a result repeatable: title, job, scenario as JSON, its SHA-256, the server's version
+/// and revision, the solver's options with every default spelt out, convergence.
+Provenance ProvenanceOf(const v1::Job& job);
+
+/// The solver's options of a scenario that keeps the rules, every default spelt out.
+v1::Solver SolverInFull(const v1::Scenario& scenario);
+
+}  // namespace contact::cli

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/recording.h"
+
+namespace contact::cli {
+
+/// What a report shows of one run.
+struct RunPart {
+  Recording recording;               ///< Its trajectory is not needed.
+  std::vector<std::string> figures;  ///< SVG.
+};
+
+/// A page about one run, or about several and where they differ. Needs nothing but itself.
+/// `server` is where the runs were read.
+std::string ReportPage(const std::vector<RunPart>& runs, const std::string& server);
+
+}  // namespace contact::cli
