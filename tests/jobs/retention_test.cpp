@@ -1,5 +1,6 @@
 #include "jobs/retention.h"
 
+#include "jobs/job_feed.h"
 #include "jobs_fixture.h"
 
 namespace contact {
@@ -57,6 +58,8 @@ class RetentionTest : public JobsTest {
     Ended(name);
     return name;
   }
+
+  JobFeed feed_;
 };
 
 TEST_F(RetentionTest, EndedJobsGoByTheirAgeOnly) {
@@ -71,12 +74,14 @@ TEST_F(RetentionTest, EndedJobsGoByTheirAgeOnly) {
   EXPECT_EQ(Get(usual).value().expire_time().seconds(), job.end_time().seconds() + 3600);
   EXPECT_FALSE(Get(running).value().has_expire_time());
 
-  Retention retention(*store_, clock_, {.age = hours(1)});
+  Retention retention(*store_, clock_, {.age = hours(1)}, feed_);
+  const auto reader = feed_.Subscribe([] {});
   clock_.Advance(seconds(59));
   EXPECT_EQ(retention.Sweep(), 0);
   clock_.Advance(seconds(1));
   EXPECT_EQ(retention.Sweep(), 1);
   EXPECT_FALSE(Get(brief).ok());
+  EXPECT_THAT(reader->Take(10), ElementsAre(brief)) << "who watches all jobs hears of it";
   EXPECT_TRUE(Get(usual).ok());
   clock_.Advance(hours(100));
   EXPECT_EQ(retention.Sweep(), 2);
@@ -89,8 +94,24 @@ TEST_F(RetentionTest, NothingGoesUnlessSomeoneSaysSo) {
   const std::string name = EndedJobName();
   EXPECT_FALSE(Get(name).value().has_expire_time());
   clock_.Advance(hours(24 * 365 * 10));
-  EXPECT_EQ(Retention(*store_, clock_, {}).Sweep(), 0);
+  EXPECT_EQ(Retention(*store_, clock_, {}, feed_).Sweep(), 0);
   EXPECT_TRUE(Get(name).ok());
+}
+
+TEST_F(RetentionTest, FirstToEndGoWhenTheirBytesAreTooMany) {
+  OpenWithFakeRun();
+  const std::string first = EndedJobName();
+  clock_.Advance(seconds(1));
+  const std::string second = EndedJobName();
+  Await<absl::StatusOr<std::vector<JobSize>>> sizes;
+  store_->Sizes(sizes.callback());
+  const std::vector<JobSize> stored = sizes.Get().value();
+  ASSERT_EQ(stored.size(), 2u);
+  const std::int64_t both = stored[0].bytes + stored[1].bytes;
+  EXPECT_EQ(Retention(*store_, clock_, {.bytes = both}, feed_).Sweep(), 0);
+  EXPECT_EQ(Retention(*store_, clock_, {.bytes = both - 1}, feed_).Sweep(), 1);
+  EXPECT_FALSE(Get(first).ok());
+  EXPECT_TRUE(Get(second).ok());
 }
 
 TEST_F(RetentionTest, ManyJobsGoPageByPage) {
@@ -101,7 +122,7 @@ TEST_F(RetentionTest, ManyJobsGoPageByPage) {
     std::this_thread::yield();
   }
   clock_.Advance(seconds(2));
-  EXPECT_EQ(Retention(*store_, clock_, {.age = seconds(1)}).Sweep(), 450);
+  EXPECT_EQ(Retention(*store_, clock_, {.age = seconds(1)}, feed_).Sweep(), 450);
   EXPECT_EQ(List({}).value().jobs_size(), 0);
 }
 
