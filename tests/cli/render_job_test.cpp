@@ -64,8 +64,8 @@ TEST(RenderJob, ShowsHowTheJobIsTreated) {
               HasSubstr("\npriority -5, budget 1.5 s wall, budget 1000 steps, budget 20 bytes, "
                         "kept 60 s after its end\n"));
   job.set_state(v1::Job::FAILED);
-  job.mutable_expire_time()->set_seconds(0);
-  EXPECT_THAT(RenderJob(job, {}), HasSubstr("kept until 1970-01-01 00:00:00 UTC"));
+  job.mutable_expire_time()->set_seconds(60);
+  EXPECT_THAT(RenderJob(job, {}), HasSubstr("kept until 1970-01-01 00:01:00 UTC"));
 }
 
 TEST(RenderJob, LongLedgerSaysHowToGetAll) {
