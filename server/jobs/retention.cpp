@@ -135,8 +135,8 @@ int Retention::Sweep() {
 // Oldest end first.
 std::vector<EndedJob> Retention::ListEnded() {
   std::vector<std::pair<std::int64_t, EndedJob>> found;
-  const auto bytes = limits_.bytes > 0 ? ReadBytes(store_)
-                                       : std::unordered_map<std::string, std::int64_t>();
+  const auto bytes =
+      limits_.bytes > 0 ? ReadBytes(store_) : std::unordered_map<std::string, std::int64_t>();
   std::int64_t before = 0;
   do {
     const absl::StatusOr<JobPage> page = ReadPage(store_, before);
@@ -144,8 +144,9 @@ std::vector<EndedJob> Retention::ListEnded() {
     for (const StoredJob& stored : page->jobs) {
       const v1::Job& job = stored.job;
       const auto size = bytes.find(job.name());
-      found.push_back({TimeUtil::TimestampToNanoseconds(job.end_time()),
-                       {job.name(), ExpiryOf(job, limits_), size == bytes.end() ? 0 : size->second}});
+      found.push_back(
+          {TimeUtil::TimestampToNanoseconds(job.end_time()),
+           {job.name(), ExpiryOf(job, limits_), size == bytes.end() ? 0 : size->second}});
     }
     before = page->next;
   } while (before > 0 && !stopped());
