@@ -1,0 +1,63 @@
+"""A full disk refuses, at once and in words, and loses nothing; with space again all goes on."""
+
+import time
+import unittest
+
+import power_cut
+from contactd import endless, spring_wall, three_ball_chain
+from fault import *
+
+
+class DiskFullTest(FaultTest):
+    """F4."""
+
+    def make_server(self):
+        self.full = self.folder / "full"
+        environment = power_cut.environment(self.folder / "data", self.folder / "notes",
+                                            full=self.full)
+        return Server(self.folder / "data", "--workers=2", environment=environment)
+
+    def test_full_disk_refuses_and_recovers_without_a_restart(self):
+        golden = self.golden(three_ball_chain(), spring_wall(1.0))
+        ended = submit(self.server, self.history, three_ball_chain(), "before").name
+        follow(self.server, self.history.watch(ended))
+        long = submit(self.server, self.history, endless(), "long").name
+        wait_for(lambda: self.server.get(long).last_sequence > 20)
+        running = submit(self.server, self.history, spring_wall(1.0), "running").name
+
+        self.full.touch()
+        self.assertKept("refused_after", self.refusal(), 1)
+        self.assertEqual(get(self.server, self.history, ended).state, Job.SUCCEEDED)
+        self.assertTrue(self.server.list().jobs)
+        follow(self.server, self.history.watch(ended))
+        self.assertEqual(get(self.server, self.history, long).state, Job.RUNNING)
+
+        self.full.unlink()
+        recovered = wait_for(lambda: self.accepted("after"))
+        stored = self.server.get(long).last_sequence
+        recovered += wait_for(lambda: self.server.get(long).last_sequence > stored)
+        self.assertKept("recovered_after", recovered, 2)
+        follow(self.server, self.history.watch(running))
+        self.server.cancel(long)
+        self.assertPromises(self.server, golden=golden, max_attempts=1)
+
+    def refusal(self):
+        """Seconds that the first refusal took; space inside of the files is used up before."""
+        for i in range(1000):
+            start = time.monotonic()
+            if not self.accepted(f"full-{i}"):
+                return time.monotonic() - start
+        raise AssertionError("1000 jobs were accepted on a full disk")
+
+    def accepted(self, request):
+        try:
+            submit(self.server, self.history, three_ball_chain(), request)
+            return True
+        except grpc.RpcError as error:
+            self.assertEqual(error.code(), grpc.StatusCode.RESOURCE_EXHAUSTED, error)
+            self.assertEqual(details_of(error)["ErrorInfo"].reason, "STORE_FULL")
+            return False
+
+
+if __name__ == "__main__":
+    unittest.main()
