@@ -16,8 +16,6 @@
 
 #include "contact/v1/job_service.grpc.pb.h"
 
-extern char** environ;
-
 namespace contact {
 namespace {
 
@@ -31,6 +29,7 @@ fs::path MakeFolder() {
 
 pid_t Spawn(const std::vector<std::string>& command, int out) {
   std::vector<char*> words;
+  words.reserve(command.size() + 1);
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   posix_spawn_file_actions_t actions;

@@ -200,6 +200,7 @@ class Client {
 std::vector<double> Submit(const std::string& address, const v1::Job& job, int clients, int calls) {
   std::vector<std::vector<double>> each(static_cast<std::size_t>(clients));
   std::vector<std::thread> threads;
+  threads.reserve(each.size());
   for (std::vector<double>& own : each) {
     threads.emplace_back([&own, &address, &job, n = std::max(1, calls / clients)] {
       Client client(address);
@@ -339,7 +340,7 @@ void IdleMemory(const ServerProcess& contactd, const Sizes& sizes) {
 }
 
 int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes) {
-  const ServerProcess contactd({binary, "--log-level=off", "--max-watchers=20000"});
+  const ServerProcess contactd({binary, "--log-level=off"});
   const ServerProcess bare({self, "--bare", "--messages", std::to_string(sizes.streamed_messages)});
   SubmitLatency(contactd.address(), bare.address(), sizes);
   JobRate(contactd.address(), sizes);

@@ -105,10 +105,10 @@ def patient(call):
             time.sleep(0.02)
 
 
-def submit(server, history, spec, request):
+def submit(server, history, spec, request, **fields):
     """One CreateJob, noted; `request` names it for retries and in the job's labels."""
     asked = job_of(spec)
-    asked.labels["request"] = request
+    asked.MergeFrom(Job(labels={"request": request}, **fields))
     with history.call("submit", request=request, spec=spec_digest(spec)) as call:
         job = server.stub.CreateJob(
             job_service_pb2.CreateJobRequest(job=asked, request_id=request), timeout=PATIENCE_S)
