@@ -5,7 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -23,6 +26,7 @@ struct Address {
 };
 
 std::optional<Address> ParseAddress(const std::string& text) {
+  if (text.starts_with("unix:")) return std::nullopt;
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos || colon == 0) return std::nullopt;
   const std::string host = text.substr(0, colon);
@@ -76,15 +80,31 @@ const std::map<std::string, spdlog::level::level_enum> kLogLevels{
     {"error", spdlog::level::err},   {"off", spdlog::level::off},
 };
 
-// Flags whose value needs a second look.
+const std::map<std::string, LogFormat> kLogFormats{{"text", LogFormat::kText},
+                                                   {"json", LogFormat::kJson}};
+
+// Flags whose value needs a second look. Times in seconds.
 struct Switches {
   bool no_reflection = false;
   bool insecure = false;
   double write_stall_s = 30;
+  double max_wall_time_s = 0;
+  double step_timeout_s = 60;
+  double retain_for_s = 0;
 };
 
+constexpr double kDay = 24 * 3600;
+const std::map<std::string, double> kTimeUnits{
+    {"ms", 1e-3}, {"s", 1}, {"m", 60}, {"h", 3600}, {"d", kDay},
+};
+
+std::chrono::milliseconds Milliseconds(double seconds) {
+  return std::chrono::milliseconds(std::llround(seconds * 1000));
+}
+
 void AddFlags(CLI::App* app, Config* config, Switches* switches) {
-  app->add_option("--listen", config->listen, "Address, HOST:PORT; port 0 is any free one")
+  app->add_option("--listen", config->listen,
+                  "HOST:PORT, port 0 being any free one; or unix:PATH, a socket file")
       ->capture_default_str();
   app->add_option("--data-dir", config->data_dir, "Directory of jobs and results; made if missing")
       ->capture_default_str();
@@ -95,6 +115,11 @@ void AddFlags(CLI::App* app, Config* config, Switches* switches) {
   app->add_option("--log-level", config->log_level, "debug, info, warn, error or off")
       ->transform(CLI::CheckedTransformer(kLogLevels))
       ->default_str("info");
+  app->add_option("--log-format", config->log_format, "text, or json: an object a line")
+      ->transform(CLI::CheckedTransformer(kLogFormats))
+      ->default_str("text");
+  app->add_option("--metrics-listen", config->metrics_listen,
+                  "HOST:PORT that tells metrics to Prometheus, such as 127.0.0.1:9464");
   app->add_flag("--no-reflection", switches->no_reflection,
                 "Do not tell clients which services there are");
   app->add_flag("--insecure-i-know", switches->insecure,
@@ -102,6 +127,10 @@ void AddFlags(CLI::App* app, Config* config, Switches* switches) {
 }
 
 void AddLimits(CLI::App* app, Config* config, Switches* switches) {
+  app->add_option("--max-rpc-memory-bytes", config->rpc.max_memory_bytes,
+                  "Bytes that connections and messages under way may take")
+      ->check(CLI::Range(16 << 20, 2047 << 20))
+      ->capture_default_str();
   ScenarioLimits& scenario = config->jobs.scenario_limits;
   app->add_option("--max-message-bytes", config->rpc.max_message_bytes, "Bytes in one request")
       ->check(CLI::Range(64 << 10, 256 << 20))
@@ -124,29 +153,112 @@ void AddLimits(CLI::App* app, Config* config, Switches* switches) {
   app->add_option("--max-watchers", config->jobs.max_watchers, "Watchers of all jobs together")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
+  app->add_option("--max-connections", config->rpc.connections.in_all, "Connections in all")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app->add_option("--max-connections-per-peer", config->rpc.connections.per_peer,
+                  "Connections of one address of the network")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app->add_option("--max-watchers-per-peer", config->rpc.calls.max_watchers_per_peer,
+                  "Watchers of one address of the network")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app->add_option("--max-creates-per-second", config->rpc.calls.max_creates_per_second,
+                  "CreateJob calls of one address, on average; 0: any number")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app->add_option("--max-create-burst", config->rpc.calls.max_create_burst,
+                  "CreateJob calls of one address at once")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app->add_option("--max-metadata-bytes", config->rpc.calls.max_metadata_bytes,
+                  "Bytes of metadata in one call")
+      ->check(CLI::Range(1024, 64 << 10))
+      ->capture_default_str();
+  app->add_option("--max-stored-bytes", config->store.max_bytes,
+                  "Bytes of the database; 0: what the disk has")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 50))
+      ->capture_default_str();
   app->add_option("--write-stall-seconds", switches->write_stall_s,
                   "A watcher that takes nothing for so long is dropped")
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str();
 }
 
+// `10s`, `5m`, `12h`, `30d`; seconds without a unit.
+CLI::Option* AddTime(CLI::App* app, const std::string& name, double* seconds,
+                     const std::string& description) {
+  return app->add_option(name, *seconds, description)
+      ->transform(CLI::AsNumberWithUnit(kTimeUnits))
+      ->check(CLI::Range(0.0, 36'500 * kDay))
+      ->type_name("TIME")
+      ->capture_default_str();
+}
+
+void AddLifecycle(CLI::App* app, Config* config, Switches* switches) {
+  JobManagerOptions& jobs = config->jobs;
+  AddTime(app, "--max-wall-time", &switches->max_wall_time_s,
+          "Wall time of one attempt of a job, such as 10m; 0 is any");
+  app->add_option("--max-steps", jobs.max_budget.steps,
+                  "Integration steps of a job, all its cells together; 0 is any")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+      ->capture_default_str();
+  app->add_option("--max-output-bytes", jobs.max_budget.output_bytes,
+                  "Bytes that a job may record, such as 2GB; 0 is any")
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES")
+      ->capture_default_str();
+  AddTime(app, "--step-timeout", &switches->step_timeout_s,
+          "A run that makes no step for so long is ended; 0 is never");
+  app->add_option("--max-attempts", jobs.max_attempts,
+                  "A job that was running at so many crashes of the server is set aside")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app->add_option("--retain-bytes", jobs.retention.bytes,
+                  "Ended jobs are deleted, the first to end first, while they take more than this, "
+                  "such as 20GB; 0 is any")
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES")
+      ->capture_default_str();
+  AddTime(app, "--retain-for", &switches->retain_for_s,
+          "Ended jobs are deleted after so long, such as 30d, unless they say so themselves; "
+          "0 is never");
+}
+
+// What may be reached from elsewhere needs the consent of whoever starts us.
+void CheckReach(const char* flag, const std::string& listen, bool loopback, bool insecure) {
+  if (loopback || insecure) return;
+  throw CLI::ValidationError(
+      flag, listen +
+                " is not a loopback address, and there is neither encryption nor password; "
+                "use 127.0.0.1, or say --insecure-i-know");
+}
+
 // Throws CLI::ValidationError for what one flag alone cannot tell.
 void Check(const Switches& switches, Config* config) {
   const auto address = ParseAddress(config->listen);
-  if (!address) {
-    throw CLI::ValidationError("--listen", config->listen + " is not HOST:PORT");
+  const bool file = config->listen.starts_with("unix:") && config->listen.size() > 5;
+  if (!address && !file) {
+    throw CLI::ValidationError("--listen", config->listen + " is not HOST:PORT or unix:PATH");
   }
-  const bool loopback = IsLoopback(address->host);
-  if (!loopback && !switches.insecure) {
-    throw CLI::ValidationError(
-        "--listen", config->listen +
-                        " is not a loopback address, and there is neither encryption nor password; "
-                        "use 127.0.0.1, or say --insecure-i-know");
+  const bool loopback = file || IsLoopback(address->host);
+  CheckReach("--listen", config->listen, loopback, switches.insecure);
+  if (!config->metrics_listen.empty()) {
+    const auto metrics = ParseAddress(config->metrics_listen);
+    if (!metrics) {
+      throw CLI::ValidationError("--metrics-listen", config->metrics_listen + " is not HOST:PORT");
+    }
+    CheckReach("--metrics-listen", config->metrics_listen, IsLoopback(metrics->host),
+               switches.insecure);
   }
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
   config->rpc.reflection = loopback && !switches.no_reflection;
-  config->rpc.write_stall =
-      std::chrono::milliseconds{static_cast<int>(switches.write_stall_s * 1000)};
+  config->rpc.write_stall = Milliseconds(switches.write_stall_s);
+  config->jobs.max_budget.wall_time = Milliseconds(switches.max_wall_time_s);
+  config->jobs.step_timeout = Milliseconds(switches.step_timeout_s);
+  config->jobs.retention.age =
+      std::chrono::ceil<std::chrono::seconds>(Milliseconds(switches.retain_for_s));
 }
 
 }  // namespace
@@ -161,6 +273,10 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   AddFlags(&app, &config, &switches);
   AddLimits(&app, &config, &switches);
+  const CLI::App* fsck =
+      app.add_subcommand("fsck", "Check what is in --data-dir, without a change to it, and end")
+          ->fallthrough();
+  AddLifecycle(&app, &config, &switches);
   for (CLI::Option* option : app.get_options()) {
     if (option != app.get_help_ptr()) option->envname(VariableOf(*option));
   }
@@ -183,6 +299,7 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
     return Exit{kExitUsage,
                 fmt::format("contactd: {}\nRun contactd --help for the settings.\n", error.what())};
   }
+  config.fsck = fsck->parsed();
   return config;
 }
 

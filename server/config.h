@@ -7,7 +7,9 @@
 #include <variant>
 
 #include "jobs/job_manager.h"
+#include "log.h"
 #include "rpc/grpc_server.h"
+#include "storage/store.h"
 
 namespace contact {
 
@@ -15,16 +17,21 @@ namespace contact {
 enum ExitCode : int {
   kExitOk = 0,
   kExitInternal = 1,
-  kExitUsage = 2,  ///< Bad flag, or a data directory that cannot be used.
-  kExitHeld = 3,   ///< Another process holds the data directory or the address.
+  kExitDamaged = 1,  ///< Of `fsck`: it found damage.
+  kExitUsage = 2,    ///< Bad flag, or a data directory that cannot be used.
+  kExitHeld = 3,     ///< Another process holds the data directory or the address.
 };
 
 /// What contactd was asked to do, checked.
 struct Config {
-  std::string listen = "127.0.0.1:7070";  ///< HOST:PORT; port 0 is any free one.
+  std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
+  std::string metrics_listen;             ///< HOST:PORT of the metrics; empty: none.
   std::filesystem::path data_dir;
   std::filesystem::path port_file;  ///< Receives the port; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;
+  bool fsck = false;  ///< Check the data directory and end.
+  LogFormat log_format = LogFormat::kText;
+  StoreOptions store;
   JobManagerOptions jobs;
   GrpcServerOptions rpc;
 };

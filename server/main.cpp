@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <csignal>
@@ -16,8 +15,11 @@
 #include "config.h"
 #include "jobs/job_manager.h"
 #include "jobs/sources.h"
+#include "log.h"
 #include "rpc/grpc_log.h"
 #include "rpc/grpc_server.h"
+#include "rpc/metrics_server.h"
+#include "storage/fsck.h"
 #include "storage/store.h"
 #include "version.h"
 
@@ -47,25 +49,19 @@ int WaitFor(const sigset_t& signals) {
   return signal;
 }
 
-void SetUpLog(spdlog::level::level_enum level) {
-  auto log = spdlog::stderr_logger_mt("contactd");
-  log->set_level(level);
-  log->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
-  spdlog::set_default_logger(std::move(log));
-}
-
 // Once the disk has failed nothing can be promised any more, so nothing goes on.
 void EndAfterDiskFailure(const absl::Status& status) {
   spdlog::critical("the store failed: {}", std::string(status.message()));
   std::_Exit(kExitInternal);
 }
 
-v1::ServerInfo Identity() {
+v1::ServerInfo Identity(const Config& config) {
   v1::ServerInfo identity;
   identity.set_version(kVersion);
   identity.set_revision(kRevision);
   identity.set_instance_id(RandomIds().NextJobId());
   *identity.mutable_start_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  identity.mutable_limits()->set_max_stored_bytes(config.store.max_bytes);
   return identity;
 }
 
@@ -84,31 +80,90 @@ bool Announce(const Config& config, int port) {
     return false;
   }
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));
-  fmt::print("contactd {} listening on {}:{}, data in {}\n", kVersion, host, port,
+  const std::string address = port == 0 ? config.listen : fmt::format("{}:{}", host, port);
+  fmt::print("contactd {} listening on {}, data in {}\n", kVersion, address,
              config.data_dir.string());
   std::fflush(stdout);
   return true;
 }
 
+// Says what cannot be done with the data directory, and gives the code for it.
+int Refuse(const absl::Status& status) {
+  fmt::print(stderr, "contactd: {}\n", std::string(status.message()));
+  return absl::IsUnavailable(status) ? kExitHeld : kExitUsage;
+}
+
+int CheckData(const std::filesystem::path& directory) {
+  const auto report =
+      Fsck(directory, [](const std::string& finding) { fmt::print("{}\n", finding); });
+  if (!report.ok()) return Refuse(report.status());
+  fmt::print("{}: {} jobs, {} events, {} findings\n", directory.string(), report->jobs,
+             report->events, report->findings);
+  return report->findings == 0 ? kExitOk : kExitDamaged;
+}
+
+// The database with its log; 0 while they cannot be looked at.
+std::int64_t StoredBytes(const std::filesystem::path& data_dir) {
+  std::int64_t bytes = 0;
+  for (const char* file : {"contactd.db", "contactd.db-wal"}) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(data_dir / file, error);
+    if (!error) bytes += static_cast<std::int64_t>(size);
+  }
+  return bytes;
+}
+
+MetricsSources Sources(const Config& config, const StoreOptions& store, const JobManager& jobs,
+                       const GrpcServer& server) {
+  const auto now = [&config, &jobs, &server] {
+    const v1::ServerInfo info = jobs.Info();
+    return MetricsSources::Now{.workers = info.workers(),
+                               .queued_jobs = info.queued_jobs(),
+                               .running_jobs = info.running_jobs(),
+                               .watchers = server.watchers(),
+                               .connections = server.connections(),
+                               .refused_connections = server.refused_connections(),
+                               .stored_bytes = StoredBytes(config.data_dir)};
+  };
+  return {now, config.jobs.metrics, store.metrics, server.metrics()};
+}
+
+// Serves the metrics if they are asked for. False: the address cannot be had.
+bool ServeMetrics(const Config& config, MetricsSources sources,
+                  std::unique_ptr<MetricsServer>* metrics) {
+  if (config.metrics_listen.empty()) return true;
+  *metrics = MetricsServer::Open(config.metrics_listen, std::move(sources));
+  if (!*metrics) {
+    fmt::print(stderr, "contactd: cannot listen on {} for metrics; does another process?\n",
+               config.metrics_listen);
+    return false;
+  }
+  spdlog::info("metrics on port {}", (*metrics)->port());
+  return true;
+}
+
 // Serves until a signal comes, and cleans up.
 int Serve(const Config& config, const sigset_t& signals) {
-  const auto store = Store::Open(config.data_dir, {.on_failure = EndAfterDiskFailure});
-  if (!store.ok()) {
-    fmt::print(stderr, "contactd: {}\n", std::string(store.status().message()));
-    return absl::IsUnavailable(store.status()) ? kExitHeld : kExitUsage;
-  }
+  StoreOptions options = config.store;
+  options.on_failure = EndAfterDiskFailure;
+  const auto store = Store::Open(config.data_dir, options);
+  if (!store.ok()) return Refuse(store.status());
   JobManager jobs(**store, SystemClock(), RandomIds(), config.jobs);
-  GrpcServer server(jobs, config.rpc, Identity());
+  GrpcServer server(jobs, config.rpc, Identity(config));
   const auto port = server.Start(config.listen);
+  std::unique_ptr<MetricsServer> metrics;
   int code = kExitHeld;
   if (!port) {
     fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", config.listen);
+  } else if (!ServeMetrics(config, Sources(config, options, jobs, server), &metrics)) {
+    code = kExitHeld;
   } else if (!Announce(config, *port)) {
     code = kExitUsage;
   } else {
     spdlog::info("{}: shutting down", strsignal(WaitFor(signals)));
     code = kExitOk;
   }
+  metrics.reset();
   jobs.Drain();
   server.Shutdown(kGrace);  // From here on no call asks anything of the manager.
   jobs.Stop();
@@ -126,7 +181,8 @@ int main(int argc, char** argv) {
     return exit->code;
   }
   const auto& config = std::get<contact::Config>(read);
-  contact::SetUpLog(config.log_level);
+  if (config.fsck) return contact::CheckData(config.data_dir);
+  contact::SetUpLog(config.log_level, config.log_format);
   contact::RouteGrpcLog();
   return contact::Serve(config, signals);
 }

@@ -58,7 +58,8 @@ std::string Unreachable(const grpc::Status& status, const std::string& server) {
   return fmt::format(
       "cannot reach contactd at {0} ({1})\n"
       "  start one here:  contactd --listen {0} --data-dir DIR\n"
-      "  or choose one:   contactctl --server HOST:PORT …, or the variable CONTACT_SERVER",
+      "  or choose one:   contactctl --server HOST:PORT …, CONTACT_SERVER, contactctl config use "
+      "PROFILE",
       server, refused ? "connection refused" : status.error_message());
 }
 

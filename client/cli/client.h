@@ -52,6 +52,7 @@ class Client {
   }
 
   Stub& stub() { return *stub_; }
+  const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
   const std::string& server() const { return server_; }
 
  private:

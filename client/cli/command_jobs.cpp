@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>  // All of it: a program without main.cpp may link this file.
 #include <algorithm>
 #include <cctype>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/follow.h"
+#include "cli/list_watch.h"
 #include "cli/number.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
@@ -20,6 +22,7 @@ struct ListArguments {
   std::vector<std::string> states;
   std::vector<std::string> labels;
   int limit = 50;
+  bool watch = false;
 };
 
 v1::Job::State ParseState(std::string text) {
@@ -66,7 +69,17 @@ std::string Convergence(const v1::Job& job) {
              : v1::Job::Convergence_Name(job.convergence());
 }
 
+v1::WatchJobsRequest WatchRequest(const ListArguments& arguments) {
+  v1::WatchJobsRequest request;
+  for (const std::string& state : arguments.states) request.add_states(ParseState(state));
+  for (const auto& [key, value] : ParseLabels(arguments.labels)) {
+    (*request.mutable_labels())[key] = value;
+  }
+  return request;
+}
+
 ExitCode List(const ListArguments& arguments, const Settings& settings) {
+  if (arguments.watch) return ListAndWatch(WatchRequest(arguments), settings);
   settings.RequireOutput({"table", "json", "name"});
   Client client = settings.Connect();
   const v1::ListJobsResponse all = ListAll(client, arguments);
@@ -163,6 +176,8 @@ void AddJobCommands(CLI::App& app, const Settings& settings, Action* action) {
       ->check(CLI::NonNegativeNumber)
       ->type_name("N")
       ->capture_default_str();
+  list->add_flag("--watch", arguments->watch,
+                 "All of them, and then a line for each change; -o jsonl for programs");
   list->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return List(*arguments, settings); };
   });

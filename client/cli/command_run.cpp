@@ -4,10 +4,13 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <thread>
 
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
 #include "cli/follow.h"
+#include "cli/interrupt.h"
+#include "cli/job_options.h"
 
 namespace contact::cli {
 namespace {
@@ -17,6 +20,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::vector<std::string> labels;
   std::string request_id;
+  JobOptions job;
 };
 
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
@@ -26,6 +30,7 @@ v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& 
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }
+  arguments.job.Apply(request.mutable_job());
   return request;
 }
 
@@ -41,7 +46,7 @@ v1::Job Create(Client& client, const RunArguments& arguments) {
   try {
     return client.Call(&Client::Stub::CreateJob, Request(arguments, file.scenario()));
   } catch (const CallFailure& failure) {
-    if (failure.code() != ExitCode::kInvalidScenario) throw;
+    if (failure.code() != ExitCode::kInvalidScenario) throw failure.AllTold();
     for (const Violation& violation : failure.violations()) file.Add(violation);
     RequireNoMistakes(file);
     throw;
@@ -59,13 +64,33 @@ ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
   return ExitCode::kOk;
 }
 
+// Leaves the job alone, or, for who looks at a terminal and insists within 2 s, cancels it.
+ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name,
+                        const Settings& settings) {
+  using namespace std::chrono_literals;
+  if (end != WatchEnd::kStopped || !settings.MessageStyle().terminal) return Detach(end, name);
+  const Interrupt again;
+  fmt::print(stderr, "contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
+  for (auto waited = 0ms; waited < 2s; waited += 50ms) {
+    if (Interrupt::raised()) {
+      v1::CancelJobRequest request;
+      request.set_name(name);
+      client.Call(&Client::Stub::CancelJob, request);
+      fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
+      return ExitCode::kInterrupted;
+    }
+    std::this_thread::sleep_for(50ms);
+  }
+  return Detach(end, name);
+}
+
 ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "json", "name"});
   const auto deadline = settings.Deadline();
   Client client = settings.Connect();
   const v1::Job job = Create(client, arguments);
   const WatchEnd end = FollowRun(client, job.name(), deadline, settings);
-  if (end != WatchEnd::kFinished) return Detach(end, job.name());
+  if (end != WatchEnd::kFinished) return DetachOrCancel(client, end, job.name(), settings);
 
   v1::GetJobRequest request;
   request.set_name(job.name());
@@ -94,6 +119,7 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
       .add_option("--request-id", arguments->request_id,
                   "The same id and scenario make one job, however often submitted")
       ->type_name("ID");
+  arguments->job.AddTo(command);
   return arguments;
 }
 

@@ -92,7 +92,10 @@ ExitCode Init(const InitArguments& arguments, const Settings& settings) {
   const std::string path = arguments.file.empty() ? arguments.name + ".yaml" : arguments.file;
   WriteFile(path, scenario.text, arguments.force);
   fmt::print("{}\n", path);
-  fmt::print(stderr, "Next:  contactctl run {}\n", path);
+  fmt::print(stderr,
+             "Next:  contactctl run {}\n"
+             "       contactctl schema > contact.schema.json  (beside it, for your editor)\n",
+             path);
   return ExitCode::kOk;
 }
 

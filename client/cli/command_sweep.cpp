@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "cli/job_options.h"
 #include "cli/render_sweep.h"
 #include "cli/sweep_file.h"
 #include "cli/watch.h"
@@ -20,6 +21,7 @@ struct SweepArguments {
   std::string job;
   std::vector<std::string> labels;
   std::string request_id;
+  JobOptions settings;
   std::string metric;  ///< Of the heat map.
 };
 
@@ -132,6 +134,7 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }
+  arguments.settings.Apply(request.mutable_job());
   Client client = settings.Connect();
   const std::string name = Create(client, request).name();
   if (settings.output == "table") fmt::print(stderr, "{} submitted\n", name);
@@ -186,6 +189,7 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
   run->add_option("--request-id", arguments->request_id,
                   "The same id and sweep make one job, however often submitted")
       ->type_name("ID");
+  arguments->settings.AddTo(*run);
   AddSweepCommand(*sweep, "watch", "Follow a sweep to its end, show its cells", arguments, Show,
                   settings, action)
       ->add_option("JOB", arguments->job, "ID or jobs/ID")

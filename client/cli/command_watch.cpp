@@ -17,6 +17,7 @@ struct WatchArguments {
   std::string job;
   std::uint64_t after_sequence = 0;
   std::vector<std::string> kinds;
+  bool live_only = false;
 };
 
 // One event a line, for programs.
@@ -57,6 +58,7 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   WatchOptions options = Options(arguments.job, settings);
   options.after_sequence = arguments.after_sequence;
   options.kinds = arguments.kinds;
+  options.live_only = arguments.live_only;
   if (options.kinds.empty() && settings.output == "table") {
     options.kinds = {"log_entry", "iteration", "cycle", "attempt_started", "progress"};
   }
@@ -99,6 +101,8 @@ void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action) {
   watch->add_option("--kinds", arguments->kinds, "Only these, such as cycle,iteration")
       ->delimiter(',')
       ->type_name("KIND,…");
+  watch->add_flag("--live", arguments->live_only, "Only what happens from now on")
+      ->excludes("--after-sequence");
   watch->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return WatchEvents(*arguments, settings); };
   });

@@ -8,11 +8,12 @@ namespace contact::cli {
 
 /// Each adds its commands to the command line; the one that is chosen sets `action`.
 
-void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);    // run, submit
-void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);  // watch, wait
-void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);    // list, …
-void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);  // export
-void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);    // plot
+void AddRunCommands(CLI::App& app, const Settings& settings, Action* action);       // run, submit
+void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action);     // watch, wait
+void AddJobCommands(CLI::App& app, const Settings& settings, Action* action);       // list, …
+void AddArtifactCommands(CLI::App& app, const Settings& settings, Action* action);  // artifact …
+void AddExportCommand(CLI::App& app, const Settings& settings, Action* action);     // export
+void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action);       // plot
 void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series
@@ -20,6 +21,11 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action); 
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
 void AddModelCommands(CLI::App& app, const Settings& settings, Action* action);   // model
 
-void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);  // paper
+void AddSchemaCommand(CLI::App& app, const Settings& settings, Action* action);   // schema
+void AddConfigCommands(CLI::App& app, const Settings& settings, Action* action);  // config
+void AddCompletionCommand(CLI::App& app, Action* action);                         // completion
+void AddDevCommand(CLI::App& app, const Settings& settings, Action* action);      // dev
+void AddDoctorCommand(CLI::App& app, const Settings& settings, Action* action);   // doctor
+void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action);    // paper
 
 }  // namespace contact::cli

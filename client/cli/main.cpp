@@ -6,6 +6,9 @@
 #include <system_error>
 
 #include "cli/commands.h"
+#include "cli/completion.h"
+#include "cli/manual.h"
+#include "cli/resolve.h"
 #include "wire/spelling.h"
 
 namespace contact::cli {
@@ -13,13 +16,15 @@ namespace {
 
 constexpr char kTour[] =
     R"(Simulates contacts whose restitution is what you asked for, on a contactd server.
+A scenario is a YAML file: bodies on a line, their contacts, what holds and drives them.
+A job is a scenario that the server solves, and it goes on when you leave.
+Its result is a ledger of every contact cycle, the recorded motion, and figures.
+No server yet?  contactctl dev starts one. Something wrong?  contactctl doctor looks.
+All commands:   contactctl --help, and for one of them contactctl run --help.
 
-Start here:
-  contactd --listen 127.0.0.1:7070 --data-dir data &   a server
-  contactctl init three-ball-chain                     an example scenario
-  contactctl run three-ball-chain.yaml                 submit it, watch it, see its ledger
-  contactctl run three-ball-chain.yaml --set contacts[0].restitution=0.7 -o json
-  contactctl list                                      what the server has)";
+  contactctl init three-ball-chain        write an example scenario
+  contactctl run three-ball-chain.yaml    submit it, watch it, see its ledger
+  contactctl plot JOB hysteresis          draw the force over the deformation)";
 
 constexpr char kCodes[] =
     R"(Exit codes: 0 ok, 1 run failed, 2 usage, 3 invalid scenario, 4 unreachable, 5 timeout,
@@ -27,13 +32,11 @@ constexpr char kCodes[] =
 
 void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--server", settings->server, "The server")
-      ->envname("CONTACT_SERVER")
       ->type_name("HOST:PORT")
       ->capture_default_str();
-  app.add_option(
-         "-o,--output", settings->output,
-         "How to print: table, json, name; jsonl (watch, export); csv (series, sweep, model, "
-         "export); netcdf (export); svg, png, pdf, gp, csv (plot)")
+  app.add_option("-o,--output", settings->output,
+                 "How to print: table, json, name; jsonl (watch, list --watch, export); csv "
+                 "(series, sweep, model, export); netcdf (export); svg, png, pdf, gp, csv (plot)")
       ->check(CLI::IsMember(
           {"table", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")
@@ -45,6 +48,35 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--timeout", settings->timeout,
                  "Give up after this time. Default: 10s for a call, none for run, watch and wait")
       ->type_name("TIME");
+  app.add_option("--profile", settings->profile, "Use the values of this section of config files")
+      ->type_name("PROFILE");
+}
+
+// A config file that is wrong must not keep its owner from finding out.
+bool NeedsSettings(const CLI::App& app) {
+  const std::string& command = app.get_subcommands().front()->get_name();
+  return command != "config" && command != "version" && command != "schema" &&
+         command != "completion" && command != "doctor";
+}
+
+void AddCommands(CLI::App& app, const Settings& settings, Action* action) {
+  AddRunCommands(app, settings, action);
+  AddWatchCommands(app, settings, action);
+  AddJobCommands(app, settings, action);
+  AddArtifactCommands(app, settings, action);
+  AddExportCommand(app, settings, action);
+  AddPlotCommand(app, settings, action);
+  AddScenarioCommands(app, settings, action);
+  AddSchemaCommand(app, settings, action);
+  AddSeriesCommands(app, settings, action);
+  AddSweepCommands(app, settings, action);
+  AddServerCommands(app, settings, action);
+  AddPaperCommand(app, settings, action);
+  AddModelCommands(app, settings, action);
+  AddConfigCommands(app, settings, action);
+  AddCompletionCommand(app, action);
+  AddDevCommand(app, settings, action);
+  AddDoctorCommand(app, settings, action);
 }
 
 std::vector<std::string_view> Known(const CLI::App& app, bool flags,
@@ -92,18 +124,17 @@ int Main(int argc, char** argv) {
   CLI::App app(kTour, "contactctl");
   app.footer(kCodes);
   app.fallthrough();
+  app.require_subcommand(0, 1);  // So `schema sweep` is an argument, not the command sweep.
   AddGlobalFlags(app, &settings);
-  AddRunCommands(app, settings, &action);
-  AddWatchCommands(app, settings, &action);
-  AddJobCommands(app, settings, &action);
-  AddExportCommand(app, settings, &action);
-  AddPlotCommand(app, settings, &action);
-  AddScenarioCommands(app, settings, &action);
-  AddSeriesCommands(app, settings, &action);
-  AddSweepCommands(app, settings, &action);
-  AddServerCommands(app, settings, &action);
-  AddPaperCommand(app, settings, &action);
-  AddModelCommands(app, settings, &action);
+  AddCommands(app, settings, &action);
+  if (argc > 1 && std::string_view(argv[1]) == "__complete") {
+    fmt::print("{}", Complete(app, {argv + 2, argv + argc}, &settings));
+    return 0;
+  }
+  if (argc == 4 && std::string_view(argv[1]) == "__man") {
+    WriteManual(app, argv[2], argv[3]);
+    return 0;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -112,8 +143,12 @@ int Main(int argc, char** argv) {
     throw Failure(ExitCode::kUsage, UsageMessage(app, error) + "\nSee contactctl --help.");
   }
   if (!action) {
-    fmt::print("{}", app.help());
+    fmt::print("{}\n", kTour);
     return 0;
+  }
+  ResolveSettings(app, &settings);
+  if (!settings.problems.empty() && NeedsSettings(app)) {
+    throw Failure(settings.problems.front().code, settings.problems.front().text);
   }
   const ExitCode code = action();
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

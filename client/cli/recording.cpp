@@ -25,6 +25,7 @@ void Replay(Client& client, const std::string& name, const Settings& settings, R
   WatchOptions options;
   options.name = name;
   options.kinds = {"attempt_started", "iteration", "frame_chunk"};
+  options.overflow = v1::DeliveryOptions::LAG;
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
   const WatchEnd end = Watch(client, options, *recorder);

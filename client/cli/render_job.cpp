@@ -1,8 +1,11 @@
 #include "cli/render_job.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "cli/number.h"
 #include "cli/table.h"
@@ -33,6 +36,30 @@ std::string Title(const v1::Job& job, const Style& style) {
   line += "\n";
   if (!job.scenario().title().empty()) line += job.scenario().title() + "\n";
   return line;
+}
+
+double InSeconds(const google::protobuf::Duration& span) {
+  return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
+}
+
+// How the job is to be treated, as far as its user has said it.
+std::string Treatment(const v1::Job& job) {
+  std::vector<std::string> parts;
+  if (job.priority() != 0) parts.push_back(fmt::format("priority {}", job.priority()));
+  const v1::Budget& budget = job.budget();
+  if (budget.has_wall_time()) {
+    parts.push_back(fmt::format("budget {} wall", Seconds(InSeconds(budget.wall_time()))));
+  }
+  if (budget.steps() > 0) parts.push_back(fmt::format("budget {} steps", budget.steps()));
+  if (budget.output_bytes() > 0) {
+    parts.push_back(fmt::format("budget {} bytes", budget.output_bytes()));
+  }
+  if (job.has_expire_time()) {
+    parts.push_back(fmt::format("kept until {} UTC", Instant(job.expire_time())));
+  } else if (job.has_time_to_live()) {
+    parts.push_back(fmt::format("kept {} after its end", Seconds(InSeconds(job.time_to_live()))));
+  }
+  return parts.empty() ? "" : fmt::format("{}\n", fmt::join(parts, ", "));
 }
 
 std::string Ledger(const v1::Job& job, const Style& style) {
@@ -94,7 +121,7 @@ std::string Balances(const v1::Job& job, const Style& style) {
 }  // namespace
 
 std::string RenderJob(const v1::Job& job, const Style& style) {
-  std::string text = Title(job, style);
+  std::string text = Title(job, style) + Treatment(job);
   if (job.has_error()) text += Paint("error: ", Tone::kBad, style) + job.error().message() + "\n";
   text += Ledger(job, style) + Bodies(job, style) + Balances(job, style);
   if (job.has_sweep()) {

@@ -15,8 +15,11 @@ namespace contact::cli {
 
 void Settings::RequireOutput(std::initializer_list<std::string_view> formats) const {
   if (std::ranges::find(formats, output) != formats.end()) return;
-  throw Failure(ExitCode::kUsage, fmt::format("--output {}: this command prints {}", output,
-                                              fmt::join(formats, ", ")));
+  const auto origin = origins.find("output");
+  const bool flag = origin == origins.end() || origin->second == "--output";
+  throw Failure(ExitCode::kUsage, fmt::format("{} {}: this command prints {}",
+                                              flag ? "--output" : origin->second + ": output",
+                                              output, fmt::join(formats, ", ")));
 }
 
 Client Settings::Connect() const {

@@ -3,9 +3,11 @@
 #include <chrono>
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/client.h"
 #include "cli/failure.h"
@@ -14,12 +16,24 @@
 
 namespace contact::cli {
 
+/// What is wrong with a setting that does not stand on the command line.
+struct Problem {
+  ExitCode code;
+  std::string text;
+};
+
 /// The flags that every command has.
 struct Settings {
+  std::string profile;  ///< Section of the config files; empty: none.
   std::string server = "127.0.0.1:7070";
   std::string output = "table";
   std::string color = "auto";
   std::string timeout;  ///< Empty: the default of the command.
+
+  /// Where each comes from, by its key in config files: a flag, a variable, or `path:line`.
+  /// Without an entry it is the default.
+  std::map<std::string, std::string> origins;
+  std::vector<Problem> problems;
 
   /// Throws Failure (kUsage) unless `output` is one of these.
   void RequireOutput(std::initializer_list<std::string_view> formats) const;

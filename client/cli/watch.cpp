@@ -1,35 +1,12 @@
 #include "cli/watch.h"
 
 #include <algorithm>
-#include <random>
-#include <thread>
+#include <utility>
 
-#include "cli/watch_call.h"
+#include "cli/stream_call.h"
 
 namespace contact::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-using Milliseconds = std::chrono::milliseconds;
-
-constexpr Milliseconds kTick{100};
-
-// Ends of a stream after which the same question may be asked again.
-bool MayTryAgain(grpc::StatusCode code) {
-  switch (code) {
-    case grpc::StatusCode::OK:  // Without the final event: a proxy or a dying server.
-    case grpc::StatusCode::UNAVAILABLE:
-    case grpc::StatusCode::CANCELLED:
-    case grpc::StatusCode::UNKNOWN:
-    case grpc::StatusCode::INTERNAL:
-    case grpc::StatusCode::ABORTED:
-    case grpc::StatusCode::DEADLINE_EXCEEDED:
-    case grpc::StatusCode::RESOURCE_EXHAUSTED:
-      return true;
-    default:
-      return false;
-  }
-}
 
 // One watch over all its connections.
 class Watcher {
@@ -38,34 +15,45 @@ class Watcher {
       : client_(client),
         options_(options),
         observer_(observer),
+        reconnection_(client.server(), options.patience),
         position_(options.after_sequence),
-        pause_(options.first_pause) {}
+        live_only_(options.live_only) {}
 
   WatchEnd Follow() {
     while (true) {
       const grpc::Status status = Connect();
       if (end_) return *end_;
-      RequireHope(status);
-      const Milliseconds pause = NextPause();
-      observer_.OnLost(status.ok() ? "the stream ended early" : status.error_message(), pause);
-      Rest(pause);
+      const std::chrono::milliseconds pause = reconnection_.Lost(status);
+      observer_.OnLost(WhyLost(status), pause);
+      Rest(pause, [this] { return GoOn(); });
       if (end_) return *end_;
     }
   }
 
  private:
-  // Reads one stream until it ends or the watch does.
-  grpc::Status Connect() {
+  using Call = StreamCall<v1::WatchJobResponse>;
+
+  v1::WatchJobRequest Request() const {
     v1::WatchJobRequest request;
     request.set_name(options_.name);
     request.set_after_sequence(position_);
     for (const std::string& kind : options_.kinds) request.add_kinds(kind);
-    WatchCall call(client_.stub(), request);
+    request.mutable_delivery()->set_overflow(options_.overflow);
+    request.set_live_only(live_only_);
+    return request;
+  }
+
+  // Reads one stream until it ends or the watch does.
+  grpc::Status Connect() {
+    const v1::WatchJobRequest request = Request();
+    Call call([&](auto* context, auto* queue, void* tag) {
+      return client_.stub().AsyncWatchJob(context, request, queue, tag);
+    });
     v1::WatchJobResponse message;
     while (GoOn()) {
-      const WatchCall::Next next = call.Read(kTick, &message);
-      if (next == WatchCall::Next::kMessage) Take(message);
-      if (next == WatchCall::Next::kEnd) {
+      const Call::Next next = call.Read(kStreamTick, &message);
+      if (next == Call::Next::kMessage) Take(message);
+      if (next == Call::Next::kEnd) {
         if (call.status().ok() && heard_all_) end_ = WatchEnd::kFinished;
         return call.status();
       }
@@ -75,16 +63,16 @@ class Watcher {
   }
 
   void Take(const v1::WatchJobResponse& message) {
-    connected_ = true;
-    lost_since_.reset();
-    pause_ = options_.first_pause;
-    if (message.has_snapshot()) {
-      observer_.OnSnapshot(message.snapshot());
-      // Asked for events after the last one: nothing but the end of the stream will come.
-      heard_all_ =
-          IsFinal(message.snapshot().state()) && position_ >= message.snapshot().last_sequence();
-    }
+    reconnection_.Heard();
+    if (message.has_snapshot()) Take(message.snapshot());
     for (const v1::Event& event : message.events()) Take(event);
+  }
+
+  void Take(const v1::Job& snapshot) {
+    observer_.OnSnapshot(snapshot);
+    if (std::exchange(live_only_, false)) position_ = snapshot.last_sequence();
+    // Asked for events after the last one: nothing but the end of the stream will come.
+    heard_all_ = IsFinal(snapshot.state()) && position_ >= snapshot.last_sequence();
   }
 
   void Take(const v1::Event& event) {
@@ -102,7 +90,7 @@ class Watcher {
     if (end_) return false;
     if (options_.stopped()) {
       end_ = WatchEnd::kStopped;
-    } else if (options_.deadline && Clock::now() >= *options_.deadline) {
+    } else if (options_.deadline && std::chrono::steady_clock::now() >= *options_.deadline) {
       end_ = WatchEnd::kTimedOut;
     } else {
       observer_.OnTick();
@@ -110,50 +98,15 @@ class Watcher {
     return !end_;
   }
 
-  void RequireHope(const grpc::Status& status) {
-    const bool overload = status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
-    if (!MayTryAgain(status.error_code()) || (!connected_ && (overload || Unreached(status)))) {
-      throw CallFailure(status, client_.server());
-    }
-    if (!lost_since_) lost_since_ = Clock::now();
-    if (Clock::now() - *lost_since_ > options_.give_up_after) {
-      throw CallFailure(
-          status.ok() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "no answer") : status,
-          client_.server());
-    }
-  }
-
-  static bool Unreached(const grpc::Status& status) {
-    return status.error_code() == grpc::StatusCode::UNAVAILABLE && status.error_details().empty();
-  }
-
-  // From half the pause to all of it, so that watchers of a restarted server do not come at once.
-  Milliseconds NextPause() {
-    std::uniform_real_distribution<double> jitter(0.5, 1.0);
-    const auto pause = std::chrono::duration_cast<Milliseconds>(pause_ * jitter(random_));
-    pause_ = std::min(2 * pause_, options_.longest_pause);
-    return pause;
-  }
-
-  void Rest(Milliseconds pause) {
-    const auto until = Clock::now() + pause;
-    while (Clock::now() < until && GoOn()) {
-      std::this_thread::sleep_for(
-          std::min<Clock::duration>(kTick, std::max<Clock::duration>(until - Clock::now(), {})));
-    }
-  }
-
   Client& client_;
   const WatchOptions& options_;
   WatchObserver& observer_;
+  Reconnection reconnection_;
   std::uint64_t position_;
-  Milliseconds pause_;
-  std::optional<Clock::time_point> lost_since_;
+  bool live_only_;  // Has not begun yet.
   std::optional<WatchEnd> end_;
-  bool connected_ = false;    // Ever.
   bool heard_all_ = false;    // The snapshot shows an ended job without later events.
   bool final_event_ = false;  // The state_changed event of a final state came.
-  std::mt19937 random_{std::random_device{}()};
 };
 
 }  // namespace

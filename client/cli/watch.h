@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "cli/client.h"
+#include "cli/reconnection.h"
 #include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
+#include "contact/v1/job_service.pb.h"
 
 namespace contact::cli {
 
@@ -31,9 +33,9 @@ struct WatchOptions {
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::function<bool()> stopped = [] { return false; };  ///< Asked about ten times a second.
 
-  std::chrono::milliseconds first_pause{200};  ///< Before trying again; doubles, with jitter.
-  std::chrono::milliseconds longest_pause{10'000};
-  std::chrono::milliseconds give_up_after{300'000};  ///< Without any connection.
+  v1::DeliveryOptions::OverflowPolicy overflow = v1::DeliveryOptions::CONFLATE;
+  bool live_only = false;  ///< Begin after the newest event; only with `after_sequence` 0.
+  Patience patience = {};
 };
 
 enum class WatchEnd {

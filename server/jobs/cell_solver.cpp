@@ -1,28 +1,41 @@
 #include "jobs/cell_solver.h"
 
-#include <exception>
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
 #include "jobs/lifecycle.h"
+#include "jobs/run_recorder.h"
 #include "wire/result_codec.h"
 
 namespace contact {
 namespace {
 
-// Keeps of a run what metrics may ask for.
+// Keeps of a run what metrics may ask for, and its samples if it records any.
 class CellObserver final : public Observer {
  public:
-  CellObserver(const Scenario& scenario, const std::function<void()>& pulse, v1::Job* result)
-      : scenario_(scenario), pulse_(pulse), result_(result) {}
+  CellObserver(const Scenario& scenario, RunControl& control, const std::function<void()>& pulse,
+               v1::Job* result, std::vector<v1::FrameChunk>* trajectory)
+      : scenario_(scenario),
+        control_(control),
+        pulse_(pulse),
+        result_(result),
+        trajectory_(trajectory) {}
 
   void OnCycle(const Cycle& cycle) override { *result_->add_cycles() = Encode(scenario_, cycle); }
+  void OnSamples(const Samples& samples) override {
+    std::ranges::move(ChunksOf(scenario_, samples), std::back_inserter(*trajectory_));
+  }
   void OnProgress(const Progress& /*progress*/) override { pulse_(); }
+  void OnStep() override { control_.CountStep(); }
 
  private:
   const Scenario& scenario_;
+  RunControl& control_;
   const std::function<void()>& pulse_;
   v1::Job* result_;
+  std::vector<v1::FrameChunk>* trajectory_;
 };
 
 void Fail(const std::string& reason, const std::string& message, v1::SweepCell* cell) {
@@ -35,24 +48,28 @@ void Fail(const std::string& reason, const std::string& message, v1::SweepCell* 
 
 CellSolver::CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan,
                        const JobManagerOptions& options)
-    : plan_(plan), options_(options), fields_(sweep, &none_) {}
+    : sweep_(sweep), plan_(plan), options_(options), fields_(sweep, &none_) {}
 
-std::optional<v1::SweepCell> CellSolver::Solve(std::int32_t index, const std::stop_token& stop,
-                                               const std::function<void()>& pulse) {
-  v1::SweepCell cell;
-  cell.set_index(index);
+std::optional<SolvedCell> CellSolver::Solve(std::int32_t index, RunControl& control,
+                                            const std::function<void()>& pulse) {
+  SolvedCell solved;
+  solved.cell.set_index(index);
   try {
-    if (!Compute(stop, pulse, &cell)) return std::nullopt;
-  } catch (const std::exception& error) {
-    Fail(reason::kInternal, error.what(), &cell);
+    if (!Compute(control, pulse, &solved)) return std::nullopt;
   } catch (...) {
-    Fail(reason::kInternal, "unknown exception", &cell);
+    const Move move = MoveAfterException();
+    Fail(move.state_reason, move.message, &solved.cell);
   }
-  return cell;
+  return solved;
 }
 
-bool CellSolver::Compute(const std::stop_token& stop, const std::function<void()>& pulse,
-                         v1::SweepCell* cell) {
+bool CellSolver::Keeps(std::int32_t cell) const {
+  return std::ranges::find(sweep_.keep_trajectories(), cell) != sweep_.keep_trajectories().end();
+}
+
+bool CellSolver::Compute(RunControl& control, const std::function<void()>& pulse,
+                         SolvedCell* solved) {
+  v1::SweepCell* const cell = &solved->cell;
   std::vector<double> values = plan_.axes.Values(cell->index());
   DecodedScenario decoded = DecodeScenario(fields_.Set(values), options_.scenario_limits);
   cell->mutable_values()->Add(values.begin(), values.end());
@@ -62,24 +79,25 @@ bool CellSolver::Compute(const std::stop_token& stop, const std::function<void()
     for (const double metric : plan_.metrics.Of({})) cell->add_metrics(metric);
     return true;
   }
-  decoded.scenario.sample_interval = 0;  // No trajectory.
-  return Run(decoded.scenario, stop, pulse, cell);
+  if (!Keeps(cell->index())) decoded.scenario.sample_interval = 0;  // No trajectory.
+  return Run(decoded.scenario, control, pulse, solved);
 }
 
-bool CellSolver::Run(const Scenario& scenario, const std::stop_token& stop,
-                     const std::function<void()>& pulse, v1::SweepCell* cell) const {
+bool CellSolver::Run(const Scenario& scenario, RunControl& control,
+                     const std::function<void()>& pulse, SolvedCell* solved) const {
   v1::Job result;
-  CellObserver observer(scenario, pulse, &result);
-  const Outcome outcome = options_.run(scenario, observer, stop);
+  CellObserver observer(scenario, control, pulse, &result, &solved->trajectory);
+  const Outcome outcome = options_.run(scenario, observer, control.token());
   const Move move = MoveAfter(outcome);
   if (move.to == v1::Job::CANCELLED) return false;
   EncodeOutcome(scenario, outcome, &result);
   if (outcome.end != Outcome::End::kFinished) result.clear_convergence();
-  cell->set_state(move.to);
-  cell->set_state_reason(move.state_reason);
-  cell->set_message(move.message);
-  cell->set_convergence(result.convergence());
-  for (const double metric : plan_.metrics.Of(result)) cell->add_metrics(metric);
+  v1::SweepCell& cell = solved->cell;
+  cell.set_state(move.to);
+  cell.set_state_reason(move.state_reason);
+  cell.set_message(move.message);
+  cell.set_convergence(result.convergence());
+  for (const double metric : plan_.metrics.Of(result)) cell.add_metrics(metric);
   return true;
 }
 

@@ -3,14 +3,21 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <stop_token>
+#include <vector>
 
 #include "contact/v1/event.pb.h"
 #include "jobs/job_manager.h"
+#include "jobs/run_control.h"
 #include "wire/sweep_codec.h"
 #include "wire/sweep_fields.h"
 
 namespace contact {
+
+/// What a cell gave.
+struct SolvedCell {
+  v1::SweepCell cell;
+  std::vector<v1::FrameChunk> trajectory;  ///< If it is to be kept.
+};
 
 /// Computes cells of a sweep, one at a time. Has a copy of the base scenario; of one thread.
 class CellSolver {
@@ -20,16 +27,17 @@ class CellSolver {
 
   /// The cell with this number; none if it was stopped. `pulse` is called now and then meanwhile.
   /// A pure function of the sweep and the number.
-  std::optional<v1::SweepCell> Solve(std::int32_t index, const std::stop_token& stop,
-                                     const std::function<void()>& pulse);
+  std::optional<SolvedCell> Solve(std::int32_t index, RunControl& control,
+                                  const std::function<void()>& pulse);
 
  private:
   // False if the run was stopped.
-  bool Compute(const std::stop_token& stop, const std::function<void()>& pulse,
-               v1::SweepCell* cell);
-  bool Run(const Scenario& scenario, const std::stop_token& stop,
-           const std::function<void()>& pulse, v1::SweepCell* cell) const;
+  bool Compute(RunControl& control, const std::function<void()>& pulse, SolvedCell* solved);
+  bool Run(const Scenario& scenario, RunControl& control, const std::function<void()>& pulse,
+           SolvedCell* solved) const;
+  bool Keeps(std::int32_t cell) const;
 
+  const v1::Sweep& sweep_;
   const DecodedSweep& plan_;
   const JobManagerOptions& options_;
   std::vector<Violation> none_;  ///< The fields were checked when the sweep was.

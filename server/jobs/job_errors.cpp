@@ -17,6 +17,12 @@ Error Draining() {
           .retry_after = kRetryAfter};
 }
 
+Error TooLate() {
+  return {.code = absl::StatusCode::kDeadlineExceeded,
+          .reason = "DEADLINE_EXCEEDED",
+          .message = "the deadline of the call passed before its turn came"};
+}
+
 Error QueueFull(int max_queued_jobs) {
   return {.code = absl::StatusCode::kResourceExhausted,
           .reason = "QUEUE_FULL",
@@ -29,6 +35,36 @@ Error WatcherLimit(int max_watchers) {
           .reason = "WATCHER_LIMIT",
           .message = fmt::format("there are {} watchers already", max_watchers),
           .retry_after = kRetryAfter};
+}
+
+Error SlowWatcher(const std::string& what) {
+  return {.code = absl::StatusCode::kResourceExhausted,
+          .reason = "SLOW_WATCHER",
+          .message = fmt::format("the watcher of {} fell behind; watch again, or take less", what),
+          .retry_after = kRetryAfter};
+}
+
+Error NotEnded(const std::string& name) {
+  return {.code = absl::StatusCode::kFailedPrecondition,
+          .reason = "INVALID_STATE",
+          .message = fmt::format("{} has not ended", name),
+          .metadata = {{"name", name}}};
+}
+
+Error NoArtifact(const std::string& name, const std::string& artifact) {
+  return {.code = absl::StatusCode::kNotFound,
+          .reason = "ARTIFACT_NOT_FOUND",
+          .message = fmt::format("{} has no artifact '{}'", name, artifact.substr(0, 64)),
+          .metadata = {{"name", name}}};
+}
+
+Error OffsetOutOfRange(std::int64_t offset, std::int64_t size) {
+  Error error{
+      .code = absl::StatusCode::kOutOfRange,
+      .reason = "OFFSET_OUT_OF_RANGE",
+      .message = fmt::format("offset is {}; must be in [0, the size of the artifact]", offset)};
+  if (size >= 0) error.metadata["size_bytes"] = fmt::format("{}", size);
+  return error;
 }
 
 Error NoTrajectory(const std::string& name) {
@@ -74,7 +110,7 @@ Error ToError(const absl::Status& status, const std::string& name) {
       error.code = absl::StatusCode::kUnavailable;
       error.reason = "STORE_FAILED";
   }
-  spdlog::error("{}: {}", name.empty() ? "store" : name, error.message);
+  spdlog::error("job={} reason={} message={}", name, error.reason, error.message);
   return error;
 }
 

@@ -3,6 +3,7 @@
 #include <absl/status/status.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "jobs/error.h"
@@ -11,8 +12,17 @@ namespace contact {
 
 /// The errors of job_service.proto that concern whole calls.
 Error Draining();
+/// The deadline of the call has passed, or its caller has left.
+Error TooLate();
 Error QueueFull(int max_queued_jobs);
 Error WatcherLimit(int max_watchers);
+/// The watcher of `what` fell behind.
+Error SlowWatcher(const std::string& what);
+/// The job has not ended.
+Error NotEnded(const std::string& name);
+Error NoArtifact(const std::string& name, const std::string& artifact);
+/// `size`: bytes of the artifact; negative if not known.
+Error OffsetOutOfRange(std::int64_t offset, std::int64_t size);
 Error NoTrajectory(const std::string& name);
 /// `most`: samples that would be possible.
 Error SeriesTooLarge(std::size_t most);

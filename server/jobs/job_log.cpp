@@ -17,27 +17,35 @@ void Call(const std::set<std::shared_ptr<const JobLog::Waker>>& wakers) {
 
 }  // namespace
 
+LogRecord ToRecord(std::uint64_t sequence, v1::Event event) {
+  event.clear_sequence();
+  return {sequence, event.payload_case(),
+          std::make_shared<const std::string>(event.SerializeAsString())};
+}
+
 void JobLog::Append(std::uint64_t first, std::vector<v1::Event> events) {
   Wakers wakers;
+  bool moved = false;
   {
     const MutexLock lock(mutex_);
     for (v1::Event& event : events) {
-      event.set_sequence(first++);
-      Push(std::move(event));
+      const bool ended = event.has_state_changed() && IsFinal(event.state_changed().state());
+      moved |= event.has_state_changed();
+      Push(ToRecord(first++, std::move(event)), ended);
     }
     wakers = TakeWaiting();
   }
+  if (moved && on_state_) on_state_();
   Call(wakers);
 }
 
-void JobLog::Push(v1::Event event) {
-  last_ = event.sequence();
-  ended_ = event.has_state_changed() && IsFinal(event.state_changed().state());
-  const std::size_t bytes = event.ByteSizeLong();
-  ring_bytes_ += bytes;
-  ring_.push_back({std::make_shared<const v1::Event>(std::move(event)), bytes});
+void JobLog::Push(LogRecord record, bool ended) {
+  last_ = record.sequence;
+  ended_ = ended;
+  ring_bytes_ += record.event->size();
+  ring_.push_back(std::move(record));
   while (ring_.size() > kMaxEvents || ring_bytes_ > kMaxBytes) {
-    ring_bytes_ -= ring_.front().bytes;
+    ring_bytes_ -= ring_.front().event->size();
     ring_.pop_front();
   }
 }
@@ -46,7 +54,7 @@ void JobLog::SetProgress(v1::Event progress) {
   Wakers wakers;
   {
     const MutexLock lock(mutex_);
-    progress_ = std::make_shared<const v1::Event>(std::move(progress));
+    progress_ = ToRecord(0, std::move(progress));
     ++progress_count_;
     wakers = TakeWaiting();
   }
@@ -89,11 +97,11 @@ void JobLog::Collect(const Want& want, Tail* tail) {
   std::size_t bytes = 0;
   const std::uint64_t before_ring = last_ - ring_.size();
   while (tail->position < last_ && bytes < want.max_bytes) {
-    const Entry& next = ring_[tail->position - before_ring];
+    const LogRecord& next = ring_[tail->position - before_ring];
     ++tail->position;
-    if (!(want.kinds & KindBit(next.event->payload_case()))) continue;
-    tail->events.push_back(next.event);
-    bytes += next.bytes;
+    if (!(want.kinds & KindBit(next.kind))) continue;
+    tail->events.push_back(next);
+    bytes += next.event->size();
   }
 }
 

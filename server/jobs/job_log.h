@@ -6,9 +6,11 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "contact/v1/event.pb.h"
+#include "jobs/log_cursor.h"
 #include "storage/mutex.h"
 
 namespace contact {
@@ -21,7 +23,9 @@ class JobLog {
   using Waker = std::function<void()>;
 
   /// `last` is the sequence of the newest stored event; `ended`: it tells of a final state.
-  JobLog(std::uint64_t last, bool ended) : last_(last), ended_(ended) {}
+  /// `on_state` is called once a state_changed event is added, before the wakers.
+  JobLog(std::uint64_t last, bool ended, Waker on_state = {})
+      : on_state_(std::move(on_state)), last_(last), ended_(ended) {}
 
   /// Adds events that are stored now, the first as `first`, the next after the newest one.
   void Append(std::uint64_t first, std::vector<v1::Event> events);
@@ -43,7 +47,7 @@ class JobLog {
     };
     Found found;
     std::uint64_t position = 0;  ///< All that was asked for up to here has been read.
-    std::vector<std::shared_ptr<const v1::Event>> events = {};
+    std::vector<LogRecord> events = {};
   };
   struct Want {
     std::uint64_t position;
@@ -58,22 +62,19 @@ class JobLog {
 
  private:
   using Wakers = std::set<std::shared_ptr<const Waker>>;
-  struct Entry {
-    std::shared_ptr<const v1::Event> event;
-    std::size_t bytes;
-  };
 
-  void Push(v1::Event event) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Push(LogRecord record, bool ended) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Collect(const Want& want, Tail* tail) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Wakers TakeWaiting() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
+  const Waker on_state_;
   Mutex mutex_;
-  std::deque<Entry> ring_ ABSL_GUARDED_BY(mutex_);  ///< Up to last_, without a hole.
+  std::deque<LogRecord> ring_ ABSL_GUARDED_BY(mutex_);  ///< Up to last_, without a hole.
   std::size_t ring_bytes_ ABSL_GUARDED_BY(mutex_) = 0;
   std::uint64_t last_ ABSL_GUARDED_BY(mutex_);
   bool ended_ ABSL_GUARDED_BY(mutex_);
   bool failed_ ABSL_GUARDED_BY(mutex_) = false;
-  std::shared_ptr<const v1::Event> progress_ ABSL_GUARDED_BY(mutex_);
+  LogRecord progress_ ABSL_GUARDED_BY(mutex_);
   std::uint64_t progress_count_ ABSL_GUARDED_BY(mutex_) = 0;
   Wakers waiting_ ABSL_GUARDED_BY(mutex_);
 };

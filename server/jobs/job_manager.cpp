@@ -1,11 +1,15 @@
 #include "jobs/job_manager.h"
 
+#include <google/protobuf/util/time_util.h>
+
 #include <atomic>
 #include <future>
 #include <utility>
 
+#include "jobs/delivery_cursor.h"
 #include "jobs/executor.h"
 #include "jobs/job_errors.h"
+#include "jobs/job_feed.h"
 #include "jobs/lifecycle.h"
 #include "jobs/request_rules.h"
 #include "jobs/scheduler.h"
@@ -48,10 +52,21 @@ void MoveSpec(v1::Job* from, v1::Job* to) {
   }
 }
 
+// How a job is to be treated.
+void CopySettings(const v1::Job& from, v1::Job* to) {
+  to->set_priority(from.priority());
+  if (from.has_budget()) *to->mutable_budget() = from.budget();
+  if (from.has_time_to_live()) *to->mutable_time_to_live() = from.time_to_live();
+}
+
 // What the store tells of a job that it cannot read.
 void DescribeDamage(v1::Job* job) {
   job->mutable_error()->set_code(static_cast<int>(absl::StatusCode::kDataLoss));
   job->mutable_error()->set_message("the stored job fails its checksum");
+}
+
+void SetSpan(std::chrono::milliseconds span, google::protobuf::Duration* duration) {
+  *duration = google::protobuf::util::TimeUtil::MillisecondsToDuration(span.count());
 }
 
 }  // namespace
@@ -62,18 +77,32 @@ struct JobManager::Impl {
         clock(the_clock),
         ids(the_ids),
         options(std::move(the_options)),
-        scheduler(store, clock, options) {}
+        scheduler(store, clock, options, feed),
+        retention(store, clock, options.retention, feed) {}
 
   // One CreateJob on its way.
   struct Creation {
     v1::CreateJobRequest request;
     Callback<v1::Job> done;
+    Abandoned abandoned;
     bool reserved;  ///< A place in the queue is kept for it.
   };
 
   void Check(const std::shared_ptr<Creation>& creation);
   void Accept(const std::shared_ptr<Creation>& creation);
   void Refuse(const Creation& creation, Error error);
+  /// Adds to a stored job what is not stored.
+  void Complete(bool with_ledger, v1::Job* job) const {
+    scheduler.AddRecord(with_ledger, job);
+    SetExpireTime(options.retention, job);
+  }
+
+  /// Counts one more; false if there are too many.
+  bool AddWatcher();
+  Watched Open(const v1::WatchJobRequest& request, WatchRules rules, v1::Job job,
+               std::function<void()> wake);
+  /// Makes a header of what the store and the worker know.
+  void Complete(StoredJob* stored) const;
 
   Store& store;
   const Clock& clock;
@@ -81,24 +110,28 @@ struct JobManager::Impl {
   const JobManagerOptions options;
   std::atomic<bool> draining = false;
   std::shared_ptr<std::atomic<int>> watchers = std::make_shared<std::atomic<int>>(0);
+  JobFeed feed;
   Scheduler scheduler;
+  Retention retention;
   Executor executor;  ///< Checks scenarios and reads series: too long for the callers' threads.
 };
 
 JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options)
-    : impl_(std::make_unique<Impl>(store, clock, ids, std::move(options))) {}
+    : impl_(std::make_unique<Impl>(store, clock, ids, std::move(options))) {
+  impl_->retention.Start();
+}
 
 JobManager::~JobManager() { Stop(); }
 
-void JobManager::Create(const v1::CreateJobRequest& request, Callback<v1::Job> done) {
+void JobManager::Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned) {
   if (impl_->draining) return done(Draining());
   const bool reserved = !request.validate_only() && impl_->scheduler.Reserve();
   // A full queue still answers a request that was accepted before.
   if (!reserved && !request.validate_only() && request.request_id().empty()) {
     return done(QueueFull(impl_->options.max_queued_jobs));
   }
-  const auto creation =
-      std::make_shared<Impl::Creation>(Impl::Creation{request, std::move(done), reserved});
+  const auto creation = std::make_shared<Impl::Creation>(
+      Impl::Creation{std::move(request), std::move(done), std::move(abandoned), reserved});
   if (!impl_->executor.Post([impl = impl_.get(), creation] { impl->Check(creation); })) {
     impl_->Refuse(*creation, Draining());
   }
@@ -110,8 +143,9 @@ void JobManager::Impl::Refuse(const Creation& creation, Error error) {
 }
 
 void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
+  if (creation->abandoned && creation->abandoned()) return Refuse(*creation, TooLate());
   const v1::CreateJobRequest& request = creation->request;
-  std::vector<Violation> of_request = CheckCreate(request);
+  std::vector<Violation> of_request = CheckCreate(request, options.max_budget);
   std::vector<Violation> of_spec;
   if (request.job().spec_case() != v1::Job::SPEC_NOT_SET) {
     of_spec = CheckSpec(request.job(), options.scenario_limits);
@@ -122,6 +156,7 @@ void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
   v1::Job job;
   MoveSpec(creation->request.mutable_job(), &job);
   *job.mutable_labels() = request.job().labels();
+  CopySettings(request.job(), &job);
   *creation->request.mutable_job() = std::move(job);
   if (request.validate_only()) return creation->done(std::move(*creation->request.mutable_job()));
   Accept(creation);
@@ -140,6 +175,7 @@ void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
                  if (!stored.ok()) return Refuse(*creation, ToError(stored.status(), ""));
                  v1::Job& answer = stored->job;
                  if (stored->created) {
+                   options.metrics->Moved(v1::Job::STATE_UNSPECIFIED, answer);
                    scheduler.Enqueue(answer, events);
                    MoveSpec(creation->request.mutable_job(), &answer);
                  } else if (creation->reserved) {
@@ -149,12 +185,24 @@ void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
                });
 }
 
+bool JobManager::Impl::AddWatcher() {
+  if (++*watchers <= options.max_watchers) return true;
+  --*watchers;
+  return false;
+}
+
+void JobManager::Impl::Complete(StoredJob* stored) const {
+  if (!stored->intact) DescribeDamage(&stored->job);
+  Complete(false, &stored->job);
+}
+
 void JobManager::Get(const std::string& name, Callback<v1::Job> done) {
   impl_->store.Read(
       name, JobPart::kAll,
       [impl = impl_.get(), name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
         if (!stored.ok()) return done(ToError(stored.status(), name));
-        impl->scheduler.AddRecord(true, &stored->job);
+        impl->Complete(true, &stored->job);
+        AddArtifacts(&stored->job);
         done(std::move(stored->job));
       });
 }
@@ -167,8 +215,7 @@ void JobManager::List(const v1::ListJobsRequest& request, Callback<v1::ListJobsR
                       if (!page.ok()) return done(ToError(page.status(), ""));
                       v1::ListJobsResponse response;
                       for (StoredJob& stored : page->jobs) {
-                        if (!stored.intact) DescribeDamage(&stored.job);
-                        impl->scheduler.AddRecord(false, &stored.job);
+                        impl->Complete(&stored);
                         *response.add_jobs() = std::move(stored.job);
                       }
                       response.set_next_page_token(PageToken(page->next));
@@ -185,43 +232,91 @@ void JobManager::Cancel(const std::string& name, Callback<v1::Job> done) {
 }
 
 void JobManager::Delete(const std::string& name, Callback<bool> done) {
-  impl_->store.Delete(name, [name, done = std::move(done)](const absl::StatusOr<bool>& deleted) {
+  impl_->store.Delete(name, [impl = impl_.get(), name,
+                             done = std::move(done)](const absl::StatusOr<bool>& deleted) {
     if (!deleted.ok()) return done(ToError(deleted.status(), name));
+    impl->feed.Changed(name);
     done(true);
   });
 }
 
-void JobManager::Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done) {
+void JobManager::Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
+                        Abandoned abandoned) {
   SeriesReader::Read(impl_->store, impl_->executor, impl_->options.scenario_limits, request,
-                     std::move(done));
+                     {std::move(done), std::move(abandoned)});
 }
 
-void JobManager::Watch(const std::string& name, std::uint64_t after_sequence,
-                       const std::vector<std::string>& kinds, std::function<void()> wake,
+void JobManager::Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFile>> done) {
+  impl_->store.Backup(std::move(stop),
+                      [done = std::move(done)](absl::StatusOr<std::unique_ptr<BackupFile>> file) {
+                        // Nobody asks any more, or the store is being closed.
+                        if (absl::IsCancelled(file.status())) return done(Draining());
+                        if (!file.ok()) return done(ToError(file.status(), ""));
+                        done(std::shared_ptr<BackupFile>(*std::move(file)));
+                      });
+}
+
+void JobManager::Watch(const v1::WatchJobRequest& request, std::function<void()> wake,
                        Callback<Watched> done) {
-  Result<std::uint32_t> set = KindSet(kinds);
-  if (!set.ok()) return done(set.error());
-  const int limit = impl_->options.max_watchers;
-  if (++*impl_->watchers > limit) {
-    --*impl_->watchers;
-    return done(WatcherLimit(limit));
-  }
+  Result<WatchRules> rules = ToRules(request);
+  if (!rules.ok()) return done(rules.error());
+  if (!impl_->AddWatcher()) return done(WatcherLimit(impl_->options.max_watchers));
+  impl_->store.Read(request.name(), JobPart::kSpec,
+                    [impl = impl_.get(), request, rules = rules.value(), wake = std::move(wake),
+                     done = std::move(done)](absl::StatusOr<StoredJob> stored) mutable {
+                      if (!stored.ok()) {
+                        --*impl->watchers;
+                        return done(ToError(stored.status(), request.name()));
+                      }
+                      done(impl->Open(request, rules, std::move(stored->job), std::move(wake)));
+                    });
+}
+
+JobManager::Watched JobManager::Impl::Open(const v1::WatchJobRequest& request, WatchRules rules,
+                                           v1::Job job, std::function<void()> wake) {
+  auto log = scheduler.Log(request.name());
+  if (!log) log = std::make_shared<JobLog>(job.last_sequence(), true);
+  Complete(false, &job);
+  if (job.has_sweep() && request.kinds().empty()) rules.kinds &= ~KindBit(v1::Event::kFrameChunk);
+  auto tail = std::make_unique<TailCursor>(
+      store, request.name(), std::move(log),
+      request.live_only() ? job.last_sequence() : request.after_sequence(), rules.kinds,
+      std::move(wake), watchers);
+  auto behind = [&cursor = *tail] { return cursor.behind(); };
+  auto cursor =
+      std::make_unique<DeliveryCursor>(std::move(tail), std::move(behind), rules.delivery);
+  return {std::move(job), std::move(cursor), rules.bookmark_interval,
+          rules.delivery.min_frame_interval.count() > 0};
+}
+
+Result<JobManager::WatchedJobs> JobManager::Watch(const v1::WatchJobsRequest& request,
+                                                  std::function<void()> wake) {
+  Result<JobsRules> rules = ToRules(request);
+  if (!rules.ok()) return rules.error();
+  if (!impl_->AddWatcher()) return WatcherLimit(impl_->options.max_watchers);
+  return WatchedJobs{std::make_unique<JobsCursor>(
+                         impl_->store, impl_->feed, std::move(rules.value().filter),
+                         [impl = impl_.get()](StoredJob* stored) { impl->Complete(stored); },
+                         std::move(wake), impl_->watchers),
+                     rules.value().bookmark_interval};
+}
+
+void JobManager::ReadArtifact(const v1::ReadArtifactRequest& request, std::function<void()> wake,
+                              Callback<std::unique_ptr<ArtifactReader>> done) {
+  if (request.offset() < 0) return done(OffsetOutOfRange(request.offset(), -1));
+  if (!impl_->AddWatcher()) return done(WatcherLimit(impl_->options.max_watchers));
   impl_->store.Read(
-      name, JobPart::kSpec,
-      [impl = impl_.get(), name, after_sequence, set = set.value(), wake = std::move(wake),
+      request.name(), JobPart::kAll,
+      [impl = impl_.get(), request, wake = std::move(wake),
        done = std::move(done)](absl::StatusOr<StoredJob> stored) mutable {
-        if (!stored.ok()) {
+        Result<ArtifactPlan> plan = stored.ok() ? PlanArtifact(std::move(stored->job), request)
+                                                : ToError(stored.status(), request.name());
+        if (!plan.ok()) {
           --*impl->watchers;
-          return done(ToError(stored.status(), name));
+          return done(plan.error());
         }
-        v1::Job& job = stored->job;
-        auto log = impl->scheduler.Log(name);
-        if (!log) log = std::make_shared<JobLog>(job.last_sequence(), true);
-        impl->scheduler.AddRecord(false, &job);
-        auto cursor =
-            std::make_unique<TailCursor>(impl->store, name, std::move(log), after_sequence, set,
-                                         std::move(wake), impl->watchers);
-        done(Watched{std::move(job), std::move(cursor)});
+        done(std::make_unique<ArtifactReader>(impl->store, impl->executor, std::move(plan.value()),
+                                              std::move(wake), impl->watchers));
       });
 }
 
@@ -238,6 +333,15 @@ v1::ServerInfo JobManager::Info() const {
   limits.set_max_queued_jobs(options.max_queued_jobs);
   limits.set_max_watchers(options.max_watchers);
   limits.set_max_cells(options.scenario_limits.max_cells);
+  SetSpan(options.max_budget.wall_time, limits.mutable_max_budget()->mutable_wall_time());
+  limits.mutable_max_budget()->set_steps(options.max_budget.steps);
+  limits.mutable_max_budget()->set_output_bytes(options.max_budget.output_bytes);
+  if (options.step_timeout.count() > 0) {
+    SetSpan(options.step_timeout, limits.mutable_step_timeout());
+  }
+  limits.set_max_attempts(options.max_attempts);
+  if (options.retention.age.count() > 0) SetSpan(options.retention.age, limits.mutable_retention());
+  limits.set_retained_bytes(options.retention.bytes);
   return info;
 }
 
@@ -246,6 +350,7 @@ void JobManager::Drain() { impl_->draining = true; }
 void JobManager::Stop() {
   Drain();
   impl_->executor.Stop();
+  impl_->retention.Stop();
   impl_->scheduler.Stop();
   std::promise<void> flushed;
   // Twice: what Cancel asks of the store first makes it ask once more.

@@ -1,19 +1,25 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
-#include <vector>
 
 #include "contact/v1/job_service.pb.h"
+#include "jobs/artifact_reader.h"
 #include "jobs/error.h"
+#include "jobs/job_metrics.h"
+#include "jobs/jobs_cursor.h"
 #include "jobs/log_cursor.h"
+#include "jobs/retention.h"
+#include "jobs/run_control.h"
 #include "simulation/run.h"
 
 namespace contact {
 
+class BackupFile;
 class Clock;
 class IdSource;
 class Store;
@@ -23,6 +29,13 @@ struct JobManagerOptions {
   int max_queued_jobs = 10'000;  ///< Past it CreateJob answers QUEUE_FULL.
   int max_watchers = 10'000;     ///< Past it Watch answers WATCHER_LIMIT.
   ScenarioLimits scenario_limits = {};
+  RunBudget max_budget = {};  ///< Of a job, and of one that asks for none.
+  int max_attempts = 3;       ///< A job that is running whenever the server dies fails then.
+  std::chrono::milliseconds step_timeout = std::chrono::minutes(1);  ///< See Watchdog; 0: never.
+  std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);  ///< See Watchdog.
+  RetentionLimits retention = {};
+  /// Where what becomes of jobs is counted.
+  std::shared_ptr<JobMetrics> metrics = std::make_shared<JobMetrics>();
   /// What solves a scenario; tests put something else here.
   std::function<Outcome(const Scenario&, Observer&, std::stop_token)> run = Run;
 };
@@ -36,20 +49,24 @@ class JobManager {
  public:
   template <class T>
   using Callback = std::function<void(Result<T>)>;
+  /// Tells that nobody waits for the answer any more, so that what is not begun need not be. Asked
+  /// until the callback is called; none: somebody always waits.
+  using Abandoned = std::function<bool()>;
 
   /// Takes over what the store holds: jobs that were running when the process ended are queued
   /// again with reason SERVER_RESTARTED. Starts the workers.
   JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options);
   ~JobManager();
 
-  void Create(const v1::CreateJobRequest& request, Callback<v1::Job> done);
+  void Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned = {});
   void Get(const std::string& name, Callback<v1::Job> done);
   void List(const v1::ListJobsRequest& request, Callback<v1::ListJobsResponse> done);
   void Cancel(const std::string& name, Callback<v1::Job> done);
   void Delete(const std::string& name, Callback<bool> done);
 
   /// Recorded motion, thinned.
-  void Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done);
+  void Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
+              Abandoned abandoned = {});
 
   /// Opens a cursor over the log of a job, and the job as it is (without ledger) beside it.
   /// `wake` is called, from any thread and possibly more often than needed, when Read may have
@@ -58,10 +75,25 @@ class JobManager {
   struct Watched {
     v1::Job snapshot;
     std::unique_ptr<LogCursor> cursor;
+    std::chrono::milliseconds bookmark_interval{0};
+    bool paced = false;  ///< The cursor may have something new because time has passed.
   };
-  void Watch(const std::string& name, std::uint64_t after_sequence,
-             const std::vector<std::string>& kinds, std::function<void()> wake,
+  void Watch(const v1::WatchJobRequest& request, std::function<void()> wake,
              Callback<Watched> done);
+
+  /// Copies the store into a file of its own, while everything goes on. `stop` gives it up.
+  void Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFile>> done);
+
+  /// The same for all jobs of a filter.
+  struct WatchedJobs {
+    std::unique_ptr<JobsCursor> cursor;
+    std::chrono::milliseconds bookmark_interval{0};
+  };
+  Result<WatchedJobs> Watch(const v1::WatchJobsRequest& request, std::function<void()> wake);
+
+  /// Opens an artifact of an ended job. `wake` as above.
+  void ReadArtifact(const v1::ReadArtifactRequest& request, std::function<void()> wake,
+                    Callback<std::unique_ptr<ArtifactReader>> done);
 
   /// Numbers of GetServerInfo: workers, queued and running jobs, limits.
   v1::ServerInfo Info() const;

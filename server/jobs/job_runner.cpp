@@ -1,7 +1,7 @@
 #include "jobs/job_runner.h"
 
+#include <algorithm>
 #include <chrono>
-#include <exception>
 #include <future>
 #include <utility>
 #include <vector>
@@ -22,6 +22,17 @@ std::future<absl::StatusOr<StoredJob>> ReadSpec(Store& store, const std::string&
   return promise->get_future();
 }
 
+absl::StatusOr<StoredJob> Await(std::future<absl::StatusOr<StoredJob>> job, RunControl& control) {
+  const RunControl::Report report(control);
+  return job.get();
+}
+
+// True if the run has not come to an end of its own.
+bool Stopped(const Move& move, StopCause cause) {
+  return move.to == v1::Job::CANCELLED ||
+         (move.to == v1::Job::SUCCEEDED && cause == StopCause::kOutput);
+}
+
 // The server stops: another start of it will run the job again, as the same attempt.
 Move BackToQueue(const Assignment& assignment, v1::Job* job) {
   assignment.record->Take();
@@ -33,23 +44,27 @@ Move BackToQueue(const Assignment& assignment, v1::Job* job) {
 
 void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
   v1::Job& job = assignment.job;
+  RunControl& control = *assignment.control;
   // Asked for before the job is taken, so that it does not wait for that commit.
   auto spec = ReadSpec(store_, job.name());
-  LogWriter writer(store_, {job.name(), assignment.epoch, assignment.log}, assignment.stop,
-                   shutdown_);
+  LogWriter writer(store_, {job.name(), assignment.epoch, assignment.log}, control, shutdown_);
   v1::Event attempt = EventAt(clock_.Now());
   attempt.mutable_attempt_started()->set_attempt(job.attempt());
   writer.Take(job, {assignment.event, attempt});
 
-  Move move = Solve(spec.get(), assignment, writer);
-  if (move.to == v1::Job::CANCELLED && !*assignment.cancelled) {
+  Move move = Solve(Await(std::move(spec), control), assignment, writer);
+  if (control.given_up()) return;
+  const bool stopped = Stopped(move, control.cause());
+  if (stopped && control.cause() == StopCause::kServer) {
     move = BackToQueue(assignment, &job);
     ended = nullptr;
   } else {
+    if (stopped) move = MoveAfterStop(control.cause(), control.budget());
     job.MergeFrom(assignment.record->Get(true));
     job.set_server_version(kVersion);
   }
   const v1::Event last = Apply(move, clock_.Now(), &job);
+  options_.metrics->Moved(v1::Job::RUNNING, job);
   writer.Finish(std::move(job), last, std::move(ended));
 }
 
@@ -60,17 +75,18 @@ Move JobRunner::Solve(const absl::StatusOr<StoredJob>& stored, const Assignment&
   try {
     if (!job.has_sweep()) return SolveScenario(job.scenario(), assignment, writer);
     return SweepRunner(store_, clock_, options_, assignment, writer).Run(job.sweep());
-  } catch (const std::exception& error) {
-    return MoveAfterFault(error.what());
   } catch (...) {
-    return MoveAfterFault("unknown exception");
+    return MoveAfterException();
   }
 }
 
 Move JobRunner::SolveScenario(const v1::Scenario& message, const Assignment& assignment,
                               LogWriter& writer) const {
-  const DecodedScenario decoded = DecodeScenario(message, options_.scenario_limits);
+  DecodedScenario decoded = DecodeScenario(message, options_.scenario_limits);
   if (decoded.violations.empty()) {
+    std::int64_t& max_steps = decoded.scenario.solver.max_steps;
+    const std::int64_t budget = assignment.control->budget().steps;
+    if (budget > 0) max_steps = std::min(max_steps, budget);
     return MoveAfter(RunScenario(decoded.scenario, assignment, writer));
   }
   const Violation& first = decoded.violations.front();
@@ -80,8 +96,15 @@ Move JobRunner::SolveScenario(const v1::Scenario& message, const Assignment& ass
 Outcome JobRunner::RunScenario(const Scenario& scenario, const Assignment& assignment,
                                LogWriter& writer) const {
   const auto start = std::chrono::steady_clock::now();
-  RunRecorder recorder(scenario, clock_, writer, *assignment.log, *assignment.record);
-  Outcome outcome = options_.run(scenario, recorder, assignment.stop.get_token());
+  RunControl& control = *assignment.control;
+  RunRecorder recorder(scenario, clock_, control, writer, *assignment.log, *assignment.record);
+  Outcome outcome;
+  try {
+    outcome = options_.run(scenario, recorder, control.token());
+  } catch (const RunStopped&) {
+    outcome.end = Outcome::End::kStopped;
+    return outcome;
+  }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   assignment.record->Do([&](v1::Job& job) {
     EncodeOutcome(scenario, outcome, &job);

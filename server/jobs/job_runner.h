@@ -2,7 +2,6 @@
 
 #include <absl/status/statusor.h>
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "jobs/job_manager.h"
 #include "jobs/lifecycle.h"
 #include "jobs/log_writer.h"
+#include "jobs/run_control.h"
 #include "jobs/run_record.h"
 #include "jobs/sources.h"
 #include "storage/store.h"
@@ -27,8 +27,7 @@ struct Assignment {
   std::uint64_t epoch;  ///< Of the stored job.
   std::shared_ptr<JobLog> log;
   std::shared_ptr<RunRecord> record;
-  std::stop_source stop;                                 ///< Of the run.
-  std::shared_ptr<std::atomic<bool>> cancelled;          ///< Its user has asked to stop it.
+  std::shared_ptr<RunControl> control;
   std::function<void(std::shared_ptr<SweepRun>)> offer;  ///< Lets idle workers help with a sweep.
 };
 
@@ -41,7 +40,8 @@ class JobRunner {
       : store_(store), clock_(clock), options_(options), shutdown_(std::move(shutdown)) {}
 
   /// `ended` is called on the store's thread once the final state is committed. It is not called
-  /// if the job goes back into the queue because the server stops, or cannot be stored.
+  /// if the job goes back into the queue because the server stops, or cannot be stored, or if the
+  /// run was given up.
   void Run(Assignment assignment, std::function<void()> ended);
 
  private:
@@ -54,7 +54,7 @@ class JobRunner {
 
   Store& store_;
   const Clock& clock_;
-  const JobManagerOptions& options_;
+  const JobManagerOptions options_;  ///< A copy: a thread that hangs may outlive its manager.
   const std::stop_token shutdown_;
 };
 

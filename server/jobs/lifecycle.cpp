@@ -1,17 +1,16 @@
 #include "jobs/lifecycle.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 #include <spdlog/spdlog.h>
 
+#include <boost/core/demangle.hpp>
 #include <cassert>
+#include <exception>
+#include <typeinfo>
 
 namespace contact {
 namespace {
-
-google::protobuf::Timestamp ToTimestamp(std::chrono::system_clock::time_point time) {
-  const auto since = std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch());
-  return google::protobuf::util::TimeUtil::NanosecondsToTimestamp(since.count());
-}
 
 void StampTime(v1::Job::State from, const google::protobuf::Timestamp& now, v1::Job* job) {
   if (from == v1::Job::STATE_UNSPECIFIED) *job->mutable_create_time() = now;
@@ -42,6 +41,17 @@ Move MoveAfterFault(const std::string& what) {
   return {v1::Job::FAILED, reason::kInternal, what, absl::StatusCode::kInternal};
 }
 
+Move MoveAfterException() {
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    return MoveAfterFault(
+        fmt::format("{}: {}", boost::core::demangle(typeid(error).name()), error.what()));
+  } catch (...) {
+    return MoveAfterFault("unknown exception");
+  }
+}
+
 v1::Event Apply(const Move& move, std::chrono::system_clock::time_point now, v1::Job* job) {
   const v1::Job::State from = job->state();
   assert(MayMove(from, move.to));
@@ -58,10 +68,15 @@ v1::Event Apply(const Move& move, std::chrono::system_clock::time_point now, v1:
   changed.set_state_reason(move.state_reason);
   changed.set_message(move.message);
   changed.set_convergence(job->convergence());
-  spdlog::info("{}: {}{}{}{}{}", job->name(), v1::Job::State_Name(move.to),
-               move.state_reason.empty() ? "" : " ", move.state_reason,
-               move.message.empty() ? "" : ": ", move.message);
+  spdlog::info("job={} state={} attempt={}{}{}{}{}", job->name(), v1::Job::State_Name(move.to),
+               job->attempt(), move.state_reason.empty() ? "" : " reason=", move.state_reason,
+               move.message.empty() ? "" : " message=", move.message);
   return event;
+}
+
+google::protobuf::Timestamp ToTimestamp(std::chrono::system_clock::time_point time) {
+  const auto since = std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch());
+  return google::protobuf::util::TimeUtil::NanosecondsToTimestamp(since.count());
 }
 
 v1::Event EventAt(std::chrono::system_clock::time_point now) {

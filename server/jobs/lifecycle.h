@@ -40,6 +40,10 @@ inline constexpr char kUserRequest[] = "USER_REQUEST";
 inline constexpr char kNumeric[] = "NUMERIC";
 inline constexpr char kNotConverged[] = "NOT_CONVERGED";
 inline constexpr char kBudgetSteps[] = "BUDGET_STEPS";
+inline constexpr char kBudgetWallTime[] = "BUDGET_WALL_TIME";
+inline constexpr char kBudgetOutput[] = "BUDGET_OUTPUT";
+inline constexpr char kStalled[] = "STALLED";
+inline constexpr char kCrashed[] = "CRASHED";
 inline constexpr char kInternal[] = "INTERNAL";
 }  // namespace reason
 
@@ -55,9 +59,13 @@ struct Move {
 Move MoveAfter(const Outcome& outcome);
 /// What becomes of a job whose run could not be made at all.
 Move MoveAfterFault(const std::string& what);
+/// What becomes of a job whose run threw what is being caught: a fault, with class and message.
+Move MoveAfterException();
 
 /// Moves a job, stamps its times, writes one line to the log and returns the event that tells it.
 v1::Event Apply(const Move& move, std::chrono::system_clock::time_point now, v1::Job* job);
+
+google::protobuf::Timestamp ToTimestamp(std::chrono::system_clock::time_point time);
 
 /// An event of this time, still without payload.
 v1::Event EventAt(std::chrono::system_clock::time_point now);

@@ -23,11 +23,11 @@ constexpr std::size_t kEventBytes = 128;
 
 }  // namespace
 
-LogWriter::LogWriter(Store& store, Place place, std::stop_source run, std::stop_token shutdown)
+LogWriter::LogWriter(Store& store, Place place, RunControl& run, std::stop_token shutdown)
     : store_(store),
       name_(std::move(place.name)),
       log_(std::move(place.log)),
-      run_(std::move(run)),
+      run_(run),
       shutdown_(std::move(shutdown)),
       epoch_(place.epoch) {}
 
@@ -43,13 +43,21 @@ void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
   Advance(steady_clock::now());
 }
 
-void LogWriter::Add(v1::Event event) {
-  pending_.bytes += event.ByteSizeLong() + kEventBytes;
+bool LogWriter::Add(v1::Event event) {
+  const RunControl::Report report(run_);
+  const std::size_t bytes = event.ByteSizeLong();
+  if (!report || !run_.CountOutput(static_cast<std::int64_t>(bytes))) return false;
+  pending_.bytes += bytes + kEventBytes;
   pending_.events.push_back(std::move(event));
-  Pump();
+  WriteWhatIsDue();
+  return true;
 }
 
 void LogWriter::Pump() {
+  if (const RunControl::Report report(run_); report) WriteWhatIsDue();
+}
+
+void LogWriter::WriteWhatIsDue() {
   const Time now = steady_clock::now();
   if (pending_.bytes >= kBatchBytes || now - last_write_ >= kBatchTime) Advance(now);
   if (pending_.bytes < kMaxPendingBytes) return;
@@ -58,6 +66,8 @@ void LogWriter::Pump() {
 }
 
 bool LogWriter::Finish(v1::Job job, v1::Event event, std::function<void()> committed) {
+  const RunControl::Report report(run_);
+  if (!report) return false;
   pending_.job = std::move(job);
   pending_.events.push_back(std::move(event));
   pending_.committed = std::move(committed);
@@ -117,7 +127,7 @@ void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
   }
   if (absl::IsResourceExhausted(first.status())) return Become(Disk::kFull);
   log_->Fail();
-  run_.request_stop();
+  run_.Stop();
   Become(Disk::kLost);
 }
 

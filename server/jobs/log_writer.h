@@ -16,6 +16,7 @@
 #include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
 #include "jobs/job_log.h"
+#include "jobs/run_control.h"
 #include "storage/mutex.h"
 
 namespace contact {
@@ -35,9 +36,9 @@ class LogWriter {
     std::uint64_t epoch;  ///< That the job has now; the writer takes it from there.
     std::shared_ptr<JobLog> log;
   };
-  /// Asks `run` to stop when nothing can be stored any more. Gives up waiting for space when
-  /// `shutdown` is requested.
-  LogWriter(Store& store, Place place, std::stop_source run, std::stop_token shutdown);
+  /// Stops `run`, which outlives this, when nothing can be stored any more; once that is given up,
+  /// nothing is stored any more. Gives up waiting for space when `shutdown` is requested.
+  LogWriter(Store& store, Place place, RunControl& run, std::stop_token shutdown);
   /// Waits for the batch that is being written.
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
@@ -46,7 +47,8 @@ class LogWriter {
   /// Takes the job over: stores it with these events and a new epoch. Does not wait.
   void Take(v1::Job job, std::vector<v1::Event> events);
 
-  void Add(v1::Event event);
+  /// False: it was not taken, because the run has spent its budget or was given up.
+  bool Add(v1::Event event);
   /// Writes what has waited long enough. To be called now and then.
   void Pump();
 
@@ -71,6 +73,7 @@ class LogWriter {
   };
   using Time = std::chrono::steady_clock::time_point;
 
+  void WriteWhatIsDue();
   void Advance(Time now);
   void Send(Time now);
   Disk Settle();
@@ -80,7 +83,7 @@ class LogWriter {
   Store& store_;
   const std::string name_;
   const std::shared_ptr<JobLog> log_;
-  std::stop_source run_;
+  RunControl& run_;
   const std::stop_token shutdown_;
 
   // Of the worker's thread.

@@ -22,9 +22,11 @@ namespace {
 constexpr int kMaxLabels = 16;
 constexpr std::size_t kMaxLabelLength = 63;
 constexpr std::size_t kMaxRequestIdLength = 64;
+constexpr int kMaxPriority = 100;
 constexpr std::size_t kMaxViolations = 100;
 constexpr int kDefaultPageSize = 50;
 constexpr int kMaxPageSize = 1000;
+constexpr std::chrono::milliseconds kDefaultBookmarkInterval{10'000};
 
 bool IsLabelCharacter(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
@@ -52,6 +54,52 @@ void CheckLabels(const Labels& labels, std::vector<Violation>* violations) {
   }
 }
 
+// Well-formed, and at least 0 or `least`, whichever the field says is nothing.
+bool IsSpan(const google::protobuf::Duration& span, std::int64_t least_ms) {
+  constexpr std::int64_t kCenturySeconds = 100LL * 366 * 24 * 3600;
+  if (span.seconds() < 0 || span.seconds() > kCenturySeconds) return false;
+  if (span.nanos() < 0 || span.nanos() >= 1'000'000'000) return false;
+  const std::int64_t milliseconds = span.seconds() * 1000 + span.nanos() / 1'000'000;
+  return milliseconds >= least_ms || (span.seconds() == 0 && span.nanos() == 0);
+}
+
+void CheckSpan(const char* field, const google::protobuf::Duration& span, std::int64_t least_ms,
+               const char* range, std::vector<Violation>* violations) {
+  if (IsSpan(span, least_ms)) return;
+  violations->push_back({field,
+                         fmt::format("is {} s and {} ns; must be in {}, or 0 for the server's",
+                                     span.seconds(), span.nanos(), range),
+                         ""});
+}
+
+// `limit`: of the server; 0: none.
+void CheckAmount(const char* field, double amount, double limit, const char* unit,
+                 std::vector<Violation>* violations) {
+  if (amount < 0) {
+    violations->push_back({field, fmt::format("is {}; must not be negative", amount), ""});
+  } else if (limit > 0 && amount > limit) {
+    violations->push_back({field,
+                           fmt::format("is {}{}; must be at most {}{}, the server's limit", amount,
+                                       unit, limit, unit),
+                           "ask for less, or leave it out to get the limit"});
+  }
+}
+
+void CheckBudget(const v1::Budget& budget, const RunBudget& most,
+                 std::vector<Violation>* violations) {
+  const google::protobuf::Duration& wall_time = budget.wall_time();
+  CheckSpan("budget.wall_time", wall_time, 1, "[1 ms, 100 years]", violations);
+  if (IsSpan(wall_time, 1)) {
+    CheckAmount("budget.wall_time",
+                static_cast<double>(wall_time.seconds()) + wall_time.nanos() / 1e9,
+                std::chrono::duration<double>(most.wall_time).count(), " s", violations);
+  }
+  CheckAmount("budget.steps", static_cast<double>(budget.steps()), static_cast<double>(most.steps),
+              "", violations);
+  CheckAmount("budget.output_bytes", static_cast<double>(budget.output_bytes()),
+              static_cast<double>(most.output_bytes), " bytes", violations);
+}
+
 bool IsPrintable(char c) { return c >= ' ' && c <= '~'; }
 
 Error FieldInvalid(std::vector<Violation> violations) {
@@ -60,6 +108,48 @@ Error FieldInvalid(std::vector<Violation> violations) {
   error.message = first.field + ": " + first.description;
   error.violations = std::move(violations);
   return error;
+}
+
+// The set of kinds, state_changed among them; all if there are none.
+std::uint32_t KindSet(const v1::WatchJobRequest& request, std::vector<Violation>* violations) {
+  if (request.kinds().empty()) return ~0U;
+  std::uint32_t set = KindBit(v1::Event::kStateChanged);
+  const auto& payload = *v1::Event::descriptor()->FindOneofByName("payload");
+  for (const std::string& kind : request.kinds()) {
+    const auto* field = v1::Event::descriptor()->FindFieldByName(kind);
+    if (field != nullptr && field->containing_oneof() == &payload) {
+      set |= 1U << field->number();
+      continue;
+    }
+    violations->push_back({"kinds", fmt::format("'{}' is no kind of event", kind.substr(0, 64)),
+                           "name a field of Event.payload, such as cycle"});
+    break;  // There may be millions.
+  }
+  return set;
+}
+
+// Whether an interval has a length that is allowed: from so many seconds to an hour.
+struct IntervalRange {
+  std::int64_t least_s;
+  const char* text;
+};
+std::chrono::milliseconds Interval(const std::string& field,
+                                   const google::protobuf::Duration& interval,
+                                   const IntervalRange& range, std::vector<Violation>* violations) {
+  constexpr std::int64_t kMostNanos = 999'999'999;
+  if (interval.seconds() < range.least_s || interval.nanos() < 0 || interval.nanos() > kMostNanos ||
+      interval.seconds() > 3600 || (interval.seconds() == 3600 && interval.nanos() > 0)) {
+    violations->push_back({field, fmt::format("must be in {}", range.text), ""});
+    return {};
+  }
+  return std::chrono::milliseconds{interval.seconds() * 1000 + interval.nanos() / 1'000'000};
+}
+
+template <class Request>
+std::chrono::milliseconds BookmarkInterval(const Request& request,
+                                           std::vector<Violation>* violations) {
+  if (!request.has_bookmark_interval()) return kDefaultBookmarkInterval;
+  return Interval("bookmark_interval", request.bookmark_interval(), {1, "[1 s, 1 h]"}, violations);
 }
 
 // The number that PageToken has written; negative if it did not write this.
@@ -125,13 +215,22 @@ void CheckTimes(const v1::GetSeriesRequest& request, std::vector<Violation>* vio
 
 }  // namespace
 
-std::vector<Violation> CheckCreate(const v1::CreateJobRequest& request) {
+std::vector<Violation> CheckCreate(const v1::CreateJobRequest& request,
+                                   const RunBudget& max_budget) {
   std::vector<Violation> violations;
   const std::string& id = request.request_id();
   if (id.size() > kMaxRequestIdLength || !std::all_of(id.begin(), id.end(), IsPrintable)) {
     violations.push_back({"request_id", "must be at most 64 printable ASCII characters", ""});
   }
   CheckLabels(request.job().labels(), &violations);
+  const std::int32_t priority = request.job().priority();
+  if (priority < -kMaxPriority || priority > kMaxPriority) {
+    violations.push_back(
+        {"priority",
+         fmt::format("is {}; must be in [-{}, {}]", priority, kMaxPriority, kMaxPriority), ""});
+  }
+  CheckBudget(request.job().budget(), max_budget, &violations);
+  CheckSpan("time_to_live", request.job().time_to_live(), 1000, "[1 s, 100 years]", &violations);
   if (request.job().spec_case() == v1::Job::SPEC_NOT_SET) {
     violations.push_back({"scenario", "is missing", "say what to compute"});
   }
@@ -166,19 +265,39 @@ Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
 
 std::string PageToken(std::int64_t number) { return number > 0 ? fmt::format("{}", number) : ""; }
 
-Result<std::uint32_t> KindSet(const std::vector<std::string>& kinds) {
-  if (kinds.empty()) return ~0U;
-  std::uint32_t set = KindBit(v1::Event::kStateChanged);
-  const auto& payload = *v1::Event::descriptor()->FindOneofByName("payload");
-  for (const std::string& kind : kinds) {
-    const auto* field = v1::Event::descriptor()->FindFieldByName(kind);
-    if (field == nullptr || field->containing_oneof() != &payload) {
-      return FieldInvalid({{"kinds", fmt::format("'{}' is no kind of event", kind.substr(0, 64)),
-                            "name a field of Event.payload, such as cycle"}});
-    }
-    set |= 1U << field->number();
+Result<WatchRules> ToRules(const v1::WatchJobRequest& request) {
+  std::vector<Violation> violations;
+  WatchRules rules;
+  rules.kinds = KindSet(request, &violations);
+  rules.bookmark_interval = BookmarkInterval(request, &violations);
+  const v1::DeliveryOptions& delivery = request.delivery();
+  if (delivery.has_min_frame_interval()) {
+    rules.delivery.min_frame_interval = Interval(
+        "delivery.min_frame_interval", delivery.min_frame_interval(), {0, "[0, 1 h]"}, &violations);
   }
-  return set;
+  if (!v1::DeliveryOptions::OverflowPolicy_IsValid(delivery.overflow())) {
+    violations.push_back({"delivery.overflow", "is neither CONFLATE nor DISCONNECT nor LAG", ""});
+  } else if (delivery.overflow() != v1::DeliveryOptions::OVERFLOW_POLICY_UNSPECIFIED) {
+    rules.delivery.overflow = delivery.overflow();
+  }
+  if (request.live_only() && request.after_sequence() > 0) {
+    violations.push_back(
+        {"live_only", "goes only with after_sequence 0", "to resume, leave it out"});
+  }
+  if (!violations.empty()) return FieldInvalid(std::move(violations));
+  return rules;
+}
+
+Result<JobsRules> ToRules(const v1::WatchJobsRequest& request) {
+  v1::ListJobsRequest list;
+  *list.mutable_states() = request.states();
+  *list.mutable_labels() = request.labels();
+  Result<JobQuery> filter = ToQuery(list);
+  if (!filter.ok()) return filter.error();
+  std::vector<Violation> violations;
+  JobsRules rules{std::move(filter.value()), BookmarkInterval(request, &violations)};
+  if (!violations.empty()) return FieldInvalid(std::move(violations));
+  return rules;
 }
 
 Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request, const Columns& channels) {

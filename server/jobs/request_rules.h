@@ -1,11 +1,15 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "contact/v1/job_service.pb.h"
+#include "jobs/delivery_cursor.h"
 #include "jobs/error.h"
+#include "jobs/run_control.h"
 #include "storage/records.h"
 
 namespace contact {
@@ -13,7 +17,8 @@ namespace contact {
 /// The rules that job_service.proto gives for requests, each checked in one place.
 
 /// Violations of everything in the request but the scenario.
-std::vector<Violation> CheckCreate(const v1::CreateJobRequest& request);
+std::vector<Violation> CheckCreate(const v1::CreateJobRequest& request,
+                                   const RunBudget& max_budget = {});
 
 /// What to ask the store; FIELD_INVALID if the request breaks a rule.
 Result<JobQuery> ToQuery(const v1::ListJobsRequest& request);
@@ -21,8 +26,22 @@ Result<JobQuery> ToQuery(const v1::ListJobsRequest& request);
 /// Token of the page that starts after the job with this number; empty for 0.
 std::string PageToken(std::int64_t number);
 
-/// The set of kinds, state_changed among them; all if there are none. FIELD_INVALID: no such kind.
-Result<std::uint32_t> KindSet(const std::vector<std::string>& kinds);
+/// How a job is to be watched.
+struct WatchRules {
+  std::uint32_t kinds = 0;  ///< See KindBit. state_changed is among them.
+  std::chrono::milliseconds bookmark_interval{0};
+  DeliveryCursor::Rules delivery;
+};
+/// FIELD_INVALID.
+Result<WatchRules> ToRules(const v1::WatchJobRequest& request);
+
+/// How jobs are to be watched.
+struct JobsRules {
+  JobQuery filter;
+  std::chrono::milliseconds bookmark_interval{0};
+};
+/// FIELD_INVALID.
+Result<JobsRules> ToRules(const v1::WatchJobsRequest& request);
 
 /// What GetSeries is to return of a trajectory.
 struct SeriesSelection {

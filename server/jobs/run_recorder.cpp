@@ -12,6 +12,9 @@ namespace {
 // Values in one frame chunk, so that the frames of a large scenario fit into a message: 1 MiB.
 constexpr std::ptrdiff_t kMaxChunkValues = 128 * 1024;
 constexpr std::chrono::milliseconds kProgressTime{100};
+// Calls of OnSamples that a run makes before it looks whether it is to stop, unless its step is
+// huge.
+constexpr int kMostChunks = 8;
 
 }  // namespace
 
@@ -26,18 +29,28 @@ void RunRecorder::OnIteration(const Iteration& iteration) {
 void RunRecorder::OnCycle(const Cycle& cycle) {
   v1::Event event = Event();
   *event.mutable_cycle() = Encode(scenario_, cycle);
-  record_.Do([&](v1::Job& job) { *job.add_cycles() = event.cycle(); });
-  writer_.Add(std::move(event));
+  v1::Cycle row = event.cycle();
+  if (!writer_.Add(std::move(event))) return;
+  record_.Do([&](v1::Job& job) { *job.add_cycles() = std::move(row); });
 }
 
-void RunRecorder::OnSamples(const Samples& samples) {
+std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples) {
   const std::ptrdiff_t rows = std::max<std::ptrdiff_t>(1, kMaxChunkValues / samples.columns);
+  std::vector<v1::FrameChunk> chunks;
   for (std::ptrdiff_t first = 0; first < samples.rows(); first += rows) {
     const auto begin = samples.values.begin() + first * samples.columns;
     const auto count = std::min<std::ptrdiff_t>(rows, samples.rows() - first) * samples.columns;
+    chunks.push_back(
+        Encode(scenario, Samples{samples.first + first, samples.columns, {begin, begin + count}}));
+  }
+  return chunks;
+}
+
+void RunRecorder::OnSamples(const Samples& samples) {
+  if (control_.stopping() && ++chunks_ > kMostChunks) throw RunStopped();
+  for (v1::FrameChunk& chunk : ChunksOf(scenario_, samples)) {
     v1::Event event = Event();
-    *event.mutable_frame_chunk() =
-        Encode(scenario_, Samples{samples.first + first, samples.columns, {begin, begin + count}});
+    *event.mutable_frame_chunk() = std::move(chunk);
     writer_.Add(std::move(event));
   }
 }
@@ -58,8 +71,13 @@ void RunRecorder::OnWarning(const std::string& warning) {
   v1::Event event = Event();
   event.mutable_log_entry()->set_severity(v1::LogEntry::WARNING);
   event.mutable_log_entry()->set_message(warning);
+  if (!writer_.Add(std::move(event))) return;
   record_.Do([&](v1::Job& job) { job.add_warnings(warning); });
-  writer_.Add(std::move(event));
+}
+
+void RunRecorder::OnStep() {
+  chunks_ = 0;
+  control_.CountStep();
 }
 
 }  // namespace contact

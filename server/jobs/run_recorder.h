@@ -2,38 +2,54 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "jobs/job_log.h"
 #include "jobs/log_writer.h"
+#include "jobs/run_control.h"
 #include "jobs/run_record.h"
 #include "jobs/sources.h"
 #include "simulation/run.h"
 
 namespace contact {
 
-/// Makes events of what a run reports.
+/// Samples as chunks that each fit into a message.
+std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples);
+
+/// Thrown through a run that was asked to stop while it takes samples of one step without end.
+struct RunStopped {};
+
+/// Makes events of what a run reports. May throw RunStopped.
 class RunRecorder final : public Observer {
  public:
   /// Everything outlives the recorder.
-  RunRecorder(const Scenario& scenario, const Clock& clock, LogWriter& writer, JobLog& log,
-              RunRecord& record)
-      : scenario_(scenario), clock_(clock), writer_(writer), log_(log), record_(record) {}
+  RunRecorder(const Scenario& scenario, const Clock& clock, RunControl& control, LogWriter& writer,
+              JobLog& log, RunRecord& record)
+      : scenario_(scenario),
+        clock_(clock),
+        control_(control),
+        writer_(writer),
+        log_(log),
+        record_(record) {}
 
   void OnIteration(const Iteration& iteration) override;
   void OnCycle(const Cycle& cycle) override;
   void OnSamples(const Samples& samples) override;
   void OnProgress(const Progress& progress) override;
   void OnWarning(const std::string& warning) override;
+  void OnStep() override;
 
  private:
   v1::Event Event() const;
 
   const Scenario& scenario_;
   const Clock& clock_;
+  RunControl& control_;
   LogWriter& writer_;
   JobLog& log_;
   RunRecord& record_;
   std::chrono::steady_clock::time_point last_progress_ = {};
+  int chunks_ = 0;  ///< Since the last step, while the run is asked to stop.
 };
 
 }  // namespace contact

@@ -1,26 +1,53 @@
 #include "jobs/scheduler.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <future>
 #include <utility>
 
+#include "jobs/lifecycle.h"
+#include "version.h"
+
 namespace contact {
 namespace {
 
 // After so long a helper looks whether a job has come that needs a worker.
 constexpr std::chrono::milliseconds kHelpTime{10};
+// How often the runs are looked at.
+constexpr std::chrono::milliseconds kLookTime{50};
+// What the runs have to end in when the server does.
+constexpr std::chrono::seconds kEndTime{2};
+
+Move MoveAfterCrash(const StoredJob& stored, int max_attempts) {
+  if (stored.cancel_requested) return {v1::Job::CANCELLED, reason::kUserRequest};
+  if (stored.job.attempt() < max_attempts) return {v1::Job::QUEUED, reason::kServerRestarted};
+  return {v1::Job::FAILED, reason::kCrashed,
+          fmt::format("the server died during attempt {} of {}; the job is set aside",
+                      stored.job.attempt(), max_attempts),
+          absl::StatusCode::kAborted};
+}
 
 }  // namespace
 
-Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options)
-    : store_(store), clock_(clock), options_(options) {
+Scheduler::Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options,
+                     JobFeed& feed)
+    : store_(store),
+      clock_(clock),
+      options_(options),
+      feed_(feed),
+      workers_([this](Worker& worker) { Work(worker); }) {
   Recover();
-  for (int i = 0; i < options_.workers; ++i) workers_.emplace_back([this] { Work(); });
+  workers_.Start(options_.workers);
+  watch_ = std::thread([this] { Watch(); });
 }
 
 Scheduler::~Scheduler() { Stop(); }
+
+std::shared_ptr<JobLog> Scheduler::NewLog(const std::string& name, std::uint64_t last) {
+  return std::make_shared<JobLog>(last, false, [this, name] { feed_.Changed(name); });
+}
 
 void Scheduler::Recover() {
   std::promise<void> recovered;
@@ -35,17 +62,17 @@ void Scheduler::Recover() {
   recovered.get_future().wait();
 }
 
-// A job that was running has lost its worker. One that a user wanted to stop has its wish.
+// A job that was running has lost its worker.
 void Scheduler::Recover(StoredJob stored) {
-  if (!stored.intact) spdlog::error("{} fails its checksum in the store", stored.job.name());
+  if (!stored.intact) spdlog::error("job={} fails its checksum in the store", stored.job.name());
+  const Move move = MoveAfterCrash(stored, options_.max_attempts);
   Active active;
-  active.log = std::make_shared<JobLog>(stored.job.last_sequence(), false);
+  active.log = NewLog(stored.job.name(), stored.job.last_sequence());
   active.epoch = stored.epoch;
   v1::Job& job = active.job = std::move(stored.job);
   if (job.state() == v1::Job::RUNNING) {
-    const Move move = stored.cancel_requested ? Move{v1::Job::CANCELLED, reason::kUserRequest}
-                                              : Move{v1::Job::QUEUED, reason::kServerRestarted};
     const std::vector<v1::Event> events = {Apply(move, clock_.Now(), &job)};
+    options_.metrics->Moved(v1::Job::RUNNING, job);
     store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
                   [log = active.log, events](const absl::StatusOr<std::uint64_t>& first) {
                     if (first.ok()) log->Append(*first, events);
@@ -56,10 +83,21 @@ void Scheduler::Recover(StoredJob stored) {
 }
 
 void Scheduler::Add(Active active) {
+  active.number = ++numbers_;
+  Queue(active);
   std::string name = active.job.name();
-  queue_.push_back(name);
   active_.emplace(std::move(name), std::move(active));
+}
+
+void Scheduler::Queue(const Active& active) {
+  const v1::Job& job = active.job;
+  queue_.Push({job.name(), job.priority(), active.number, LastAttempt(job)});
   changed_.notify_one();
+}
+
+// True if it has been running when the server died, and may be only once more.
+bool Scheduler::LastAttempt(const v1::Job& job) const {
+  return job.attempt() > 0 && job.attempt() + 1 >= options_.max_attempts;
 }
 
 bool Scheduler::Reserve() {
@@ -80,48 +118,65 @@ void Scheduler::Release() {
 void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
   Active active;
   active.job = std::move(job);
-  active.log = std::make_shared<JobLog>(0, false);
+  active.log = NewLog(active.job.name(), 0);
   active.log->Append(1, std::move(events));
   const MutexLock lock(mutex_);
   --reserved_;
   Add(std::move(active));
 }
 
-void Scheduler::Work() {
+void Scheduler::Work(Worker& worker) {
   JobRunner runner(store_, clock_, options_, shutdown_.get_token());
-  for (Task task = Next(); task.job || task.sweep; task = Next()) {
+  for (Task task = Next(worker); task.job || task.sweep; task = Next(worker)) {
     if (task.sweep) {
       task.sweep->Work(kHelpTime);
-      continue;
+    } else {
+      const std::string name = task.job->job.name();
+      runner.Run(*std::move(task.job), [this, name] { Remove(name); });
     }
-    const std::string name = task.job->job.name();
-    runner.Run(*std::move(task.job), [this, name] { Remove(name); });
+    if (!worker.End()) return;  // This may not exist any more.
   }
 }
 
 // Waits for something to do.
-Scheduler::Task Scheduler::Next() {
+Scheduler::Task Scheduler::Next(Worker& worker) {
   const MutexLock lock(mutex_);
   for (;;) {
     if (shutdown_.stop_requested()) return {};
-    if (!queue_.empty()) {
-      Active& active = active_.at(queue_.front());
-      queue_.pop_front();
-      return {Assign(active), nullptr};
+    if (const auto name = NextJob()) {
+      Task task{Assign(active_.at(*name)), nullptr};
+      worker.Begin(task.job->control);
+      return task;
     }
-    if (auto sweep = FindSweep()) return {std::nullopt, std::move(sweep)};
+    if (auto sweep = FindSweep()) {
+      worker.Begin(sweep->control());
+      return {std::nullopt, std::move(sweep)};
+    }
     changed_.wait(mutex_);
   }
 }
 
+std::optional<std::string> Scheduler::NextJob() {
+  const bool careful =
+      std::ranges::any_of(running_, [](const auto& job) { return job.second.last_attempt; });
+  const auto next = queue_.Pop(careful);
+  return next ? std::optional(next->name) : std::nullopt;
+}
+
 Assignment Scheduler::Assign(Active& active) {
-  ++running_;
+  running_.emplace(active.job.name(), Running{Watchdog(clock_.Elapsed()), LastAttempt(active.job)});
+  started_.notify_one();
+  active.control = std::make_shared<RunControl>(BudgetOf(active.job, options_.max_budget));
   active.job.set_attempt(active.job.attempt() + 1);
   v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);
-  return {active.job,       std::move(event),
-          active.epoch,     active.log,
-          active.record,    active.stop,
-          active.cancelled, [this](std::shared_ptr<SweepRun> sweep) { Offer(std::move(sweep)); }};
+  options_.metrics->Moved(v1::Job::QUEUED, active.job);
+  return {active.job,
+          std::move(event),
+          active.epoch,
+          active.log,
+          active.record,
+          active.control,
+          [this](std::shared_ptr<SweepRun> sweep) { Offer(std::move(sweep)); }};
 }
 
 void Scheduler::Offer(std::shared_ptr<SweepRun> sweep) {
@@ -142,7 +197,8 @@ std::shared_ptr<SweepRun> Scheduler::FindSweep() {
 void Scheduler::Remove(const std::string& name) {
   const MutexLock lock(mutex_);
   active_.erase(name);
-  --running_;
+  running_.erase(name);
+  changed_.notify_all();  // A last attempt may have waited for this.
 }
 
 void Scheduler::Cancel(const std::string& name, Done done) {
@@ -151,14 +207,12 @@ void Scheduler::Cancel(const std::string& name, Done done) {
   {
     const MutexLock lock(mutex_);
     const auto found = active_.find(name);
-    const auto place = std::find(queue_.begin(), queue_.end(), name);
-    if (place != queue_.end()) {
-      queue_.erase(place);  // From here on no worker finds it.
-      queued = found->second;
-    } else if (found != active_.end() && found->second.job.state() == v1::Job::RUNNING) {
+    if (found != active_.end() && found->second.control) {
       running = true;
-      *found->second.cancelled = true;
-      found->second.stop.request_stop();
+      found->second.control->Stop(StopCause::kUser);
+    } else if (found != active_.end() &&
+               queue_.Remove(found->second.job.priority(), found->second.number)) {
+      queued = found->second;  // From here on no worker finds it.
     }
   }
   if (queued) return Withdraw(*queued, std::move(done));
@@ -173,16 +227,18 @@ void Scheduler::Withdraw(const Active& active, Done done) {
   const std::vector<v1::Event> events = {
       Apply({v1::Job::CANCELLED, reason::kUserRequest}, clock_.Now(), &job)};
   store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
-                [this, events, name = job.name(), log = active.log,
+                [this, events, job, active,
                  done = std::move(done)](const absl::StatusOr<std::uint64_t>& first) {
-                  if (first.ok()) log->Append(*first, events);
+                  if (first.ok()) {
+                    options_.metrics->Moved(v1::Job::QUEUED, job);
+                    active.log->Append(*first, events);
+                  }
                   {
                     const MutexLock lock(mutex_);
                     if (first.ok()) {
-                      active_.erase(name);
+                      active_.erase(active.job.name());
                     } else {
-                      queue_.push_front(name);
-                      changed_.notify_one();
+                      Queue(active);
                     }
                   }
                   done(first.status());
@@ -214,19 +270,80 @@ int Scheduler::queued() const {
 
 int Scheduler::running() const {
   const MutexLock lock(mutex_);
-  return running_;
+  return static_cast<int>(running_.size());
+}
+
+void Scheduler::Watch() {
+  while (!shutdown_.stop_requested()) {
+    std::vector<Active> lost;
+    {
+      const MutexLock lock(mutex_);
+      if (shutdown_.stop_requested()) return;
+      if (running_.empty()) {
+        started_.wait(mutex_);
+      } else {
+        started_.wait_for(mutex_, kLookTime);
+      }
+      lost = FindLost();
+    }
+    for (const Active& active : lost) Bury(active);
+  }
+}
+
+// Gives up the runs that do not hear, and has their workers replaced.
+std::vector<Scheduler::Active> Scheduler::FindLost() {
+  std::vector<Active> lost;
+  const Watchdog::Patience patience{options_.step_timeout, options_.stop_timeout};
+  for (auto& [name, running] : running_) {
+    const Active& active = active_.at(name);
+    if (!running.watchdog.Look(*active.control, clock_.Elapsed(), patience)) continue;
+    if (!active.control->GiveUp()) continue;
+    workers_.Replace(*active.control);
+    lost.push_back(active);
+  }
+  for (const Active& active : lost) running_.erase(active.job.name());
+  return lost;
+}
+
+// Ends a job whose run was given up, and takes it away from its worker in the store too.
+void Scheduler::Bury(const Active& active) {
+  store_.Read(
+      active.job.name(), JobPart::kHeader, [this, active](absl::StatusOr<StoredJob> stored) {
+        if (!stored.ok() || IsFinal(stored->job.state())) return;
+        v1::Job job = active.job;
+        job.MergeFrom(active.record->Get(true));
+        job.set_server_version(kVersion);
+        const Move move = MoveAfterStop(active.control->cause(), active.control->budget());
+        const std::vector<v1::Event> events = {Apply(move, clock_.Now(), &job)};
+        store_.Update({.name = job.name(),
+                       .epoch = stored->epoch,
+                       .take = true,
+                       .job = &job,
+                       .events = events},
+                      [this, events, active, job](const absl::StatusOr<std::uint64_t>& first) {
+                        if (!first.ok()) {
+                          return spdlog::error("job={} cannot store its end: {}", active.job.name(),
+                                               first.status().ToString());
+                        }
+                        options_.metrics->Moved(v1::Job::RUNNING, job);
+                        active.log->Append(*first, events);
+                        Remove(active.job.name());
+                      });
+      });
 }
 
 void Scheduler::Stop() {
   {
     const MutexLock lock(mutex_);
     shutdown_.request_stop();
-    for (auto& [name, active] : active_) active.stop.request_stop();
+    for (auto& [name, active] : active_) {
+      if (active.control) active.control->Stop();
+    }
     changed_.notify_all();
+    started_.notify_all();
   }
-  for (std::thread& worker : workers_) {
-    if (worker.joinable()) worker.join();
-  }
+  if (watch_.joinable()) watch_.join();
+  workers_.Stop(kEndTime);
 }
 
 }  // namespace contact

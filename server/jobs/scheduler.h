@@ -2,10 +2,8 @@
 
 #include <absl/status/status.h>
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,20 +13,28 @@
 #include <thread>
 #include <vector>
 
+#include "jobs/job_feed.h"
+#include "jobs/job_queue.h"
 #include "jobs/job_runner.h"
 #include "jobs/sweep_run.h"
+#include "jobs/watchdog.h"
+#include "jobs/worker_pool.h"
 
 namespace contact {
 
-/// Decides when a job runs: knows the jobs that have not ended, queues them first come, first
-/// served, and has the worker threads. A worker without a job helps with a sweep. Thread-safe.
+/// Decides when a job runs: knows the jobs that have not ended, queues them by priority, has the
+/// worker threads and watches over them. A worker without a job helps with a sweep. Thread-safe.
+///
+/// A job that was running each time the server died, and has one attempt left, never runs together
+/// with another such one: so each next death tells which of them is to blame.
 ///
 /// Jobs enter and leave it on the store's thread, in the order of their commits; so in a callback
 /// of the store a job is known here just if the store says that it has not ended.
 class Scheduler {
  public:
-  /// Queues the jobs that an earlier process left unfinished, and starts the workers.
-  Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options);
+  /// Queues the jobs that an earlier process left unfinished, and starts the workers. Every change
+  /// of a job's state is told to `feed`.
+  Scheduler(Store& store, const Clock& clock, const JobManagerOptions& options, JobFeed& feed);
   ~Scheduler();
 
   /// Keeps a place in the queue for a job that is being stored. False: the queue is full.
@@ -57,42 +63,58 @@ class Scheduler {
   struct Active {
     v1::Job job;  ///< Header.
     std::uint64_t epoch = 0;
+    std::uint64_t number = 0;  ///< Order of coming.
     std::shared_ptr<JobLog> log;
     std::shared_ptr<RunRecord> record = std::make_shared<RunRecord>();
-    std::stop_source stop;
-    std::shared_ptr<std::atomic<bool>> cancelled = std::make_shared<std::atomic<bool>>(false);
+    std::shared_ptr<RunControl> control;  ///< Once it runs.
+  };
+  struct Running {
+    Watchdog watchdog;
+    bool last_attempt;
   };
   using Done = std::function<void(const absl::Status&)>;
 
   void Recover();
   void Recover(StoredJob stored);
+  std::shared_ptr<JobLog> NewLog(const std::string& name, std::uint64_t last);
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void Work();
+  void Queue(const Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool LastAttempt(const v1::Job& job) const;
+  void Work(Worker& worker);
   /// What a worker does next: a job, or help; neither when it is time to stop.
   struct Task {
     std::optional<Assignment> job;
     std::shared_ptr<SweepRun> sweep;
   };
-  Task Next();
+  Task Next(Worker& worker);
+  std::optional<std::string> NextJob() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Offer(std::shared_ptr<SweepRun> sweep);
   std::shared_ptr<SweepRun> FindSweep() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Remove(const std::string& name);
   void Withdraw(const Active& active, Done done);
+  void Watch();
+  std::vector<Active> FindLost() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Bury(const Active& active);
 
   Store& store_;
   const Clock& clock_;
   const JobManagerOptions& options_;
+  JobFeed& feed_;
   std::stop_source shutdown_;
 
   mutable Mutex mutex_;
   std::condition_variable_any changed_;
   std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
-  std::deque<std::string> queue_ ABSL_GUARDED_BY(mutex_);
+  JobQueue queue_ ABSL_GUARDED_BY(mutex_);
+  std::uint64_t numbers_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::map<std::string, Running> running_ ABSL_GUARDED_BY(mutex_);
   std::vector<std::weak_ptr<SweepRun>> sweeps_ ABSL_GUARDED_BY(mutex_);
   int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
-  int running_ ABSL_GUARDED_BY(mutex_) = 0;
-  std::vector<std::thread> workers_;  // Last: they use all of the above.
+  std::condition_variable_any started_;  ///< A job, or the end.
+  // Last: they use all of the above.
+  WorkerPool workers_;
+  std::thread watch_;
 };
 
 }  // namespace contact

@@ -36,13 +36,19 @@ void SeriesBuilder::Restart() {
   recorded_ = 0;
 }
 
-bool SeriesBuilder::Add(const v1::FrameChunk& chunk) {
+bool SeriesBuilder::Fits(const v1::FrameChunk& chunk) const {
   const std::size_t bytes = static_cast<std::size_t>(chunk.samples()) * sizeof(double);
   const auto whole = [bytes](const auto& column) { return column.values().size() == bytes; };
-  if (chunk.columns_size() != static_cast<int>(channels_.size()) ||
-      !std::ranges::all_of(chunk.columns(), whole)) {
-    return false;
-  }
+  return chunk.columns_size() == static_cast<int>(channels_.size()) &&
+         std::ranges::all_of(chunk.columns(), whole);
+}
+
+bool SeriesBuilder::IsPast(const v1::FrameChunk& chunk) const {
+  return chunk.samples() > 0 && ValueAt(chunk.columns(0), 0) > selection_.end_time;
+}
+
+bool SeriesBuilder::Add(const v1::FrameChunk& chunk) {
+  if (!Fits(chunk)) return false;
   for (int row = 0; row < chunk.samples(); ++row) {
     const double time = ValueAt(chunk.columns(0), row);
     if (time < selection_.start_time || time > selection_.end_time) continue;
@@ -83,68 +89,130 @@ Result<v1::Series> SeriesBuilder::Finish() const {
 }
 
 SeriesReader::SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
-                           v1::GetSeriesRequest request, Done done)
+                           v1::GetSeriesRequest request, Caller caller)
     : store_(store),
       executor_(executor),
       limits_(limits),
       request_(std::move(request)),
-      done_(std::move(done)) {}
+      caller_(std::move(caller)) {}
 
 void SeriesReader::Read(Store& store, Executor& executor, const ScenarioLimits& limits,
-                        const v1::GetSeriesRequest& request, Done done) {
+                        const v1::GetSeriesRequest& request, Caller caller) {
   const std::shared_ptr<SeriesReader> self(
-      new SeriesReader(store, executor, limits, request, std::move(done)));
+      new SeriesReader(store, executor, limits, request, std::move(caller)));
   store.Read(request.name(), JobPart::kSpec, [self](absl::StatusOr<StoredJob> stored) {
     const auto shared = std::make_shared<absl::StatusOr<StoredJob>>(std::move(stored));
-    if (!self->executor_.Post([self, shared] { self->Open(*shared); })) self->done_(Draining());
+    if (!self->executor_.Post([self, shared] { self->Open(*shared); }))
+      self->caller_.done(Draining());
   });
 }
 
 void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
-  if (!stored.ok()) return done_(ToError(stored.status(), request_.name()));
+  if (!stored.ok()) return caller_.done(ToError(stored.status(), request_.name()));
   const v1::Job& job = stored->job;
-  if (!job.has_scenario()) return done_(NoTrajectory(job.name()));
+  if (!job.has_scenario()) return caller_.done(NoTrajectory(job.name()));
   const DecodedScenario decoded = DecodeScenario(job.scenario(), limits_);
   if (!decoded.violations.empty() || decoded.scenario.sample_interval == 0) {
-    return done_(NoTrajectory(job.name()));
+    return caller_.done(NoTrajectory(job.name()));
   }
   std::vector<v1::FrameChunk::Column> channels = Channels(decoded.scenario);
   Result<SeriesSelection> selection = ToSelection(request_, channels);
-  if (!selection.ok()) return done_(selection.error());
+  if (!selection.ok()) return caller_.done(selection.error());
+  start_time_ = selection.value().start_time;
   builder_.emplace(std::move(selection.value()), std::move(channels));
   last_ = job.last_sequence();
+  if (request_.has_start_time_s() || request_.has_end_time_s()) return FindAttempt();
   ReadPage();
+}
+
+// Goes on with a page once it is read, on the executor.
+void SeriesReader::ReadEvents(EventQuery query, void (SeriesReader::*take)(const Page&)) {
+  store_.ReadEvents(std::move(query), [self = shared_from_this(), take](Page page) {
+    const auto shared = std::make_shared<const Page>(std::move(page));
+    const bool posted = self->executor_.Post([self, take, shared] { ((*self).*take)(*shared); });
+    if (!posted) self->caller_.done(Draining());
+  });
+}
+
+// The last attempt begins the log that counts.
+void SeriesReader::FindAttempt() {
+  ReadEvents({request_.name(), position_, KindBit(v1::Event::kAttemptStarted), kPageBytes},
+             &SeriesReader::TakeAttempts);
+}
+
+void SeriesReader::TakeAttempts(const Page& page) {
+  if (!page.ok()) return caller_.done(ToError(page.status(), request_.name()));
+  if (!page->events.empty()) low_ = page->events.back().sequence;
+  position_ = page->position;
+  if (position_ < last_) return FindAttempt();
+  high_ = request_.has_start_time_s() ? last_ : low_;
+  Halve();
+}
+
+void SeriesReader::Halve() {
+  if (high_ <= low_ + 1) {
+    position_ = low_;
+    return ReadPage();
+  }
+  probe_ = position_ = low_ + (high_ - low_) / 2;
+  ReadEvents({request_.name(), position_, KindBit(v1::Event::kFrameChunk), 1},
+             &SeriesReader::TakeProbe);
+}
+
+void SeriesReader::TakeProbe(const Page& page) {
+  if (!page.ok()) return caller_.done(ToError(page.status(), request_.name()));
+  position_ = page->position;
+  if (page->events.empty() && position_ < high_) {
+    return ReadEvents({request_.name(), position_, KindBit(v1::Event::kFrameChunk), 1},
+                      &SeriesReader::TakeProbe);
+  }
+  if (page->events.empty() || page->events.front().sequence > high_) {
+    high_ = probe_;
+    return Halve();
+  }
+  const StoredEvent& stored = page->events.front();
+  v1::Event event;
+  if (!stored.Parse(&event) || !builder_->Fits(event.frame_chunk())) {
+    return caller_.done(Damaged(request_.name()));
+  }
+  const v1::FrameChunk& chunk = event.frame_chunk();
+  if (chunk.samples() > 0 && ValueAt(chunk.columns(0), chunk.samples() - 1) < start_time_) {
+    low_ = stored.sequence;
+  } else {
+    high_ = probe_;
+  }
+  Halve();
 }
 
 void SeriesReader::ReadPage() {
   constexpr std::uint32_t kKinds =
       (1U << v1::Event::kAttemptStarted) | (1U << v1::Event::kFrameChunk);
-  store_.ReadEvents({request_.name(), position_, kKinds, kPageBytes},
-                    [self = shared_from_this()](absl::StatusOr<EventPage> page) {
-                      const auto shared =
-                          std::make_shared<absl::StatusOr<EventPage>>(std::move(page));
-                      if (!self->executor_.Post([self, shared] { self->Take(*shared); }))
-                        self->done_(Draining());
-                    });
+  ReadEvents({request_.name(), position_, kKinds, kPageBytes}, &SeriesReader::Take);
 }
 
-void SeriesReader::Take(const absl::StatusOr<EventPage>& page) {
-  if (!page.ok()) return done_(ToError(page.status(), request_.name()));
+void SeriesReader::Take(const Page& page) {
+  if (caller_.abandoned && caller_.abandoned()) return caller_.done(TooLate());
+  if (!page.ok()) return caller_.done(ToError(page.status(), request_.name()));
   for (const StoredEvent& event : page->events) {
-    if (!Take(event)) return done_(Damaged(request_.name()));
+    if (!Take(event)) return caller_.done(Damaged(request_.name()));
+    if (past_end_) break;
   }
   position_ = page->position;
-  if (position_ < last_) return ReadPage();
+  if (position_ < last_ && !past_end_) return ReadPage();
   Result<v1::Series> series = builder_->Finish();
   if (series.ok()) series.value().set_name(request_.name());
-  done_(std::move(series));
+  caller_.done(std::move(series));
 }
 
 bool SeriesReader::Take(const StoredEvent& stored) {
   v1::Event event;
-  if (!stored.intact || !event.ParseFromString(stored.payload)) return false;
+  if (!stored.Parse(&event)) return false;
   if (event.has_attempt_started()) builder_->Restart();
-  return !event.has_frame_chunk() || builder_->Add(event.frame_chunk());
+  if (!event.has_frame_chunk()) return true;
+  if (!builder_->Add(event.frame_chunk())) return false;
+  // Without a time range a later attempt may follow, whose times begin anew.
+  past_end_ = low_ > 0 && builder_->IsPast(event.frame_chunk());
+  return true;
 }
 
 }  // namespace contact

@@ -22,8 +22,12 @@ class SeriesBuilder {
 
   /// Forgets the chunks so far: another attempt begins.
   void Restart();
-  /// False: the chunk is not one of this trajectory.
+  /// True if the chunk is one of this trajectory.
+  bool Fits(const v1::FrameChunk& chunk) const;
+  /// False: it is not.
   bool Add(const v1::FrameChunk& chunk);
+  /// True if the time range ends before the chunk.
+  bool IsPast(const v1::FrameChunk& chunk) const;
   /// SERIES_TOO_LARGE.
   Result<v1::Series> Finish() const;
 
@@ -39,30 +43,51 @@ class SeriesBuilder {
 
 /// Reads recorded motion from the log of a job, page by page. Waits for nothing: between the pages
 /// other work of the executor has its turn. Owns itself until `done` is called.
+///
+/// Of a time range only the chunks in it are read: times grow along the log of an attempt, so the
+/// place where the range begins is found by halving.
 class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
  public:
-  using Done = std::function<void(Result<v1::Series>)>;
+  /// Who waits for the answer.
+  struct Caller {
+    std::function<void(Result<v1::Series>)> done;
+    std::function<bool()> abandoned;  ///< Nobody does any more; may be empty.
+  };
 
   /// Store and executor outlive the reading.
   static void Read(Store& store, Executor& executor, const ScenarioLimits& limits,
-                   const v1::GetSeriesRequest& request, Done done);
+                   const v1::GetSeriesRequest& request, Caller caller);
 
  private:
   SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
-               v1::GetSeriesRequest request, Done done);
+               v1::GetSeriesRequest request, Caller caller);
+  using Page = absl::StatusOr<EventPage>;
+
   void Open(const absl::StatusOr<StoredJob>& stored);
+  void ReadEvents(EventQuery query, void (SeriesReader::*take)(const Page&));
   void ReadPage();
-  void Take(const absl::StatusOr<EventPage>& page);
+  void Take(const Page& page);
   bool Take(const StoredEvent& stored);
+
+  void FindAttempt();
+  void TakeAttempts(const Page& page);
+  void Halve();
+  void TakeProbe(const Page& page);
 
   Store& store_;
   Executor& executor_;
   const ScenarioLimits limits_;
   const v1::GetSeriesRequest request_;
-  const Done done_;
+  const Caller caller_;
   std::optional<SeriesBuilder> builder_;
   std::uint64_t position_ = 0;
   std::uint64_t last_ = 0;  ///< What comes after it while we read is left to the next call.
+  bool past_end_ = false;   ///< A chunk began after the time range.
+
+  double start_time_ = 0;    ///< Of the time range, where it begins:
+  std::uint64_t low_ = 0;    ///< after this,
+  std::uint64_t high_ = 0;   ///< and chunks after this are not before it.
+  std::uint64_t probe_ = 0;  ///< Between the two.
 };
 
 }  // namespace contact

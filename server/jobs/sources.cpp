@@ -11,6 +11,9 @@ class RealClock final : public Clock {
   std::chrono::system_clock::time_point Now() const override {
     return std::chrono::system_clock::now();
   }
+  std::chrono::steady_clock::time_point Elapsed() const override {
+    return std::chrono::steady_clock::now();
+  }
 };
 
 // 10 characters of Crockford's base32, 50 random bits: never the same twice in practice, and easy

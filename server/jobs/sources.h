@@ -5,11 +5,14 @@
 
 namespace contact {
 
-/// Wall clock and identifiers, injected so that tests decide both.
+/// Clocks and identifiers, injected so that tests decide both.
 class Clock {
  public:
   virtual ~Clock() = default;
+  /// What time it is. May jump; only for people to read.
   virtual std::chrono::system_clock::time_point Now() const = 0;
+  /// For durations: never jumps.
+  virtual std::chrono::steady_clock::time_point Elapsed() const = 0;
 };
 
 class IdSource {

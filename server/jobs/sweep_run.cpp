@@ -2,17 +2,15 @@
 
 #include <utility>
 
-#include "jobs/cell_solver.h"
-
 namespace contact {
 
 SweepRun::SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done,
-                   const JobManagerOptions& options, std::stop_token stop, Sink sink)
+                   const JobManagerOptions& options, std::shared_ptr<RunControl> control, Sink sink)
     : sweep_(std::move(sweep)),
       plan_(std::move(plan)),
       done_(std::move(done)),
       options_(options),
-      stop_(std::move(stop)),
+      control_(std::move(control)),
       sink_(std::move(sink)) {
   const MutexLock lock(mutex_);
   SkipDone();
@@ -27,9 +25,7 @@ bool SweepRun::HasWork() const {
   return HasWorkLocked();
 }
 
-bool SweepRun::HasWorkLocked() const {
-  return next_ < plan_.axes.cells() && !stop_.stop_requested();
-}
+bool SweepRun::HasWorkLocked() const { return next_ < plan_.axes.cells() && !control_->stopping(); }
 
 std::optional<std::int32_t> SweepRun::Claim() {
   const MutexLock lock(mutex_);
@@ -52,7 +48,7 @@ bool SweepRun::Work(std::chrono::milliseconds slice) {
   if (!index) return false;
   CellSolver solver(sweep_, plan_, options_);
   while (index) {
-    auto cell = solver.Solve(*index, stop_, sink_.pulse);
+    auto cell = solver.Solve(*index, *control_, sink_.pulse);
     if (cell) sink_.store(*std::move(cell));
     Release();
     if (std::chrono::steady_clock::now() >= end) break;

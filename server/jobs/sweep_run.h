@@ -4,13 +4,14 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
-#include "contact/v1/event.pb.h"
 #include "contact/v1/scenario.pb.h"
+#include "jobs/cell_solver.h"
 #include "jobs/job_manager.h"
+#include "jobs/run_control.h"
 #include "storage/mutex.h"
 #include "wire/sweep_codec.h"
 
@@ -21,14 +22,16 @@ class SweepRun {
  public:
   /// Both are called by the threads that compute, several at a time.
   struct Sink {
-    std::function<void(v1::SweepCell)> store;  ///< Of each cell, as it is finished.
-    std::function<void()> pulse;               ///< Now and then while a cell is computed.
+    std::function<void(SolvedCell)> store;  ///< Of each cell, as it is finished.
+    std::function<void()> pulse;            ///< Now and then while a cell is computed.
   };
 
   /// Cells for which `done` is true have been computed before. `options` outlives the run, the sink
   /// what was begun.
   SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done,
-           const JobManagerOptions& options, std::stop_token stop, Sink sink);
+           const JobManagerOptions& options, std::shared_ptr<RunControl> control, Sink sink);
+
+  const std::shared_ptr<RunControl>& control() const { return control_; }
 
   /// True while there is a cell that nobody has begun.
   bool HasWork() const;
@@ -47,7 +50,7 @@ class SweepRun {
   const DecodedSweep plan_;
   const std::vector<bool> done_;
   const JobManagerOptions& options_;
-  const std::stop_token stop_;
+  const std::shared_ptr<RunControl> control_;
   const Sink sink_;
 
   mutable Mutex mutex_;

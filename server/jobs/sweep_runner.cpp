@@ -43,11 +43,11 @@ Move SweepRunner::Run(const v1::Sweep& sweep) {
     progress_.set_cells(cells);
     Publish();
   }
-  const SweepRun::Sink sink{[this](v1::SweepCell cell) { StoreCell(std::move(cell)); },
+  const SweepRun::Sink sink{[this](SolvedCell solved) { StoreCell(std::move(solved)); },
                             [this] { Pulse(); }};
   const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), options_,
-                                              assignment_.stop.get_token(), sink);
-  assignment_.offer(run);
+                                              assignment_.control, sink);
+  if (const RunControl::Report report(*assignment_.control); report) assignment_.offer(run);
   while (run->Work(kSlice)) {
   }
   while (!run->AwaitIdle(kPulseTime)) Pulse();
@@ -56,6 +56,8 @@ Move SweepRunner::Run(const v1::Sweep& sweep) {
 
 // What is stored already. A damaged cell is computed again.
 bool SweepRunner::ReadDone(std::vector<bool>* done) {
+  const RunControl::Report report(*assignment_.control);
+  if (!report) return false;
   const MutexLock lock(mutex_);
   const std::uint64_t last = assignment_.job.last_sequence();
   for (std::uint64_t position = 0; position < last;) {
@@ -64,31 +66,39 @@ bool SweepRunner::ReadDone(std::vector<bool>* done) {
     position = page->position;
     for (const StoredEvent& stored : page->events) {
       v1::Event event;
-      if (!stored.intact || !event.ParseFromString(stored.payload)) continue;
+      if (!stored.Parse(&event)) continue;
       const auto index = static_cast<std::size_t>(event.sweep_cell().index());
       if (index >= done->size() || (*done)[index]) continue;
       (*done)[index] = true;
-      Count(event.sweep_cell());
+      Count(event.sweep_cell().state(), event.sweep_cell().convergence());
     }
   }
   return true;
 }
 
-void SweepRunner::Count(const v1::SweepCell& cell) {
+void SweepRunner::Count(v1::Job::State state, v1::Job::Convergence convergence) {
   progress_.set_cells_done(progress_.cells_done() + 1);
-  if (cell.state() == v1::Job::FAILED) {
+  if (state == v1::Job::FAILED) {
     progress_.set_cells_failed(progress_.cells_failed() + 1);
-  } else if (cell.convergence() != v1::Job::FULL) {
+  } else if (convergence != v1::Job::FULL) {
     progress_.set_cells_not_converged(progress_.cells_not_converged() + 1);
   }
 }
 
-void SweepRunner::StoreCell(v1::SweepCell cell) {
+// What was kept of the cell stands before it in the log, and nothing between.
+void SweepRunner::StoreCell(SolvedCell solved) {
+  const v1::Job::State state = solved.cell.state();
+  const v1::Job::Convergence convergence = solved.cell.convergence();
   v1::Event event = EventAt(clock_.Now());
-  *event.mutable_sweep_cell() = std::move(cell);
+  *event.mutable_sweep_cell() = std::move(solved.cell);
   const MutexLock lock(mutex_);
-  Count(event.sweep_cell());
-  writer_.Add(std::move(event));
+  for (v1::FrameChunk& chunk : solved.trajectory) {
+    v1::Event frame = EventAt(clock_.Now());
+    *frame.mutable_frame_chunk() = std::move(chunk);
+    if (!writer_.Add(std::move(frame))) return;
+  }
+  if (!writer_.Add(std::move(event))) return;
+  Count(state, convergence);
   const auto now = std::chrono::steady_clock::now();
   if (now - last_progress_ < kProgressTime) return;
   last_progress_ = now;

@@ -23,8 +23,9 @@ class SweepRunner {
 
  private:
   bool ReadDone(std::vector<bool>* done);
-  void Count(const v1::SweepCell& cell) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void StoreCell(v1::SweepCell cell);
+  void Count(v1::Job::State state, v1::Job::Convergence convergence)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void StoreCell(SolvedCell solved);
   void Pulse();
   void Publish() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Move Conclude();

@@ -9,12 +9,13 @@ namespace contact {
 namespace {
 
 // The reader learns in place of a damaged event that there was one.
-void ReportDamage(const std::string& name, std::uint64_t sequence, v1::Event* event) {
-  spdlog::error("{}: event {} fails its checksum", name, sequence);
-  event->Clear();
-  event->mutable_log_entry()->set_severity(v1::LogEntry::WARNING);
-  event->mutable_log_entry()->set_message(
+LogRecord ReportDamage(const std::string& name, std::uint64_t sequence) {
+  spdlog::error("job={} event={} fails its checksum", name, sequence);
+  v1::Event event;
+  event.mutable_log_entry()->set_severity(v1::LogEntry::WARNING);
+  event.mutable_log_entry()->set_message(
       fmt::format("event {} is damaged in the store and lost", sequence));
+  return ToRecord(sequence, std::move(event));
 }
 
 }  // namespace
@@ -41,13 +42,15 @@ LogCursor::Next TailCursor::Read(std::size_t max_bytes, Events* out) {
       if (const auto next = ReadFetched(out)) return *next;
     }
     // Asked anew each time: what was in memory a moment ago may be in the store only by now.
-    const JobLog::Tail tail = log_->After({position_, kinds_, max_bytes}, &progress_seen_, waker_);
+    JobLog::Tail tail = log_->After({position_, kinds_, max_bytes}, &progress_seen_, waker_);
     position_ = tail.position;
+    if (tail.found != JobLog::Tail::Found::kOlder) lag_ = 0;
     switch (tail.found) {
       case JobLog::Tail::Found::kEvents:
-        for (const auto& event : tail.events) *out->Add() = *event;
+        for (LogRecord& event : tail.events) out->push_back(std::move(event));
         return Next::kEvents;
       case JobLog::Tail::Found::kNothing:
+        live_ = true;
         return Next::kWait;
       case JobLog::Tail::Found::kEnd:
         return Next::kEnd;
@@ -86,12 +89,15 @@ std::optional<LogCursor::Next> TailCursor::ReadFetched(Events* out) {
   if (absl::IsNotFound(page->status())) return Next::kDeleted;
   if (!page->ok()) return Next::kFailed;
   position_ = (*page)->position;
-  for (const StoredEvent& stored : (*page)->events) {
-    v1::Event* const event = out->Add();
-    if (!stored.intact || !event->ParseFromString(stored.payload)) {
-      ReportDamage(name_, stored.sequence, event);
+  for (StoredEvent& stored : (*page)->events) {
+    std::string payload;
+    if (!stored.TakePayload(&payload)) {
+      out->push_back(ReportDamage(name_, stored.sequence));
+      continue;
     }
-    event->set_sequence(stored.sequence);
+    lag_ += payload.size();
+    out->push_back({stored.sequence, stored.kind,
+                    std::make_shared<const std::string>(std::move(payload))});
   }
   if ((*page)->events.empty()) return std::nullopt;
   return Next::kEvents;

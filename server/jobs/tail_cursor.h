@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "jobs/job_log.h"
 #include "jobs/log_cursor.h"
@@ -22,11 +23,16 @@ class TailCursor final : public LogCursor {
   TailCursor(const TailCursor&) = delete;
   TailCursor& operator=(const TailCursor&) = delete;
 
-  Next Read(std::size_t max_bytes, google::protobuf::RepeatedPtrField<v1::Event>* out) override;
+  Next Read(std::size_t max_bytes, std::vector<LogRecord>* out) override;
   std::uint64_t position() const override { return position_; }
 
+  /// True if the reader once had read all there was, lost what follows from memory, and has not
+  /// caught up within the next few MiB.
+  bool behind() const { return live_ && lag_ > kMostLag; }
+
  private:
-  using Events = google::protobuf::RepeatedPtrField<v1::Event>;
+  using Events = std::vector<LogRecord>;
+  static constexpr std::size_t kMostLag = 4 << 20;
 
   /// A page on its way from the store; the store's thread puts it here.
   struct Fetch {
@@ -46,6 +52,8 @@ class TailCursor final : public LogCursor {
 
   std::uint64_t position_;
   std::uint64_t progress_seen_ = 0;
+  bool live_ = false;             ///< Has once read all there was.
+  std::size_t lag_ = 0;           ///< Bytes read from the store since it was last in memory.
   std::shared_ptr<Fetch> fetch_;  ///< None while none is under way.
 };
 

@@ -4,7 +4,9 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <map>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
 namespace contact {
@@ -22,7 +24,6 @@ class LineBudget {
 
   Verdict Take() {
     const auto second = std::chrono::floor<std::chrono::seconds>(std::chrono::steady_clock::now());
-    const std::lock_guard lock(mutex_);
     int left_out = 0;
     if (second != second_) {
       second_ = second;
@@ -35,7 +36,6 @@ class LineBudget {
   }
 
  private:
-  std::mutex mutex_;
   std::chrono::time_point<std::chrono::steady_clock, std::chrono::seconds> second_;
   int lines_ = 0;
   int left_out_ = 0;
@@ -53,9 +53,18 @@ spdlog::level::level_enum Level(gpr_log_severity severity) {
   return spdlog::level::warn;  // What is an error to gRPC is a bad peer to us.
 }
 
+// A place in gRPC's source. Each has its budget, so that a loud one does not drown the others.
+using Site = std::pair<std::string_view, int>;
+
+LineBudget::Verdict TakeOf(const Site& site) {
+  static std::mutex mutex;
+  static std::map<Site, LineBudget> budgets;
+  const std::lock_guard lock(mutex);
+  return budgets[site].Take();
+}
+
 void Log(gpr_log_func_args* line) {
-  static LineBudget budget;
-  const auto verdict = budget.Take();
+  const auto verdict = TakeOf({line->file, line->line});
   if (verdict.left_out > 0) spdlog::warn("gRPC: {} lines left out", verdict.left_out);
   if (verdict.write) spdlog::log(Level(line->severity), "gRPC: {}", line->message);
 }

@@ -3,15 +3,24 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/impl/server_builder_option.h>
+#include <grpcpp/resource_quota.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
+#include <cstring>
 #include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "rpc/call_monitor.h"
+#include "rpc/file_descriptor.h"
+#include "rpc/tcp_listener.h"
 
 namespace contact {
 namespace {
@@ -29,7 +38,12 @@ class NoReflection final : public grpc::ServerBuilderOption {
   }
 };
 
+constexpr int kMaxGrpcThreads = 32;
+
 void Configure(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
+  builder->SetResourceQuota(grpc::ResourceQuota("contactd")
+                                .Resize(static_cast<std::size_t>(options.max_memory_bytes))
+                                .SetMaxThreads(kMaxGrpcThreads));
   builder->SetMaxReceiveMessageSize(options.max_message_bytes);
   // A few compressed bytes must not become hundreds of megabytes.
   builder->SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
@@ -37,14 +51,18 @@ void Configure(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
   // Two servers on one port would share its connections without a word.
   builder->AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 1000);
-  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, 8192);
-  builder->AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 5'000);
-  // Idle watches are probed; a client that is busy may take seconds to answer a ping.
+  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, options.calls.max_metadata_bytes);
+  builder->AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS,
+                              static_cast<int>(options.handshake_timeout.count()));
+  // Idle watches are probed. A client of gRPC's synchronous kind answers pings only every 5 s
+  // while it is busy, so 10 s would be near, and 20 s is not.
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 10'000);
+  builder->AddChannelArgument(GRPC_ARG_HTTP2_MAX_PING_STRIKES, 2);
+  // No largest age: it would cut every long watch, and there is no balancer to please.
   builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, 300'000);
   if (!options.reflection) builder->SetOption(std::make_unique<NoReflection>());
 }
@@ -78,18 +96,44 @@ class Watchdog {
   std::thread thread_;
 };
 
-v1::ServerInfo WithMessageLimit(v1::ServerInfo identity, const GrpcServerOptions& options) {
-  identity.mutable_limits()->set_max_message_bytes(options.max_message_bytes);
+constexpr char kUnix[] = "unix:";
+
+// gRPC would take a socket file away from the server that listens on it.
+bool IsServed(const std::string& path) {
+  const FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_un address = {};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof(address.sun_path)) return false;  // gRPC will say so.
+  std::memcpy(address.sun_path, path.data(), path.size());
+  return connect(socket.get(), reinterpret_cast<sockaddr*>(&address), sizeof(address)) == 0;
+}
+
+GrpcServerOptions Fitted(GrpcServerOptions options) {
+  options.connections = FitToDescriptors(options.connections);
+  return options;
+}
+
+v1::ServerInfo WithLimits(v1::ServerInfo identity, const GrpcServerOptions& options) {
+  v1::ServerLimits& limits = *identity.mutable_limits();
+  limits.set_max_message_bytes(options.max_message_bytes);
+  limits.set_max_watchers_per_peer(options.calls.max_watchers_per_peer);
+  limits.set_max_creates_per_second(options.calls.max_creates_per_second);
+  limits.set_max_create_burst(options.calls.max_create_burst);
+  limits.set_max_metadata_bytes(options.calls.max_metadata_bytes);
+  limits.set_max_connections(options.connections.in_all);
+  limits.set_max_connections_per_peer(options.connections.per_peer);
   return identity;
 }
 
 }  // namespace
 
 GrpcServer::GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity)
-    : options_(options),
+    : options_(Fitted(options)),
       watches_(std::make_shared<WatchLoop>(std::clamp(options.write_stall / 4, 10ms, 500ms))),
-      service_(jobs, watches_, WithMessageLimit(std::move(identity), options),
-               options.write_stall) {}
+      guard_(options_.calls, streams_, metrics_),
+      service_(jobs, watches_, guard_, WithLimits(std::move(identity), options_),
+               options.write_stall),
+      admin_(jobs, options.write_stall) {}
 
 GrpcServer::~GrpcServer() { Shutdown(1s); }
 
@@ -97,13 +141,49 @@ std::optional<int> GrpcServer::Start(const std::string& address) {
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
-  int port = 0;
-  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
   builder.RegisterService(&service_);
+  builder.RegisterService(&admin_);
   Configure(options_, &builder);
-  server_ = builder.BuildAndStart();
-  if (!server_ || port == 0) return std::nullopt;
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> monitors;
+  monitors.push_back(std::make_unique<CallMonitor>(metrics_, streams_));
+  builder.experimental().SetInterceptorCreators(std::move(monitors));
+  const auto port = address.starts_with(kUnix) ? ListenOnFile(address, builder)
+                                               : ListenOnNetwork(address, builder);
+  if (!port) return std::nullopt;
   server_->GetHealthCheckService()->SetServingStatus("contact.v1.JobService", true);
+  return port;
+}
+
+std::optional<int> GrpcServer::ListenOnFile(const std::string& address,
+                                            grpc::ServerBuilder& builder) {
+  const std::string path = address.substr(sizeof(kUnix) - 1);
+  if (IsServed(path)) return std::nullopt;
+  int listening = 0;
+  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &listening);
+  server_ = builder.BuildAndStart();
+  if (!server_ || listening == 0) return std::nullopt;
+  chmod(path.c_str(), 0660);
+  return 0;
+}
+
+std::optional<int> GrpcServer::ListenOnNetwork(const std::string& address,
+                                               grpc::ServerBuilder& builder) {
+  TcpListener listener = OpenTcpListener(address);
+  if (listener.sockets.empty()) return std::nullopt;
+  const int port = listener.port;
+  using Experimental = grpc::ServerBuilder::experimental_type;
+  const std::shared_ptr<grpc::experimental::ExternalConnectionAcceptor> grpc =
+      builder.experimental().AddExternalConnectionAcceptor(
+          Experimental::ExternalConnectionType::FROM_FD, grpc::InsecureServerCredentials());
+  server_ = builder.BuildAndStart();
+  if (!server_) return std::nullopt;
+  acceptor_ = std::make_unique<ConnectionAcceptor>(
+      std::move(listener), options_.connections, [grpc](int socket, int fd) {
+        grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
+        connection.listener_fd = socket;
+        connection.fd = fd;
+        grpc->HandleNewConnection(&connection);
+      });
   return port;
 }
 
@@ -114,6 +194,7 @@ void GrpcServer::Drain() {
 
 void GrpcServer::Shutdown(milliseconds grace) {
   Drain();
+  acceptor_.reset();
   if (server_) {
     const Watchdog watchdog(grace + 2s);
     server_->Shutdown(std::chrono::system_clock::now() + grace);

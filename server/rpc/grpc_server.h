@@ -4,20 +4,29 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "jobs/job_manager.h"
+#include "rpc/admin_service.h"
+#include "rpc/call_guard.h"
+#include "rpc/connection_acceptor.h"
 #include "rpc/job_service.h"
 #include "rpc/watch_loop.h"
 
 namespace contact {
 
 struct GrpcServerOptions {
-  int max_message_bytes = 8 << 20;  ///< Of one request.
-  std::chrono::milliseconds write_stall{
-      30'000};             ///< A watcher that takes nothing for so long is dropped.
+  int max_message_bytes = 8 << 20;   ///< Of one request.
+  int max_memory_bytes = 512 << 20;  ///< Of all connections and messages; past it gRPC cuts some.
+  ConnectionLimits connections = {};
+  CallLimits calls = {};
+  /// A connection that has not begun to speak HTTP/2 by then is closed.
+  std::chrono::milliseconds handshake_timeout{5'000};
+  /// A reader of a stream that takes nothing for so long is dropped.
+  std::chrono::milliseconds write_stall{30'000};
   bool reflection = true;  ///< Answer which services and messages there are.
 };
 
@@ -34,7 +43,8 @@ class GrpcServer {
   GrpcServer& operator=(const GrpcServer&) = delete;
 
   /// Listens on `HOST:PORT`, port 0 being any free one, and serves. Returns the port; nothing if
-  /// the address cannot be had. Another server on the same port is such a case.
+  /// the address cannot be had. Another server on the same port is such a case. `unix:PATH` is a
+  /// socket file that its owner and group may use; its port is 0.
   std::optional<int> Start(const std::string& address);
 
   /// Health turns NOT_SERVING; watches, also those to come, end with SERVER_DRAINING.
@@ -47,11 +57,26 @@ class GrpcServer {
   /// WatchJob calls that are open.
   std::size_t watchers() const { return watches_->watchers(); }
 
+  /// Connections that are open, and those that were past a limit. Of a socket file: none.
+  std::size_t connections() const { return acceptor_ ? acceptor_->open() : 0; }
+  std::int64_t refused_connections() const { return acceptor_ ? acceptor_->refused() : 0; }
+
+  /// What calls have come to.
+  std::shared_ptr<const RpcMetrics> metrics() const { return metrics_; }
+
  private:
+  std::optional<int> ListenOnFile(const std::string& address, grpc::ServerBuilder& builder);
+  std::optional<int> ListenOnNetwork(const std::string& address, grpc::ServerBuilder& builder);
+
   const GrpcServerOptions options_;
   const std::shared_ptr<WatchLoop> watches_;
+  const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
+  const std::shared_ptr<RpcMetrics> metrics_ = std::make_shared<RpcMetrics>();
+  CallGuard guard_;
   JobService service_;
+  AdminService admin_;
   std::unique_ptr<grpc::Server> server_;
+  std::unique_ptr<ConnectionAcceptor> acceptor_;  // Hands connections to server_.
 };
 
 }  // namespace contact

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "rpc/watch_reactor.h"
-
 namespace contact {
 
 using std::chrono::steady_clock;
 
 WatchLoop::WatchLoop(std::chrono::milliseconds tick) : tick_(tick), thread_([this] { Run(); }) {}
 
-void WatchLoop::Add(const std::shared_ptr<WatchReactor>& watcher) {
+void WatchLoop::Add(const std::shared_ptr<Stream>& watcher) {
   bool draining = false;
   {
     const std::lock_guard lock(mutex_);
@@ -21,7 +19,7 @@ void WatchLoop::Add(const std::shared_ptr<WatchReactor>& watcher) {
   if (draining) watcher->Drain();
 }
 
-void WatchLoop::Wake(const std::weak_ptr<WatchReactor>& watcher) {
+void WatchLoop::Wake(const std::weak_ptr<Stream>& watcher) {
   const std::lock_guard lock(mutex_);
   woken_.insert(watcher);
   changed_.notify_one();
@@ -50,8 +48,8 @@ std::size_t WatchLoop::watchers() const {
       std::ranges::count_if(watchers_, [](const auto& watcher) { return !watcher.expired(); }));
 }
 
-std::vector<std::shared_ptr<WatchReactor>> WatchLoop::Alive() {
-  std::vector<std::shared_ptr<WatchReactor>> alive;
+std::vector<std::shared_ptr<Stream>> WatchLoop::Alive() {
+  std::vector<std::shared_ptr<Stream>> alive;
   const std::lock_guard lock(mutex_);
   std::erase_if(watchers_, [&alive](const auto& watcher) {
     if (auto strong = watcher.lock())

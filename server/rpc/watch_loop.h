@@ -11,9 +11,16 @@
 
 namespace contact {
 
-class WatchReactor;
+/// A stream as the loop sees it.
+class Stream {
+ public:
+  virtual ~Stream() = default;
+  virtual void Poke() = 0;
+  virtual void Drain() = 0;
+  virtual void Tick(std::chrono::steady_clock::time_point now) = 0;
+};
 
-/// The one thread that steps all watchers from outside gRPC: when their log has grown, when a
+/// The one thread that steps all streams from outside gRPC: when their source has grown, when a
 /// bookmark is due, when a write has stalled. Thread-safe.
 class WatchLoop {
  public:
@@ -21,11 +28,11 @@ class WatchLoop {
   explicit WatchLoop(std::chrono::milliseconds tick);
 
   /// From now on the watcher is ticked, until it is destroyed, and drained with the others.
-  void Add(const std::shared_ptr<WatchReactor>& watcher);
+  void Add(const std::shared_ptr<Stream>& watcher);
 
   /// Pokes the watcher soon. Takes a short lock only, so it may be called under other locks;
   /// taking a weak pointer, it never destroys a watcher there.
-  void Wake(const std::weak_ptr<WatchReactor>& watcher);
+  void Wake(const std::weak_ptr<Stream>& watcher);
 
   /// Drains every watcher, now and to come.
   void Drain();
@@ -37,10 +44,10 @@ class WatchLoop {
   std::size_t watchers() const;
 
  private:
-  using Watchers = std::set<std::weak_ptr<WatchReactor>, std::owner_less<>>;
+  using Watchers = std::set<std::weak_ptr<Stream>, std::owner_less<>>;
 
   void Run();
-  std::vector<std::shared_ptr<WatchReactor>> Alive();
+  std::vector<std::shared_ptr<Stream>> Alive();
 
   const std::chrono::milliseconds tick_;
   mutable std::mutex mutex_;

@@ -1,6 +1,5 @@
 #include "simulation/episode.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,29 +9,16 @@ namespace {
 
 constexpr double kForever = 1e300;
 constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
-constexpr std::int64_t kStepsPerPass = 20'000;
-constexpr int kPatience = 12;                 // Corrections without a better pass.
-constexpr double kCoarse = 1e-7;              // Relative tolerance of the first passes, and
-constexpr double kCoarseError = 1e-4;         // the residual that it may feign.
-constexpr double kLeast = 1e-8, kMost = 1e8;  // Of the first guess.
+constexpr std::int64_t kStepsPerPass = 5'000;
+constexpr int kPatience = 12;          // Corrections without a better pass.
+constexpr double kCoarse = 1e-6;       // Relative tolerance of the first passes, and
+constexpr double kCoarseError = 1e-4;  // the residual that it may feign.
+constexpr int kFirstWindow = 12;       // Cycles in the first passes,
+constexpr double kNear = 0.02;         // half as many more where the merit is below this.
+constexpr double kWeak = 1e-5;         // W_c of a contact's largest.
+constexpr double kLeastGoal = 1e-6;    // A(ε_in) to which residuals are relative.
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
-// A(ε), the coefficient of the isolated collision with that restitution, is the coordinate in
-// which the problem is solved: for a collision without external forces μ ↦ A(ε_out) is a straight
-// line, and Newton is at its root in one step. ε is kept from 0, where A is infinite.
-double Coordinate(double squared, double restitution_in) {
-  return ExactCoefficient(std::max(std::sqrt(std::max(squared, 0.0)), 0.05 * restitution_in));
-}
-
-// dA/d(ε²).
-double CoordinateSlope(double squared, double restitution_in) {
-  const double e = std::max(std::sqrt(std::max(squared, 0.0)), 0.05 * restitution_in);
-  const double a = ExactCoefficient(e);
-  const double denominator = (1 - a * e) - e * e * (1 + a);
-  const double slope = std::abs(1 - e) < 1e-5 ? -1.5 : a * e * (1 + a) / denominator;
-  return slope / (2 * e);
-}
 
 }  // namespace
 
@@ -47,13 +33,14 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       warned_(scenario.contacts.size()),
       missed_(static_cast<std::size_t>(DampingLaw::kGiven)) {}
 
-Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::stop_token& stop,
-                                   std::int64_t step_limit) {
+void EpisodeSolver::Begin(const State& start, int episode, double until) {
   unknowns_.clear();
+  factors_are_of_.clear();
   recording_ = false;
   episode_ = episode;
-  iterations_ = 0;
+  iterations_ = best_number_ = 0;
   start_time_ = start.time;
+  until_ = until;
   damping_ = 1;
   best_merit_ = merit_ = std::numeric_limits<double>::infinity();
   const SolverOptions& options = scenario_.solver;
@@ -61,46 +48,101 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, const std::s
   const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
   tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
   sensitive_ = !as_paper_;
-  if (nothing_to_find_) return Motion::Pause::kQuiet;
-  int best_number = 0;
-  while (true) {
-    const Motion::Pause pause = Pass(start, stop, step_limit);
-    if (pause == Motion::Pause::kNumeric && iterations_ > 0) {  // The correction led astray.
-      for (Unknown& u : unknowns_) u.mu = u.best_mu;
-      return Motion::Pause::kQuiet;
-    }
-    if (pause != Motion::Pause::kQuiet && pause != Motion::Pause::kCrowded &&
-        pause != Motion::Pause::kTimeUp) {
-      return pause;
-    }
-    const bool done = Done();
-    if ((!Exact() && (done || Merit() < kCoarseError)) || (!done && !sensitive_ && !as_paper_)) {
-      tolerance_ = 0;  // The same once more, exactly and with sensitivities.
-      sensitive_ = true;
-      continue;
-    }
-    const double merit = Merit();
-    if (merit < best_merit_) {
-      best_merit_ = merit;
-      best_number = iterations_;
-      for (Unknown& u : unknowns_) u.best_mu = u.mu;
-    }
-    // Newton that finds nothing better has failed; the paper's rules may be slow.
-    const int patience = as_paper_ ? scenario_.solver.max_iterations : best_number + kPatience;
-    if (done || iterations_ >= std::min(scenario_.solver.max_iterations, patience)) {
-      for (Unknown& u : unknowns_) u.update = Iteration::Update::kNothing;
-      Report(iterations_, start.time, true);
-      if (!done) {
-        for (Unknown& u : unknowns_) u.mu = u.best_mu;
+  window_ = as_paper_ ? motion_.max_cycles() : kFirstWindow;
+  stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
+}
+
+Motion::Pause EpisodeSolver::Solve(const State& start, const std::stop_token& stop,
+                                   std::int64_t step_limit) {
+  while (stage_ != Stage::kSolved) {
+    if (stage_ == Stage::kSolving) {
+      const Motion::Pause pause = Pass(start, stop, step_limit);
+      if (pause == Motion::Pause::kNumeric && iterations_ > 0) {  // The correction led astray.
+        UseBest();
+        break;
       }
-      return Motion::Pause::kQuiet;
+      if (pause != Motion::Pause::kQuiet && pause != Motion::Pause::kCrowded &&
+          pause != Motion::Pause::kTimeUp) {
+        return pause;
+      }
+      crowded_ = pause == Motion::Pause::kCrowded && window_ < motion_.max_cycles();
+      closed_ = pause == Motion::Pause::kQuiet && motion_.time() < until_;
     }
-    as_paper_ ? CorrectAsPaper() : Correct();
-    Report(iterations_, start.time, false);
-    if (!as_paper_) PlanNextPass();
-    ++iterations_;
-    ++total_iterations_;
+    stage_ = Stage::kSolving;
+    NextPass();
+    if (stage_ == Stage::kExpected) break;
   }
+  return Motion::Pause::kQuiet;
+}
+
+bool EpisodeSolver::Accepts(Motion::Pause recorded) {
+  if (stage_ != Stage::kExpected) return true;
+  if (recorded == Motion::Pause::kStopped || recorded == Motion::Pause::kStepLimit) return true;
+  recording_ = false;
+  if (recorded == Motion::Pause::kNumeric) UseBest();
+  if (recorded != Motion::Pause::kQuiet || !Done()) return false;
+  Finish();
+  return true;
+}
+
+void EpisodeSolver::BeginRecording() {
+  recording_ = true;
+  accepted.clear();
+  if (stage_ == Stage::kExpected) ForgetPass();
+}
+
+// Looks at the pass that has been, and decides on the next.
+void EpisodeSolver::NextPass() {
+  if (crowded_ && Merit() < kNear) {
+    window_ = std::min(window_ + window_ / 2, motion_.max_cycles());
+    best_merit_ = merit_ = std::numeric_limits<double>::infinity();
+    return;
+  }
+  const bool done = Done();
+  if (!Exact() && (done || Merit() < kCoarseError)) {
+    // The same once more, exactly.
+    Factorize(LiveUnknowns());
+    PlanExactPass(done);
+    return;
+  }
+  if (!done && !sensitive_ && !as_paper_ && !FactorsServe()) {
+    tolerance_ = 0;  // The same once more, with sensitivities.
+    sensitive_ = true;
+    return;
+  }
+  KeepBest();
+  // Newton that finds nothing better has failed; the paper's rules may be slow.
+  const int most = scenario_.solver.max_iterations;
+  const int patience = as_paper_ ? most : best_number_ + kPatience;
+  if (done || iterations_ >= std::min(most, patience)) {
+    Finish();
+    if (!done) UseBest();
+    return;
+  }
+  as_paper_ ? CorrectAsPaper() : Correct();
+  Report(iterations_, start_time_, false);
+  if (!as_paper_) PlanNextPass();
+  ++iterations_;
+  ++total_iterations_;
+}
+
+void EpisodeSolver::KeepBest() {
+  const double merit = Merit();
+  if (merit >= best_merit_) return;
+  best_merit_ = merit;
+  best_number_ = iterations_;
+  for (Unknown& u : unknowns_) u.best_mu = u.mu;
+}
+
+void EpisodeSolver::UseBest() {
+  for (Unknown& u : unknowns_) u.mu = u.best_mu;
+  stage_ = Stage::kSolved;
+}
+
+void EpisodeSolver::Finish() {
+  for (Unknown& u : unknowns_) u.update = Iteration::Update::kNothing;
+  Report(iterations_, start_time_, true);
+  stage_ = Stage::kSolved;
 }
 
 bool EpisodeSolver::Done() const {
@@ -108,26 +150,25 @@ bool EpisodeSolver::Done() const {
                       [&](const Unknown& u) { return Live(u) && !Converged(u); });
 }
 
-// (N5): Newton squares the residual. A pass that is not the last but one need not be exact, and
-// one that is expected to be the last needs no sensitivities.
-void EpisodeSolver::PlanNextPass() {
-  const double wanted = scenario_.solver.restitution_tolerance;
-  const double next = merit_ * merit_;
-  const bool full = damping_ == 1;
-  sensitive_ = !(Exact() && full && next <= 0.1 * wanted);
-  if (!full || next * next <= 10 * wanted) tolerance_ = 0;
+void EpisodeSolver::ForgetPass() {
+  columns_ = 0;
+  reference_speed_ = 0;
+  for (Unknown& u : unknowns_) {
+    if (!u.seen && u.iterated) {  // A phantom; should it come back, it begins anew.
+      u.corrected = false;
+      u.low = u.high = 0;
+      u.shrinks = u.grows = 0;
+    }
+    u.seen = u.ended = false;
+    u.squared = u.residual = kNaN;
+    u.column = kNone;
+  }
 }
 
 Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& stop,
                                   std::int64_t step_limit) {
-  columns_ = 0;
-  reference_speed_ = 0;
-  for (Unknown& u : unknowns_) {
-    u.ended = false;
-    u.squared = kNaN;
-    u.column = kNone;
-  }
-  motion_.Begin(start, false, tolerance_);
+  ForgetPass();
+  motion_.Begin(start, false, tolerance_, window_);
   const std::int64_t limit = std::min(step_limit, motion_.steps() + kStepsPerPass);
   const Motion::Pause pause = motion_.Advance(kForever, *this, nullptr, stop, limit);
   // A contact at rest may never end its cycle; what has ended can still be solved.
@@ -151,7 +192,7 @@ double EpisodeSolver::SolvedUntil(double until) const {
   bool any = false;
   for (const Unknown& u : unknowns_) {
     any |= u.ended;
-    if (!u.ended) solved = std::min(solved, u.start_time);
+    if (u.seen && !u.ended) solved = std::min(solved, u.start_time);
   }
   return any && solved > start_time_ ? solved : until;
 }
@@ -167,14 +208,18 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
     Unknown made;
     made.contact = cycle.contact;
     made.number = cycle.number;
-    made.mu = made.start_mu = made.best_mu = StartFactor(state, effective_mass, external_force);
     made.iterated = contact.damping == DampingLaw::kEnergyRestitution && contact.restitution < 1;
     if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
+    if (made.iterated) made.goal = std::max(ExactCoefficient(contact.restitution), kLeastGoal);
     if (contact.damping != DampingLaw::kEnergyRestitution) {
       made.status = Cycle::Status::kGivenLaw;
     }
     unknowns_.push_back(made);
     u = &unknowns_.back();
+  }
+  u->seen = true;
+  if (!u->corrected) {  // The μ of its neighbours may tell more by now.
+    u->mu = u->start_mu = u->best_mu = StartFactor(state, effective_mass, external_force);
   }
   u->pass_mu = u->mu;
   u->start_time = cycle.start_time;
@@ -205,6 +250,9 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
   if (as_paper_) return PaperStartFactor(state, contact, own);
   if (own > 0) return alpha * contact.stiffness / own;
   if (state.last_mu > 0) return state.last_mu;
+  if (const double speed = NeighbourSpeed(contact); speed > 0) {
+    return alpha * contact.stiffness / speed;
+  }
   if (reference_speed_ > 0) return alpha * contact.stiffness / reference_speed_;
   // At rest under a load: the speed with which it swings through its equilibrium.
   const double depth =
@@ -212,6 +260,20 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
   const double stiffness = contact.stiffness * Power(depth, contact.exponent).slope;
   const double speed = depth * std::sqrt(stiffness / effective_mass);
   return speed > 0 ? alpha * contact.stiffness / speed : alpha * contact.stiffness;
+}
+
+// The approach velocity that an isolated collision with the μ of the cycle last begun by a
+// neighbour would have; 0 without such.
+double EpisodeSolver::NeighbourSpeed(const Contact& contact) const {
+  for (auto u = unknowns_.rbegin(); u != unknowns_.rend(); ++u) {
+    const Contact& other = scenario_.contacts[At(u->contact)];
+    const bool shares = (contact.left != kNone && contact.left == other.right) ||
+                        (contact.right != kNone && contact.right == other.left);
+    if (shares && u->seen && u->iterated && u->mu > 0 && u->number == 1) {
+      return u->goal * other.stiffness / u->mu;
+    }
+  }
+  return 0;
 }
 
 void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
@@ -238,8 +300,10 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
                           const Eigen::ArrayXd& restitution_gradient, double length, double speed) {
   Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  const bool weak =
-      cycle.work_compression <= scenario_.solver.settled_fraction * state.largest_work;
+  const SolverOptions& options = scenario_.solver;
+  const double fraction =
+      cycle.kind == Cycle::Kind::kNirv ? options.settled_nirv_fraction : options.settled_fraction;
+  const bool weak = cycle.work_compression <= fraction * state.largest_work;
   const bool rested = state.settled;
   state.settled = weak;
   Unknown* u = Find(cycle.contact, cycle.number);
@@ -251,8 +315,10 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
     }
     u->squared = -cycle.work_restitution / cycle.work_compression;
     u->frozen_slope = FrozenSlope(cycle);
+    if (u->iterated && std::isfinite(u->squared)) Measure(*u);
     u->gradient =
         -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
+    u->weak = cycle.work_compression <= kWeak * state.largest_work;
     if (weak && u->iterated) {
       u->iterated = false;
       u->status = Cycle::Status::kSettled;
@@ -308,88 +374,17 @@ bool EpisodeSolver::Live(const Unknown& u) const {
   return u.iterated && u.ended && std::isfinite(u.squared);
 }
 
-double EpisodeSolver::Residual(const Unknown& u) const {
-  return Coordinate(u.squared, u.restitution_in) /
-             std::max(ExactCoefficient(u.restitution_in), 1e-6) -
-         1;
-}
-
+// Weak cycles do not tell whether a correction was good: they come and go with it.
 double EpisodeSolver::Merit() const {
-  double merit = 0;
+  double merit = 0, weak = 0;
+  bool strong = false;
   for (const Unknown& u : unknowns_) {
-    if (Live(u)) merit = std::max(merit, std::abs(Residual(u)));
-  }
-  return merit;
-}
-
-// (N2): relative corrections of μ that bring every A(ε_out) to A(ε_in), to first order.
-Eigen::VectorXd EpisodeSolver::NewtonStep(const std::vector<Unknown*>& live) const {
-  const auto n = static_cast<Eigen::Index>(live.size());
-  Eigen::MatrixXd jacobian(n, n);
-  Eigen::VectorXd residual(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Unknown& u = *live[static_cast<std::size_t>(i)];
-    const double slope = CoordinateSlope(u.squared, u.restitution_in) /
-                         std::max(ExactCoefficient(u.restitution_in), 1e-6);
-    residual[i] = Residual(u);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const Unknown& other = *live[static_cast<std::size_t>(j)];
-      const bool known = other.column != kNone && other.column < u.gradient.size();
-      jacobian(i, j) = known ? slope * u.gradient[other.column] * other.mu : 0;
-    }
-  }
-  return -jacobian.partialPivLu().solve(residual);
-}
-
-void EpisodeSolver::Correct() {
-  std::vector<Unknown*> live;
-  for (Unknown& u : unknowns_) {
     if (!Live(u)) continue;
-    if (u.mu == 0 && std::sqrt(std::max(u.squared, 0.0)) < u.restitution_in) {
-      u.iterated = false;  // Even without damping too little comes back: (N4).
-      u.status = Cycle::Status::kInfeasible;
-      continue;
-    }
-    (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
-    live.push_back(&u);
+    strong |= !u.weak;
+    double& worst = u.weak ? weak : merit;
+    worst = std::max(worst, std::abs(u.residual));
   }
-  if (live.empty()) return;
-  Eigen::VectorXd step = NewtonStep(live);
-  const double merit = Merit();
-  if (!step.allFinite()) {
-    for (std::size_t i = 0; i < live.size(); ++i) {
-      step[static_cast<Eigen::Index>(i)] = 1 / (1 + Residual(*live[i])) - 1;
-    }
-  }
-  damping_ = merit > 2 * merit_ ? std::max(0.25 * damping_, 0.05) : std::min(1.0, 2 * damping_);
-  merit_ = merit;
-  for (std::size_t i = 0; i < live.size(); ++i) {
-    MoveBy(*live[i], damping_ * step[static_cast<Eigen::Index>(i)], live.size() == 1);
-  }
-}
-
-// (N3): keeps μ > 0, the step within a factor of 8, and, for a cycle alone, within the bracket.
-void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
-  u.update = damping_ < 1 ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
-  if (u.mu == 0) {  // Feasible after all: somewhere between 0 and what was tried before.
-    u.mu = (u.high > 0 ? u.high : u.start_mu) / 2;
-    u.update = Iteration::Update::kBisection;
-    return;
-  }
-  u.shrinks = relative_step <= -1 ? u.shrinks + 1 : 0;
-  if (u.shrinks >= 3 && !u.zero_tried) {
-    u.zero_tried = true;
-    u.mu = 0;
-    u.update = Iteration::Update::kZero;
-    return;
-  }
-  double next = u.mu * std::clamp(1 + relative_step, 0.125, 8.0);
-  const bool bracketed = alone && u.high > 0 && u.low < u.high && (u.low > 0 || u.zero_tried);
-  if (bracketed && (next <= u.low || next >= u.high)) {
-    next = (u.low + u.high) / 2;
-    u.update = Iteration::Update::kBisection;
-  }
-  u.mu = std::clamp(next, u.start_mu * kLeast, u.start_mu * kMost);
+  return strong ? merit : weak;
 }
 
 void EpisodeSolver::Report(int number, double time, bool accepted_pass) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulation/motion.h"
@@ -19,22 +21,27 @@ class EpisodeSolver final : public CycleHost {
  public:
   EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer);
 
-  /// Solves the episode that begins at `start`, passes through it with corrected μ until all
-  /// cycles have converged or none of them can do better. Returns why a pass could not be
-  /// completed, or kQuiet.
-  Motion::Pause Solve(const State& start, int episode, const std::stop_token& stop,
-                      std::int64_t step_limit);
+  /// Takes up the episode that begins at `start` and may be recorded up to `until`.
+  void Begin(const State& start, int episode, double until);
+
+  /// Passes through the episode with corrected μ until all cycles have converged, or are expected
+  /// to with the next pass, which the recording is then, or none can do better. Returns why a pass
+  /// could not be completed, or kQuiet: record, and see whether it Accepts that.
+  Motion::Pause Solve(const State& start, const std::stop_token& stop, std::int64_t step_limit);
+
+  /// Whether the recording that follows may have to be taken back.
+  bool Tentative() const { return stage_ == Stage::kExpected; }
+
+  /// Whether a recording pass that ended so is the one. If not: Solve again, and record again.
+  bool Accepts(Motion::Pause recorded);
 
   /// The instant up to which every cycle that begins has its μ, at most `until`: where a cycle
   /// begins whose end the last pass did not see. `until` if that is at once.
   double SolvedUntil(double until) const;
 
-  /// Forgets the last episode's cycles and takes those that end from now on into the ledger,
+  /// Forgets the last recording's cycles and takes those that end from now on into the ledger,
   /// with the μ that Solve found.
-  void BeginRecording() {
-    recording_ = true;
-    accepted.clear();
-  }
+  void BeginRecording();
 
   /// Fills what is known of a cycle that the end of the run has cut.
   void FinishCut(const ContactState& state, Cycle& cycle) const;
@@ -42,6 +49,7 @@ class EpisodeSolver final : public CycleHost {
   Factor OnStart(const ContactState& state, double effective_mass, double external_force) override;
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
              const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
+  void OnStep() override { observer_.OnStep(); }
 
   std::vector<Cycle> accepted;  ///< Cycles ended since BeginRecording.
   std::int64_t iterations() const { return total_iterations_; }
@@ -56,16 +64,20 @@ class EpisodeSolver final : public CycleHost {
     double start_mu = 0;  // The first guess.
     double best_mu = 0;   // Of the best pass.
     double restitution_in = kNaN;
-    bool iterated = false;  // By Newton; else given, settled or found infeasible.
+    double goal = 1;                    // A(ε_in),
+    double residual = kNaN, slope = 0;  // A(ε_out)/A(ε_in) − 1 of the last pass; d/d(ε_out²).
+    bool iterated = false;              // By Newton; else given, settled or found infeasible.
     Cycle::Status status = Cycle::Status::kNotConverged;
     int column = kNone;
-    bool ended = false;            // In the last pass.
-    double length = 0, speed = 0;  // Scales of its motion in the first pass.
-    double squared = kNaN;         // ε_out² = −W_r/W_c of the last pass.
-    Eigen::ArrayXd gradient;       // ∂ε_out²/∂μ of each column.
-    double frozen_slope = kNaN;    // Paper (30).
-    double low = 0, high = 0;      // μ known to give too much, too little restitution; 0: none.
-    int shrinks = 0;               // Corrections in a row that wanted μ ≤ 0.
+    bool seen = false, ended = false;  // In the last pass.
+    bool corrected = false;            // Its μ is no mere guess any more.
+    bool weak = false;                 // Its W_c is next to nothing.
+    double length = 0, speed = 0;      // Scales of its motion in the first pass.
+    double squared = kNaN;             // ε_out² = −W_r/W_c of the last pass.
+    Eigen::ArrayXd gradient;           // ∂ε_out²/∂μ of each column.
+    double frozen_slope = kNaN;        // Paper (30).
+    double low = 0, high = 0;    // μ known to give too much, too little restitution; 0: none.
+    int shrinks = 0, grows = 0;  // Corrections in a row that wanted μ ≤ 0, or far more.
     bool zero_tried = false;
     Iteration::Update update = Iteration::Update::kNothing;
   };
@@ -74,17 +86,26 @@ class EpisodeSolver final : public CycleHost {
   Unknown* Find(int contact, int number);
   const Unknown* Find(int contact, int number) const;
   double StartFactor(const ContactState& state, double effective_mass, double external_force);
+  double NeighbourSpeed(const Contact& contact) const;
   bool Converged(const Unknown& unknown) const;
   bool Live(const Unknown& unknown) const;
-  double Residual(const Unknown& unknown) const;
-  double Merit() const;
+  void ForgetPass();
   Motion::Pause Pass(const State& start, const std::stop_token& stop, std::int64_t step_limit);
+  void NextPass();
+  double Merit() const;
   bool Done() const;
   bool Exact() const { return tolerance_ <= scenario_.solver.relative_tolerance; }
-  void PlanNextPass();
+  void KeepBest();
+  void UseBest();
+  void Finish();
+  static void Measure(Unknown& unknown);
+  std::vector<Unknown*> LiveUnknowns();
+  void Factorize(const std::vector<Unknown*>& live);
+  bool FactorsServe();
   void Correct();
-  Eigen::VectorXd NewtonStep(const std::vector<Unknown*>& live) const;
   void MoveBy(Unknown& unknown, double relative_step, bool alone);
+  void PlanExactPass(bool converges);
+  void PlanNextPass();
   static double PaperStartFactor(const ContactState& state, const Contact& contact,
                                  double velocity);
   static double FrozenSlope(const Cycle& cycle);
@@ -105,7 +126,20 @@ class EpisodeSolver final : public CycleHost {
   double reference_speed_ = 0;     // Largest approach velocity in the episode.
   double damping_ = 1;             // Of the Newton step.
   double merit_ = 0, best_merit_ = 0;
-  double start_time_ = 0;  // Of the episode.
+  int best_number_ = 0;                              // Corrections before the best pass.
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;     // Of the last Jacobian, which is that
+  std::vector<std::pair<int, int>> factors_are_of_;  // of these contacts and numbers, taken
+  double factors_merit_ = 0;                         // where the merit was this.
+  enum class Stage {
+    kSolving,
+    kExpected,  // The recording is expected to be the last pass.
+    kSolved,
+  } stage_ = Stage::kSolved;
+  double start_time_ = 0;  // Of the episode, and
+  double until_ = 0;       // up to where it may be recorded.
+  int window_ = 0;         // Cycles in a pass at most.
+  bool crowded_ = false;   // The last pass had so many.
+  bool closed_ = false;    // The last pass came to a quiet instant before that.
   double tolerance_ = 0;   // Of the integration in this pass, and whether it has
   bool sensitive_ = true;  // sensitivities.
   int columns_ = 0;

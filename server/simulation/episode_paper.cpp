@@ -23,6 +23,7 @@ void EpisodeSolver::CorrectAsPaper() {
 }
 
 void EpisodeSolver::MoveAsPaper(Unknown& u) const {
+  u.corrected = true;
   const double f = u.restitution_in * u.restitution_in - u.squared;  // Paper (25).
   (f < 0 ? u.low : u.high) = u.mu;                                   // Paper (26).
   if (u.low > 0 && u.high > 0) {

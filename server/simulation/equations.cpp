@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "simulation/rows.h"
+
 namespace contact {
 namespace {
 
@@ -92,20 +94,20 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
   made.exponent = c.exponent;
   made.damping_exponent = DampingExponent(c.damping, c.exponent);
   made.clipped = scenario_.solver.clip_tension;
+  made.plain = made.exponent == 1.5 && made.damping_exponent == 1.5;
   return made;
 }
 
 void Equations::operator()(double t, const double* y, double* dy) const {
   const int n = bodies();
   const int blocks = recording ? 1 : columns + 1;
-  const std::ptrdiff_t block_size = block();
-  for (std::ptrdiff_t i = 0; i < blocks; ++i) {  // u̇ = v, in each block; to the rest is added.
-    const double* from = y + i * block_size + n;
-    double* to = dy + i * block_size;
-    for (int j = 0; j < n; ++j) to[j] = from[j];
-    for (std::ptrdiff_t j = n; j < block_size; ++j) to[j] = 0;
+  for (int i = 0; i < blocks; ++i) {  // u̇ = v, in each block; to the rest is added.
+    const double* from = y + i * block() + n;
+    double* to = dy + i * block();
+    InRows(n, [&](auto rows, std::ptrdiff_t j) { rows(to + j) = rows(from + j); });
+    InRows(n + contacts(), [&](auto rows, std::ptrdiff_t j) { rows(to + n + j).setZero(); });
   }
-  if (recording) std::fill(dy + block_size, dy + size(), 0.0);
+  if (recording) std::fill(dy + block(), dy + size(), 0.0);
   for (const Load& load : acting_) {
     dy[n + load.body] += LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
@@ -134,25 +136,25 @@ void Equations::AddSupports(const double* y, double* dy) const {
 
 void Equations::AddContacts(const double* y, double* dy) const {
   const int n = bodies();
+  const int sensitive = recording ? 0 : columns;
   for (const ActiveContact& c : active) {
     const double rate = c.Relative(y + n);
-    const double deformation = c.Relative(y) - c.gap;
-    const double force = c.At(deformation, rate).force;
-    dy[n + c.left] -= force * c.left_inverse;
-    dy[n + c.right] += force * c.right_inverse;
-    dy[2 * n + c.contact] = force * rate;  // (W1)
-    if (recording || columns == 0) continue;
-    const ActiveContact::Force f = c.At(deformation, rate);
+    const ActiveContact::Force f = c.At(c.Relative(y) - c.gap, rate);
+    dy[n + c.left] -= f.force * c.left_inverse;
+    dy[n + c.right] += f.force * c.right_inverse;
+    dy[2 * n + c.contact] = f.force * rate;  // (W1)
     // The variational equations (S1): y' = f(y, μ) differentiated by the μ of each column.
-    for (int column = 0; column < columns; ++column) {
-      const double* s = y + (column + 1) * block();
-      double* ds = dy + (column + 1) * block();
+    const double* s = y;
+    double* ds = dy;
+    for (int column = 0; column < sensitive; ++column) {
+      s += block();
+      ds += block();
       const double rate_s = c.Relative(s + n);
       double force_s = f.by_deformation * c.Relative(s) + f.by_rate * rate_s;
       if (column == c.column) force_s += f.damping;
       ds[n + c.left] -= force_s * c.left_inverse;
       ds[n + c.right] += force_s * c.right_inverse;
-      ds[2 * n + c.contact] = force_s * rate + force * rate_s;
+      ds[2 * n + c.contact] = force_s * rate + f.force * rate_s;
     }
   }
 }

@@ -34,6 +34,7 @@ struct ActiveContact {
   double gap = 0;                              ///< δ = u_left − u_right − gap [m].
   double stiffness = 0, exponent = 1.5, damping_exponent = 1.5, mu = 0;
   bool clipped = false;  ///< A force below 0 counts as 0.
+  bool plain = false;    ///< n = p = 1.5: what most are.
 
   double Relative(const double* of_bodies) const {
     return left_counts * of_bodies[left] - right_counts * of_bodies[right];
@@ -45,6 +46,14 @@ struct ActiveContact {
     double force, by_deformation, by_rate, damping;  ///< damping = ∂F/∂μ = δᵖ δ̇.
   };
   Force At(double deformation, double rate) const {
+    if (plain) {
+      if (deformation <= 0) return {};
+      const double root = std::sqrt(deformation);
+      const double power = deformation * root;
+      const double load = stiffness + mu * rate;
+      if (clipped && load < 0) return {};
+      return {power * load, 1.5 * root * load, mu * power, power * rate};
+    }
     const Power n(deformation, exponent);
     const Power p = damping_exponent == exponent ? n : DampingPower(deformation);
     const double force = stiffness * n.value + mu * p.value * rate;

@@ -8,7 +8,7 @@ namespace {
 
 // A stretch may hold every contact of a row that touches once, and some again; but no more
 // than can be solved together in bounded time and memory.
-constexpr int kMinCyclesInStretch = 16, kSpareCycles = 8, kMaxCyclesInStretch = 32;
+constexpr int kMinCyclesInStretch = 16, kSpareCycles = 20, kMaxCyclesInStretch = 48;
 constexpr int kMaxEventsAtOnce = 1000;
 // What is this many times the error allowed is motion.
 constexpr double kResolved = 100;
@@ -76,7 +76,7 @@ Motion::Motion(const Scenario& scenario)
       max_cycles_(std::clamp(static_cast<int>(scenario.contacts.size()) + kSpareCycles,
                              kMinCyclesInStretch, kMaxCyclesInStretch)) {}
 
-void Motion::Begin(const State& state, bool recording, double tolerance) {
+void Motion::Begin(const State& state, bool recording, double tolerance, int most_cycles) {
   const int n = equations_.bodies();
   tolerance_ = tolerance > 0 ? tolerance : scenario_.solver.relative_tolerance;
   time_ = state.time;
@@ -88,6 +88,7 @@ void Motion::Begin(const State& state, bool recording, double tolerance) {
   totals_.impulse = state.impulse;
   contact_loss_ = state.contact_loss;
   cycles_in_stretch_ = 0;
+  most_cycles_ = std::min(most_cycles, max_cycles_);
   flight_length_ = flight_speed_ = 0;
   touch_time_ = kNaN;
 
@@ -159,6 +160,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (time_ >= until) return Pause::kTimeUp;
     if (stop.stop_requested()) return Pause::kStopped;
     if (steps_ >= step_limit) return Pause::kStepLimit;
+    host.OnStep();
     if (!TakeStep(until)) return Pause::kNumeric;
     Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
@@ -174,7 +176,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (!busy && std::any_of(contacts_.begin(), contacts_.end(), IsStarting)) {
       return Pause::kCycleStarts;
     }
-    if (cycles_in_stretch_ >= max_cycles_) return Pause::kCrowded;
+    if (cycles_in_stretch_ >= most_cycles_) return Pause::kCrowded;
   }
 }
 

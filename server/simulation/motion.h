@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <stop_token>
 #include <vector>
 
@@ -69,6 +70,8 @@ class CycleHost {
   /// May change status and bookkeeping of `state`. `length` and `speed` are what Factor expects.
   virtual void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
                      const Eigen::ArrayXd& restitution_gradient, double length, double speed) = 0;
+  /// A step begins.
+  virtual void OnStep() {}
 };
 
 /// Hears of accepted steps when recording.
@@ -96,8 +99,11 @@ class Motion {
   explicit Motion(const Scenario& scenario);
 
   /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities. `tolerance`
-  /// takes the place of the scenario's; 0: the scenario's.
-  void Begin(const State& state, bool recording, double tolerance = 0);
+  /// takes the place of the scenario's; 0: the scenario's. A stretch with `most_cycles` is crowded.
+  void Begin(const State& state, bool recording, double tolerance = 0,
+             int most_cycles = std::numeric_limits<int>::max());
+  /// The most cycles that a stretch may have at all.
+  int max_cycles() const { return max_cycles_; }
 
   /// Moves on until something of Pause happens. Begun where a cycle runs or starts, it goes on
   /// until none does; begun elsewhere, until one wants to start. Resting contacts do not count.
@@ -183,6 +189,7 @@ class Motion {
   double contact_loss_ = 0;
   int cycles_in_stretch_ = 0;
   int max_cycles_;
+  int most_cycles_ = 0;  // In this stretch.
 };
 
 }  // namespace contact

@@ -142,7 +142,7 @@ void Motion::WakeResting(CycleHost& host) {
     const double deformation = Deformation(c, rk_.y0.data());
     const double work = contact.stiffness * Power(deformation, contact.exponent).value *
                         std::abs(deformation - state.cycle.start_deformation);
-    if (work > kWakeFactor * scenario_.solver.settled_fraction * state.largest_work) {
+    if (work > kWakeFactor * scenario_.solver.settled_nirv_fraction * state.largest_work) {
       EndCycle(state, Cycle::End::kNonSeparation, host);
       state.settled = false;
     }
@@ -268,17 +268,22 @@ void Motion::ObserveForce(const ActiveContact& active) {
     const double dt = step_.h * step_.Rate(theta);
     return law.At(path.Value(theta), dt > 0 ? path.Slope(theta) / dt : 0).force;
   };
-  constexpr int kPieces = 8;
-  int best = 0;
-  for (int i = 1; i <= kPieces; ++i) {
-    if (force(i / 8.0) > force(best / 8.0)) best = i;
-    if (force((i - 0.5) / 8.0) < 0) {
-      cycle.tension_time += step_.At(i / 8.0) - step_.At((i - 1) / 8.0);
+  if (force(0) < 0 || force(1) < 0) {  // Nowhere else in a step does it pull.
+    for (int i = 0; i < 8; ++i) {
+      const bool pulls = force((i + 0.5) / 8) < 0;
+      if (pulls) cycle.tension_time += step_.At((i + 1) / 8.0) - step_.At(i / 8.0);
     }
   }
-  if (force(best / 8.0) <= cycle.peak_force && best % kPieces == 0) return;
-  const double low = std::max(0, best - 1) / 8.0;
-  const double high = std::min(kPieces, best + 1) / 8.0;
+  constexpr int kPieces = 4;
+  int best = 0;
+  double largest = force(0);
+  for (int i = 1; i <= kPieces; ++i) {
+    const double here = force(static_cast<double>(i) / kPieces);
+    if (here > largest) best = i, largest = here;
+  }
+  if (largest <= cycle.peak_force && best % kPieces == 0) return;
+  const double low = static_cast<double>(std::max(0, best - 1)) / kPieces;
+  const double high = static_cast<double>(std::min(kPieces, best + 1)) / kPieces;
   const auto peak = boost::math::tools::brent_find_minima(
       [&](double theta) { return -force(theta); }, low, high, 40);
   if (-peak.second <= cycle.peak_force) return;

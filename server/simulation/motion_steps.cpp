@@ -132,34 +132,38 @@ double Motion::ErrorNorm(double h) const {
   const double body_speed = std::max({speed, flight_speed_, rk_.y1.segment(n, n).abs().maxCoeff()});
   const double body_length =
       std::max({length, flight_length_, rk_.y1.head(n).abs().maxCoeff(), body_speed * h});
-  const auto combined = [&](double e5, double e3, double scale) {
-    const double denominator = e5 * e5 + 0.01 * e3 * e3;
-    return denominator == 0 || scale == 0 ? 0.0 : h * e5 * e5 / std::sqrt(denominator) / scale;
-  };
-  // What is no number any more is refused for good: no finite error that follows may hide it.
-  const auto worst = [](double e) {
+  // Of the two estimates of an error the square of what both make, e5²/√(e5² + 0.01 e3²), in units
+  // of the square of h. No number: infinite, for no finite error that follows may hide it.
+  const auto squared = [](double e5, double e3) {
+    const double both = e5 * e5 + 0.01 * e3 * e3;
+    if (both == 0) return 0.0;
+    const double e = e5 * e5 * (e5 * e5) / both;
     return std::isnan(e) ? std::numeric_limits<double>::infinity() : e;
   };
-  double norm = 0;
   auto& e5 = error5_;
   auto& e3 = error3_;
   rk_.Errors(2 * n, e5.data(), e3.data());
-  for (int i = 0; i < 2 * n; ++i) {
-    const double e = combined(e5[At(i)], e3[At(i)], i < n ? body_length : body_speed);
-    if (!(e <= norm)) norm = worst(e);
-  }
+  const auto largest = [&](int first) {
+    double all = 0;
+    for (int i = first; i < first + n; ++i) all = std::max(all, squared(e5[At(i)], e3[At(i)]));
+    return all;
+  };
+  double norm = 0;
+  const auto add = [&norm](double error, double scale) {
+    if (error > 0 && scale > 0) norm = std::max(norm, error / scale / scale);
+  };
+  add(largest(0), body_length);
+  add(largest(n), body_speed);
   // What the round-off of velocities makes of lengths in a step is no error of the step.
   const double round_off = 1e-15 * body_speed * h / scenario_.solver.relative_tolerance;
   for (const ActiveContact& active : equations_.active) {
     const int c = active.contact;
-    const double own_length = std::max({deformation_scale_[At(c)], 1e-3 * length, round_off});
-    const double own_speed = std::max(velocity_scale_[At(c)], 1e-3 * speed);
-    const double e = std::max(
-        combined(active.Relative(e5.data()), active.Relative(e3.data()), own_length),
-        combined(active.Relative(e5.data() + n), active.Relative(e3.data() + n), own_speed));
-    if (!(e <= norm)) norm = worst(e);
+    add(squared(active.Relative(e5.data()), active.Relative(e3.data())),
+        std::max({deformation_scale_[At(c)], 1e-3 * length, round_off}));
+    add(squared(active.Relative(e5.data() + n), active.Relative(e3.data() + n)),
+        std::max(velocity_scale_[At(c)], 1e-3 * speed));
   }
-  return norm / tolerance_;
+  return h * std::sqrt(norm) / tolerance_;
 }
 
 // Makes the step end on the event: Newton on its length with the true solution, started from the

@@ -62,8 +62,31 @@ void Recorder::Record(double time, const Eigen::ArrayXd& y) {
 void Recorder::Flush() {
   if (samples_.rows() == 0) return;
   samples_.first = next_ - samples_.rows();
-  observer_.OnSamples(samples_);
+  if (holding_) {
+    held_.push_back(samples_);
+  } else {
+    observer_.OnSamples(samples_);
+  }
   samples_.values.clear();
+}
+
+void Recorder::Hold() {
+  holding_ = true;
+  next_before_ = next_;
+  samples_before_ = samples_;
+}
+
+void Recorder::Release() {
+  holding_ = false;
+  for (const Samples& samples : held_) observer_.OnSamples(samples);
+  held_.clear();
+}
+
+void Recorder::TakeBack() {
+  holding_ = false;
+  held_.clear();
+  next_ = next_before_;
+  samples_ = samples_before_;
 }
 
 }  // namespace contact

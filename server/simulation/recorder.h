@@ -19,6 +19,11 @@ class Recorder final : public StepListener {
   void RecordStart(const State& state);
   void Flush();
 
+  /// Keeps the samples from now on until they are released or taken back.
+  void Hold();
+  void Release();
+  void TakeBack();
+
  private:
   void Record(double time, const Eigen::ArrayXd& y);
 
@@ -27,6 +32,10 @@ class Recorder final : public StepListener {
   Observer& observer_;
   std::int64_t next_ = 0;  // Index of the next sample.
   Samples samples_;
+  bool holding_ = false;
+  std::vector<Samples> held_;     // Full chunks.
+  std::int64_t next_before_ = 0;  // What there was before Hold.
+  Samples samples_before_;
   Eigen::ArrayXd y_, slope_;
 };
 

@@ -32,7 +32,7 @@ class Runner {
       if (InCycle(state_)) {
         Episode();
       } else {
-        Settle(Advance(scenario_.end_time));
+        Accept(Advance(scenario_.end_time));
       }
       observer_.OnProgress({.time = state_.time,
                             .steps = motion_.steps(),
@@ -49,17 +49,27 @@ class Runner {
   Motion::Pause Advance(double until) {
     motion_.Begin(state_, true);
     solver_.BeginRecording();
-    const Motion::Pause pause =
-        motion_.Advance(until, solver_, &recorder_, stop_, scenario_.solver.max_steps);
+    return motion_.Advance(until, solver_, &recorder_, stop_, scenario_.solver.max_steps);
+  }
+
+  void Accept(Motion::Pause pause) {
     for (const Cycle& cycle : solver_.accepted) Emit(cycle);
-    return pause;
+    Settle(pause);
   }
 
   void Episode() {
-    const Motion::Pause solved = solver_.Solve(state_, static_cast<int>(++outcome_.episodes), stop_,
-                                               scenario_.solver.max_steps);
-    if (solved != Motion::Pause::kQuiet) return Settle(solved);
-    Settle(Advance(solver_.SolvedUntil(scenario_.end_time)));
+    solver_.Begin(state_, static_cast<int>(++outcome_.episodes), scenario_.end_time);
+    while (true) {
+      const Motion::Pause solved = solver_.Solve(state_, stop_, scenario_.solver.max_steps);
+      if (solved != Motion::Pause::kQuiet) return Settle(solved);
+      if (solver_.Tentative()) recorder_.Hold();
+      const Motion::Pause pause = Advance(solver_.SolvedUntil(scenario_.end_time));
+      if (solver_.Accepts(pause)) {
+        recorder_.Release();
+        return Accept(pause);
+      }
+      recorder_.TakeBack();
+    }
   }
 
   // Keeps the state that the accepted trajectory has reached, and sees why it paused.

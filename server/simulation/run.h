@@ -18,6 +18,7 @@ class Observer {
   virtual void OnSamples(const Samples&) {}    ///< At most kSamplesPerChunk rows.
   virtual void OnProgress(const Progress&) {}  ///< After each episode, and in between.
   virtual void OnWarning(const std::string&) {}
+  virtual void OnStep() {}  ///< Before each, rejected iterations' included.
 };
 
 inline constexpr int kSamplesPerChunk = 256;

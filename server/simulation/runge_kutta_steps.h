@@ -1,30 +1,33 @@
 // The stages of RungeKutta; included by runge_kutta.h only. Table: see there.
 #pragma once
 
+#include "simulation/rows.h"
+
 namespace contact {
 
 template <std::size_t N>
-void RungeKutta::Combine(Vector& out, double h, const Term (&terms)[N]) {
-  const double* k[N];
-  for (std::size_t j = 0; j < N; ++j) k[j] = k_.col(terms[j].slope).data();
+[[gnu::always_inline]] inline void RungeKutta::Combine(Vector& out, double h,
+                                                       const Term (&terms)[N]) {
+  const std::ptrdiff_t n = size();
+  const double* k = k_.data();
   const double* y = y0.data();
-  double* __restrict to = out.data();  // Never a slope.
-  const Eigen::Index n = size();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double sum = 0;
-    for (std::size_t j = 0; j < N; ++j) sum += terms[j].weight * k[j][i];
-    to[i] = y[i] + h * sum;
-  }
+  double* to = out.data();
+  InRows(n, [=, &terms](auto rows, std::ptrdiff_t i) {
+    const auto slope = [=](int stage) { return rows(k + stage * n + i); };
+    typename decltype(rows)::Array sum = terms[0].weight * slope(terms[0].slope);
+    for (std::size_t j = 1; j < N; ++j) sum += terms[j].weight * slope(terms[j].slope);
+    rows(to + i) = rows(y + i) + h * sum;
+  });
 }
 
 template <class F>
 void RungeKutta::Evaluate(F&& f, const StepTime& time, double theta, const double* y, int i) {
-  double* slope = k_.col(i).data();
+  const std::ptrdiff_t n = size();
+  double* slope = k_.data() + i * n;
   f(time.At(theta), y, slope);
   if (time.warp == 1) return;
   const double rate = time.Rate(theta);
-  const Eigen::Index n = size();
-  for (Eigen::Index j = 0; j < n; ++j) slope[j] *= rate;
+  InRows(n, [=](auto rows, std::ptrdiff_t j) { rows(slope + j) *= rate; });
 }
 
 template <class F>

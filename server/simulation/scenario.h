@@ -85,7 +85,9 @@ struct SolverOptions {
   double relative_tolerance = 1e-11;    ///< Local error of a step, relative to the contact's scale.
   double restitution_tolerance = 1e-8;  ///< ξ [-].
   int max_iterations = 50;              ///< Corrections of μ in an episode.
-  double settled_fraction = 1e-9;       ///< Of the contact's largest W_c; below it: settled.
+  /// Of the contact's largest W_c; below it a cycle is settled: one that begins with a collision,
+  double settled_fraction = 1e-9;
+  double settled_nirv_fraction = 1e-5;  ///< and one without initial relative velocity.
   std::int64_t max_steps = 100'000'000;
   bool fail_if_not_converged = false;
   bool clip_tension = false;  ///< A contact force below 0 counts as 0.

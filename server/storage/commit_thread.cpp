@@ -18,10 +18,12 @@ constexpr std::chrono::seconds kIdle{1};
 }  // namespace
 
 CommitThread::CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
-                           std::function<void(const absl::Status&)> on_failure)
+                           std::function<void(const absl::Status&)> on_failure,
+                           std::shared_ptr<StoreMetrics> metrics)
     : database_(std::move(database)),
       tidy_(std::move(tidy)),
       on_failure_(std::move(on_failure)),
+      metrics_(std::move(metrics)),
       thread_([this] { Loop(); }) {}
 
 CommitThread::~CommitThread() {
@@ -41,17 +43,27 @@ void CommitThread::Post(Operation operation) {
   posted_.notify_one();
 }
 
+void CommitThread::Post(Task task) {
+  {
+    const MutexLock lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  posted_.notify_one();
+}
+
 void CommitThread::Loop() {
   while (std::optional<Batch> batch = NextBatch()) {
-    const bool idle = batch->empty() && !untidy_;
+    const bool idle = batch->empty() && !untidy_ && !task_;
     if (!batch->empty()) {
       Commit(*batch);
       untidy_ = true;
     }
     if (untidy_) Tidy();
+    if (task_) StepTask();
     if (idle) Checkpoint();
     if (database_->log_pages() > kMaxLogPages) Checkpoint();
   }
+  CancelTasks();
 }
 
 // Waits for operations. None at all: it is time to stop; an empty batch: to see to the database.
@@ -60,7 +72,12 @@ std::optional<CommitThread::Batch> CommitThread::NextBatch() {
   const MutexLock lock(mutex_);
   while (queue_.empty()) {
     if (stopping_) return std::nullopt;
-    if (untidy_) break;
+    if (untidy_ || task_) break;
+    if (!tasks_.empty()) {
+      task_ = std::move(tasks_.front());
+      tasks_.pop_front();
+      break;
+    }
     if (checkpointed) {
       posted_.wait(mutex_);
     } else if (posted_.wait_for(mutex_, kIdle) == std::cv_status::timeout) {
@@ -79,9 +96,11 @@ std::optional<CommitThread::Batch> CommitThread::NextBatch() {
 }
 
 void CommitThread::Commit(Batch& batch) {
+  const auto begin = std::chrono::steady_clock::now();
   const absl::Status status = Try([&] {
     for (const Operation& operation : batch) operation.run(*database_);
   });
+  Count(begin, batch.size(), status);
   if (status.ok() || !failure_.ok() || batch.size() == 1) {
     for (const Operation& operation : batch) operation.done(status);
     return;
@@ -92,6 +111,17 @@ void CommitThread::Commit(Batch& batch) {
     alone.push_back(std::move(operation));
     Commit(alone);
   }
+}
+
+void CommitThread::Count(std::chrono::steady_clock::time_point begin, std::size_t operations,
+                         const absl::Status& status) {
+  if (!status.ok()) {
+    ++metrics_->failed_commits;
+    return;
+  }
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  metrics_->commit_seconds.Count(time.count());
+  metrics_->commit_operations.Count(static_cast<double>(operations));
 }
 
 // Does it in a transaction; on error nothing is done.
@@ -114,6 +144,32 @@ void CommitThread::Tidy() {
   bool more = false;
   const absl::Status status = Try([&] { more = tidy_(*database_); });
   untidy_ = status.ok() && more;
+}
+
+void CommitThread::StepTask() {
+  if (!failure_.ok()) return EndTask(failure_);
+  try {
+    const absl::StatusOr<bool> more = task_->step(*database_);
+    if (!more.ok() || !*more) EndTask(more.status());
+  } catch (const SQLite::Exception& error) {
+    EndTask(ToStatus(error));
+  }
+}
+
+void CommitThread::EndTask(const absl::Status& status) {
+  const Task task = *std::exchange(task_, std::nullopt);
+  task.done(status);
+}
+
+void CommitThread::CancelTasks() {
+  const absl::Status ended = absl::CancelledError("the store is being closed");
+  if (task_) EndTask(ended);
+  std::deque<Task> left;
+  {
+    const MutexLock lock(mutex_);
+    left.swap(tasks_);
+  }
+  for (const Task& task : left) task.done(ended);
 }
 
 void CommitThread::Checkpoint() {

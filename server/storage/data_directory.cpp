@@ -16,16 +16,9 @@ namespace fs = std::filesystem;
 
 absl::Status Failed(const std::string& what, const fs::path& path) {
   return absl::FailedPreconditionError(absl::StrCat("cannot ", what, " ", path.string(), ": ",
-                                                    std::generic_category().message(errno)));
+                                                    std::generic_category().message(errno),
+                                                    kGiveAccess));
 }
-
-/// Closes a descriptor at the end of the scope.
-struct Descriptor {
-  int fd = -1;
-  ~Descriptor() {
-    if (fd >= 0) ::close(fd);
-  }
-};
 
 bool WriteAll(int fd, const std::string& text) {
   return ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
@@ -39,41 +32,57 @@ std::string ReadSome(int fd) {
   return read;
 }
 
-bool TakeLock(int fd) {
+// F_WRLCK keeps everybody out, F_RDLCK those who want F_WRLCK.
+bool TakeLock(int fd, short type) {
   struct flock lock = {};
-  lock.l_type = F_WRLCK;
+  lock.l_type = type;
   lock.l_whence = SEEK_SET;
   return ::fcntl(fd, F_OFD_SETLK, &lock) == 0;
+}
+
+absl::Status Held(const fs::path& path, int lock) {
+  return absl::UnavailableError(absl::StrCat("data directory ", path.string(),
+                                             " is in use by process ", ReadSome(lock),
+                                             "; stop it, or choose another data directory"));
+}
+
+// Only its owner may look into a folder that is made here.
+absl::Status MakeFolder(const fs::path& path) {
+  std::error_code error;
+  const bool made = fs::create_directories(path, error);
+  if (made && !error) fs::permissions(path, fs::perms::owner_all, error);
+  if (!error) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat("cannot create data directory ", path.string(),
+                                                    ": ", error.message(),
+                                                    "; choose another with --data-dir"));
 }
 
 }  // namespace
 
 absl::StatusOr<DataDirectory> DataDirectory::Open(const fs::path& path) {
-  std::error_code error;
-  if (fs::create_directories(path, error); error) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("cannot create data directory ", path.string(), ": ", error.message()));
-  }
+  if (absl::Status made = MakeFolder(path); !made.ok()) return made;
   const fs::path file = path / "lock";
-  const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (fd < 0) return Failed("open", file);
-  DataDirectory directory(path, fd);
-  if (!TakeLock(fd)) {
-    return absl::UnavailableError(absl::StrCat("data directory ", path.string(),
-                                               " is in use by process ", ReadSome(fd),
-                                               "; stop it, or choose another data directory"));
-  }
-  if (::ftruncate(fd, 0) != 0 || !WriteAll(fd, std::to_string(::getpid()) + "\n")) {
+  Descriptor lock(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  if (!lock.ok()) return Failed("open", file);
+  if (!TakeLock(lock.get(), F_WRLCK)) return Held(path, lock.get());
+  if (::ftruncate(lock.get(), 0) != 0 || !WriteAll(lock.get(), std::to_string(::getpid()) + "\n")) {
     return Failed("write", file);
   }
+  DataDirectory directory(path, std::move(lock));
+  std::error_code missing;
+  fs::remove(directory.backup_draft(), missing);
   return directory;
 }
 
-DataDirectory::DataDirectory(DataDirectory&& other) noexcept
-    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
-
-DataDirectory::~DataDirectory() {
-  if (lock_ >= 0) ::close(lock_);
+absl::StatusOr<DataDirectory> DataDirectory::OpenToRead(const fs::path& path) {
+  if (!fs::is_directory(path)) {
+    return absl::NotFoundError(absl::StrCat("there is no data directory ", path.string()));
+  }
+  Descriptor lock(::open((path / "lock").c_str(), O_RDONLY | O_CLOEXEC));
+  // Without the file no contactd was ever here, such as beside a backup.
+  if (!lock.ok() && errno != ENOENT) return Failed("open", path / "lock");
+  if (lock.ok() && !TakeLock(lock.get(), F_RDLCK)) return Held(path, lock.get());
+  return DataDirectory(path, std::move(lock));
 }
 
 bool DataDirectory::initialised() const { return fs::exists(path_ / "initialised"); }
@@ -82,14 +91,15 @@ absl::Status DataDirectory::MarkInitialised() const {
   const fs::path file = path_ / "initialised";
   const fs::path draft = path_ / "initialised.new";
   {
-    const Descriptor out{::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)};
-    if (out.fd < 0 || !WriteAll(out.fd, "contactd.db belongs here\n") || ::fsync(out.fd) != 0) {
+    const Descriptor out(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+    if (!out.ok() || !WriteAll(out.get(), "contactd.db belongs here\n") ||
+        ::fsync(out.get()) != 0) {
       return Failed("write", draft);
     }
   }
   if (::rename(draft.c_str(), file.c_str()) != 0) return Failed("write", file);
-  const Descriptor folder{::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
-  if (folder.fd < 0 || ::fsync(folder.fd) != 0) return Failed("sync", path_);
+  const Descriptor folder(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder.ok() || ::fsync(folder.get()) != 0) return Failed("sync", path_);
   return absl::OkStatus();
 }
 

@@ -5,7 +5,13 @@
 
 #include <filesystem>
 
+#include "storage/descriptor.h"
+
 namespace contact {
+
+/// The next step for whoever may not read or write a file, to stand at the end of a sentence.
+inline constexpr char kGiveAccess[] =
+    "; run contactd as the user who owns it, or give this one the right to read and write";
 
 /// The folder that holds all that survives a restart, locked for this process.
 ///
@@ -16,21 +22,25 @@ class DataDirectory {
   /// Creates the folder if it is missing and locks it. UNAVAILABLE if another process holds it.
   static absl::StatusOr<DataDirectory> Open(const std::filesystem::path& path);
 
-  DataDirectory(DataDirectory&& other) noexcept;
-  DataDirectory& operator=(DataDirectory&& other) = delete;
-  ~DataDirectory();
+  /// Locks it against processes that change it, without changing anything: for those that only
+  /// read. UNAVAILABLE if another process holds it. NOT_FOUND: there is no such folder.
+  static absl::StatusOr<DataDirectory> OpenToRead(const std::filesystem::path& path);
 
   std::filesystem::path database() const { return path_ / "contactd.db"; }
+
+  /// Where a backup is made before it is sent. Removed at the next Open if a crash leaves it.
+  std::filesystem::path backup_draft() const { return path_ / "backup.tmp"; }
 
   /// True once MarkInitialised succeeded: from then on a missing database is a loss.
   bool initialised() const;
   absl::Status MarkInitialised() const;
 
  private:
-  DataDirectory(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
+  DataDirectory(std::filesystem::path path, Descriptor lock)
+      : path_(std::move(path)), lock_(std::move(lock)) {}
 
   std::filesystem::path path_;
-  int lock_;  ///< Descriptor that holds the lock.
+  Descriptor lock_;  ///< Holds the lock.
 };
 
 }  // namespace contact

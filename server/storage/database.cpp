@@ -1,11 +1,16 @@
 #include "storage/database.h"
 
 #include <absl/strings/str_cat.h>
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <system_error>
 #include <utility>
 
+#include "storage/backup.h"
+#include "storage/migration.h"
 #include "storage/schema.h"
 
 namespace contact {
@@ -22,6 +27,15 @@ absl::Status CheckPresence(const DataDirectory& directory) {
       directory.database().string(), missing ? " is missing" : " is empty",
       " though its directory was in use; restore it from a backup, or remove the directory to "
       "begin anew"));
+}
+
+absl::Status CheckAccess(const DataDirectory& directory) {
+  const fs::path file = directory.database();
+  if (!fs::exists(file) || ::faccessat(AT_FDCWD, file.c_str(), R_OK | W_OK, AT_EACCESS) == 0) {
+    return absl::OkStatus();
+  }
+  return absl::FailedPreconditionError(absl::StrCat(
+      "cannot use ", file.string(), ": ", std::generic_category().message(errno), kGiveAccess));
 }
 
 absl::Status Damaged(const std::string& file, const std::string& what) {
@@ -41,12 +55,14 @@ void Defend(sqlite3* connection) {
 absl::StatusOr<std::unique_ptr<Database>> Database::Open(DataDirectory directory,
                                                          std::int64_t max_bytes) {
   if (absl::Status present = CheckPresence(directory); !present.ok()) return present;
+  if (absl::Status access = CheckAccess(directory); !access.ok()) return access;
   const std::string file = directory.database().string();
   try {
     std::unique_ptr<Database> database(new Database(std::move(directory)));
     if (absl::Status good = database->Check(); !good.ok()) return good;
+    database->KeepOldVersion();
     database->Configure(max_bytes);
-    if (absl::Status made = database->CreateSchema(); !made.ok()) return made;
+    if (absl::Status made = database->BringUpToDate(); !made.ok()) return made;
     return database;
   } catch (const SQLite::Exception& error) {
     if (absl::IsDataLoss(ToStatus(error))) return Damaged(file, error.what());
@@ -63,15 +79,15 @@ Database::Database(DataDirectory directory)
 absl::Status Database::Check() {
   const std::string file = directory_.database().string();
   connection_.exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA cell_size_check=ON");
-  const std::int64_t version = Number("PRAGMA user_version");
-  if (version > kSchemaVersion) {
-    return absl::FailedPreconditionError(absl::StrCat(file, " has schema version ", version,
+  version_ = static_cast<int>(Number("PRAGMA user_version"));
+  if (version_ > kSchemaVersion) {
+    return absl::FailedPreconditionError(absl::StrCat(file, " has schema version ", version_,
                                                       ", this program knows ", kSchemaVersion,
                                                       "; start the newer program that made it"));
   }
   const std::string verdict = connection_.execAndGet("PRAGMA quick_check(1)").getString();
   if (verdict != "ok") return Damaged(file, verdict);
-  if (version == 0 && directory_.initialised()) return Damaged(file, "it has no schema");
+  if (version_ == 0 && directory_.initialised()) return Damaged(file, "it has no schema");
   return absl::OkStatus();
 }
 
@@ -95,12 +111,21 @@ void Database::Configure(std::int64_t max_bytes) {
       &log_pages_);
 }
 
-absl::Status Database::CreateSchema() {
-  if (Number("PRAGMA user_version") == 0) {
+// Puts a copy beside a database that is about to be migrated.
+void Database::KeepOldVersion() {
+  if (version_ == 0 || version_ == kSchemaVersion) return;
+  CopyDatabase(connection_, absl::StrCat(directory_.database().string(), ".v", version_));
+}
+
+absl::Status Database::BringUpToDate() {
+  if (version_ == 0) {
     SQLite::Transaction transaction(connection_);
     connection_.exec(kSchema);
     connection_.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
     transaction.commit();
+    Checkpoint();
+  } else if (version_ < kSchemaVersion) {
+    Migrate(connection_, version_);
     Checkpoint();
   }
   return directory_.initialised() ? absl::OkStatus() : directory_.MarkInitialised();

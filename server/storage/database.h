@@ -20,8 +20,9 @@ namespace contact {
 class Database {
  public:
   /// Opens the database, or makes it in a new directory, and checks it: it must be whole, not
-  /// newer than this program, and there if the directory was initialised. `max_bytes` limits its
-  /// size; 0: the disk does. A database that is refused is left as it was.
+  /// newer than this program, and there if the directory was initialised. An older one is brought
+  /// up to date, after a copy of it was put beside it. `max_bytes` limits its size; 0: the disk
+  /// does. A database that is refused is left as it was.
   ///
   /// Errors: DATA_LOSS (damaged or gone), FAILED_PRECONDITION (newer; cannot be written).
   static absl::StatusOr<std::unique_ptr<Database>> Open(DataDirectory directory,
@@ -31,6 +32,7 @@ class Database {
   SQLite::Statement& Prepared(const std::string& sql);
   std::int64_t LastInsertRowid() const { return connection_.getLastInsertRowid(); }
   SQLite::Database& connection() { return connection_; }
+  const DataDirectory& directory() const { return directory_; }
 
   /// Pages in the write-ahead log that are not in the database file yet.
   int log_pages() const { return log_pages_; }
@@ -40,13 +42,15 @@ class Database {
  private:
   explicit Database(DataDirectory directory);
   absl::Status Check();
-  absl::Status CreateSchema();
+  void KeepOldVersion();
+  absl::Status BringUpToDate();
   void Configure(std::int64_t max_bytes);
   std::int64_t Number(const char* sql);
 
   DataDirectory directory_;
   SQLite::Database connection_;
   std::map<std::string, SQLite::Statement> statements_;  // After connection_: they go first.
+  int version_ = 0;                                      // Of the schema; 0: there is none.
   int log_pages_ = 0;
 };
 

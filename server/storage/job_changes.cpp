@@ -5,6 +5,7 @@
 #include "storage/checksum.h"
 #include "storage/database.h"
 #include "storage/job_queries.h"
+#include "storage/schema.h"
 
 namespace contact {
 namespace {
@@ -14,20 +15,46 @@ constexpr int kSweptEvents = 32;
 
 void InsertEvents(Database& database, std::int64_t job, std::uint64_t last,
                   const std::vector<EventRow>& events) {
-  for (const EventRow& event : events) {
+  for (const EventRow& row : events) {
     ++last;
-    Query(database, "INSERT INTO events(job, sequence, kind, crc32, payload) VALUES(?,?,?,?,?)",
-          job, last, event.kind, Checksum(event.payload, last), Query::Blob{event.payload})
+    Query(database,
+          "INSERT INTO events(job, sequence, kind, coding, crc32, payload) VALUES(?,?,?,?,?,?)",
+          job, last, row.kind, row.event.coding, Checksum(row.event, last),
+          Query::Blob{row.event.bytes})
         .Run();
   }
+}
+
+std::size_t BytesOf(const std::vector<EventRow>& events) {
+  std::size_t bytes = 0;
+  for (const EventRow& row : events) bytes += row.event.bytes.size();
+  return bytes;
+}
+
+// Replaces what is stored of a job beside its log.
+void WriteParts(Database& database, std::int64_t job, const JobChange& change) {
+  const JobParts& parts = change.parts;
+  Query(database, "UPDATE jobs SET state=?, end_time=?, crc32=?, header=? WHERE number=?",
+        change.state, parts.end_time, Checksum(parts.header), Query::Blob{parts.header}, job)
+      .Run();
+  if (parts.result.empty()) return;
+  Query(database,
+        "UPDATE jobs SET bytes=bytes+?2-"
+        "COALESCE((SELECT LENGTH(result) FROM results WHERE job=?1), 0) WHERE number=?1",
+        job, parts.result.size())
+      .Run();
+  Query(database, "REPLACE INTO results(job, crc32, result) VALUES(?,?,?)", job,
+        Checksum(parts.result), Query::Blob{parts.result})
+      .Run();
 }
 
 void InsertJob(Database& database, const JobInsert& insert) {
   const JobParts& parts = insert.parts;
   Query(database,
-        "INSERT INTO jobs(name, request_id, state, epoch, last_sequence, crc32, header)"
-        " VALUES(?, NULLIF(?, ''), ?, 0, ?, ?, ?)",
-        insert.name, insert.request_id, insert.state, insert.events.size(), Checksum(parts.header),
+        "INSERT INTO jobs(name, request_id, state, epoch, last_sequence, end_time, bytes, crc32,"
+        " header) VALUES(?, NULLIF(?, ''), ?, 0, ?, ?, ?, ?, ?)",
+        insert.name, insert.request_id, insert.state, insert.events.size(), parts.end_time,
+        parts.spec.size() + BytesOf(insert.events), Checksum(parts.header),
         Query::Blob{parts.header})
       .Run();
   const std::int64_t job = database.LastInsertRowid();
@@ -75,19 +102,10 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
   if (static_cast<std::uint64_t>(job.Integer(1)) != change.epoch) {
     return absl::AbortedError(absl::StrCat(change.name, " has another owner"));
   }
-  Query(database, "UPDATE jobs SET epoch=epoch+?, last_sequence=? WHERE number=?", change.take,
-        last + change.events.size(), number)
+  Query(database, "UPDATE jobs SET epoch=epoch+?, last_sequence=?, bytes=bytes+? WHERE number=?",
+        change.take, last + change.events.size(), BytesOf(change.events), number)
       .Run();
-  if (!change.parts.header.empty()) {
-    Query(database, "UPDATE jobs SET state=?, crc32=?, header=? WHERE number=?", change.state,
-          Checksum(change.parts.header), Query::Blob{change.parts.header}, number)
-        .Run();
-  }
-  if (!change.parts.result.empty()) {
-    Query(database, "REPLACE INTO results(job, crc32, result) VALUES(?,?,?)", number,
-          Checksum(change.parts.result), Query::Blob{change.parts.result})
-        .Run();
-  }
+  if (!change.parts.header.empty()) WriteParts(database, number, change);
   InsertEvents(database, number, last, change.events);
   return last + 1;
 }
@@ -98,9 +116,9 @@ absl::Status MarkCancelRequested(Database& database, const std::string& name) {
 }
 
 absl::Status Remove(Database& database, const std::string& name) {
-  Query job(database, "SELECT number, state FROM jobs WHERE name=?", name);
+  Query job(database, absl::StrCat("SELECT number, ", kEnded, " FROM jobs WHERE name=?"), name);
   if (!job.Next()) return NoSuchJob(name);
-  if (job.Integer(1) < v1::Job::SUCCEEDED) {
+  if (job.Integer(1) == 0) {
     return absl::FailedPreconditionError(absl::StrCat(name, " has not ended"));
   }
   Query(database, "INSERT INTO removed(job) VALUES(?)", job.Integer(0)).Run();

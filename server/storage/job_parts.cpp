@@ -23,6 +23,9 @@ v1::Job SpecOf(const v1::Job& job) {
   if (job.has_scenario()) *spec.mutable_scenario() = job.scenario();
   if (job.has_sweep()) *spec.mutable_sweep() = job.sweep();
   *spec.mutable_labels() = job.labels();
+  spec.set_priority(job.priority());
+  if (job.has_budget()) *spec.mutable_budget() = job.budget();
+  if (job.has_time_to_live()) *spec.mutable_time_to_live() = job.time_to_live();
   return spec;
 }
 
@@ -44,14 +47,15 @@ v1::Job HeaderOf(const v1::Job& job) {
 }  // namespace
 
 JobParts Split(const v1::Job& job) {
-  return {Deterministic(HeaderOf(job)), Deterministic(SpecOf(job)), Deterministic(ResultOf(job))};
+  return {Deterministic(HeaderOf(job)), Deterministic(SpecOf(job)), Deterministic(ResultOf(job)),
+          job.end_time().seconds()};
 }
 
 std::vector<EventRow> ToRows(absl::Span<const v1::Event> events) {
   std::vector<EventRow> rows;
   rows.reserve(events.size());
   for (const v1::Event& event : events) {
-    rows.push_back({static_cast<int>(event.payload_case()), event.SerializeAsString()});
+    rows.push_back({static_cast<int>(event.payload_case()), EncodeEvent(event)});
   }
   return rows;
 }

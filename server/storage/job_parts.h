@@ -7,6 +7,7 @@
 
 #include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
+#include "storage/event_coding.h"
 
 namespace contact {
 
@@ -16,13 +17,15 @@ struct JobParts {
   std::string header;  ///< All but the other two; rewritten at every transition.
   std::string spec;    ///< Spec and labels, as the client sent them. Equal jobs, equal bytes.
   std::string result;  ///< Cycles and final bodies, written once; empty if there are none.
+  std::int64_t end_time = 0;  ///< See JobSize.
 };
 JobParts Split(const v1::Job& job);
 
-/// A stored event: its kind (the field number of its payload) and its message.
+/// A stored event: its kind (the field number of its payload) and its message. Making rows
+/// compresses, so it is done before they reach the store's thread.
 struct EventRow {
   int kind = 0;
-  std::string payload;
+  CodedEvent event;
 };
 std::vector<EventRow> ToRows(absl::Span<const v1::Event> events);
 

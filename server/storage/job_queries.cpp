@@ -9,6 +9,7 @@
 
 #include "storage/checksum.h"
 #include "storage/database.h"
+#include "storage/schema.h"
 
 namespace contact {
 namespace {
@@ -113,11 +114,18 @@ JobPage List(Database& database, const JobQuery& query) {
 }
 
 std::vector<StoredJob> ListUnfinished(Database& database) {
-  Query rows(database, absl::StrCat(kSelectJob, "WHERE state<? ORDER BY number"),
-             v1::Job::SUCCEEDED);
+  Query rows(database, absl::StrCat(kSelectJob, "WHERE NOT ", kEnded, " ORDER BY number"));
   std::vector<StoredJob> jobs;
   while (rows.Next()) jobs.push_back(RowOf(rows).stored);
   return jobs;
+}
+
+std::vector<JobSize> Sizes(Database& database) {
+  Query rows(database, absl::StrCat("SELECT name, end_time, bytes FROM jobs WHERE ", kEnded,
+                                    " ORDER BY end_time, number"));
+  std::vector<JobSize> sizes;
+  while (rows.Next()) sizes.push_back({rows.Bytes(0), rows.Integer(1), rows.Integer(2)});
+  return sizes;
 }
 
 absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query) {
@@ -129,7 +137,7 @@ absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query
   if (query.after >= last) return page;
   page.position = query.after + std::min(kMaxScan, last - query.after);
   Query rows(database,
-             "SELECT sequence, crc32, payload FROM events WHERE job=? AND sequence>?"
+             "SELECT sequence, crc32, coding, payload, kind FROM events WHERE job=? AND sequence>?"
              " AND sequence<=? AND (1<<kind)&? ORDER BY sequence",
              job.Integer(0), query.after, page.position, query.kinds);
   for (std::size_t bytes = 0; rows.Next();) {
@@ -139,10 +147,15 @@ absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query
       page.position = page.events.back().sequence;
       break;
     }
-    event.payload = rows.Bytes(2);
-    event.intact = Checksum(event.payload, event.sequence) == rows.Integer(1);
-    if (!event.intact) event.payload.clear();
-    bytes += event.payload.size() + 1;
+    event.kind = static_cast<v1::Event::PayloadCase>(rows.Integer(4));
+    CodedEvent coded{static_cast<Coding>(rows.Integer(2)), rows.Bytes(3)};
+    event.intact = Checksum(coded, event.sequence) == rows.Integer(1);
+    if (event.intact) {
+      event.coding = coded.coding;
+      event.bytes = std::move(coded.bytes);
+      bytes += DecodedSize(event.coding, event.bytes);
+    }
+    ++bytes;
     page.events.push_back(std::move(event));
   }
   return page;

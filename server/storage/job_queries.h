@@ -20,6 +20,7 @@ absl::Status NoSuchJob(const std::string& name);
 absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobPart part);
 JobPage List(Database& database, const JobQuery& query);
 std::vector<StoredJob> ListUnfinished(Database& database);
+std::vector<JobSize> Sizes(Database& database);
 absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query);
 
 }  // namespace contact

@@ -10,6 +10,7 @@
 
 #include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
+#include "storage/event_coding.h"
 
 namespace contact {
 
@@ -57,19 +58,34 @@ struct JobPage {
   std::int64_t next = 0;        ///< 0: no more.
 };
 
+/// What an ended job takes.
+struct JobSize {
+  std::string name;
+  std::int64_t end_time = 0;  ///< Unix time in seconds; 0 if the job does not tell.
+  std::int64_t bytes = 0;     ///< Stored of its events, spec and result.
+};
+
 struct EventQuery {
   std::string name;
   std::uint64_t after = 0;          ///< Only events after this sequence.
   std::uint32_t kinds = ~0U;        ///< Only kinds k with bit k set; see KindBit.
-  std::size_t max_bytes = 1 << 18;  ///< About; at least one event is read.
+  std::size_t max_bytes = 1 << 18;  ///< About, decoded; at least one event is read.
 };
 
 inline std::uint32_t KindBit(v1::Event::PayloadCase kind) { return 1U << kind; }
 
 struct StoredEvent {
   std::uint64_t sequence = 0;
-  std::string payload;  ///< A serialised v1::Event without sequence.
-  bool intact = true;   ///< False: fails its checksum; the payload is empty.
+  v1::Event::PayloadCase kind = v1::Event::PAYLOAD_NOT_SET;
+  Coding coding = Coding::kPlain;
+  std::string bytes;   ///< As they are stored; empty if not intact.
+  bool intact = true;  ///< False: fails its checksum.
+
+  /// Decodes the event, without sequence. Takes a while for a frame chunk: not for the store's
+  /// thread. False if it is damaged.
+  bool Parse(v1::Event* event) const;
+  /// The same as a serialised message. Takes the bytes.
+  bool TakePayload(std::string* payload);
 };
 
 struct EventPage {

@@ -1,9 +1,15 @@
 #pragma once
 
+#include "contact/v1/job.pb.h"
+
 namespace contact {
 
 /// Version of the tables below, kept in PRAGMA user_version. Meaning of each: README.md.
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
+
+/// SQL condition on a row of jobs: the job has ended.
+inline constexpr char kEnded[] = "state IN (3,4,5)";
+static_assert(v1::Job::SUCCEEDED == 3 && v1::Job::FAILED == 4 && v1::Job::CANCELLED == 5);
 
 inline constexpr char kSchema[] = R"sql(
 CREATE TABLE jobs(
@@ -14,6 +20,8 @@ CREATE TABLE jobs(
   epoch INTEGER NOT NULL,
   cancel_requested INTEGER NOT NULL DEFAULT 0,
   last_sequence INTEGER NOT NULL,
+  end_time INTEGER NOT NULL DEFAULT 0,
+  bytes INTEGER NOT NULL DEFAULT 0,
   crc32 INTEGER NOT NULL,
   header BLOB NOT NULL
 ) STRICT;
@@ -43,6 +51,7 @@ CREATE TABLE events(
   job INTEGER NOT NULL,
   sequence INTEGER NOT NULL,
   kind INTEGER NOT NULL,
+  coding INTEGER NOT NULL DEFAULT 0,
   crc32 INTEGER NOT NULL,
   payload BLOB NOT NULL,
   PRIMARY KEY(job, sequence)

@@ -28,7 +28,8 @@ absl::StatusOr<std::unique_ptr<Store>> Store::Open(const std::filesystem::path& 
 }
 
 Store::Store(std::unique_ptr<Database> database, StoreOptions options)
-    : thread_(std::move(database), Sweep, std::move(options.on_failure)) {}
+    : thread_(std::move(database), Sweep, std::move(options.on_failure),
+              std::move(options.metrics)) {}
 
 Store::~Store() = default;
 
@@ -36,14 +37,15 @@ Store::~Store() = default;
 template <class T, class Run>
 void Store::Post(Run run, Callback<T> done) {
   const auto result = std::make_shared<std::optional<absl::StatusOr<T>>>();
-  thread_.Post({[run = std::move(run), result](Database& database) { *result = run(database); },
-                [done = std::move(done), result](const absl::Status& committed) {
-                  if (committed.ok()) {
-                    done(*std::move(*result));
-                  } else {
-                    done(committed);
-                  }
-                }});
+  thread_.Post(CommitThread::Operation{
+      [run = std::move(run), result](Database& database) { *result = run(database); },
+      [done = std::move(done), result](const absl::Status& committed) {
+        if (committed.ok()) {
+          done(*std::move(*result));
+        } else {
+          done(committed);
+        }
+      }});
 }
 
 void Store::Create(const NewJob& job, Callback<StoredJob> done) {
@@ -89,6 +91,11 @@ void Store::ListUnfinished(Callback<std::vector<StoredJob>> done) {
                                std::move(done));
 }
 
+void Store::Sizes(Callback<std::vector<JobSize>> done) {
+  Post<std::vector<JobSize>>([](Database& database) { return contact::Sizes(database); },
+                             std::move(done));
+}
+
 void Store::ReadEvents(EventQuery query, Callback<EventPage> done) {
   Post<EventPage>([query = std::move(query)](
                       Database& database) { return contact::ReadEvents(database, query); },
@@ -100,8 +107,24 @@ void Store::Delete(std::string name, Callback<bool> done) {
              std::move(done));
 }
 
+void Store::Backup(std::stop_token stop, Callback<std::unique_ptr<BackupFile>> done) {
+  const auto backup = std::make_shared<contact::Backup>(std::move(stop));
+  // Behind the operations that were posted before.
+  Flush([this, backup, done = std::move(done)] {
+    thread_.Post(CommitThread::Task{[backup](Database& database) { return backup->Step(database); },
+                                    [backup, done](const absl::Status& status) {
+                                      if (status.ok()) {
+                                        done(backup->Take());
+                                      } else {
+                                        done(status);
+                                      }
+                                    }});
+  });
+}
+
 void Store::Flush(std::function<void()> done) {
-  thread_.Post({[](Database&) {}, [done = std::move(done)](const absl::Status&) { done(); }});
+  thread_.Post(CommitThread::Operation{[](Database&) {},
+                                       [done = std::move(done)](const absl::Status&) { done(); }});
 }
 
 }  // namespace contact

@@ -7,11 +7,14 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "storage/backup.h"
 #include "storage/commit_thread.h"
 #include "storage/records.h"
+#include "storage/store_metrics.h"
 
 namespace contact {
 
@@ -23,6 +26,8 @@ struct StoreOptions {
   /// Called once, on the store's thread, if the disk fails such that nothing can be promised any
   /// more. The process should end; the store refuses all that follows with UNAVAILABLE.
   std::function<void(const absl::Status&)> on_failure = {};
+  /// Where the store counts what it does.
+  std::shared_ptr<StoreMetrics> metrics = std::make_shared<StoreMetrics>();
 };
 
 /// What survives a restart: jobs and their event logs, in one SQLite database.
@@ -63,11 +68,19 @@ class Store {
   void List(JobQuery query, Callback<JobPage> done);
   /// Headers of the jobs that are QUEUED or RUNNING, oldest first.
   void ListUnfinished(Callback<std::vector<StoredJob>> done);
+  /// Of the jobs that have ended, the oldest end first.
+  void Sizes(Callback<std::vector<JobSize>> done);
   /// NOT_FOUND. A page may be empty though more follows; go on from its position.
   void ReadEvents(EventQuery query, Callback<EventPage> done);
 
   /// Removes a job and its log. NOT_FOUND; FAILED_PRECONDITION: it has not ended.
   void Delete(std::string name, Callback<bool> done);
+
+  /// Copies the store bit by bit, with other work between, into a file of its own. Everything
+  /// that was asked for before is in it, and what is changed meanwhile may be. One backup is made
+  /// at a time; others wait. RESOURCE_EXHAUSTED: no space for the copy. CANCELLED: `stop` was
+  /// requested, or the store is being closed.
+  void Backup(std::stop_token stop, Callback<std::unique_ptr<BackupFile>> done);
 
   /// Runs `done` after the callbacks of all calls before.
   void Flush(std::function<void()> done);

@@ -106,7 +106,9 @@ SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
     options.restitution_tolerance = message.restitution_tolerance();
   }
   if (message.has_max_iterations()) options.max_iterations = message.max_iterations();
-  if (message.has_settled_fraction()) options.settled_fraction = message.settled_fraction();
+  if (message.has_settled_fraction()) {
+    options.settled_fraction = options.settled_nirv_fraction = message.settled_fraction();
+  }
   if (message.has_max_steps()) options.max_steps = message.max_steps();
   options.clip_tension = message.tension() == v1::Solver::CLIP;
   options.fail_if_not_converged = message.on_not_converged() == v1::Solver::FAIL;

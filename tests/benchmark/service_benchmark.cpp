@@ -340,7 +340,7 @@ void IdleMemory(const ServerProcess& contactd, const Sizes& sizes) {
 }
 
 int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes) {
-  const ServerProcess contactd({binary, "--log-level=off"});
+  const ServerProcess contactd({binary, "--log-level=off", "--max-creates-per-second=0"});
   const ServerProcess bare({self, "--bare", "--messages", std::to_string(sizes.streamed_messages)});
   SubmitLatency(contactd.address(), bare.address(), sizes);
   JobRate(contactd.address(), sizes);

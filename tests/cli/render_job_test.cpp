@@ -56,6 +56,18 @@ TEST(RenderJob, ShowsLedgerBodiesAndBalances) {
             "warning: the law has no velocity\n");
 }
 
+TEST(RenderJob, ShowsHowTheJobIsTreated) {
+  v1::Job job = FromText(R"(
+      name: "jobs/k3v9" state: QUEUED priority: -5 time_to_live { seconds: 60 }
+      budget { wall_time { seconds: 1 nanos: 500000000 } steps: 1000 output_bytes: 20 })");
+  EXPECT_THAT(RenderJob(job, {}),
+              HasSubstr("\npriority -5, budget 1.5 s wall, budget 1000 steps, budget 20 bytes, "
+                        "kept 60 s after its end\n"));
+  job.set_state(v1::Job::FAILED);
+  job.mutable_expire_time()->set_seconds(0);
+  EXPECT_THAT(RenderJob(job, {}), HasSubstr("kept until 1970-01-01 00:00:00 UTC"));
+}
+
 TEST(RenderJob, LongLedgerSaysHowToGetAll) {
   v1::Job job = Finished();
   while (job.cycles_size() < 200) *job.add_cycles() = job.cycles(0);

@@ -30,9 +30,13 @@ class Usage(unittest.TestCase):
 
     def test_without_arguments_it_shows_where_to_start(self):
         printed, said = self.run_it(code=0)
+        about, examples = printed.split("\n\n")
+        self.assertEqual(len(about.splitlines()), 6)
+        self.assertEqual(len(examples.splitlines()), 3)
+        self.assertTrue(all(len(line) <= 90 for line in printed.splitlines()))
         self.assertIn("contactctl run three-ball-chain.yaml", printed)
-        self.assertIn("Exit codes:", printed)
         self.assertEqual(said, "")
+        self.assertIn("Exit codes:", self.run_it("--help", code=0)[0])
 
     def test_help_of_every_command_is_an_answer_and_not_a_failure(self):
         for command in ("run", "submit", "watch", "wait", "list", "describe", "result", "cancel",
@@ -95,6 +99,18 @@ class Usage(unittest.TestCase):
             self.assertIn(": valid; ", printed)
             self.assertEqual(said, "")
 
+    def test_reference_and_schemas_beside_the_scenarios_are_fresh(self):
+        for file, arguments in (("README.md", ["--markdown"]), ("contact.schema.json", []),
+                                ("contact-sweep.schema.json", ["sweep"])):
+            made = self.run_it("schema", *arguments, code=0)[0]
+            self.assertEqual(made, (SCENARIOS / file).read_text("utf-8"),
+                             f"make it again: contactctl schema {' '.join(arguments)} > {file}")
+
+    def test_scenarios_name_the_schema_beside_them(self):
+        for file in SCENARIOS.glob("*.yaml"):
+            name = file.read_text().splitlines()[0].removeprefix("# yaml-language-server: $schema=")
+            self.assertTrue((SCENARIOS / name).is_file(), name)
+
     def test_standard_input_is_a_file(self):
         printed, _ = self.run_it("validate", "-", code=0, input=CHAIN.read_text())
         self.assertEqual(printed,
@@ -103,9 +119,10 @@ class Usage(unittest.TestCase):
     def test_init_writes_a_scenario_and_does_not_replace_one(self):
         printed, said = self.run_it("init", "two-balls", code=0)
         self.assertEqual(printed, "two-balls.yaml\n")
-        self.assertEqual(said, "Next:  contactctl run two-balls.yaml\n")
+        self.assertTrue(said.startswith("Next:  contactctl run two-balls.yaml\n"), said)
         written = self.folder / "two-balls.yaml"
         self.assertEqual(written.read_text(), (SCENARIOS / "two-balls.yaml").read_text())
+        self.assertIn("contactctl schema > contact.schema.json", said)
         written.write_text("mine")
         self.assertIn("--force", self.run_it("init", "two-balls", code=11)[1])
         self.assertEqual(written.read_text(), "mine")

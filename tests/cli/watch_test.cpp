@@ -52,8 +52,8 @@ class WatchTest : public testing::Test {
  protected:
   WatchTest() {
     options_.name = "jobs/x";
-    options_.first_pause = 1ms;
-    options_.longest_pause = 4ms;
+    options_.patience.first_pause = 1ms;
+    options_.patience.longest_pause = 4ms;
     options_.deadline = std::chrono::steady_clock::now() + 60s;
   }
   WatchEnd Follow() {
@@ -151,9 +151,22 @@ TEST_F(WatchTest, NothingIsLeftToHearAfterTheLastEvent) {
   EXPECT_THAT(recorder_.sequences, testing::IsEmpty());
 }
 
+TEST_F(WatchTest, LiveOnlyIsAskedForOnceAndThenResumed) {
+  options_.live_only = true;
+  std::vector<std::pair<bool, std::uint64_t>> asked;
+  server_.OnWatch([&](const v1::WatchJobRequest& request, FakeServer::Writer& writer) {
+    asked.emplace_back(request.live_only(), request.after_sequence());
+    SendSnapshot(writer, v1::Job::RUNNING, 7);
+    if (asked.size() == 2) Send(writer, EventAt(kLast));
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "");
+  });
+  EXPECT_EQ(Follow(), WatchEnd::kFinished);
+  EXPECT_THAT(asked, ElementsAre(std::pair(true, 0U), std::pair(false, 7U)));
+}
+
 TEST_F(WatchTest, PausesGrowWithJitterUpToALimit) {
-  options_.first_pause = 8ms;
-  options_.longest_pause = 20ms;
+  options_.patience.first_pause = 8ms;
+  options_.patience.longest_pause = 20ms;
   int streams = 0;
   server_.OnWatch([&](const auto&, FakeServer::Writer& writer) {
     if (++streams == 1) SendSnapshot(writer, v1::Job::RUNNING, 0);
@@ -195,7 +208,7 @@ TEST_F(WatchTest, WatcherLimitIsWaitedForOnceTheWatchHasBegun) {
 }
 
 TEST_F(WatchTest, GivesUpWhenNobodyAnswersForTooLong) {
-  options_.give_up_after = 20ms;
+  options_.patience.give_up_after = 20ms;
   int streams = 0;
   server_.OnWatch([&](const auto&, FakeServer::Writer& writer) {
     if (++streams == 1) SendSnapshot(writer, v1::Job::RUNNING, 0);

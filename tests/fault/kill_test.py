@@ -15,7 +15,7 @@ KILLS = 10
 class KillTest(FaultTest):
     """F1."""
 
-    flags = ("--workers=5",)
+    flags = ("--workers=5", f"--max-attempts={10 * KILLS}")
 
     def test_ten_kills_lose_nothing(self):
         chain, long = three_ball_chain(), [spring_wall(1 + 0.1 * i) for i in range(4)]
@@ -65,7 +65,7 @@ class KillTest(FaultTest):
 class ResumeTest(FaultTest):
     """F2."""
 
-    flags = ("--workers=5",)
+    flags = ("--workers=5", f"--max-attempts={10 * KILLS}")
 
     def test_a_killed_run_gives_the_same_bytes(self):
         specs = {

@@ -101,6 +101,17 @@ TEST_F(JobsTest, ValidateOnlyStoresNothing) {
   EXPECT_EQ(Create(request).error().reason, "SCENARIO_INVALID");
 }
 
+TEST_F(JobsTest, NothingIsStoredForACallerThatHasLeft) {
+  OpenWithFakeRun();
+  Await<Result<v1::Job>> left;
+  manager_->Create(RequestFor(BouncingBall()), left.callback(), [] { return true; });
+  EXPECT_EQ(left.Get().error().reason, "DEADLINE_EXCEEDED");
+  Await<Result<v1::Job>> stayed;
+  manager_->Create(RequestFor(BouncingBall()), stayed.callback(), [] { return false; });
+  EXPECT_TRUE(stayed.Get().ok());
+  EXPECT_EQ(List({}).value().jobs_size(), 1);
+}
+
 TEST_F(JobsTest, OutputFieldsOfTheRequestAreIgnored) {
   OpenWithFakeRun();
   v1::CreateJobRequest request = RequestFor(BouncingBall());

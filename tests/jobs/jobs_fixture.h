@@ -46,6 +46,22 @@ inline v1::CreateJobRequest RequestFor(v1::Scenario scenario, std::string reques
   return request;
 }
 
+/// The event of a record, as a watcher gets it.
+inline v1::Event ToEvent(const LogRecord& record) {
+  v1::Event event;
+  EXPECT_TRUE(event.ParseFromString(*record.event));
+  EXPECT_EQ(event.payload_case(), record.kind);
+  event.set_sequence(record.sequence);
+  return event;
+}
+
+inline std::vector<v1::Event> ToEvents(const std::vector<LogRecord>& records) {
+  std::vector<v1::Event> events;
+  events.reserve(records.size());
+  for (const LogRecord& record : records) events.push_back(ToEvent(record));
+  return events;
+}
+
 /// Reads a cursor to its end, waiting where it waits.
 class LogReader {
  public:
@@ -60,10 +76,10 @@ class LogReader {
   /// The next events; none at the end, which `end` then tells.
   std::vector<v1::Event> Next(LogCursor& cursor, std::size_t max_bytes = 1 << 16) {
     for (;;) {
-      google::protobuf::RepeatedPtrField<v1::Event> events;
-      switch (end_ = cursor.Read(max_bytes, &events)) {
+      std::vector<LogRecord> records;
+      switch (end_ = cursor.Read(max_bytes, &records)) {
         case LogCursor::Next::kEvents:
-          return {events.begin(), events.end()};
+          return ToEvents(records);
         case LogCursor::Next::kWait:
           Wait();
           break;
@@ -83,13 +99,7 @@ class LogReader {
 
   LogCursor::Next end() const { return end_; }
 
- private:
-  struct Signal {
-    std::mutex mutex;
-    std::condition_variable changed;
-    bool woken = false;
-  };
-
+  /// Until it is woken.
   void Wait() {
     std::unique_lock lock(signal_->mutex);
     if (!signal_->changed.wait_for(lock, kPatience, [&] { return signal_->woken; })) {
@@ -97,6 +107,13 @@ class LogReader {
     }
     signal_->woken = false;
   }
+
+ private:
+  struct Signal {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool woken = false;
+  };
 
   std::shared_ptr<Signal> signal_ = std::make_shared<Signal>();
   LogCursor::Next end_ = LogCursor::Next::kWait;
@@ -169,7 +186,12 @@ class JobsTest : public testing::Test {
                                     const std::vector<std::string>& kinds = {}) {
     // A promise of what can only be moved.
     auto box = std::make_shared<std::promise<Result<JobManager::Watched>>>();
-    manager_->Watch(name, after, kinds, reader.wake(), [box](Result<JobManager::Watched> result) {
+    v1::WatchJobRequest request;
+    request.set_name(name);
+    request.set_after_sequence(after);
+    request.mutable_kinds()->Add(kinds.begin(), kinds.end());
+    request.mutable_delivery()->set_overflow(v1::DeliveryOptions::LAG);
+    manager_->Watch(request, reader.wake(), [box](Result<JobManager::Watched> result) {
       box->set_value(std::move(result));
     });
     return box->get_future().get();

@@ -53,7 +53,7 @@ class LogWriterTest : public testing::Test {
   TempDirectory directory_;
   std::unique_ptr<Store> store_;
   std::shared_ptr<JobLog> log_ = std::make_shared<JobLog>(1, false);
-  std::stop_source run_;
+  RunControl run_;
   std::stop_source shutdown_;
 };
 
@@ -81,7 +81,7 @@ TEST_F(LogWriterTest, WaitsForSpaceAndLosesNothing) {
   ASSERT_TRUE(deleted.Get().ok());
   EXPECT_TRUE(writer->Finish(Job(v1::Job::SUCCEEDED), v1::Event(), {}));
   EXPECT_EQ(Stored()->job.last_sequence(), 23U);
-  EXPECT_FALSE(run_.stop_requested());
+  EXPECT_FALSE(run_.stopping());
 }
 
 TEST_F(LogWriterTest, TakesTheJobOnceThereIsSpace) {
@@ -116,7 +116,7 @@ TEST_F(LogWriterTest, RunOfAJobThatAnotherTookIsStopped) {
   const auto other = Writer();  // With the same, now stale epoch.
   other->Add(Big());
   EXPECT_FALSE(other->Finish(Job(v1::Job::FAILED), v1::Event(), {}));
-  EXPECT_TRUE(run_.stop_requested());
+  EXPECT_TRUE(run_.stopping());
   EXPECT_EQ(Stored()->job.state(), v1::Job::RUNNING);
 }
 

@@ -59,6 +59,47 @@ TEST(CheckCreate, NamesAllViolationsAtOnce) {
   EXPECT_THAT(Fields(CheckCreate(request)), ElementsAre("request_id", "labels[ö]", "scenario"));
 }
 
+TEST(CheckCreate, TakesSettingsUpToTheirLimits) {
+  v1::CreateJobRequest request = Good();
+  v1::Job& job = *request.mutable_job();
+  for (const int priority : {-100, 100}) {
+    job.set_priority(priority);
+    EXPECT_THAT(CheckCreate(request), testing::IsEmpty());
+  }
+  job.mutable_budget()->mutable_wall_time()->set_nanos(1'000'000);
+  job.mutable_budget()->set_steps(10);
+  job.mutable_budget()->set_output_bytes(20);
+  job.mutable_time_to_live()->set_seconds(1);
+  EXPECT_THAT(CheckCreate(request), testing::IsEmpty());
+  const RunBudget most{std::chrono::milliseconds(1), 10, 20};
+  EXPECT_THAT(CheckCreate(request, most), testing::IsEmpty());
+  job.mutable_budget()->mutable_wall_time()->set_seconds(1);
+  job.mutable_budget()->set_steps(11);
+  job.mutable_budget()->set_output_bytes(21);
+  const auto violations = CheckCreate(request, most);
+  EXPECT_THAT(Fields(violations),
+              ElementsAre("budget.wall_time", "budget.steps", "budget.output_bytes"));
+  EXPECT_EQ(violations[1].description, "is 11; must be at most 10, the server's limit");
+  EXPECT_FALSE(violations[1].hint.empty());
+}
+
+TEST(CheckCreate, RefusesSettingsThatAreNone) {
+  v1::CreateJobRequest request = Good();
+  v1::Job& job = *request.mutable_job();
+  job.set_priority(101);
+  job.mutable_budget()->mutable_wall_time()->set_nanos(999'999);
+  job.mutable_budget()->set_steps(-1);
+  job.mutable_budget()->set_output_bytes(-1);
+  job.mutable_time_to_live()->set_seconds(INT64_MAX);
+  EXPECT_THAT(Fields(CheckCreate(request)),
+              ElementsAre("priority", "budget.wall_time", "budget.steps", "budget.output_bytes",
+                          "time_to_live"));
+  job.set_priority(-101);
+  job.mutable_budget()->mutable_wall_time()->set_seconds(1);
+  job.mutable_budget()->mutable_wall_time()->set_nanos(-1);
+  EXPECT_EQ(CheckCreate(request).size(), 5U);
+}
+
 TEST(ToQuery, HasDefaultsAndLimits) {
   v1::ListJobsRequest request;
   EXPECT_EQ(ToQuery(request).value().limit, 50);
@@ -94,16 +135,47 @@ TEST(ToQuery, NamesAllViolationsAtOnce) {
               ElementsAre("page_size", "page_token", "states", "labels[]"));
 }
 
-TEST(KindSet, AlwaysHoldsTheState) {
-  EXPECT_EQ(KindSet({}).value(), ~0U);
-  EXPECT_EQ(KindSet({"cycle"}).value(),
+v1::WatchJobRequest Watching(const std::vector<std::string>& kinds) {
+  v1::WatchJobRequest request;
+  request.mutable_kinds()->Add(kinds.begin(), kinds.end());
+  return request;
+}
+
+TEST(WatchRules, KindsAlwaysHoldTheState) {
+  EXPECT_EQ(ToRules(Watching({})).value().kinds, ~0U);
+  EXPECT_EQ(ToRules(Watching({"cycle"})).value().kinds,
             KindBit(v1::Event::kCycle) | KindBit(v1::Event::kStateChanged));
 }
 
-TEST(KindSet, RefusesWhatIsNoKind) {
-  for (const char* kind : {"cycles", "", "sequence", "event_time", "payload"}) {
-    EXPECT_FALSE(KindSet({kind}).ok()) << kind;
+TEST(WatchRules, RefuseWhatIsNoKind) {
+  for (const auto* kind : {"cycles", "sequence", "event_time", ""}) {
+    EXPECT_FALSE(ToRules(Watching({kind})).ok()) << kind;
   }
+}
+
+TEST(WatchRules, DefaultsAreThoseOfTheContract) {
+  const WatchRules rules = ToRules(v1::WatchJobRequest()).value();
+  EXPECT_EQ(rules.bookmark_interval, std::chrono::seconds(10));
+  EXPECT_EQ(rules.delivery.min_frame_interval, std::chrono::seconds(0));
+  EXPECT_EQ(rules.delivery.overflow, v1::DeliveryOptions::CONFLATE);
+}
+
+TEST(WatchRules, EveryBrokenOneIsTold) {
+  v1::WatchJobRequest request = Watching({"cycles"});
+  request.mutable_bookmark_interval()->set_nanos(999'999'999);
+  request.mutable_delivery()->mutable_min_frame_interval()->set_seconds(3601);
+  request.mutable_delivery()->set_overflow(static_cast<v1::DeliveryOptions::OverflowPolicy>(9));
+  request.set_after_sequence(1);
+  request.set_live_only(true);
+  EXPECT_THAT(Fields(ToRules(request).error().violations),
+              ElementsAre("kinds", "bookmark_interval", "delivery.min_frame_interval",
+                          "delivery.overflow", "live_only"));
+}
+
+TEST(WatchRules, FilterOfJobsIsCheckedLikeThatOfAList) {
+  v1::WatchJobsRequest request;
+  request.add_states(static_cast<v1::Job::State>(77));
+  EXPECT_EQ(ToRules(request).error().reason, "FIELD_INVALID");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
 
 #include "jobs_fixture.h"
@@ -111,6 +112,56 @@ TEST_F(SeriesTest, TimeRangeIncludesItsEnds) {
   request.set_end_time_s(2);
   const v1::Series series = Series(request).value();
   EXPECT_THAT(Values(series.columns(0)), ElementsAre(1, 1.25, 1.5, 1.75, 2));
+}
+
+TEST_F(SeriesTest, NothingIsReadForACallerThatHasLeft) {
+  Open();
+  const std::string name = Create(BouncingBall(2));
+  Ended(name);
+  Await<Result<v1::Series>> left;
+  manager_->Series(Ask(name), left.callback(), [] { return true; });
+  EXPECT_EQ(left.Get().error().reason, "DEADLINE_EXCEEDED");
+}
+
+// Any part of the whole, from a log of many chunks with other events between, in two attempts.
+TEST_F(SeriesTest, AnyTimeRangeIsThatPartOfTheWhole) {
+  constexpr int kChunks = 40;
+  constexpr int kRows = 5;
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
+    for (int chunk = 0; chunk < kChunks; ++chunk) {
+      std::vector<double> values(kRows * 7, 0.5);
+      for (int row = 0; row < kRows; ++row)
+        values[static_cast<std::size_t>(row) * 7] = chunk * kRows + row;
+      observer.OnSamples({chunk * kRows, 7, std::move(values)});
+      for (int i = 0; i < chunk % 3; ++i) observer.OnWarning("between");
+    }
+    return Outcome{};
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  const std::string name = Create(BouncingBall(1e4));
+  Ended(name);
+  const std::vector<double> whole = Values(Series(Raw(name, {"ball.position"})).value().columns(0));
+  ASSERT_EQ(whole.size(), static_cast<std::size_t>(kChunks * kRows));
+  for (double start = -1; start < 203; start += 3.5) {
+    for (const double length : {0.0, 0.4, 1.0, 7.0, 60.0, 500.0}) {
+      v1::GetSeriesRequest request = Raw(name, {"ball.position"});
+      request.set_start_time_s(start);
+      request.set_end_time_s(start + length);
+      std::vector<double> expected;
+      std::ranges::copy_if(whole, std::back_inserter(expected),
+                           [&](double time) { return time >= start && time <= start + length; });
+      EXPECT_EQ(Values(Series(request).value().columns(0)), expected) << start << " " << length;
+    }
+    v1::GetSeriesRequest from = Raw(name, {"ball.position"});
+    from.set_start_time_s(start);
+    EXPECT_EQ(Series(from).value().samples(),
+              std::ranges::count_if(whole, [&](double time) { return time >= start; }));
+    v1::GetSeriesRequest until = Raw(name, {"ball.position"});
+    until.set_end_time_s(start);
+    EXPECT_EQ(Series(until).value().samples(),
+              std::ranges::count_if(whole, [&](double time) { return time <= start; }));
+  }
 }
 
 TEST_F(SeriesTest, ReadsWhatARunningJobHasRecorded) {

@@ -144,7 +144,7 @@ TEST_F(SweepTest, FailuresStayInTheirCells) {
   }
   EXPECT_THAT(reasons, ElementsAre("", "NUMERIC", "INTERNAL", "", "SCENARIO_INVALID"));
   EXPECT_EQ(messages[1], "blew up");
-  EXPECT_EQ(messages[2], "broke");
+  EXPECT_EQ(messages[2], "std::runtime_error: broke");
   EXPECT_EQ(messages[4], "bodies[0].velocity_m_per_s: is 10000000000; must be in [-1e6, 1e6]");
 }
 

@@ -44,8 +44,8 @@ class TailCursorTest : public testing::Test {
     store_->Create({job_, "", events}, created.callback());
     ASSERT_TRUE(created.Get().ok());
     log_ = std::make_shared<JobLog>(1, false);
-    writer_ = std::make_unique<LogWriter>(*store_, LogWriter::Place{name_, 0, log_},
-                                          std::stop_source(), std::stop_token());
+    writer_ = std::make_unique<LogWriter>(*store_, LogWriter::Place{name_, 0, log_}, run_,
+                                          std::stop_token());
     writer_->Take(job_, {Changed(v1::Job::RUNNING)});
   }
 
@@ -66,6 +66,7 @@ class TailCursorTest : public testing::Test {
   std::unique_ptr<Store> store_;
   v1::Job job_;
   std::shared_ptr<JobLog> log_;
+  RunControl run_;
   std::unique_ptr<LogWriter> writer_;
   std::shared_ptr<std::atomic<int>> watchers_ = std::make_shared<std::atomic<int>>(0);
 };
@@ -161,7 +162,7 @@ TEST_F(TailCursorTest, ProgressIsTheNewestOnlyAndHasNoSequence) {
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].sequence(), 0U);
   EXPECT_EQ(events[0].progress().steps(), 3);
-  google::protobuf::RepeatedPtrField<v1::Event> none;
+  std::vector<LogRecord> none;
   EXPECT_EQ(cursor->Read(1, &none), LogCursor::Next::kWait) << "it was seen";
 }
 
@@ -200,7 +201,7 @@ TEST_F(TailCursorTest, CursorsMayLeaveWhileTheLogIsWritten) {
     for (int i = 0; i < 500; ++i) {
       LogReader reader;
       const auto cursor = Cursor(reader, static_cast<std::uint64_t>(i % 3) * 1000);
-      google::protobuf::RepeatedPtrField<v1::Event> events;
+      std::vector<LogRecord> events;
       cursor->Read(1 << 12, &events);
       cursor->Read(1 << 12, &events);
     }

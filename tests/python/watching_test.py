@@ -57,6 +57,14 @@ class WatchTest(unittest.TestCase):
                 heard = [event.sequence for event in client.watch("x")]
                 self.assertEqual(heard, list(range(1, 42)))
 
+    def test_live_only_is_asked_for_once_and_then_resumed(self):
+        position = watching.Position("jobs/x", "", live_only=True)
+        self.assertTrue(position.request().live_only)
+        position.take(job_service_pb2.WatchJobResponse(
+            snapshot=job_pb2.Job(state=job_pb2.Job.RUNNING, last_sequence=7)))
+        self.assertFalse(position.request().live_only)
+        self.assertEqual(position.request().after_sequence, 7)
+
     def test_asynchronous_watch_does_the_same(self):
         server = self.serve(grpc.StatusCode.UNAVAILABLE)
 

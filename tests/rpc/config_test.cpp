@@ -54,6 +54,15 @@ class ConfigTest : public testing::Test {
   std::map<std::string, std::string> environment_;
 };
 
+TEST_F(ConfigTest, FsckIsAskedForByItsNameAndTakesTheSameFlags) {
+  EXPECT_FALSE(Good({}).fsck);
+  const Config config = Good({"fsck", "--data-dir", "/other"});
+  EXPECT_TRUE(config.fsck);
+  EXPECT_EQ(config.data_dir, "/other");
+  EXPECT_EQ(Bad({"fsck", "--no-such-flag"}).code, 2);
+  EXPECT_EQ(Bad({"fsk"}).code, 2);
+}
+
 TEST_F(ConfigTest, DefaultsAreThoseOfTheReadme) {
   const Config config = Good({});
   EXPECT_EQ(config.listen, "127.0.0.1:7070");
@@ -73,7 +82,17 @@ TEST_F(ConfigTest, EveryFlagArrives) {
                               "10",          "--max-watchers",
                               "11",          "--max-cells",
                               "12",          "--write-stall-seconds",
-                              "0.5",         "--log-level",
+                              "0.5",         "--max-connections",
+                              "13",          "--max-connections-per-peer",
+                              "14",          "--max-watchers-per-peer",
+                              "15",          "--max-creates-per-second",
+                              "1.5",         "--max-create-burst",
+                              "16",          "--max-metadata-bytes",
+                              "2048",        "--max-stored-bytes",
+                              "1000000",     "--metrics-listen",
+                              "127.0.0.1:0", "--log-format",
+                              "json",        "--max-rpc-memory-bytes",
+                              "16777216",    "--log-level",
                               "warn",        "--no-reflection",
                               "--port-file", "/port"});
   EXPECT_EQ(config.listen, "[::1]:0");
@@ -87,6 +106,16 @@ TEST_F(ConfigTest, EveryFlagArrives) {
   EXPECT_EQ(config.jobs.max_watchers, 11);
   EXPECT_EQ(config.jobs.scenario_limits.max_cells, 12);
   EXPECT_EQ(config.rpc.write_stall, std::chrono::milliseconds(500));
+  EXPECT_EQ(config.rpc.connections.in_all, 13);
+  EXPECT_EQ(config.rpc.connections.per_peer, 14);
+  EXPECT_EQ(config.rpc.calls.max_watchers_per_peer, 15);
+  EXPECT_EQ(config.rpc.calls.max_creates_per_second, 1.5);
+  EXPECT_EQ(config.rpc.calls.max_create_burst, 16);
+  EXPECT_EQ(config.rpc.calls.max_metadata_bytes, 2048);
+  EXPECT_EQ(config.store.max_bytes, 1'000'000);
+  EXPECT_EQ(config.metrics_listen, "127.0.0.1:0");
+  EXPECT_EQ(config.rpc.max_memory_bytes, 16 << 20);
+  EXPECT_EQ(config.log_format, LogFormat::kJson);
   EXPECT_EQ(config.log_level, spdlog::level::warn);
   EXPECT_FALSE(config.rpc.reflection);
   EXPECT_EQ(config.port_file, "/port");
@@ -131,12 +160,18 @@ TEST_F(ConfigTest, BadValuesAreUsageErrorsThatNameTheFlag) {
       {"--max-cells", "0"},
       {"--write-stall-seconds", "0"},
       {"--log-level", "loud"},
+      {"--log-format", "xml"},
       {"--listen", "127.0.0.1"},
       {"--listen", ":7070"},
       {"--listen", "127.0.0.1:http"},
       {"--listen", "127.0.0.1:65536"},
       {"--listen", "::1:70"},
-      {"--listen", "unix:x"},
+      {"--listen", "unix:"},
+      {"--max-connections", "0"},
+      {"--max-creates-per-second", "-1"},
+      {"--metrics-listen", "9464"},
+      {"--metrics-listen", "0.0.0.0:9464"},
+      {"--max-stored-bytes", "-1"},
   };
   for (const auto& [flag, value] : cases) {
     const Exit exit = Bad({flag, value});
@@ -158,6 +193,12 @@ TEST_F(ConfigTest, AddressOthersCanReachNeedsConsent) {
   for (const char* address : {"127.0.0.1:1", "127.8.9.10:1", "localhost:1", "[::1]:1"}) {
     EXPECT_EQ(Good({"--listen", address}).listen, address);
   }
+}
+
+TEST_F(ConfigTest, SocketFileIsLocal) {
+  const Config config = Good({"--listen", "unix:/run/contactd.sock"});
+  EXPECT_EQ(config.listen, "unix:/run/contactd.sock");
+  EXPECT_TRUE(config.rpc.reflection);
 }
 
 TEST_F(ConfigTest, DataDirDefaultsToTheStateFolderOfTheUser) {

@@ -13,7 +13,7 @@
 namespace contact {
 namespace {
 
-TEST(GrpcLogTest, FloodOfLinesIsCutToTenASecond) {
+TEST(GrpcLogTest, FloodOfLinesIsCutToTenASecondFromEachPlace) {
   std::ostringstream lines;
   const auto before = spdlog::default_logger();
   const auto sink = std::make_shared<spdlog::sinks::ostream_sink_st>(lines);
@@ -21,13 +21,15 @@ TEST(GrpcLogTest, FloodOfLinesIsCutToTenASecond) {
   gpr_log_verbosity_init();  // As gRPC does when it is first used.
   RouteGrpcLog();
   for (int i = 0; i < 1000; ++i) gpr_log(GPR_ERROR, "bad peer");
+  gpr_log(GPR_ERROR, "another thing");
   gpr_set_log_function(nullptr);
   spdlog::set_default_logger(before);
 
   const std::string text = lines.str();
   EXPECT_THAT(text, testing::HasSubstr("gRPC: bad peer"));
+  EXPECT_THAT(text, testing::HasSubstr("gRPC: another thing"));
   // The loop may see a new second begin, twice on a machine that is very busy.
-  EXPECT_LE(std::ranges::count(text, '\n'), 3 * 11);
+  EXPECT_LE(std::ranges::count(text, '\n'), 3 * 11 + 1);
 }
 
 }  // namespace

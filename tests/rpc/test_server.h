@@ -41,6 +41,7 @@ class TestServer {
   GrpcServer& grpc() { return server_; }
   JobManager& jobs() { return jobs_; }
   v1::JobService::Stub& stub() { return *stub_; }
+  int port() const { return port_; }
   std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
 
   /// A connection of its own that takes only about 64 KiB ahead of its reader, so that one who

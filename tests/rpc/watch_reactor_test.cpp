@@ -1,8 +1,10 @@
 #include "rpc/watch_reactor.h"
 
 #include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
 
 #include <atomic>
+#include <functional>
 #include <random>
 #include <string>
 #include <thread>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "test_server.h"
+#include "testing/fake_run.h"
 
 namespace contact {
 namespace {
@@ -20,18 +23,25 @@ using std::chrono::milliseconds;
 class Watch {
  public:
   Watch(v1::JobService::Stub& stub, const std::string& name, int bookmark_interval_s = 0,
-        std::uint64_t after = 0) {
+        std::uint64_t after = 0)
+      : Watch(stub, Request(name, bookmark_interval_s, after)) {}
+  Watch(v1::JobService::Stub& stub, const v1::WatchJobRequest& request) {
+    context_.set_deadline(std::chrono::system_clock::now() + kPatience);
+    reader_ = stub.WatchJob(&context_, request);
+  }
+  ~Watch() {
+    if (reader_) End();
+  }
+
+  static v1::WatchJobRequest Request(const std::string& name, int bookmark_interval_s = 0,
+                                     std::uint64_t after = 0) {
     v1::WatchJobRequest request;
     request.set_name(name);
     request.set_after_sequence(after);
     if (bookmark_interval_s != 0) {
       request.mutable_bookmark_interval()->set_seconds(bookmark_interval_s);
     }
-    context_.set_deadline(std::chrono::system_clock::now() + kPatience);
-    reader_ = stub.WatchJob(&context_, request);
-  }
-  ~Watch() {
-    if (reader_) End();
+    return request;
   }
 
   bool Read(v1::WatchJobResponse* message) { return reader_->Read(message); }
@@ -181,6 +191,187 @@ TEST(WatchReactorTest, CancelAtAnyMomentLeavesNothing) {
     watch.Cancel();
   }
   EXPECT_TRUE(Eventually([&] { return server.grpc().watchers() == 0; }));
+}
+
+// A run that waits, then brings so many frame chunks of so many rows, a remark after each.
+JobManagerOptions Filming(FakeRun& run) { return {.workers = 1, .run = std::ref(run)}; }
+FakeRun::Script Frames(int chunks, std::int64_t rows) {
+  return [chunks, rows](const Scenario&, Observer& observer, const std::stop_token&) {
+    constexpr int kColumns = 9;
+    for (std::int64_t i = 0; i < chunks; ++i) {
+      std::vector<double> values(static_cast<std::size_t>(rows * kColumns), 0.5);
+      observer.OnSamples({i * rows, kColumns, std::move(values)});
+      observer.OnWarning(std::to_string(i));
+    }
+    return Outcome{};
+  };
+}
+
+// Whether the events and the gaps between them make up the whole log, and what it has of remarks.
+void ExpectWhole(const std::vector<v1::Event>& events, int remarks, std::uint64_t* left_out) {
+  std::uint64_t sequence = 0;
+  for (const v1::Event& event : events) {
+    if (event.has_progress() || event.has_bookmark()) continue;
+    EXPECT_EQ(event.has_gap() ? event.gap().first_sequence() : event.sequence(), sequence + 1);
+    if (event.has_gap()) {
+      *left_out += event.gap().dropped_count();
+      EXPECT_EQ(event.gap().last_sequence() - sequence, event.gap().dropped_count());
+    }
+    if (event.has_log_entry()) --remarks;
+    sequence = event.sequence();
+  }
+  EXPECT_EQ(remarks, 0);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().state_changed().state(), v1::Job::SUCCEEDED);
+}
+
+TEST(WatchReactorTest, FrameIntervalLeavesOutFramesAndNamesThem) {
+  FakeRun run(Frames(50, 10));
+  TestServer server({}, Filming(run));
+  const std::string name = server.Create(Collision());
+  v1::WatchJobRequest request = Watch::Request(name);
+  request.mutable_delivery()->mutable_min_frame_interval()->set_seconds(3600);
+  Watch watch(server.stub(), request);
+  run.Allow();
+  EXPECT_TRUE(watch.End().ok());
+  std::uint64_t left_out = 0;
+  ExpectWhole(watch.events(), 50, &left_out);
+  EXPECT_GE(left_out, 48U);  // All but the first, and the last if it still was the newest.
+  Watch replay(server.stub(), name);
+  EXPECT_TRUE(replay.End().ok());
+  std::uint64_t none = 0;
+  ExpectWhole(replay.events(), 50, &none);
+  EXPECT_EQ(none, 0U);
+}
+
+TEST(WatchReactorTest, IdleWatchGetsTheNewestFrameWhenItIsTime) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token& stop) {
+    for (std::int64_t i = 0; i < 5; ++i) observer.OnSamples({i, 9, std::vector<double>(9)});
+    while (!stop.stop_requested()) observer.OnProgress({});
+    return Ending(Outcome::End::kStopped);
+  });
+  TestServer server({}, Filming(run));
+  v1::WatchJobRequest request = Watch::Request(server.Create(Collision()));
+  request.add_kinds("frame_chunk");
+  request.mutable_delivery()->mutable_min_frame_interval()->set_nanos(100'000'000);
+  Watch watch(server.stub(), request);
+  run.Allow();
+  v1::WatchJobResponse message;
+  std::int64_t newest = -1;
+  while (newest < 4 && watch.Read(&message)) {
+    for (const v1::Event& event : message.events()) {
+      if (event.has_frame_chunk()) newest = event.frame_chunk().first_sample();
+    }
+  }
+  EXPECT_EQ(newest, 4);
+  watch.Cancel();
+}
+
+// A watch that is up to date, and then takes nothing until the job has ended 11 MB later.
+grpc::Status WatchLate(v1::DeliveryOptions::OverflowPolicy overflow,
+                       std::vector<v1::Event>* events) {
+  FakeRun run(Frames(16, 10'000));
+  TestServer server({}, Filming(run));
+  const std::string name = server.Create(Collision());
+  run.AwaitStarted(1);
+  const auto stub = v1::JobService::NewStub(server.Connect());
+  v1::WatchJobRequest request = Watch::Request(name, 1);
+  request.mutable_delivery()->set_overflow(overflow);
+  Watch watch(*stub, request);
+  v1::WatchJobResponse message;
+  do {  // A bookmark says that all has been read.
+    EXPECT_TRUE(watch.Read(&message));
+    events->insert(events->end(), message.events().begin(), message.events().end());
+  } while (message.events().empty() || !message.events().rbegin()->has_bookmark());
+  run.Allow();
+  EXPECT_TRUE(Watch(server.stub(), name).End().ok());
+  const grpc::Status status = watch.End();
+  events->insert(events->end(), watch.events().begin(), watch.events().end());
+  return status;
+}
+
+TEST(WatchReactorTest, SlowWatcherIsSparedFramesAndNothingElse) {
+  std::vector<v1::Event> events;
+  EXPECT_TRUE(WatchLate(v1::DeliveryOptions::CONFLATE, &events).ok());
+  std::uint64_t left_out = 0;
+  ExpectWhole(events, 16, &left_out);
+  EXPECT_GT(left_out, 0U);
+}
+
+TEST(WatchReactorTest, SlowWatcherIsDisconnectedIfItWants) {
+  std::vector<v1::Event> events;
+  const grpc::Status status = WatchLate(v1::DeliveryOptions::DISCONNECT, &events);
+  EXPECT_EQ(status.error_code(), grpc::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(Reason(status), "SLOW_WATCHER");
+}
+
+TEST(WatchReactorTest, SlowWatcherGetsEverythingIfItWants) {
+  std::vector<v1::Event> events;
+  EXPECT_TRUE(WatchLate(v1::DeliveryOptions::LAG, &events).ok());
+  std::uint64_t left_out = 0;
+  ExpectWhole(events, 16, &left_out);
+  EXPECT_EQ(left_out, 0U);
+}
+
+TEST(WatchReactorTest, LiveOnlyBeginsAfterTheSnapshot) {
+  FakeRun run(Frames(1, 1));
+  TestServer server({}, Filming(run));
+  const std::string name = server.Create(Collision());
+  run.AwaitStarted(1);
+  v1::WatchJobRequest request = Watch::Request(name);
+  request.set_live_only(true);
+  Watch watch(server.stub(), request);
+  v1::WatchJobResponse message;
+  ASSERT_TRUE(watch.Read(&message));
+  EXPECT_EQ(message.snapshot().last_sequence(), 3U);
+  run.Allow();
+  EXPECT_TRUE(watch.End().ok());
+  EXPECT_EQ(watch.events().front().sequence(), 4U);
+
+  Watch late(server.stub(), request);
+  EXPECT_TRUE(late.End().ok());
+  EXPECT_TRUE(late.events().empty());
+}
+
+TEST(WatchReactorTest, ProgressDoesNotKeepBookmarksBack) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token& stop) {
+    while (!stop.stop_requested()) observer.OnProgress({});
+    return Ending(Outcome::End::kStopped);
+  });
+  TestServer server({}, Filming(run));
+  v1::WatchJobRequest request = Watch::Request(server.Create(Collision()), 1);
+  request.add_kinds("progress");
+  Watch watch(server.stub(), request);
+  run.Allow();
+  v1::WatchJobResponse message;
+  std::uint64_t told = 0;
+  while (told < 3 && watch.Read(&message)) {
+    for (const v1::Event& event : message.events()) {
+      if (event.has_bookmark()) told = event.sequence();
+    }
+  }
+  EXPECT_EQ(told, 3U);
+  watch.Cancel();
+}
+
+TEST(WatchReactorTest, RequestThatIsNoneIsRefused) {
+  TestServer server;
+  grpc::GenericStub stub(server.Connect());
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kPatience);
+  grpc::CompletionQueue queue;
+  const grpc::Slice garbage("\xff\xff");
+  const auto call = stub.PrepareUnaryCall(&context, "/contact.v1.JobService/WatchJob",
+                                          grpc::ByteBuffer(&garbage, 1), &queue);
+  grpc::ByteBuffer answer;
+  grpc::Status status;
+  call->StartCall();
+  call->Finish(&answer, &status, nullptr);
+  void* tag = nullptr;
+  bool ok = false;
+  ASSERT_TRUE(queue.Next(&tag, &ok));
+  EXPECT_EQ(status.error_code(), grpc::INVALID_ARGUMENT);
+  EXPECT_EQ(Reason(status), "FIELD_INVALID");
 }
 
 // What the clients of the storm share.

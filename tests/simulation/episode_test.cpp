@@ -162,6 +162,29 @@ TEST(Episode, AnElasticContactHasNoDamping) {
   EXPECT_NEAR(r.cycles[0].restitution_out, 1, 1e-11);
 }
 
+// All contacts of the row are in touch at once, and the weak cycles that follow are settled.
+TEST(Episode, ARowOfTouchingBallsIsSolvedAsAWhole) {
+  for (const double restitution : {0.7, 0.9}) {
+    const Record r =
+        RunAndRecord(testing::Chain(std::vector<double>(20, 0.5), std::vector<double>(19, 1e8),
+                                    std::vector<double>(19, restitution), 0.2, 0.03));
+    EXPECT_TRUE(r.outcome.all_converged);
+    int converged = 0;
+    for (const Cycle& cycle : r.cycles) {
+      if (cycle.status != Cycle::Status::kConverged) {
+        EXPECT_EQ(cycle.status, Cycle::Status::kSettled);
+        EXPECT_LT(cycle.work_compression, 1e-4 * r.cycles[0].work_compression);
+        continue;
+      }
+      ++converged;
+      if (cycle.end == Cycle::End::kRunEnd) continue;
+      EXPECT_NEAR(cycle.restitution_out / restitution, 1, 1e-8);
+    }
+    EXPECT_GE(converged, 19);
+    EXPECT_LT(r.outcome.energy_residual, 1e-9);
+  }
+}
+
 // One dimensionless solution for all stiffnesses, velocities and sizes.
 TEST(Episode, AnUnloadedChainIsScaleInvariant) {
   const Record base = RunAndRecord(testing::TripleChain());

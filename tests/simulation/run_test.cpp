@@ -194,7 +194,7 @@ TEST(Run, ARestingContactWakesWhenItsLoadGrows) {
   s.contacts = {{.name = "floor", .right = 0, .stiffness = 1e8, .restitution = 0.5}};
   s.loads = {{.body = 0, .constant = -50, .amplitude = 60, .angular_frequency = 3, .phase = -1.5}};
   s.end_time = 4;
-  s.solver.settled_fraction = 1e-4;
+  s.solver.settled_fraction = s.solver.settled_nirv_fraction = 1e-4;
   const Record r = RunAndRecord(s);
   EXPECT_EQ(r.outcome.end, Outcome::End::kFinished) << r.outcome.message;
   const auto settled = std::find_if(r.cycles.begin(), r.cycles.end(), [](const Cycle& c) {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <random>
 
+#include "storage/fsck.h"
 #include "storage/store.h"
 #include "storage/store_fixture.h"
 
@@ -32,8 +33,13 @@ class DamageTest : public StoreTest {
     Open();
     for (const char* name : {"jobs/a", "jobs/b", "jobs/c"}) {
       ASSERT_TRUE(Create(MakeJob(name)).ok());
-      const std::vector<v1::Event> events(50, LogEvent(std::string(500, 'x')));
+      std::vector<v1::Event> events(50, LogEvent(std::string(500, 'x')));
+      for (int i = 0; i < 10; ++i) events.push_back(FrameEvent(64 * i));
       ASSERT_TRUE(Append(name, events).ok());
+      v1::Job ended = MakeJob(name);
+      ended.set_state(v1::Job::SUCCEEDED);
+      ended.add_cycles()->set_mu(2e8);
+      ASSERT_TRUE(Update({.name = name, .epoch = 0, .job = &ended}).ok());
     }
     store_.reset();
   }
@@ -115,40 +121,62 @@ TEST_F(DamageTest, CommittedWorkSurvivesWithoutAProperClose) {
   EXPECT_TRUE(job.Get().ok());
 }
 
-TEST_F(DamageTest, EveryFlippedBitOfAnEventIsFoundAndCostsThatEventOnly) {
+// One bit somewhere in what is stored of a job.
+struct Flip {
+  const char* column;
+  const char* table;
+  std::string row;  // Condition.
+
+  std::string Read(const std::filesystem::path& database) const {
+    SQLite::Database raw(database);
+    SQLite::Statement read(raw, std::string("SELECT ") + column + " FROM " + table + row);
+    EXPECT_TRUE(read.executeStep());
+    return read.getColumn(0).getString();
+  }
+  void Write(const std::filesystem::path& database, const std::string& bytes) const {
+    SQLite::Database raw(database, SQLite::OPEN_READWRITE);
+    raw.exec("PRAGMA synchronous=OFF");
+    SQLite::Statement update(raw, std::string("UPDATE ") + table + " SET " + column + "=?" + row);
+    update.bind(1, bytes.data(), static_cast<int>(bytes.size()));
+    update.exec();
+  }
+};
+
+TEST_F(DamageTest, EveryFlippedBitIsFoundAndCostsThatObjectOnly) {
   Fill();
   std::mt19937 random(1);
-  for (int flip = 0; flip < 200; ++flip) {
-    const auto sequence = 2 + static_cast<std::int64_t>(random() % 50);
-    std::string good;
-    {
-      SQLite::Database raw(database(), SQLite::OPEN_READWRITE);
-      SQLite::Statement read(raw, "SELECT payload FROM events WHERE job=1 AND sequence=?");
-      read.bind(1, sequence);
-      ASSERT_TRUE(read.executeStep());
-      good = read.getColumn(0).getString();
-    }
-    const auto write = [&](const std::string& bytes) {
-      SQLite::Database raw(database(), SQLite::OPEN_READWRITE);
-      raw.exec("PRAGMA synchronous=OFF");
-      SQLite::Statement update(raw, "UPDATE events SET payload=? WHERE job=1 AND sequence=?");
-      update.bind(1, bytes.data(), static_cast<int>(bytes.size()));
-      update.bind(2, sequence);
-      update.exec();
-    };
+  for (int i = 0; i < 200; ++i) {
+    const auto event = 1 + random() % 61;
+    const Flip flip = i % 4 == 0   ? Flip{"spec", "specs", " WHERE job=1"}
+                      : i % 4 == 1 ? Flip{"result", "results", " WHERE job=1"}
+                                   : Flip{"payload", "events",
+                                          " WHERE job=1 AND sequence=" + std::to_string(event)};
+    const std::string good = flip.Read(database());
     std::string bad = good;
     bad[random() % bad.size()] ^= static_cast<char>(1U << (random() % 8));
-    write(bad);
+    flip.Write(database(), bad);
+    std::vector<std::string> findings;
+    const auto report =
+        Fsck(path(), [&](const std::string& finding) { findings.push_back(finding); });
+    ASSERT_TRUE(report.ok()) << report.status();
+    EXPECT_THAT(findings, testing::ElementsAre(testing::StartsWith("jobs/a: "))) << flip.table;
     Open();
-    const auto page = ReadEvents({.name = "jobs/a"});
-    ASSERT_TRUE(page.ok());
-    ASSERT_EQ(page->events.size(), 51U);
-    for (const StoredEvent& event : page->events) {
-      EXPECT_EQ(event.intact, event.sequence != static_cast<std::uint64_t>(sequence));
+    const bool log = i % 4 > 1;
+    EXPECT_EQ(absl::IsDataLoss(Read("jobs/a").status()), !log);
+    EXPECT_TRUE(Read("jobs/a", JobPart::kHeader).ok());
+    EXPECT_TRUE(Read("jobs/b").ok());
+    const auto page = ReadEvents({.name = "jobs/a", .max_bytes = 1 << 30});
+    ASSERT_EQ(page->events.size(), 61U);
+    for (const StoredEvent& stored : page->events) {
+      v1::Event read;
+      EXPECT_EQ(stored.intact, !log || stored.sequence != event);
+      EXPECT_EQ(stored.Parse(&read), stored.intact);
     }
     store_.reset();
-    write(good);
+    flip.Write(database(), good);
   }
+  EXPECT_EQ(Fsck(path(), [](const std::string& finding) { ADD_FAILURE() << finding; })->findings,
+            0);
 }
 
 TEST_F(DamageTest, FlippedBitOfAJobCostsThatJobOnly) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -31,6 +33,22 @@ inline v1::Event StateEvent(v1::Job::State state) {
 inline v1::Event LogEvent(const std::string& message) {
   v1::Event event;
   event.mutable_log_entry()->set_message(message);
+  return event;
+}
+
+/// A part of a smooth motion, of two columns.
+inline v1::Event FrameEvent(int first_sample = 0, int samples = 64) {
+  v1::Event event;
+  event.mutable_frame_chunk()->set_first_sample(first_sample);
+  event.mutable_frame_chunk()->set_samples(samples);
+  for (const double speed : {1.0, -3.7}) {
+    auto* column = event.mutable_frame_chunk()->add_columns();
+    column->set_name("B.position");
+    for (int i = 0; i < samples; ++i) {
+      const double value = std::sin(1e-3 * speed * (first_sample + i));
+      column->mutable_values()->append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  }
   return event;
 }
 
@@ -76,6 +94,34 @@ class StoreTest : public testing::Test {
     Await<absl::StatusOr<EventPage>> result;
     store_->ReadEvents(std::move(query), result.callback());
     return result.Get();
+  }
+  absl::StatusOr<std::unique_ptr<BackupFile>> Backup(std::stop_token stop = {}) {
+    Await<absl::StatusOr<std::unique_ptr<BackupFile>>> result;
+    store_->Backup(std::move(stop), result.callback());
+    return result.Get();
+  }
+  absl::StatusOr<std::vector<JobSize>> Sizes() {
+    Await<absl::StatusOr<std::vector<JobSize>>> result;
+    store_->Sizes(result.callback());
+    return result.Get();
+  }
+  // What the tables hold of a job beside its row. Closes the store for a moment.
+  std::int64_t StoredBytes(const std::string& name) {
+    store_.reset();
+    std::int64_t bytes = 0;
+    {
+      SQLite::Database raw(database());
+      for (const std::string part :
+           {"payload)) FROM events", "spec)) FROM specs", "result)) FROM results"}) {
+        SQLite::Statement query(raw, std::string("SELECT TOTAL(LENGTH(") + part +
+                                         " WHERE job=(SELECT number FROM jobs WHERE name=?)");
+        query.bind(1, name);
+        query.executeStep();
+        bytes += query.getColumn(0).getInt64();
+      }
+    }
+    Open();
+    return bytes;
   }
   absl::Status Delete(const std::string& name) {
     Await<absl::StatusOr<bool>> result;

@@ -89,7 +89,7 @@ TEST_F(StoreTest, SequencesAreDensePerJob) {
   EXPECT_THAT(Sequences(*page), ElementsAre(1, 2, 3, 4));
   EXPECT_EQ(page->position, 4U);
   v1::Event event;
-  ASSERT_TRUE(event.ParseFromString(page->events[3].payload));
+  ASSERT_TRUE(page->events[3].Parse(&event));
   EXPECT_EQ(event.log_entry().message(), "4");
 }
 
@@ -234,6 +234,58 @@ TEST_F(StoreTest, UnfinishedJobsComeInTheOrderOfTheirCreation) {
   Await<absl::StatusOr<std::vector<StoredJob>>> unfinished;
   store_->ListUnfinished(unfinished.callback());
   EXPECT_THAT(Names({*unfinished.Get()}), ElementsAre("jobs/z", "jobs/a"));
+}
+
+TEST_F(StoreTest, FramesAreStoredCompressedAndReadAsTheyWere) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  const v1::Event frames = FrameEvent(0, 1000);
+  ASSERT_TRUE(Append("jobs/a", {frames, LogEvent("3"), frames}).ok());
+  const auto page = ReadEvents({.name = "jobs/a", .after = 1, .max_bytes = 1 << 20});
+  ASSERT_EQ(page->events.size(), 3U);
+  v1::Event read;
+  ASSERT_TRUE(page->events[0].Parse(&read));
+  EXPECT_EQ(read.SerializeAsString(), frames.SerializeAsString());
+  EXPECT_LT(page->events[0].bytes.size(), frames.ByteSizeLong() * 2 / 3);
+  EXPECT_EQ(page->events[2].bytes, page->events[0].bytes);
+  ASSERT_TRUE(page->events[1].Parse(&read));
+  EXPECT_EQ(read.log_entry().message(), "3");
+}
+
+TEST_F(StoreTest, PageIsMeasuredAsItsReadersSeeIt) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  ASSERT_TRUE(Append("jobs/a", std::vector<v1::Event>(20, FrameEvent(0, 1000))).ok());
+  const auto page = ReadEvents({.name = "jobs/a", .after = 1, .max_bytes = 50'000});
+  EXPECT_EQ(page->events.size(), 4U) << "of 16 kB each";
+}
+
+TEST_F(StoreTest, SizesAreThoseOfEndedJobsOldestEndFirst) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  job.set_name("jobs/b");
+  ASSERT_TRUE(Create(job).ok());
+  ASSERT_TRUE(Create(MakeJob("jobs/c")).ok());
+  EXPECT_TRUE(Sizes()->empty()) << "none has ended";
+  ASSERT_TRUE(Append("jobs/a", {FrameEvent(), LogEvent("x")}).ok());
+  job.set_state(v1::Job::SUCCEEDED);
+  job.add_cycles()->set_mu(1);
+  job.mutable_end_time()->set_seconds(1'700'000'002);
+  job.set_name("jobs/a");
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .job = &job}).ok());
+  job.set_name("jobs/b");
+  job.set_state(v1::Job::FAILED);
+  job.mutable_end_time()->set_seconds(1'700'000'001);
+  ASSERT_TRUE(Update({.name = "jobs/b", .epoch = 0, .job = &job}).ok());
+  job.add_cycles()->set_mu(2);  // A result that replaces another counts once.
+  ASSERT_TRUE(Update({.name = "jobs/b", .epoch = 0, .job = &job}).ok());
+  const auto sizes = Sizes();
+  ASSERT_EQ(sizes->size(), 2U);
+  EXPECT_EQ((*sizes)[0].name, "jobs/b");
+  EXPECT_EQ((*sizes)[0].end_time, 1'700'000'001);
+  EXPECT_EQ((*sizes)[1].name, "jobs/a");
+  for (const JobSize& size : *sizes) EXPECT_EQ(size.bytes, StoredBytes(size.name)) << size.name;
 }
 
 TEST_F(StoreTest, DeleteTakesEverythingOfAnEndedJob) {

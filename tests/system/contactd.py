@@ -26,21 +26,19 @@ ENDED = (Job.SUCCEEDED, Job.FAILED, Job.CANCELLED)
 class Server:
     """One contactd process after the other on the same data directory."""
 
-    def __init__(self, data_dir, *flags, environment=None, wrapper=()):
+    def __init__(self, data_dir, *flags, environment=None):
         self.data_dir = pathlib.Path(data_dir)
         self.flags = flags
         self.environment = environment  # None: that of the test.
-        self.wrapper = wrapper  # Words before the command.
         self.log_path = self.data_dir.parent / "contactd.log"
         self.process = None
         self.channel = None
 
-    def start(self):
+    def start(self, **popen):
         with open(self.log_path, "ab") as log:
             self.process = subprocess.Popen(
-                [*self.wrapper, BINARY, "--listen=127.0.0.1:0", f"--data-dir={self.data_dir}",
-                 *self.flags],
-                stdout=subprocess.PIPE, stderr=log, text=True, env=self.environment)
+                [BINARY, "--listen=127.0.0.1:0", f"--data-dir={self.data_dir}", *self.flags],
+                stdout=subprocess.PIPE, stderr=log, text=True, env=self.environment, **popen)
         ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE_S)
         self.greeting = self.process.stdout.readline() if ready else ""
         match = re.search(r"listening on 127\.0\.0\.1:(\d+)", self.greeting)

@@ -28,6 +28,11 @@ class FailingDisk {
 
   /// Lets `n` more writes and syncs succeed, then fails all.
   void FailAfter(int n) { left_ = n; }
+  /// Lets `n` more succeed, then fails one, as a disk does that has a bad moment.
+  void FailOnceAfter(int n) {
+    once_ = true;
+    left_ = n;
+  }
   /// Succeeds from now on.
   void Heal() { left_ = kNever; }
   bool failed() const { return left_ < 0; }
@@ -41,7 +46,10 @@ class FailingDisk {
     sqlite3_file* real() { return reinterpret_cast<sqlite3_file*>(this + 1); }
   };
   static sqlite3_file* Real(sqlite3_file* file) { return reinterpret_cast<File*>(file)->real(); }
-  static bool Fails() { return instance_->left_-- <= 0; }
+  static bool Fails() {
+    const int left = instance_->left_--;
+    return instance_->once_ ? left == 0 : left <= 0;
+  }
 
   static int Open(sqlite3_vfs*, const char* name, sqlite3_file* file, int flags, int* out) {
     static const sqlite3_io_methods kMethods = Methods();
@@ -60,9 +68,8 @@ class FailingDisk {
     methods.xWrite = [](sqlite3_file* f, const void* from, int size, sqlite3_int64 at) {
       return Fails() ? SQLITE_IOERR_WRITE : Real(f)->pMethods->xWrite(Real(f), from, size, at);
     };
-    methods.xSync = [](sqlite3_file* f, int flags) {
-      return Fails() ? SQLITE_IOERR_FSYNC : Real(f)->pMethods->xSync(Real(f), flags);
-    };
+    // The process does not lose its power, so a sync that succeeds need not take its time.
+    methods.xSync = [](sqlite3_file*, int) { return Fails() ? SQLITE_IOERR_FSYNC : SQLITE_OK; };
     methods.xTruncate = [](sqlite3_file* f, sqlite3_int64 size) {
       return Real(f)->pMethods->xTruncate(Real(f), size);
     };
@@ -91,6 +98,7 @@ class FailingDisk {
   inline static FailingDisk* instance_ = nullptr;
   sqlite3_vfs* const real_;
   sqlite3_vfs vfs_;
+  std::atomic<bool> once_ = false;
   std::atomic<int> left_ = kNever;
 };
 

@@ -8,15 +8,22 @@
 
 namespace contact {
 
-/// A clock that stands still until it is moved.
+/// Clocks that stand still until they are moved.
 class FakeClock final : public Clock {
  public:
   std::chrono::system_clock::time_point Now() const override { return now_; }
-  void Advance(std::chrono::seconds by) { now_ = now_.load() + by; }
+  std::chrono::steady_clock::time_point Elapsed() const override { return elapsed_; }
+  void Advance(std::chrono::milliseconds by) {
+    Jump(by);
+    elapsed_ = elapsed_.load() + by;
+  }
+  /// What an administrator may do to the clock.
+  void Jump(std::chrono::milliseconds by) { now_ = now_.load() + by; }
 
  private:
   std::atomic<std::chrono::system_clock::time_point> now_ =
       std::chrono::system_clock::time_point(std::chrono::seconds(1'000'000));
+  std::atomic<std::chrono::steady_clock::time_point> elapsed_ = {};
 };
 
 /// a1, a2, a3 …

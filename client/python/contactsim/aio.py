@@ -15,7 +15,7 @@ from .errors import from_rpc
 from .recording import KINDS, Recording
 from .result import Result
 from .scenario import ScenarioLike
-from .watching import Position
+from .watching import WHOLE, Position, delivery_options
 
 
 class AsyncClient:
@@ -49,10 +49,16 @@ class AsyncClient:
                                 create_request(scenario, labels, request_id))
 
     async def watch(self, job: JobLike, *, after_sequence: int = 0, kinds: Iterable[str] = (),
+                    live_only: bool = False, min_frame_interval_s: float = 0.0,
                     timeout_s: float | None = None) -> AsyncIterator[event_pb2.Event]:
         """The events of a job until it has ended, across connections; see Client.watch."""
         deadline = None if timeout_s is None else time.monotonic() + timeout_s
-        position = Position(job_name(job), self.address, after_sequence, kinds, deadline)
+        position = Position(job_name(job), self.address, after_sequence, kinds, deadline,
+                            live_only=live_only, delivery=delivery_options(min_frame_interval_s))
+        async for event in self._watch(position):
+            yield event
+
+    async def _watch(self, position: Position) -> AsyncIterator[event_pb2.Event]:
         while not position.finished:
             call = self._stub.WatchJob(position.request(), timeout=position.time_left())
             error = None
@@ -71,11 +77,10 @@ class AsyncClient:
     async def result(self, job: JobLike, *, timeout_s: float | None = None) -> Result:
         """The result of a job: waits for its end and fetches all that it recorded."""
         recording = Recording()
-        for _ in range(2):  # A slow reader is spared frames; the log has them all.
-            async for event in self.watch(job, kinds=KINDS, timeout_s=timeout_s):
-                recording.add(event)
-            if not recording.has_holes:
-                break
+        deadline = None if timeout_s is None else time.monotonic() + timeout_s
+        position = Position(job_name(job), self.address, 0, KINDS, deadline, delivery=WHOLE)
+        async for event in self._watch(position):
+            recording.add(event)
         return ended(await self.get(job), recording)
 
     async def get(self, job: JobLike) -> job_pb2.Job:

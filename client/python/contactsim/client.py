@@ -14,7 +14,7 @@ from .errors import RunFailed, from_rpc
 from .recording import KINDS, Recording
 from .result import Result
 from .scenario import ScenarioLike, load_scenario
-from .watching import Position
+from .watching import WHOLE, Position, delivery_options
 
 JobLike = Union[str, job_pb2.Job, Result]
 
@@ -80,14 +80,18 @@ class Client:
         self._call(self._stub.CreateJob, request)
 
     def watch(self, job: JobLike, *, after_sequence: int = 0, kinds: Iterable[str] = (),
+              live_only: bool = False, min_frame_interval_s: float = 0.0,
               timeout_s: float | None = None) -> Iterator[event_pb2.Event]:
         """The events of a job: those stored, then new ones as they happen, until it has ended.
 
         Reconnects with growing pauses when the link breaks; no durable event is missed or
         repeated. `kinds` are names of Event.payload, such as `cycle`; state_changed always comes.
+        `live_only` begins after the newest event. Of frame chunks that follow each other within
+        `min_frame_interval_s` only the newest comes, and a gap for the others.
         """
         return self._watch(Position(job_name(job), self.address, after_sequence, kinds,
-                                    _deadline(timeout_s)))
+                                    _deadline(timeout_s), live_only=live_only,
+                                    delivery=delivery_options(min_frame_interval_s)))
 
     def _watch(self, position: Position) -> Iterator[event_pb2.Event]:
         while not position.finished:
@@ -147,14 +151,11 @@ class Client:
                 deadline: float | None) -> Result:
         recording = Recording()
         kinds = () if on_event else KINDS
-        for event in self._watch(Position(name, self.address, 0, kinds, deadline)):
+        for event in self._watch(Position(name, self.address, 0, kinds, deadline,
+                                          delivery=WHOLE)):
             recording.add(event)
             if on_event:
                 on_event(event)
-        # A slow reader is spared frames; they are in the log for a second reading.
-        if recording.has_holes:
-            for event in self._watch(Position(name, self.address, 0, KINDS, deadline)):
-                recording.add(event)
         return ended(self.get(name), recording)
 
     def _call(self, method: Any, request: Any) -> Any:

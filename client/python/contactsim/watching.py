@@ -24,14 +24,28 @@ _PASSING = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED, grpc.StatusC
             grpc.StatusCode.DEADLINE_EXCEEDED, grpc.StatusCode.RESOURCE_EXHAUSTED)
 
 
+# For those who record: nothing is left out, however slow they are.
+WHOLE = job_service_pb2.DeliveryOptions(overflow=job_service_pb2.DeliveryOptions.LAG)
+
+
+def delivery_options(min_frame_interval_s: float) -> job_service_pb2.DeliveryOptions:
+    options = job_service_pb2.DeliveryOptions()
+    options.min_frame_interval.FromNanoseconds(round(min_frame_interval_s * 1e9))
+    return options
+
+
 class Position:
     """Takes what streams bring, so that each event is heard once and in order."""
 
     def __init__(self, name: str, address: str, after_sequence: int = 0,
-                 kinds: Iterable[str] = (), deadline: float | None = None) -> None:
+                 kinds: Iterable[str] = (), deadline: float | None = None, *,
+                 live_only: bool = False,
+                 delivery: job_service_pb2.DeliveryOptions | None = None) -> None:
         self.finished = False  #: The job ended, and all was heard.
         self._name, self._address, self._kinds = name, address, tuple(kinds)
         self._sequence = after_sequence
+        self._live_only = live_only  # Has not begun yet.
+        self._delivery = delivery
         self._deadline = deadline  # Of time.monotonic().
         self._pause_s = _FIRST_PAUSE_S
         self._connected = False  # Ever.
@@ -40,7 +54,8 @@ class Position:
     def request(self) -> job_service_pb2.WatchJobRequest:
         """What to ask now."""
         return job_service_pb2.WatchJobRequest(
-            name=self._name, after_sequence=self._sequence, kinds=self._kinds)
+            name=self._name, after_sequence=self._sequence, kinds=self._kinds,
+            live_only=self._live_only, delivery=self._delivery)
 
     def time_left(self) -> float | None:
         """Seconds until the watch must end; None for ever."""
@@ -52,6 +67,8 @@ class Position:
         if message.HasField("snapshot"):
             # Asked for events after the last one: nothing but the end of the stream will come.
             snapshot = message.snapshot
+            if self._live_only:
+                self._sequence, self._live_only = snapshot.last_sequence, False
             self.finished |= (snapshot.state in FINAL
                               and self._sequence >= snapshot.last_sequence)
         return [event for event in message.events if self._is_new(event)]

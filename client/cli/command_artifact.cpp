@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/download.h"
+#include "cli/interrupt.h"
+#include "cli/number.h"
+#include "cli/render_json.h"
+
+namespace contact::cli {
+namespace {
+
+struct ArtifactArguments {
+  std::string job;
+  std::string artifact;
+  std::string file;
+};
+
+ExitCode ListArtifacts(const ArtifactArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "jsonl", "name"});
+  v1::GetJobRequest request;
+  request.set_name(JobName(arguments.job));
+  const v1::Job job = settings.Connect().Call(&Client::Stub::GetJob, request);
+  for (const v1::Artifact& artifact : job.artifacts()) {
+    if (settings.output == "jsonl") {
+      fmt::print("{}", ToJsonLine(artifact));
+    } else {
+      fmt::print("{}\n", artifact.name());
+    }
+  }
+  return ExitCode::kOk;
+}
+
+ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table"});
+  Client client = settings.Connect();
+  const std::string path = arguments.file.empty()
+                               ? std::filesystem::path(arguments.artifact).filename().string()
+                               : arguments.file;
+  DownloadOptions options{.job = JobName(arguments.job),
+                          .artifact = arguments.artifact,
+                          .path = path,
+                          .deadline = settings.Deadline(),
+                          .stopped = Interrupt::raised,
+                          .lost = [](const std::string& why) {
+                            fmt::print(stderr, "connection lost ({}); trying again\n", why);
+                          }};
+  const Interrupt interrupt;
+  const v1::Artifact artifact = Download(client, options);
+  fmt::print(stderr, "{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddArtifactCommands(CLI::App& app, const Settings& settings, Action* action) {
+  CLI::App* group = app.add_subcommand("artifact", "Files that an ended job leaves: list, get");
+  group->require_subcommand(1);
+  auto arguments = std::make_shared<ArtifactArguments>();
+
+  CLI::App* list = group->add_subcommand("list", "Name the artifacts of a job");
+  list->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  list->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return ListArtifacts(*arguments, settings); };
+  });
+
+  CLI::App* get = group->add_subcommand(
+      "get", "Fetch one, going on where an earlier try has left a part of it");
+  get->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  get->add_option("NAME", arguments->artifact, "Such as trajectory.csv")->required();
+  get->add_option("-f,--file", arguments->file, "Where to. Default: the last part of its name")
+      ->type_name("FILE");
+  get->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return GetArtifact(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+namespace contact::cli {
+
+/// One stream of messages from the server, read with a limit on how long a read waits. Not
+/// thread-safe.
+template <class Message>
+class StreamCall {
+ public:
+  enum class Next {
+    kMessage,  ///< `message` holds one.
+    kNothing,  ///< None came in time.
+    kEnd,      ///< The stream ended; see status().
+  };
+
+  /// `start(context, queue, tag)` makes the call, such as Stub::AsyncWatchJob.
+  template <class Start>
+  explicit StreamCall(Start start) : stream_(start(&context_, &queue_, nullptr)) {}
+
+  /// Cancels the stream if it has not ended.
+  ~StreamCall() {
+    context_.TryCancel();
+    queue_.Shutdown();
+    void* tag = nullptr;
+    bool ok = false;
+    while (queue_.Next(&tag, &ok)) {
+    }
+  }
+
+  Next Read(std::chrono::milliseconds limit, Message* message);
+  const grpc::Status& status() const { return status_; }
+
+ private:
+  enum class Pending { kStart, kRead, kFinish, kNone };
+
+  grpc::ClientContext context_;
+  grpc::CompletionQueue queue_;
+  std::unique_ptr<grpc::ClientAsyncReaderInterface<Message>> stream_;
+  Pending pending_ = Pending::kStart;
+  Message response_;
+  grpc::Status status_;
+};
+
+template <class Message>
+typename StreamCall<Message>::Next StreamCall<Message>::Read(std::chrono::milliseconds limit,
+                                                             Message* message) {
+  const auto deadline = std::chrono::system_clock::now() + limit;
+  while (pending_ != Pending::kNone) {
+    void* tag = nullptr;
+    bool ok = false;
+    if (queue_.AsyncNext(&tag, &ok, deadline) != grpc::CompletionQueue::GOT_EVENT) {
+      return Next::kNothing;
+    }
+    const Pending done = std::exchange(pending_, Pending::kNone);
+    if (done == Pending::kFinish) break;
+    if (!ok) {
+      pending_ = Pending::kFinish;
+      stream_->Finish(&status_, nullptr);
+      continue;
+    }
+    if (done == Pending::kRead) std::swap(*message, response_);
+    pending_ = Pending::kRead;
+    response_.Clear();
+    stream_->Read(&response_, nullptr);
+    if (done == Pending::kRead) return Next::kMessage;
+  }
+  return Next::kEnd;
+}
+
+}  // namespace contact::cli

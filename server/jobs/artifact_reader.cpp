@@ -1,0 +1,87 @@
+#include "jobs/artifact_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+#include "jobs/artifact_maker.h"
+#include "jobs/job_errors.h"
+#include "jobs/lifecycle.h"
+
+namespace contact {
+namespace {
+
+constexpr std::string_view kCycles = "cycles.csv";
+constexpr std::string_view kTrajectory = "trajectory.csv";
+
+std::string CellArtifact(std::int32_t cell) {
+  return fmt::format("cells/{}/{}", cell, kTrajectory);
+}
+
+void Add(std::string name, v1::Job* job) {
+  v1::Artifact& artifact = *job->add_artifacts();
+  artifact.set_name(std::move(name));
+  artifact.set_media_type("text/csv");
+}
+
+}  // namespace
+
+void AddArtifacts(v1::Job* job) {
+  if (!IsFinal(job->state())) return;
+  if (job->has_scenario()) {
+    Add(std::string(kCycles), job);
+    if (!job->scenario().output().ledger_only()) Add(std::string(kTrajectory), job);
+  }
+  for (const std::int32_t cell : job->sweep().keep_trajectories()) Add(CellArtifact(cell), job);
+}
+
+Result<ArtifactPlan> PlanArtifact(v1::Job job, const v1::ReadArtifactRequest& request) {
+  if (!IsFinal(job.state())) return NotEnded(job.name());
+  ArtifactPlan plan{.job = {}, .artifact = request.artifact(), .offset = request.offset()};
+  if (job.has_scenario() && plan.artifact == kCycles) {
+    plan.kind = ArtifactPlan::Kind::kCycles;
+  } else if (job.has_scenario() && plan.artifact == kTrajectory) {
+    plan.kind = ArtifactPlan::Kind::kTrajectory;
+  } else {
+    const auto& kept = job.sweep().keep_trajectories();
+    const auto cell = std::ranges::find_if(
+        kept, [&plan](std::int32_t index) { return plan.artifact == CellArtifact(index); });
+    if (cell == kept.end()) return NoArtifact(job.name(), plan.artifact);
+    plan.kind = ArtifactPlan::Kind::kCellTrajectory;
+    plan.cell = *cell;
+  }
+  plan.job = std::move(job);
+  return plan;
+}
+
+ArtifactReader::ArtifactReader(Store& store, Executor& executor, ArtifactPlan plan,
+                               std::function<void()> wake,
+                               std::shared_ptr<std::atomic<int>> readers)
+    : readers_(std::move(readers)),
+      maker_(std::make_shared<ArtifactMaker>(store, executor, std::move(plan), std::move(wake))) {}
+
+ArtifactReader::~ArtifactReader() { --*readers_; }
+
+ArtifactReader::Next ArtifactReader::Read(v1::ReadArtifactResponse* out) {
+  Next next = Next::kWait;
+  bool begin = false;
+  maker_->Do([&](ArtifactMaker::Made& made) {
+    if (!made.chunks.empty()) {
+      *out = std::move(made.chunks.front());
+      made.chunks.pop_front();
+      next = out->has_artifact() ? Next::kEnd : Next::kData;
+    } else if (made.error) {
+      error_ = *made.error;
+      next = Next::kFailed;
+    } else {
+      begin = !std::exchange(made.working, true);
+    }
+  });
+  if (begin) maker_->Continue();
+  return next;
+}
+
+}  // namespace contact

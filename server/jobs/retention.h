@@ -1,0 +1,72 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "contact/v1/job.pb.h"
+#include "storage/mutex.h"
+
+namespace contact {
+
+class Clock;
+class JobFeed;
+class Store;
+
+/// How much the server keeps of jobs that have ended.
+struct RetentionLimits {
+  std::chrono::seconds age{0};  ///< Since the end, of jobs that do not say so themselves; 0: any.
+  std::int64_t bytes = 0;       ///< Of all ended jobs together; 0: any.
+};
+
+using WallTime = std::chrono::system_clock::time_point;
+
+/// When an ended job is too old to be kept; none: never, or it has not ended.
+std::optional<WallTime> ExpiryOf(const v1::Job& job, const RetentionLimits& limits);
+
+/// Sets `expire_time`.
+void SetExpireTime(const RetentionLimits& limits, v1::Job* job);
+
+struct EndedJob {
+  std::string name;
+  std::optional<WallTime> expiry;
+  std::int64_t bytes = 0;
+};
+/// Names of the jobs that are not kept any more. `jobs`: all that have ended, oldest end first.
+std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now,
+                                 const RetentionLimits& limits);
+
+/// Deletes ended jobs that are not kept any more, once started each minute on a thread of its own.
+/// Reads and deletes little at a time, so that the store serves others in between.
+class Retention {
+ public:
+  /// All outlive it.
+  Retention(Store& store, const Clock& clock, RetentionLimits limits, JobFeed& feed);
+  ~Retention();
+
+  void Start();
+  /// Deletes what is due now; waits for it. Returns how many jobs that were.
+  int Sweep();
+  /// Ends the thread. Idempotent.
+  void Stop();
+
+ private:
+  void Loop();
+  bool stopped() const;
+  std::vector<EndedJob> ListEnded();
+
+  Store& store_;
+  const Clock& clock_;
+  const RetentionLimits limits_;
+  JobFeed& feed_;
+  mutable Mutex mutex_;
+  std::condition_variable_any changed_;
+  bool stopped_ ABSL_GUARDED_BY(mutex_) = false;
+  std::thread thread_;  // Last: it uses all of the above.
+};
+
+}  // namespace contact

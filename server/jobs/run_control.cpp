@@ -1,0 +1,100 @@
+#include "jobs/run_control.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+
+#include <algorithm>
+#include <string>
+
+namespace contact {
+namespace {
+
+// The smaller one, where 0 is no limit.
+template <class T>
+T Smaller(T asked, T limit) {
+  if (asked <= T{0}) return limit;
+  return limit <= T{0} ? asked : std::min(asked, limit);
+}
+
+Move OverBudget(const char* state_reason, const std::string& what) {
+  return {v1::Job::FAILED, state_reason, fmt::format("the budget of {} was spent", what),
+          absl::StatusCode::kResourceExhausted};
+}
+
+}  // namespace
+
+RunBudget BudgetOf(const v1::Job& job, const RunBudget& limits) {
+  const v1::Budget& budget = job.budget();
+  const std::chrono::milliseconds wall_time(
+      google::protobuf::util::TimeUtil::DurationToMilliseconds(budget.wall_time()));
+  return {Smaller(wall_time, limits.wall_time), Smaller(budget.steps(), limits.steps),
+          Smaller(budget.output_bytes(), limits.output_bytes)};
+}
+
+void RunControl::Stop(StopCause cause) {
+  StopCause server = StopCause::kServer;
+  cause_.compare_exchange_strong(server, cause);
+  stop_.request_stop();
+}
+
+void RunControl::CountStep() {
+  const std::int64_t steps = steps_.fetch_add(1, std::memory_order_relaxed) + 1;
+  if (budget_.steps > 0 && steps > budget_.steps) Stop(StopCause::kSteps);
+}
+
+bool RunControl::CountOutput(std::int64_t bytes) {
+  const std::int64_t used = output_bytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
+  if (budget_.output_bytes == 0 || used <= budget_.output_bytes) return true;
+  Stop(StopCause::kOutput);
+  return false;
+}
+
+bool RunControl::reporting() const {
+  const MutexLock lock(mutex_);
+  return reports_ > 0;
+}
+
+bool RunControl::GiveUp() {
+  const MutexLock lock(mutex_);
+  given_up_ = given_up_ || reports_ == 0;
+  return given_up_;
+}
+
+bool RunControl::given_up() const {
+  const MutexLock lock(mutex_);
+  return given_up_;
+}
+
+bool RunControl::Enter() {
+  const MutexLock lock(mutex_);
+  if (!given_up_) ++reports_;
+  return !given_up_;
+}
+
+void RunControl::Leave() {
+  const MutexLock lock(mutex_);
+  --reports_;
+}
+
+Move MoveAfterStop(StopCause cause, const RunBudget& budget) {
+  switch (cause) {
+    case StopCause::kWallTime:
+      return OverBudget(
+          reason::kBudgetWallTime,
+          fmt::format("{} s wall time", static_cast<double>(budget.wall_time.count()) / 1000));
+    case StopCause::kSteps:
+      return OverBudget(reason::kBudgetSteps, fmt::format("{} steps", budget.steps));
+    case StopCause::kOutput:
+      return OverBudget(reason::kBudgetOutput,
+                        fmt::format("{} bytes of output", budget.output_bytes));
+    case StopCause::kStalled:
+      return {v1::Job::FAILED, reason::kStalled, "the run made no step for too long",
+              absl::StatusCode::kDeadlineExceeded};
+    case StopCause::kServer:
+    case StopCause::kUser:
+      break;
+  }
+  return {v1::Job::CANCELLED, reason::kUserRequest};
+}
+
+}  // namespace contact

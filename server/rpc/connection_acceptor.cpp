@@ -1,0 +1,140 @@
+#include "rpc/connection_acceptor.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <utility>
+#include <vector>
+
+namespace contact {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+// For the store, gRPC's pollers, the log and the metrics.
+constexpr rlim_t kOtherDescriptors = 100;
+// Between two looks for closed connections while there are too many.
+constexpr milliseconds kSweepTime{10};
+constexpr milliseconds kDescriptorWait{50};
+
+std::string PeerOf(const sockaddr_storage& address) {
+  std::array<char, INET6_ADDRSTRLEN> text = {};
+  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
+  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
+  const void* number = &v4.sin_addr;
+  if (address.ss_family == AF_INET6) number = &v6.sin6_addr;
+  inet_ntop(address.ss_family, number, text.data(), text.size());
+  return text.data();
+}
+
+// What gRPC's own listener would have set.
+void Prepare(int fd) {
+  const int on = 1;
+  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+}
+
+bool IsShortage(int error) {
+  return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
+}
+
+}  // namespace
+
+ConnectionLimits FitToDescriptors(ConnectionLimits wanted) {
+  rlimit files = {};
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return wanted;
+  const rlim_t needed = static_cast<rlim_t>(wanted.in_all) + kOtherDescriptors;
+  if (files.rlim_cur < needed) {
+    files.rlim_cur = std::min(needed, files.rlim_max);
+    setrlimit(RLIMIT_NOFILE, &files);
+  }
+  if (files.rlim_cur >= needed) return wanted;
+  const rlim_t others = std::min(kOtherDescriptors, files.rlim_cur / 2);
+  const int in_all = static_cast<int>(files.rlim_cur - others);
+  spdlog::warn("only {} file descriptors: {} connections instead of {}", files.rlim_cur, in_all,
+               wanted.in_all);
+  return {in_all, std::min(wanted.per_peer, in_all)};
+}
+
+ConnectionAcceptor::ConnectionAcceptor(TcpListener listener, ConnectionLimits limits,
+                                       HandOver hand_over)
+    : listener_(std::move(listener)),
+      limits_(limits),
+      hand_over_(std::move(hand_over)),
+      stop_(eventfd(0, EFD_CLOEXEC)),
+      thread_([this] { Loop(); }) {}
+
+ConnectionAcceptor::~ConnectionAcceptor() {
+  eventfd_write(stop_.get(), 1);
+  thread_.join();
+}
+
+std::size_t ConnectionAcceptor::open() const {
+  const MutexLock lock(mutex_);
+  connections_.Sweep();
+  return connections_.size();
+}
+
+void ConnectionAcceptor::Loop() {
+  std::vector<pollfd> waiting = {{stop_.get(), POLLIN, 0}};
+  for (const auto& socket : listener_.sockets) waiting.push_back({socket.get(), POLLIN, 0});
+  for (;;) {
+    if (poll(waiting.data(), waiting.size(), -1) < 0) continue;
+    if (waiting.front().revents != 0) return;
+    for (std::size_t i = 1; i < waiting.size(); ++i) {
+      if (waiting[i].revents == 0) continue;
+      const bool shortage = !Accept(waiting[i].fd);
+      if (shortage && !out_of_descriptors_) spdlog::error("no file descriptor for a connection");
+      out_of_descriptors_ = shortage;
+      if (shortage && StoppedWithin(kDescriptorWait)) return;
+    }
+  }
+}
+
+// False: there is no descriptor; the connection stays in the system's queue.
+bool ConnectionAcceptor::Accept(int listener) {
+  sockaddr_storage address = {};
+  socklen_t size = sizeof(address);
+  FileDescriptor connection(accept4(listener, reinterpret_cast<sockaddr*>(&address), &size,
+                                    SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (!connection.valid()) return !IsShortage(errno);
+  if (Admit(connection.get(), PeerOf(address))) {
+    Prepare(connection.get());
+    hand_over_(listener, connection.Release());
+  } else {
+    ++refused_;
+  }
+  return true;
+}
+
+bool ConnectionAcceptor::Admit(int fd, const std::string& peer) {
+  const MutexLock lock(mutex_);
+  if (Full(peer) && steady_clock::now() - swept_ >= kSweepTime) {
+    connections_.Sweep();
+    swept_ = steady_clock::now();
+  }
+  if (Full(peer)) return false;
+  connections_.Add(fd, peer);
+  return true;
+}
+
+bool ConnectionAcceptor::Full(const std::string& peer) const {
+  return connections_.size() >= static_cast<std::size_t>(limits_.in_all) ||
+         connections_.CountOf(peer) >= static_cast<std::size_t>(limits_.per_peer);
+}
+
+bool ConnectionAcceptor::StoppedWithin(milliseconds time) const {
+  pollfd stop = {stop_.get(), POLLIN, 0};
+  return poll(&stop, 1, static_cast<int>(time.count())) > 0;
+}
+
+}  // namespace contact

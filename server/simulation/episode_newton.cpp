@@ -1,0 +1,152 @@
+// The part of EpisodeSolver that corrects μ, (N2) to (N5) of README.md.
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/episode.h"
+
+namespace contact {
+namespace {
+
+constexpr double kLeast = 1e-8, kMost = 1e8;  // μ, in units of the first guess.
+constexpr double kCoarseResidual = 1e-5;      // What a coarse pass may feign of a residual.
+constexpr double kHeldSamples = 4096;         // That a recording may have to take back.
+
+}  // namespace
+
+// A(ε), the coefficient of the isolated collision with that restitution, is the coordinate in
+// which the problem is solved: for a collision without external forces μ ↦ A(ε_out) is a straight
+// line, and Newton is at its root in one step. ε is kept from 0, where A is infinite.
+void EpisodeSolver::Measure(Unknown& u) {
+  const double e = std::max(std::sqrt(std::max(u.squared, 0.0)), 0.05 * u.restitution_in);
+  const double a = ExactCoefficient(e);
+  const double denominator = (1 - a * e) - e * e * (1 + a);
+  const double slope = std::abs(1 - e) < 1e-5 ? -1.5 : a * e * (1 + a) / denominator;  // dA/dε
+  u.residual = a / u.goal - 1;
+  u.slope = slope / (2 * e) / u.goal;
+}
+
+std::vector<EpisodeSolver::Unknown*> EpisodeSolver::LiveUnknowns() {
+  std::vector<Unknown*> live;
+  for (Unknown& u : unknowns_) {
+    if (Live(u)) live.push_back(&u);
+  }
+  return live;
+}
+
+// The Jacobian of the residuals by the relative changes of μ, from the last pass.
+void EpisodeSolver::Factorize(const std::vector<Unknown*>& live) {
+  const auto n = static_cast<Eigen::Index>(live.size());
+  factors_are_of_.clear();
+  factors_merit_ = std::max(Merit(), Exact() ? 0 : kCoarseResidual);
+  if (n == 0) return;
+  Eigen::MatrixXd jacobian(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Unknown& u = *live[static_cast<std::size_t>(i)];
+    factors_are_of_.emplace_back(u.contact, u.number);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Unknown& other = *live[static_cast<std::size_t>(j)];
+      const bool known = other.column != kNone && other.column < u.gradient.size();
+      jacobian(i, j) = known ? u.slope * u.gradient[other.column] * other.mu : 0;
+    }
+  }
+  factors_.compute(jacobian);
+}
+
+// Whether the last Jacobian may correct this pass, which has none of its own: it is of the same
+// cycles, and has led well so far.
+bool EpisodeSolver::FactorsServe() {
+  const std::vector<Unknown*> live = LiveUnknowns();
+  return Merit() <= 0.1 * merit_ &&
+         std::equal(live.begin(), live.end(), factors_are_of_.begin(), factors_are_of_.end(),
+                    [](const Unknown* u, const auto& of) {
+                      return u->contact == of.first && u->number == of.second;
+                    });
+}
+
+// (N2): relative corrections of μ that bring every A(ε_out) to A(ε_in), to first order.
+void EpisodeSolver::Correct() {
+  for (Unknown& u : unknowns_) {
+    if (!Live(u)) continue;
+    if (u.mu == 0 && std::sqrt(std::max(u.squared, 0.0)) < u.restitution_in) {
+      u.iterated = false;  // Even without damping too little comes back: (N4).
+      u.status = Cycle::Status::kInfeasible;
+      continue;
+    }
+    (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
+  }
+  const std::vector<Unknown*> live = LiveUnknowns();
+  if (live.empty()) return;
+  const double merit = Merit();
+  if (sensitive_) Factorize(live);
+  Eigen::VectorXd step(static_cast<Eigen::Index>(live.size()));
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    step[static_cast<Eigen::Index>(i)] = -live[i]->residual;
+  }
+  step = factors_.solve(step).eval();
+  if (!step.allFinite()) {
+    for (std::size_t i = 0; i < live.size(); ++i) {
+      step[static_cast<Eigen::Index>(i)] = 1 / (1 + live[i]->residual) - 1;
+    }
+  }
+  damping_ = merit > 2 * merit_ ? std::max(0.25 * damping_, 0.05) : std::min(1.0, 2 * damping_);
+  merit_ = merit;
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    MoveBy(*live[i], damping_ * step[static_cast<Eigen::Index>(i)], live.size() == 1);
+  }
+}
+
+// (N3): keeps μ > 0, the step within a factor of 8, and, for a cycle alone, within the bracket.
+void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
+  u.corrected = true;
+  u.update = damping_ < 1 ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
+  if (u.mu == 0) {  // Feasible after all: somewhere between 0 and what was tried before.
+    u.mu = (u.high > 0 ? u.high : u.start_mu) / 2;
+    u.update = Iteration::Update::kBisection;
+    return;
+  }
+  u.shrinks = relative_step <= -1 ? u.shrinks + 1 : 0;
+  u.grows = relative_step >= 7 ? u.grows + 1 : 0;
+  if (u.weak && std::max(u.shrinks, u.grows) >= 3) {
+    u.iterated = false;
+    u.status = Cycle::Status::kSettled;
+    u.mu = u.start_mu;
+    return;
+  }
+  if (u.shrinks >= 3 && !u.zero_tried) {
+    u.zero_tried = true;
+    u.mu = 0;
+    u.update = Iteration::Update::kZero;
+    return;
+  }
+  double next = u.mu * std::clamp(1 + relative_step, 0.125, 8.0);
+  const bool bracketed = alone && u.high > 0 && u.low < u.high && (u.low > 0 || u.zero_tried);
+  if (bracketed && (next <= u.low || next >= u.high)) {
+    next = (u.low + u.high) / 2;
+    u.update = Iteration::Update::kBisection;
+  }
+  u.mu = std::clamp(next, u.start_mu * kLeast, u.start_mu * kMost);
+}
+
+// The next pass is exact, with the same Jacobian. If it is expected to converge it can be the
+// recording, unless that might have to take too much back.
+void EpisodeSolver::PlanExactPass(bool converges) {
+  tolerance_ = 0;
+  sensitive_ = false;
+  const double interval = scenario_.sample_interval;
+  const bool few = interval == 0 || motion_.time() - start_time_ < kHeldSamples * interval;
+  if (converges && closed_ && few) stage_ = Stage::kExpected;
+}
+
+// (N5): a correction leaves the product of the residual and of the one at which its Jacobian was
+// taken. A pass that is not the last but one need not be exact, and no Jacobian is needed for what
+// the last one can do.
+void EpisodeSolver::PlanNextPass() {
+  const double wanted = scenario_.solver.restitution_tolerance;
+  const double next = merit_ * factors_merit_;
+  const bool full = damping_ == 1;
+  if (full && next * factors_merit_ <= wanted) return PlanExactPass(next <= 0.1 * wanted);
+  sensitive_ = true;
+  if (!full || next * next <= 10 * wanted) tolerance_ = 0;
+}
+
+}  // namespace contact

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+namespace contact {
+
+/// N numbers of an array, to be computed with at once.
+template <int N>
+struct Rows {
+  using Array = Eigen::Array<double, N, 1>;
+  auto operator()(const double* first) const { return Eigen::Map<const Array>(first); }
+  auto operator()(double* first) const { return Eigen::Map<Array>(first); }
+};
+
+/// Calls f(rows, i) for all of n rows: four at a time, then two, then one. A few bodies have short
+/// arrays, on which what compilers make of a loop over single rows costs more than the rows.
+template <class F>
+[[gnu::always_inline]] inline void InRows(std::ptrdiff_t n, F&& f) {
+  std::ptrdiff_t i = 0;
+  for (; i + 4 <= n; i += 4) f(Rows<4>(), i);
+  if ((n & 2) != 0) f(Rows<2>(), i), i += 2;
+  if ((n & 1) != 0) f(Rows<1>(), i);
+}
+
+}  // namespace contact

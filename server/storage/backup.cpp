@@ -1,0 +1,100 @@
+#include "storage/backup.h"
+
+#include <absl/strings/str_cat.h>
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "storage/database.h"
+
+namespace contact {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Bounds how long one step holds up the commits: 1 MiB.
+constexpr int kPagesAStep = 256;
+
+absl::Status Failed(const std::string& what) {
+  return absl::UnavailableError(
+      absl::StrCat("cannot ", what, " the backup: ", std::generic_category().message(errno)));
+}
+
+void Remove(const fs::path& file) {
+  std::error_code missing;
+  fs::remove(file, missing);
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<BackupFile>> BackupFile::Adopt(const fs::path& path) {
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status = {};
+  if (!file.ok() || ::fstat(file.get(), &status) != 0) return Failed("open");
+  if (::unlink(path.c_str()) != 0) return Failed("unlink");
+  return std::unique_ptr<BackupFile>(new BackupFile(std::move(file), status.st_size));
+}
+
+absl::StatusOr<std::string> BackupFile::Read(std::int64_t offset, std::size_t most) const {
+  std::string bytes(std::min(most, static_cast<std::size_t>(size_ - offset)), '\0');
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = ::pread(file_.get(), bytes.data() + done, bytes.size() - done,
+                              offset + static_cast<std::int64_t>(done));
+    if (n == 0) errno = EIO;
+    if (n <= 0) return Failed("read");
+    done += static_cast<std::size_t>(n);
+  }
+  return bytes;
+}
+
+DatabaseCopy::DatabaseCopy(SQLite::Database& from, const fs::path& to) {
+  Remove(to);
+  to_.emplace(to, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  // A copy that is not finished is worth nothing, so nothing of it is kept safe on the way.
+  to_->exec("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF");
+  backup_.emplace(*to_, from);
+}
+
+bool DatabaseCopy::Step() {
+  if (backup_->executeStep(kPagesAStep) != SQLITE_DONE) return true;
+  backup_.reset();
+  to_.reset();
+  return false;
+}
+
+void CopyDatabase(SQLite::Database& from, const fs::path& to) {
+  const fs::path draft = to.string() + ".new";
+  for (DatabaseCopy copy(from, draft); copy.Step();) {
+  }
+  const Descriptor file(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor folder(::open(to.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!file.ok() || ::fsync(file.get()) != 0 || ::rename(draft.c_str(), to.c_str()) != 0 ||
+      !folder.ok() || ::fsync(folder.get()) != 0) {
+    throw SQLite::Exception(absl::StrCat("cannot write ", to.string()), SQLITE_IOERR);
+  }
+}
+
+Backup::~Backup() {
+  copy_.reset();
+  if (!draft_.empty()) Remove(draft_);
+}
+
+absl::StatusOr<bool> Backup::Step(Database& database) {
+  if (stop_.stop_requested()) return absl::CancelledError("the backup was stopped");
+  if (!copy_) {
+    draft_ = database.directory().backup_draft();
+    copy_.emplace(database.connection(), draft_);
+  }
+  if (copy_->Step()) return true;
+  auto file = BackupFile::Adopt(draft_);
+  if (!file.ok()) return file.status();
+  file_ = *std::move(file);
+  return false;
+}
+
+}  // namespace contact

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "contact/v1/event.pb.h"
+
+namespace contact {
+
+/// How the bytes of a stored event are made. The numbers are in the database.
+enum class Coding : int {
+  kPlain = 0,   ///< The serialised message.
+  kFrames = 1,  ///< A frame chunk, compressed: see README.md.
+};
+
+struct CodedEvent {
+  Coding coding = Coding::kPlain;
+  std::string bytes;
+};
+
+/// The same message gives the same bytes.
+CodedEvent EncodeEvent(const v1::Event& event);
+
+/// False if the bytes are none that EncodeEvent has made.
+bool DecodeEvent(Coding coding, const std::string& bytes, v1::Event* event);
+
+/// Bytes of the event while it is decoded, about; without decoding it.
+std::size_t DecodedSize(Coding coding, const std::string& bytes);
+
+}  // namespace contact

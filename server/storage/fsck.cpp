@@ -1,0 +1,220 @@
+#include "storage/fsck.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_replace.h>
+#include <sqlite3.h>
+
+#include <map>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "contact/v1/job.pb.h"
+#include "storage/checksum.h"
+#include "storage/data_directory.h"
+#include "storage/schema.h"
+
+namespace contact {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Connection = std::unique_ptr<SQLite::Database>;
+
+// Without a log the file is read as it is, also from a medium that cannot be written. With one,
+// SQLite reads both and must think that it may write; it is kept from doing so.
+Connection Connect(const fs::path& file) {
+  std::error_code missing;
+  const auto log_bytes = fs::file_size(file.string() + "-wal", missing);
+  if (missing || log_bytes == 0) {
+    const std::string escaped =
+        absl::StrReplaceAll(file.string(), {{"%", "%25"}, {"?", "%3f"}, {"#", "%23"}});
+    return std::make_unique<SQLite::Database>(absl::StrCat("file:", escaped, "?immutable=1"),
+                                              SQLite::OPEN_READONLY | SQLite::OPEN_URI);
+  }
+  auto connection = std::make_unique<SQLite::Database>(file, SQLite::OPEN_READWRITE);
+  sqlite3_db_config(connection->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  connection->exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA query_only=ON");
+  return connection;
+}
+
+absl::StatusOr<Connection> OpenToCheck(const fs::path& file) {
+  std::error_code missing;
+  const auto size = fs::file_size(file, missing);
+  if (missing) return absl::NotFoundError(absl::StrCat("there is no ", file.string()));
+  if (size == 0) return absl::DataLossError(absl::StrCat(file.string(), " is empty"));
+  try {
+    Connection connection = Connect(file);
+    const int version = connection->execAndGet("PRAGMA user_version").getInt();
+    if (version == kSchemaVersion) return connection;
+    return absl::FailedPreconditionError(absl::StrCat(
+        file.string(), " has schema version ", version, ", this program checks ", kSchemaVersion,
+        version < kSchemaVersion ? "; start contactd on it once to bring it up to date"
+                                 : "; use the program that made it"));
+  } catch (const SQLite::Exception& error) {
+    return absl::DataLossError(absl::StrCat("cannot read ", file.string(), ": ", error.what()));
+  }
+}
+
+class Checker {
+ public:
+  Checker(SQLite::Database& connection, const std::function<void(const std::string&)>& tell)
+      : connection_(connection), tell_(tell) {}
+
+  FsckReport Run() {
+    Guard("database", &Checker::CheckPages);
+    Guard("database", &Checker::CheckReferences);
+    Guard("jobs", &Checker::CheckJobs);
+    Guard("specs", &Checker::CheckSpecs);
+    Guard("results", &Checker::CheckResults);
+    Guard("events", &Checker::CheckEvents);
+    Guard("jobs", &Checker::CheckTotals);
+    return report_;
+  }
+
+ private:
+  // What a job says of itself, and what was found.
+  struct Job {
+    std::string name;
+    std::int64_t last_sequence = 0;
+    std::int64_t bytes = 0;
+    bool has_spec = false;
+    std::int64_t found_sequence = 0;
+    std::int64_t found_bytes = 0;
+  };
+
+  template <class... Words>
+  void Find(const Words&... words) {
+    ++report_.findings;
+    tell_(absl::StrCat(words...));
+  }
+
+  // A page that cannot be read ends one part of the check, not all of it.
+  void Guard(const char* part, void (Checker::*check)()) {
+    try {
+      (this->*check)();
+    } catch (const SQLite::Exception& error) {
+      Find(part, ": cannot be read to the end: ", error.what());
+    }
+  }
+
+  void CheckPages() {
+    SQLite::Statement query(connection_, "PRAGMA integrity_check(100)");
+    while (query.executeStep()) {
+      const std::string verdict = query.getColumn(0).getString();
+      if (verdict != "ok") Find("database: ", verdict);
+    }
+  }
+
+  void CheckReferences() {
+    SQLite::Statement query(connection_, "PRAGMA foreign_key_check");
+    while (query.executeStep()) {
+      Find("database: a row of ", query.getColumn(0).getString(), " belongs to no job");
+    }
+  }
+
+  void CheckJobs() {
+    SQLite::Statement query(connection_,
+                            "SELECT number, name, state, last_sequence, bytes, crc32, header FROM "
+                            "jobs ORDER BY number");
+    while (query.executeStep()) {
+      ++report_.jobs;
+      Job& job = jobs_[query.getColumn(0).getInt64()];
+      job.name = query.getColumn(1).getString();
+      job.last_sequence = query.getColumn(3).getInt64();
+      job.bytes = query.getColumn(4).getInt64();
+      const std::string header = query.getColumn(6).getString();
+      v1::Job message;
+      if (Checksum(header) != query.getColumn(5).getInt64()) {
+        Find(job.name, ": the job fails its checksum");
+      } else if (!message.ParseFromString(header) || message.name() != job.name ||
+                 message.state() != query.getColumn(2).getInt()) {
+        Find(job.name, ": the job is not what its row says");
+      }
+    }
+  }
+
+  void CheckSpecs() { CheckPart("spec", "SELECT job, crc32, spec FROM specs"); }
+  void CheckResults() { CheckPart("result", "SELECT job, crc32, result FROM results"); }
+
+  void CheckPart(const std::string& part, const char* sql) {
+    SQLite::Statement query(connection_, sql);
+    while (query.executeStep()) {
+      const auto job = jobs_.find(query.getColumn(0).getInt64());
+      if (job == jobs_.end()) continue;  // CheckReferences has told.
+      const std::string bytes = query.getColumn(2).getString();
+      job->second.found_bytes += static_cast<std::int64_t>(bytes.size());
+      job->second.has_spec |= part == "spec";
+      v1::Job message;
+      if (Checksum(bytes) != query.getColumn(1).getInt64()) {
+        Find(job->second.name, ": its ", part, " fails its checksum");
+      } else if (!message.ParseFromString(bytes)) {
+        Find(job->second.name, ": its ", part, " is no message");
+      }
+    }
+  }
+
+  void CheckEvents() {
+    SQLite::Statement query(connection_,
+                            "SELECT job, sequence, kind, coding, crc32, payload FROM events"
+                            " WHERE job NOT IN (SELECT job FROM removed) ORDER BY job, sequence");
+    while (query.executeStep()) {
+      ++report_.events;
+      const auto job = jobs_.find(query.getColumn(0).getInt64());
+      if (job == jobs_.end()) {
+        Find("database: an event belongs to no job");
+      } else {
+        CheckEvent(query, &job->second);
+      }
+    }
+  }
+
+  void CheckEvent(SQLite::Statement& query, Job* job) {
+    const std::int64_t sequence = query.getColumn(1).getInt64();
+    const CodedEvent coded{static_cast<Coding>(query.getColumn(3).getInt()),
+                           query.getColumn(5).getString()};
+    if (sequence != job->found_sequence + 1) {
+      Find(job->name, ": events ", job->found_sequence + 1, " to ", sequence - 1, " are missing");
+    }
+    job->found_sequence = sequence;
+    job->found_bytes += static_cast<std::int64_t>(coded.bytes.size());
+    v1::Event event;
+    if (Checksum(coded, static_cast<std::uint64_t>(sequence)) != query.getColumn(4).getInt64()) {
+      Find(job->name, ": event ", sequence, " fails its checksum");
+    } else if (!DecodeEvent(coded.coding, coded.bytes, &event) ||
+               static_cast<int>(event.payload_case()) != query.getColumn(2).getInt()) {
+      Find(job->name, ": event ", sequence, " is not what its row says");
+    }
+  }
+
+  void CheckTotals() {
+    for (const auto& [number, job] : jobs_) {
+      if (!job.has_spec) Find(job.name, ": its spec is missing");
+      if (job.found_sequence != job.last_sequence) {
+        Find(job.name, ": its last event is ", job.found_sequence, ", its row says ",
+             job.last_sequence);
+      } else if (job.found_bytes != job.bytes) {
+        Find(job.name, ": takes ", job.found_bytes, " bytes, its row says ", job.bytes);
+      }
+    }
+  }
+
+  SQLite::Database& connection_;
+  const std::function<void(const std::string&)>& tell_;
+  std::map<std::int64_t, Job> jobs_;  // By number.
+  FsckReport report_;
+};
+
+}  // namespace
+
+absl::StatusOr<FsckReport> Fsck(const fs::path& directory,
+                                const std::function<void(const std::string&)>& tell) {
+  const absl::StatusOr<DataDirectory> locked = DataDirectory::OpenToRead(directory);
+  if (!locked.ok()) return locked.status();
+  const absl::StatusOr<Connection> connection = OpenToCheck(locked->database());
+  if (!connection.ok()) return connection.status();
+  return Checker(**connection, tell).Run();
+}
+
+}  // namespace contact

@@ -1,0 +1,45 @@
+#include "storage/migration.h"
+
+#include <absl/strings/str_cat.h>
+#include <sqlite3.h>
+
+#include "contact/v1/job.pb.h"
+#include "storage/schema.h"
+
+namespace contact {
+namespace {
+
+// From 1: ended jobs know when they ended, all know what they take, and events may be coded.
+constexpr char kToVersion2[] = R"sql(
+ALTER TABLE jobs ADD COLUMN end_time INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN bytes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE events ADD COLUMN coding INTEGER NOT NULL DEFAULT 0;
+UPDATE jobs SET
+  end_time = end_time_of(header),
+  bytes = COALESCE((SELECT SUM(LENGTH(payload)) FROM events WHERE job=number), 0)
+        + COALESCE((SELECT LENGTH(spec) FROM specs WHERE job=number), 0)
+        + COALESCE((SELECT LENGTH(result) FROM results WHERE job=number), 0);
+)sql";
+
+// SQL function: the end of the job with this header in Unix seconds; 0 if it does not tell.
+void EndTimeOf(sqlite3_context* context, int, sqlite3_value** arguments) {
+  v1::Job job;
+  const void* header = sqlite3_value_blob(arguments[0]);
+  const bool parsed = job.ParseFromArray(header, sqlite3_value_bytes(arguments[0]));
+  sqlite3_result_int64(context, parsed ? job.end_time().seconds() : 0);
+}
+
+}  // namespace
+
+void Migrate(SQLite::Database& connection, int version) {
+  SQLite::Transaction transaction(connection);
+  if (version < 2) {
+    connection.createFunction("end_time_of", 1, true, nullptr, EndTimeOf, nullptr, nullptr,
+                              nullptr);
+    connection.exec(kToVersion2);
+  }
+  connection.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
+  transaction.commit();
+}
+
+}  // namespace contact

@@ -1,0 +1,120 @@
+"""What bash, zsh and fish offer for the words of contactctl."""
+
+import os
+import pathlib
+import pty
+import shutil
+import subprocess
+import time
+import unittest
+
+from contactctl_test import CHAIN, CONTACTCTL, CliTest, read_until
+from contactd import PATIENCE_S
+
+
+class CompletionTest(CliTest):
+
+    def setUp(self):
+        super().setUp()
+        self.work = self.folder / "work"
+        (self.work / "sub").mkdir(parents=True)
+        for name in ("a.yaml", "b c.yaml", "notes.txt"):
+            (self.work / name).touch()
+        self.environment = {**os.environ, "CONTACT_SERVER": f"127.0.0.1:{self.server.port}",
+                            "HOME": str(self.folder), "TERM": "xterm",
+                            "PATH": f"{pathlib.Path(CONTACTCTL).parent}:{os.environ['PATH']}"}
+
+    def shell(self, *command, script):
+        run = subprocess.run(command, input=script, cwd=self.work, env=self.environment,
+                             capture_output=True, encoding="utf-8", timeout=PATIENCE_S)
+        self.assertEqual(run.stderr, "")
+        return run.stdout.splitlines()
+
+    def offered(self, *words, **changes):
+        """What the program itself answers: the candidates, and the rule of the last line."""
+        run = subprocess.run([CONTACTCTL, "__complete", *words], cwd=self.work,
+                             env={**self.environment, **changes}, capture_output=True,
+                             encoding="utf-8", timeout=PATIENCE_S)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        *lines, rule = run.stdout.splitlines()
+        return [line.split("\t")[0] for line in lines], rule
+
+    def bash(self, line):
+        """The COMPREPLY of a line, its words split as bash does, the cursor at its end."""
+        script = f"""source <({CONTACTCTL} completion bash)
+            COMP_WORDS=({line}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); _contactctl
+            printf '%s\\n' "${{COMPREPLY[@]}}" """
+        return self.shell("bash", "--norc", script=script)
+
+    def test_verbs_and_flags_are_those_of_the_program(self):
+        verbs, _ = self.offered("")
+        self.assertLessEqual({"run", "watch", "sweep", "completion", "config"}, set(verbs))
+        self.assertEqual([verb for verb in verbs if verb.startswith("_")], [])
+        self.assertEqual(self.offered("sweep", "ex"), (["export"], ":none"))
+        flags, _ = self.offered("run", "--")
+        self.assertLessEqual({"--set", "--label", "--server", "--output", "--help"}, set(flags))
+
+    def test_values_are_those_that_the_parser_takes(self):
+        self.assertEqual(self.offered("plot", "x", "hy")[0], ["hysteresis"])
+        self.assertEqual(self.offered("list", "-o", "ta")[0], ["table"])
+        self.assertEqual(self.offered("list", "--output=ta")[0], ["--output=table"])
+        self.assertEqual(self.offered("list", "--output", "=", "ta")[0], ["table"])
+        self.assertEqual(self.offered("list", "--state", "SU")[0], ["SUCCEEDED"])
+        self.assertEqual(self.offered("model", "show", "hunt")[0], ["hunt-crossley"])
+        self.assertEqual(self.offered("init", "three")[0], ["three-ball-chain"])
+        self.assertEqual(self.offered("completion", "")[0], ["bash", "zsh", "fish"])
+        self.assertEqual(self.offered("run", "")[1], ":scenarios")
+        self.assertEqual(self.offered("plot", "--keep", "")[1], ":directories")
+
+    def test_jobs_and_channels_come_from_the_server(self):
+        job = self.run_it("run", CHAIN, "-o", "name")[0].strip().removeprefix("jobs/")
+        self.assertEqual(self.offered("describe", job[:2])[0], [job])
+        self.assertIn("B3.velocity", self.offered("series", job, "--channel", "B3.")[0])
+        self.assertEqual(self.offered("--server", "127.0.0.1:1", "describe", "")[0], [])
+
+    def test_without_a_server_it_is_silent_and_soon_over(self):
+        start = time.monotonic()
+        offer = self.offered("describe", "", CONTACT_SERVER="10.255.255.1:7070")
+        self.assertEqual(offer, ([], ":none"))
+        self.assertLess(time.monotonic() - start, 5)  # 0.4 on a machine with nothing else to do.
+        self.assertEqual(self.offered("describe", "", CONTACT_SERVER="nonsense")[0], [])
+
+    def test_bash_completes(self):
+        job = self.run_it("submit", CHAIN, "-o", "name")[0].strip().removeprefix("jobs/")
+        self.assertEqual(self.bash("contactctl des"), ["describe"])
+        self.assertEqual(self.bash("contactctl watch ''"), [job])
+        self.assertEqual(self.bash("contactctl list --output = cs"), ["csv"])
+        self.assertEqual(sorted(self.bash("contactctl run ''")), ["a.yaml", "b c.yaml", "sub"])
+        self.assertEqual(self.bash("contactctl plot x --file n"), ["notes.txt"])
+
+    def test_zsh_completes(self):
+        if not shutil.which("zsh"):
+            self.skipTest("zsh is not installed")
+        master, slave = pty.openpty()
+        process = subprocess.Popen(["zsh", "-f", "-i"], stdin=slave, stdout=slave, stderr=slave,
+                                   cwd=self.work, env=self.environment)
+        os.close(slave)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        os.write(master, b"autoload -U compinit; compinit -u -D; LISTMAX=1000\n"
+                 b"source <(contactctl completion zsh); echo re''ady\n")
+        read_until(master, b"ready")
+        os.write(master, b"contactctl desc\t\x01echo '\x05'\n")
+        read_until(master, b"\ncontactctl describe")
+        os.write(master, b"contactctl run a\t\x01echo '\x05'\n")
+        read_until(master, b"\ncontactctl run a.yaml")
+
+    def test_fish_completes(self):
+        if not shutil.which("fish"):
+            self.skipTest("fish is not installed")
+        def ask(line):
+            offer = self.shell("fish", "--no-config",
+                               script=f"contactctl completion fish | source; complete -C '{line}'")
+            return [part.split("\t")[0] for part in offer]
+        self.assertEqual(ask("contactctl des"), ["describe"])
+        self.assertEqual(ask("contactctl plot x hy"), ["hysteresis"])
+        self.assertIn("a.yaml", ask("contactctl run a"))
+
+
+if __name__ == "__main__":
+    unittest.main()

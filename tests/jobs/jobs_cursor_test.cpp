@@ -1,0 +1,161 @@
+#include "jobs/jobs_cursor.h"
+
+#include "jobs_fixture.h"
+
+namespace contact {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+/// One who watches the jobs of the manager.
+class JobsCursorTest : public JobsTest {
+ protected:
+  std::unique_ptr<JobsCursor> Watch(v1::WatchJobsRequest request = {}) {
+    return std::move(manager_->Watch(request, reader_.wake()).value().cursor);
+  }
+  // The next message, waiting for it.
+  v1::WatchJobsResponse Next(JobsCursor& cursor) {
+    for (;;) {
+      v1::WatchJobsResponse message;
+      switch (cursor.Read(&message)) {
+        case JobsCursor::Next::kMessage:
+          return message;
+        case JobsCursor::Next::kWait:
+          reader_.Wait();
+          break;
+        default:
+          ADD_FAILURE() << "the watch ended";
+          return message;
+      }
+    }
+  }
+  // Reads until the job is told in that state, and returns all names told.
+  std::vector<std::string> UntilState(JobsCursor& cursor, const std::string& name,
+                                      v1::Job::State state) {
+    std::vector<std::string> names;
+    for (;;) {
+      const v1::WatchJobsResponse message = Next(cursor);
+      for (const v1::Job& job : message.jobs()) {
+        names.push_back(job.name());
+        if (job.name() == name && job.state() == state) return names;
+      }
+    }
+  }
+  static std::vector<std::string> Names(const v1::WatchJobsResponse& message) {
+    std::vector<std::string> names;
+    for (const v1::Job& job : message.jobs()) names.push_back(job.name());
+    return names;
+  }
+
+  LogReader reader_;
+};
+
+TEST_F(JobsCursorTest, BeginsWithAllJobsNewestFirst) {
+  OpenWithFakeRun();
+  std::vector<std::string> names;
+  for (int i = 0; i < 250; ++i) names.insert(names.begin(), Create());
+  const auto cursor = Watch();
+  std::vector<std::string> told;
+  for (bool complete = false; !complete;) {
+    const v1::WatchJobsResponse message = Next(*cursor);
+    EXPECT_LE(message.jobs_size(), 100);
+    for (const v1::Job& job : message.jobs()) EXPECT_EQ(job.spec_case(), v1::Job::SPEC_NOT_SET);
+    for (const std::string& name : Names(message)) told.push_back(name);
+    complete = message.snapshot_complete();
+  }
+  EXPECT_EQ(told, names);
+}
+
+TEST_F(JobsCursorTest, EmptyServerAnswersAtOnce) {
+  OpenWithFakeRun();
+  const v1::WatchJobsResponse message = Next(*Watch());
+  EXPECT_TRUE(message.snapshot_complete());
+  EXPECT_THAT(Names(message), IsEmpty());
+}
+
+TEST_F(JobsCursorTest, TellsCreationEveryStateAndDeletion) {
+  OpenWithFakeRun();
+  const auto cursor = Watch();
+  Next(*cursor);
+  const std::string name = Create();
+  UntilState(*cursor, name, v1::Job::RUNNING);
+  run_.Allow();
+  UntilState(*cursor, name, v1::Job::SUCCEEDED);
+  EXPECT_TRUE(Delete(name).ok());
+  EXPECT_THAT(Next(*cursor).gone(), ElementsAre(name));
+}
+
+TEST_F(JobsCursorTest, JobThatLeavesTheStatesAskedForIsGone) {
+  Open(WithFakeRun({.workers = 1}));
+  Create();
+  run_.AwaitStarted(1);
+  const std::string waiting = Create();
+  v1::WatchJobsRequest request;
+  request.add_states(v1::Job::QUEUED);
+  const auto cursor = Watch(request);
+  EXPECT_THAT(Names(Next(*cursor)), ElementsAre(waiting));
+  EXPECT_TRUE(Cancel(waiting).ok());
+  EXPECT_THAT(Next(*cursor).gone(), ElementsAre(waiting));
+}
+
+TEST_F(JobsCursorTest, OtherLabelsAreNotTold) {
+  OpenWithFakeRun();
+  v1::WatchJobsRequest request;
+  (*request.mutable_labels())["study"] = "a";
+  const auto cursor = Watch(request);
+  Next(*cursor);
+  Create();
+  v1::CreateJobRequest wanted = RequestFor(BouncingBall());
+  (*wanted.mutable_job()->mutable_labels())["study"] = "a";
+  const std::string name = Create(wanted).value().name();
+  EXPECT_THAT(Names(Next(*cursor)), ElementsAre(name));
+}
+
+TEST_F(JobsCursorTest, WhoReadsLateHearsTheNewestOfEachJobOnce) {
+  OpenWithFakeRun();
+  const auto cursor = Watch();
+  Next(*cursor);
+  const std::string first = Create();
+  const std::string second = Create();
+  run_.Allow(2);
+  Ended(first);
+  Ended(second);
+  const v1::WatchJobsResponse message = Next(*cursor);
+  EXPECT_THAT(Names(message), UnorderedElementsAre(first, second));
+  for (const v1::Job& job : message.jobs()) EXPECT_EQ(job.state(), v1::Job::SUCCEEDED);
+  v1::WatchJobsResponse none;
+  EXPECT_EQ(cursor->Read(&none), JobsCursor::Next::kWait);
+}
+
+TEST(JobFeed, KeepsEachNameOnceAndNotTooMany) {
+  JobFeed feed;
+  const auto reader = feed.Subscribe([] {});
+  for (int i = 0; i < 100'000; ++i) feed.Changed("jobs/a");
+  EXPECT_THAT(reader->Take(10), ElementsAre("jobs/a"));
+  for (std::size_t i = 0; i < JobFeed::kMostChanges; ++i) feed.Changed("jobs/" + std::to_string(i));
+  EXPECT_FALSE(reader->overflown());
+  feed.Changed("jobs/b");
+  EXPECT_TRUE(reader->overflown());
+  EXPECT_THAT(reader->Take(10), IsEmpty());
+}
+
+TEST(JobFeed, WakesOnceForWhatIsNotLookedAt) {
+  JobFeed feed;
+  int wakes = 0;
+  const auto reader = feed.Subscribe([&wakes] { ++wakes; });
+  feed.Changed("jobs/a");
+  feed.Changed("jobs/b");
+  EXPECT_EQ(wakes, 1);
+  EXPECT_EQ(reader->Take(1).size(), 1U);
+  feed.Changed("jobs/c");
+  EXPECT_EQ(wakes, 1) << "it still has something to look at";
+  EXPECT_EQ(reader->Take(9).size(), 2U);
+  EXPECT_TRUE(reader->Take(9).empty());
+  feed.Changed("jobs/d");
+  EXPECT_EQ(wakes, 2);
+}
+
+}  // namespace
+}  // namespace contact

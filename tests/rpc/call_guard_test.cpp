@@ -1,0 +1,164 @@
+#include "rpc/call_guard.h"
+
+#include <grpcpp/test/server_context_test_spouse.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "test_server.h"
+
+namespace contact {
+namespace {
+
+using namespace std::chrono_literals;
+
+const RateLimit::Time kStart{};
+
+TEST(RateLimitTest, BurstGoesThroughAndTheNextIsToldWhen) {
+  RateLimit limit(4, 3);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(limit.Take("a", kStart), 0ms) << i;
+  EXPECT_EQ(limit.Take("a", kStart), 250ms);
+  EXPECT_EQ(limit.Take("a", kStart + 100ms), 150ms);
+  EXPECT_EQ(limit.Take("a", kStart + 250ms), 0ms);
+  EXPECT_EQ(limit.Take("a", kStart + 250ms), 250ms);
+}
+
+TEST(RateLimitTest, RestFillsTheBucketUpToTheBurst) {
+  RateLimit limit(4, 3);
+  limit.Take("a", kStart);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(limit.Take("a", kStart + 1h), 0ms) << i;
+  EXPECT_GT(limit.Take("a", kStart + 1h), 0ms);
+}
+
+TEST(RateLimitTest, PeersDoNotShare) {
+  RateLimit limit(1, 1);
+  EXPECT_EQ(limit.Take("a", kStart), 0ms);
+  EXPECT_EQ(limit.Take("b", kStart), 0ms);
+  EXPECT_GT(limit.Take("a", kStart), 0ms);
+}
+
+TEST(RateLimitTest, ZeroIsAnyNumber) {
+  RateLimit limit(0, 1);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(limit.Take("a", kStart), 0ms);
+  EXPECT_EQ(limit.peers(), 0U);
+}
+
+TEST(RateLimitTest, PeersThatRestAreForgotten) {
+  RateLimit limit(1, 1);
+  for (int i = 0; i < 100'000; ++i) limit.Take(std::to_string(i), kStart + i * 10ms);
+  EXPECT_LE(limit.peers(), 1024U);
+}
+
+TEST(PeerTest, IsTheAddressWithoutThePort) {
+  EXPECT_EQ(PeerOf("ipv4:127.0.0.1:4711"), "ipv4:127.0.0.1");
+  EXPECT_EQ(PeerOf("ipv6:%5B::1%5D:4711"), "ipv6:%5B::1%5D");
+  EXPECT_EQ(PeerOf("unix:/run/contactd.sock"), "unix");
+  EXPECT_EQ(PeerOf("unix:"), "unix");
+}
+
+TEST(PeerTest, CountsUntilTheLeaseGoes) {
+  const auto counts = std::make_shared<PeerCounts>();
+  auto first = counts->Enter("a");
+  const auto second = counts->Enter("a");
+  const auto other = counts->Enter("b");
+  EXPECT_EQ(counts->Of("a"), 2);
+  first.reset();
+  EXPECT_EQ(counts->Of("a"), 1);
+  EXPECT_EQ(counts->Of("b"), 1);
+  EXPECT_EQ(counts->Of("c"), 0);
+}
+
+TEST(CallGuardTest, MetadataUpToTheLimitIsTaken) {
+  const CallGuard guard({.max_metadata_bytes = 1024}, std::make_shared<PeerCounts>(),
+                        std::make_shared<RpcMetrics>());
+  const std::string room(1024 - 2 * (32 + 2), 'x');  // Two entries with names of two bytes.
+  for (const auto& [extra, taken] : {std::pair{"", true}, std::pair{"x", false}}) {
+    grpc::ServerContext context;
+    grpc::testing::ServerContextTestSpouse spouse(&context);
+    spouse.AddClientMetadata("k1", room);
+    spouse.AddClientMetadata("k2", extra);
+    const auto refusal = guard.Check(context);
+    EXPECT_EQ(!refusal, taken) << extra;
+    EXPECT_EQ(refusal.value_or(Error{}).reason, taken ? "" : "METADATA_TOO_LARGE");
+  }
+}
+
+// What the details of a status say.
+std::chrono::milliseconds RetryAfter(const grpc::Status& status) {
+  google::rpc::Status details;
+  details.ParseFromString(status.error_details());
+  google::rpc::RetryInfo retry;
+  for (const auto& detail : details.details()) {
+    if (!detail.UnpackTo(&retry)) continue;
+    return std::chrono::seconds(retry.retry_delay().seconds()) +
+           std::chrono::milliseconds(retry.retry_delay().nanos() / 1'000'000);
+  }
+  return 0ms;
+}
+
+TEST(CallLimitsTest, CreatesPastTheRateAreToldWhenToComeAgain) {
+  TestServer server({.calls = {.max_creates_per_second = 0.001, .max_create_burst = 2}});
+  server.Create(Collision());
+  server.Create(Collision());
+  grpc::ClientContext context;
+  v1::Job job;
+  const grpc::Status third = server.stub().CreateJob(&context, {}, &job);
+  EXPECT_EQ(third.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(Reason(third), "RATE_LIMITED");
+  EXPECT_GT(RetryAfter(third), 900s);
+  EXPECT_LE(RetryAfter(third), 1000s);
+}
+
+TEST(CallLimitsTest, WatchersOfAPeerAreCountedWhileTheyWatch) {
+  TestServer server({.calls = {.max_watchers_per_peer = 2}});
+  v1::WatchJobRequest request;
+  request.set_name(server.Create(Endless()));
+  struct Watch {
+    grpc::ClientContext context;
+    std::unique_ptr<grpc::ClientReader<v1::WatchJobResponse>> reader;
+  };
+  std::vector<Watch> watches(2);
+  v1::WatchJobResponse response;
+  for (Watch& watch : watches) {
+    watch.reader = server.stub().WatchJob(&watch.context, request);
+    EXPECT_TRUE(watch.reader->Read(&response));
+  }
+  const auto watch_once = [&] {
+    grpc::ClientContext context;
+    const auto reader = server.stub().WatchJob(&context, request);
+    if (reader->Read(&response)) context.TryCancel();
+    return reader->Finish();
+  };
+  const grpc::Status third = watch_once();
+  EXPECT_EQ(third.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(Reason(third), "WATCHER_LIMIT");
+  EXPECT_GT(RetryAfter(third), 0ms);
+  watches.front().context.TryCancel();
+  EXPECT_TRUE(Eventually([&] { return watch_once().error_code() == grpc::StatusCode::CANCELLED; }));
+}
+
+TEST(CallLimitsTest, ServerTellsThem) {
+  TestServer server({.max_message_bytes = 1 << 20,
+                     .connections = {.in_all = 17, .per_peer = 16},
+                     .calls = {.max_metadata_bytes = 4096,
+                               .max_creates_per_second = 5,
+                               .max_create_burst = 6,
+                               .max_watchers_per_peer = 7}});
+  grpc::ClientContext context;
+  v1::ServerInfo info;
+  ASSERT_TRUE(server.stub().GetServerInfo(&context, {}, &info).ok());
+  const v1::ServerLimits& limits = info.limits();
+  EXPECT_EQ(limits.max_message_bytes(), 1 << 20);
+  EXPECT_EQ(limits.max_connections(), 17);
+  EXPECT_EQ(limits.max_connections_per_peer(), 16);
+  EXPECT_EQ(limits.max_metadata_bytes(), 4096);
+  EXPECT_EQ(limits.max_creates_per_second(), 5);
+  EXPECT_EQ(limits.max_create_burst(), 6);
+  EXPECT_EQ(limits.max_watchers_per_peer(), 7);
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,156 @@
+// What becomes of the databases of earlier versions. version_1.sql was dumped from one that the
+// program of that version had made: two jobs that succeeded.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "storage/store.h"
+#include "storage/store_fixture.h"
+#include "testing/failing_disk.h"
+
+namespace contact {
+namespace {
+
+std::string Text(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// The jobs and events of a database, whatever its version.
+std::set<std::string> Rows(const std::filesystem::path& database) {
+  std::set<std::string> rows;
+  SQLite::Database raw(database, SQLite::OPEN_READWRITE);
+  for (const char* sql :
+       {"SELECT name || state || last_sequence || hex(header) FROM jobs",
+        "SELECT job || '/' || sequence || '/' || kind || hex(payload) FROM events",
+        "SELECT job || hex(spec) FROM specs", "SELECT job || hex(result) FROM results"}) {
+    SQLite::Statement query(raw, sql);
+    while (query.executeStep()) rows.insert(query.getColumn(0).getString());
+  }
+  return rows;
+}
+
+int Version(const std::filesystem::path& database) {
+  return SQLite::Database(database, SQLite::OPEN_READWRITE)
+      .execAndGet("PRAGMA user_version")
+      .getInt();
+}
+
+class MigrationTest : public StoreTest {
+ protected:
+  void MakeVersion1() {
+    store_.reset();
+    std::filesystem::remove_all(path());
+    std::filesystem::create_directory(path());
+    SQLite::Database raw(database(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    raw.exec("PRAGMA synchronous=OFF");
+    raw.exec(Text(CONTACT_SOURCE_DIR "/tests/storage/version_1.sql"));
+    std::ofstream(path() / "initialised") << "contactd.db belongs here\n";
+  }
+
+  // Columns of all tables, and the indices.
+  std::set<std::string> Tables() {
+    std::set<std::string> found;
+    SQLite::Database raw(database());
+    SQLite::Statement columns(raw,
+                              "SELECT m.name || '.' || c.name || ' ' || c.type || c.\"notnull\" ||"
+                              " COALESCE(c.dflt_value, '') || c.pk FROM sqlite_schema m,"
+                              " pragma_table_xinfo(m.name) c WHERE m.type IN ('table','index')");
+    while (columns.executeStep()) found.insert(columns.getColumn(0).getString());
+    return found;
+  }
+};
+
+TEST_F(MigrationTest, EverythingOfVersion1IsThereAfterwards) {
+  MakeVersion1();
+  const std::set<std::string> before = Rows(database());
+  Open();
+  const auto jobs = List({});
+  ASSERT_TRUE(jobs.ok());
+  ASSERT_EQ(jobs->jobs.size(), 2U);
+  for (const StoredJob& header : jobs->jobs) {
+    const auto job = Read(header.job.name());
+    ASSERT_TRUE(job.ok()) << job.status();
+    EXPECT_GT(job->job.cycles_size(), 0);
+    const auto page = ReadEvents({.name = header.job.name(), .max_bytes = 1 << 30});
+    ASSERT_EQ(page->events.size(), job->job.last_sequence());
+    for (const StoredEvent& stored : page->events) {
+      v1::Event event;
+      EXPECT_TRUE(stored.Parse(&event)) << stored.sequence;
+    }
+  }
+  store_.reset();
+  EXPECT_EQ(Version(database()), 2);
+  EXPECT_EQ(Rows(database()), before);
+}
+
+TEST_F(MigrationTest, TablesAreThoseOfANewStore) {
+  MakeVersion1();
+  Open();
+  store_.reset();
+  const std::set<std::string> migrated = Tables();
+  std::filesystem::remove_all(path());
+  Open();
+  store_.reset();
+  EXPECT_EQ(migrated, Tables());
+}
+
+TEST_F(MigrationTest, EndsAndSizesAreFilledIn) {
+  MakeVersion1();
+  Open();
+  const auto sizes = Sizes();
+  ASSERT_TRUE(sizes.ok());
+  ASSERT_EQ(sizes->size(), 2U);
+  for (const JobSize& size : *sizes) {
+    EXPECT_EQ(size.end_time, Read(size.name)->job.end_time().seconds());
+    EXPECT_EQ(size.bytes, StoredBytes(size.name));
+  }
+}
+
+TEST_F(MigrationTest, OldDatabaseIsKeptBesideTheNew) {
+  MakeVersion1();
+  const std::set<std::string> before = Rows(database());
+  Open();
+  store_.reset();
+  const std::filesystem::path kept = path() / "contactd.db.v1";
+  EXPECT_EQ(Version(kept), 1);
+  EXPECT_EQ(Rows(kept), before);
+}
+
+TEST_F(MigrationTest, DiskThatFailsAnywhereLeavesTheOldOrTheNew) {
+  MakeVersion1();
+  const std::set<std::string> before = Rows(database());
+  int old_left = 0;
+  bool done = false;
+  for (int n = 0; !done; ++n) {
+    ASSERT_LT(n, 1000);
+    MakeVersion1();
+    {
+      FailingDisk disk;
+      disk.FailAfter(n);
+      const auto opened = Store::Open(path());
+      done = opened.ok() && !disk.failed();
+    }
+    // The log of SQLite, if there is one, belongs to the database.
+    const std::filesystem::path image = directory_.path() / "image";
+    std::filesystem::remove_all(image);
+    std::filesystem::copy(path(), image);
+    const int version = Version(image / "contactd.db");
+    EXPECT_TRUE(version == 1 || version == 2) << n;
+    if (version == 1) ++old_left;
+    EXPECT_EQ(Rows(image / "contactd.db"), before) << n;
+    Open();
+    EXPECT_EQ(Sizes()->size(), 2U);
+    store_.reset();
+    EXPECT_EQ(Version(database()), 2);
+  }
+  EXPECT_GT(old_left, 20) << "the test must bite";
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,148 @@
+"""Every number of a scenario, made hostile: the rules are those that the contract states."""
+
+import math
+import pathlib
+import re
+import struct
+import unittest
+
+import grpc
+from contact.v1 import job_service_pb2, scenario_pb2
+from contactd import PATIENCE_S, Job, ServerTest, details_of, three_ball_chain
+from google.protobuf.descriptor import FieldDescriptor
+
+PROTO = pathlib.Path(__file__).parents[2] / "proto/contact/v1/scenario.proto"
+
+DENORMAL = struct.unpack("<d", struct.pack("<Q", 1))[0]
+LARGEST = struct.unpack("<d", struct.pack("<Q", 0x7FEFFFFFFFFFFFFF))[0]
+DOUBLES = (math.nan, math.inf, -math.inf, -0.0, DENORMAL, LARGEST, -LARGEST, -1.0, 0.0, 1e300)
+INTEGERS = {FieldDescriptor.CPPTYPE_INT32: (2**31 - 1, -2**31, -1, 0),
+            FieldDescriptor.CPPTYPE_INT64: (2**63 - 1, -2**63, -1, 0)}
+
+
+def everything():
+    """A good scenario that has every number at least once."""
+    body, contact, load = scenario_pb2.Body, scenario_pb2.Contact, scenario_pb2.Load
+    steel = scenario_pb2.Material(youngs_modulus_pa=2e11, poisson_ratio=0.3)
+    wall = scenario_pb2.Wall(position_m=3.0, side=scenario_pb2.Wall.RIGHT, material=steel)
+    return scenario_pb2.Scenario(
+        bodies=[
+            body(name="A", mass_kg=0.5, radius_m=0.05, position_m=0.0, velocity_m_per_s=0.2,
+                 material=steel),
+            body(name="B", mass_kg=0.5, radius_m=0.05, position_m=1.0, material=steel),
+            body(name="C", density_kg_per_m3=7800.0, radius_m=0.05, position_m=2.0,
+                 material=steel),
+        ],
+        contacts=[
+            contact(between=["A", "B"], restitution=0.8),
+            contact(between=["B", "C"], stiffness=1e8, exponent=1.5, damping=contact.MU, mu=1e6),
+            contact(between=["C"], wall=wall, restitution=0.8, damping=contact.HUNT_CROSSLEY,
+                    reference_velocity_m_per_s=0.1),
+        ],
+        supports=[scenario_pb2.Support(body="A", stiffness_n_per_m=1e3, damping_n_s_per_m=1.0,
+                                       rest_position_m=0.1)],
+        loads=[
+            load(body="A", constant=load.Constant(force_n=1.0)),
+            load(body="A", sine=load.Sine(amplitude_n=1.0, angular_frequency_rad_per_s=10.0,
+                                          phase_rad=0.1)),
+            load(gravity=load.Gravity(acceleration_m_per_s2=1.0)),
+            load(body="A", step=load.Step(force_n=1.0, start_time_s=1e-3)),
+            load(body="A", rectangular_pulse=load.RectangularPulse(
+                force_n=1.0, start_time_s=1e-3, duration_s=1e-3)),
+            load(body="A", half_sine_pulse=load.HalfSinePulse(
+                amplitude_n=1.0, start_time_s=1e-3, duration_s=1e-3)),
+            load(body="A", table=load.Table(points=[
+                load.Table.Point(time_s=0.0, force_n=0.0),
+                load.Table.Point(time_s=1e-3, force_n=1.0)])),
+        ],
+        solver=scenario_pb2.Solver(
+            method=scenario_pb2.Solver.RK4, step_s=1e-6, relative_tolerance=1e-11,
+            restitution_tolerance=1e-8, max_iterations=50, settled_fraction=1e-9,
+            max_steps=10**8),
+        output=scenario_pb2.Output(sample_interval_s=1e-4),
+        end_time_s=1e-2)
+
+
+def numbers(message, path=""):
+    """(message, field, path) of every number in it; of repeated messages, of each."""
+    for field in message.DESCRIPTOR.fields:
+        here = f"{path}.{field.name}"
+        repeated = field.label == field.LABEL_REPEATED
+        if field.message_type:
+            if repeated:
+                for i, part in enumerate(getattr(message, field.name)):
+                    yield from numbers(part, f"{here}[{i}]")
+            elif message.HasField(field.name):
+                yield from numbers(getattr(message, field.name), here)
+        elif field.cpp_type == field.CPPTYPE_DOUBLE or field.cpp_type in INTEGERS:
+            yield message, field, here
+
+
+def stated_ranges():
+    """{message.field: test of a value} from the comments of the contract."""
+    ranges, messages, comment = {}, [], ""
+    for line in PROTO.read_text().splitlines():
+        text = line.strip()
+        if text.startswith("//"):
+            comment += " " + text[2:].strip()
+            continue
+        if opened := re.match(r"(?:message|enum|oneof) (\w+) {", text):
+            messages.append(opened[1] if text.startswith("message") else None)
+        elif text == "}":
+            messages.pop()
+        elif declared := re.match(r"(?:optional )?(?:double|int32|int64) (\w+) =", text):
+            stated = re.search(r"Range: ([\[(])([-\d.e]+), ([-\d.e]+)([\])])", comment)
+            if stated:
+                ranges[f"{messages[-1]}.{declared[1]}"] = within(*stated.groups())
+        comment = ""
+    return ranges
+
+
+def within(left, low, high, right):
+    low, high = float(low), float(high)
+    return lambda value: ((low <= value if left == "[" else low < value) and
+                          (value <= high if right == "]" else value < high))
+
+
+class HostileValuesTest(ServerTest):
+
+    def violations(self, scenario):
+        """Fields that the server finds fault with; none: it takes the scenario."""
+        request = job_service_pb2.CreateJobRequest(job=Job(scenario=scenario), validate_only=True)
+        try:
+            self.server.stub.CreateJob(request, timeout=PATIENCE_S)
+            return []
+        except grpc.RpcError as error:
+            self.assertEqual(error.code(), grpc.StatusCode.INVALID_ARGUMENT)
+            details = details_of(error)
+            self.assertEqual(details["ErrorInfo"].reason, "SCENARIO_INVALID")
+            return [violation.field for violation in details["BadRequest"].field_violations]
+
+    def test_every_number_is_checked_as_the_contract_says(self):
+        self.assertEqual(self.violations(everything()), [])
+        ranges = stated_ranges()
+        cases = refused = 0
+        for position, (_, field, path) in enumerate(list(numbers(everything()))):
+            for value in INTEGERS.get(field.cpp_type, DOUBLES):
+                scenario = everything()
+                message, _, _ = list(numbers(scenario))[position]
+                setattr(message, field.name, value)
+                found = self.violations(scenario)
+                with self.subTest(field=path, value=value):
+                    allowed = ranges.get(f"{message.DESCRIPTOR.name}.{field.name}", math.isfinite)
+                    if not math.isfinite(value) or not allowed(value):
+                        self.assertIn(f"scenario{path}", found)
+                    for violation in found:  # Refused for its neighbours, it is a path too.
+                        self.assertTrue(violation.startswith("scenario."), violation)
+                cases += 1
+                refused += bool(found)
+        print(f"{cases} cases, {refused} of them refused; {len(ranges)} ranges in the contract")
+        self.assertGreater(cases, 200)
+        self.assertGreater(refused, cases / 2)
+        self.assertGreater(len(ranges), 25)
+        self.assertEqual(list(self.server.list().jobs), [])
+        self.assertEqual(self.server.run(three_ball_chain()).state, Job.SUCCEEDED)
+
+
+if __name__ == "__main__":
+    unittest.main()

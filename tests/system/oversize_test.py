@@ -1,0 +1,173 @@
+"""Requests that are too large in every way: the right code, little memory, and life goes on."""
+
+import socket
+import struct
+import time
+import unittest
+
+import grpc
+from contact.v1 import job_service_pb2, job_service_pb2_grpc
+from contactd import PATIENCE_S, Job, ServerTest, three_ball_chain
+
+LIMIT = 1 << 20  # Of a message.
+MOST_GROWTH = 64 << 20
+SLACK = 5  # A machine so many times slower must pass too.
+CREATE = "/contact.v1.JobService/CreateJob"
+INFO = "/contact.v1.JobService/GetServerInfo"
+
+
+def field(number, content):
+    """A length-delimited protobuf field."""
+    def varint(value):
+        out = b""
+        while value > 127:
+            out += bytes([value & 127 | 128])
+            value >>= 7
+        return out + bytes([value])
+    return varint(number << 3 | 2) + varint(len(content)) + content
+
+
+def frame(kind, flags, stream, payload):
+    """An HTTP/2 frame."""
+    return struct.pack(">I", len(payload))[1:] + bytes([kind, flags]) + struct.pack(
+        ">I", stream) + payload
+
+
+def header(name, value):
+    """HPACK: a literal without index, its lengths below 127 or in continuation bytes."""
+    def text(string):
+        length, out = len(string), b""
+        if length < 127:
+            return bytes([length]) + string
+        length -= 127
+        out = b"\x7f"
+        while length > 127:
+            out += bytes([length & 127 | 128])
+            length >>= 7
+        return out + bytes([length]) + string
+    return b"\x00" + text(name) + text(value)
+
+
+class OversizeTest(ServerTest):
+
+    flags = (f"--max-message-bytes={LIMIT}", f"--max-rpc-memory-bytes={32 << 20}")
+
+    def setUp(self):
+        super().setUp()
+        for _ in range(3):  # What a first call takes is no growth.
+            self.server.create(three_ball_chain(), validate_only=True)
+        self.base = self.memory("VmRSS")
+
+    def memory(self, kind):
+        """In bytes; VmHWM is the most there ever was."""
+        with open(f"/proc/{self.server.process.pid}/status") as status:
+            line = next(line for line in status if line.startswith(kind))
+        return int(line.split()[1]) * 1024
+
+    def call(self, message, method=CREATE, **keywords):
+        """Code of a call with these bytes as its message."""
+        call = self.server.channel.unary_unary(method, request_serializer=bytes)
+        try:
+            call(message, timeout=PATIENCE_S, **keywords)
+        except grpc.RpcError as error:
+            return error.code()
+        return grpc.StatusCode.OK
+
+    def assertLivesOn(self):
+        growth = self.memory("VmHWM") - self.base
+        start = time.monotonic()
+        options = [("grpc.use_local_subchannel_pool", 1)]  # The old one may have been cut.
+        with grpc.insecure_channel(f"127.0.0.1:{self.server.port}", options) as channel:
+            job_service_pb2_grpc.JobServiceStub(channel).GetServerInfo(
+                job_service_pb2.GetServerInfoRequest(), timeout=PATIENCE_S)
+        took = time.monotonic() - start
+        print(f"{self.id().rsplit('.', 1)[-1]}: {growth / 2**20:.1f} MiB more at most, "
+              f"then an answer in {1000 * took:.1f} ms")
+        self.assertLess(growth, MOST_GROWTH)
+        self.assertLess(took, 0.1 * SLACK)
+
+    def request(self, size):
+        """A valid request of exactly so many bytes, the rest in a field we do not know."""
+        known = job_service_pb2.CreateJobRequest(
+            job=Job(scenario=three_ball_chain()), validate_only=True).SerializeToString()
+        request = known + field(1000, bytes(size - len(known) - 5))
+        self.assertEqual(len(request), size)
+        return request
+
+    def test_message_at_the_limit_is_taken_and_past_it_refused(self):
+        for size, code in ((LIMIT - 1, grpc.StatusCode.OK), (LIMIT, grpc.StatusCode.OK),
+                           (LIMIT + 1, grpc.StatusCode.RESOURCE_EXHAUSTED)):
+            self.assertEqual(self.call(self.request(size)), code, size)
+        self.assertLivesOn()
+
+    def test_message_of_100_megabytes_is_refused(self):
+        self.assertEqual(self.call(bytes(100 << 20)), grpc.StatusCode.RESOURCE_EXHAUSTED)
+        self.assertLivesOn()
+
+    def test_compressed_message_is_refused_unseen(self):
+        bomb = bytes(100 << 20)  # Some 100 KB on the way.
+        self.assertEqual(self.call(bomb, compression=grpc.Compression.Gzip),
+                         grpc.StatusCode.UNIMPLEMENTED)
+        self.assertLivesOn()
+
+    def test_million_of_fields_is_refused(self):
+        """Empty bodies: two bytes each, hundreds once they are parsed."""
+        most = LIMIT // 2 - 20
+        scenario = field(2, b"") * most
+        self.assertEqual(self.call(field(1, field(2, scenario))),
+                         grpc.StatusCode.INVALID_ARGUMENT)
+        self.assertEqual(self.call(field(1, field(2, field(2, b"") * 10**6))),
+                         grpc.StatusCode.RESOURCE_EXHAUSTED)
+        self.assertLivesOn()
+
+    def test_nesting_is_limited(self):
+        """Unknown groups: protobuf takes 100 levels."""
+        start, end = b"\xc3\x3e", b"\xc4\x3e"  # Of field 1000.
+        for depth, code in ((99, grpc.StatusCode.INVALID_ARGUMENT),
+                            (101, grpc.StatusCode.UNIMPLEMENTED)):  # gRPC's word for unparsable.
+            self.assertEqual(self.call(start * depth + end * depth), code, depth)
+        self.assertLivesOn()
+
+    def test_large_metadata_is_refused(self):
+        for size, code in ((7000, grpc.StatusCode.OK),
+                           (9 << 10, grpc.StatusCode.RESOURCE_EXHAUSTED),
+                           (1 << 20, grpc.StatusCode.RESOURCE_EXHAUSTED)):
+            self.assertEqual(self.call(b"", INFO, metadata=[("note", "x" * size)]), code, size)
+        self.assertLivesOn()
+
+    def test_large_metadata_of_a_client_that_ignores_settings_is_refused(self):
+        """It never says that it has seen the server's limit, so gRPC does not enforce it."""
+        for size in (9 << 10, 1 << 20):
+            answer = self.rude_call(size)
+            self.assertNotIn(b"grpc-status\x010", answer)  # Refused, or cut off.
+            if size == 9 << 10:
+                self.assertIn(b"bytes of metadata; at most 8192 are taken", answer)
+        self.assertLivesOn()
+
+    def rude_call(self, size):
+        """What the server says to a call with so much metadata, its settings unanswered."""
+        headers = b"".join(header(name, value) for name, value in (
+            (b":method", b"POST"), (b":scheme", b"http"), (b":path", INFO.encode()),
+            (b":authority", b"x"), (b"te", b"trailers"), (b"content-type", b"application/grpc"),
+            (b"note", b"x" * size)))
+        parts = [headers[i:i + 16384] for i in range(0, len(headers), 16384)]
+        out = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + frame(4, 0, 0, b"")
+        for i, part in enumerate(parts):  # HEADERS, then CONTINUATION; 4: the last.
+            out += frame(9 if i else 1, 4 if i == len(parts) - 1 else 0, 1, part)
+        out += frame(0, 1, 1, bytes(5))  # An empty message.
+        answer = b""
+        with socket.create_connection(("127.0.0.1", self.server.port), 5) as connection:
+            try:
+                connection.sendall(out)
+                while b"grpc-status" not in answer:
+                    chunk = connection.recv(65536)
+                    if not chunk:
+                        break
+                    answer += chunk
+            except OSError:  # Cut off, or nothing more to hear.
+                pass
+        return answer
+
+
+if __name__ == "__main__":
+    unittest.main()
