@@ -59,5 +59,40 @@ class DiskFullTest(FaultTest):
             return False
 
 
+class StoreLimitTest(FaultTest):
+    """F4, with a limit of our own."""
+
+    flags = ("--workers=2", "--max-stored-bytes=2000000")
+
+    def test_deleting_makes_space(self):
+        scenario = spring_wall(0.05)
+        scenario.output.sample_interval_s = 1e-5
+        golden = self.golden(scenario)
+        names = []
+        with self.assertRaises(grpc.RpcError) as refused:
+            for i in range(500):
+                names.append(submit(self.server, self.history, scenario, f"{i}").name)
+                follow_or_leave(self.server, names[-1])
+        self.assertEqual(details_of(refused.exception)["ErrorInfo"].reason, "STORE_FULL")
+        self.assertEqual(get(self.server, self.history, names[0]).state, Job.SUCCEEDED)
+        for name in [job.name for job in all_jobs(self.server, states=[Job.SUCCEEDED])]:
+            with self.history.call("delete", name=name) as call:
+                self.server.delete(name)
+                call.ok()
+        recovered = wait_for(lambda: all_jobs(self.server, states=[Job.SUCCEEDED]))
+        submit(self.server, self.history, scenario, "after")
+        self.figures |= dict(jobs=len(names))
+        self.assertKept("recovered_after", recovered, 2)
+        self.assertPromises(self.server, golden=golden, max_attempts=1)
+
+
+def follow_or_leave(server, name):
+    """Waits for the end of the job for a second: on a full store it does not come."""
+    try:
+        wait_for(lambda: server.get(name).state == Job.SUCCEEDED, limit=1)
+    except AssertionError:
+        pass
+
+
 if __name__ == "__main__":
     unittest.main()
