@@ -25,6 +25,7 @@ using testing::WatchCrowd;
 using namespace std::chrono_literals;
 
 constexpr auto kPatience = 120s;
+constexpr double kEndless = 1e5;
 constexpr int kMessageBytes = 256 * 1024;
 
 struct Sizes {
@@ -125,9 +126,9 @@ v1::Job DrivenBall(double end_time_s) {
   return job;
 }
 
-/// Runs for as long as anybody waits; its small steps make some tens of events a second.
-v1::Job Paced() {
-  v1::Job job = DrivenBall(1e5);
+/// The same in steps so small that it makes about a hundred events a second.
+v1::Job Paced(double end_time_s) {
+  v1::Job job = DrivenBall(end_time_s);
   job.mutable_scenario()->mutable_solver()->set_method(v1::Solver::RK4);
   job.mutable_scenario()->mutable_solver()->set_step_s(1e-7);
   return job;
@@ -281,7 +282,7 @@ void EventLatency(const std::string& contactd, const Sizes& sizes) {
   for (const int watchers : sizes.crowds) {
     for (const int stalled : {0, 1}) {
       if (stalled == watchers) continue;
-      const std::string name = client.Create(Paced()).name();
+      const std::string name = client.Create(Paced(kEndless)).name();
       WatchCrowd::Options options = Watchers(contactd, name, watchers);
       options.stalled = stalled;
       options.request.add_kinds("cycle");
@@ -301,22 +302,23 @@ void EventLatency(const std::string& contactd, const Sizes& sizes) {
 }
 
 /// Wall time that the solver reports of a run with so many watchers.
-double RunSeconds(const std::string& contactd, const Sizes& sizes, int watchers) {
+double RunSeconds(const std::string& contactd, const v1::Job& job, int watchers) {
   Client client(contactd);
-  const std::string name = client.Create(DrivenBall(sizes.run_end_s)).name();
+  const std::string name = client.Create(job).name();
   std::optional<WatchCrowd> crowd;
   if (watchers > 0) crowd.emplace(Watchers(contactd, name, watchers));
   return client.AwaitState(name, v1::Job::SUCCEEDED).summary().wall_time_s();
 }
 
-void SolverSlowdown(const std::string& contactd, const Sizes& sizes) {
+void SolverSlowdown(const std::string& contactd, const Sizes& sizes, const std::string& what,
+                    const v1::Job& job) {
   double alone = std::numeric_limits<double>::infinity();
   double watched = alone;
   for (int i = 0; i < sizes.run_rounds; ++i) {
-    alone = std::min(alone, RunSeconds(contactd, sizes, 0));
-    watched = std::min(watched, RunSeconds(contactd, sizes, 100));
+    alone = std::min(alone, RunSeconds(contactd, job, 0));
+    watched = std::min(watched, RunSeconds(contactd, job, 100));
   }
-  PrintRow("solver slow-down by 100 watchers",
+  PrintRow(fmt::format("solver slow-down by 100 watchers, {}", what),
            fmt::format("{:+.1f} %", 100 * (watched / alone - 1)),
            fmt::format("{:.2f} s alone, {:.2f} s watched; goal 1 %", alone, watched));
 }
@@ -325,7 +327,7 @@ void IdleMemory(const ServerProcess& contactd, const Sizes& sizes) {
   Client client(contactd.address());
   std::vector<std::string> names;
   for (unsigned i = 0; i <= std::max(1U, std::thread::hardware_concurrency()); ++i) {
-    names.push_back(client.Create(Paced()).name());  // The last one finds no worker.
+    names.push_back(client.Create(Paced(kEndless)).name());  // The last one finds no worker.
   }
   const double before = contactd.ResidentMegabytes();
   {
@@ -346,7 +348,8 @@ int RunAll(const std::string& self, const std::string& binary, const Sizes& size
   JobRate(contactd.address(), sizes);
   Streaming(contactd.address(), bare.address(), sizes);
   EventLatency(contactd.address(), sizes);
-  SolverSlowdown(contactd.address(), sizes);
+  SolverSlowdown(contactd.address(), sizes, "few events", Paced(sizes.run_end_s / 100));
+  SolverSlowdown(contactd.address(), sizes, "dense", DrivenBall(sizes.run_end_s));
   IdleMemory(contactd, sizes);
   return EXIT_SUCCESS;
 }
