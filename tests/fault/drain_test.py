@@ -15,7 +15,8 @@ class DrainTest(FaultTest):
     flags = ("--workers=4",)
 
     def test_the_next_server_goes_on(self):
-        scenarios = [spring_wall(1 + 0.1 * i) for i in range(JOBS)]
+        end_time = self.end_time(1)
+        scenarios = [spring_wall(end_time + 0.1 * i) for i in range(JOBS)]
         golden = self.golden(*scenarios)
         names = [submit(self.server, self.history, scenario, f"{i}").name
                  for i, scenario in enumerate(scenarios)]

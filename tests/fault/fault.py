@@ -10,7 +10,7 @@ import time
 
 import grpc
 from contact.v1 import job_service_pb2, scenario_pb2
-from contactd import PATIENCE_S, Job, Server, ServerTest, details_of
+from contactd import PATIENCE_S, Job, Server, ServerTest, details_of, spring_wall
 from history import ENDED, Final, History, digest, result_digest, violations
 
 # A promise is for an idle machine and an optimised build; here it may take so many times longer.
@@ -42,6 +42,15 @@ class FaultTest(ServerTest):
         self.addCleanup(server.kill)
         server.start()
         return {spec_digest(one): result_digest(server.run(one)) for one in scenarios}
+
+    def end_time(self, wall_s):
+        """Of a spring_wall that takes about so long here; at least wall_s itself."""
+        server = Server(self.folder / "pace")
+        self.addCleanup(server.kill)
+        server.start()
+        summary = server.run(spring_wall(1.0)).summary
+        server.kill()
+        return max(1.0, 1 / summary.wall_time_s) * wall_s
 
     def assertKept(self, what, figure, promise, unit="s", slack=SLACK):
         """Notes a figure beside its promise."""

@@ -18,7 +18,8 @@ class KillTest(FaultTest):
     flags = ("--workers=5", f"--max-attempts={10 * KILLS}")
 
     def test_ten_kills_lose_nothing(self):
-        chain, long = three_ball_chain(), [spring_wall(1 + 0.1 * i) for i in range(4)]
+        end_time = self.end_time(1)
+        chain, long = three_ball_chain(), [spring_wall(end_time + 0.1 * i) for i in range(4)]
         golden = self.golden(chain, *long)
         running = [submit(self.server, self.history, scenario, f"long-{i}").name
                    for i, scenario in enumerate(long)]
@@ -51,7 +52,8 @@ class KillTest(FaultTest):
                 requeued.append(wait_for(lambda: all(
                     get(self.server, self.history, name).state != Job.QUEUED
                     for name in running)))
-                wait_for(lambda: min(back.values()) > restart)
+                wait_for(lambda: all(watch.ended or back[watch.job] > restart
+                                     for watch in self.history.watches))
                 caught_up.append(max(back.values()) - restart)
             done.set()
         final = self.assertPromises(self.server, golden=golden, max_attempts=KILLS + 1)
@@ -68,9 +70,10 @@ class ResumeTest(FaultTest):
     flags = ("--workers=5", f"--max-attempts={10 * KILLS}")
 
     def test_a_killed_run_gives_the_same_bytes(self):
+        end_time = self.end_time(1)
         specs = {
-            "driven wall": Job(scenario=spring_wall(1.0)),
-            "without a trajectory": Job(scenario=spring_wall(1.5)),
+            "driven wall": Job(scenario=spring_wall(end_time)),
+            "without a trajectory": Job(scenario=spring_wall(1.5 * end_time)),
             "finely sampled": Job(scenario=spring_wall(0.3)),
             "chain": Job(scenario=three_ball_chain(output=dict(sample_interval_s=1e-7))),
             "sweep": Job(sweep=chain_sweep()),
