@@ -26,9 +26,10 @@ ENDED = (Job.SUCCEEDED, Job.FAILED, Job.CANCELLED)
 class Server:
     """One contactd process after the other on the same data directory."""
 
-    def __init__(self, data_dir, *flags):
+    def __init__(self, data_dir, *flags, environment=None):
         self.data_dir = pathlib.Path(data_dir)
         self.flags = flags
+        self.environment = environment  # None: that of the test.
         self.log_path = self.data_dir.parent / "contactd.log"
         self.process = None
         self.channel = None
@@ -37,7 +38,7 @@ class Server:
         with open(self.log_path, "ab") as log:
             self.process = subprocess.Popen(
                 [BINARY, "--listen=127.0.0.1:0", f"--data-dir={self.data_dir}", *self.flags],
-                stdout=subprocess.PIPE, stderr=log, text=True, **popen)
+                stdout=subprocess.PIPE, stderr=log, text=True, env=self.environment, **popen)
         ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE_S)
         self.greeting = self.process.stdout.readline() if ready else ""
         match = re.search(r"listening on 127\.0\.0\.1:(\d+)", self.greeting)
@@ -131,9 +132,12 @@ class ServerTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="contactd-test-"))
         self.addCleanup(shutil.rmtree, self.folder)
-        self.server = Server(self.folder / "data", *self.flags)
+        self.server = self.make_server()
         self.addCleanup(self.server.kill)
         self.server.start()
+
+    def make_server(self):
+        return Server(self.folder / "data", *self.flags)
 
     def assertFails(self, code, reason, call, *arguments, **keywords):
         """Checks code and reason of a call that must fail; returns its google.rpc details."""

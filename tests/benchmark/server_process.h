@@ -1,0 +1,36 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace contact {
+
+/// A server in a process of its own, on a free port of this host, with a directory that goes with
+/// it. It says where it listens as contactd does.
+class ServerProcess {
+ public:
+  /// `command` gets `--listen` and `--data-dir` appended. Throws std::runtime_error if it does not
+  /// come up.
+  explicit ServerProcess(std::vector<std::string> command);
+  ~ServerProcess();  ///< Asks it to end and waits.
+
+  ServerProcess(const ServerProcess&) = delete;
+  ServerProcess& operator=(const ServerProcess&) = delete;
+
+  const std::string& address() const { return address_; }
+  double ResidentMegabytes() const;
+
+ private:
+  std::filesystem::path folder_;
+  pid_t pid_ = -1;
+  std::string address_;
+};
+
+/// What the service cannot be faster than: CreateJob writes 1 KiB and syncs it, WatchJob sends
+/// `messages` prepared messages of `bytes`. Serves until SIGTERM.
+int ServeBare(const std::filesystem::path& data_dir, int messages, int bytes);
+
+}  // namespace contact
