@@ -196,24 +196,24 @@ std::string ComparisonJson(const JobComparison& comparison) {
 
 std::string ComparisonCsv(const JobComparison& comparison) {
   std::string text = "kind,name,unit";
-  for (const std::string& name : comparison.names) text += "," + CsvText(name);
+  for (const std::string& name : comparison.names) text.append(",").append(CsvText(name));
   for (std::size_t job = 1; job < comparison.names.size(); ++job) {
     text += fmt::format(",deviation of {}", CsvText(comparison.names[job]));
   }
   text += ",verdict\n";
   for (const auto& parameter : comparison.parameters) {
-    text += "parameter," + CsvText(parameter.path) + ",";
-    for (const std::string& value : parameter.values) text += "," + CsvText(value);
+    text.append("parameter,").append(CsvText(parameter.path)).append(",");
+    for (const std::string& value : parameter.values) text.append(",").append(CsvText(value));
     text += std::string(comparison.names.size() - 1, ',') + ",\n";
   }
   for (const Result& result : comparison.results) {
     text += fmt::format("result,{},{}", CsvText(result.name), result.unit);
-    for (const Value& value : result.values) text += "," + Exact(value);
+    for (const Value& value : result.values) text.append(",").append(Exact(value));
     for (std::size_t job = 1; job < comparison.names.size(); ++job) {
       const double deviation = result.Deviation(job);
       text += std::isnan(deviation) ? std::string(",") : fmt::format(",{}", deviation);
     }
-    text += "," + Verdict(comparison, result).text + "\n";
+    text.append(",").append(Verdict(comparison, result).text).append("\n");
   }
   return text;
 }
