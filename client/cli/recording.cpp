@@ -25,7 +25,7 @@ void Replay(Client& client, const std::string& name, const Settings& settings, b
             Recorder* recorder) {
   WatchOptions options;
   options.name = name;
-  options.kinds = {"attempt_started", "iteration"};
+  options.kinds = {"attempt_started", "iteration", "cycle"};
   if (trajectory) options.kinds.emplace_back("frame_chunk");
   options.overflow = v1::DeliveryOptions::LAG;
   options.deadline = settings.Deadline();
@@ -49,9 +49,12 @@ void Recorder::OnEvent(const v1::Event& event) {
   if (event.has_attempt_started()) {  // What came before is of an earlier attempt.
     chunks_.clear();
     iterations_.clear();
+    cycles_.clear();
   } else if (event.has_iteration()) {
     const v1::Iteration& iteration = event.iteration();
     iterations_[{iteration.episode(), iteration.number()}] = iteration;
+  } else if (event.has_cycle()) {
+    cycles_[event.sequence()] = event.cycle();
   } else if (event.has_frame_chunk()) {
     chunks_[event.frame_chunk().first_sample()] = event.frame_chunk();
   }
@@ -86,6 +89,13 @@ std::vector<v1::Iteration> Recorder::Iterations() const {
   return all;
 }
 
+std::vector<v1::Cycle> Recorder::Cycles() const {
+  std::vector<v1::Cycle> all;
+  all.reserve(cycles_.size());
+  for (const auto& [sequence, cycle] : cycles_) all.push_back(cycle);
+  return all;
+}
+
 Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
                         bool trajectory) {
   const Interrupt interrupt;
@@ -98,9 +108,15 @@ Recording ReadRecording(Client& client, const std::string& job, const Settings& 
   }
   v1::GetJobRequest request;
   request.set_name(JobName(job));
-  return {.job = client.Call(&Client::Stub::GetJob, request),
-          .columns = recorder.Columns(),
-          .iterations = recorder.Iterations()};
+  Recording recording{.job = client.Call(&Client::Stub::GetJob, request),
+                      .columns = recorder.Columns(),
+                      .iterations = recorder.Iterations()};
+  // An answer has not the end of a long ledger.
+  const std::vector<v1::Cycle> cycles = recorder.Cycles();
+  if (static_cast<std::size_t>(recording.job.cycles_size()) < cycles.size()) {
+    recording.job.mutable_cycles()->Assign(cycles.begin(), cycles.end());
+  }
+  return recording;
 }
 
 }  // namespace contact::cli

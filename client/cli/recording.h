@@ -39,10 +39,12 @@ class Recorder : public WatchObserver {
 
   std::vector<SampleColumn> Columns() const;
   std::vector<v1::Iteration> Iterations() const;
+  std::vector<v1::Cycle> Cycles() const;
 
  private:
   std::map<std::int64_t, v1::FrameChunk> chunks_;            // By first sample.
   std::map<std::pair<int, int>, v1::Iteration> iterations_;  // By episode and pass.
+  std::map<std::uint64_t, v1::Cycle> cycles_;                // By sequence.
 };
 
 /// Waits for the end of a job and fetches all that it recorded. Throws CallFailure, and Failure

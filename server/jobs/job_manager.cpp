@@ -1,5 +1,6 @@
 #include "jobs/job_manager.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
 #include <atomic>
@@ -63,6 +64,22 @@ void CopySettings(const v1::Job& from, v1::Job* to) {
 void DescribeDamage(v1::Job* job) {
   job->mutable_error()->set_code(static_cast<int>(absl::StatusCode::kDataLoss));
   job->mutable_error()->set_message("the stored job fails its checksum");
+}
+
+// Leaves out the end of a ledger that would be too large for an answer, and says so.
+void ShortenLedger(v1::Job* job) {
+  constexpr std::size_t kMostBytes = 2 << 20;
+  std::size_t bytes = 0;
+  int kept = 0;
+  while (kept < job->cycles_size() && bytes < kMostBytes) {
+    bytes += job->cycles(kept++).ByteSizeLong();
+  }
+  if (kept == job->cycles_size()) return;
+  job->add_warnings(fmt::format(
+      "only the first {} of {} cycles are in this answer; the artifact cycles.csv and the job's "
+      "events have all",
+      kept, job->cycles_size()));
+  job->mutable_cycles()->DeleteSubrange(kept, job->cycles_size() - kept);
 }
 
 void SetSpan(std::chrono::milliseconds span, google::protobuf::Duration* duration) {
@@ -202,6 +219,7 @@ void JobManager::Get(const std::string& name, Callback<v1::Job> done) {
       [impl = impl_.get(), name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
         if (!stored.ok()) return done(ToError(stored.status(), name));
         impl->Complete(true, &stored->job);
+        ShortenLedger(&stored->job);
         AddArtifacts(&stored->job);
         done(std::move(stored->job));
       });

@@ -51,6 +51,18 @@ TEST(Recorder, NoticesChunksThatDidNotCome) {
   EXPECT_FALSE(recorder.has_holes());
 }
 
+TEST(Recorder, HasTheLedgerThatAnAnswerMayHaveNot) {
+  Recorder recorder;
+  for (const int sequence : {4, 7, 4}) {
+    v1::Event event;
+    event.set_sequence(static_cast<std::uint64_t>(sequence));
+    event.mutable_cycle()->set_number(sequence);
+    recorder.OnEvent(event);
+  }
+  ASSERT_EQ(recorder.Cycles().size(), 2U);
+  EXPECT_EQ(recorder.Cycles()[1].number(), 7);
+}
+
 TEST(Recorder, ForgetsEarlierAttempts) {
   Recorder recorder;
   recorder.OnEvent(Chunk(0, {1, 2}));

@@ -272,6 +272,25 @@ TEST_F(JobsTest, OnlyEndedJobsAreDeleted) {
   EXPECT_EQ(Get(queued).error().reason, "JOB_NOT_FOUND");
 }
 
+TEST_F(JobsTest, LongLedgerIsShortenedInAnswers) {
+  constexpr int kCycles = 100'000;
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
+    Cycle cycle;
+    for (cycle.number = 1; cycle.number <= kCycles; ++cycle.number) observer.OnCycle(cycle);
+    return Outcome{};
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  const std::string name = Create(BouncingBall());
+  Ended(name);
+  const v1::Job job = Get(name).value();
+  EXPECT_LT(job.ByteSizeLong(), 3U << 20);
+  EXPECT_GT(job.cycles_size(), 1000);
+  EXPECT_LT(job.cycles_size(), kCycles);
+  ASSERT_GT(job.warnings_size(), 0);
+  EXPECT_THAT(job.warnings(job.warnings_size() - 1), HasSubstr("of 100000 cycles"));
+}
+
 TEST_F(JobsTest, ThrowingRunFailsItsJobOnly) {
   FakeRun run([](const Scenario& scenario, Observer&, const std::stop_token&) -> Outcome {
     if (scenario.end_time == 13) throw std::runtime_error("it broke");

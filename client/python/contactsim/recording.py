@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from contact.v1 import event_pb2
+from contact.v1 import event_pb2, job_pb2
 
-KINDS = ("attempt_started", "iteration", "frame_chunk")  #: The events that a recording needs.
+KINDS = ("attempt_started", "iteration", "cycle", "frame_chunk")  #: The events that a recording needs.
 
 
 class Recording:
@@ -13,6 +13,7 @@ class Recording:
 
     def __init__(self) -> None:
         self.iterations: dict[tuple[int, int], event_pb2.Iteration] = {}
+        self.cycles: dict[int, job_pb2.Cycle] = {}  #: By sequence.
         self.units: dict[str, str] = {}  #: Unit by name of column, in their order.
         self._chunks: dict[int, tuple[int, list[bytes]]] = {}  # By first sample.
         self._columns: dict[str, np.ndarray] | None = None
@@ -25,6 +26,8 @@ class Recording:
         elif kind == "iteration":
             iteration = event.iteration
             self.iterations[iteration.episode, iteration.number] = iteration
+        elif kind == "cycle":
+            self.cycles[event.sequence] = event.cycle
         elif kind == "frame_chunk":
             self._add_chunk(event.frame_chunk)
 
