@@ -187,11 +187,12 @@ TEST_F(LostRunTest, HangingRunIsGivenUpAndItsWorkerReplaced) {
 TEST_F(LostRunTest, HangingRunCanBeCancelled) {
   std::promise<void> release;
   const auto released = release.get_future().share();
-  std::promise<void> started;
+  std::promise<void> started, back;
   JobManagerOptions options;
   options.run = [&](const Scenario&, Observer&, const std::stop_token&) {
     started.set_value();
     released.wait();
+    back.set_value();
     return Outcome{};
   };
   Open(options);
@@ -200,6 +201,8 @@ TEST_F(LostRunTest, HangingRunCanBeCancelled) {
   ASSERT_TRUE(Cancel(name).ok());
   EXPECT_EQ(EndedInTime(name).state(), v1::Job::CANCELLED);
   release.set_value();
+  back.get_future().wait();
+  manager_->Stop();  // Waits for the worker that was given up, which uses what is above.
 }
 
 TEST_F(LostRunTest, StalledRunThatHearsKeepsItsResult) {

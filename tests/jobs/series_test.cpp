@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 std::vector<double> Values(const v1::FrameChunk::Column& column) {
   std::vector<double> values(column.values().size() / sizeof(double));
-  std::memcpy(values.data(), column.values().data(), column.values().size());
+  if (!values.empty()) std::memcpy(values.data(), column.values().data(), column.values().size());
   return values;
 }
 
