@@ -96,8 +96,8 @@ std::optional<LogCursor::Next> TailCursor::ReadFetched(Events* out) {
       continue;
     }
     lag_ += payload.size();
-    out->push_back({stored.sequence, stored.kind,
-                    std::make_shared<const std::string>(std::move(payload))});
+    out->push_back(
+        {stored.sequence, stored.kind, std::make_shared<const std::string>(std::move(payload))});
   }
   if ((*page)->events.empty()) return std::nullopt;
   return Next::kEvents;
