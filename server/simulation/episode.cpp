@@ -13,8 +13,7 @@ constexpr std::int64_t kStepsPerPass = 5'000;
 constexpr int kPatience = 12;          // Corrections without a better pass.
 constexpr double kCoarse = 1e-6;       // Relative tolerance of the first passes, and
 constexpr double kCoarseError = 1e-4;  // the residual that it may feign.
-constexpr int kFirstWindow = 12;       // Cycles in the first passes,
-constexpr double kNear = 0.02;         // half as many more where the merit is below this.
+constexpr double kNear = 0.02;         // A merit at which the guesses are left alone.
 constexpr double kWeak = 1e-5;         // W_c of a contact's largest.
 constexpr double kLeastGoal = 1e-6;    // A(ε_in) to which residuals are relative.
 
@@ -34,7 +33,7 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       missed_(static_cast<std::size_t>(DampingLaw::kGiven)) {}
 
 void EpisodeSolver::Begin(const State& start, int episode, double until) {
-  unknowns_.clear();
+  KeepGuesses(start);
   factors_are_of_.clear();
   recording_ = false;
   episode_ = episode;
@@ -42,13 +41,15 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   start_time_ = start.time;
   until_ = until;
   damping_ = 1;
+  solved_until_ = start.time;
+  guessing_ = true;
   best_merit_ = merit_ = std::numeric_limits<double>::infinity();
   const SolverOptions& options = scenario_.solver;
   // A clipped force has a kink that a coarse pass may miss.
   const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
   tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
   sensitive_ = !as_paper_;
-  window_ = as_paper_ ? motion_.max_cycles() : kFirstWindow;
+  window_ = FirstWindow();
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
 }
 
@@ -65,7 +66,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, const std::stop_token& st
           pause != Motion::Pause::kTimeUp) {
         return pause;
       }
-      crowded_ = pause == Motion::Pause::kCrowded && window_ < motion_.max_cycles();
+      crowded_ = pause == Motion::Pause::kCrowded;
       closed_ = pause == Motion::Pause::kQuiet && motion_.time() < until_;
     }
     stage_ = Stage::kSolving;
@@ -93,11 +94,6 @@ void EpisodeSolver::BeginRecording() {
 
 // Looks at the pass that has been, and decides on the next.
 void EpisodeSolver::NextPass() {
-  if (crowded_ && Merit() < kNear) {
-    window_ = std::min(window_ + window_ / 2, motion_.max_cycles());
-    best_merit_ = merit_ = std::numeric_limits<double>::infinity();
-    return;
-  }
   const bool done = Done();
   if (!Exact() && (done || Merit() < kCoarseError)) {
     // The same once more, exactly.
@@ -111,10 +107,14 @@ void EpisodeSolver::NextPass() {
     return;
   }
   KeepBest();
+  if (done && crowded_ && !AnyFinal() && Widen()) return;
   // Newton that finds nothing better has failed; the paper's rules may be slow.
   const int most = scenario_.solver.max_iterations;
   const int patience = as_paper_ ? most : best_number_ + kPatience;
-  if (done || iterations_ >= std::min(most, patience)) {
+  const bool stuck = iterations_ >= patience && iterations_ < most;
+  if (!done && stuck && GiveUpWorst()) {
+    StartAfresh();
+  } else if (done || iterations_ >= std::min(most, patience)) {
     Finish();
     if (!done) UseBest();
     return;
@@ -151,13 +151,14 @@ bool EpisodeSolver::Done() const {
 }
 
 void EpisodeSolver::ForgetPass() {
+  guessing_ |= Merit() > kNear;
   columns_ = 0;
   reference_speed_ = 0;
   for (Unknown& u : unknowns_) {
     if (!u.seen && u.iterated) {  // A phantom; should it come back, it begins anew.
       u.corrected = false;
       u.low = u.high = 0;
-      u.shrinks = u.grows = 0;
+      u.shrinks = u.wild = 0;
     }
     u.seen = u.ended = false;
     u.squared = u.residual = kNaN;
@@ -171,6 +172,7 @@ Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& sto
   motion_.Begin(start, false, tolerance_, window_);
   const std::int64_t limit = std::min(step_limit, motion_.steps() + kStepsPerPass);
   const Motion::Pause pause = motion_.Advance(kForever, *this, nullptr, stop, limit);
+  guessing_ = false;
   // A contact at rest may never end its cycle; what has ended can still be solved.
   if (pause == Motion::Pause::kStepLimit && limit < step_limit) return Motion::Pause::kTimeUp;
   return pause;
@@ -185,16 +187,6 @@ EpisodeSolver::Unknown* EpisodeSolver::Find(int contact, int number) {
 
 const EpisodeSolver::Unknown* EpisodeSolver::Find(int contact, int number) const {
   return const_cast<EpisodeSolver*>(this)->Find(contact, number);
-}
-
-double EpisodeSolver::SolvedUntil(double until) const {
-  double solved = until;
-  bool any = false;
-  for (const Unknown& u : unknowns_) {
-    any |= u.ended;
-    if (u.seen && !u.ended) solved = std::min(solved, u.start_time);
-  }
-  return any && solved > start_time_ ? solved : until;
 }
 
 CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effective_mass,
@@ -218,62 +210,14 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
     u = &unknowns_.back();
   }
   u->seen = true;
-  if (!u->corrected) {  // The μ of its neighbours may tell more by now.
+  const bool law = contact.damping != DampingLaw::kEnergyRestitution;
+  if (law || (!u->corrected && (guessing_ || u->start_mu == 0))) {
     u->mu = u->start_mu = u->best_mu = StartFactor(state, effective_mass, external_force);
   }
   u->pass_mu = u->mu;
   u->start_time = cycle.start_time;
   if (sensitive_ && u->iterated && u->mu > 0) u->column = columns_++;
   return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
-}
-
-// The first μ of a cycle, (N1).
-double EpisodeSolver::StartFactor(const ContactState& state, double effective_mass,
-                                  double external_force) {
-  const Cycle& cycle = state.cycle;
-  const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  if (contact.damping == DampingLaw::kGiven) return contact.mu;
-  if (NeedsNoVelocity(contact.damping)) {
-    return DampingFactor(contact.damping, contact.restitution, contact.stiffness, effective_mass);
-  }
-  const double alpha = DampingCoefficient(contact.damping, contact.restitution);
-  const double own =
-      contact.reference_velocity > 0 ? contact.reference_velocity : cycle.approach_velocity;
-  if (contact.damping != DampingLaw::kEnergyRestitution) {
-    if (own > 0) return alpha * contact.stiffness / own;
-    WarnOnce(contact,
-             "has a cycle that starts at rest, for which its law has no approach "
-             "velocity; it keeps the last μ (0 before the first). "
-             "Give reference_velocity_m_per_s");
-    return std::isnan(state.last_mu) ? 0 : state.last_mu;
-  }
-  if (as_paper_) return PaperStartFactor(state, contact, own);
-  if (own > 0) return alpha * contact.stiffness / own;
-  if (state.last_mu > 0) return state.last_mu;
-  if (const double speed = NeighbourSpeed(contact); speed > 0) {
-    return alpha * contact.stiffness / speed;
-  }
-  if (reference_speed_ > 0) return alpha * contact.stiffness / reference_speed_;
-  // At rest under a load: the speed with which it swings through its equilibrium.
-  const double depth =
-      std::pow(std::max(external_force, 0.0) / contact.stiffness, 1 / contact.exponent);
-  const double stiffness = contact.stiffness * Power(depth, contact.exponent).slope;
-  const double speed = depth * std::sqrt(stiffness / effective_mass);
-  return speed > 0 ? alpha * contact.stiffness / speed : alpha * contact.stiffness;
-}
-
-// The approach velocity that an isolated collision with the μ of the cycle last begun by a
-// neighbour would have; 0 without such.
-double EpisodeSolver::NeighbourSpeed(const Contact& contact) const {
-  for (auto u = unknowns_.rbegin(); u != unknowns_.rend(); ++u) {
-    const Contact& other = scenario_.contacts[At(u->contact)];
-    const bool shares = (contact.left != kNone && contact.left == other.right) ||
-                        (contact.right != kNone && contact.right == other.left);
-    if (shares && u->seen && u->iterated && u->mu > 0 && u->number == 1) {
-      return u->goal * other.stiffness / u->mu;
-    }
-  }
-  return 0;
 }
 
 void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
@@ -300,10 +244,7 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
                           const Eigen::ArrayXd& restitution_gradient, double length, double speed) {
   Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  const SolverOptions& options = scenario_.solver;
-  const double fraction =
-      cycle.kind == Cycle::Kind::kNirv ? options.settled_nirv_fraction : options.settled_fraction;
-  const bool weak = cycle.work_compression <= fraction * state.largest_work;
+  const bool weak = IsWeak(state);
   const bool rested = state.settled;
   state.settled = weak;
   Unknown* u = Find(cycle.contact, cycle.number);
@@ -325,15 +266,22 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
     }
   }
   if (!recording_) return;
-  Label(cycle, rested);
+  Label(cycle, rested, weak);
   if (cycle.status == Cycle::Status::kGivenLaw && contact.damping != DampingLaw::kGiven) {
     WarnOfMiss(contact, cycle);
   }
   accepted.push_back(cycle);
 }
 
+bool EpisodeSolver::IsWeak(const ContactState& state) const {
+  const SolverOptions& options = scenario_.solver;
+  const double fraction = state.cycle.kind == Cycle::Kind::kNirv ? options.settled_nirv_fraction
+                                                                 : options.settled_fraction;
+  return state.cycle.work_compression <= fraction * state.largest_work;
+}
+
 // Writes into a cycle what became of the request for its restitution.
-void EpisodeSolver::Label(Cycle& cycle, bool rested) const {
+void EpisodeSolver::Label(Cycle& cycle, bool rested, bool weak) const {
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   const Unknown* u = Find(cycle.contact, cycle.number);
   cycle.episode = episode_;
@@ -358,11 +306,15 @@ void EpisodeSolver::Label(Cycle& cycle, bool rested) const {
         miss <= scenario_.solver.restitution_tolerance * cycle.restitution_in) {
       cycle.status = Cycle::Status::kConverged;
     }
+    if (cycle.status == Cycle::Status::kNotConverged && weak && (u == nullptr || !u->ended)) {
+      cycle.status = Cycle::Status::kSettled;  // It began before this episode, or ends after it.
+    }
   }
 }
 
 void EpisodeSolver::FinishCut(const ContactState& state, Cycle& cycle) const {
-  Label(cycle, state.phase == Phase::kResting);
+  const bool turned = state.phase == Phase::kRestitution;
+  Label(cycle, state.phase == Phase::kResting, turned && IsWeak(state));
 }
 
 bool EpisodeSolver::Converged(const Unknown& u) const {

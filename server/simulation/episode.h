@@ -15,7 +15,7 @@
 namespace contact {
 
 /// Finds the μ of every cycle of an episode together, so that ε_out = ε_in in each: damped Newton
-/// with true sensitivities, (N1) to (N4) of README.md, or as the paper does it, (P1) to (P5).
+/// with true sensitivities, (N1) to (N6) of README.md, or as the paper does it, (P1) to (P5).
 /// Then plays host to the recording pass.
 class EpisodeSolver final : public CycleHost {
  public:
@@ -60,9 +60,10 @@ class EpisodeSolver final : public CycleHost {
     int number = 1;
     double start_time = 0;
     double mu = 0;
-    double pass_mu = 0;   // Of the last pass.
-    double start_mu = 0;  // The first guess.
-    double best_mu = 0;   // Of the best pass.
+    double pass_mu = 0;        // Of the last pass.
+    double start_mu = 0;       // The first guess.
+    double best_mu = 0;        // Of the best pass.
+    double settled_mu = kNaN;  // When all in a smaller window had converged.
     double restitution_in = kNaN;
     double goal = 1;                    // A(ε_in),
     double residual = kNaN, slope = 0;  // A(ε_out)/A(ε_in) − 1 of the last pass; d/d(ε_out²).
@@ -73,22 +74,32 @@ class EpisodeSolver final : public CycleHost {
     bool corrected = false;            // Its μ is no mere guess any more.
     bool weak = false;                 // Its W_c is next to nothing.
     double length = 0, speed = 0;      // Scales of its motion in the first pass.
-    double squared = kNaN;             // ε_out² = −W_r/W_c of the last pass.
-    Eigen::ArrayXd gradient;           // ∂ε_out²/∂μ of each column.
-    double frozen_slope = kNaN;        // Paper (30).
+    double work = 0;
+    double squared = kNaN;       // ε_out² = −W_r/W_c of the last pass.
+    Eigen::ArrayXd gradient;     // ∂ε_out²/∂μ of each column.
+    double frozen_slope = kNaN;  // Paper (30).
     double low = 0, high = 0;    // μ known to give too much, too little restitution; 0: none.
-    int shrinks = 0, grows = 0;  // Corrections in a row that wanted μ ≤ 0, or far more.
+    int shrinks = 0;             // Corrections in a row that wanted μ ≤ 0.
+    int wild = 0;                // Corrections in all that were clipped.
     bool zero_tried = false;
     Iteration::Update update = Iteration::Update::kNothing;
   };
 
-  void Label(Cycle& cycle, bool rested) const;
+  bool IsWeak(const ContactState& state) const;
+  void Label(Cycle& cycle, bool rested, bool weak) const;
   Unknown* Find(int contact, int number);
   const Unknown* Find(int contact, int number) const;
   double StartFactor(const ContactState& state, double effective_mass, double external_force);
-  double NeighbourSpeed(const Contact& contact) const;
+  int Neighbour(int contact, int except) const;
+  double NeighbourSpeed(int contact) const;
   bool Converged(const Unknown& unknown) const;
   bool Live(const Unknown& unknown) const;
+  void KeepGuesses(const State& start);
+  int FirstWindow() const;
+  bool AnyFinal();
+  bool Widen();
+  void StartAfresh();
+  bool GiveUpWorst();
   void ForgetPass();
   Motion::Pause Pass(const State& start, const std::stop_token& stop, std::int64_t step_limit);
   void NextPass();
@@ -103,6 +114,7 @@ class EpisodeSolver final : public CycleHost {
   void Factorize(const std::vector<Unknown*>& live);
   bool FactorsServe();
   void Correct();
+  static void GiveUp(Unknown& unknown);
   void MoveBy(Unknown& unknown, double relative_step, bool alone);
   void PlanExactPass(bool converges);
   void PlanNextPass();
@@ -135,17 +147,19 @@ class EpisodeSolver final : public CycleHost {
     kExpected,  // The recording is expected to be the last pass.
     kSolved,
   } stage_ = Stage::kSolved;
-  double start_time_ = 0;  // Of the episode, and
-  double until_ = 0;       // up to where it may be recorded.
-  int window_ = 0;         // Cycles in a pass at most.
-  bool crowded_ = false;   // The last pass had so many.
-  bool closed_ = false;    // The last pass came to a quiet instant before that.
-  double tolerance_ = 0;   // Of the integration in this pass, and whether it has
-  bool sensitive_ = true;  // sensitivities.
+  double start_time_ = 0;    // Of the episode, and
+  double until_ = 0;         // up to where it may be recorded.
+  double solved_until_ = 0;  // Where the first cycle begins that is not final.
+  int window_ = 0;           // Cycles in a pass at most.
+  bool crowded_ = false;     // The last pass had so many.
+  bool closed_ = false;      // The last pass came to a quiet instant before that.
+  double tolerance_ = 0;     // Of the integration in this pass, and whether it has
+  bool sensitive_ = true;    // sensitivities.
   int columns_ = 0;
   int episode_ = 0;
   int iterations_ = 0;
   std::int64_t total_iterations_ = 0;
+  bool guessing_ = true;  // The μ of neighbours may have changed what is to be guessed.
   bool recording_ = false;
 };
 

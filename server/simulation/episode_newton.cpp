@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLeast = 1e-8, kMost = 1e8;  // μ, in units of the first guess.
 constexpr double kCoarseResidual = 1e-5;      // What a coarse pass may feign of a residual.
+constexpr int kWild = 6, kWildIfWeak = 3;     // Corrections out of bounds before it is given up.
 constexpr double kHeldSamples = 4096;         // That a recording may have to take back.
 
 }  // namespace
@@ -95,6 +96,13 @@ void EpisodeSolver::Correct() {
   }
 }
 
+// A cycle that follows the loads around it, whatever its μ, must not keep the others from theirs.
+void EpisodeSolver::GiveUp(Unknown& u) {
+  u.iterated = false;
+  if (u.weak) u.status = Cycle::Status::kSettled;
+  u.mu = u.start_mu;
+}
+
 // (N3): keeps μ > 0, the step within a factor of 8, and, for a cycle alone, within the bracket.
 void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
   u.corrected = true;
@@ -105,13 +113,8 @@ void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
     return;
   }
   u.shrinks = relative_step <= -1 ? u.shrinks + 1 : 0;
-  u.grows = relative_step >= 7 ? u.grows + 1 : 0;
-  if (u.weak && std::max(u.shrinks, u.grows) >= 3) {
-    u.iterated = false;
-    u.status = Cycle::Status::kSettled;
-    u.mu = u.start_mu;
-    return;
-  }
+  if (relative_step <= -0.875 || relative_step >= 7) ++u.wild;
+  if (u.wild >= (u.weak ? kWildIfWeak : kWild)) return GiveUp(u);
   if (u.shrinks >= 3 && !u.zero_tried) {
     u.zero_tried = true;
     u.mu = 0;

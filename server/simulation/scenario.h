@@ -87,7 +87,7 @@ struct SolverOptions {
   int max_iterations = 50;              ///< Corrections of μ in an episode.
   /// Of the contact's largest W_c; below it a cycle is settled: one that begins with a collision,
   double settled_fraction = 1e-9;
-  double settled_nirv_fraction = 1e-5;  ///< and one without initial relative velocity.
+  double settled_nirv_fraction = 1e-4;  ///< and one without initial relative velocity.
   std::int64_t max_steps = 100'000'000;
   bool fail_if_not_converged = false;
   bool clip_tension = false;  ///< A contact force below 0 counts as 0.
