@@ -301,6 +301,10 @@ void EpisodeSolver::Label(Cycle& cycle, bool rested, bool weak) const {
         cycle.restitution_out = std::sqrt(u->squared);
       }
     }
+    if (cycle.status == Cycle::Status::kInfeasible &&
+        cycle.restitution_out > cycle.restitution_in) {
+      cycle.status = Cycle::Status::kNotConverged;  // The others have changed since.
+    }
     const double miss = std::abs(cycle.restitution_out - cycle.restitution_in);
     if (cycle.status == Cycle::Status::kNotConverged &&
         miss <= scenario_.solver.restitution_tolerance * cycle.restitution_in) {

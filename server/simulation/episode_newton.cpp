@@ -48,6 +48,7 @@ void EpisodeSolver::Factorize(const std::vector<Unknown*>& live) {
       const Unknown& other = *live[static_cast<std::size_t>(j)];
       const bool known = other.column != kNone && other.column < u.gradient.size();
       jacobian(i, j) = known ? u.slope * u.gradient[other.column] * other.mu : 0;
+      if (i == j && u.mu == 0) jacobian(i, j) = 1;  // Its correction is none of Newton's.
     }
   }
   factors_.compute(jacobian);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kFirstWindow = 12;  // Cycles in the first passes,
 constexpr int kMoreCycles = 8;    // and how many more when these have converged.
-constexpr double kFinal = 0.02;    // Change of a final μ [restitution tolerance].
+constexpr double kFinal = 0.02;   // Change of a final μ [restitution tolerance].
 
 }  // namespace
 
