@@ -14,6 +14,7 @@
 #include "cli/follow.h"
 #include "cli/interrupt.h"
 #include "cli/live_plot.h"
+#include "cli/number.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
 #include "cli/render_live.h"
@@ -26,6 +27,7 @@ struct WatchArguments {
   std::uint64_t after_sequence = 0;
   std::vector<std::string> kinds;
   bool live_only = false;
+  std::string min_frame_interval;
   std::vector<std::string> plot;
   std::string replay;
 };
@@ -113,6 +115,9 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   options.after_sequence = arguments.after_sequence;
   options.kinds = arguments.kinds;
   options.live_only = arguments.live_only;
+  if (!arguments.min_frame_interval.empty()) {
+    options.min_frame_interval = ParseDuration(arguments.min_frame_interval);
+  }
   if (options.kinds.empty() && settings.output == "table") {
     options.kinds = {"log_entry", "iteration", "cycle", "attempt_started", "progress"};
   }
@@ -157,6 +162,10 @@ void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action) {
       ->type_name("KIND,…");
   watch->add_flag("--live", arguments->live_only, "Only what happens from now on")
       ->excludes("--after-sequence");
+  watch
+      ->add_option("--min-frame-interval", arguments->min_frame_interval,
+                   "Of frame chunks that follow each other sooner only the newest, and a gap")
+      ->type_name("DURATION");
   watch
       ->add_option("--plot", arguments->plot,
                    "Draw these channels on the terminal, such as B1.velocity,B1-B2.contact_force")
