@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -10,6 +11,8 @@
 #include "cli/config.h"
 #include "cli/paper/items.h"
 #include "cli/resolve.h"
+#include "cli/scenario_file.h"
+#include "cli/settable_fields.h"
 #include "cli/templates.h"
 #include "contact/v1/event.pb.h"
 #include "wire/law_catalogue.h"
@@ -57,7 +60,6 @@ Line Follow(CLI::App& app, const std::vector<std::string>& words) {
   };
   for (const std::string& word : words) {
     if (line.open != nullptr) {
-      if (word == "=") continue;  // As bash splits --flag=value.
       give(line.open, word);
       line.open = nullptr;
     } else if (word.starts_with("-") && word.size() > 1) {
@@ -218,6 +220,22 @@ Candidates ProfileNames(const Settings& settings, const Line& line) {
   return profiles;
 }
 
+// The fields of the scenario that the line names, or of any; with `=`, the words of one of them.
+Candidates Assignments(const Line& line, const std::string& word) {
+  v1::Scenario scenario;
+  if (!line.positionals.empty() && std::filesystem::is_regular_file(line.positionals.front())) {
+    scenario = ScenarioFile::Open(line.positionals.front()).scenario();
+  }
+  const std::string path = word.substr(0, word.find('='));
+  Candidates assignments;
+  for (const SettableField& field : SettableFields(scenario)) {
+    if (path.size() == word.size()) assignments.push_back({field.path + "=", ""});
+    if (path != field.path) continue;
+    for (const std::string& value : field.words) assignments.push_back({path + "=" + value, ""});
+  }
+  return assignments;
+}
+
 // What stands for a value in the help tells what it may be.
 std::string KindOf(const CLI::Option& option) {
   const std::string type = option.get_type_name().substr(0, option.get_type_name().find(':'));
@@ -235,6 +253,7 @@ Candidates Values(const CLI::Option& option, const Settings& settings, const Lin
 }
 
 std::string Directive(const CLI::Option& option) {
+  if (KindOf(option) == "FIELD=VALUE") return ":nospace\n";
   if (KindOf(option) == "DIR") return ":directories\n";
   if (KindOf(option) != "FILE") return ":none\n";
   return option.get_positional() ? ":scenarios\n" : ":files\n";
@@ -262,23 +281,50 @@ std::string Print(const Candidates& candidates, const std::string& prefix,
   return text;
 }
 
+// The words as they were before bash split them at `=`.
+std::vector<std::string> Joined(const std::vector<std::string>& words) {
+  std::vector<std::string> joined;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool part = !joined.empty() && (words[i] == "=" || words[i - 1] == "=");
+    if (part) {
+      joined.back() += words[i];
+    } else {
+      joined.push_back(words[i]);
+    }
+  }
+  return joined;
+}
+
+// What a shell that splits at `=` takes for the last word: only what stands after it.
+void CutAfterEquals(Candidates* candidates) {
+  for (Candidate& candidate : *candidates) {
+    candidate.text.erase(0, candidate.text.find('=') + 1);
+  }
+}
+
 }  // namespace
 
-std::string Complete(CLI::App& app, const std::vector<std::string>& words, Settings* settings) try {
-  if (words.empty()) return ":none\n";
+std::string Complete(CLI::App& app, const std::vector<std::string>& split, Settings* settings) try {
+  if (split.empty()) return ":none\n";
+  const std::vector<std::string> words = Joined(split);
+  const bool after_equals = split.back() != words.back();  // All that the shell replaces.
   Line line = Follow(app, {words.begin(), words.end() - 1});
   std::string word = words.back();
   std::string prefix;
   const std::size_t equals = word.find('=');
-  if (line.open != nullptr && word == "=") {
-    word.clear();
-  } else if (line.open == nullptr && word.starts_with("--") && equals != std::string::npos) {
+  if (line.open == nullptr && word.starts_with("--") && equals != std::string::npos) {
     line.open = FindFlag(line.command, word.substr(0, equals));
-    prefix = word.substr(0, equals + 1);
+    if (!after_equals) prefix = word.substr(0, equals + 1);
     word.erase(0, equals + 1);
     if (line.open == nullptr) return ":none\n";
   }
   ResolveSettings(app, settings);
+  if (line.open != nullptr && KindOf(*line.open) == "FIELD=VALUE") {
+    Candidates assignments = Assignments(line, word);
+    std::erase_if(assignments, [&](const auto& a) { return !a.text.starts_with(word); });
+    if (after_equals) CutAfterEquals(&assignments);
+    return Print(assignments, prefix, "") + Directive(*line.open);
+  }
   if (line.open != nullptr) {
     return Print(Values(*line.open, *settings, line), prefix, word) + Directive(*line.open);
   }
