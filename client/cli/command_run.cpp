@@ -4,12 +4,10 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <thread>
 
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
 #include "cli/follow.h"
-#include "cli/interrupt.h"
 #include "cli/job_options.h"
 #include "cli/render_json.h"
 
@@ -100,26 +98,6 @@ ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
     fmt::print(stderr, "Next:  contactctl watch {}\n", ShortName(job.name()));
   }
   return ExitCode::kOk;
-}
-
-// Leaves the job alone, or, for who looks at a terminal and insists within 2 s, cancels it.
-ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name,
-                        const Settings& settings) {
-  using namespace std::chrono_literals;
-  if (end != WatchEnd::kStopped || !settings.MessageStyle().terminal) return Detach(end, name);
-  const Interrupt again;
-  fmt::print(stderr, "contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
-  for (auto waited = 0ms; waited < 2s; waited += 50ms) {
-    if (Interrupt::raised()) {
-      v1::CancelJobRequest request;
-      request.set_name(name);
-      client.Call(&Client::Stub::CancelJob, request);
-      fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
-      return ExitCode::kInterrupted;
-    }
-    std::this_thread::sleep_for(50ms);
-  }
-  return Detach(end, name);
 }
 
 ExitCode Run(const RunArguments& arguments, const Settings& settings) {

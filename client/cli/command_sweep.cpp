@@ -117,18 +117,23 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   options.kinds = {"sweep_cell", "progress"};
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
-  const Interrupt interrupt;
   SweepCells cells;
   {
     CellWatcher watcher(settings.MessageStyle());
-    const WatchEnd end = Watch(client, options, watcher);
-    if (end != WatchEnd::kFinished) return Detach(end, name);
+    end = Watch(client, options, watcher);
+  WatchEnd end = WatchEnd::kStopped;
     cells = watcher.cells();
+    const Interrupt interrupt;
+    const bool submitted = arguments.job.empty() && settings.output == "table";
+    if (submitted) fmt::print(stderr, "{} submitted\n", name);
   }
   const v1::Job job = Get(client, name);
   if (!arguments.heat_map.empty()) DrawHeatMap(job.sweep(), cells, arguments);
   Print(job, cells, arguments.metric, settings);
   return Outcome(job);
+  if (end != WatchEnd::kFinished) {
+    return arguments.job.empty() ? DetachOrCancel(client, end, name, settings) : Detach(end, name);
+  }
 }
 
 // Tells every rule that the server finds broken.
@@ -145,14 +150,13 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_sweep() = OpenSweep(arguments.file);
   MetricOf(request.job().sweep(), arguments.metric);
-  request.set_request_id(arguments.request_id.empty() ? RandomId() : arguments.request_id);
+  request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }
   arguments.settings.Apply(request.mutable_job());
   Client client = settings.Connect();
   const std::string name = Create(client, request).name();
-  if (settings.output == "table") fmt::print(stderr, "{} submitted\n", name);
   const ExitCode code = Follow(client, name, arguments, settings);
   if (settings.output == "table") {
     fmt::print(stderr, "Next:  contactctl sweep export {} -o csv\n", ShortName(name));
