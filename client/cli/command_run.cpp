@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/follow.h"
 #include "cli/job_options.h"
+#include "cli/job_source.h"
 #include "cli/render_json.h"
 
 namespace contact::cli {
@@ -54,9 +55,7 @@ void TellOfOtherServer(Client& client, const v1::Job& job) {
 
 // The scenario of an earlier job, with the overrides.
 ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
-  v1::GetJobRequest request;
-  request.set_name(JobName(arguments.like));
-  const v1::Job job = client.Call(&Client::Stub::GetJob, request);
+  const v1::Job job = GetJob(client, arguments.like);
   if (job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
   }
@@ -108,9 +107,7 @@ ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   const WatchEnd end = FollowRun(client, job.name(), deadline, settings);
   if (end != WatchEnd::kFinished) return DetachOrCancel(client, end, job.name(), settings);
 
-  v1::GetJobRequest request;
-  request.set_name(job.name());
-  const v1::Job result = client.Call(&Client::Stub::GetJob, request);
+  const v1::Job result = GetJob(client, job.name());
   PrintJob(result, settings);
   if (settings.output == "table") fmt::print(stderr, "{}", NextSteps(result));
   return Outcome(result);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/job_source.h"
 #include "cli/provenance.h"
 #include "cli/render_series.h"
 
@@ -43,9 +44,7 @@ v1::Series Get(Client& client, const SeriesArguments& arguments) {
 // Where the motion comes from, in lines that readers of CSV skip.
 std::string Comments(Client& client, const SeriesArguments& arguments) {
   if (!arguments.comments) return "";
-  v1::GetJobRequest request;
-  request.set_name(JobName(arguments.job));
-  return Lines({SourceOf(client.Call(&Client::Stub::GetJob, request))}, "# ");
+  return Lines({SourceOf(GetJob(client, arguments.job))}, "# ");
 }
 
 ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {

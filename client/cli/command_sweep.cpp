@@ -11,6 +11,7 @@
 #include "cli/heat_map.h"
 #include "cli/interrupt.h"
 #include "cli/job_options.h"
+#include "cli/job_source.h"
 #include "cli/provenance.h"
 #include "cli/render_sweep.h"
 #include "cli/sweep_file.h"
@@ -63,12 +64,6 @@ class CellWatcher final : public WatchObserver {
   bool shown_ = false;
 };
 
-v1::Job Get(Client& client, const std::string& name) {
-  v1::GetJobRequest request;
-  request.set_name(name);
-  return client.Call(&Client::Stub::GetJob, request);
-}
-
 // The metric of the heat map: the one named, or the first.
 int MetricOf(const v1::Sweep& sweep, const std::string& name) {
   if (name.empty()) return 0;
@@ -111,7 +106,7 @@ void DrawHeatMap(const v1::Job& job, const SweepCells& cells, const SweepArgumen
 // Follows a sweep to its end, from its first cell on, and prints it.
 ExitCode Follow(Client& client, const std::string& name, const SweepArguments& arguments,
                 const Settings& settings) {
-  if (const v1::Job job = Get(client, name); !job.has_sweep()) {
+  if (const v1::Job job = GetJob(client, name); !job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is no sweep; see contactctl describe", name));
   } else {
     MetricOf(job.sweep(), arguments.metric);
@@ -134,7 +129,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   if (end != WatchEnd::kFinished) {
     return arguments.job.empty() ? DetachOrCancel(client, end, name, settings) : Detach(end, name);
   }
-  const v1::Job job = Get(client, name);
+  const v1::Job job = GetJob(client, name);
   if (!arguments.heat_map.empty()) DrawHeatMap(job, cells, arguments);
   Print(job, cells, arguments, settings);
   return Outcome(job);

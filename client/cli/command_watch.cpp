@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "cli/job_source.h"
 #include "cli/live_plot.h"
 #include "cli/number.h"
 #include "cli/render_job.h"
@@ -50,12 +51,6 @@ WatchOptions Options(const std::string& job, const Settings& settings) {
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
   return options;
-}
-
-v1::Job Get(Client& client, const std::string& job) {
-  v1::GetJobRequest request;
-  request.set_name(JobName(job));
-  return client.Call(&Client::Stub::GetJob, request);
 }
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
@@ -102,7 +97,7 @@ ExitCode WatchPlot(const WatchArguments& arguments, const Settings& settings) {
     mistake = plot.mistake();
   }
   if (mistake) throw Failure(ExitCode::kUsage, *mistake);
-  return end == WatchEnd::kFinished ? Outcome(Get(client, arguments.job))
+  return end == WatchEnd::kFinished ? Outcome(GetJob(client, arguments.job))
                                     : Detach(end, options.name);
 }
 
@@ -124,7 +119,7 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   const Interrupt interrupt;
   const auto observer = Observer(arguments, settings);
   const WatchEnd end = Watch(client, options, *observer);
-  return end == WatchEnd::kFinished ? Outcome(Get(client, arguments.job))
+  return end == WatchEnd::kFinished ? Outcome(GetJob(client, arguments.job))
                                     : Detach(end, options.name);
 }
 
@@ -137,7 +132,7 @@ ExitCode Wait(const std::string& job, const Settings& settings) {
   WatchObserver silence;
   const WatchEnd end = Watch(client, options, silence);
   if (end != WatchEnd::kFinished) return Detach(end, options.name);
-  const v1::Job result = Get(client, job);
+  const v1::Job result = GetJob(client, job);
   if (settings.output == "table") {
     const std::string state = v1::Job::State_Name(result.state());
     fmt::print("{}  {}\n", result.name(),

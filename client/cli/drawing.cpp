@@ -1,5 +1,7 @@
 #include "cli/drawing.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "cli/csv_metadata.h"
@@ -20,9 +22,9 @@ void Remove(std::string_view part, std::string* text) {
 
 // Puts `content` in the place of what the first element of this name has.
 void Replace(const std::string& element, const std::string& content, std::string* text) {
-  const std::string open = "<" + element + ">";
+  const std::string open = fmt::format("<{}>", element);
   const auto begin = text->find(open);
-  const auto end = text->find("</" + element + ">");
+  const auto end = text->find(fmt::format("</{}>", element));
   if (begin == std::string::npos || end == std::string::npos) return;
   text->replace(begin + open.size(), end - begin - open.size(), content);
 }

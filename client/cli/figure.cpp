@@ -87,7 +87,7 @@ class Script {
     Line("set grid lc rgb '#dddddd' lt 1");
     Line("set key tmargin center horizontal font ',10'");
     Line("set offsets graph 0.02, graph 0.02, graph 0.08, graph 0.03");
-    if (figure.panels.size() > 1) Line("set lmargin at screen 0.13");  // Axes below each other.
+    if (figure.panels.size() > 1) Line("set lmargin at screen 0.15");  // Axes below each other.
     Line("set multiplot layout {},1 title {}.\"\\n\"", figure.panels.size(),
          GnuplotString(figure.title));
     for (const Figure::Panel& panel : figure.panels) {

@@ -14,7 +14,7 @@ constexpr char kStyle[] =
     "table{border-collapse:collapse;display:block;overflow-x:auto;font-variant-numeric:tabular-"
     "nums;"
     "font-size:.87rem;margin:.8rem 0}"
-    "th,td{padding:.2rem .6rem;text-align:left;border-bottom:1px solid #ddd;vertical-align:top}"
+    "th,td{padding:.2rem .45rem;text-align:left;border-bottom:1px solid #ddd;vertical-align:top}"
     ".n{text-align:right;white-space:nowrap}tr.d{background:#fde7d9}"
     "svg{max-width:100%;height:auto}"
     "pre{background:#f5f5f5;padding:.7rem;overflow-x:auto;font-size:.82rem}"

@@ -57,7 +57,7 @@ const SampleColumn& Column(const Recording& run, const std::string& name) {
 Figure DrawOverlay(const std::vector<Recording>& runs, const std::vector<std::string>& channels) {
   Figure figure{.title = runs.front().job.scenario().title()};
   const Parameters parameters = Differing(runs);
-  if (parameters.size() == 1) figure.title += ": " + parameters.front().path;
+  if (parameters.size() == 1) figure.title += fmt::format(": {}", parameters.front().path);
   for (const std::string& channel : channels.empty() ? ContactForces(runs.front()) : channels) {
     const std::string& unit = Column(runs.front(), channel).unit;
     Figure::Panel panel{.x_label = "time [s]", .y_label = fmt::format("{} [{}]", channel, unit)};

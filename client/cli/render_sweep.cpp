@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/export_text.h"
 #include "cli/number.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
@@ -41,13 +42,6 @@ Table::Cell Verdict(const v1::SweepCell& cell) {
   if (cell.state() == v1::Job::FAILED) return {cell.state_reason(), Tone::kBad};
   const bool full = cell.convergence() == v1::Job::FULL;
   return {v1::Job::Convergence_Name(cell.convergence()), full ? Tone::kGood : Tone::kWarning};
-}
-
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 // The distinct values of an axis, in the order in which the cells have them.
