@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/download.h"
 #include "cli/interrupt.h"
+#include "cli/job_source.h"
 #include "cli/number.h"
 #include "cli/render_json.h"
 
@@ -21,9 +22,8 @@ struct ArtifactArguments {
 
 ExitCode ListArtifacts(const ArtifactArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "jsonl", "name"});
-  v1::GetJobRequest request;
-  request.set_name(JobName(arguments.job));
-  const v1::Job job = settings.Connect().Call(&Client::Stub::GetJob, request);
+  Client client = settings.Connect();
+  const v1::Job job = GetJob(client, arguments.job);
   for (const v1::Artifact& artifact : job.artifacts()) {
     if (settings.output == "jsonl") {
       fmt::print("{}", ToJsonLine(artifact));

@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/drawing.h"
 #include "cli/job_source.h"
+#include "cli/overlay.h"
 #include "cli/render_comparison.h"
 
 namespace contact::cli {
@@ -15,12 +17,27 @@ struct CompareArguments {
   std::vector<std::string> jobs;
   Tolerance tolerance;
   std::string format;
+  std::string plot;  ///< File to draw the runs to.
+  std::vector<std::string> channels;
 };
 
 std::string Format(const CompareArguments& arguments, const Settings& settings) {
   if (!arguments.format.empty()) return arguments.format;
   settings.RequireOutput({"table", "json", "csv"});
   return settings.output;
+}
+
+void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
+  Client client = settings.Connect();
+  std::vector<Recording> runs;
+  for (const std::string& job : arguments.jobs) {
+    if (std::filesystem::is_regular_file(job)) {
+      throw Failure(ExitCode::kUsage, fmt::format("--plot: {} is a file without trajectory", job));
+    }
+    runs.push_back(ReadRecording(client, job, settings));
+  }
+  Draw(DrawOverlay(runs, arguments.channels), FormatOf(arguments.plot), arguments.plot);
+  fmt::print(stderr, "{}\n", arguments.plot);
 }
 
 ExitCode CompareJobs(const CompareArguments& arguments, const Settings& settings) {
@@ -33,6 +50,7 @@ ExitCode CompareJobs(const CompareArguments& arguments, const Settings& settings
       throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job));
     }
   }
+  if (!arguments.plot.empty()) DrawRuns(arguments, settings);
   const JobComparison comparison = Compare(jobs, arguments.tolerance);
   if (format == "json") {
     fmt::print("{}", ComparisonJson(comparison));
@@ -69,6 +87,15 @@ void AddCompareCommand(CLI::App& app, const Settings& settings, Action* action) 
   command->add_option("--format", arguments->format, "table, json, csv or latex, instead of -o")
       ->check(CLI::IsMember({"table", "json", "csv", "latex"}))
       ->type_name("FORMAT");
+  command
+      ->add_option("--plot", arguments->plot,
+                   "Draw the runs over each other to this file too: .svg, .png, .pdf, .gp or .csv")
+      ->type_name("FILE");
+  command
+      ->add_option("--channels", arguments->channels,
+                   "What --plot draws, such as B1.velocity. Default: the contact forces")
+      ->delimiter(',')
+      ->type_name("NAME,…");
   command->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return CompareJobs(*arguments, settings); };
   });

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/csv_metadata.h"
 #include "cli/data_table.h"
 #include "cli/export_netcdf.h"
 #include "cli/export_text.h"
@@ -18,6 +19,7 @@ struct ExportArguments {
   std::string job;
   std::string file;
   std::string table = "series";
+  bool comments = false;
   SeriesSelection part;
 };
 
@@ -38,10 +40,13 @@ DataTable Chosen(const std::string& name, Recording&& recording) {
   return SeriesTable(std::move(recording));
 }
 
-void WriteText(const DataTable& table, bool json, const std::string& path) {
-  OutputFile file(path);
-  (json ? WriteJsonLines : WriteCsv)(table, file.get());
+void WriteText(const DataTable& table, const Provenance& source, const std::string& format,
+               const ExportArguments& arguments) {
+  OutputFile file(arguments.file);
+  if (arguments.comments) fmt::print(file.get(), "{}", Lines({source}, "# "));
+  (format == "jsonl" ? WriteJsonLines : WriteCsv)(table, file.get());
   file.Close();
+  if (!arguments.file.empty()) WriteCsvMetadata(table.columns, {source}, arguments.file);
 }
 
 std::string WriteAll(Recording&& recording, const std::string& path) {
@@ -99,13 +104,17 @@ ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
   if (format != "netcdf" && arguments.table != "series" && !arguments.part.empty()) {
     throw Failure(ExitCode::kUsage, "channels, time range and thinning are of the series");
   }
+  if (format != "csv" && arguments.comments) {
+    throw Failure(ExitCode::kUsage, "--comments are of csv");
+  }
   Recording recording = Read(arguments, settings);
   std::string what;
   if (format == "netcdf") {
     what = WriteAll(std::move(recording), arguments.file);
   } else {
+    const Provenance source = SourceOf(recording.job);
     const DataTable table = Chosen(arguments.table, std::move(recording));
-    WriteText(table, format == "jsonl", arguments.file);
+    WriteText(table, source, format, arguments);
     what = Count(static_cast<std::int64_t>(table.rows()), "row", "rows");
   }
   if (!arguments.file.empty()) fmt::print(stderr, "{}  {}\n", arguments.file, what);
@@ -130,6 +139,8 @@ void AddExportCommand(CLI::App& app, const Settings& settings, Action* action) {
       ->check(CLI::IsMember({"series", "cycles", "iterations", "bodies"}))
       ->type_name("TABLE")
       ->capture_default_str();
+  command->add_flag("--comments", arguments->comments,
+                    "Begin csv with where it comes from, in lines that start with #");
   AddPart(*command, &arguments->part);
   command->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Export(*arguments, settings); };

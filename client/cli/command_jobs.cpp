@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/follow.h"
+#include "cli/job_source.h"
 #include "cli/list_watch.h"
 #include "cli/number.h"
 #include "cli/render_job.h"
@@ -116,9 +117,8 @@ ExitCode List(const ListArguments& arguments, const Settings& settings) {
 
 ExitCode Describe(const std::string& job, const Settings& settings) {
   settings.RequireOutput({"table", "json", "name"});
-  v1::GetJobRequest request;
-  request.set_name(JobName(job));
-  PrintJob(settings.Connect().Call(&Client::Stub::GetJob, request), settings);
+  Client client = settings.Connect();
+  PrintJob(GetJob(client, job), settings);
   return ExitCode::kOk;
 }
 

@@ -60,8 +60,7 @@ std::map<std::string, std::string> DrawAll(const std::vector<PaperItem>& items,
   return inlined;
 }
 
-Origin OriginOf(Client& client, const PaperArguments& arguments) {
-  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+Origin OriginOf(const v1::ServerInfo& info, const PaperArguments& arguments) {
   const std::string items =
       arguments.items.empty() ? "all" : fmt::format("{}", fmt::join(arguments.items, " "));
   return {.server = info.revision().empty()
@@ -79,6 +78,17 @@ void MakeFolder(const std::string& directory) {
   }
 }
 
+// What shows no single run is at least of this server.
+void WriteAll(const v1::ServerInfo& server, const PaperArguments& arguments,
+              std::vector<PaperItem>* items) {
+  const Provenance here = {{"version", server.version()}, {"revision", server.revision()}};
+  for (PaperItem& item : *items) {
+    if (item.figure && item.figure->sources.empty()) item.figure->sources = {here};
+    Write(item, item.figure ? item.figure->sources : std::vector<Provenance>{here},
+          arguments.directory);
+  }
+}
+
 ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table"});
   const std::vector<std::string> chosen = Chosen(arguments.items);
@@ -86,10 +96,12 @@ ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
   MakeFolder(arguments.directory);
   Client client = settings.Connect();
   Lab lab(client, settings);
-  const std::vector<PaperItem> items = MakePaperItems(chosen, lab);
-  for (const PaperItem& item : items) Write(item, arguments.directory);
+  std::vector<PaperItem> items = MakePaperItems(chosen, lab);
+  const v1::ServerInfo server =
+      client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  WriteAll(server, arguments, &items);
   const std::map<std::string, std::string> figures = DrawAll(items, arguments);
-  WriteText(IndexPage(items, figures, OriginOf(client, arguments)),
+  WriteText(IndexPage(items, figures, OriginOf(server, arguments)),
             fs::path(arguments.directory) / "index.html");
   fmt::print("{}", Summary(items, settings.OutputStyle()));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;

@@ -6,7 +6,6 @@
 
 #include "cli/commands.h"
 #include "cli/drawing.h"
-#include "cli/output_file.h"
 #include "cli/presets.h"
 #include "cli/text_file.h"
 
@@ -28,16 +27,7 @@ std::string Format(const PlotArguments& arguments, const Settings& settings) {
     settings.RequireOutput({"svg", "png", "pdf", "gp", "csv"});
     return settings.output;
   }
-  for (const char* format : {"png", "pdf", "gp", "csv"}) {
-    if (fs::path(arguments.file).extension() == fmt::format(".{}", format)) return format;
-  }
-  return "svg";
-}
-
-void WriteData(const Figure& figure, const std::string& path) {
-  OutputFile file(path);
-  WriteCsv(figure, file.get());
-  file.Close();
+  return FormatOf(arguments.file);
 }
 
 void Keep(const Figure& figure, const std::string& format, const PlotArguments& arguments,
@@ -46,7 +36,7 @@ void Keep(const Figure& figure, const std::string& format, const PlotArguments& 
   std::error_code error;
   fs::create_directories(folder, error);
   WriteText(GnuplotScript(figure, format, path), folder / (arguments.preset + ".gp"));
-  WriteData(figure, folder / (arguments.preset + ".csv"));
+  Draw(figure, "csv", folder / (arguments.preset + ".csv"));
 }
 
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
@@ -56,14 +46,9 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   Client client = settings.Connect();
   const Figure figure =
       DrawPreset(arguments.preset, ReadRecording(client, arguments.job, settings));
-  if (format == "csv") {
-    WriteData(figure, path);
-  } else if (format == "gp") {
-    WriteText(GnuplotScript(figure, "svg", fs::path(path).replace_extension("svg")), path);
-  } else {
-    if (!arguments.keep.empty()) Keep(figure, format, arguments, path);
-    Draw(figure, format, path);
-  }
+  const bool drawn = format != "gp" && format != "csv";
+  if (drawn && !arguments.keep.empty()) Keep(figure, format, arguments, path);
+  Draw(figure, format, path);
   fmt::print("{}\n", path);
   return ExitCode::kOk;
 }

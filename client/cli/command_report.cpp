@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <memory>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/drawing.h"
+#include "cli/overlay.h"
 #include "cli/presets.h"
 #include "cli/run_report.h"
 #include "cli/text_file.h"
@@ -16,10 +19,16 @@ struct ReportArguments {
   std::string file = "report.html";
 };
 
-// Presets that a run has nothing for are left out, and all of them without gnuplot.
-std::vector<std::string> DrawAll(const Recording& recording) {
-  // So many that no peak and no corner is lost, and a page stays small however long the run.
+// So that no peak and no corner is lost, and a page stays small however long the run.
+std::string DrawThinned(Figure figure) {
   constexpr std::size_t kPoints = 1000;
+  Thin(kPoints, &figure);
+  figure.sources.clear();  // The page tells them.
+  return DrawInline(figure);
+}
+
+// Presets that a run has nothing for are left out.
+std::vector<std::string> DrawAll(const Recording& recording) {
   std::vector<std::string> figures;
   for (const std::string& preset : PresetNames()) {
     Figure figure;
@@ -28,36 +37,51 @@ std::vector<std::string> DrawAll(const Recording& recording) {
     } catch (const Failure&) {
       continue;
     }
-    Thin(kPoints, &figure);
     figure.title = preset;
-    figures.push_back(DrawInline(figure));
+    figures.push_back(DrawThinned(std::move(figure)));
   }
   return figures;
+}
+
+// Nothing for runs that have not the same contacts.
+std::string DrawTogether(const std::vector<Recording>& runs) {
+  Figure figure;
+  if (runs.size() == 1) return "";
+  try {
+    figure = DrawOverlay(runs, {});
+  } catch (const Failure&) {
+    return "";
+  }
+  return DrawThinned(std::move(figure));
+}
+
+std::vector<Recording> Read(Client& client, const ReportArguments& arguments,
+                            const Settings& settings) {
+  std::vector<Recording> recordings;
+  for (const std::string& job : arguments.jobs) {
+    recordings.push_back(ReadRecording(client, job, settings));
+    if (recordings.back().job.has_sweep()) {
+      throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep; see sweep export", job));
+    }
+  }
+  return recordings;
 }
 
 ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table"});
   Client client = settings.Connect();
-  std::vector<RunPart> runs;
-  std::string note;
-  for (const std::string& job : arguments.jobs) {
-    Recording recording = ReadRecording(client, job, settings);
-    if (recording.job.has_sweep()) {
-      throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep; see sweep export", job));
-    }
-    RunPart part;
-    try {
-      part.figures = DrawAll(recording);
-    } catch (const Failure& failure) {
-      note = failure.what();
-    }
-    part.recording = std::move(recording);
-    part.recording.columns.clear();  // The figures have what is shown of them.
-    runs.push_back(std::move(part));
+  std::vector<Recording> recordings = Read(client, arguments, settings);
+  std::vector<RunPart> runs(recordings.size());
+  std::string overlay;
+  try {
+    overlay = DrawTogether(recordings);
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i].figures = DrawAll(recordings[i]);
+  } catch (const Failure& failure) {  // Such as that gnuplot is not installed.
+    fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
   }
-  const std::string page = ReportPage(runs, client.server());
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].recording = std::move(recordings[i]);
+  const std::string page = ReportPage(runs, overlay, client.server());
   WriteText(page, arguments.file);
-  if (!note.empty()) fmt::print(stderr, "figures are not drawn: {}\n", note);
   fmt::print(stderr, "{}  {} kB, opens offline\n", arguments.file, (page.size() + 999) / 1000);
   return ExitCode::kOk;
 }

@@ -4,13 +4,12 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <thread>
 
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
 #include "cli/follow.h"
-#include "cli/interrupt.h"
 #include "cli/job_options.h"
+#include "cli/job_source.h"
 #include "cli/render_json.h"
 
 namespace contact::cli {
@@ -56,9 +55,7 @@ void TellOfOtherServer(Client& client, const v1::Job& job) {
 
 // The scenario of an earlier job, with the overrides.
 ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
-  v1::GetJobRequest request;
-  request.set_name(JobName(arguments.like));
-  const v1::Job job = client.Call(&Client::Stub::GetJob, request);
+  const v1::Job job = GetJob(client, arguments.like);
   if (job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
   }
@@ -102,26 +99,6 @@ ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-// Leaves the job alone, or, for who looks at a terminal and insists within 2 s, cancels it.
-ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name,
-                        const Settings& settings) {
-  using namespace std::chrono_literals;
-  if (end != WatchEnd::kStopped || !settings.MessageStyle().terminal) return Detach(end, name);
-  const Interrupt again;
-  fmt::print(stderr, "contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
-  for (auto waited = 0ms; waited < 2s; waited += 50ms) {
-    if (Interrupt::raised()) {
-      v1::CancelJobRequest request;
-      request.set_name(name);
-      client.Call(&Client::Stub::CancelJob, request);
-      fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
-      return ExitCode::kInterrupted;
-    }
-    std::this_thread::sleep_for(50ms);
-  }
-  return Detach(end, name);
-}
-
 ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "json", "name"});
   const auto deadline = settings.Deadline();
@@ -130,9 +107,7 @@ ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   const WatchEnd end = FollowRun(client, job.name(), deadline, settings);
   if (end != WatchEnd::kFinished) return DetachOrCancel(client, end, job.name(), settings);
 
-  v1::GetJobRequest request;
-  request.set_name(job.name());
-  const v1::Job result = client.Call(&Client::Stub::GetJob, request);
+  const v1::Job result = GetJob(client, job.name());
   PrintJob(result, settings);
   if (settings.output == "table") fmt::print(stderr, "{}", NextSteps(result));
   return Outcome(result);

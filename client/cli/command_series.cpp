@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/job_source.h"
+#include "cli/provenance.h"
 #include "cli/render_series.h"
 
 namespace contact::cli {
@@ -16,6 +18,7 @@ struct SeriesArguments {
   std::optional<double> to;
   int points = 0;
   bool raw = false;
+  bool comments = false;
 };
 
 v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
@@ -38,12 +41,18 @@ v1::Series Get(Client& client, const SeriesArguments& arguments) {
   }
 }
 
+// Where the motion comes from, in lines that readers of CSV skip.
+std::string Comments(Client& client, const SeriesArguments& arguments) {
+  if (!arguments.comments) return "";
+  return Lines({SourceOf(GetJob(client, arguments.job))}, "# ");
+}
+
 ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "csv", "json"});
   Client client = settings.Connect();
   const v1::Series series = Get(client, arguments);
   if (settings.output == "csv") {
-    fmt::print("{}", SeriesCsv(series));
+    fmt::print("{}{}", Comments(client, arguments), SeriesCsv(series));
   } else if (settings.output == "json") {
     fmt::print("{}", SeriesJson(series));
   } else {
@@ -73,6 +82,8 @@ void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action) 
       ->check(CLI::PositiveNumber)
       ->type_name("N");
   series->add_flag("--raw", arguments->raw, "Every sample");
+  series->add_flag("--comments", arguments->comments,
+                   "Begin csv with where it comes from, in lines that start with #");
   series->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Series(*arguments, settings); };
   });

@@ -11,6 +11,8 @@
 #include "cli/heat_map.h"
 #include "cli/interrupt.h"
 #include "cli/job_options.h"
+#include "cli/job_source.h"
+#include "cli/provenance.h"
 #include "cli/render_sweep.h"
 #include "cli/sweep_file.h"
 #include "cli/watch.h"
@@ -26,6 +28,7 @@ struct SweepArguments {
   JobOptions settings;
   std::string metric;    ///< Of the heat map.
   std::string heat_map;  ///< File to draw it to.
+  bool comments = false;
 };
 
 // Gathers cells, and shows how far the sweep is while someone looks.
@@ -61,12 +64,6 @@ class CellWatcher final : public WatchObserver {
   bool shown_ = false;
 };
 
-v1::Job Get(Client& client, const std::string& name) {
-  v1::GetJobRequest request;
-  request.set_name(name);
-  return client.Call(&Client::Stub::GetJob, request);
-}
-
 // The metric of the heat map: the one named, or the first.
 int MetricOf(const v1::Sweep& sweep, const std::string& name) {
   if (name.empty()) return 0;
@@ -78,10 +75,11 @@ int MetricOf(const v1::Sweep& sweep, const std::string& name) {
                 fmt::format("--metric {}: the sweep has none of this name", name));
 }
 
-void Print(const v1::Job& job, const SweepCells& cells, const std::string& metric,
+void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments,
            const Settings& settings) {
   if (settings.output == "csv") {
-    fmt::print("{}", SweepCsv(job.sweep(), cells));
+    fmt::print("{}{}", arguments.comments ? Lines({SourceOf(job)}, "# ") : "",
+               SweepCsv(job.sweep(), cells));
   } else if (settings.output == "json") {
     fmt::print("{}", SweepJson(job, cells));
   } else if (settings.output == "name") {
@@ -89,25 +87,26 @@ void Print(const v1::Job& job, const SweepCells& cells, const std::string& metri
   } else {
     const Style style = settings.OutputStyle();
     fmt::print("{}{}", RenderSweep(job, cells, style),
-               HeatMap(job.sweep(), cells, MetricOf(job.sweep(), metric), style));
+               HeatMap(job.sweep(), cells, MetricOf(job.sweep(), arguments.metric), style));
   }
 }
 
-void DrawHeatMap(const v1::Sweep& sweep, const SweepCells& cells, const SweepArguments& arguments) {
-  std::string format = "svg";
-  for (const char* other : {"png", "pdf"}) {
-    if (arguments.heat_map.ends_with(fmt::format(".{}", other))) format = other;
+void DrawHeatMap(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments) {
+  const std::string& path = arguments.heat_map;
+  const std::string format = FormatOf(path);
+  if (format == "gp" || format == "csv") {
+    throw Failure(ExitCode::kUsage, fmt::format("--heatmap {}: is drawn as svg, png or pdf", path));
   }
-  DrawScript(
-      HeatMapScript(sweep, cells, MetricOf(sweep, arguments.metric), format, arguments.heat_map),
-      arguments.heat_map);
-  fmt::print(stderr, "{}\n", arguments.heat_map);
+  const int metric = MetricOf(job.sweep(), arguments.metric);
+  DrawScript(HeatMapScript(job, cells, metric, format, path), path);
+  if (format == "svg") DescribeSvg(path, job.sweep().base().title(), {SourceOf(job)});
+  fmt::print(stderr, "{}\n", path);
 }
 
 // Follows a sweep to its end, from its first cell on, and prints it.
 ExitCode Follow(Client& client, const std::string& name, const SweepArguments& arguments,
                 const Settings& settings) {
-  if (const v1::Job job = Get(client, name); !job.has_sweep()) {
+  if (const v1::Job job = GetJob(client, name); !job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is no sweep; see contactctl describe", name));
   } else {
     MetricOf(job.sweep(), arguments.metric);
@@ -117,17 +116,22 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   options.kinds = {"sweep_cell", "progress"};
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
-  const Interrupt interrupt;
   SweepCells cells;
+  WatchEnd end = WatchEnd::kStopped;
   {
+    const Interrupt interrupt;
+    const bool submitted = arguments.job.empty() && settings.output == "table";
+    if (submitted) fmt::print(stderr, "{} submitted\n", name);
     CellWatcher watcher(settings.MessageStyle());
-    const WatchEnd end = Watch(client, options, watcher);
-    if (end != WatchEnd::kFinished) return Detach(end, name);
+    end = Watch(client, options, watcher);
     cells = watcher.cells();
   }
-  const v1::Job job = Get(client, name);
-  if (!arguments.heat_map.empty()) DrawHeatMap(job.sweep(), cells, arguments);
-  Print(job, cells, arguments.metric, settings);
+  if (end != WatchEnd::kFinished) {
+    return arguments.job.empty() ? DetachOrCancel(client, end, name, settings) : Detach(end, name);
+  }
+  const v1::Job job = GetJob(client, name);
+  if (!arguments.heat_map.empty()) DrawHeatMap(job, cells, arguments);
+  Print(job, cells, arguments, settings);
   return Outcome(job);
 }
 
@@ -145,14 +149,13 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_sweep() = OpenSweep(arguments.file);
   MetricOf(request.job().sweep(), arguments.metric);
-  request.set_request_id(arguments.request_id.empty() ? RandomId() : arguments.request_id);
+  request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }
   arguments.settings.Apply(request.mutable_job());
   Client client = settings.Connect();
   const std::string name = Create(client, request).name();
-  if (settings.output == "table") fmt::print(stderr, "{} submitted\n", name);
   const ExitCode code = Follow(client, name, arguments, settings);
   if (settings.output == "table") {
     fmt::print(stderr, "Next:  contactctl sweep export {} -o csv\n", ShortName(name));
@@ -185,6 +188,8 @@ CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::s
       ->add_option("--heatmap", arguments->heat_map,
                    "Draw it to this file too, through gnuplot: .svg, .png or .pdf")
       ->type_name("FILE");
+  command->add_flag("--comments", arguments->comments,
+                    "Begin csv with where it comes from, in lines that start with #");
   command->callback([arguments, act, &settings, action] {
     *action = [arguments, act, &settings] { return act(*arguments, settings); };
   });

@@ -13,7 +13,9 @@
 #include "cli/commands.h"
 #include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "cli/job_source.h"
 #include "cli/live_plot.h"
+#include "cli/number.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
 #include "cli/render_live.h"
@@ -26,6 +28,7 @@ struct WatchArguments {
   std::uint64_t after_sequence = 0;
   std::vector<std::string> kinds;
   bool live_only = false;
+  std::string min_frame_interval;
   std::vector<std::string> plot;
   std::string replay;
 };
@@ -48,12 +51,6 @@ WatchOptions Options(const std::string& job, const Settings& settings) {
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
   return options;
-}
-
-v1::Job Get(Client& client, const std::string& job) {
-  v1::GetJobRequest request;
-  request.set_name(JobName(job));
-  return client.Call(&Client::Stub::GetJob, request);
 }
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
@@ -100,7 +97,7 @@ ExitCode WatchPlot(const WatchArguments& arguments, const Settings& settings) {
     mistake = plot.mistake();
   }
   if (mistake) throw Failure(ExitCode::kUsage, *mistake);
-  return end == WatchEnd::kFinished ? Outcome(Get(client, arguments.job))
+  return end == WatchEnd::kFinished ? Outcome(GetJob(client, arguments.job))
                                     : Detach(end, options.name);
 }
 
@@ -113,13 +110,16 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   options.after_sequence = arguments.after_sequence;
   options.kinds = arguments.kinds;
   options.live_only = arguments.live_only;
+  if (!arguments.min_frame_interval.empty()) {
+    options.min_frame_interval = ParseDuration(arguments.min_frame_interval);
+  }
   if (options.kinds.empty() && settings.output == "table") {
     options.kinds = {"log_entry", "iteration", "cycle", "attempt_started", "progress"};
   }
   const Interrupt interrupt;
   const auto observer = Observer(arguments, settings);
   const WatchEnd end = Watch(client, options, *observer);
-  return end == WatchEnd::kFinished ? Outcome(Get(client, arguments.job))
+  return end == WatchEnd::kFinished ? Outcome(GetJob(client, arguments.job))
                                     : Detach(end, options.name);
 }
 
@@ -132,7 +132,7 @@ ExitCode Wait(const std::string& job, const Settings& settings) {
   WatchObserver silence;
   const WatchEnd end = Watch(client, options, silence);
   if (end != WatchEnd::kFinished) return Detach(end, options.name);
-  const v1::Job result = Get(client, job);
+  const v1::Job result = GetJob(client, job);
   if (settings.output == "table") {
     const std::string state = v1::Job::State_Name(result.state());
     fmt::print("{}  {}\n", result.name(),
@@ -157,6 +157,10 @@ void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action) {
       ->type_name("KIND,…");
   watch->add_flag("--live", arguments->live_only, "Only what happens from now on")
       ->excludes("--after-sequence");
+  watch
+      ->add_option("--min-frame-interval", arguments->min_frame_interval,
+                   "Of frame chunks that follow each other sooner only the newest, and a gap")
+      ->type_name("DURATION");
   watch
       ->add_option("--plot", arguments->plot,
                    "Draw these channels on the terminal, such as B1.velocity,B1-B2.contact_force")

@@ -10,7 +10,8 @@ namespace contact::cli {
 
 /// What a shell may offer for the last of `words`, those after the program's name: a line each,
 /// the candidate and, after a tab, what it is. The last line begins with ':' and says what else:
-/// `:files`, `:scenarios` (YAML and JSON files), `:directories` or `:none`.
+/// `:files`, `:scenarios` (YAML and JSON files), `:directories`, `:nospace` (the candidate goes on)
+/// or `:none`.
 ///
 /// Names of jobs and channels come from the server that the settings and words name; it has
 /// 300 ms. Without it there are none.

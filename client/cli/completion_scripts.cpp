@@ -22,6 +22,7 @@ _contactctl() {
     :scenarios) mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(
       compgen -d -- "$word"; compgen -f -X '!*.@(yaml|yml|json)' -- "$word") ;;
     :directories) mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -d -- "$word") ;;
+    :nospace) compopt -o nospace 2>/dev/null; return ;;
     *) return ;;
   esac
   compopt -o filenames 2>/dev/null
@@ -42,7 +43,9 @@ _contactctl() {
       *) candidates+=("${${line%%$'\t'*}//:/\\:}:${line#*$'\t'}") ;;
     esac
   done < <("${words[1]}" __complete "${(@)words[2,CURRENT]}" 2>/dev/null)
-  (( ${#candidates} )) && _describe contactctl candidates
+  local -a goes_on
+  [[ $rule == :nospace ]] && goes_on=(-S '')
+  (( ${#candidates} )) && _describe contactctl candidates "${goes_on[@]}"
   case $rule in
     :files) _files ;;
     :scenarios) _files -g '*.(yaml|yml|json)' ;;
@@ -68,7 +71,7 @@ function __contactctl_complete
                 __fish_complete_suffix .json
             case ':directories'
                 __fish_complete_directories $word
-            case ':none'
+            case ':none' ':nospace'
             case '*'
                 echo $line
         end

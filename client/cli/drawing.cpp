@@ -1,6 +1,12 @@
 #include "cli/drawing.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/csv_metadata.h"
 #include "cli/gnuplot.h"
+#include "cli/html.h"
 #include "cli/output_file.h"
 #include "cli/scratch_folder.h"
 #include "cli/text_file.h"
@@ -14,10 +20,39 @@ void Remove(std::string_view part, std::string* text) {
   }
 }
 
+// Puts `content` in the place of what the first element of this name has.
+void Replace(const std::string& element, const std::string& content, std::string* text) {
+  const std::string open = fmt::format("<{}>", element);
+  const auto begin = text->find(open);
+  const auto end = text->find(fmt::format("</{}>", element));
+  if (begin == std::string::npos || end == std::string::npos) return;
+  text->replace(begin + open.size(), end - begin - open.size(), content);
+}
+
+void WritePoints(const Figure& figure, const std::string& path) {
+  OutputFile file(path);
+  WriteCsv(figure, file.get());
+  file.Close();
+  WriteCsvMetadata({}, figure.sources, path);
+}
+
 }  // namespace
 
+std::string FormatOf(const std::string& path) {
+  for (const char* format : {"png", "pdf", "gp", "csv"}) {
+    if (std::filesystem::path(path).extension() == std::string(".") + format) return format;
+  }
+  return "svg";
+}
+
 void Draw(const Figure& figure, std::string_view format, const std::string& path) {
+  if (format == "csv") return WritePoints(figure, path);
+  if (format == "gp") {
+    const auto picture = std::filesystem::path(path).replace_extension("svg");
+    return WriteText(GnuplotScript(figure, "svg", picture), path);
+  }
   DrawScript(GnuplotScript(figure, format, path), path);
+  if (format == "svg") DescribeSvg(path, figure.title, figure.sources);
 }
 
 void DrawScript(const std::string& script, const std::string& path) {
@@ -26,6 +61,15 @@ void DrawScript(const std::string& script, const std::string& path) {
   const std::string script_path = scratch.path() / "figure.gp";
   WriteText(script, script_path);
   RunGnuplot(script_path);
+}
+
+// gnuplot names itself there.
+void DescribeSvg(const std::string& path, const std::string& title,
+                 const std::vector<Provenance>& sources) {
+  std::string svg = ReadText(path);
+  Replace("title", HtmlText(title), &svg);
+  Replace("desc", HtmlText(Lines(sources, "")), &svg);
+  WriteText(svg, path);
 }
 
 std::string DrawInline(const Figure& figure) {
@@ -41,7 +85,8 @@ std::string InlineSvg(std::string_view document) {
   // HTML knows both name spaces by itself.
   Remove(R"(xmlns="http://www.w3.org/2000/svg")", &svg);
   Remove(R"(xmlns:xlink="http://www.w3.org/1999/xlink")", &svg);
-  Remove("<title>Gnuplot</title>", &svg);  // Would be shown wherever the pointer is.
+  Replace("title", "", &svg);
+  Remove("<title></title>", &svg);  // Would be shown wherever the pointer is.
   return svg;
 }
 

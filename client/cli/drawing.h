@@ -7,12 +7,20 @@
 
 namespace contact::cli {
 
-/// Draws a figure through gnuplot to a file: svg, png or pdf. Throws Failure (kLocal) if the file
-/// cannot be written, or gnuplot is not installed or fails.
+/// What a file that is drawn is, by the end of its name: svg unless it is .png, .pdf, .gp or .csv.
+std::string FormatOf(const std::string& path);
+
+/// Draws a figure through gnuplot to a file: svg, png or pdf; or writes the script, gp, or the
+/// points, csv. Throws Failure (kLocal) if the file cannot be written, or gnuplot is not installed
+/// or fails.
 void Draw(const Figure& figure, std::string_view format, const std::string& path);
 
 /// Runs a script that draws to a file. Throws as Draw does.
 void DrawScript(const std::string& script, const std::string& path);
+
+/// Gives an SVG file that was drawn its title and its sources, as `title` and `desc`.
+void DescribeSvg(const std::string& path, const std::string& title,
+                 const std::vector<Provenance>& sources);
 
 /// The figure as SVG that can stand in an HTML page: no declarations, nothing from elsewhere.
 /// Throws as Draw does.

@@ -42,6 +42,13 @@ void Flush(fmt::memory_buffer* out, std::FILE* file, std::size_t least) {
 
 }  // namespace
 
+std::string CsvText(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
 void WriteCsv(const DataTable& table, std::FILE* file) {
   fmt::memory_buffer out;
   std::string_view separator;

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstdio>
+#include <string>
 
 #include "cli/data_table.h"
 
 namespace contact::cli {
+
+/// A text as a field of CSV, in quotes where it needs them.
+std::string CsvText(const std::string& text);
 
 /// Writes a header line and a line a row; numbers with the digits that give the same double back.
 void WriteCsv(const DataTable& table, std::FILE* file);

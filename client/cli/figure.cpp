@@ -79,6 +79,7 @@ std::string Range(const Figure::Panel& panel, std::vector<double> Figure::Curve:
 class Script {
  public:
   std::string Write(const Figure& figure, std::string_view format, const std::string& path) {
+    text_ += Lines(figure.sources, "# ");
     Line("set encoding utf8");
     Line("set terminal {}", Terminal(format, figure.panels.size()));
     Line("set output {}", GnuplotString(path));
@@ -86,8 +87,13 @@ class Script {
     Line("set grid lc rgb '#dddddd' lt 1");
     Line("set key tmargin center horizontal font ',10'");
     Line("set offsets graph 0.02, graph 0.02, graph 0.08, graph 0.03");
-    Line("set multiplot layout {},1 title {}", figure.panels.size(), GnuplotString(figure.title));
-    for (const Figure::Panel& panel : figure.panels) Draw(panel);
+    if (figure.panels.size() > 1) Line("set lmargin at screen 0.15");  // Axes below each other.
+    Line("set multiplot layout {},1 title {}.\"\\n\"", figure.panels.size(),
+         GnuplotString(figure.title));
+    for (const Figure::Panel& panel : figure.panels) {
+      if (&panel == &figure.panels.back()) text_ += GnuplotCaption(figure.sources);
+      Draw(panel);
+    }
     Line("unset multiplot");
     Line("unset output");
     return std::move(text_);

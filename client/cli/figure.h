@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/provenance.h"
+
 namespace contact::cli {
 
 /// A drawing of one or more panels below each other, whatever draws it.
@@ -50,9 +52,11 @@ struct Figure {
 
   std::string title = {};
   std::vector<Panel> panels = {};
+  std::vector<Provenance> sources = {};  ///< What it shows; a caption tells it.
 };
 
-/// A gnuplot script with its data inside that draws the figure as svg, png or pdf to a file.
+/// A gnuplot script with its data inside, and where they come from, that draws the figure as svg,
+/// png or pdf to a file.
 std::string GnuplotScript(const Figure& figure, std::string_view format, const std::string& path);
 
 /// Leaves at most about `points` of each curve: of points that follow each other the first, the

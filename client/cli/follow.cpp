@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <random>
+#include <thread>
 
 #include "cli/interrupt.h"
 #include "cli/render_live.h"
@@ -36,6 +37,25 @@ ExitCode Detach(WatchEnd end, const std::string& name) {
   return interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout;
 }
 
+ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name,
+                        const Settings& settings) {
+  using namespace std::chrono_literals;
+  if (end != WatchEnd::kStopped || !settings.MessageStyle().terminal) return Detach(end, name);
+  const Interrupt again;
+  fmt::print(stderr, "contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
+  for (auto waited = 0ms; waited < 2s; waited += 50ms) {
+    if (Interrupt::raised()) {
+      v1::CancelJobRequest request;
+      request.set_name(name);
+      client.Call(&Client::Stub::CancelJob, request);
+      fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
+      return ExitCode::kInterrupted;
+    }
+    std::this_thread::sleep_for(50ms);
+  }
+  return Detach(end, name);
+}
+
 std::string NextSteps(const v1::Job& job) {
   const std::string id = ShortName(job.name());
   std::string text = fmt::format(
@@ -48,11 +68,6 @@ std::string NextSteps(const v1::Job& job) {
         "       for cycles that did not converge; an INFEASIBLE one has no μ that would do\n";
   }
   return text;
-}
-
-std::string RandomId() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
 }
 
 std::string ShortName(const std::string& name) {

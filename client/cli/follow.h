@@ -20,11 +20,12 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline,
 /// Says that the job goes on without a watcher; the code for why there is none any more.
 ExitCode Detach(WatchEnd end, const std::string& name);
 
+/// The same for who looks at a terminal; Ctrl-C again within 2 s asks the job to stop.
+ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name,
+                        const Settings& settings);
+
 /// What to type after a job has ended.
 std::string NextSteps(const v1::Job& job);
-
-/// A request id that nobody else has.
-std::string RandomId();
 
 /// `ID` for `jobs/ID`.
 std::string ShortName(const std::string& name);

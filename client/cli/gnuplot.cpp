@@ -41,6 +41,14 @@ std::string GnuplotString(std::string_view text) {
   return quoted + "'";
 }
 
+std::string GnuplotCaption(const std::vector<Provenance>& sources) {
+  if (sources.empty()) return "";
+  return fmt::format(
+      "set bmargin 4.5\n"
+      "set label {} at screen 0.99,0.015 right font ',7' textcolor rgb '#666666'\n",
+      GnuplotString(Caption(sources)));
+}
+
 void RunGnuplot(const std::string& script_path) {
   const pid_t process = Start("gnuplot", "-d", script_path);  // -d: no settings of the user.
   int status = 0;

@@ -117,14 +117,15 @@ std::string Terminal(std::string_view format) {
 
 }  // namespace
 
-std::string HeatMapScript(const v1::Sweep& sweep, const SweepCells& cells, int metric,
+std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, int metric,
                           std::string_view format, const std::string& path) {
+  const v1::Sweep& sweep = job.sweep();
   RequireMap(sweep, cells);
   const Axis rows(cells, 0);
   const Axis columns(cells, 1);
   std::string text =
-      fmt::format("set encoding utf8\nset terminal {}\nset output {}\n$cells << end\n",
-                  Terminal(format), GnuplotString(path));
+      fmt::format("{}set encoding utf8\nset terminal {}\nset output {}\n$cells << end\n",
+                  Lines({SourceOf(job)}, "# "), Terminal(format), GnuplotString(path));
   std::string overlays;
   const Scale scale(cells, metric);
   for (const auto& [index, cell] : cells) {
@@ -140,12 +141,13 @@ std::string HeatMapScript(const v1::Sweep& sweep, const SweepCells& cells, int m
       "set title {}\nset xlabel {}\nset ylabel {}\nset cblabel {}\n"
       "set xtics out nomirror ({})\nset ytics out nomirror ({})\n"
       "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [{}:{}]\n"
-      "set label 'hatched: not converged; crossed: failed' at screen 0.5,0.015 center font ',9'\n"
-      "set bmargin 5\nunset key\n",
+      "set label 'hatched: not converged; crossed: failed' at screen 0.01,0.015 font ',9'\n"
+      "unset key\n{}",
       GnuplotString(sweep.base().title()), GnuplotString(sweep.axes(1).field()),
       GnuplotString(sweep.axes(0).field()), GnuplotString(sweep.metrics(metric)), columns.Tics(),
       rows.Tics(), static_cast<double>(columns.size()) - 0.5,
-      static_cast<double>(rows.size()) - 0.5, scale.low, scale.high);
+      static_cast<double>(rows.size()) - 0.5, scale.low, scale.high,
+      GnuplotCaption({SourceOf(job)}));
   // Boxes, as an image would be a bitmap inside.
   return text +
          "set style fill solid noborder\n"

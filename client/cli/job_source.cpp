@@ -25,12 +25,16 @@ v1::Job ReadJob(const std::string& path) {
 
 }  // namespace
 
+v1::Job GetJob(Client& client, const std::string& job) {
+  v1::GetJobRequest request;
+  request.set_name(JobName(job));
+  return client.Call(&Client::Stub::GetJob, request);
+}
+
 v1::Job JobSource::Get(const std::string& name) {
   if (std::filesystem::is_regular_file(name)) return ReadJob(name);
   if (!client_) client_.emplace(settings_.Connect());
-  v1::GetJobRequest request;
-  request.set_name(JobName(name));
-  return client_->Call(&Client::Stub::GetJob, request);
+  return GetJob(*client_, name);
 }
 
 }  // namespace contact::cli

@@ -55,7 +55,8 @@ class Artist {
     Panel panel = OverTime("force [N]");
     EachContact([&](const std::string& name, int colour) {
       AddColumn(name + ".contact_force", name, colour, Mark::kLine, &panel);
-      AddColumn(name + ".external_force", "", colour, Mark::kDashed, &panel);
+      AddColumn(name + ".external_force", name + " equivalent external", colour, Mark::kDashed,
+                &panel);
       AddMarks(name, name + ".contact_force", colour, &panel);
     });
     for (const v1::Cycle& cycle : recording_.job.cycles()) {
@@ -274,7 +275,8 @@ Figure DrawPreset(const std::string& preset, const Recording& recording) {
   const auto* const found =
       std::ranges::find(kPresets, preset, [](const auto& entry) { return entry.first; });
   Figure figure{.title = recording.job.scenario().title(),
-                .panels = found->second(Artist(recording))};
+                .panels = found->second(Artist(recording)),
+                .sources = {SourceOf(recording.job)}};
   for (Panel& panel : figure.panels) {
     std::erase_if(panel.curves, [](const auto& curve) { return curve.x.empty(); });
     if (IsEmpty(panel)) throw Failure(ExitCode::kUsage, "this run has nothing to show there");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,16 @@ using Provenance = std::vector<std::pair<std::string, std::string>>;
 /// What makes a result repeatable: title, job, scenario as JSON, its SHA-256, the server's version
 /// and revision, the solver's options with every default spelt out, convergence.
 Provenance ProvenanceOf(const v1::Job& job);
+
+/// The part of it that fits into a picture: title, job, SHA-256, version, revision.
+Provenance SourceOf(const v1::Job& job);
+
+/// The sources of a picture in one line: `jobs/ID (1a2b3c4d5e6f), contactd 0.1.0 REVISION`, in
+/// parentheses how the SHA-256 begins. Empty for none.
+std::string Caption(const std::vector<Provenance>& sources);
+
+/// A line `name: value` each, after `prefix`; an empty one between sources.
+std::string Lines(const std::vector<Provenance>& sources, std::string_view prefix);
 
 /// The solver's options of a scenario that keeps the rules, every default spelt out.
 v1::Solver SolverInFull(const v1::Scenario& scenario);

@@ -9,6 +9,7 @@
 
 #include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "cli/job_source.h"
 
 namespace contact::cli {
 namespace {
@@ -106,9 +107,7 @@ Recording ReadRecording(Client& client, const std::string& job, const Settings& 
     throw Failure(ExitCode::kRunFailed,
                   fmt::format("parts of the trajectory of {} do not come; try again", job));
   }
-  v1::GetJobRequest request;
-  request.set_name(JobName(job));
-  Recording recording{.job = client.Call(&Client::Stub::GetJob, request),
+  Recording recording{.job = GetJob(client, job),
                       .columns = recorder.Columns(),
                       .iterations = recorder.Iterations()};
   // An answer has not the end of a long ledger.

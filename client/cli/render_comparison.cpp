@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/export_text.h"
 #include "cli/html.h"
 #include "cli/number.h"
 #include "cli/table.h"
@@ -68,10 +69,11 @@ std::vector<std::string> Cells(const Result& result, int digits) {
   return cells;
 }
 
-std::vector<std::string> Headers(const JobComparison& comparison, const std::string& first) {
+std::vector<std::string> Headers(const JobComparison& comparison, const std::string& first,
+                                 const std::string& deviation) {
   std::vector<std::string> headers{first, comparison.names.front()};
   for (std::size_t job = 1; job < comparison.names.size(); ++job) {
-    headers.insert(headers.end(), {comparison.names[job], "DEVIATION"});
+    headers.insert(headers.end(), {comparison.names[job], deviation});
   }
   return headers;
 }
@@ -93,13 +95,6 @@ Json Number(const Value& value) {
   if (const auto* word = std::get_if<std::string>(&value)) return *word;
   const auto* number = std::get_if<double>(&value);
   return number == nullptr || !std::isfinite(*number) ? Json() : Json(*number);
-}
-
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string LatexText(const std::string& text) {
@@ -151,7 +146,7 @@ std::vector<std::string> ParameterHeaders(const JobComparison& comparison) {
 
 std::string RenderComparison(const JobComparison& comparison, const Style& style) {
   std::vector<Table::Column> columns;
-  for (const std::string& header : Headers(comparison, "RESULT")) {
+  for (const std::string& header : Headers(comparison, "RESULT", "DEVIATION")) {
     columns.push_back({header, !columns.empty()});
   }
   columns.push_back({""});
@@ -225,7 +220,7 @@ std::string ComparisonLatex(const JobComparison& comparison) {
       comparison.parameters.empty()
           ? ""
           : Tabular(ParameterHeaders(comparison), ParameterRows(comparison)) + "\n";
-  return parameters + Tabular(Headers(comparison, "Result"), rows);
+  return parameters + Tabular(Headers(comparison, "Result", "Deviation"), rows);
 }
 
 std::string ComparisonHtml(const JobComparison& comparison) {
@@ -238,7 +233,7 @@ std::string ComparisonHtml(const JobComparison& comparison) {
   const std::string differing = parameters.empty()
                                     ? "<p>The scenarios are the same.</p>\n"
                                     : HtmlTable(ParameterHeaders(comparison), parameters);
-  return differing + HtmlTable(Headers(comparison, "Result"), results) +
+  return differing + HtmlTable(Headers(comparison, "Result", "Deviation"), results) +
          fmt::format("<p>Marked: not within {}.</p>\n", HtmlText(Rule(comparison.tolerance)));
 }
 

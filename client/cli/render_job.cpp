@@ -15,27 +15,38 @@ namespace {
 
 constexpr std::size_t kMostRows = 40;
 
-std::string Title(const v1::Job& job, const Style& style) {
-  std::string line =
-      fmt::format("{}  {}", Paint(job.name(), Tone::kStrong, style),
-                  Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style));
-  if (!job.state_reason().empty()) line += fmt::format(" ({})", job.state_reason());
+// How far it is, in parts that each stay in one line.
+std::vector<std::string> Extent(const v1::Job& job) {
+  const v1::Progress& progress = job.progress();
   if (job.has_summary()) {
-    line += fmt::format("  {} simulated, {}, {}, {} wall", Seconds(job.summary().time_reached_s()),
-                        Count(job.cycles_size(), "cycle", "cycles"),
-                        Count(job.summary().iterations(), "iteration", "iterations"),
-                        Seconds(job.summary().wall_time_s()));
-  } else if (job.progress().cells() > 0) {
-    line += fmt::format("  {} of {} cells, {} failed, {} not converged",
-                        job.progress().cells_done(), job.progress().cells(),
-                        job.progress().cells_failed(), job.progress().cells_not_converged());
-  } else if (job.has_progress() && job.progress().end_time_s() > 0) {
-    line += fmt::format("  {} of {} simulated, {} cycles", Seconds(job.progress().time_s()),
-                        Seconds(job.progress().end_time_s()), job.progress().cycles());
+    return {Seconds(job.summary().time_reached_s()) + " simulated, ",
+            Count(job.cycles_size(), "cycle", "cycles") + ", ",
+            Count(job.summary().iterations(), "iteration", "iterations") + ", ",
+            Seconds(job.summary().wall_time_s()) + " wall"};
   }
-  line += "\n";
-  if (!job.scenario().title().empty()) line += job.scenario().title() + "\n";
-  return line;
+  if (progress.cells() > 0) {
+    return {fmt::format("{} of {} cells, ", progress.cells_done(), progress.cells()),
+            fmt::format("{} failed, ", progress.cells_failed()),
+            fmt::format("{} not converged", progress.cells_not_converged())};
+  }
+  if (progress.end_time_s() <= 0) return {};
+  return {fmt::format("{} of {} simulated, ", Seconds(progress.time_s()),
+                      Seconds(progress.end_time_s())),
+          Count(progress.cycles(), "cycle", "cycles")};
+}
+
+std::string Title(const v1::Job& job, const Style& style) {
+  const std::string reason =
+      job.state_reason().empty() ? "" : fmt::format(" ({})", job.state_reason());
+  std::vector<std::string> parts = {
+      Paint(job.name(), Tone::kStrong, style) + "  ",
+      Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style) + reason};
+  const std::vector<std::string> extent = Extent(job);
+  if (!extent.empty()) parts.back() += "  ";
+  parts.insert(parts.end(), extent.begin(), extent.end());
+  const std::string& title = job.scenario().title();
+  return fmt::format("{}\n", fmt::join(Fold(parts, style.width), "\n")) +
+         (title.empty() ? "" : Wrap(title + "\n", style));
 }
 
 double InSeconds(const google::protobuf::Duration& span) {
@@ -113,22 +124,25 @@ std::string Balances(const v1::Job& job, const Style& style) {
     line += fmt::format("convergence {}; ", Paint(v1::Job::Convergence_Name(job.convergence()),
                                                   full ? Tone::kGood : Tone::kWarning, style));
   }
-  return line + fmt::format("residuals: momentum {}, energy {}, cycle identity {}; {} steps\n",
-                            Error(summary.momentum_residual()), Error(summary.energy_residual()),
-                            Error(summary.worst_identity_residual()), summary.steps());
+  line += fmt::format("residuals: momentum {}, energy {}, cycle identity {}; {} steps\n",
+                      Error(summary.momentum_residual()), Error(summary.energy_residual()),
+                      Error(summary.worst_identity_residual()), summary.steps());
+  return Wrap(line, style);
 }
 
 }  // namespace
 
 std::string RenderJob(const v1::Job& job, const Style& style) {
-  std::string text = Title(job, style) + Treatment(job);
-  if (job.has_error()) text += Paint("error: ", Tone::kBad, style) + job.error().message() + "\n";
+  std::string text = Title(job, style) + Wrap(Treatment(job), style);
+  if (job.has_error()) {
+    text += Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
+  }
   text += Ledger(job, style) + Bodies(job, style) + Balances(job, style);
   if (job.has_sweep()) {
     text += fmt::format("cells: contactctl sweep watch {}\n", job.name());
   }
   for (const std::string& warning : job.warnings()) {
-    text += Paint("warning: ", Tone::kWarning, style) + warning + "\n";
+    text += Wrap(Paint("warning: ", Tone::kWarning, style) + warning + "\n", style);
   }
   return text;
 }

@@ -61,8 +61,9 @@ std::string RenderSeries(const v1::Series& series, const Style& style) {
   }
   const std::string text = table.Text(style, kMostRows, "… {} more samples; -o csv prints all");
   if (series.samples() == series.recorded_samples()) return text;
-  return text + fmt::format("{} of {} samples, no peak left out\n", series.samples(),
-                            series.recorded_samples());
+  return text + Wrap(fmt::format("{} of {} samples, no peak left out\n", series.samples(),
+                                 series.recorded_samples()),
+                     style);
 }
 
 std::string SeriesCsv(const v1::Series& series) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/export_text.h"
 #include "cli/number.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
@@ -33,7 +34,7 @@ std::string Title(const v1::Job& job, const Style& style) {
   if (progress.cells_not_converged() > 0) {
     line += fmt::format(", {} not converged", progress.cells_not_converged());
   }
-  return line + "\n";
+  return Wrap(line + "\n", style);
 }
 
 // What became of a cell: its convergence, or why it failed.
@@ -41,13 +42,6 @@ Table::Cell Verdict(const v1::SweepCell& cell) {
   if (cell.state() == v1::Job::FAILED) return {cell.state_reason(), Tone::kBad};
   const bool full = cell.convergence() == v1::Job::FULL;
   return {v1::Job::Convergence_Name(cell.convergence()), full ? Tone::kGood : Tone::kWarning};
-}
-
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 // The distinct values of an axis, in the order in which the cells have them.
@@ -95,8 +89,10 @@ std::string Glyph(const v1::SweepCell* cell, int metric, const Scale& scale, con
 std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style& style) {
   std::vector<Table::Column> columns{{"CELL", true}};
   for (const auto& axis : job.sweep().axes()) columns.push_back({axis.field(), true});
-  for (const std::string& metric : job.sweep().metrics()) columns.push_back({metric, true});
-  columns.push_back({"CONVERGENCE"});
+  for (const std::string& metric : job.sweep().metrics()) {
+    columns.push_back({metric, true, static_cast<int>(columns.size())});
+  }
+  columns.push_back({"VERDICT"});
   Table table(std::move(columns));
   for (const auto& [index, cell] : cells) {
     std::vector<Table::Cell> row{fmt::to_string(index)};
@@ -108,7 +104,9 @@ std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style
     table.Add(std::move(row));
   }
   std::string text = Title(job, style);
-  if (job.has_error()) text += Paint("error: ", Tone::kBad, style) + job.error().message() + "\n";
+  if (job.has_error()) {
+    text += Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
+  }
   return text + "\n" + table.Text(style, kMostRows, "… {} more cells; -o csv prints all");
 }
 
@@ -133,9 +131,10 @@ std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
   for (const auto& [index, cell] : cells) at[{cell.values(0), cell.values(1)}] = &cell;
   const Scale scale = ScaleOf(cells, metric);
   std::string text =
-      fmt::format("\n{} over {} (down) and {} (across, {} … {})\n", sweep.metrics(metric),
-                  sweep.axes(0).field(), sweep.axes(1).field(), Digits(columns.front(), 4),
-                  Digits(columns.back(), 4));
+      Wrap(fmt::format("\n{} over {} (down) and {} (across, {} … {})\n", sweep.metrics(metric),
+                       sweep.axes(0).field(), sweep.axes(1).field(), Digits(columns.front(), 4),
+                       Digits(columns.back(), 4)),
+           style);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     text += Pad(labels[r], -label) + " ";
     for (const double column : columns) {
@@ -145,8 +144,9 @@ std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
     }
     text += "\n";
   }
-  return text + fmt::format("░ {} … █ {};  ! not converged, ×× failed, -- no value\n",
-                            Digits(scale.low, 5), Digits(scale.high, 5));
+  return text + Wrap(fmt::format("░ {} … █ {};  ! not converged, ×× failed, -- no value\n",
+                                 Digits(scale.low, 5), Digits(scale.high, 5)),
+                     style);
 }
 
 std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells) {

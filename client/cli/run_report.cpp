@@ -80,11 +80,11 @@ std::string Balances(const v1::RunSummary& summary) {
                    {{{"Momentum", Error(summary.momentum_residual())}},
                     {{"Energy", Error(summary.energy_residual())}},
                     {{"Worst cycle identity", Error(summary.worst_identity_residual())}}}) +
-         fmt::format(
-             "<p>{} simulated; {} steps, {} evaluations, {} iterations in {} episodes; {} "
-             "wall time.</p>\n",
-             Seconds(summary.time_reached_s()), summary.steps(), summary.evaluations(),
-             summary.iterations(), summary.episodes(), Seconds(summary.wall_time_s()));
+         fmt::format("<p>{} simulated; {} steps, {} evaluations, {} in {}; {} wall time.</p>\n",
+                     Seconds(summary.time_reached_s()), summary.steps(), summary.evaluations(),
+                     Count(summary.iterations(), "iteration", "iterations"),
+                     Count(summary.episodes(), "episode", "episodes"),
+                     Seconds(summary.wall_time_s()));
 }
 
 std::string Warnings(const v1::Job& job) {
@@ -129,12 +129,14 @@ std::string Section(const RunPart& run, const std::string& server) {
 
 }  // namespace
 
-std::string ReportPage(const std::vector<RunPart>& runs, const std::string& server) {
+std::string ReportPage(const std::vector<RunPart>& runs, const std::string& overlay,
+                       const std::string& server) {
   std::string body;
   if (runs.size() > 1) {
     std::vector<v1::Job> jobs;
     for (const RunPart& run : runs) jobs.push_back(run.recording.job);
     body += "<h2>Where they differ</h2>\n" + ComparisonHtml(Compare(jobs, {}));
+    if (!overlay.empty()) body += fmt::format("<figure>{}</figure>\n", overlay);
   }
   for (const RunPart& run : runs) body += Section(run, server);
   const std::string& title = runs.front().recording.job.scenario().title();

@@ -14,7 +14,8 @@ struct RunPart {
 };
 
 /// A page about one run, or about several and where they differ. Needs nothing but itself.
-/// `server` is where the runs were read.
-std::string ReportPage(const std::vector<RunPart>& runs, const std::string& server);
+/// `overlay` is SVG with several over each other, or empty; `server` is where they were read.
+std::string ReportPage(const std::vector<RunPart>& runs, const std::string& overlay,
+                       const std::string& server);
 
 }  // namespace contact::cli

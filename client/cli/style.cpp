@@ -1,10 +1,12 @@
 #include "cli/style.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 
 namespace contact::cli {
@@ -36,6 +38,17 @@ std::string_view Code(Tone tone) {
   return "";
 }
 
+// Each with the spaces that follow it.
+std::vector<std::string> Words(std::string_view line) {
+  std::vector<std::string> words;
+  while (!line.empty()) {
+    const std::size_t next = line.find_first_not_of(' ', std::min(line.find(' '), line.size()));
+    words.emplace_back(line.substr(0, next));
+    line.remove_prefix(words.back().size());
+  }
+  return words;
+}
+
 }  // namespace
 
 Style StyleOf(int descriptor, const std::string& color) {
@@ -53,8 +66,46 @@ std::string Paint(std::string_view text, Tone tone, const Style& style) {
 }
 
 int Width(std::string_view text) {
-  return static_cast<int>(std::ranges::count_if(
-      text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+  int width = 0;
+  bool painting = false;  // Between escape and m.
+  for (const char byte : text) {
+    painting = painting || byte == '\x1b';
+    const bool follows = (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+    if (!painting && !follows) ++width;
+    if (byte == 'm') painting = false;
+  }
+  return width;
+}
+
+std::string TrimRight(std::string text) {
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+std::vector<std::string> Fold(const std::vector<std::string>& parts, int width) {
+  std::vector<std::string> lines;
+  for (const std::string& part : parts) {
+    const bool fits =
+        width == 0 || (!lines.empty() && Width(lines.back()) + Width(TrimRight(part)) <= width);
+    if (!lines.empty() && fits) {
+      lines.back() += part;
+    } else {
+      lines.push_back(part);
+    }
+  }
+  for (std::string& line : lines) line = TrimRight(std::move(line));
+  return lines;
+}
+
+std::string Wrap(std::string_view text, const Style& style) {
+  if (style.width == 0) return std::string(text);
+  std::string wrapped;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    wrapped += fmt::format("{}\n", fmt::join(Fold(Words(line), style.width), "\n"));
+  }
+  return wrapped;
 }
 
 std::string Pad(std::string_view text, int width) {

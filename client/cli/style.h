@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace contact::cli {
 
@@ -20,8 +21,18 @@ Style StyleOf(int descriptor, const std::string& color);
 
 std::string Paint(std::string_view text, Tone tone, const Style& style);
 
-/// Characters of UTF-8 text, each taken as one column wide.
+/// Characters of UTF-8 text, each taken as one column wide; what gives it colour has no width.
 int Width(std::string_view text);
+
+/// The text without spaces at its end.
+std::string TrimRight(std::string text);
+
+/// Joins parts to lines of at most `width` characters (0: no limit); a longer part has a line of
+/// its own.
+std::vector<std::string> Fold(const std::vector<std::string>& parts, int width);
+
+/// Breaks lines that are longer than the terminal is wide, between words.
+std::string Wrap(std::string_view text, const Style& style);
 
 /// `text` followed, or preceded for a negative width, by spaces up to |width| characters.
 std::string Pad(std::string_view text, int width);

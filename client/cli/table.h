@@ -7,7 +7,9 @@
 
 namespace contact::cli {
 
-/// Rows of text in columns as wide as their widest cell.
+/// Rows of text in columns as wide as their widest cell. Where a terminal is too narrow, headers go
+/// over several lines; then columns are left out; and where not even the others fit, each row is a
+/// block of all its cells, one below the other.
 class Table {
  public:
   struct Column {
@@ -32,7 +34,20 @@ class Table {
   std::string Text(const Style& style, std::size_t most = 0, const std::string& more = "") const;
 
  private:
-  std::vector<std::size_t> ShownColumns(const std::vector<int>& widths, const Style& style) const;
+  struct Layout {
+    std::vector<std::vector<std::string>> headers;  ///< Lines of each.
+    std::vector<int> widths;
+    std::vector<std::size_t> shown;
+
+    int Total() const;
+  };
+
+  int WidestCell(std::size_t column) const;
+  Layout Wide() const;
+  Layout Narrow(const Style& style) const;
+  std::string Header(const Layout& layout, const Style& style) const;
+  std::string Row(const Layout& layout, std::size_t row, const Style& style) const;
+  std::string Block(std::size_t row, const Style& style) const;
 
   std::vector<Column> columns_;
   std::vector<std::vector<Cell>> rows_;

@@ -1,5 +1,7 @@
 #include "cli/watch.h"
 
+#include <google/protobuf/util/time_util.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -39,6 +41,9 @@ class Watcher {
     request.set_after_sequence(position_);
     for (const std::string& kind : options_.kinds) request.add_kinds(kind);
     request.mutable_delivery()->set_overflow(options_.overflow);
+    *request.mutable_delivery()->mutable_min_frame_interval() =
+        google::protobuf::util::TimeUtil::MillisecondsToDuration(
+            options_.min_frame_interval.count());
     request.set_live_only(live_only_);
     return request;
   }

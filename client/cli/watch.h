@@ -34,6 +34,7 @@ struct WatchOptions {
   std::function<bool()> stopped = [] { return false; };  ///< Asked about ten times a second.
 
   v1::DeliveryOptions::OverflowPolicy overflow = v1::DeliveryOptions::CONFLATE;
+  std::chrono::milliseconds min_frame_interval{0};  ///< 0: no frame chunk is left out.
   bool live_only = false;  ///< Begin after the newest event; only with `after_sequence` 0.
   Patience patience = {};
 };

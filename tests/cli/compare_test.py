@@ -25,6 +25,28 @@ class CompareTest(CliTest):
                          [{"path": "contacts[0].restitution", "values": ["0.8", "0.6"]}])
         self.assertFalse(compared["equal"])
 
+    def test_runs_are_drawn_over_each_other_named_by_what_differs(self):
+        path = self.folder / "both.csv"
+        _, said = self.run_it("compare", self.a, self.b, "--plot", path, "--channels",
+                              "B3.velocity", code=8)
+        self.assertEqual(said, f"{path}\n")
+        rows = list(csv.reader(path.read_text("utf-8").splitlines()))
+        self.assertEqual(rows[0], ["curve", "time [s]", "B3.velocity [m/s]"])
+        for name, key in ((self.a, "0.8"), (self.b, "0.6")):
+            values = [float(value) for curve, _, value in rows[1:] if curve == key]
+            self.assertEqual(len(values), 1001)
+            self.assertEqual(values[-1], self.server.get(name).final_bodies[2].velocity_m_per_s)
+        svg = self.folder / "both.svg"
+        self.run_it("compare", self.a, self.b, self.solve("--set", "end_time_s=3e-3"), "--plot",
+                    svg, code=8)
+        drawn = svg.read_text("utf-8")
+        for words in ("B1-B2.contact_force [N]", "B2-B3.contact_force [N]", "end_time_s = 0.003",
+                      self.server.get(self.b).spec_sha256):
+            self.assertIn(words, drawn)
+        _, said = self.run_it("compare", self.a, self.b, "--plot", svg, "--channels", "B9.x",
+                              code=2)
+        self.assertIn("B9.x", said)
+
     def test_same_scenario_gives_equal_results(self):
         text, _ = self.run_it("compare", self.a, self.solve(), "--rel", 0, "--abs", 0)
         self.assertIn("The scenarios are the same.", text)

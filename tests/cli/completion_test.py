@@ -66,6 +66,21 @@ class CompletionTest(CliTest):
         self.assertEqual(self.offered("run", "")[1], ":scenarios")
         self.assertEqual(self.offered("plot", "--keep", "")[1], ":directories")
 
+    def test_fields_are_those_of_the_scenario_named(self):
+        chain = ("run", str(CHAIN), "--set")
+        self.assertEqual(self.offered(*chain, "contacts[1].rest"),
+                         (["contacts[1].restitution="], ":nospace"))
+        self.assertEqual(self.offered(*chain, "contacts[2]")[0], [])
+        self.assertEqual(self.offered(*chain, "solver.tension=")[0],
+                         ["solver.tension=ALLOW", "solver.tension=CLIP"])
+        self.assertEqual(self.offered(*chain, "solver.tension", "=", "CL")[0], ["CLIP"])
+        self.assertEqual(self.offered("run", "--set", "contacts[*].rest")[0],
+                         ["contacts[*].restitution="])
+        for field in self.offered(*chain, "")[0]:
+            with self.subTest(field):
+                self.assertNotIn("unknown field", self.run_it(
+                    "validate", CHAIN, "--set", field + "x", code=None)[1])
+
     def test_jobs_and_channels_come_from_the_server(self):
         job = self.run_it("run", CHAIN, "-o", "name")[0].strip().removeprefix("jobs/")
         self.assertEqual(self.offered("describe", job[:2])[0], [job])
@@ -86,6 +101,9 @@ class CompletionTest(CliTest):
         self.assertEqual(self.bash("contactctl list --output = cs"), ["csv"])
         self.assertEqual(sorted(self.bash("contactctl run ''")), ["a.yaml", "b c.yaml", "sub"])
         self.assertEqual(self.bash("contactctl plot x --file n"), ["notes.txt"])
+        self.assertEqual(self.bash("contactctl run a.yaml --set output.led"),
+                         ["output.ledger_only="])
+        self.assertEqual(self.bash("contactctl run a.yaml --set output.ledger_only = t"), ["true"])
 
     def test_zsh_completes(self):
         if not shutil.which("zsh"):
@@ -103,6 +121,8 @@ class CompletionTest(CliTest):
         read_until(master, b"\ncontactctl describe")
         os.write(master, b"contactctl run a\t\x01echo '\x05'\n")
         read_until(master, b"\ncontactctl run a.yaml")
+        os.write(master, b"contactctl run a.yaml --set output.led\ttrue\x01echo '\x05'\n")
+        read_until(master, b"\ncontactctl run a.yaml --set output.ledger_only=true")
 
     def test_fish_completes(self):
         if not shutil.which("fish"):
@@ -114,6 +134,7 @@ class CompletionTest(CliTest):
         self.assertEqual(ask("contactctl des"), ["describe"])
         self.assertEqual(ask("contactctl plot x hy"), ["hysteresis"])
         self.assertIn("a.yaml", ask("contactctl run a"))
+        self.assertEqual(ask("contactctl run a.yaml --set output.led"), ["output.ledger_only="])
 
 
 if __name__ == "__main__":

@@ -50,34 +50,45 @@ class ExitCodes(CliTest):
             process.communicate(timeout=PATIENCE_S)
             self.assertEqual(process.returncode, 130)
 
-    def run_on_a_terminal(self):
+    def run_on_a_terminal(self, command, running):
+        """Starts what submits a long job, and interrupts it once it is `running`."""
         master, slave = pty.openpty()
         self.addCleanup(os.close, master)
-        process = subprocess.Popen(self.command("run", SPRING, *LONG), stdin=slave, stdout=slave,
+        process = subprocess.Popen(self.command(*command), stdin=slave, stdout=slave,
                                    stderr=slave, env={**os.environ, "TERM": "xterm"})
         os.close(slave)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
-        read_until(master, b"NEWTON")
+        read_until(master, running)
         process.send_signal(signal.SIGINT)
         read_until(master, b"again within 2 s")
         return process, master
 
-    def test_one_interrupt_leaves_the_job_and_two_cancel_it(self):
-        process, master = self.run_on_a_terminal()
+    def check_interrupts(self, command, running):
+        process, master = self.run_on_a_terminal(command, running)
         read_until(master, b"the job continues")
         self.assertEqual(process.wait(PATIENCE_S), 130)
         job = self.run_it("list", "--state", "RUNNING", "-o", "name")[0].strip()
         self.run_it("cancel", job)
         self.run_it("wait", job, code=1)
 
-        process, master = self.run_on_a_terminal()
+        process, master = self.run_on_a_terminal(command, running)
         process.send_signal(signal.SIGINT)
         read_until(master, b"is asked to stop")
         self.assertEqual(process.wait(PATIENCE_S), 130)
         newest = self.run_it("list", "--limit", "1", "-o", "name")[0].strip()
         self.run_it("wait", newest, code=1)
         self.assertIn("CANCELLED", self.run_it("describe", newest)[0])
+
+    def test_one_interrupt_leaves_the_job_and_two_cancel_it(self):
+        self.check_interrupts(("run", SPRING, *LONG), b"NEWTON")
+
+    def test_one_interrupt_leaves_the_sweep_and_two_cancel_it(self):
+        axes = "".join(f"- {{field: {field}, values: [{value}]}}\n" for field, value in
+                       (setting.split("=") for setting in LONG if setting != "--set"))
+        path = self.folder / "long.yaml"
+        path.write_text(f"base: {SPRING}\nmetrics: [iterations]\naxes:\n{axes}")
+        self.check_interrupts(("sweep", "run", path), b"submitted")
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ import unittest
 
 import netCDF4
 import numpy as np
+import pandas
 from contactctl_test import CHAIN, PATIENCE_S, CliTest
 
 
@@ -61,6 +62,28 @@ class ExportTest(CliTest):
                     value = field.enum_type.values_by_number[value].name
                 self.assertEqual(text if isinstance(value, str) else float(text), value)
 
+    def test_file_has_units_and_provenance_beside_it(self):
+        path = self.folder / "cycles.csv"
+        self.run_it("export", self.name, "-f", path, "--table", "cycles")
+        metadata = json.loads((self.folder / "cycles.csv-metadata.json").read_text("utf-8"))
+        self.assertEqual(metadata["url"], path.name)
+        self.assertEqual([c["titles"] for c in metadata["tableSchema"]["columns"]],
+                         path.read_text("utf-8").splitlines()[0].split(","))
+        self.assertEqual(metadata["notes"][0]["scenario_sha256"], self.job.spec_sha256)
+        self.assertEqual(list(pandas.read_csv(path)["contact"]), ["B1-B2", "B2-B3"])
+
+    def test_comments_are_skipped_by_readers_of_csv(self):
+        plain, _ = self.run_it("export", self.name, "-o", "csv")
+        printed, _ = self.run_it("export", self.name, "-o", "csv", "--comments")
+        comments = printed.removesuffix(plain).splitlines()
+        self.assertEqual(comments[0], "# title: Triple-ball chain")
+        self.assertIn(f"# scenario_sha256: {self.job.spec_sha256}", comments)
+        self.assertTrue(pandas.read_csv(io.StringIO(printed), comment="#").equals(
+            pandas.read_csv(io.StringIO(plain))))
+        series, _ = self.run_it("series", self.name, "--raw", "-o", "csv", "--comments")
+        self.assertEqual(series.splitlines()[:len(comments)], comments)
+        self.run_it("export", self.name, "-o", "jsonl", "--comments", code=2)
+
     def test_json_lines_hold_a_row_each(self):
         printed, _ = self.run_it("export", self.name, "-o", "jsonl", "--table", "iterations")
         rows = [json.loads(line) for line in printed.splitlines()]
@@ -94,6 +117,27 @@ class ExportTest(CliTest):
             self.assertEqual(data.revision, self.job.server_revision)
             solver = json.loads(data.solver)
             self.assertEqual((solver["method"], solver["update"]), ("ADAPTIVE", "NEWTON_COUPLED"))
+
+    def test_octave_reads_the_same_doubles(self):
+        if not shutil.which("octave-cli"):
+            self.skipTest("octave-netcdf is not installed")
+        path = self.folder / "chain.nc"
+        self.run_it("export", self.name, "-f", path)
+        script = """pkg load netcdf
+            printf("%.17g\\n", ncread(FILE, "/cycles/mu"));
+            printf("%.17g\\n", ncread(FILE, "/series/B1-B2.contact_force"));
+            printf("%s\\n", ncreadatt(FILE, "/series/B1-B2.contact_force", "units"));
+            printf("%s\\n", ncreadatt(FILE, "/", "scenario_sha256"));"""
+        run = subprocess.run(["octave-cli", "--quiet", "--norc", "--eval",
+                              f"FILE = '{path}'; {script}"],
+                             capture_output=True, text=True, timeout=PATIENCE_S)
+        if "package is not installed" in run.stderr or "not found" in run.stderr:
+            self.skipTest("octave-netcdf is not installed")
+        *numbers, unit, digest = run.stdout.splitlines()
+        self.assertEqual((unit, digest), ("N", self.job.spec_sha256), run.stderr)
+        self.assertEqual(list(map(float, numbers[:2])), [c.mu for c in self.job.cycles])
+        np.testing.assert_array_equal(list(map(float, numbers[2:])),
+                                      self.recorded()["B1-B2.contact_force"])
 
     def test_part_of_the_series_is_exact(self):
         recorded = self.recorded()

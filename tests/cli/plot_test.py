@@ -1,7 +1,9 @@
 """contactctl plot: figures of a run, drawn by gnuplot."""
 
 import csv
+import json
 import os
+import re
 import subprocess
 import unittest
 
@@ -62,12 +64,34 @@ class PlotTest(CliTest):
         self.plot("force", "alone.gp")
         subprocess.run(["gnuplot", "-d", self.folder / "alone.gp"], check=True,
                        timeout=PATIENCE_S)
-        self.assertEqual((self.folder / "alone.svg").read_bytes(), drawn)
+        def picture(svg):
+            return svg[svg.index(b"</desc>"):]
+        self.assertEqual(picture((self.folder / "alone.svg").read_bytes()), picture(drawn))
 
     def test_script_and_data_are_kept_on_request(self):
         keep = self.folder / "new" / "kept"
         self.plot("energy", "e.png", "--keep", keep)
-        self.assertEqual({path.name for path in keep.iterdir()}, {"energy.gp", "energy.csv"})
+        self.assertEqual({path.name for path in keep.iterdir()}, {"energy.gp", "energy.csv", "energy.csv-metadata.json"})
+
+    def test_every_picture_tells_where_it_comes_from(self):
+        svg = self.plot("force", "a.svg").decode()
+        script = self.plot("force", "a.gp").decode()
+        self.plot("force", "a.csv")
+        metadata = json.loads((self.folder / "a.csv-metadata.json").read_text("utf-8"))
+        source = {"title": "Triple-ball chain", "job": self.name,
+                  "scenario_sha256": self.job.spec_sha256, "version": self.job.server_version,
+                  "revision": self.job.server_revision}
+        self.assertEqual((metadata["url"], metadata["notes"]), ("a.csv", [source]))
+        described = re.search("<desc>(.*?)</desc>", svg, re.DOTALL)[1].splitlines()
+        self.assertEqual(described, [f"{name}: {value}" for name, value in source.items()])
+        self.assertEqual(script.splitlines()[:5], [f"# {line}" for line in described])
+        self.assertIn("<title>Triple-ball chain</title>", svg)
+        self.assertIn(f"{self.name} ({self.job.spec_sha256[:12]}), contactd ", svg)
+
+    def test_comments_of_a_script_stay_comments(self):
+        name = self.submit(CHAIN, "--set", 'title="a\\nset output \'pwned\'"')
+        self.plot("force", "t.gp", name=name)
+        self.assertIn("# title: a set output 'pwned'\n", (self.folder / "t.gp").read_text())
 
     def test_loops_have_the_area_of_the_energy_lost(self):
         curves = self.curves("hysteresis")

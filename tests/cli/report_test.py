@@ -81,6 +81,7 @@ class ReportTest(CliTest):
         page = self.report(self.solve(CHAIN), self.solve(CHAIN, "--set", "title=<b>&"))
         self.check_is_offline(page)
         self.assertIn("Where they differ", page)
+        self.assertEqual(page.count("<svg"), 17)  # One with both.
         self.assertIn("&lt;b&gt;&amp;", page)
         self.assertNotIn("<b>&", page)
 

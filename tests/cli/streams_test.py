@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from contactd import (PATIENCE_S, Job, ServerTest, endless, is_cycle, job_service_pb2,
-                      scenario_pb2, three_ball_chain)
+                      scenario_pb2, spring_wall, three_ball_chain)
 
 CONTACTCTL = os.environ["CONTACTCTL"]
 
@@ -59,6 +59,26 @@ class StreamsTest(ServerTest):
         last = self.server.get(name).last_sequence
         watch = self.start("watch", name, "--live", "--kinds", "cycle", "-o", "jsonl")
         self.assertGreaterEqual(int(json.loads(watch.stdout.readline())["sequence"]), last)
+
+    def test_frame_interval_leaves_out_all_chunks_but_the_newest(self):
+        scenario = spring_wall(0.4)
+        scenario.output.sample_interval_s = 1e-4
+        name = self.server.run(scenario).name
+        def chunks(*flags):
+            lines, _ = self.run_it("watch", name, "--kinds", "frame_chunk,gap", "-o", "jsonl",
+                                   *flags)
+            events = [json.loads(line) for line in lines.splitlines()]
+            return ([e["sequence"] for e in events if "frame_chunk" in e],
+                    sum("gap" in e for e in events))
+        every, gaps = chunks()
+        self.assertGreater(len(every), 3)
+        self.assertEqual(gaps, 0)
+        few, gaps = chunks("--min-frame-interval", "1h")
+        self.assertLess(len(few), len(every))
+        self.assertEqual(few[-1], every[-1])
+        self.assertGreater(gaps, 0)
+        _, told = self.run_it("watch", name, "--min-frame-interval", "often", code=2)
+        self.assertIn("often", told)
 
     def test_artifacts_are_listed_and_fetched(self):
         name = self.server.run(three_ball_chain()).name

@@ -25,10 +25,30 @@ TEST(Table, NarrowTerminalLosesTheColumnsToSpareFirst) {
             "NAME        μ   t [s]\n"
             "B1-B2  2.26e8  0.0021\n"
             "δ           1       3\n");
-  EXPECT_EQ(Example().Text({.width = 5}),
-            "NAME        μ\n"
-            "B1-B2  2.26e8\n"
-            "δ           1\n");
+}
+
+TEST(Table, NarrowTerminalHasHeadersOfSeveralLinesFirst) {
+  Table table({{"bodies[0].velocity_m_per_s", true}, {"VERDICT"}});
+  table.Add({std::string("0.1"), std::string("FULL")});
+  EXPECT_EQ(table.Text({.width = 20}),
+            "   bodies\n"
+            "     [0].\n"
+            "velocity_\n"
+            "  m_per_s  VERDICT\n"
+            "      0.1  FULL\n");
+}
+
+TEST(Table, TerminalTooNarrowForColumnsHasBlocksOfAllCells) {
+  EXPECT_EQ(Example().Text({.width = 12}),
+            "NAME   B1-B2\n"
+            "μ\n2.26e8\n"
+            "END\nSEPARATION\n"
+            "t [s]\n0.0021\n"
+            "\n"
+            "NAME   δ\n"
+            "μ      1\n"
+            "END    -\n"
+            "t [s]  3\n");
 }
 
 TEST(Table, LongTableShowsItsFirstAndLastRows) {
@@ -43,6 +63,13 @@ TEST(Table, CellsHaveTheirToneInColorOnly) {
   table.Add({{"FAILED", Tone::kBad}});
   EXPECT_EQ(table.Text({}), "STATE\nFAILED\n");
   EXPECT_EQ(table.Text({.color = true}), "\x1b[2mSTATE \x1b[0m\n\x1b[31mFAILED\x1b[0m\n");
+}
+
+TEST(Style, LinesAreBrokenBetweenWordsWhateverTheirColour) {
+  const Style narrow{.width = 7};
+  EXPECT_EQ(Wrap("one two three\n\nδδδ \x1b[1mδδδ\x1b[0m δδδδδδδδ\n", narrow),
+            "one two\nthree\n\nδδδ \x1b[1mδδδ\x1b[0m\nδδδδδδδδ\n");
+  EXPECT_EQ(Wrap("one two three\n", {}), "one two three\n");
 }
 
 TEST(Style, TextIsCutAndPaddedByCharacters) {

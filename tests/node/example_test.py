@@ -1,4 +1,5 @@
-"""The Node client of client/node, installed as a user would and run against a real contactd."""
+"""The TypeScript client of client/node: installed, type-checked and run as a user would, against a
+real contactd."""
 
 import pathlib
 import re
@@ -18,8 +19,8 @@ class NodeTest(ServerTest):
             self.skipTest("npm is not installed")
         super().setUp()
         for part in ("client/node", "proto"):
-            shutil.copytree(ROOT / part, self.folder / part,
-                            ignore=shutil.ignore_patterns("node_modules"))
+            shutil.copytree(ROOT / part, self.folder / part, ignore=shutil.ignore_patterns(
+                "node_modules", "dist", "generated"))
         self.example = self.folder / "client" / "node"
         try:
             install = subprocess.run(
@@ -32,21 +33,35 @@ class NodeTest(ServerTest):
                                                  install.stderr):
             self.skipTest("npm's registry is not reachable")
         self.assertEqual(install.returncode, 0, install.stderr)
+        build = self.tool("npm", "run", "build")
+        self.assertEqual(build.returncode, 0, build.stdout + build.stderr)
 
-    def node(self, *arguments):
-        run = subprocess.run(["node", *arguments], cwd=self.example, capture_output=True,
-                             text=True, timeout=PATIENCE_S)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return run.stdout
+    def tool(self, *command):
+        return subprocess.run(command, cwd=self.example, capture_output=True, text=True,
+                              timeout=4 * PATIENCE_S)
 
     def test_example_solves_the_chain_and_reads_its_trajectory(self):
-        printed = self.node("run.mjs", f"127.0.0.1:{self.server.port}")
+        run = self.tool("node", "dist/run.js", f"127.0.0.1:{self.server.port}")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        printed = run.stdout
         for line, known in (("B1-B2  COLLISION  mu", 2.259378079e8),
                             ("B2-B3  NIRV  mu", 4.563828953e8), ("B3 ", 0.155004951207)):
             number = float(re.search(rf"^{line} (\S+)", printed, re.MULTILINE)[1])
             self.assertAlmostEqual(number / known, 1, delta=1e-6)
         self.assertIn("1001 samples, largest force B1-B2 104.65", printed)
         self.assertIn("SUCCEEDED  convergence FULL", printed)
+
+    def test_wrong_fields_and_kinds_do_not_compile(self):
+        (self.example / "wrong.ts").write_text(
+            "import {Client} from './contact.js';\n"
+            "const client = new Client('127.0.0.1:1');\n"
+            "await client.submit({bodies: [{nme: 'A'}]});\n"
+            "client.watch('jobs/x', ['cycles']);\n"
+            "(await client.get('jobs/x')).convergance;\n")
+        check = self.tool("npx", "tsc", "--noEmit")
+        self.assertNotEqual(check.returncode, 0)
+        places = re.findall(r"^wrong\.ts\((\d+),", check.stdout, re.MULTILINE)
+        self.assertEqual(places, ["3", "4", "5"], check.stdout)
 
 
 if __name__ == "__main__":

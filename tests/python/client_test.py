@@ -7,9 +7,10 @@ import threading
 import unittest
 
 import numpy as np
+import pandas
 from contactd import Job, ServerTest, endless, is_cycle, three_ball_chain
-from contactsim import (AsyncClient, Client, InvalidScenario, JobNotFound, RunFailed, Timeout,
-                        Unreachable)
+from contactsim import (AsyncClient, Client, DownloadFailed, InvalidScenario, JobNotFound,
+                        RunFailed, Timeout, Unreachable)
 
 SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
 PATIENCE_S = 60
@@ -141,6 +142,65 @@ class ClientTest(ServerTest):
         self.assertEqual(len({result.name for result in results}), 3)
         for result in results:
             np.testing.assert_array_equal(result["B3.velocity"], results[0]["B3.velocity"])
+
+    def test_changes_of_jobs_are_heard_once_across_a_restart(self):
+        first = self.client.run(three_ball_chain(), labels={"law": "a"}).name
+        changes = self.client.watch_jobs(labels={"law": "a"}, timeout_s=PATIENCE_S)
+        heard = next(changes)
+        self.assertEqual((heard.name, heard.job.state), (first, Job.SUCCEEDED))
+        self.client.run(three_ball_chain(), labels={"law": "b"})
+        second = self.client.submit(three_ball_chain(), labels={"law": "a"}).name
+        states = []
+        while Job.SUCCEEDED not in states:
+            change = next(changes)
+            self.assertEqual(change.name, second)
+            states.append(change.job.state)
+        self.assertEqual(len(states), len(set(states)))
+        self.server.flags = (*self.server.flags, f"--listen={self.address}")
+        self.addCleanup(self.server.kill)
+        self.server.kill()
+        self.server.start()
+        self.client.delete(first)
+        gone = next(changes)  # Neither job is told again.
+        self.assertEqual((gone.name, gone.job), (first, None))
+        with self.assertRaises(Timeout):
+            list(self.client.watch_jobs(timeout_s=0.5))
+
+    def test_changes_of_jobs_can_be_awaited(self):
+
+        async def run():
+            async with AsyncClient(self.address) as client:
+                job = await client.submit(three_ball_chain())
+                async for change in client.watch_jobs(states=["SUCCEEDED"], timeout_s=PATIENCE_S):
+                    return job.name, change.name
+
+        self.assertEqual(*asyncio.run(run()))
+
+    def test_artifact_is_fetched_and_a_part_of_it_gone_on_with(self):
+        job = self.client.run(three_ball_chain()).job
+        self.assertEqual([a.name for a in job.artifacts], ["cycles.csv", "trajectory.csv"])
+        whole = self.client.download(job, "trajectory.csv", self.folder / "whole.csv")
+        content = whole.read_bytes()
+        frame = pandas.read_csv(whole)
+        self.assertEqual(len(frame), 1001)
+        part = self.folder / "rest.csv.part"
+        part.write_bytes(content[:1000])
+        rest = asyncio.run(self.download_awaited(job, "trajectory.csv", self.folder / "rest.csv"))
+        self.assertEqual(rest.read_bytes(), content)
+        for damaged in (b"x" + content[1:1000], content + b"x"):
+            part.write_bytes(damaged)
+            with self.assertRaises(DownloadFailed):
+                self.client.download(job, "trajectory.csv", self.folder / "rest.csv")
+            self.assertFalse(part.exists())
+        with self.assertRaises(JobNotFound) as caught:
+            self.client.download(job, "none.csv", self.folder / "none.csv")
+        self.assertEqual(caught.exception.reason, "ARTIFACT_NOT_FOUND")
+        self.assertEqual(sorted(path.name for path in self.folder.glob("*.csv*")),
+                         ["rest.csv", "whole.csv"])
+
+    async def download_awaited(self, *arguments):
+        async with AsyncClient(self.address) as client:
+            return await client.download(*arguments)
 
     def test_list_finds_jobs_by_state_and_label(self):
         self.client.run(three_ball_chain(), labels={"law": "a"})

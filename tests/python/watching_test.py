@@ -57,6 +57,24 @@ class WatchTest(unittest.TestCase):
                 heard = [event.sequence for event in client.watch("x")]
                 self.assertEqual(heard, list(range(1, 42)))
 
+    def test_change_of_a_job_is_heard_once_over_broken_links(self):
+        roster = watching.Roster("", ["RUNNING"], {"law": "a"}, None)
+        def job(name, state=job_pb2.Job.RUNNING):
+            return job_pb2.Job(name=name, state=state, attempt=1)
+        def take(*jobs, gone=(), complete=True):
+            message = job_service_pb2.WatchJobsResponse(jobs=jobs, gone=gone,
+                                                        snapshot_complete=complete)
+            return [(change.name, change.job is not None) for change in roster.take(message)]
+        self.assertEqual(dict(roster.request().labels), {"law": "a"})
+        self.assertEqual(take(job("jobs/1"), job("jobs/2")), [("jobs/1", True), ("jobs/2", True)])
+        self.assertEqual(take(gone=["jobs/2", "jobs/9"]), [("jobs/2", False)])
+        roster.request()
+        self.assertEqual(take(job("jobs/3"), complete=False), [("jobs/3", True)])
+        self.assertEqual(take(), [("jobs/1", False)])  # It is not in the new snapshot.
+        roster.request()
+        self.assertEqual(take(job("jobs/3")), [])
+        self.assertEqual(take(job("jobs/3", job_pb2.Job.FAILED)), [("jobs/3", True)])
+
     def test_live_only_is_asked_for_once_and_then_resumed(self):
         position = watching.Position("jobs/x", "", live_only=True)
         self.assertTrue(position.request().live_only)

@@ -53,11 +53,11 @@ Data Rows(const std::string& name, const std::vector<std::string>& columns,
       for (const std::string& column : columns) data.rows.back().push_back(runs[run][column][i]);
     }
   }
+  data.note =
+      "run 0 is Hunt and Crossley, 1 Flores et al., 2 the described method as published, "
+      "3 the same converged";
   return data;
 }
-
-constexpr char kRuns[] =
-    " (run 0 Hunt and Crossley, 1 Flores et al., 2 the described method as published, 3 converged)";
 
 struct Published {
   double restitution[3][2] = {{0.8453, 0.8661}, {0.8020, 0.8306}, {0.8067, 0.7059}};
@@ -144,7 +144,7 @@ std::vector<PaperItem> MakeChainFigures(Lab& lab) {
                         const std::vector<std::string>& columns,
                         const std::vector<std::string>& headers) {
     drawn.title = title;
-    return PaperItem{id, title + kRuns, {}, {Rows(id, columns, headers, runs)}, std::move(drawn)};
+    return PaperItem{id, title, {}, {Rows(id, columns, headers, runs)}, std::move(drawn)};
   };
   const auto models = [&](const std::string& preset) {
     return DrawModels(preset, {&runs[0], &runs[1], &runs[2]},

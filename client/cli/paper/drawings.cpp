@@ -78,11 +78,13 @@ Figure DrawModels(const std::string& preset, const std::vector<const Solved*>& r
   Figure::Panel& panel = figure.panels.front();
   for (Figure::Band& band : panel.bands) band.colour = kNeutral;
   panel.curves.clear();
+  figure.sources.clear();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Figure::Panel drawn = std::move(DrawPreset(preset, *runs[i]).panels.front());
     for (std::size_t l = 0; l < std::min(panel.labels.size(), drawn.labels.size()); ++l) {
       panel.labels[l].y = std::max(panel.labels[l].y, drawn.labels[l].y);  // Above all peaks.
     }
+    figure.sources.push_back(SourceOf(runs[i]->job));
     AddRun(std::move(drawn), names[i], static_cast<int>(i), &panel);
   }
   return figure;

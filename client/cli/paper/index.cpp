@@ -1,8 +1,11 @@
 #include "cli/paper/index.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "cli/html.h"
 #include "cli/number.h"
@@ -24,25 +27,37 @@ std::string Limit(const Comparison& number) {
   return std::isnan(number.limit) ? "" : fmt::format("{:.1g}", number.limit);
 }
 
+std::vector<std::string> Cells(const Comparison& n) {
+  return {n.what, Short(n.published), Short(n.process), Short(n.converged), Deviation(n), Limit(n),
+          n.why};
+}
+
+// Columns of which no number has anything are left out.
 std::string Numbers(const PaperItem& item) {
+  const std::vector<std::string> all = {
+      "Number", "Published", "By its process", "Converged", "Deviation", "Limit", "Why"};
+  std::vector<std::string> headers;
   std::vector<HtmlRow> rows;
-  for (const Comparison& n : item.numbers) {
-    rows.push_back({{n.what, Short(n.published), Short(n.process), Short(n.converged), Deviation(n),
-                     Limit(n), n.why},
-                    !n.holds()});
+  for (const Comparison& n : item.numbers) rows.push_back({{}, !n.holds()});
+  for (std::size_t column = 0; column < all.size(); ++column) {
+    std::vector<std::string> cells;
+    for (const Comparison& n : item.numbers) cells.push_back(Cells(n)[column]);
+    if (std::ranges::all_of(cells, &std::string::empty)) continue;
+    headers.push_back(all[column]);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].cells.push_back(std::move(cells[i]));
   }
-  return HtmlTable(
-      {"Number", "Published", "By its process", "Converged", "Deviation", "Limit", "Why"}, rows);
+  return HtmlTable(headers, rows);
 }
 
 std::string Files(const PaperItem& item) {
-  std::string links;
+  std::vector<std::string> links;
   for (const Data& data : item.data) {
-    links +=
-        fmt::format("{0}<a href=\"{1}.csv\">{1}.csv</a>, {2}", links.empty() ? "" : "; ", data.name,
-                    Count(static_cast<std::int64_t>(data.rows.size()), "row", "rows"));
+    links.push_back(
+        fmt::format("<a href=\"{0}.csv\">{0}.csv</a>, {1}{2}", data.name,
+                    Count(static_cast<std::int64_t>(data.rows.size()), "row", "rows"),
+                    data.note.empty() ? "" : fmt::format(" ({})", HtmlText(data.note))));
   }
-  return links.empty() ? "" : fmt::format("<p>Data: {}.</p>\n", links);
+  return links.empty() ? "" : fmt::format("<p>Data: {}.</p>\n", fmt::join(links, "; "));
 }
 
 std::string Section(const PaperItem& item, const std::map<std::string, std::string>& figures) {

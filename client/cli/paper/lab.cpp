@@ -59,6 +59,7 @@ Solved Lab::Collect(const std::string& name) {
   v1::DeleteJobRequest request;
   request.set_name(name);
   client_.Call(&Client::Stub::DeleteJob, request);
+  solved.job.clear_name();  // Nobody could find it.
   return solved;
 }
 

@@ -32,6 +32,7 @@ struct Data {
   std::string name;  ///< Of the file, without its ending.
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
+  std::string note = {};  ///< What the rows are, where their columns do not tell.
 };
 
 /// A figure or table of the paper, made again.
@@ -45,8 +46,10 @@ struct PaperItem {
   bool holds() const;
 };
 
-/// Writes the item's data as CSV, and its numbers as ID.txt and ID.json. Throws Failure (kLocal).
-void Write(const PaperItem& item, const std::filesystem::path& directory);
+/// Writes the item's data as CSV, with what they come from beside it, and its numbers as ID.txt and
+/// ID.json. Throws Failure (kLocal).
+void Write(const PaperItem& item, const std::vector<Provenance>& sources,
+           const std::filesystem::path& directory);
 
 /// Five significant digits; empty for NaN.
 std::string Short(double value);

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import asyncio
 import os
-import time
+import pathlib
 from typing import Any, AsyncIterator, Iterable, Mapping
 
 import grpc
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
-from .client import DEFAULT_ADDRESS, OPTIONS, JobLike, create_request, ended, job_name
+from .client import (DEFAULT_ADDRESS, OPTIONS, JobLike, create_request, deadline_of, ended,
+                     job_name)
+from .downloading import Download, PathLike
 from .errors import from_rpc
 from .recording import KINDS, Recording
 from .result import Result
 from .scenario import ScenarioLike
-from .watching import WHOLE, Position, delivery_options
+from .watching import WHOLE, JobChange, Position, Roster, delivery_options
 
 
 class AsyncClient:
@@ -52,34 +54,52 @@ class AsyncClient:
                     live_only: bool = False, min_frame_interval_s: float = 0.0,
                     timeout_s: float | None = None) -> AsyncIterator[event_pb2.Event]:
         """The events of a job until it has ended, across connections; see Client.watch."""
-        deadline = None if timeout_s is None else time.monotonic() + timeout_s
-        position = Position(job_name(job), self.address, after_sequence, kinds, deadline,
-                            live_only=live_only, delivery=delivery_options(min_frame_interval_s))
-        async for event in self._watch(position):
+        position = Position(job_name(job), self.address, after_sequence, kinds,
+                            deadline_of(timeout_s), live_only=live_only,
+                            delivery=delivery_options(min_frame_interval_s))
+        async for event in self._stream(self._stub.WatchJob, position):
             yield event
 
-    async def _watch(self, position: Position) -> AsyncIterator[event_pb2.Event]:
-        while not position.finished:
-            call = self._stub.WatchJob(position.request(), timeout=position.time_left())
+    async def watch_jobs(self, *, states: Iterable[str] = (),
+                         labels: Mapping[str, str] | None = None,
+                         timeout_s: float | None = None) -> AsyncIterator[JobChange]:
+        """What becomes of all jobs of a filter, without end; see Client.watch_jobs."""
+        roster = Roster(self.address, states, labels, deadline_of(timeout_s))
+        async for change in self._stream(self._stub.WatchJobs, roster):
+            yield change
+
+    async def download(self, job: JobLike, artifact: str, path: PathLike | None = None, *,
+                       timeout_s: float | None = None) -> pathlib.Path:
+        """Fetches an artifact of an ended job into a file; see Client.download."""
+        target = pathlib.Path(path or pathlib.PurePosixPath(artifact).name)
+        with Download(job_name(job), artifact, target, self.address,
+                      deadline_of(timeout_s)) as download:
+            async for _ in self._stream(self._stub.ReadArtifact, download):
+                pass
+        return target
+
+    async def _stream(self, method: Any, link: Any) -> AsyncIterator[Any]:
+        while not link.finished:
+            call = method(link.request(), timeout=link.time_left())
             error = None
             try:
                 async for message in call:
-                    for event in position.take(message):
-                        yield event
-                    if position.finished:
+                    for heard in link.take(message):
+                        yield heard
+                    if link.finished:
                         return
             except grpc.RpcError as caught:
                 error = caught
             finally:
                 call.cancel()
-            await asyncio.sleep(position.lost(error))
+            await asyncio.sleep(link.lost(error))
 
     async def result(self, job: JobLike, *, timeout_s: float | None = None) -> Result:
         """The result of a job: waits for its end and fetches all that it recorded."""
         recording = Recording()
-        deadline = None if timeout_s is None else time.monotonic() + timeout_s
-        position = Position(job_name(job), self.address, 0, KINDS, deadline, delivery=WHOLE)
-        async for event in self._watch(position):
+        position = Position(job_name(job), self.address, 0, KINDS, deadline_of(timeout_s),
+                            delivery=WHOLE)
+        async for event in self._stream(self._stub.WatchJob, position):
             recording.add(event)
         return ended(await self.get(job), recording)
 

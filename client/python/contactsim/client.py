@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pathlib
 import time
 import uuid
 from typing import Any, Callable, Iterable, Iterator, Mapping, Union
@@ -10,12 +11,13 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, Union
 import grpc
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
+from .downloading import Download, PathLike
 from .errors import RunFailed, from_rpc
 from .recording import KINDS, Recording
 from .result import Result
 from .scenario import ScenarioLike, load_scenario
 from .sweeping import SweepResult, make_sweep
-from .watching import WHOLE, Position, delivery_options
+from .watching import WHOLE, JobChange, Position, Roster, delivery_options
 
 JobLike = Union[str, job_pb2.Job, Result]
 
@@ -63,7 +65,7 @@ class Client:
         `on_event` hears every event as it happens. Raises InvalidScenario, RunFailed, and Timeout
         after `timeout_s`; the job then goes on.
         """
-        deadline = _deadline(timeout_s)
+        deadline = deadline_of(timeout_s)
         return self._follow(self.submit(scenario, labels=labels).name, on_event, deadline)
 
     def submit(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
@@ -85,14 +87,14 @@ class Client:
         not converge do not raise: the result tells which. Raises InvalidScenario, RunFailed if the
         whole sweep ended early, and Timeout after `timeout_s`; the job then goes on.
         """
-        deadline = _deadline(timeout_s)
+        deadline = deadline_of(timeout_s)
         job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics), labels=labels)
         request = job_service_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
         return self._sweep(self._call(self._stub.CreateJob, request).name, deadline)
 
     def sweep_result(self, job: JobLike, *, timeout_s: float | None = None) -> SweepResult:
         """The cells of a sweep, once it has ended."""
-        return self._sweep(job_name(job), _deadline(timeout_s))
+        return self._sweep(job_name(job), deadline_of(timeout_s))
 
     def _sweep(self, name: str, deadline: float | None) -> SweepResult:
         position = Position(name, self.address, 0, ["sweep_cell"], deadline)
@@ -120,23 +122,51 @@ class Client:
         `min_frame_interval_s` only the newest comes, and a gap for the others.
         """
         return self._watch(Position(job_name(job), self.address, after_sequence, kinds,
-                                    _deadline(timeout_s), live_only=live_only,
+                                    deadline_of(timeout_s), live_only=live_only,
                                     delivery=delivery_options(min_frame_interval_s)))
 
+    def watch_jobs(self, *, states: Iterable[str] = (), labels: Mapping[str, str] | None = None,
+                   timeout_s: float | None = None) -> Iterator[JobChange]:
+        """What becomes of all jobs of a filter: those there are, then each change as it happens.
+
+        Never ends by itself; raises Timeout after `timeout_s`. Reconnects as watch does. Of
+        changes that follow each other quickly only the newest may come; none comes twice.
+        """
+        return self._stream(self._stub.WatchJobs,
+                            Roster(self.address, states, labels, deadline_of(timeout_s)))
+
+    def download(self, job: JobLike, artifact: str, path: PathLike | None = None, *,
+                 timeout_s: float | None = None) -> pathlib.Path:
+        """Fetches an artifact of an ended job, one of `get(job).artifacts`, into a file.
+
+        By default that of the last part of its name, in the current folder. Goes on where it was
+        when the link breaks, and with PATH.part where an earlier try has left it. Raises
+        JobNotFound, DownloadFailed, and Timeout after `timeout_s`; the part then stays.
+        """
+        target = pathlib.Path(path or pathlib.PurePosixPath(artifact).name)
+        with Download(job_name(job), artifact, target, self.address,
+                      deadline_of(timeout_s)) as download:
+            for _ in self._stream(self._stub.ReadArtifact, download):
+                pass
+        return target
+
     def _watch(self, position: Position) -> Iterator[event_pb2.Event]:
-        while not position.finished:
-            call = self._stub.WatchJob(position.request(), timeout=position.time_left())
+        return self._stream(self._stub.WatchJob, position)
+
+    def _stream(self, method: Any, link: Any) -> Iterator[Any]:
+        while not link.finished:
+            call = method(link.request(), timeout=link.time_left())
             error = None
             try:
                 for message in call:
-                    yield from position.take(message)
-                    if position.finished:
+                    yield from link.take(message)
+                    if link.finished:
                         return
             except grpc.RpcError as caught:
                 error = caught
             finally:
                 call.cancel()
-            time.sleep(position.lost(error))
+            time.sleep(link.lost(error))
 
     def wait(self, job: JobLike, *, timeout_s: float | None = None) -> job_pb2.Job:
         """The job once it has ended, however it did."""
@@ -146,7 +176,7 @@ class Client:
 
     def result(self, job: JobLike, *, timeout_s: float | None = None) -> Result:
         """The result of a job: waits for its end and fetches all that it recorded."""
-        return self._follow(job_name(job), None, _deadline(timeout_s))
+        return self._follow(job_name(job), None, deadline_of(timeout_s))
 
     def get(self, job: JobLike) -> job_pb2.Job:
         """The job as it is now, with its ledger so far."""
@@ -223,5 +253,6 @@ def job_name(job: JobLike) -> str:
     return name if name.startswith("jobs/") else f"jobs/{name}"
 
 
-def _deadline(timeout_s: float | None) -> float | None:
+def deadline_of(timeout_s: float | None) -> float | None:
+    """When a call that may take so long must end, by time.monotonic()."""
     return None if timeout_s is None else time.monotonic() + timeout_s

@@ -53,7 +53,7 @@ class Unreachable(CallError):
 
 
 class JobNotFound(CallError):
-    """The server has no such job."""
+    """The server has no such job, or the job has no such artifact; `reason` tells which."""
 
 
 class Overloaded(CallError):
@@ -72,6 +72,10 @@ class RunFailed(ContactError):
         state = job_pb2.Job.State.Name(job.state)
         words = job.error.message or job.state_reason
         super().__init__(f"{job.name} {state}: {words}")
+
+
+class DownloadFailed(ContactError):
+    """What lies in the file is not the artifact that the server has."""
 
 
 _KINDS: dict[grpc.StatusCode, type[CallError]] = {

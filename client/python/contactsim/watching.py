@@ -1,10 +1,11 @@
-"""Where a watch stands in a job's log, across connections."""
+"""Where a stream stands, across connections."""
 
 from __future__ import annotations
 
+import dataclasses
 import random
 import time
-from typing import Iterable
+from typing import Iterable, Mapping
 
 import grpc
 from contact.v1 import event_pb2, job_pb2, job_service_pb2
@@ -34,52 +35,25 @@ def delivery_options(min_frame_interval_s: float) -> job_service_pb2.DeliveryOpt
     return options
 
 
-class Position:
-    """Takes what streams bring, so that each event is heard once and in order."""
+class Link:
+    """When a stream that broke off is asked for again, and when no more."""
 
-    def __init__(self, name: str, address: str, after_sequence: int = 0,
-                 kinds: Iterable[str] = (), deadline: float | None = None, *,
-                 live_only: bool = False,
-                 delivery: job_service_pb2.DeliveryOptions | None = None) -> None:
-        self.finished = False  #: The job ended, and all was heard.
-        self._name, self._address, self._kinds = name, address, tuple(kinds)
-        self._sequence = after_sequence
-        self._live_only = live_only  # Has not begun yet.
-        self._delivery = delivery
+    finished = False  #: All was heard.
+
+    def __init__(self, address: str, deadline: float | None) -> None:
+        self._address = address
         self._deadline = deadline  # Of time.monotonic().
         self._pause_s = _FIRST_PAUSE_S
         self._connected = False  # Ever.
         self._lost_since: float | None = None
 
-    def request(self) -> job_service_pb2.WatchJobRequest:
-        """What to ask now."""
-        return job_service_pb2.WatchJobRequest(
-            name=self._name, after_sequence=self._sequence, kinds=self._kinds,
-            live_only=self._live_only, delivery=self._delivery)
-
     def time_left(self) -> float | None:
-        """Seconds until the watch must end; None for ever."""
+        """Seconds until the stream must end; None for ever."""
         return None if self._deadline is None else max(0.0, self._deadline - time.monotonic())
 
-    def take(self, message: job_service_pb2.WatchJobResponse) -> list[event_pb2.Event]:
-        """The events of a message that were not heard before."""
+    def heard(self) -> None:
+        """A message came."""
         self._connected, self._lost_since, self._pause_s = True, None, _FIRST_PAUSE_S
-        if message.HasField("snapshot"):
-            # Asked for events after the last one: nothing but the end of the stream will come.
-            snapshot = message.snapshot
-            if self._live_only:
-                self._sequence, self._live_only = snapshot.last_sequence, False
-            self.finished |= (snapshot.state in FINAL
-                              and self._sequence >= snapshot.last_sequence)
-        return [event for event in message.events if self._is_new(event)]
-
-    def _is_new(self, event: event_pb2.Event) -> bool:
-        kind = event.WhichOneof("payload")
-        if 0 < event.sequence <= self._sequence and kind not in ("bookmark", "gap"):
-            return False  # Heard before the connection was lost.
-        self._sequence = max(self._sequence, event.sequence)
-        self.finished |= kind == "state_changed" and event.state_changed.state in FINAL
-        return True
 
     def lost(self, error: grpc.RpcError | None) -> float:
         """How long to wait before another try, in seconds; `error` is None for an early end.
@@ -104,3 +78,84 @@ class Position:
         if (failure.code not in _PASSING or full or self.time_left() == 0
                 or now - self._lost_since > patience_s):
             raise failure from error
+
+
+class Position(Link):
+    """In a job's log: takes what streams bring, so that each event is heard once and in order."""
+
+    def __init__(self, name: str, address: str, after_sequence: int = 0,
+                 kinds: Iterable[str] = (), deadline: float | None = None, *,
+                 live_only: bool = False,
+                 delivery: job_service_pb2.DeliveryOptions | None = None) -> None:
+        super().__init__(address, deadline)
+        self._name, self._kinds = name, tuple(kinds)
+        self._sequence = after_sequence
+        self._live_only = live_only  # Has not begun yet.
+        self._delivery = delivery
+
+    def request(self) -> job_service_pb2.WatchJobRequest:
+        """What to ask now."""
+        return job_service_pb2.WatchJobRequest(
+            name=self._name, after_sequence=self._sequence, kinds=self._kinds,
+            live_only=self._live_only, delivery=self._delivery)
+
+    def take(self, message: job_service_pb2.WatchJobResponse) -> list[event_pb2.Event]:
+        """The events of a message that were not heard before."""
+        self.heard()
+        if message.HasField("snapshot"):
+            # Asked for events after the last one: nothing but the end of the stream will come.
+            snapshot = message.snapshot
+            if self._live_only:
+                self._sequence, self._live_only = snapshot.last_sequence, False
+            self.finished |= (snapshot.state in FINAL
+                              and self._sequence >= snapshot.last_sequence)
+        return [event for event in message.events if self._is_new(event)]
+
+    def _is_new(self, event: event_pb2.Event) -> bool:
+        kind = event.WhichOneof("payload")
+        if 0 < event.sequence <= self._sequence and kind not in ("bookmark", "gap"):
+            return False  # Heard before the connection was lost.
+        self._sequence = max(self._sequence, event.sequence)
+        self.finished |= kind == "state_changed" and event.state_changed.state in FINAL
+        return True
+
+
+@dataclasses.dataclass(frozen=True)
+class JobChange:
+    """What became of a job: its newest header, or None once it was deleted or matches no more."""
+
+    name: str
+    job: job_pb2.Job | None
+
+
+class Roster(Link):
+    """Of the jobs of a filter: takes what streams bring, so that each change is heard once."""
+
+    def __init__(self, address: str, states: Iterable[str], labels: Mapping[str, str] | None,
+                 deadline: float | None) -> None:
+        super().__init__(address, deadline)
+        self._request = job_service_pb2.WatchJobsRequest(
+            states=[job_pb2.Job.State.Value(state) for state in states], labels=labels)
+        self._known: dict[str, tuple[int, int]] = {}  # State and attempt of each job.
+        self._unconfirmed: set[str] = set()  # Known, and not in the snapshot yet.
+
+    def request(self) -> job_service_pb2.WatchJobsRequest:
+        """What to ask now: a stream begins with a snapshot of all jobs."""
+        self._unconfirmed = set(self._known)
+        return self._request
+
+    def take(self, message: job_service_pb2.WatchJobsResponse) -> list[JobChange]:
+        """The changes in a message that were not heard before."""
+        self.heard()
+        changes = [JobChange(job.name, job) for job in message.jobs if self._is_new(job)]
+        gone = list(message.gone)
+        if message.snapshot_complete:
+            gone += sorted(self._unconfirmed)
+            self._unconfirmed = set()
+        return changes + [JobChange(name, None) for name in gone if self._known.pop(name, None)]
+
+    def _is_new(self, job: job_pb2.Job) -> bool:
+        self._unconfirmed.discard(job.name)
+        version = job.state, job.attempt
+        before, self._known[job.name] = self._known.get(job.name), version
+        return before != version

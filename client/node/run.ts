@@ -1,11 +1,11 @@
-// node run.mjs [HOST:PORT]: solves the paper's triple-ball chain and shows what came of it.
+// node dist/run.js [HOST:PORT]: solves the paper's triple-ball chain and shows what came of it.
 
-import {Client, values} from './contact.mjs';
+import {Client, values, type Scenario} from './contact.js';
 
-const body = (name, position_m, velocity_m_per_s = 0) =>
+const body = (name: string, position_m: number, velocity_m_per_s = 0) =>
   ({name, mass_kg: 0.5, radius_m: 0.05, position_m, velocity_m_per_s});
 
-const scenario = {
+const scenario: Scenario = {
   title: 'Triple-ball chain',
   bodies: [body('B1', 0.0, 0.2), body('B2', 0.1), body('B3', 0.2)],
   contacts: [
@@ -22,14 +22,15 @@ let peak = 0;
 for await (const event of client.watch(name)) {
   if (event.cycle) {
     const {contact, kind, mu, restitution_out} = event.cycle;
-    console.log(`${contact}  ${kind}  mu ${mu.toPrecision(10)}  restitution ${restitution_out.toFixed(9)}`);
+    console.log(
+      `${contact}  ${kind}  mu ${mu.toPrecision(10)}  restitution ${restitution_out.toFixed(9)}`);
   } else if (event.frame_chunk) {
     samples += event.frame_chunk.samples;
-    const force = event.frame_chunk.columns.find((column) => column.name === 'B1-B2.contact_force');
-    peak = values(force).reduce((a, b) => Math.max(a, b), peak);
+    const force = event.frame_chunk.columns.find(({name}) => name === 'B1-B2.contact_force');
+    if (force) peak = values(force).reduce((a, b) => Math.max(a, b), peak);
   }
 }
-const job = await client.call('GetJob', {name});
+const job = await client.get(name);
 for (const {name: ball, velocity_m_per_s} of job.final_bodies) {
   console.log(`${ball}  ${velocity_m_per_s.toFixed(12)} m/s`);
 }

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/v1/scenario.pb.h"
+
+namespace contact::cli {
+
+/// A field that `--set` can override.
+struct SettableField {
+  std::string path;                ///< Such as `contacts[0].restitution`.
+  std::vector<std::string> words;  ///< What an enum or a flag may be; otherwise empty.
+};
+
+/// The fields of a scenario, those of the first entries of each list, and with `[*]` those of all
+/// its entries. Parts that a scenario may lack, such as a wall, are there if it has them.
+std::vector<SettableField> SettableFields(const v1::Scenario& scenario);
+
+}  // namespace contact::cli
