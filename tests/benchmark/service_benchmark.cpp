@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -188,6 +189,7 @@ class Client {
   Response Call(Method method, const Request& request) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + kPatience);
+    context.set_wait_for_ready(true);  // Many connect at once to a server that has much to do.
     Response response;
     const grpc::Status status = ((*stub_).*method)(&context, request, &response);
     if (!status.ok()) throw std::runtime_error(status.error_message());
@@ -199,22 +201,23 @@ class Client {
 
 /// Milliseconds that each of `calls` submits took, sorted; `clients` work at once.
 std::vector<double> Submit(const std::string& address, const v1::Job& job, int clients, int calls) {
-  std::vector<std::vector<double>> each(static_cast<std::size_t>(clients));
-  std::vector<std::thread> threads;
-  threads.reserve(each.size());
-  for (std::vector<double>& own : each) {
-    threads.emplace_back([&own, &address, &job, n = std::max(1, calls / clients)] {
-      Client client(address);
-      for (int i = 0; i < n; ++i) {
-        const auto start = steady_clock::now();
-        client.Create(job);
-        own.push_back(1e3 * SecondsSince(start));
-      }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
+  const auto submit = [&address, &job, n = std::max(1, calls / clients)] {
+    std::vector<double> own;
+    Client client(address);
+    for (int i = 0; i < n; ++i) {
+      const auto start = steady_clock::now();
+      client.Create(job);
+      own.push_back(1e3 * SecondsSince(start));
+    }
+    return own;
+  };
+  std::vector<std::future<std::vector<double>>> each;
+  for (int i = 0; i < clients; ++i) each.push_back(std::async(std::launch::async, submit));
   std::vector<double> all;
-  for (const std::vector<double>& own : each) all.insert(all.end(), own.begin(), own.end());
+  for (auto& future : each) {
+    const std::vector<double> own = future.get();
+    all.insert(all.end(), own.begin(), own.end());
+  }
   std::ranges::sort(all);
   return all;
 }
