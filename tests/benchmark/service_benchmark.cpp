@@ -344,16 +344,21 @@ void IdleMemory(const ServerProcess& contactd, const Sizes& sizes) {
   client.AwaitIdle();
 }
 
-int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes) {
+/// `only`: the measurement to make; all of them if empty.
+int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes,
+           const std::string& only) {
+  const auto wanted = [&only](const char* name) { return only.empty() || only == name; };
   const ServerProcess contactd({binary, "--log-level=off", "--max-creates-per-second=0"});
   const ServerProcess bare({self, "--bare", "--messages", std::to_string(sizes.streamed_messages)});
-  SubmitLatency(contactd.address(), bare.address(), sizes);
-  JobRate(contactd.address(), sizes);
-  Streaming(contactd.address(), bare.address(), sizes);
-  EventLatency(contactd.address(), sizes);
-  SolverSlowdown(contactd.address(), sizes, "few events", Paced(sizes.run_end_s / 100));
-  SolverSlowdown(contactd.address(), sizes, "dense", DrivenBall(sizes.run_end_s));
-  IdleMemory(contactd, sizes);
+  if (wanted("submit")) SubmitLatency(contactd.address(), bare.address(), sizes);
+  if (wanted("jobs")) JobRate(contactd.address(), sizes);
+  if (wanted("frames")) Streaming(contactd.address(), bare.address(), sizes);
+  if (wanted("latency")) EventLatency(contactd.address(), sizes);
+  if (wanted("slowdown")) {
+    SolverSlowdown(contactd.address(), sizes, "few events", Paced(sizes.run_end_s / 100));
+    SolverSlowdown(contactd.address(), sizes, "dense", DrivenBall(sizes.run_end_s));
+  }
+  if (wanted("memory")) IdleMemory(contactd, sizes);
   return EXIT_SUCCESS;
 }
 
@@ -365,10 +370,13 @@ int main(int argc, char** argv) {
   std::string contactd;
   std::string data_dir;
   std::string listen;
+  std::string only;
   bool tiny = false;
   bool bare = false;
   int messages = 1;
   app.add_option("--contactd", contactd, "The server's binary");
+  app.add_option("--only", only, "Make one measurement")
+      ->check(CLI::IsMember({"submit", "jobs", "frames", "latency", "slowdown", "memory"}));
   app.add_flag("--tiny", tiny, "Only show that it runs");
   app.add_flag("--bare", bare, "Be the server of bare gRPC")->group("");
   app.add_option("--messages", messages)->group("");
@@ -378,7 +386,7 @@ int main(int argc, char** argv) {
   if (bare) return contact::ServeBare(data_dir, messages, contact::kMessageBytes);
   try {
     return contact::RunAll("/proc/self/exe", contactd,
-                           tiny ? contact::TinySizes() : contact::Sizes());
+                           tiny ? contact::TinySizes() : contact::Sizes(), only);
   } catch (const std::exception& error) {
     fmt::print(stderr, "service_benchmark: {}\n", error.what());
     return EXIT_FAILURE;
