@@ -4,19 +4,11 @@ import threading
 import unittest
 
 import http2
-from contactd import endless, spring_wall
+from contactd import endless_and_slow, spring_wall
 from fault import *
 
 WATCHERS = 50
 WATCH = "/contact.v1.JobService/WatchJob"
-
-
-def running():
-    """A run that only its cancelling ends, with about a hundred events a second."""
-    scenario = endless()
-    scenario.solver.method = scenario_pb2.Solver.RK4
-    scenario.solver.step_s = 1e-7
-    return scenario
 
 
 class DrainTest(FaultTest):
@@ -30,7 +22,7 @@ class DrainTest(FaultTest):
         finite = [spring_wall(end_time + 0.1 * i) for i in range(4)]
         golden = self.golden(*finite)
         names = [submit(self.server, self.history, scenario, f"{i}").name
-                 for i, scenario in enumerate([running(), running(), *finite])]
+                 for i, scenario in enumerate([endless_and_slow(), endless_and_slow(), *finite])]
         watching = threading.Semaphore(0)
 
         def watch(name):
