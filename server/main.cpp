@@ -125,7 +125,7 @@ MetricsSources Sources(const Config& config, const StoreOptions& store, const Jo
                                .refused_connections = server.refused_connections(),
                                .stored_bytes = StoredBytes(config.data_dir)};
   };
-  return {now, config.jobs.metrics, store.metrics, server.metrics()};
+  return {now, config.jobs.metrics, store.metrics, server.metrics(), server.stream_metrics()};
 }
 
 // Serves the metrics if they are asked for. False: the address cannot be had.

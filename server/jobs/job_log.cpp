@@ -75,7 +75,7 @@ JobLog::Tail JobLog::After(const Want& want, std::uint64_t* progress_seen,
                            std::shared_ptr<const Waker> waker) {
   const MutexLock lock(mutex_);
   Tail tail{Tail::Found::kEvents, want.position};
-  if (want.position < last_ && last_ - want.position > ring_.size()) {
+  if (IsBeforeRing(want.position)) {
     tail.found = Tail::Found::kOlder;
     return tail;
   }
@@ -91,6 +91,15 @@ JobLog::Tail JobLog::After(const Want& want, std::uint64_t* progress_seen,
     waiting_.insert(std::move(waker));
   }
   return tail;
+}
+
+bool JobLog::IsOlder(std::uint64_t position) const {
+  const MutexLock lock(mutex_);
+  return IsBeforeRing(position);
+}
+
+bool JobLog::IsBeforeRing(std::uint64_t position) const {
+  return position < last_ && last_ - position > ring_.size();
 }
 
 void JobLog::Collect(const Want& want, Tail* tail) {

@@ -57,6 +57,9 @@ class JobLog {
   /// `progress_seen` counts the progress that the watcher has seen; it starts at 0.
   Tail After(const Want& want, std::uint64_t* progress_seen, std::shared_ptr<const Waker> waker);
 
+  /// True if what follows `position` is in the store only.
+  bool IsOlder(std::uint64_t position) const;
+
   /// Takes back a waker. It may still be called once if that has begun.
   void Forget(const std::shared_ptr<const Waker>& waker);
 
@@ -64,11 +67,12 @@ class JobLog {
   using Wakers = std::set<std::shared_ptr<const Waker>>;
 
   void Push(LogRecord record, bool ended) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool IsBeforeRing(std::uint64_t position) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Collect(const Want& want, Tail* tail) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Wakers TakeWaiting() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const Waker on_state_;
-  Mutex mutex_;
+  mutable Mutex mutex_;
   std::deque<LogRecord> ring_ ABSL_GUARDED_BY(mutex_);  ///< Up to last_, without a hole.
   std::size_t ring_bytes_ ABSL_GUARDED_BY(mutex_) = 0;
   std::uint64_t last_ ABSL_GUARDED_BY(mutex_);

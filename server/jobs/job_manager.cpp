@@ -131,6 +131,8 @@ struct JobManager::Impl {
   Scheduler scheduler;
   Retention retention;
   Executor executor;  ///< Checks scenarios and reads series: too long for the callers' threads.
+  Executor decoder;   ///< Decodes what watchers read from the store.
+  const EventSource source{store, decoder};
 };
 
 JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options)
@@ -297,7 +299,7 @@ JobManager::Watched JobManager::Impl::Open(const v1::WatchJobRequest& request, W
   Complete(false, &job);
   if (job.has_sweep() && request.kinds().empty()) rules.kinds &= ~KindBit(v1::Event::kFrameChunk);
   auto tail = std::make_unique<TailCursor>(
-      store, request.name(), std::move(log),
+      source, request.name(), std::move(log),
       request.live_only() ? job.last_sequence() : request.after_sequence(), rules.kinds,
       std::move(wake), watchers);
   auto behind = [&cursor = *tail] { return cursor.behind(); };
@@ -368,6 +370,7 @@ void JobManager::Drain() { impl_->draining = true; }
 void JobManager::Stop() {
   Drain();
   impl_->executor.Stop();
+  impl_->decoder.Stop();
   impl_->retention.Stop();
   impl_->scheduler.Stop();
   std::promise<void> flushed;

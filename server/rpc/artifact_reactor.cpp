@@ -10,7 +10,8 @@ ArtifactReactor* ArtifactReactor::Start(JobManager& jobs, const std::shared_ptr<
                                         grpc::CallbackServerContext* context,
                                         const v1::ReadArtifactRequest& request,
                                         std::chrono::milliseconds write_stall) {
-  const std::shared_ptr<ArtifactReactor> self(new ArtifactReactor(context, request, write_stall));
+  const std::shared_ptr<ArtifactReactor> self(
+      new ArtifactReactor(context, request, write_stall, loop->metrics()));
   self->Own(self);
   const std::weak_ptr<ArtifactReactor> weak = self;
   loop->Add(self);

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job_manager.h"
@@ -23,8 +24,8 @@ class ArtifactReactor final : public StreamReactor<v1::ReadArtifactResponse> {
 
  private:
   ArtifactReactor(grpc::CallbackServerContext* context, const v1::ReadArtifactRequest& request,
-                  std::chrono::milliseconds write_stall)
-      : StreamReactor(request.name(), context, write_stall) {}
+                  std::chrono::milliseconds write_stall, std::shared_ptr<StreamMetrics> metrics)
+      : StreamReactor(request.name(), context, write_stall, std::move(metrics)) {}
 
   bool Next(v1::ReadArtifactResponse* out) override;
   bool IsDue(std::chrono::steady_clock::time_point) const override { return false; }

@@ -37,10 +37,13 @@ std::string PeerOf(const sockaddr_storage& address) {
   return text.data();
 }
 
-// What gRPC's own listener would have set.
-void Prepare(int fd) {
+// What gRPC's own listener would have set; and a limit where gRPC has none: behind a write that
+// does not end, its pings are not sent.
+void Prepare(int fd, milliseconds stall) {
   const int on = 1;
   setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+  const auto limit = static_cast<unsigned>(stall.count());
+  setsockopt(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, &limit, sizeof(limit));
 }
 
 bool IsShortage(int error) {
@@ -62,7 +65,9 @@ ConnectionLimits FitToDescriptors(ConnectionLimits wanted) {
   const int in_all = static_cast<int>(files.rlim_cur - others);
   spdlog::warn("only {} file descriptors: {} connections instead of {}", files.rlim_cur, in_all,
                wanted.in_all);
-  return {in_all, std::min(wanted.per_peer, in_all)};
+  wanted.in_all = in_all;
+  wanted.per_peer = std::min(wanted.per_peer, in_all);
+  return wanted;
 }
 
 ConnectionAcceptor::ConnectionAcceptor(TcpListener listener, ConnectionLimits limits,
@@ -73,9 +78,18 @@ ConnectionAcceptor::ConnectionAcceptor(TcpListener listener, ConnectionLimits li
       stop_(eventfd(0, EFD_CLOEXEC)),
       thread_([this] { Loop(); }) {}
 
-ConnectionAcceptor::~ConnectionAcceptor() {
+ConnectionAcceptor::~ConnectionAcceptor() { Close(); }
+
+void ConnectionAcceptor::Close() {
+  if (!thread_.joinable()) return;
   eventfd_write(stop_.get(), 1);
   thread_.join();
+  listener_.sockets.clear();
+}
+
+void ConnectionAcceptor::Cut() {
+  const MutexLock lock(mutex_);
+  connections_.Cut();
 }
 
 std::size_t ConnectionAcceptor::open() const {
@@ -108,7 +122,7 @@ bool ConnectionAcceptor::Accept(int listener) {
                                     SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!connection.valid()) return !IsShortage(errno);
   if (Admit(connection.get(), PeerOf(address))) {
-    Prepare(connection.get());
+    Prepare(connection.get(), limits_.stall);
     hand_over_(listener, connection.Release());
   } else {
     ++refused_;

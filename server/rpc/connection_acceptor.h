@@ -18,6 +18,8 @@ namespace contact {
 struct ConnectionLimits {
   int in_all = 4096;
   int per_peer = 4096;  ///< Of one address of the network.
+  /// A peer whose system takes nothing of what is sent for so long is cut.
+  std::chrono::milliseconds stall{30'000};
 };
 
 /// As many connections as the process has file descriptors for, some kept for all else; the soft
@@ -33,10 +35,15 @@ class ConnectionAcceptor {
   using HandOver = std::function<void(int listener, int fd)>;
 
   ConnectionAcceptor(TcpListener listener, ConnectionLimits limits, HandOver hand_over);
-  /// Stops listening.
   ~ConnectionAcceptor();
   ConnectionAcceptor(const ConnectionAcceptor&) = delete;
   ConnectionAcceptor& operator=(const ConnectionAcceptor&) = delete;
+
+  /// Stops listening. Idempotent; by one thread.
+  void Close();
+  /// Cuts the connections that are open. gRPC closes none with a write under way, and the write to
+  /// a peer that reads nothing never ends.
+  void Cut();
 
   /// Connections that are open now.
   std::size_t open() const;
@@ -50,7 +57,7 @@ class ConnectionAcceptor {
   bool Full(const std::string& peer) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool StoppedWithin(std::chrono::milliseconds time) const;
 
-  const TcpListener listener_;
+  TcpListener listener_;
   const ConnectionLimits limits_;
   const HandOver hand_over_;
   const FileDescriptor stop_;        ///< An eventfd; readable: stop.

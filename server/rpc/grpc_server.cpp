@@ -13,6 +13,7 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -67,10 +68,12 @@ void Configure(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
   if (!options.reflection) builder->SetOption(std::make_unique<NoReflection>());
 }
 
-// Ends the process unless it is destroyed in time.
+// Does what is needed to be destroyed in time: first `urge`, then end the process.
 class Watchdog {
  public:
-  explicit Watchdog(milliseconds limit) : thread_([this, limit] { Watch(limit); }) {}
+  Watchdog(milliseconds patience, std::function<void()> urge, milliseconds limit)
+      : thread_([this, patience, urge = std::move(urge), limit] { Watch(patience, urge, limit); }) {
+  }
   ~Watchdog() {
     {
       const std::lock_guard lock(mutex_);
@@ -83,9 +86,12 @@ class Watchdog {
   Watchdog& operator=(const Watchdog&) = delete;
 
  private:
-  void Watch(milliseconds limit) {
+  void Watch(milliseconds patience, const std::function<void()>& urge, milliseconds limit) {
+    const auto begin = std::chrono::steady_clock::now();
     std::unique_lock lock(mutex_);
-    if (changed_.wait_for(lock, limit, [this] { return done_; })) return;
+    if (changed_.wait_until(lock, begin + patience, [this] { return done_; })) return;
+    urge();
+    if (changed_.wait_until(lock, begin + limit, [this] { return done_; })) return;
     spdlog::critical("gRPC did not shut down in {} ms; ending the process", limit.count());
     std::_Exit(1);
   }
@@ -110,6 +116,7 @@ bool IsServed(const std::string& path) {
 
 GrpcServerOptions Fitted(GrpcServerOptions options) {
   options.connections = FitToDescriptors(options.connections);
+  options.connections.stall = options.write_stall;
   return options;
 }
 
@@ -194,12 +201,16 @@ void GrpcServer::Drain() {
 
 void GrpcServer::Shutdown(milliseconds grace) {
   Drain();
-  acceptor_.reset();
+  if (acceptor_) acceptor_->Close();
   if (server_) {
-    const Watchdog watchdog(grace + 2s);
+    const auto cut = [this] {
+      if (acceptor_) acceptor_->Cut();
+    };
+    const Watchdog watchdog(grace + 500ms, cut, grace + 2s);
     server_->Shutdown(std::chrono::system_clock::now() + grace);
     server_.reset();
   }
+  acceptor_.reset();
   watches_->Stop();
 }
 

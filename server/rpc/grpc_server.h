@@ -63,6 +63,7 @@ class GrpcServer {
 
   /// What calls have come to.
   std::shared_ptr<const RpcMetrics> metrics() const { return metrics_; }
+  std::shared_ptr<const StreamMetrics> stream_metrics() const { return watches_->metrics(); }
 
  private:
   std::optional<int> ListenOnFile(const std::string& address, grpc::ServerBuilder& builder);

@@ -125,6 +125,17 @@ void AddCalls(const RpcMetrics& rpc, Page* page) {
   for (const auto& [reason, count] : rpc.refused()) page->Add(count, {{"reason", reason}});
 }
 
+void AddStreams(const StreamMetrics& streams, Page* page) {
+  page->Gauge("contactd_streams_slow", "Streams whose reader holds up a write for over a second")
+      .Add(streams.slow.load());
+  page->Counter("contactd_streams_dropped_total", "Streams whose reader took nothing for too long")
+      .Add(streams.dropped.load());
+  page->Counter("contactd_events_conflated_total", "Events left out for slow or sparing readers")
+      .Add(streams.conflated.load());
+  page->Distribution("contactd_stream_reaction_seconds", "Time that a stream's reaction takes")
+      .Add(streams.reaction_seconds);
+}
+
 }  // namespace
 
 std::vector<MetricFamily> MetricsPage::Collect() const {
@@ -133,6 +144,7 @@ std::vector<MetricFamily> MetricsPage::Collect() const {
   AddJobs(*sources_.jobs, &page);
   AddStore(*sources_.store, &page);
   AddCalls(*sources_.rpc, &page);
+  AddStreams(*sources_.streams, &page);
   return page.Take();
 }
 

@@ -11,6 +11,7 @@
 
 #include "jobs/job_metrics.h"
 #include "rpc/rpc_metrics.h"
+#include "rpc/stream_metrics.h"
 #include "storage/store_metrics.h"
 
 namespace contact {
@@ -31,6 +32,7 @@ struct MetricsSources {
   std::shared_ptr<const JobMetrics> jobs;
   std::shared_ptr<const StoreMetrics> store;
   std::shared_ptr<const RpcMetrics> rpc;
+  std::shared_ptr<const StreamMetrics> streams;
 };
 
 /// Tells Prometheus what the server counts; server/README.md lists it. Thread-safe.

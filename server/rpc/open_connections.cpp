@@ -1,5 +1,6 @@
 #include "rpc/open_connections.h"
 
+#include <sys/socket.h>
 #include <sys/stat.h>
 
 namespace contact {
@@ -27,6 +28,11 @@ void OpenConnections::Sweep() {
     Leave(socket.second.peer);
     return true;
   });
+}
+
+void OpenConnections::Cut() {
+  Sweep();
+  for (const auto& [fd, socket] : sockets_) shutdown(fd, SHUT_RDWR);
 }
 
 std::size_t OpenConnections::CountOf(const std::string& peer) const {

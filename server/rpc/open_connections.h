@@ -16,6 +16,8 @@ class OpenConnections {
   void Add(int fd, const std::string& peer);
   /// Forgets those that are closed.
   void Sweep();
+  /// Ends those that are left, as if their peers had left; gRPC will close them.
+  void Cut();
 
   std::size_t size() const { return sockets_.size(); }
   /// Of one peer.

@@ -38,13 +38,17 @@ class StreamReactor : public grpc::ServerWriteReactor<Message>, public Stream {
   }
 
   /// Ends the call if its write takes longer than `write_stall`; pokes it if it asks for that.
-  void Tick(std::chrono::steady_clock::time_point now) final;
+  /// True if a write takes longer than a second.
+  bool Tick(std::chrono::steady_clock::time_point now) final;
 
  protected:
-  /// `what` is watched, for the log.
-  StreamReactor(std::string what, grpc::CallbackServerContext* context,
-                std::chrono::milliseconds write_stall)
-      : what_(std::move(what)), write_stall_(write_stall), context_(context) {}
+  /// `job` is what is read of, for the log.
+  StreamReactor(std::string job, grpc::CallbackServerContext* context,
+                std::chrono::milliseconds write_stall, std::shared_ptr<StreamMetrics> metrics)
+      : job_(std::move(job)),
+        write_stall_(write_stall),
+        metrics_(std::move(metrics)),
+        context_(context) {}
 
   /// From here on the reactor owns itself, until gRPC is done with it.
   void Own(std::shared_ptr<StreamReactor> self) { self_ = std::move(self); }
@@ -66,11 +70,13 @@ class StreamReactor : public grpc::ServerWriteReactor<Message>, public Stream {
     if (!end_) end_ = status;
   }
   std::chrono::steady_clock::time_point last_write() const { return last_write_; }
+  StreamMetrics& metrics() { return *metrics_; }
 
  private:
   enum class State { kIdle, kWriting, kFinishing, kDone };
 
   State Choose();
+  void Drop(std::chrono::steady_clock::time_point now);
   std::shared_ptr<StreamReactor> Self() {
     const std::lock_guard lock(mutex_);
     return self_;
@@ -92,8 +98,9 @@ class StreamReactor : public grpc::ServerWriteReactor<Message>, public Stream {
     last = std::move(self_);
   }
 
-  const std::string what_;
+  const std::string job_;
   const std::chrono::milliseconds write_stall_;
+  const std::shared_ptr<StreamMetrics> metrics_;
 
   std::mutex mutex_;                            // Guards everything below.
   grpc::CallbackServerContext* const context_;  // Valid until kDone.
@@ -105,18 +112,27 @@ class StreamReactor : public grpc::ServerWriteReactor<Message>, public Stream {
 };
 
 template <class Message>
-void StreamReactor<Message>::Tick(std::chrono::steady_clock::time_point now) {
+bool StreamReactor<Message>::Tick(std::chrono::steady_clock::time_point now) {
+  bool slow = false;
   {
     const std::lock_guard lock(mutex_);
-    if (state_ == State::kWriting && now - last_write_ > write_stall_) {
-      spdlog::warn("{}: a watcher took nothing for {} ms and is dropped", what_,
-                   write_stall_.count());
-      context_->TryCancel();
-      last_write_ = now;
+    if (state_ == State::kWriting) {
+      const auto waits = now - last_write_;
+      slow = waits > std::chrono::seconds(1);
+      if (waits > write_stall_) Drop(now);
     }
-    if (state_ != State::kIdle || !IsDue(now)) return;
+    if (state_ != State::kIdle || !IsDue(now)) return slow;
   }
   Poke();
+  return slow;
+}
+
+template <class Message>
+void StreamReactor<Message>::Drop(std::chrono::steady_clock::time_point now) {
+  spdlog::warn("job={} a reader took nothing for {} ms and is dropped", job_, write_stall_.count());
+  ++metrics_->dropped;
+  context_->TryCancel();
+  last_write_ = now;
 }
 
 template <class Message>
@@ -124,6 +140,7 @@ template <class Change>
 void StreamReactor<Message>::Step(Change change) {
   const auto keep = Self();
   if (!keep) return;
+  const auto begin = std::chrono::steady_clock::now();
   State next;
   grpc::Status end;
   {
@@ -136,6 +153,8 @@ void StreamReactor<Message>::Step(Change change) {
   }
   if (next == State::kWriting) this->StartWrite(&out_);
   if (next == State::kFinishing) this->Finish(end);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  metrics_->reaction_seconds.Count(took.count());
 }
 
 template <class Message>

@@ -14,7 +14,8 @@ WatchJobsReactor* WatchJobsReactor::Start(JobManager& jobs, const std::shared_pt
                                           grpc::CallbackServerContext* context,
                                           const v1::WatchJobsRequest& request,
                                           milliseconds write_stall) {
-  const std::shared_ptr<WatchJobsReactor> self(new WatchJobsReactor(context, write_stall));
+  const std::shared_ptr<WatchJobsReactor> self(
+      new WatchJobsReactor(context, write_stall, loop->metrics()));
   self->Own(self);
   loop->Add(self);
   auto result =

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job_manager.h"
@@ -22,8 +23,9 @@ class WatchJobsReactor final : public StreamReactor<v1::WatchJobsResponse> {
                                  std::chrono::milliseconds write_stall);
 
  private:
-  WatchJobsReactor(grpc::CallbackServerContext* context, std::chrono::milliseconds write_stall)
-      : StreamReactor("jobs", context, write_stall) {}
+  WatchJobsReactor(grpc::CallbackServerContext* context, std::chrono::milliseconds write_stall,
+                   std::shared_ptr<StreamMetrics> metrics)
+      : StreamReactor("*", context, write_stall, std::move(metrics)) {}
 
   bool Next(v1::WatchJobsResponse* out) override;
   bool IsDue(std::chrono::steady_clock::time_point now) const override;

@@ -1,6 +1,7 @@
 #include "rpc/watch_loop.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace contact {
@@ -61,6 +62,12 @@ std::vector<std::shared_ptr<Stream>> WatchLoop::Alive() {
   return alive;
 }
 
+void WatchLoop::Tick(steady_clock::time_point now) {
+  std::int64_t slow = 0;
+  for (const auto& watcher : Alive()) slow += watcher->Tick(now) ? 1 : 0;
+  metrics_->slow = slow;
+}
+
 void WatchLoop::Run() {
   auto next_tick = steady_clock::now() + tick_;
   std::unique_lock lock(mutex_);
@@ -72,7 +79,7 @@ void WatchLoop::Run() {
       if (const auto strong = watcher.lock()) strong->Poke();
     }
     if (const auto now = steady_clock::now(); now >= next_tick) {
-      for (const auto& watcher : Alive()) watcher->Tick(now);
+      Tick(now);
       next_tick = now + tick_;
     }
     lock.lock();

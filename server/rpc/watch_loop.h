@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "rpc/stream_metrics.h"
+
 namespace contact {
 
 /// A stream as the loop sees it.
@@ -17,7 +19,8 @@ class Stream {
   virtual ~Stream() = default;
   virtual void Poke() = 0;
   virtual void Drain() = 0;
-  virtual void Tick(std::chrono::steady_clock::time_point now) = 0;
+  /// Sees to what time brings. True if the reader is slow.
+  virtual bool Tick(std::chrono::steady_clock::time_point now) = 0;
 };
 
 /// The one thread that steps all streams from outside gRPC: when their source has grown, when a
@@ -43,13 +46,18 @@ class WatchLoop {
   /// Watchers that are alive.
   std::size_t watchers() const;
 
+  /// Where the streams count, for their part.
+  const std::shared_ptr<StreamMetrics>& metrics() const { return metrics_; }
+
  private:
   using Watchers = std::set<std::weak_ptr<Stream>, std::owner_less<>>;
 
   void Run();
+  void Tick(std::chrono::steady_clock::time_point now);
   std::vector<std::shared_ptr<Stream>> Alive();
 
   const std::chrono::milliseconds tick_;
+  const std::shared_ptr<StreamMetrics> metrics_ = std::make_shared<StreamMetrics>();
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Watchers watchers_;      // Guarded by mutex_.

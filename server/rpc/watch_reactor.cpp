@@ -3,6 +3,7 @@
 #include <grpcpp/impl/codegen/proto_utils.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,13 @@ grpc::Status Deleted(const std::string& name) {
                  .metadata = {{"name", name}}});
 }
 
+// Events in whose place the record stands, if it is a gap.
+std::int64_t LeftOut(const LogRecord& record) {
+  v1::Event event;
+  if (record.kind != v1::Event::kGap || !event.ParseFromString(*record.event)) return 0;
+  return static_cast<std::int64_t>(event.gap().dropped_count());
+}
+
 }  // namespace
 
 WatchReactor* WatchReactor::Start(JobManager& jobs, const std::shared_ptr<WatchLoop>& loop,
@@ -39,7 +47,8 @@ WatchReactor* WatchReactor::Start(JobManager& jobs, const std::shared_ptr<WatchL
   grpc::ByteBuffer bytes = request;
   const bool readable =
       grpc::SerializationTraits<v1::WatchJobRequest>::Deserialize(&bytes, &parsed).ok();
-  const std::shared_ptr<WatchReactor> self(new WatchReactor(context, parsed.name(), write_stall));
+  const std::shared_ptr<WatchReactor> self(
+      new WatchReactor(context, parsed.name(), write_stall, loop->metrics()));
   self->Own(self);
   if (!readable) {
     self->Step([&self] { self->EndWith(Unparsable()); });
@@ -63,8 +72,8 @@ WatchReactor* WatchReactor::Start(JobManager& jobs, const std::shared_ptr<WatchL
 }
 
 WatchReactor::WatchReactor(grpc::CallbackServerContext* context, const std::string& name,
-                           milliseconds write_stall)
-    : StreamReactor(name, context, write_stall), name_(name) {}
+                           milliseconds write_stall, std::shared_ptr<StreamMetrics> metrics)
+    : StreamReactor(name, context, write_stall, std::move(metrics)), name_(name) {}
 
 // Puts what comes next into `out`, or ends the stream.
 bool WatchReactor::Next(grpc::ByteBuffer* out) {
@@ -99,7 +108,10 @@ bool WatchReactor::Next(grpc::ByteBuffer* out) {
 // Adds a bookmark if it is time for one: progress alone tells no place to resume from.
 bool WatchReactor::Write(const std::vector<LogRecord>& records, grpc::ByteBuffer* out) {
   WatchMessage message;
-  for (const LogRecord& record : records) message.Add(record);
+  for (const LogRecord& record : records) {
+    message.Add(record);
+    metrics().conflated += LeftOut(record);
+  }
   const auto now = steady_clock::now();
   const bool told = std::ranges::any_of(records, [](const auto& r) { return r.sequence > 0; });
   const bool bookmark = !told && now - last_told_ >= watched_.bookmark_interval;

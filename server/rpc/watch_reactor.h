@@ -27,7 +27,7 @@ class WatchReactor final : public StreamReactor<grpc::ByteBuffer> {
 
  private:
   WatchReactor(grpc::CallbackServerContext* context, const std::string& name,
-               std::chrono::milliseconds write_stall);
+               std::chrono::milliseconds write_stall, std::shared_ptr<StreamMetrics> metrics);
 
   bool Next(grpc::ByteBuffer* out) override;
   bool IsDue(std::chrono::steady_clock::time_point now) const override;

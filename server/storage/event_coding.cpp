@@ -2,9 +2,13 @@
 
 #include <zstd.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
+#include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "storage/records.h"
@@ -20,53 +24,96 @@ constexpr int kLevel = 3;
 constexpr std::size_t kMaxDecoded = std::size_t{1} << 30;
 constexpr std::size_t kDouble = sizeof(std::uint64_t);
 
-using Values = std::vector<std::uint64_t>;  // Bits of doubles.
+// Eight values at once: their bytes as a square, and the square turned.
+constexpr std::size_t kBlock = 8;
+using Block = std::array<std::uint64_t, kBlock>;
+
+std::uint64_t Load(const char* from) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+void Put(std::uint64_t value, char* to) { std::memcpy(to, &value, sizeof value); }
+
+using Row = unsigned char __attribute__((vector_size(16)));
+
+Row MergeLow(Row a, Row b) {
+  return __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+}
+
+Row MergeHigh(Row a, Row b) {
+  return __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15,
+                                 31);
+}
+
+// Byte j of value i becomes byte i of value j; its own inverse. To merge the halves of the block
+// moves byte i to 2 i (mod 63): three times turn the six bits of i by half.
+inline void Turn(Block& block) {
+  std::array<Row, 4> rows;
+  std::memcpy(&rows, &block, sizeof block);
+  for (int i = 0; i < 3; ++i) {
+    rows = {MergeLow(rows[0], rows[2]), MergeHigh(rows[0], rows[2]), MergeLow(rows[1], rows[3]),
+            MergeHigh(rows[1], rows[3])};
+  }
+  std::memcpy(&block, &rows, sizeof block);
+}
 
 // Smooth motion has small second differences, also between the bits of its doubles.
-void AppendDifferences(std::string_view column, Values* values) {
-  std::uint64_t before = 0;
-  std::uint64_t difference_before = 0;
-  for (std::size_t i = 0; i < column.size(); i += kDouble) {
-    std::uint64_t value = 0;
-    std::memcpy(&value, column.data() + i, kDouble);
-    const std::uint64_t difference = value - before;
-    values->push_back(difference - difference_before);
-    before = value;
-    difference_before = difference;
+class Differences {
+ public:
+  std::uint64_t Of(std::uint64_t value) {
+    const std::uint64_t difference = value - value_;
+    value_ = value;
+    return difference - std::exchange(difference_, difference);
   }
-}
-
-std::string SumDifferences(const std::uint64_t* differences, std::size_t count) {
-  std::string column(count * kDouble, '\0');
-  std::uint64_t value = 0;
-  std::uint64_t difference = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    difference += differences[i];
-    value += difference;
-    std::memcpy(column.data() + i * kDouble, &value, kDouble);
+  std::uint64_t Sum(std::uint64_t second) {
+    difference_ += second;
+    return value_ += difference_;
   }
-  return column;
-}
 
-// The first bytes of all values, then their second bytes, and so on: like beside like.
-void AppendPlanes(const Values& values, std::string* bytes) {
-  const std::size_t start = bytes->size();
-  bytes->resize(start + values.size() * kDouble);
-  char* out = bytes->data() + start;
-  for (std::size_t plane = 0; plane < kDouble; ++plane) {
-    for (const std::uint64_t value : values) *out++ = static_cast<char>(value >> (8 * plane));
-  }
-}
+ private:
+  std::uint64_t value_ = 0;
+  std::uint64_t difference_ = 0;
+};
 
-Values JoinPlanes(std::string_view planes) {
-  Values values(planes.size() / kDouble);
-  for (std::size_t i = 0; i < values.size(); ++i) {
+// The second differences of a column go to planes: the first bytes of all values of all columns,
+// then their second bytes, and so on: like beside like. Planes are `stride` bytes apart.
+void SplitColumn(std::string_view column, std::size_t stride, char* planes) {
+  Differences differences;
+  const std::size_t count = column.size() / kDouble;
+  for (std::size_t i = 0; i < count; i += kBlock) {
+    const std::size_t some = std::min(kBlock, count - i);
+    Block block{};
+    for (std::size_t j = 0; j < some; ++j) {
+      block[j] = differences.Of(Load(column.data() + (i + j) * kDouble));
+    }
+    Turn(block);
     for (std::size_t plane = 0; plane < kDouble; ++plane) {
-      const auto byte = static_cast<unsigned char>(planes[plane * values.size() + i]);
-      values[i] |= std::uint64_t{byte} << (8 * plane);
+      std::memcpy(planes + plane * stride + i, &block[plane], some);
     }
   }
-  return values;
+}
+
+// The reverse.
+void JoinColumn(const char* planes, std::size_t stride, std::size_t count, char* column) {
+  Differences differences;
+  for (std::size_t i = 0; i < count; i += kBlock) {
+    const std::size_t some = std::min(kBlock, count - i);
+    Block block{};
+    for (std::size_t plane = 0; plane < kDouble; ++plane) {
+      const char* const from = planes + plane * stride + i;
+      if (some == kBlock) {
+        block[plane] = Load(from);
+      } else {
+        std::memcpy(&block[plane], from, some);
+      }
+    }
+    Turn(block);
+    for (std::size_t j = 0; j < some; ++j) {
+      Put(differences.Sum(block[j]), column + (i + j) * kDouble);
+    }
+  }
 }
 
 std::string Compress(const std::string& bytes) {
@@ -77,11 +124,17 @@ std::string Compress(const std::string& bytes) {
   return out;
 }
 
-bool Decompress(const std::string& bytes, std::string* out) {
-  const std::size_t expected = DecodedSize(Coding::kFrames, bytes);
-  if (expected > kMaxDecoded) return false;
-  out->resize(expected);
-  return ZSTD_decompress(out->data(), expected, bytes.data(), bytes.size()) == expected;
+// Nothing if it is no such frame.
+std::unique_ptr<char[]> Decompress(const std::string& bytes, std::size_t* size) {
+  // Making one takes longer than decompressing a small chunk.
+  thread_local const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
+                                                                                  &ZSTD_freeDCtx);
+  *size = DecodedSize(Coding::kFrames, bytes);
+  if (*size > kMaxDecoded) return nullptr;
+  auto out = std::make_unique_for_overwrite<char[]>(*size);
+  const std::size_t got =
+      ZSTD_decompressDCtx(context.get(), out.get(), *size, bytes.data(), bytes.size());
+  return got == *size ? std::move(out) : nullptr;
 }
 
 bool HasWholeColumns(const v1::FrameChunk& chunk) {
@@ -95,38 +148,94 @@ bool HasWholeColumns(const v1::FrameChunk& chunk) {
 // Length of the event without its values, that event, and the planes of the values.
 std::string Rearrange(const v1::Event& event) {
   v1::Event rest = event;
-  Values values;
-  values.reserve(static_cast<std::size_t>(event.frame_chunk().columns_size()) *
-                 static_cast<std::size_t>(event.frame_chunk().samples()));
   for (v1::FrameChunk::Column& column : *rest.mutable_frame_chunk()->mutable_columns()) {
-    AppendDifferences(column.values(), &values);
     column.clear_values();
   }
   const auto length = static_cast<std::uint32_t>(rest.ByteSizeLong());
   std::string bytes(sizeof length, '\0');
   std::memcpy(bytes.data(), &length, sizeof length);
   rest.AppendToString(&bytes);
-  AppendPlanes(values, &bytes);
+  const auto samples = static_cast<std::size_t>(event.frame_chunk().samples());
+  const auto columns = static_cast<std::size_t>(event.frame_chunk().columns_size());
+  const std::size_t start = bytes.size();
+  bytes.resize(start + samples * columns * kDouble);
+  char* planes = bytes.data() + start;
+  for (const v1::FrameChunk::Column& column : event.frame_chunk().columns()) {
+    SplitColumn(column.values(), samples * columns, planes);
+    planes += samples;
+  }
   return bytes;
 }
 
-bool Restore(std::string_view bytes, v1::Event* event) {
+using Columns = google::protobuf::RepeatedPtrField<v1::FrameChunk::Column>;
+
+void AppendVarint(std::uint64_t value, std::string* text) {
+  for (; value > 127; value >>= 7) text->push_back(static_cast<char>(value | 128));
+  text->push_back(static_cast<char>(value));
+}
+
+// Tag and length of a field that is so long.
+void AppendHead(int field, std::size_t size, std::string* text) {
+  constexpr int kLengthDelimited = 2;
+  AppendVarint(static_cast<std::uint64_t>(field) << 3 | kLengthDelimited, text);
+  AppendVarint(size, text);
+}
+
+// Each as a field of its chunk, but for its values, which are last: `size` bytes.
+std::vector<std::string> HeadsOf(const Columns& columns, std::size_t size) {
+  std::vector<std::string> heads;
+  for (const v1::FrameChunk::Column& column : columns) {
+    std::string rest = column.SerializeAsString();
+    AppendHead(v1::FrameChunk::Column::kValuesFieldNumber, size, &rest);
+    AppendHead(v1::FrameChunk::kColumnsFieldNumber, rest.size() + size, &heads.emplace_back());
+    heads.back() += rest;
+  }
+  return heads;
+}
+
+// The event, serialised, with these planes as its values. Written by hand: to fill a message in
+// and to serialise it takes twice as long.
+std::string Compose(v1::Event event, std::string_view planes, std::size_t samples) {
+  v1::FrameChunk chunk;
+  chunk.Swap(event.mutable_frame_chunk());
+  event.clear_payload();
+  Columns columns;
+  columns.Swap(chunk.mutable_columns());
+  const std::vector<std::string> heads = HeadsOf(columns, samples * kDouble);
+
+  const std::string head = chunk.SerializeAsString();
+  std::size_t size = head.size() + planes.size();
+  for (const std::string& column : heads) size += column.size();
+  std::string out = event.SerializeAsString();
+  AppendHead(v1::Event::kFrameChunkFieldNumber, size, &out);
+  out += head;
+  std::size_t at = out.size();
+  out.resize(at + size - head.size());
+  const char* plane = planes.data();
+  for (const std::string& column : heads) {
+    column.copy(out.data() + at, column.size());
+    at += column.size();
+    JoinColumn(plane, planes.size() / kDouble, samples, out.data() + at);
+    at += samples * kDouble;
+    plane += samples;
+  }
+  return out;
+}
+
+bool Restore(std::string_view bytes, std::string* payload) {
   std::uint32_t length = 0;
   if (bytes.size() < sizeof length) return false;
   std::memcpy(&length, bytes.data(), sizeof length);
   bytes.remove_prefix(sizeof length);
-  if (bytes.size() < length || !event->ParseFromArray(bytes.data(), static_cast<int>(length))) {
+  v1::Event event;
+  if (bytes.size() < length || !event.ParseFromArray(bytes.data(), static_cast<int>(length))) {
     return false;
   }
-  v1::FrameChunk& chunk = *event->mutable_frame_chunk();
-  const auto samples = static_cast<std::size_t>(chunk.samples());
-  const Values values = JoinPlanes(bytes.substr(length));
-  if (values.size() != samples * static_cast<std::size_t>(chunk.columns_size())) return false;
-  const std::uint64_t* next = values.data();
-  for (v1::FrameChunk::Column& column : *chunk.mutable_columns()) {
-    column.set_values(SumDifferences(next, samples));
-    next += samples;
-  }
+  bytes.remove_prefix(length);
+  const auto samples = static_cast<std::size_t>(event.frame_chunk().samples());
+  const auto columns = static_cast<std::size_t>(event.frame_chunk().columns_size());
+  if (bytes.size() % kDouble != 0 || bytes.size() / kDouble != samples * columns) return false;
+  *payload = Compose(std::move(event), bytes, samples);
   return true;
 }
 
@@ -140,10 +249,21 @@ CodedEvent EncodeEvent(const v1::Event& event) {
   return {Coding::kPlain, event.SerializeAsString()};
 }
 
+bool DecodePayload(Coding coding, std::string bytes, std::string* payload) {
+  if (coding == Coding::kPlain) {
+    *payload = std::move(bytes);
+    return true;
+  }
+  if (coding != Coding::kFrames) return false;
+  std::size_t size = 0;
+  const auto rearranged = Decompress(bytes, &size);
+  return rearranged && Restore({rearranged.get(), size}, payload);
+}
+
 bool DecodeEvent(Coding coding, const std::string& bytes, v1::Event* event) {
   if (coding == Coding::kPlain) return event->ParseFromString(bytes);
-  std::string rearranged;
-  return coding == Coding::kFrames && Decompress(bytes, &rearranged) && Restore(rearranged, event);
+  std::string payload;
+  return DecodePayload(coding, bytes, &payload) && event->ParseFromString(payload);
 }
 
 std::size_t DecodedSize(Coding coding, const std::string& bytes) {
@@ -156,12 +276,7 @@ bool StoredEvent::Parse(v1::Event* event) const {
 }
 
 bool StoredEvent::TakePayload(std::string* payload) {
-  if (coding == Coding::kPlain) {
-    *payload = std::move(bytes);
-    return intact;
-  }
-  v1::Event event;
-  return Parse(&event) && event.SerializeToString(payload);
+  return intact && DecodePayload(coding, std::move(bytes), payload);
 }
 
 }  // namespace contact

@@ -22,7 +22,10 @@ struct CodedEvent {
 /// The same message gives the same bytes.
 CodedEvent EncodeEvent(const v1::Event& event);
 
-/// False if the bytes are none that EncodeEvent has made.
+/// Gives the serialised message. False if the bytes are none that EncodeEvent has made.
+bool DecodePayload(Coding coding, std::string bytes, std::string* payload);
+
+/// The same as a message.
 bool DecodeEvent(Coding coding, const std::string& bytes, v1::Event* event);
 
 /// Bytes of the event while it is decoded, about; without decoding it.

@@ -3,16 +3,18 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <grpcpp/grpcpp.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 #include "contact/v1/job_service.grpc.pb.h"
 
@@ -20,6 +22,9 @@ namespace contact {
 namespace {
 
 namespace fs = std::filesystem;
+
+// For a server to end by itself.
+constexpr std::chrono::seconds kPatience{10};
 
 fs::path MakeFolder() {
   std::string name = (fs::temp_directory_path() / "contactd-bench-XXXXXX").string();
@@ -32,14 +37,16 @@ pid_t Spawn(const std::vector<std::string>& command, int out) {
   words.reserve(command.size() + 1);
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  pid_t pid = -1;
-  const int error = posix_spawn(&pid, words[0], &actions, nullptr, words.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error("cannot start " + command.front());
-  return pid;
+  const pid_t parent = ::getpid();
+  const pid_t pid = ::fork();
+  if (pid < 0) throw std::runtime_error("cannot start " + command.front());
+  if (pid > 0) return pid;
+  // However this process ends, no server outlives it.
+  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == parent) {
+    ::dup2(out, STDOUT_FILENO);
+    ::execv(words[0], words.data());
+  }
+  ::_exit(127);
 }
 
 std::string AddressIn(const std::string& greeting) {
@@ -99,7 +106,11 @@ ServerProcess::ServerProcess(std::vector<std::string> command) : folder_(MakeFol
 
 ServerProcess::~ServerProcess() {
   ::kill(pid_, SIGTERM);
-  ::waitpid(pid_, nullptr, 0);
+  const auto limit = std::chrono::steady_clock::now() + kPatience;
+  while (::waitpid(pid_, nullptr, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > limit) ::kill(pid_, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
 }

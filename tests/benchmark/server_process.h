@@ -15,7 +15,7 @@ class ServerProcess {
   /// `command` gets `--listen` and `--data-dir` appended. Throws std::runtime_error if it does not
   /// come up.
   explicit ServerProcess(std::vector<std::string> command);
-  ~ServerProcess();  ///< Asks it to end and waits.
+  ~ServerProcess();  ///< Asks it to end and waits; after 10 s it is killed.
 
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;

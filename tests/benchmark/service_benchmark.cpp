@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -188,6 +189,7 @@ class Client {
   Response Call(Method method, const Request& request) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + kPatience);
+    context.set_wait_for_ready(true);  // Many connect at once to a server that has much to do.
     Response response;
     const grpc::Status status = ((*stub_).*method)(&context, request, &response);
     if (!status.ok()) throw std::runtime_error(status.error_message());
@@ -199,22 +201,23 @@ class Client {
 
 /// Milliseconds that each of `calls` submits took, sorted; `clients` work at once.
 std::vector<double> Submit(const std::string& address, const v1::Job& job, int clients, int calls) {
-  std::vector<std::vector<double>> each(static_cast<std::size_t>(clients));
-  std::vector<std::thread> threads;
-  threads.reserve(each.size());
-  for (std::vector<double>& own : each) {
-    threads.emplace_back([&own, &address, &job, n = std::max(1, calls / clients)] {
-      Client client(address);
-      for (int i = 0; i < n; ++i) {
-        const auto start = steady_clock::now();
-        client.Create(job);
-        own.push_back(1e3 * SecondsSince(start));
-      }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
+  const auto submit = [&address, &job, n = std::max(1, calls / clients)] {
+    std::vector<double> own;
+    Client client(address);
+    for (int i = 0; i < n; ++i) {
+      const auto start = steady_clock::now();
+      client.Create(job);
+      own.push_back(1e3 * SecondsSince(start));
+    }
+    return own;
+  };
+  std::vector<std::future<std::vector<double>>> each;
+  for (int i = 0; i < clients; ++i) each.push_back(std::async(std::launch::async, submit));
   std::vector<double> all;
-  for (const std::vector<double>& own : each) all.insert(all.end(), own.begin(), own.end());
+  for (auto& future : each) {
+    const std::vector<double> own = future.get();
+    all.insert(all.end(), own.begin(), own.end());
+  }
   std::ranges::sort(all);
   return all;
 }
@@ -341,16 +344,21 @@ void IdleMemory(const ServerProcess& contactd, const Sizes& sizes) {
   client.AwaitIdle();
 }
 
-int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes) {
+/// `only`: the measurement to make; all of them if empty.
+int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes,
+           const std::string& only) {
+  const auto wanted = [&only](const char* name) { return only.empty() || only == name; };
   const ServerProcess contactd({binary, "--log-level=off", "--max-creates-per-second=0"});
   const ServerProcess bare({self, "--bare", "--messages", std::to_string(sizes.streamed_messages)});
-  SubmitLatency(contactd.address(), bare.address(), sizes);
-  JobRate(contactd.address(), sizes);
-  Streaming(contactd.address(), bare.address(), sizes);
-  EventLatency(contactd.address(), sizes);
-  SolverSlowdown(contactd.address(), sizes, "few events", Paced(sizes.run_end_s / 100));
-  SolverSlowdown(contactd.address(), sizes, "dense", DrivenBall(sizes.run_end_s));
-  IdleMemory(contactd, sizes);
+  if (wanted("submit")) SubmitLatency(contactd.address(), bare.address(), sizes);
+  if (wanted("jobs")) JobRate(contactd.address(), sizes);
+  if (wanted("frames")) Streaming(contactd.address(), bare.address(), sizes);
+  if (wanted("latency")) EventLatency(contactd.address(), sizes);
+  if (wanted("slowdown")) {
+    SolverSlowdown(contactd.address(), sizes, "few events", Paced(sizes.run_end_s / 100));
+    SolverSlowdown(contactd.address(), sizes, "dense", DrivenBall(sizes.run_end_s));
+  }
+  if (wanted("memory")) IdleMemory(contactd, sizes);
   return EXIT_SUCCESS;
 }
 
@@ -362,10 +370,13 @@ int main(int argc, char** argv) {
   std::string contactd;
   std::string data_dir;
   std::string listen;
+  std::string only;
   bool tiny = false;
   bool bare = false;
   int messages = 1;
   app.add_option("--contactd", contactd, "The server's binary");
+  app.add_option("--only", only, "Make one measurement")
+      ->check(CLI::IsMember({"submit", "jobs", "frames", "latency", "slowdown", "memory"}));
   app.add_flag("--tiny", tiny, "Only show that it runs");
   app.add_flag("--bare", bare, "Be the server of bare gRPC")->group("");
   app.add_option("--messages", messages)->group("");
@@ -375,7 +386,7 @@ int main(int argc, char** argv) {
   if (bare) return contact::ServeBare(data_dir, messages, contact::kMessageBytes);
   try {
     return contact::RunAll("/proc/self/exe", contactd,
-                           tiny ? contact::TinySizes() : contact::Sizes());
+                           tiny ? contact::TinySizes() : contact::Sizes(), only);
   } catch (const std::exception& error) {
     fmt::print(stderr, "service_benchmark: {}\n", error.what());
     return EXIT_FAILURE;

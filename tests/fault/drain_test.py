@@ -3,10 +3,12 @@
 import threading
 import unittest
 
-from contactd import spring_wall
+import http2
+from contactd import endless_and_slow, spring_wall
 from fault import *
 
-JOBS, WATCHERS = 4, 50
+WATCHERS = 50
+WATCH = "/contact.v1.JobService/WatchJob"
 
 
 class DrainTest(FaultTest):
@@ -15,11 +17,12 @@ class DrainTest(FaultTest):
     flags = ("--workers=4",)
 
     def test_the_next_server_goes_on(self):
-        end_time = self.end_time(1)
-        scenarios = [spring_wall(end_time + 0.1 * i) for i in range(JOBS)]
-        golden = self.golden(*scenarios)
+        """Whenever the end comes, two jobs run; of the others some do, some wait, some are done."""
+        end_time = self.end_time(0.5)
+        finite = [spring_wall(end_time + 0.1 * i) for i in range(4)]
+        golden = self.golden(*finite)
         names = [submit(self.server, self.history, scenario, f"{i}").name
-                 for i, scenario in enumerate(scenarios)]
+                 for i, scenario in enumerate([endless_and_slow(), endless_and_slow(), *finite])]
         watching = threading.Semaphore(0)
 
         def watch(name):
@@ -28,17 +31,58 @@ class DrainTest(FaultTest):
 
         with clients() as start:
             for i in range(WATCHERS):
-                start(watch, names[i % JOBS])
+                start(watch, names[i % len(names)])
             for _ in range(WATCHERS):
                 self.assertTrue(watching.acquire(timeout=PATIENCE_S))
             code, elapsed = self.server.terminate()
             self.assertEqual(code, 0, self.server.log())
             self.server.start()
+            for name in names[:2]:
+                wait_for(lambda: self.server.get(name).state == Job.RUNNING)
+                self.server.cancel(name)
         final = self.assertPromises(self.server, golden=golden, max_attempts=1)
         starts = sum(entry.kind == "attempt_started" for job in final.values() for entry in job.log)
-        self.assertGreater(starts, JOBS, "the end met no running job")
-        self.figures |= dict(jobs=JOBS, watchers=WATCHERS, starts=starts)
+        self.assertGreaterEqual(starts, len(names) + 2, "the end met no running job")
+        self.figures |= dict(jobs=len(names), watchers=WATCHERS, starts=starts)
         self.assertKept("exit", elapsed, 5, slack=1)
+
+
+class StuckTest(FaultTest):
+    """A client whose system has taken all it can, and who reads nothing."""
+
+    flags = ("--workers=1", "--write-stall-seconds=6")
+
+    def setUp(self):
+        super().setUp()
+        scenario = spring_wall(0.4)  # 11 MB of events: more than sockets keep.
+        scenario.output.sample_interval_s = 2e-6
+        self.name = self.server.run(scenario).name
+        self.base = descriptors(self.server)
+        self.client = http2.greet(self.server.port, window=http2.LARGEST_WINDOW)
+        self.addCleanup(self.client.close)
+        request = job_service_pb2.WatchJobRequest(name=self.name).SerializeToString()
+        for stream in (1, 3, 5, 7):
+            self.client.sendall(http2.headers(stream, WATCH) + http2.message(stream, request))
+        wait_for(lambda: self.unsent() > 1 << 20)
+
+    def unsent(self):
+        """Bytes in the server's socket that the client's does not take."""
+        local = f"0100007F:{self.server.port:04X}"
+        remote = f"0100007F:{self.client.getsockname()[1]:04X}"
+        for line in pathlib.Path("/proc/net/tcp").read_text().splitlines():
+            words = line.split()
+            if words[1:3] == [local, remote]:
+                return int(words[4].split(":")[0], 16)
+        return 0
+
+    def test_it_does_not_hold_up_the_end(self):
+        code, elapsed = self.server.terminate()
+        self.assertEqual(code, 0, self.server.log())
+        self.assertKept("exit", elapsed, 5, slack=1)
+
+    def test_it_is_cut(self):
+        freed = wait_for(lambda: descriptors(self.server) <= self.base)
+        self.assertKept("cut_after", freed, 10)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from contactd import endless, spring_wall, stored
+from contactd import endless_and_slow, spring_wall, stored
 from fault import *
 
 CROWD = os.environ["WATCH_CROWD"]
@@ -35,7 +35,7 @@ class StormTest(CrowdTest):
     flags = ("--workers=1",)
 
     def test_killed_watchers_leave_nothing_behind(self):
-        long = submit(self.server, self.history, endless(), "long").name
+        long = submit(self.server, self.history, endless_and_slow(), "long").name
         base, resident, freed = descriptors(self.server), [], []
         for _ in range(3):
             crowd = self.crowd(long, 2000, 20, "state_changed")
@@ -109,8 +109,8 @@ class IdleTest(CrowdTest):
     flags = ("--workers=1", "--max-watchers=10001")
 
     def test_ten_thousand_idle_watchers_are_cheap(self):
-        running = submit(self.server, self.history, endless(), "running").name
-        name = submit(self.server, self.history, endless(), "queued").name
+        running = submit(self.server, self.history, endless_and_slow(), "running").name
+        name = submit(self.server, self.history, endless_and_slow(), "queued").name
         wait_for(lambda: self.server.get(running).state == Job.RUNNING)
         alone = self.load()
         crowd = self.crowd(name, 10_000, 100)

@@ -2,6 +2,9 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <atomic>
+#include <list>
+#include <memory>
 #include <random>
 #include <thread>
 
@@ -57,12 +60,14 @@ class TailCursorTest : public testing::Test {
   std::unique_ptr<TailCursor> Cursor(LogReader& reader, std::uint64_t after = 0,
                                      std::uint32_t kinds = ~0U) {
     ++*watchers_;
-    return std::make_unique<TailCursor>(*store_, name_, log_, after, kinds, reader.wake(),
-                                        watchers_);
+    return std::make_unique<TailCursor>(EventSource{*store_, decoder_, ahead_}, name_, log_, after,
+                                        kinds, reader.wake(), watchers_);
   }
 
   const std::string name_ = "jobs/a";
   TempDirectory directory_;
+  Executor decoder_;
+  const std::shared_ptr<std::atomic<int>> ahead_ = std::make_shared<std::atomic<int>>(0);
   std::unique_ptr<Store> store_;
   v1::Job job_;
   std::shared_ptr<JobLog> log_;
@@ -125,6 +130,29 @@ TEST_F(TailCursorTest, EveryReaderSeesTheLogWithoutGapOrRepeat) {
     EXPECT_TRUE(seen == expected) << "after " << watch.after << " in " << watch.max_bytes;
     EXPECT_EQ(watch.end, LogCursor::Next::kEnd);
   }
+}
+
+TEST_F(TailCursorTest, OnlyAFewReadAheadAndAllSeeTheWholeLog) {
+  for (int i = 0; i < 400; ++i) writer_->Add(Remark(std::string(10'000, 'x')));
+  Finish();
+  log_ = std::make_shared<JobLog>(403, true);  // Nothing in memory, as after a restart.
+  std::list<LogReader> readers(20);
+  std::vector<std::unique_ptr<TailCursor>> cursors;
+  std::vector<std::vector<std::uint64_t>> seen;
+  for (LogReader& reader : readers) {
+    cursors.push_back(Cursor(reader));
+    seen.push_back(Sequences(reader.Next(*cursors.back())));
+    EXPECT_LE(*ahead_, 16);
+  }
+  EXPECT_EQ(*ahead_, 16);
+  auto reader = readers.begin();
+  for (std::size_t i = 0; i < cursors.size(); ++i, ++reader) {
+    const auto rest = Sequences(reader->ToEnd(*cursors[i]));
+    seen[i].insert(seen[i].end(), rest.begin(), rest.end());
+    ASSERT_EQ(seen[i].size(), 403U);
+    for (std::size_t j = 0; j < 403; ++j) ASSERT_EQ(seen[i][j], j + 1);
+  }
+  EXPECT_EQ(*ahead_, 0);
 }
 
 TEST_F(TailCursorTest, PositionPassesOverWhatWasFilteredOut) {

@@ -90,6 +90,22 @@ TEST_F(ConnectionAcceptorTest, OnePeerCannotTakeAll) {
   EXPECT_TRUE(IsTaken(Connect("127.0.0.2")));
 }
 
+TEST_F(ConnectionAcceptorTest, CutEndsAllConnectionsAndKeepsTheirDescriptors) {
+  Open({});
+  EXPECT_TRUE(IsTaken(Connect()));
+  EXPECT_TRUE(IsTaken(Connect("127.0.0.2")));
+  ASSERT_TRUE(Eventually([this] { return acceptor_->open() == 2; }));
+  acceptor_->Cut();
+  for (const ClientSocket& client : clients_) EXPECT_TRUE(client.IsClosedByPeer());
+  EXPECT_EQ(acceptor_->open(), 2U) << "gRPC closes them";
+}
+
+TEST_F(ConnectionAcceptorTest, ClosedOneListensNoMore) {
+  Open({});
+  acceptor_->Close();
+  EXPECT_THROW(Connect(), std::runtime_error);
+}
+
 TEST_F(ConnectionAcceptorTest, DescriptorNumberUsedAgainIsAnotherConnection) {
   Open({.in_all = 1, .per_peer = 1});
   EXPECT_TRUE(IsTaken(Connect()));

@@ -67,6 +67,7 @@ TEST(MetricsPageTest, TellsWhatWasCounted) {
   const auto jobs = std::make_shared<JobMetrics>();
   const auto store = std::make_shared<StoreMetrics>();
   const auto rpc = std::make_shared<RpcMetrics>();
+  const auto streams = std::make_shared<StreamMetrics>();
   v1::Job job;
   job.set_state(v1::Job::FAILED);
   job.set_state_reason("NUMERIC");
@@ -77,7 +78,11 @@ TEST(MetricsPageTest, TellsWhatWasCounted) {
   jobs->Moved(v1::Job::RUNNING, job);
   store->commit_operations.Count(256);
   rpc->Refused("RATE_LIMITED");
-  const MetricsPage page({[] { return MetricsSources::Now{.queued_jobs = 4}; }, jobs, store, rpc});
+  streams->slow = 2;
+  streams->conflated = 7;
+  streams->reaction_seconds.Count(2e-6);
+  const MetricsPage page(
+      {[] { return MetricsSources::Now{.queued_jobs = 4}; }, jobs, store, rpc, streams});
   const std::string text = prometheus::TextSerializer().Serialize(page.Collect());
   for (const std::string line : {
            "contactd_jobs{state=\"QUEUED\"} 4\n",
@@ -91,6 +96,11 @@ TEST(MetricsPageTest, TellsWhatWasCounted) {
            "contactd_store_commit_operations_bucket{le=\"250\"} 0\n",
            "contactd_store_commit_operations_sum 256\n",
            "contactd_rpc_refused_total{reason=\"RATE_LIMITED\"} 1\n",
+           "contactd_streams_slow 2\n",
+           "contactd_streams_dropped_total 0\n",
+           "contactd_events_conflated_total 7\n",
+           "contactd_stream_reaction_seconds_bucket{le=\"1e-06\"} 0\n",
+           "contactd_stream_reaction_seconds_bucket{le=\"2.5e-06\"} 1\n",
        }) {
     EXPECT_THAT(text, HasSubstr(line));
   }

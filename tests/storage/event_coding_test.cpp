@@ -37,6 +37,9 @@ void ExpectSame(const v1::Event& event) {
   v1::Event decoded;
   ASSERT_TRUE(DecodeEvent(coded.coding, coded.bytes, &decoded));
   EXPECT_EQ(decoded.SerializeAsString(), event.SerializeAsString());
+  std::string payload;
+  ASSERT_TRUE(DecodePayload(coded.coding, coded.bytes, &payload));
+  EXPECT_EQ(payload.size(), event.ByteSizeLong());
 }
 
 TEST(EventCodingTest, FramesComeBackBitByBit) {
@@ -53,6 +56,7 @@ TEST(EventCodingTest, FramesComeBackBitByBit) {
   ExpectSame(Frames({odd, odd, {8, 7, 6, 5, 4, 3, 2, 1}}));
   ExpectSame(Frames({{3.5}}));
   ExpectSame(Frames({Sine(256), Sine(256)}));
+  for (int samples = 1; samples < 20; ++samples) ExpectSame(Frames({Sine(samples), Sine(samples)}));
 }
 
 TEST(EventCodingTest, OtherEventsAndOddChunksComeBack) {

@@ -231,5 +231,13 @@ def endless():
     return scenario
 
 
+def endless_and_slow():
+    """The same at about a hundred events a second: its ledger stays small."""
+    scenario = endless()
+    scenario.solver.method = scenario_pb2.Solver.RK4
+    scenario.solver.step_s = 1e-7
+    return scenario
+
+
 def is_cycle(event):
     return event.WhichOneof("payload") == "cycle"

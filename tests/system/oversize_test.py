@@ -1,11 +1,10 @@
 """Requests that are too large in every way: the right code, little memory, and life goes on."""
 
-import socket
-import struct
 import time
 import unittest
 
 import grpc
+import http2
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
 from contactd import PATIENCE_S, Job, ServerTest, three_ball_chain
 
@@ -25,27 +24,6 @@ def field(number, content):
             value >>= 7
         return out + bytes([value])
     return varint(number << 3 | 2) + varint(len(content)) + content
-
-
-def frame(kind, flags, stream, payload):
-    """An HTTP/2 frame."""
-    return struct.pack(">I", len(payload))[1:] + bytes([kind, flags]) + struct.pack(
-        ">I", stream) + payload
-
-
-def header(name, value):
-    """HPACK: a literal without index, its lengths below 127 or in continuation bytes."""
-    def text(string):
-        length, out = len(string), b""
-        if length < 127:
-            return bytes([length]) + string
-        length -= 127
-        out = b"\x7f"
-        while length > 127:
-            out += bytes([length & 127 | 128])
-            length >>= 7
-        return out + bytes([length]) + string
-    return b"\x00" + text(name) + text(value)
 
 
 class OversizeTest(ServerTest):
@@ -146,17 +124,9 @@ class OversizeTest(ServerTest):
 
     def rude_call(self, size):
         """What the server says to a call with so much metadata, its settings unanswered."""
-        headers = b"".join(header(name, value) for name, value in (
-            (b":method", b"POST"), (b":scheme", b"http"), (b":path", INFO.encode()),
-            (b":authority", b"x"), (b"te", b"trailers"), (b"content-type", b"application/grpc"),
-            (b"note", b"x" * size)))
-        parts = [headers[i:i + 16384] for i in range(0, len(headers), 16384)]
-        out = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + frame(4, 0, 0, b"")
-        for i, part in enumerate(parts):  # HEADERS, then CONTINUATION; 4: the last.
-            out += frame(9 if i else 1, 4 if i == len(parts) - 1 else 0, 1, part)
-        out += frame(0, 1, 1, bytes(5))  # An empty message.
+        out = http2.headers(1, INFO, (b"note", b"x" * size)) + http2.message(1)
         answer = b""
-        with socket.create_connection(("127.0.0.1", self.server.port), 5) as connection:
+        with http2.greet(self.server.port) as connection:
             try:
                 connection.sendall(out)
                 while b"grpc-status" not in answer:
