@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -59,6 +60,12 @@ struct ActiveContact {
     const double force = stiffness * n.value + mu * p.value * rate;
     if (clipped && force < 0) return {};
     return {force, stiffness * n.slope + mu * p.slope * rate, mu * p.value, p.value * rate};
+  }
+  /// Whether (M2) would pull and is clipped; at δ ≤ 0 whether it does so just before.
+  bool Clips(double deformation, double rate) const {
+    if (!clipped) return false;
+    const double power = std::pow(std::max(deformation, 0.0), exponent - damping_exponent);
+    return stiffness * power + mu * rate < 0;
   }
   Power DampingPower(double deformation) const {
     Power p(deformation, damping_exponent);

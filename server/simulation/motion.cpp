@@ -155,6 +155,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
                               const std::stop_token& stop, std::int64_t step_limit) {
   StartCycles(host, false);
   const bool busy = Busy();
+  if (equations_.active.empty()) next_step_ = 0;  // That of the cycles before tells nothing.
   int events_at_once = 0;
   while (true) {
     if (time_ >= until) return Pause::kTimeUp;
@@ -166,7 +167,11 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone && !Land(found)) found.contact = kNone;
     if (moves && !rk_.y1.head(equations_.block()).allFinite()) return Pause::kNumeric;
-    if (moves) Accept(listener);
+    if (moves) {
+      Accept(listener);
+    } else {
+      next_step_ = step_.h;  // The same again, but for what begins.
+    }
     if (found.contact != kNone) Apply(found, host);
     WakeResting(host);
     events_at_once = moves ? 0 : events_at_once + 1;
@@ -260,7 +265,9 @@ Motion::Found Motion::PassTurns() {
     const double acceleration =
         equations_.Relative(found.contact, rk_.slope0.data() + n) * (1 - theta) +
         equations_.Relative(found.contact, rk_.slope1.data() + n) * theta;
-    const double late = equations_.Relative(found.contact, inside_.data() + n) / acceleration;
+    const double late = acceleration == 0  // As where a cycle from rest turns at once.
+                            ? 0
+                            : equations_.Relative(found.contact, inside_.data() + n) / acceleration;
     theta = std::clamp(step_.Theta(step_.At(theta) - late), 0.0, 1.0);
     rk_.Interpolate(theta, &inside_);
     event_[At(found.contact)] = theta;

@@ -137,7 +137,7 @@ class Motion {
   bool TakeStep(double until);
   StepTime Plan(double until);
   void TakeFixedStep(double until);
-  double TouchWarp(double h) const;
+  double Warp(double h, double parting = std::numeric_limits<double>::infinity()) const;
   double TimeToSeparation(const ActiveContact& active) const;
   double ErrorNorm(double h) const;
   double Noise(int contact) const;

@@ -17,6 +17,12 @@ struct StepTime {
   double At(double theta) const { return start + Offset(theta); }
   /// dt/dθ in units of h.
   double Rate(double theta) const { return warp + 2 * (1 - warp) * theta; }
+  /// Length of the step that goes on from the end with the same clock, to θ = 1 + `growth`; with
+  /// w > 1 at most to where the clock stands still.
+  double Next(double growth) const {
+    const double last = warp > 1 ? warp / (2 * (warp - 1)) : 1 + growth;
+    return Offset(last < 1 + growth ? last : 1 + growth) - h;
+  }
   /// θ at which the time is `t`.
   double Theta(double t) const;
 };

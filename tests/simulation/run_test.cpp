@@ -77,7 +77,7 @@ TEST(Run, AStepLoadSatisfiesItsEnergyIdentity) {
     EXPECT_EQ(c.kind, Cycle::Kind::kNirv);
     EXPECT_EQ(c.status, Cycle::Status::kConverged);
     EXPECT_NEAR(c.restitution_out, e, 1e-8);
-    EXPECT_NEAR(1 - c.end_deformation / c.max_deformation, e * e, 1e-8);
+    EXPECT_NEAR(1 - c.end_deformation / c.max_deformation, e * e, 2e-8);
   }
 }
 
