@@ -13,6 +13,7 @@ constexpr std::int64_t kStepsPerPass = 5'000;
 constexpr int kPatience = 12;          // Corrections without a better pass.
 constexpr double kCoarse = 1e-6;       // Relative tolerance of the first passes, and
 constexpr double kCoarseError = 1e-4;  // the residual that it may feign.
+constexpr double kFine = 0.03;         // Of ξ: tolerance of the last pass but one.
 constexpr int kFirstWindow = 12;       // Cycles in the first passes,
 constexpr double kNear = 0.02;         // half as many more where the merit is below this.
 constexpr double kWeak = 1e-5;         // W_c of a contact's largest.
@@ -47,6 +48,9 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   // A clipped force has a kink that a coarse pass may miss.
   const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
   tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
+  fine_ = coarse ? std::clamp(kFine * options.restitution_tolerance, options.relative_tolerance,
+                              tolerance_)
+                 : 0;
   sensitive_ = !as_paper_;
   window_ = as_paper_ ? motion_.max_cycles() : kFirstWindow;
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
@@ -99,14 +103,14 @@ void EpisodeSolver::NextPass() {
     return;
   }
   const bool done = Done();
-  if (!Exact() && (done || Merit() < kCoarseError)) {
+  if (!Exact() && (done || (tolerance_ > fine_ && Merit() < kCoarseError))) {
     // The same once more, exactly.
-    Factorize(LiveUnknowns());
-    PlanExactPass(done);
+    if (sensitive_) Factorize(LiveUnknowns());
+    PlanLastPasses(done);
     return;
   }
   if (!done && !sensitive_ && !as_paper_ && !FactorsServe()) {
-    tolerance_ = 0;  // The same once more, with sensitivities.
+    tolerance_ = fine_;  // The same once more, with sensitivities.
     sensitive_ = true;
     return;
   }
