@@ -96,12 +96,12 @@ void Motion::Begin(const State& state, bool recording, double tolerance, int mos
   equations_.recording = recording;
   equations_.columns = 0;
   SelectLoads();
-  rk_.Resize(equations_.size());
+  rk_.Resize(equations_.size(), equations_.coupled());
   rk_.y0.setZero();
   for (int i = 0; i < n; ++i) rk_.y0[n + i] = state.velocities[At(i)];
   for (int c = 0; c < equations_.contacts(); ++c) {
     ContactState& contact = contacts_[At(c)];
-    rk_.y0[2 * n + c] = contact.work;
+    rk_.y0[equations_.work(c)] = contact.work;
     if (recording) rk_.y0[equations_.external_work(c)] = contact.external_work;
     start_gradient_[At(c)].resize(0);
     turn_gradient_[At(c)].resize(0);
@@ -127,7 +127,7 @@ State Motion::Save() const {
   for (int c = 0; c < equations_.contacts(); ++c) {
     ContactState& contact = state.contacts[At(c)];
     contact.gap = -Deformation(c, rk_.y0.data());
-    contact.work = rk_.y0[2 * n + c];
+    contact.work = rk_.y0[equations_.work(c)];
     if (equations_.recording) contact.external_work = rk_.y0[equations_.external_work(c)];
   }
   state.load_work = totals_.load_work;
@@ -166,7 +166,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone && !Land(found)) found.contact = kNone;
-    if (moves && !rk_.y1.head(equations_.block()).allFinite()) return Pause::kNumeric;
+    if (moves && !rk_.y1.head(2 * equations_.bodies()).allFinite()) return Pause::kNumeric;
     if (moves) {
       Accept(listener);
     } else {

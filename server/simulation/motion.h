@@ -132,6 +132,7 @@ class Motion {
   bool Busy() const;
   void StartCycles(CycleHost& host, bool resting_only);
   void StartCycle(int contact, CycleHost& host);
+  void AddColumn();
   void SetRestingScale(int contact);
   double FirstStep(int contact) const;
   bool TakeStep(double until);

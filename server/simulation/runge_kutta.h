@@ -33,7 +33,8 @@ struct StepTime {
 /// Differential Equations I, 2nd ed., Springer 1993, II.1, II.5 and II.6 (DOP853).
 ///
 /// Holds one step from y0 to y1 of y' = f(t, y), taken in θ. `f(t, y, dy)` gets arrays of
-/// `size` numbers. Does not allocate between calls of Resize.
+/// `size` numbers; an f that takes a pace too gives dy by θ itself, `f(t, y, dy, dt/dθ/h)`. Does
+/// not allocate between calls of Resize.
 class RungeKutta {
  public:
   using Vector = Eigen::ArrayXd;
@@ -41,8 +42,10 @@ class RungeKutta {
 
   explicit RungeKutta(Method method = Method::kDormandPrince) : method_(method) {}
 
-  /// Keeps what there is of y0 and slope0.
-  void Resize(Eigen::Index size);
+  /// Keeps what there is of y0 and slope0. f depends on the first `coupled` numbers of y only; the
+  /// others are quadratures, which stages need not know.
+  void Resize(Eigen::Index size, Eigen::Index coupled);
+  void Resize(Eigen::Index size) { Resize(size, size); }
   Eigen::Index size() const { return y0.size(); }
 
   /// Computes y1 from y0 and slope0.
@@ -82,9 +85,9 @@ class RungeKutta {
     double weight;
     int slope;
   };
-  /// out = y0 + h Σ weight · slope.
+  /// out = y0 + h Σ weight · slope, in the first rows.
   template <std::size_t N>
-  void Combine(Vector& out, double h, const Term (&terms)[N]);
+  void Combine(Vector& out, Eigen::Index rows, double h, const Term (&terms)[N]);
   template <class F>
   void DormandPrinceStep(F&& f, const StepTime& time);
   template <class F>
@@ -93,6 +96,7 @@ class RungeKutta {
   void PrepareCoefficients(double h);
 
   Method method_;
+  Eigen::Index coupled_ = 0;
   Eigen::ArrayXXd k_;  // dy/dθ/h: 12 stages, the end, 3 for the dense output.
   Vector stage_;
   Eigen::ArrayXXd dense_;  // Coefficients of the interpolant.
