@@ -84,9 +84,12 @@ bool EpisodeSolver::Accepts(Motion::Pause recorded) {
   if (recorded == Motion::Pause::kStopped || recorded == Motion::Pause::kStepLimit) return true;
   recording_ = false;
   if (recorded == Motion::Pause::kNumeric) UseBest();
-  if (recorded != Motion::Pause::kQuiet || !Done()) return false;
-  Finish();
-  return true;
+  if (recorded == Motion::Pause::kQuiet && Done()) {
+    Finish();
+    return true;
+  }
+  fine_ = 0;  // Else a fine pass may be content again with what this one was not.
+  return false;
 }
 
 void EpisodeSolver::BeginRecording() {
