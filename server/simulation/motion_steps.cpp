@@ -17,7 +17,7 @@ constexpr double kReach = 0.85;
 constexpr double kNear = 0.7;
 // and else at most so far towards it.
 constexpr double kApproach = 0.8;
-constexpr double kSafety = 0.85;  // Of the next step.
+constexpr double kSafety = 0.8;  // Of the next step.
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
