@@ -109,16 +109,18 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
   return made;
 }
 
-[[gnu::always_inline]] inline void Equations::AddContacts(const double* y, double* dy,
+template <class Count>
+[[gnu::always_inline]] inline void Equations::AddContacts(Count n, const double* y, double* dy,
                                                           double pace) const {
-  const std::ptrdiff_t n = bodies(), sensitive = tangents();
+  const std::ptrdiff_t sensitive = tangents();
+  double* works = dy + coupled();
   for (const ActiveContact& contact : active) {
     const ActiveContact c = contact;  // A copy, which no store to dy can change.
     const double rate = c.Relative(y + n);
     const ActiveContact::Force f = c.At(c.Relative(y) - c.gap, rate);
     const double force = pace * f.force;
     double* a = dy + n;
-    double* work = dy + coupled() + c.contact;
+    double* work = works + c.contact;
     a[c.left] -= force * c.left_inverse;
     a[c.right] += force * c.right_inverse;
     *work = force * rate;                               // (W1)
@@ -140,8 +142,10 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
   }
 }
 
-void Equations::operator()(double t, const double* y, double* dy, double pace) const {
-  const std::ptrdiff_t n = bodies(), all_coupled = coupled();
+template <class Count>
+[[gnu::always_inline]] inline void Equations::Evaluate(Count n, double t, const double* y,
+                                                       double* dy, double pace) const {
+  const std::ptrdiff_t all_coupled = coupled();
   for (std::ptrdiff_t i = 0; i < all_coupled; i += 2 * n) {  // u̇ = v; to the rest is added.
     InRows(n, [=](auto rows, std::ptrdiff_t j) {
       rows(dy + i + j) = pace * rows(y + i + n + j);
@@ -154,8 +158,12 @@ void Equations::operator()(double t, const double* y, double* dy, double pace) c
     dy[n + load.body] += pace * LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
   if (!scenario_.supports.empty()) AddSupports(y, dy, pace);
-  AddContacts(y, dy, pace);
+  AddContacts(n, y, dy, pace);
   if (recording) AddRecord(t, y, dy, pace);
+}
+
+void Equations::operator()(double t, const double* y, double* dy, double pace) const {
+  WithCount<1, 2, 3>(bodies(), [&](auto n) { Evaluate(n, t, y, dy, pace); });
 }
 
 void Equations::AddSupports(const double* y, double* dy, double pace) const {

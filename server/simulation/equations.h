@@ -129,7 +129,10 @@ class Equations {
  private:
   std::ptrdiff_t tangents() const { return recording ? 0 : columns; }
   void AddSupports(const double* y, double* dy, double pace) const;
-  void AddContacts(const double* y, double* dy, double pace) const;
+  template <class Count>
+  void AddContacts(Count n, const double* y, double* dy, double pace) const;
+  template <class Count>
+  void Evaluate(Count n, double t, const double* y, double* dy, double pace) const;
   void AddRecord(double t, const double* y, double* dy, double pace) const;
   double LoadForce(const Load& load, double t) const;
   double SupportForce(const Support& s, const double* u, const double* v) const;

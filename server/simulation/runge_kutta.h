@@ -86,10 +86,10 @@ class RungeKutta {
     int slope;
   };
   /// out = y0 + h Σ weight · slope, in the first rows.
-  template <std::size_t N>
-  void Combine(Vector& out, Eigen::Index rows, double h, const Term (&terms)[N]);
-  template <class F>
-  void DormandPrinceStep(F&& f, const StepTime& time);
+  template <class Count, std::size_t N>
+  void Combine(Vector& out, Count rows, double h, const Term (&terms)[N]);
+  template <class F, class Count>
+  void DormandPrinceStep(F&& f, const StepTime& time, Count coupled);
   template <class F>
   void ClassicalStep(F&& f, const StepTime& time);
   void PrepareCubic(double h);
