@@ -111,9 +111,8 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
 
 template <class Count>
 [[gnu::always_inline]] inline void Equations::AddContacts(Count n, const double* y, double* dy,
-                                                          double pace) const {
+                                                          double* works, double pace) const {
   const std::ptrdiff_t sensitive = tangents();
-  double* works = dy + coupled();
   for (const ActiveContact& contact : active) {
     const ActiveContact c = contact;  // A copy, which no store to dy can change.
     const double rate = c.Relative(y + n);
@@ -145,20 +144,21 @@ template <class Count>
 template <class Count>
 [[gnu::always_inline]] inline void Equations::Evaluate(Count n, double t, const double* y,
                                                        double* dy, double pace) const {
-  const std::ptrdiff_t all_coupled = coupled();
-  for (std::ptrdiff_t i = 0; i < all_coupled; i += 2 * n) {  // u̇ = v; to the rest is added.
+  const std::ptrdiff_t blocks = 1 + tangents();
+  for (std::ptrdiff_t i = 0; i < 2 * n * blocks; i += 2 * n) {  // u̇ = v; to the rest is added.
     InRows(n, [=](auto rows, std::ptrdiff_t j) {
       rows(dy + i + j) = pace * rows(y + i + n + j);
       rows(dy + i + n + j).setZero();
     });
   }
-  InRows(size() - all_coupled,
-         [=](auto rows, std::ptrdiff_t j) { rows(dy + all_coupled + j).setZero(); });
+  double* works = dy + 2 * n * blocks;
+  InRows(contacts() * blocks + (recording ? contacts() + 3 : 0),
+         [=](auto rows, std::ptrdiff_t j) { rows(works + j).setZero(); });
   for (const Load& load : acting_) {
     dy[n + load.body] += pace * LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
   if (!scenario_.supports.empty()) AddSupports(y, dy, pace);
-  AddContacts(n, y, dy, pace);
+  AddContacts(n, y, dy, works, pace);
   if (recording) AddRecord(t, y, dy, pace);
 }
 

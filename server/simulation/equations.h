@@ -130,7 +130,7 @@ class Equations {
   std::ptrdiff_t tangents() const { return recording ? 0 : columns; }
   void AddSupports(const double* y, double* dy, double pace) const;
   template <class Count>
-  void AddContacts(Count n, const double* y, double* dy, double pace) const;
+  void AddContacts(Count n, const double* y, double* dy, double* works, double pace) const;
   template <class Count>
   void Evaluate(Count n, double t, const double* y, double* dy, double pace) const;
   void AddRecord(double t, const double* y, double* dy, double pace) const;

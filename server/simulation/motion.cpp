@@ -236,7 +236,9 @@ double Motion::Noise(int contact) const {
 Motion::Found Motion::FindEvent() const {
   Found first;
   for (int c = 0; c < equations_.contacts(); ++c) {
-    const auto event = FirstEvent(contacts_[At(c)].phase, Path(c), event_[At(c)], Noise(c));
+    const Phase phase = contacts_[At(c)].phase;
+    const double noise = phase == Phase::kOpen ? Noise(c) : 0;
+    const auto event = FirstEvent(phase, Path(c), event_[At(c)], noise);
     if (!event) continue;
     if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
   }

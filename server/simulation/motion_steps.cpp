@@ -108,7 +108,8 @@ bool Motion::TakeStep(double until) {
     ++steps_;
     evaluations_ += 11;
     const double error = ErrorNorm(step_.h);
-    const double factor = error > 0 ? kSafety * std::pow(error, -1.0 / 8) : 6;
+    const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
+    const double factor = error > 0 ? kSafety / eighth_root : 6;
     if (error <= 1) {
       rk_.FinishStep(equations_, step_);
       ++evaluations_;
