@@ -81,6 +81,14 @@ TEST(Run, AStepLoadSatisfiesItsEnergyIdentity) {
   }
 }
 
+// What no force acts on takes one step, however long.
+TEST(Run, AFreeFlightIsOneStep) {
+  Scenario s = testing::Collision(0.5, 2, 1e8, 1.5, 0.8);
+  const auto steps = RunAndRecord(s).outcome.steps;
+  s.end_time *= 1000;
+  EXPECT_EQ(RunAndRecord(s).outcome.steps, steps);
+}
+
 // Undamped motion run backwards comes home.
 TEST(Run, AnUndampedChainIsReversibleInTime) {
   Scenario s = testing::Chain({0.5, 0.9, 0.4}, {1e8, 5e7}, {1, 1}, 0.3, 3e-3);
