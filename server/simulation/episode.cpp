@@ -13,6 +13,7 @@ constexpr std::int64_t kStepsPerPass = 5'000;
 constexpr int kPatience = 12;          // Corrections without a better pass.
 constexpr double kCoarse = 1e-6;       // Relative tolerance of the first passes, and
 constexpr double kCoarseError = 1e-4;  // the residual that it may feign.
+constexpr double kFine = 0.03;         // Of ξ: tolerance of the last pass but one.
 constexpr double kNear = 0.02;         // A merit at which the guesses are left alone.
 constexpr double kWeak = 1e-5;         // W_c of a contact's largest.
 constexpr double kLeastGoal = 1e-6;    // A(ε_in) to which residuals are relative.
@@ -48,6 +49,9 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   // A clipped force has a kink that a coarse pass may miss.
   const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
   tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
+  fine_ = coarse ? std::clamp(kFine * options.restitution_tolerance, options.relative_tolerance,
+                              tolerance_)
+                 : 0;
   sensitive_ = !as_paper_;
   window_ = FirstWindow();
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
@@ -81,9 +85,12 @@ bool EpisodeSolver::Accepts(Motion::Pause recorded) {
   if (recorded == Motion::Pause::kStopped || recorded == Motion::Pause::kStepLimit) return true;
   recording_ = false;
   if (recorded == Motion::Pause::kNumeric) UseBest();
-  if (recorded != Motion::Pause::kQuiet || !Done()) return false;
-  Finish();
-  return true;
+  if (recorded == Motion::Pause::kQuiet && Done()) {
+    Finish();
+    return true;
+  }
+  fine_ = 0;  // Else a fine pass may be content again with what this one was not.
+  return false;
 }
 
 void EpisodeSolver::BeginRecording() {
@@ -95,14 +102,14 @@ void EpisodeSolver::BeginRecording() {
 // Looks at the pass that has been, and decides on the next.
 void EpisodeSolver::NextPass() {
   const bool done = Done();
-  if (!Exact() && (done || Merit() < kCoarseError)) {
+  if (!Exact() && (done || (tolerance_ > fine_ && Merit() < kCoarseError))) {
     // The same once more, exactly.
-    Factorize(LiveUnknowns());
-    PlanExactPass(done);
+    if (sensitive_) Factorize(LiveUnknowns());
+    PlanLastPasses(done);
     return;
   }
   if (!done && !sensitive_ && !as_paper_ && !FactorsServe()) {
-    tolerance_ = 0;  // The same once more, with sensitivities.
+    tolerance_ = fine_;  // The same once more, with sensitivities.
     sensitive_ = true;
     return;
   }

@@ -116,7 +116,7 @@ class EpisodeSolver final : public CycleHost {
   void Correct();
   static void GiveUp(Unknown& unknown);
   void MoveBy(Unknown& unknown, double relative_step, bool alone);
-  void PlanExactPass(bool converges);
+  void PlanLastPasses(bool converges);
   void PlanNextPass();
   static double PaperStartFactor(const ContactState& state, const Contact& contact,
                                  double velocity);
@@ -153,6 +153,7 @@ class EpisodeSolver final : public CycleHost {
   int window_ = 0;           // Cycles in a pass at most.
   bool crowded_ = false;     // The last pass had so many.
   bool closed_ = false;      // The last pass came to a quiet instant before that.
+  double fine_ = 0;          // Tolerance of the integration that a residual near ξ demands.
   double tolerance_ = 0;     // Of the integration in this pass, and whether it has
   bool sensitive_ = true;    // sensitivities.
   int columns_ = 0;

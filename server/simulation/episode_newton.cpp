@@ -8,7 +8,7 @@ namespace contact {
 namespace {
 
 constexpr double kLeast = 1e-8, kMost = 1e8;  // μ, in units of the first guess.
-constexpr double kCoarseResidual = 1e-5;      // What a coarse pass may feign of a residual.
+constexpr double kFeigned = 10;               // Residual that a pass may feign, of its tolerance.
 constexpr int kWild = 6, kWildIfWeak = 3;     // Corrections out of bounds before it is given up.
 constexpr double kHeldSamples = 4096;         // That a recording may have to take back.
 
@@ -38,7 +38,7 @@ std::vector<EpisodeSolver::Unknown*> EpisodeSolver::LiveUnknowns() {
 void EpisodeSolver::Factorize(const std::vector<Unknown*>& live) {
   const auto n = static_cast<Eigen::Index>(live.size());
   factors_are_of_.clear();
-  factors_merit_ = std::max(Merit(), Exact() ? 0 : kCoarseResidual);
+  factors_merit_ = std::max(Merit(), kFeigned * tolerance_);
   if (n == 0) return;
   Eigen::MatrixXd jacobian(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -131,10 +131,11 @@ void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
   u.mu = std::clamp(next, u.start_mu * kLeast, u.start_mu * kMost);
 }
 
-// The next pass is exact, with the same Jacobian. If it is expected to converge it can be the
-// recording, unless that might have to take too much back.
-void EpisodeSolver::PlanExactPass(bool converges) {
-  tolerance_ = 0;
+// The next pass is with the same Jacobian, and as exact as what is left for the last one demands.
+// If it is expected to converge it is exact and can be the recording, unless that might have to
+// take too much back.
+void EpisodeSolver::PlanLastPasses(bool converges) {
+  tolerance_ = converges ? 0 : fine_;
   sensitive_ = false;
   const double interval = scenario_.sample_interval;
   const bool few = interval == 0 || motion_.time() - start_time_ < kHeldSamples * interval;
@@ -148,9 +149,9 @@ void EpisodeSolver::PlanNextPass() {
   const double wanted = scenario_.solver.restitution_tolerance;
   const double next = merit_ * factors_merit_;
   const bool full = damping_ == 1;
-  if (full && next * factors_merit_ <= wanted) return PlanExactPass(next <= 0.1 * wanted);
+  if (full && next * factors_merit_ <= wanted) return PlanLastPasses(next <= 0.1 * wanted);
   sensitive_ = true;
-  if (!full || next * next <= 10 * wanted) tolerance_ = 0;
+  if (!full || next * next <= 10 * wanted) tolerance_ = fine_;
 }
 
 }  // namespace contact

@@ -12,6 +12,16 @@ std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
+ActiveContact::Force ActiveContact::General(double deformation, double rate) const {
+  const Power n(deformation, exponent);
+  Power p = n;
+  if (damping_exponent != exponent) p = Power(deformation, damping_exponent);
+  if (damping_exponent == 0) p.value = 1, p.slope = 0;
+  const double force = stiffness * n.value + mu * p.value * rate;
+  if (clipped && force < 0) return {};
+  return {force, stiffness * n.slope + mu * p.slope * rate, mu * p.value, p.value * rate};
+}
+
 Equations::Equations(const Scenario& scenario)
     : scenario_(scenario),
       bodies_(static_cast<int>(scenario.bodies.size())),
@@ -95,94 +105,104 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
   made.damping_exponent = DampingExponent(c.damping, c.exponent);
   made.clipped = scenario_.solver.clip_tension;
   made.plain = made.exponent == 1.5 && made.damping_exponent == 1.5;
+  made.outward = (made.right_inverse != 0) - (made.left_inverse != 0);
   return made;
 }
 
-void Equations::operator()(double t, const double* y, double* dy) const {
-  const int n = bodies();
-  const int blocks = recording ? 1 : columns + 1;
-  for (int i = 0; i < blocks; ++i) {  // u̇ = v, in each block; to the rest is added.
-    const double* from = y + i * block() + n;
-    double* to = dy + i * block();
-    InRows(n, [&](auto rows, std::ptrdiff_t j) { rows(to + j) = rows(from + j); });
-    InRows(n + contacts(), [&](auto rows, std::ptrdiff_t j) { rows(to + n + j).setZero(); });
-  }
-  if (recording) std::fill(dy + block(), dy + size(), 0.0);
-  for (const Load& load : acting_) {
-    dy[n + load.body] += LoadForce(load, t) * inverse_mass_[At(load.body)];
-  }
-  if (!scenario_.supports.empty()) AddSupports(y, dy);
-  AddContacts(y, dy);
-  if (recording) AddRecord(t, y, dy);
-}
-
-void Equations::AddSupports(const double* y, double* dy) const {
-  const int n = bodies();
-  for (const Support& s : scenario_.supports) {
-    const auto add = [&](double force, double* a) {
-      a[s.body] += force * inverse_mass_[At(s.body)];
-      if (s.other != kNone) a[s.other] -= force * inverse_mass_[At(s.other)];
-    };
-    add(SupportForce(s, y, y + n), dy + n);
-    for (int column = 1; !recording && column <= columns; ++column) {  // (S1)
-      const double* u = y + column * block();
-      const double* v = u + n;
-      const double length = u[s.body] - (s.other == kNone ? 0 : u[s.other]);
-      const double rate = v[s.body] - (s.other == kNone ? 0 : v[s.other]);
-      add(-s.stiffness * length - s.damping * rate, dy + column * block() + n);
+template <class Count>
+[[gnu::always_inline]] inline void Equations::AddContacts(Count n, const double* y, double* dy,
+                                                          double* works, double pace) const {
+  const std::ptrdiff_t sensitive = tangents();
+  for (const ActiveContact& contact : active) {
+    const ActiveContact c = contact;  // A copy, which no store to dy can change.
+    const double rate = c.Relative(y + n);
+    const ActiveContact::Force f = c.At(c.Relative(y) - c.gap, rate);
+    const double force = pace * f.force;
+    double* a = dy + n;
+    double* work = works + c.contact;
+    a[c.left] -= force * c.left_inverse;
+    a[c.right] += force * c.right_inverse;
+    *work = force * rate;                               // (W1)
+    if (recording) dy[impulse()] += force * c.outward;  // (B2)
+    // The variational equations (S1): y' = f(y, μ) differentiated by the μ of each column.
+    const double* u = y;
+    for (std::ptrdiff_t column = 0; column < sensitive; ++column) {
+      u += 2 * n;
+      a += 2 * n;
+      work += contacts();
+      const double rate_s = c.Relative(u + n);
+      double force_s = f.by_deformation * c.Relative(u) + f.by_rate * rate_s;
+      if (column == c.column) force_s += f.damping;
+      force_s *= pace;
+      a[c.left] -= force_s * c.left_inverse;
+      a[c.right] += force_s * c.right_inverse;
+      *work = force_s * rate + force * rate_s;
     }
   }
 }
 
-void Equations::AddContacts(const double* y, double* dy) const {
+template <class Count>
+[[gnu::always_inline]] inline void Equations::Evaluate(Count n, double t, const double* y,
+                                                       double* dy, double pace) const {
+  const std::ptrdiff_t blocks = 1 + tangents();
+  for (std::ptrdiff_t i = 0; i < 2 * n * blocks; i += 2 * n) {  // u̇ = v; to the rest is added.
+    InRows(n, [=](auto rows, std::ptrdiff_t j) {
+      rows(dy + i + j) = pace * rows(y + i + n + j);
+      rows(dy + i + n + j).setZero();
+    });
+  }
+  double* works = dy + 2 * n * blocks;
+  InRows(contacts() * blocks + (recording ? contacts() + 3 : 0),
+         [=](auto rows, std::ptrdiff_t j) { rows(works + j).setZero(); });
+  for (const Load& load : acting_) {
+    dy[n + load.body] += pace * LoadForce(load, t) * inverse_mass_[At(load.body)];
+  }
+  if (!scenario_.supports.empty()) AddSupports(y, dy, pace);
+  AddContacts(n, y, dy, works, pace);
+  if (recording) AddRecord(t, y, dy, pace);
+}
+
+void Equations::operator()(double t, const double* y, double* dy, double pace) const {
+  WithCount<1, 2, 3>(bodies(), [&](auto n) { Evaluate(n, t, y, dy, pace); });
+}
+
+void Equations::AddSupports(const double* y, double* dy, double pace) const {
   const int n = bodies();
-  const int sensitive = recording ? 0 : columns;
-  for (const ActiveContact& c : active) {
-    const double rate = c.Relative(y + n);
-    const ActiveContact::Force f = c.At(c.Relative(y) - c.gap, rate);
-    dy[n + c.left] -= f.force * c.left_inverse;
-    dy[n + c.right] += f.force * c.right_inverse;
-    dy[2 * n + c.contact] = f.force * rate;  // (W1)
-    // The variational equations (S1): y' = f(y, μ) differentiated by the μ of each column.
-    const double* s = y;
-    double* ds = dy;
-    for (int column = 0; column < sensitive; ++column) {
-      s += block();
-      ds += block();
-      const double rate_s = c.Relative(s + n);
-      double force_s = f.by_deformation * c.Relative(s) + f.by_rate * rate_s;
-      if (column == c.column) force_s += f.damping;
-      ds[n + c.left] -= force_s * c.left_inverse;
-      ds[n + c.right] += force_s * c.right_inverse;
-      ds[2 * n + c.contact] = force_s * rate + f.force * rate_s;
+  for (const Support& s : scenario_.supports) {
+    const auto add = [&](double force, double* a) {
+      a[s.body] += pace * force * inverse_mass_[At(s.body)];
+      if (s.other != kNone) a[s.other] -= pace * force * inverse_mass_[At(s.other)];
+    };
+    add(SupportForce(s, y, y + n), dy + n);
+    for (int column = 0; column < tangents(); ++column) {  // (S1)
+      const double* u = y + tangent(column);
+      const double* v = u + n;
+      const double length = u[s.body] - (s.other == kNone ? 0 : u[s.other]);
+      const double rate = v[s.body] - (s.other == kNone ? 0 : v[s.other]);
+      add(-s.stiffness * length - s.damping * rate, dy + tangent(column) + n);
     }
   }
 }
 
 // Quadratures of the ledger and of the run's balances: (W3), (B1), (B2).
-void Equations::AddRecord(double t, const double* y, double* dy) const {
+void Equations::AddRecord(double t, const double* y, double* dy, double pace) const {
   const int n = bodies();
   const double* v = y + n;
   const auto free = [&](int body) { return body != kNone && inverse_mass_[At(body)] != 0; };
-  double impulse_rate = 0;  // Internal forces cancel in it, those on fixed bodies do not.
-  for (const ActiveContact& c : active) {
-    const double rate = c.Relative(v);
-    const double force = c.At(c.Relative(y) - c.gap, rate).force;
-    const double external = c.Relative(dy + n) / (c.left_inverse + c.right_inverse) + force;
-    dy[external_work(c.contact)] = external * rate;  // F_e δ̇
-    impulse_rate += force * ((c.right_inverse != 0) - (c.left_inverse != 0));
+  for (const ActiveContact& c : active) {  // F_e δ̇ = (m_e δ̈ + F) δ̇
+    const double net = c.Relative(dy + n) / (c.left_inverse + c.right_inverse);
+    dy[external_work(c.contact)] = net * c.Relative(v) + dy[work(c.contact)];
   }
   for (const Load& load : acting_) {
-    const double force = LoadForce(load, t);
+    const double force = pace * LoadForce(load, t);
     dy[load_work()] += force * v[load.body];
-    impulse_rate += force * free(load.body);
+    dy[impulse()] += force * free(load.body);
   }
   for (const Support& s : scenario_.supports) {
     const double rate = v[s.body] - (s.other == kNone ? 0 : v[s.other]);
-    dy[support_loss()] += s.damping * rate * rate;
-    impulse_rate += SupportForce(s, y, v) * (free(s.body) - free(s.other));
+    dy[support_loss()] += pace * s.damping * rate * rate;
+    dy[impulse()] += pace * SupportForce(s, y, v) * (free(s.body) - free(s.other));
   }
-  dy[impulse()] = impulse_rate;
 }
 
 double Equations::Energy(const double* y) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -28,13 +29,14 @@ struct Power {
 struct ActiveContact {
   int contact = 0;     ///< Index in Scenario::contacts.
   int column = kNone;  ///< Sensitivity column of its μ, or kNone.
-  int left = 0, right = 0;
+  std::ptrdiff_t left = 0, right = 0;
   double left_counts = 1, right_counts = 1;    ///< 0 for a wall.
   double left_inverse = 0, right_inverse = 0;  ///< 1/m [1/kg]; 0 for a wall or a fixed body.
   double gap = 0;                              ///< δ = u_left − u_right − gap [m].
   double stiffness = 0, exponent = 1.5, damping_exponent = 1.5, mu = 0;
   bool clipped = false;  ///< A force below 0 counts as 0.
   bool plain = false;    ///< n = p = 1.5: what most are.
+  double outward = 0;  ///< Of F, what is no internal force: 1 or −1 against a wall or fixed body.
 
   double Relative(const double* of_bodies) const {
     return left_counts * of_bodies[left] - right_counts * of_bodies[right];
@@ -46,24 +48,20 @@ struct ActiveContact {
     double force, by_deformation, by_rate, damping;  ///< damping = ∂F/∂μ = δᵖ δ̇.
   };
   Force At(double deformation, double rate) const {
-    if (plain) {
-      if (deformation <= 0) return {};
-      const double root = std::sqrt(deformation);
-      const double power = deformation * root;
-      const double load = stiffness + mu * rate;
-      if (clipped && load < 0) return {};
-      return {power * load, 1.5 * root * load, mu * power, power * rate};
-    }
-    const Power n(deformation, exponent);
-    const Power p = damping_exponent == exponent ? n : DampingPower(deformation);
-    const double force = stiffness * n.value + mu * p.value * rate;
-    if (clipped && force < 0) return {};
-    return {force, stiffness * n.slope + mu * p.slope * rate, mu * p.value, p.value * rate};
+    if (!plain) return General(deformation, rate);
+    if (deformation <= 0) return {};
+    const double root = std::sqrt(deformation);
+    const double power = deformation * root;
+    const double load = stiffness + mu * rate;
+    if (clipped && load < 0) return {};
+    return {power * load, 1.5 * root * load, mu * power, power * rate};
   }
-  Power DampingPower(double deformation) const {
-    Power p(deformation, damping_exponent);
-    if (damping_exponent == 0) p.value = 1, p.slope = 0;
-    return p;
+  Force General(double deformation, double rate) const;
+  /// Whether (M2) would pull and is clipped; at δ ≤ 0 whether it does so just before.
+  bool Clips(double deformation, double rate) const {
+    if (!clipped) return false;
+    const double power = std::pow(std::max(deformation, 0.0), exponent - damping_exponent);
+    return stiffness * power + mu * rate < 0;
   }
 };
 
@@ -72,24 +70,35 @@ struct ActiveContact {
 ///
 /// Displacements u are measured from `base`, near which they stay small, so that deformations
 /// keep their digits however far a body has come. State vector y, N bodies and C contacts:
-///   [u (N), v (N), W (C)]                      always; W work of the running cycles
+///   [u (N), v (N)]
+///   [∂u/∂μ, ∂v/∂μ]                             for each column, when not recording
+/// and then quadratures, on which no slope depends:
+///   [W (C)]                                    work of the running cycles
+///   [∂W/∂μ]                                    for each column, when not recording
 ///   [E (C), load work, support loss, impulse]  when recording
-///   [∂u/∂μ, ∂v/∂μ, ∂W/∂μ]                      for each column, when not recording
 class Equations {
  public:
   explicit Equations(const Scenario& scenario);
 
   int bodies() const { return bodies_; }
   int contacts() const { return contacts_; }
-  std::ptrdiff_t block() const { return 2 * std::ptrdiff_t{bodies()} + contacts(); }
-  std::ptrdiff_t size() const { return block() + (recording ? contacts() + 3 : columns * block()); }
-  std::ptrdiff_t external_work(int contact) const { return block() + contact; }
-  std::ptrdiff_t load_work() const { return block() + contacts(); }
+  /// Where things are in y.
+  std::ptrdiff_t size() const {
+    return work(contacts()) + (recording ? contacts() + 3 : tangents() * contacts());
+  }
+  std::ptrdiff_t coupled() const { return 2 * std::ptrdiff_t{bodies()} * (1 + tangents()); }
+  std::ptrdiff_t tangent(int column) const { return 2 * std::ptrdiff_t{bodies()} * (1 + column); }
+  std::ptrdiff_t work(int contact) const { return coupled() + contact; }
+  std::ptrdiff_t work_tangent(int contact, int column) const {
+    return work(contact) + std::ptrdiff_t{contacts()} * (1 + column);
+  }
+  std::ptrdiff_t external_work(int contact) const { return work(contacts()) + contact; }
+  std::ptrdiff_t load_work() const { return external_work(contacts()); }
   std::ptrdiff_t support_loss() const { return load_work() + 1; }
   std::ptrdiff_t impulse() const { return load_work() + 2; }
 
-  /// dy = f(t, y).
-  void operator()(double t, const double* y, double* dy) const;
+  /// dy = pace · f(t, y): slopes by a clock of which a second is 1/pace.
+  void operator()(double t, const double* y, double* dy, double pace = 1) const;
 
   /// Difference left − right of a per-body quantity; a wall counts 0.
   double Relative(int contact, const double* of_bodies) const {
@@ -118,9 +127,13 @@ class Equations {
   bool recording = false;
 
  private:
-  void AddSupports(const double* y, double* dy) const;
-  void AddContacts(const double* y, double* dy) const;
-  void AddRecord(double t, const double* y, double* dy) const;
+  std::ptrdiff_t tangents() const { return recording ? 0 : columns; }
+  void AddSupports(const double* y, double* dy, double pace) const;
+  template <class Count>
+  void AddContacts(Count n, const double* y, double* dy, double* works, double pace) const;
+  template <class Count>
+  void Evaluate(Count n, double t, const double* y, double* dy, double pace) const;
+  void AddRecord(double t, const double* y, double* dy, double pace) const;
   double LoadForce(const Load& load, double t) const;
   double SupportForce(const Support& s, const double* u, const double* v) const;
 

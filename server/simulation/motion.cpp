@@ -96,12 +96,12 @@ void Motion::Begin(const State& state, bool recording, double tolerance, int mos
   equations_.recording = recording;
   equations_.columns = 0;
   SelectLoads();
-  rk_.Resize(equations_.size());
+  rk_.Resize(equations_.size(), equations_.coupled());
   rk_.y0.setZero();
   for (int i = 0; i < n; ++i) rk_.y0[n + i] = state.velocities[At(i)];
   for (int c = 0; c < equations_.contacts(); ++c) {
     ContactState& contact = contacts_[At(c)];
-    rk_.y0[2 * n + c] = contact.work;
+    rk_.y0[equations_.work(c)] = contact.work;
     if (recording) rk_.y0[equations_.external_work(c)] = contact.external_work;
     start_gradient_[At(c)].resize(0);
     turn_gradient_[At(c)].resize(0);
@@ -127,7 +127,7 @@ State Motion::Save() const {
   for (int c = 0; c < equations_.contacts(); ++c) {
     ContactState& contact = state.contacts[At(c)];
     contact.gap = -Deformation(c, rk_.y0.data());
-    contact.work = rk_.y0[2 * n + c];
+    contact.work = rk_.y0[equations_.work(c)];
     if (equations_.recording) contact.external_work = rk_.y0[equations_.external_work(c)];
   }
   state.load_work = totals_.load_work;
@@ -155,6 +155,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
                               const std::stop_token& stop, std::int64_t step_limit) {
   StartCycles(host, false);
   const bool busy = Busy();
+  if (equations_.active.empty()) next_step_ = 0;  // That of the cycles before tells nothing.
   int events_at_once = 0;
   while (true) {
     if (time_ >= until) return Pause::kTimeUp;
@@ -165,8 +166,12 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone && !Land(found)) found.contact = kNone;
-    if (moves && !rk_.y1.head(equations_.block()).allFinite()) return Pause::kNumeric;
-    if (moves) Accept(listener);
+    if (moves && !rk_.y1.head(2 * equations_.bodies()).allFinite()) return Pause::kNumeric;
+    if (moves) {
+      Accept(listener);
+    } else {
+      next_step_ = step_.h;  // The same again, but for what begins.
+    }
     if (found.contact != kNone) Apply(found, host);
     WakeResting(host);
     events_at_once = moves ? 0 : events_at_once + 1;
@@ -231,7 +236,9 @@ double Motion::Noise(int contact) const {
 Motion::Found Motion::FindEvent() const {
   Found first;
   for (int c = 0; c < equations_.contacts(); ++c) {
-    const auto event = FirstEvent(contacts_[At(c)].phase, Path(c), event_[At(c)], Noise(c));
+    const Phase phase = contacts_[At(c)].phase;
+    const double noise = phase == Phase::kOpen ? Noise(c) : 0;
+    const auto event = FirstEvent(phase, Path(c), event_[At(c)], noise);
     if (!event) continue;
     if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
   }
@@ -260,7 +267,9 @@ Motion::Found Motion::PassTurns() {
     const double acceleration =
         equations_.Relative(found.contact, rk_.slope0.data() + n) * (1 - theta) +
         equations_.Relative(found.contact, rk_.slope1.data() + n) * theta;
-    const double late = equations_.Relative(found.contact, inside_.data() + n) / acceleration;
+    const double late = acceleration == 0  // As where a cycle from rest turns at once.
+                            ? 0
+                            : equations_.Relative(found.contact, inside_.data() + n) / acceleration;
     theta = std::clamp(step_.Theta(step_.At(theta) - late), 0.0, 1.0);
     rk_.Interpolate(theta, &inside_);
     event_[At(found.contact)] = theta;

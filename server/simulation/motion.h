@@ -132,12 +132,13 @@ class Motion {
   bool Busy() const;
   void StartCycles(CycleHost& host, bool resting_only);
   void StartCycle(int contact, CycleHost& host);
+  void AddColumn();
   void SetRestingScale(int contact);
   double FirstStep(int contact) const;
   bool TakeStep(double until);
   StepTime Plan(double until);
   void TakeFixedStep(double until);
-  double TouchWarp(double h) const;
+  double Warp(double h, double parting = std::numeric_limits<double>::infinity()) const;
   double TimeToSeparation(const ActiveContact& active) const;
   double ErrorNorm(double h) const;
   double Noise(int contact) const;

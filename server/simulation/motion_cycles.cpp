@@ -57,15 +57,10 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   state.phase = state.settled ? Phase::kResting : Phase::kCompression;
   if (!state.settled) ++cycles_in_stretch_;
 
-  if (factor.column >= equations_.columns && !equations_.recording) {
-    equations_.columns = factor.column + 1;
-    const Eigen::Index old = rk_.size();
-    rk_.Resize(equations_.size());
-    rk_.y0.tail(rk_.size() - old).setZero();
-  }
-  for (int column = 0; column <= equations_.columns; ++column) {
-    if (equations_.recording && column > 0) break;
-    rk_.y0[column * equations_.block() + 2 * n + contact] = 0;
+  if (factor.column >= equations_.columns && !equations_.recording) AddColumn();
+  rk_.y0[equations_.work(contact)] = 0;
+  for (int column = 0; !equations_.recording && column < equations_.columns; ++column) {
+    rk_.y0[equations_.work_tangent(contact, column)] = 0;
   }
   if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
   start_gradient_[At(contact)] = WorkGradient(contact, rk_.y0);
@@ -81,6 +76,16 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   if (state.settled) SetRestingScale(contact);
   const double first = FirstStep(contact);
   next_step_ = next_step_ == 0 ? first : std::min(next_step_, first);
+}
+
+// Makes room for one more μ to differentiate by; nothing depends on it yet.
+void Motion::AddColumn() {
+  const Eigen::Index coupled = equations_.coupled();
+  const Eigen::ArrayXd works = rk_.y0.tail(rk_.size() - coupled);
+  ++equations_.columns;
+  rk_.Resize(equations_.size(), equations_.coupled());
+  rk_.y0.tail(rk_.size() - coupled).setZero();
+  rk_.y0.segment(equations_.coupled(), works.size()) = works;
 }
 
 void Motion::SetRestingScale(int contact) {
@@ -100,7 +105,9 @@ double Motion::FirstStep(int contact) const {
   const double mass = equations_.effective_mass(contact);
   if (cycle.approach_velocity > 0) {
     const double v = cycle.approach_velocity;
-    return 0.05 * MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
+    // In √t the error grows with the 9th power, t^4.5.
+    return 4 * std::pow(tolerance_, 2.0 / 9) *
+           MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
   }
   double deformation = cycle.start_deformation;
   if (deformation == 0) {  // The load's equilibrium.
@@ -152,11 +159,10 @@ void Motion::WakeResting(CycleHost& host) {
 void Motion::Turn(ContactState& state, double time, const Eigen::ArrayXd& y) {
   Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  const int n = equations_.bodies();
   state.phase = Phase::kRestitution;
   cycle.turn_time = time;
   cycle.max_deformation = Deformation(cycle.contact, y.data());
-  cycle.work_compression = y[2 * n + cycle.contact];  // (W1)
+  cycle.work_compression = y[equations_.work(cycle.contact)];  // (W1)
   cycle.dissipated_compression = cycle.work_compression -
                                  ElasticEnergy(contact, cycle.max_deformation) +
                                  ElasticEnergy(contact, cycle.start_deformation);  // (W2)
@@ -196,7 +202,7 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
     split_energy = SplitAtPeakForce(state);
     split_velocity = state.peak.velocity;
   }
-  cycle.work_restitution = rk_.y0[2 * n + cycle.contact] - cycle.work_compression;
+  cycle.work_restitution = rk_.y0[equations_.work(cycle.contact)] - cycle.work_compression;
   cycle.dissipated_restitution =
       cycle.work_restitution - ElasticEnergy(contact, cycle.end_deformation) + split_energy;
   const double ratio = -cycle.work_restitution / cycle.work_compression;
@@ -227,7 +233,7 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
              deformation_scale_[At(cycle.contact)], velocity_scale_[At(cycle.contact)]);
   state.largest_work = std::max(state.largest_work, cycle.work_compression);
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
-  rk_.y0[2 * n + cycle.contact] = 0;
+  rk_.y0[equations_.work(cycle.contact)] = 0;
   if (equations_.recording) rk_.y0[equations_.external_work(cycle.contact)] = 0;
   RefreshActive();
 }
@@ -241,8 +247,8 @@ void Motion::ShiftAtJump(int contact, double sign) {
   const double rate = c.Relative(rk_.y0.data() + n);
   if (c.damping_exponent != 0 || equations_.recording || rate == 0) return;
   const double force = sign * c.At(0, rate).force;
-  for (int column = 1; column <= equations_.columns; ++column) {
-    double* tangent = rk_.y0.data() + column * equations_.block();
+  for (int column = 0; column < equations_.columns; ++column) {
+    double* tangent = rk_.y0.data() + equations_.tangent(column);
     const double late = -c.Relative(tangent) / rate;
     tangent[n + c.left] += force * c.left_inverse * late;
     tangent[n + c.right] -= force * c.right_inverse * late;
@@ -253,42 +259,50 @@ void Motion::ShiftAtJump(int contact, double sign) {
 Eigen::ArrayXd Motion::WorkGradient(int contact, const Eigen::ArrayXd& y) const {
   Eigen::ArrayXd gradient(equations_.columns);
   for (int column = 0; column < equations_.columns; ++column) {
-    gradient[column] = y[(column + 1) * equations_.block() + 2 * equations_.bodies() + contact];
+    gradient[column] = y[equations_.work_tangent(contact, column)];
   }
   return gradient;
 }
 
-// Peak force and pulling time over the step, with δ(t) from its path.
+// Peak force and pulling time over the step.
 void Motion::ObserveForce(const ActiveContact& active) {
+  const int n = equations_.bodies();
   Cycle& cycle = contacts_[At(active.contact)].cycle;
-  const DeformationPath path = Path(active.contact);
   ActiveContact law = active;
   law.clipped = false;
-  const auto force = [&](double theta) {
-    const double dt = step_.h * step_.Rate(theta);
-    return law.At(path.Value(theta), dt > 0 ? path.Slope(theta) / dt : 0).force;
+  struct End {
+    double force, growth;  // F, dF/dt.
   };
-  if (force(0) < 0 || force(1) < 0) {  // Nowhere else in a step does it pull.
-    for (int i = 0; i < 8; ++i) {
-      const bool pulls = force((i + 0.5) / 8) < 0;
-      if (pulls) cycle.tension_time += step_.At((i + 1) / 8.0) - step_.At(i / 8.0);
+  const auto end = [&](const Eigen::ArrayXd& y, const Eigen::ArrayXd& slope) {
+    const double rate = law.Relative(y.data() + n);
+    const ActiveContact::Force f = law.At(law.Relative(y.data()) - law.gap, rate);
+    return End{f.force, f.by_deformation * rate + f.by_rate * law.Relative(slope.data() + n)};
+  };
+  const End first = end(rk_.y0, rk_.slope0), last = end(rk_.y1, rk_.slope1);
+  const bool pulls = first.force < 0 || last.force < 0;  // Nowhere else in a step does it pull.
+  const bool peaks = first.growth >= 0 && last.growth < 0;
+  double where = last.force > first.force ? 1 : 0;
+  double largest = std::max(first.force, last.force);
+  if (pulls || peaks) {
+    const DeformationPath path = Path(active.contact);
+    const auto force = [&](double theta) {
+      const double dt = step_.h * step_.Rate(theta);
+      return law.At(path.Value(theta), dt > 0 ? path.Slope(theta) / dt : 0).force;
+    };
+    for (int i = 0; pulls && i < 8; ++i) {
+      if (force((i + 0.5) / 8) < 0) {
+        cycle.tension_time += step_.At((i + 1) / 8.0) - step_.At(i / 8.0);
+      }
+    }
+    if (peaks) {
+      const auto peak = boost::math::tools::brent_find_minima(
+          [&](double theta) { return -force(theta); }, 0.0, 1.0, 40);
+      if (-peak.second > largest) where = peak.first, largest = -peak.second;
     }
   }
-  constexpr int kPieces = 4;
-  int best = 0;
-  double largest = force(0);
-  for (int i = 1; i <= kPieces; ++i) {
-    const double here = force(static_cast<double>(i) / kPieces);
-    if (here > largest) best = i, largest = here;
-  }
-  if (largest <= cycle.peak_force && best % kPieces == 0) return;
-  const double low = static_cast<double>(std::max(0, best - 1)) / kPieces;
-  const double high = static_cast<double>(std::min(kPieces, best + 1)) / kPieces;
-  const auto peak = boost::math::tools::brent_find_minima(
-      [&](double theta) { return -force(theta); }, low, high, 40);
-  if (-peak.second <= cycle.peak_force) return;
-  cycle.peak_force = -peak.second;
-  if (split_at_force_) KeepPeak(active.contact, peak.first);
+  if (largest <= cycle.peak_force) return;
+  cycle.peak_force = largest;
+  if (split_at_force_) KeepPeak(active.contact, where);
 }
 
 void Motion::KeepPeak(int contact, double theta) {
@@ -299,7 +313,7 @@ void Motion::KeepPeak(int contact, double theta) {
       .time = step_.At(theta),
       .deformation = Deformation(contact, inside_.data()),
       .velocity = equations_.Relative(contact, inside_.data() + n),
-      .work = inside_[2 * n + contact],
+      .work = inside_[equations_.work(contact)],
       .external_work = equations_.recording ? inside_[equations_.external_work(contact)] : 0};
 }
 

@@ -11,20 +11,30 @@ namespace {
 constexpr int kMaxRejections = 60;
 constexpr int kClassicalEvaluations = 4;  // In a step with its end.
 constexpr int kMaxLandings = 8;
-// A step that would come this near to a separation goes for it,
-constexpr double kReach = 0.7;
-// but only from a deformation this small against the largest of the cycle.
-constexpr double kNear = 0.02;
+// A step that would go this far towards a separation goes for it,
+constexpr double kReach = 0.85;
+// but only from a deformation this small against the largest of the cycle, at a tolerance of 1,
+constexpr double kNear = 0.7;
+// and else at most so far towards it.
+constexpr double kApproach = 0.8;
+constexpr double kSafety = 0.8;  // Of the next step.
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-// How a step is warped after a touch, whose force grows with a fractional power of time.
-double Motion::TouchWarp(double h) const {
-  if (std::isnan(touch_time_) || fixed_step_ > 0) return 1;
-  const double since = std::sqrt(time_ - touch_time_);
-  return 2 * since / (since + std::sqrt(time_ - touch_time_ + h));
+// How a step is warped: evenly in √(t − t_s) after a touch, or in √(t_o − t) before a separation,
+// whichever is nearer, for force grows and fades with a fractional power of these times.
+double Motion::Warp(double h, double parting) const {
+  if (fixed_step_ > 0) return 1;
+  const auto warp = [](double start, double end) {
+    return 2 * std::sqrt(start) / (std::sqrt(start) + std::sqrt(end));
+  };
+  const double since = time_ - touch_time_;
+  const double after = std::isnan(since) ? 1 : warp(since, since + h);
+  const double before = parting < kForever ? warp(parting, std::max(0.0, parting - h)) : 1;
+  return before - 1 > 1 - after ? before : after;
 }
 
 // When a contact in restitution will part; infinite if it seems it will not. By the parabola
@@ -39,7 +49,7 @@ double Motion::TimeToSeparation(const ActiveContact& active) const {
                       kFade * force * (active.left_inverse + active.right_inverse);
   const double discriminant = speed * speed - 2 * deformation * bend;
   if (speed <= 0 || deformation <= 0 || discriminant < 0) {
-    return std::numeric_limits<double>::infinity();
+    return kForever;
   }
   return 2 * deformation / (speed + std::sqrt(discriminant));
 }
@@ -49,21 +59,23 @@ StepTime Motion::Plan(double until) {
   double h = std::min({next_step_, left, 0.5 * forcing_time_});
   if (left - h < 1e-3 * h) h = left;  // Leave no sliver.
   separating_ = kNone;
-  double reach = h / kReach;
+  double parting = kForever;
+  const ActiveContact* first = nullptr;
   for (const ActiveContact& active : equations_.active) {
     if (contacts_[At(active.contact)].phase != Phase::kRestitution) continue;
-    const double parting = TimeToSeparation(active);
-    if (parting > reach || parting > left) continue;
-    const double deformation = active.Relative(rk_.y0.data()) - active.gap;
-    if (deformation > kNear * deformation_scale_[At(active.contact)]) {
-      h = std::min(h, 0.6 * parting);  // Too far off to know when it will part.
-    } else {
-      reach = parting;
-      separating_ = active.contact;
-    }
+    const double time = TimeToSeparation(active);
+    if (time < parting) parting = time, first = &active;
   }
-  if (separating_ != kNone) return {.start = time_, .h = reach, .warp = 2};
-  return {.start = time_, .h = h, .warp = TouchWarp(h)};
+  if (parting * kReach <= h && parting <= left) {
+    const double deformation = first->Relative(rk_.y0.data()) - first->gap;
+    const double near = kNear * std::pow(tolerance_, 1.0 / 7);
+    if (deformation <= near * deformation_scale_[At(first->contact)]) {
+      separating_ = first->contact;
+      return {.start = time_, .h = parting, .warp = 2};
+    }
+    h = std::min(h, kApproach * parting);  // Too far off to know when it will part.
+  }
+  return {.start = time_, .h = h, .warp = Warp(h, parting)};
 }
 
 // The classical method's step is what it is.
@@ -88,7 +100,7 @@ bool Motion::TakeStep(double until) {
   if (next_step_ == 0) {
     const double speed = rk_.y0.segment(n, n).abs().maxCoeff();
     const double acceleration = rk_.slope0.segment(n, n).abs().maxCoeff();
-    next_step_ = speed > 0 && acceleration > 0 ? 0.01 * speed / acceleration : 1e-6;
+    next_step_ = speed > 0 ? 0.01 * speed / acceleration : 1e-6;  // Infinite in free flight.
   }
   for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
     step_ = Plan(until);
@@ -96,19 +108,21 @@ bool Motion::TakeStep(double until) {
     ++steps_;
     evaluations_ += 11;
     const double error = ErrorNorm(step_.h);
-    const double factor = error > 0 ? 0.9 * std::pow(error, -1.0 / 8) : 6;
+    const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
+    const double factor = error > 0 ? kSafety / eighth_root : 6;
     if (error <= 1) {
       rk_.FinishStep(equations_, step_);
       ++evaluations_;
       const double growth = std::clamp(factor, 0.3, rejections > 0 ? 1.0 : 6.0);
-      const double next = step_.h * growth;
+      const double next =
+          separating_ == kNone ? std::max(step_.Next(growth), 0.1 * step_.h) : step_.h * growth;
       next_step_ = step_.h < next_step_ ? std::max(next, next_step_) : next;
       return true;
     }
     if (separating_ != kNone) {
-      next_step_ = 0.5 * step_.h;  // Not near enough yet.
+      next_step_ = step_.Offset(0.6);  // Not near enough yet.
     } else {
-      next_step_ = step_.h * (std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1);
+      next_step_ = step_.Offset(std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1);
     }
   }
   return false;
@@ -118,7 +132,7 @@ bool Motion::TakeStep(double until) {
 // the scale of its own cycle, that of each body relative to the largest motion of all.
 double Motion::ErrorNorm(double h) const {
   const int n = equations_.bodies();
-  if (!rk_.y1.head(2 * n).allFinite()) return std::numeric_limits<double>::infinity();
+  if (!rk_.y1.head(2 * n).allFinite()) return kForever;
   double length = 0, speed = 0;
   for (const ActiveContact& active : equations_.active) {
     const int c = active.contact;
@@ -132,36 +146,42 @@ double Motion::ErrorNorm(double h) const {
   const double body_speed = std::max({speed, flight_speed_, rk_.y1.segment(n, n).abs().maxCoeff()});
   const double body_length =
       std::max({length, flight_length_, rk_.y1.head(n).abs().maxCoeff(), body_speed * h});
-  // Of the two estimates of an error the square of what both make, e5²/√(e5² + 0.01 e3²), in units
-  // of the square of h. No number: infinite, for no finite error that follows may hide it.
-  const auto squared = [](double e5, double e3) {
-    const double both = e5 * e5 + 0.01 * e3 * e3;
-    if (both == 0) return 0.0;
-    const double e = e5 * e5 * (e5 * e5) / both;
-    return std::isnan(e) ? std::numeric_limits<double>::infinity() : e;
-  };
   auto& e5 = error5_;
   auto& e3 = error3_;
   rk_.Errors(2 * n, e5.data(), e3.data());
-  const auto largest = [&](int first) {
+  // The square of what both estimates of an error make, e5²/√(e5² + 0.01 e3²), each taken of length
+  // and speed together, for either alone passes through 0 at times. No number: infinite, for no
+  // finite error that follows may hide it.
+  double norm = 0;
+  const auto add = [&](double length5, double length3, double length_scale, double speed5,
+                       double speed3, double speed_scale, bool kink) {
+    if (!(length_scale > 0 && speed_scale > 0)) return;
+    const auto sum = [&](double of_length, double of_speed) {
+      const double x = of_length / length_scale, v = of_speed / speed_scale;
+      return x * x + v * v;
+    };
+    const double five = sum(length5, speed5), three = sum(length3, speed3);
+    if (five == 0) return;
+    const double both = kink ? five : five * five / (five + 0.01 * three);
+    norm = std::max(norm, std::isnan(both) ? kForever : both);
+  };
+  const auto largest = [n](const std::vector<double>& e, int first) {
     double all = 0;
-    for (int i = first; i < first + n; ++i) all = std::max(all, squared(e5[At(i)], e3[At(i)]));
+    for (int i = first; i < first + n; ++i) all = std::max(all, std::abs(e[At(i)]));
     return all;
   };
-  double norm = 0;
-  const auto add = [&norm](double error, double scale) {
-    if (error > 0 && scale > 0) norm = std::max(norm, error / scale / scale);
-  };
-  add(largest(0), body_length);
-  add(largest(n), body_speed);
+  add(largest(e5, 0), largest(e3, 0), body_length, largest(e5, n), largest(e3, n), body_speed,
+      false);
   // What the round-off of velocities makes of lengths in a step is no error of the step.
   const double round_off = 1e-15 * body_speed * h / scenario_.solver.relative_tolerance;
   for (const ActiveContact& active : equations_.active) {
     const int c = active.contact;
-    add(squared(active.Relative(e5.data()), active.Relative(e3.data())),
-        std::max({deformation_scale_[At(c)], 1e-3 * length, round_off}));
-    add(squared(active.Relative(e5.data() + n), active.Relative(e3.data() + n)),
-        std::max(velocity_scale_[At(c)], 1e-3 * speed));
+    add(active.Relative(e5.data()), active.Relative(e3.data()),
+        std::max({deformation_scale_[At(c)], 1e-3 * length, round_off}),
+        active.Relative(e5.data() + n), active.Relative(e3.data() + n),
+        std::max(velocity_scale_[At(c)], 1e-3 * speed),
+        active.Clips(active.Relative(rk_.y1.data()) - active.gap,
+                     active.Relative(rk_.y1.data() + n)));
   }
   return h * std::sqrt(norm) / tolerance_;
 }
@@ -198,7 +218,7 @@ bool Motion::Land(const Found& found) {
 }
 
 void Motion::Repeat(double h, bool parting) {
-  step_ = {.start = time_, .h = h, .warp = parting && fixed_step_ == 0 ? 2 : TouchWarp(h)};
+  step_ = {.start = time_, .h = h, .warp = parting && fixed_step_ == 0 ? 2 : Warp(h)};
   rk_.Step(equations_, step_);
   rk_.FinishStep(equations_, step_);
   ++steps_;

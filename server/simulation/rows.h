@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <type_traits>
 
 namespace contact {
 
@@ -21,6 +22,15 @@ template <class F>
   for (; i + 4 <= n; i += 4) f(Rows<4>(), i);
   if ((n & 2) != 0) f(Rows<2>(), i), i += 2;
   if ((n & 1) != 0) f(Rows<1>(), i);
+}
+
+/// Calls f(n) with a number that the compiler knows if n is one of those named, for loops over a
+/// few bodies are mostly the counting; else with n.
+template <std::ptrdiff_t... kKnown, class F>
+[[gnu::always_inline]] inline void WithCount(std::ptrdiff_t n, F&& f) {
+  const bool known =
+      ((n == kKnown && (f(std::integral_constant<std::ptrdiff_t, kKnown>()), true)) || ...);
+  if (!known) f(n);
 }
 
 }  // namespace contact

@@ -12,7 +12,8 @@ double StepTime::Theta(double t) const {
   return warp + root > 0 ? 2 * x / (warp + root) : 0;
 }
 
-void RungeKutta::Resize(Eigen::Index size) {
+void RungeKutta::Resize(Eigen::Index size, Eigen::Index coupled) {
+  coupled_ = coupled;
   y0.conservativeResize(size);
   y1.resize(size);
   slope0.conservativeResize(size);

@@ -17,6 +17,12 @@ struct StepTime {
   double At(double theta) const { return start + Offset(theta); }
   /// dt/dθ in units of h.
   double Rate(double theta) const { return warp + 2 * (1 - warp) * theta; }
+  /// Length of the step that goes on from the end with the same clock, to θ = 1 + `growth`; with
+  /// w > 1 at most to where the clock stands still.
+  double Next(double growth) const {
+    const double last = warp > 1 ? warp / (2 * (warp - 1)) : 1 + growth;
+    return Offset(last < 1 + growth ? last : 1 + growth) - h;
+  }
   /// θ at which the time is `t`.
   double Theta(double t) const;
 };
@@ -27,7 +33,8 @@ struct StepTime {
 /// Differential Equations I, 2nd ed., Springer 1993, II.1, II.5 and II.6 (DOP853).
 ///
 /// Holds one step from y0 to y1 of y' = f(t, y), taken in θ. `f(t, y, dy)` gets arrays of
-/// `size` numbers. Does not allocate between calls of Resize.
+/// `size` numbers; an f that takes a pace too gives dy by θ itself, `f(t, y, dy, dt/dθ/h)`. Does
+/// not allocate between calls of Resize.
 class RungeKutta {
  public:
   using Vector = Eigen::ArrayXd;
@@ -35,8 +42,10 @@ class RungeKutta {
 
   explicit RungeKutta(Method method = Method::kDormandPrince) : method_(method) {}
 
-  /// Keeps what there is of y0 and slope0.
-  void Resize(Eigen::Index size);
+  /// Keeps what there is of y0 and slope0. f depends on the first `coupled` numbers of y only; the
+  /// others are quadratures, which stages need not know.
+  void Resize(Eigen::Index size, Eigen::Index coupled);
+  void Resize(Eigen::Index size) { Resize(size, size); }
   Eigen::Index size() const { return y0.size(); }
 
   /// Computes y1 from y0 and slope0.
@@ -76,17 +85,18 @@ class RungeKutta {
     double weight;
     int slope;
   };
-  /// out = y0 + h Σ weight · slope.
-  template <std::size_t N>
-  void Combine(Vector& out, double h, const Term (&terms)[N]);
-  template <class F>
-  void DormandPrinceStep(F&& f, const StepTime& time);
+  /// out = y0 + h Σ weight · slope, in the first rows.
+  template <class Count, std::size_t N>
+  void Combine(Vector& out, Count rows, double h, const Term (&terms)[N]);
+  template <class F, class Count>
+  void DormandPrinceStep(F&& f, const StepTime& time, Count coupled);
   template <class F>
   void ClassicalStep(F&& f, const StepTime& time);
   void PrepareCubic(double h);
   void PrepareCoefficients(double h);
 
   Method method_;
+  Eigen::Index coupled_ = 0;
   Eigen::ArrayXXd k_;  // dy/dθ/h: 12 stages, the end, 3 for the dense output.
   Vector stage_;
   Eigen::ArrayXXd dense_;  // Coefficients of the interpolant.

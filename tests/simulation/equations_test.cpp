@@ -39,7 +39,7 @@ struct MixedPoint {
     y[0] = -3e-6;  // Into the wall too.
     std::mt19937 random(7);
     std::uniform_real_distribution<double> tangent(-1e-12, 1e-12);
-    for (auto i = equations.block(); i < y.size(); ++i) y[i] = tangent(random);
+    for (auto i = equations.tangent(0); i < y.size(); ++i) y[i] = tangent(random);
   }
 
   Eigen::ArrayXd Slope() const {
@@ -52,18 +52,26 @@ struct MixedPoint {
 // A sensitivity column is the derivative of the slope along (∂y/∂μ, 1 for its own μ).
 TEST(Equations, SensitivityColumnsAreDirectionalDerivatives) {
   MixedPoint s;
-  const auto n = s.equations.block();
+  const auto& equations = s.equations;
+  // u, v and W, or their derivatives.
+  const auto block = [&](const Eigen::ArrayXd& all, std::ptrdiff_t motion, std::ptrdiff_t work) {
+    Eigen::ArrayXd part(6 + 3);
+    part << all.segment(motion, 6), all.segment(work, 3);
+    return part;
+  };
   const Eigen::ArrayXd dy = s.Slope();
   for (int column = 0; column < 3; ++column) {
     const double step = 1e3;  // Of μ; the tangents are made for it.
     MixedPoint plus, minus;
-    plus.y.head(n) += step * s.y.segment(n * (column + 1), n);
-    minus.y.head(n) -= step * s.y.segment(n * (column + 1), n);
+    plus.y.head(6) += step * s.y.segment(equations.tangent(column), 6);
+    minus.y.head(6) -= step * s.y.segment(equations.tangent(column), 6);
     plus.equations.active[static_cast<std::size_t>(column)].mu += step;
     minus.equations.active[static_cast<std::size_t>(column)].mu -= step;
-    const Eigen::ArrayXd difference = (plus.Slope() - minus.Slope()).head(n) / (2 * step);
-    const Eigen::ArrayXd analytic = dy.segment(n * (column + 1), n);
-    for (int i = 0; i < n; ++i) {
+    const Eigen::ArrayXd difference =
+        block(plus.Slope() - minus.Slope(), 0, equations.work(0)) / (2 * step);
+    const Eigen::ArrayXd analytic =
+        block(dy, equations.tangent(column), equations.work_tangent(0, column));
+    for (int i = 0; i < 9; ++i) {
       EXPECT_NEAR(analytic[i], difference[i], 1e-6 * (difference.abs().maxCoeff() + 1e-12))
           << "row " << i << ", column " << column;
     }

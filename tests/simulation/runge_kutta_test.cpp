@@ -133,5 +133,40 @@ TEST(RungeKutta, ErrorEstimatesFollowTheError) {
   }
 }
 
+// The step after, by the same clock: θ from 1 to 1 + growth.
+TEST(StepTime, GoesOnWithTheSameClock) {
+  const double h = 0.3;
+  EXPECT_DOUBLE_EQ((StepTime{.start = 2, .h = h, .warp = 1}.Next(1.5)), 1.5 * h);
+  EXPECT_DOUBLE_EQ((StepTime{.start = 2, .h = h, .warp = 0}.Next(1)), 3 * h);  // √t: 1² to 2².
+  const StepTime ending{.start = 2, .h = h, .warp = 1.5};  // Its clock stands still at θ = 1.5.
+  EXPECT_DOUBLE_EQ(ending.Next(9), ending.Next(0.5));
+  EXPECT_EQ((StepTime{.start = 2, .h = h, .warp = 2}.Next(1)), 0);
+}
+
+// y'' = −y with the quadrature of y: stages that do not know the quadrature change nothing, and
+// neither does an f that goes by the step's clock itself.
+TEST(RungeKutta, StagesNeedNotKnowQuadratures) {
+  const auto slope = [](double, const double* y, double* dy) {
+    dy[0] = y[1];
+    dy[1] = -y[0];
+    dy[2] = y[0];
+  };
+  const auto paced = [&](double t, const double* y, double* dy, double pace) {
+    slope(t, y, dy);
+    for (int i = 0; i < 3; ++i) dy[i] *= pace;
+  };
+  const StepTime time{.start = 0, .h = 0.4, .warp = 0.6};
+  RungeKutta all, some;
+  all.Resize(3);
+  some.Resize(3, 2);
+  for (RungeKutta* rk : {&all, &some}) {
+    rk->y0 << 1, 0.5, 0;
+    slope(0, rk->y0.data(), rk->slope0.data());
+  }
+  all.Step(slope, time);
+  some.Step(paced, time);
+  EXPECT_TRUE((all.y1 == some.y1).all());
+}
+
 }  // namespace
 }  // namespace contact
