@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/run_state.h"
+
 namespace contact {
 namespace {
 
@@ -50,6 +52,19 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   sensitive_ = !as_paper_;
   window_ = as_paper_ ? motion_.max_cycles() : kFirstWindow;
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
+}
+
+void EpisodeSolver::Save(RunState* state) const {
+  state->iterations = total_iterations_;
+  state->warned = warned_;
+  state->missed = missed_;
+}
+
+void EpisodeSolver::Restore(const RunState& state) {
+  episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
+  total_iterations_ = state.iterations;
+  warned_ = state.warned;
+  missed_ = state.missed;
 }
 
 Motion::Pause EpisodeSolver::Solve(const State& start, const std::stop_token& stop,
