@@ -341,8 +341,13 @@ void IdleMemory(const ServerProcess& contactd, const Sizes& sizes) {
   client.AwaitIdle();
 }
 
-int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes) {
+int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes,
+           bool only_job_rate) {
   const ServerProcess contactd({binary, "--log-level=off", "--max-creates-per-second=0"});
+  if (only_job_rate) {
+    JobRate(contactd.address(), sizes);
+    return EXIT_SUCCESS;
+  }
   const ServerProcess bare({self, "--bare", "--messages", std::to_string(sizes.streamed_messages)});
   SubmitLatency(contactd.address(), bare.address(), sizes);
   JobRate(contactd.address(), sizes);
@@ -363,10 +368,12 @@ int main(int argc, char** argv) {
   std::string data_dir;
   std::string listen;
   bool tiny = false;
+  bool only_job_rate = false;
   bool bare = false;
   int messages = 1;
   app.add_option("--contactd", contactd, "The server's binary");
   app.add_flag("--tiny", tiny, "Only show that it runs");
+  app.add_flag("--only-job-rate", only_job_rate, "Only 1-ms jobs");
   app.add_flag("--bare", bare, "Be the server of bare gRPC")->group("");
   app.add_option("--messages", messages)->group("");
   app.add_option("--listen", listen)->group("");
@@ -375,7 +382,7 @@ int main(int argc, char** argv) {
   if (bare) return contact::ServeBare(data_dir, messages, contact::kMessageBytes);
   try {
     return contact::RunAll("/proc/self/exe", contactd,
-                           tiny ? contact::TinySizes() : contact::Sizes());
+                           tiny ? contact::TinySizes() : contact::Sizes(), only_job_rate);
   } catch (const std::exception& error) {
     fmt::print(stderr, "service_benchmark: {}\n", error.what());
     return EXIT_FAILURE;
