@@ -88,6 +88,9 @@ std::optional<LogCursor::Next> TailCursor::ReadFetched(Events* out) {
   fetch_ = nullptr;
   if (absl::IsNotFound(page->status())) return Next::kDeleted;
   if (!page->ok()) return Next::kFailed;
+  oldest_ = (*page)->oldest;
+  if ((kinds_ & KindBit(v1::Event::kFrameChunk)) && position_ + 1 < oldest_)
+    return Next::kCompacted;
   position_ = (*page)->position;
   for (StoredEvent& stored : (*page)->events) {
     std::string payload;
