@@ -91,6 +91,8 @@ struct Switches {
   double max_wall_time_s = 0;
   double step_timeout_s = 60;
   double retain_for_s = 0;
+  double compact_after_s = 0;
+  double checkpoint_interval_s = 1;
 };
 
 constexpr double kDay = 24 * 3600;
@@ -224,6 +226,11 @@ void AddLifecycle(CLI::App* app, Config* config, Switches* switches) {
   AddTime(app, "--retain-for", &switches->retain_for_s,
           "Ended jobs are deleted after so long, such as 30d, unless they say so themselves; "
           "0 is never");
+  AddTime(app, "--compact-after", &switches->compact_after_s,
+          "The trajectories of ended jobs are dropped after so long, such as 7d, and their results "
+          "kept; 0 is never");
+  AddTime(app, "--checkpoint-interval", &switches->checkpoint_interval_s,
+          "How often a long run stores where it may go on after a crash; 0 is never");
 }
 
 // What may be reached from elsewhere needs the consent of whoever starts us.
@@ -259,6 +266,9 @@ void Check(const Switches& switches, Config* config) {
   config->jobs.step_timeout = Milliseconds(switches.step_timeout_s);
   config->jobs.retention.age =
       std::chrono::ceil<std::chrono::seconds>(Milliseconds(switches.retain_for_s));
+  config->jobs.retention.compact_after =
+      std::chrono::ceil<std::chrono::seconds>(Milliseconds(switches.compact_after_s));
+  config->jobs.checkpoint_interval = Milliseconds(switches.checkpoint_interval_s);
 }
 
 }  // namespace

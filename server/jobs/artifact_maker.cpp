@@ -1,8 +1,6 @@
 #include "jobs/artifact_maker.h"
 
 #include <algorithm>
-#include <array>
-#include <boost/crc.hpp>
 #include <cstddef>
 #include <string_view>
 #include <utility>
@@ -10,18 +8,13 @@
 #include "jobs/csv_text.h"
 #include "jobs/executor.h"
 #include "jobs/job_errors.h"
+#include "wire/digest.h"
 
 namespace contact {
 namespace {
 
 constexpr std::size_t kChunkBytes = 1 << 18;
 constexpr std::size_t kPageBytes = 1 << 18;
-
-std::uint32_t Crc32c(std::string_view data) {
-  boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, true, true> crc;
-  crc.process_bytes(data.data(), data.size());
-  return crc.checksum();
-}
 
 bool IsWhole(const v1::FrameChunk& chunk) {
   const std::size_t bytes = static_cast<std::size_t>(chunk.samples()) * sizeof(double);
@@ -33,13 +26,7 @@ bool IsWhole(const v1::FrameChunk& chunk) {
 
 ArtifactMaker::ArtifactMaker(Store& store, Executor& executor, ArtifactPlan plan,
                              std::function<void()> wake)
-    : store_(store),
-      executor_(executor),
-      plan_(std::move(plan)),
-      wake_(std::move(wake)),
-      digest_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-  EVP_DigestInit_ex(digest_.get(), EVP_sha256(), nullptr);
-}
+    : store_(store), executor_(executor), plan_(std::move(plan)), wake_(std::move(wake)) {}
 
 void ArtifactMaker::Continue() {
   if (plan_.kind == ArtifactPlan::Kind::kCycles) {
@@ -102,6 +89,7 @@ void ArtifactMaker::Note(const StoredEvent& event, const v1::Event& content) {
 
 void ArtifactMaker::Write(const Page& page) {
   if (!page.ok()) return Fail(ToError(page.status(), plan_.job.name()));
+  if (page->oldest > 1) return Fail(EventsCompacted(plan_.job.name(), page->oldest));
   for (const StoredEvent& event : page->events) {
     if (event.sequence > end_) break;
     if (!Write(event)) return Fail(Damaged(plan_.job.name()));
@@ -126,7 +114,7 @@ bool ArtifactMaker::Write(const StoredEvent& stored) {
 
 // Adds text: all of it counts, what lies behind the offset is sent.
 void ArtifactMaker::Emit(const std::string& text) {
-  EVP_DigestUpdate(digest_.get(), text.data(), text.size());
+  digest_.Add(text);
   std::int64_t place = size_;
   size_ += static_cast<std::int64_t>(text.size());
   std::string_view rest = text;
@@ -150,16 +138,13 @@ void ArtifactMaker::Emit(const std::string& text) {
 void ArtifactMaker::Finish() {
   if (size_ == 0) return Fail(NoArtifact(plan_.job.name(), plan_.artifact));
   if (plan_.offset > size_) return Fail(OffsetOutOfRange(plan_.offset, size_));
-  std::array<unsigned char, EVP_MAX_MD_SIZE> hash{};
-  unsigned int length = 0;
-  EVP_DigestFinal_ex(digest_.get(), hash.data(), &length);
   v1::ReadArtifactResponse last;
   last.set_offset(size_);
   v1::Artifact& artifact = *last.mutable_artifact();
   artifact.set_name(plan_.artifact);
   artifact.set_media_type("text/csv");
   artifact.set_size_bytes(size_);
-  artifact.set_sha256(hash.data(), length);
+  artifact.set_sha256(digest_.Finish());
   Do([&last](Made& made) { made.chunks.push_back(std::move(last)); });
   Pause();
 }

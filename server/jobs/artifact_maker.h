@@ -1,7 +1,5 @@
 #pragma once
 
-#include <openssl/evp.h>
-
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -14,6 +12,7 @@
 #include "jobs/error.h"
 #include "storage/mutex.h"
 #include "storage/store.h"
+#include "wire/digest.h"
 
 namespace contact {
 
@@ -68,7 +67,7 @@ class ArtifactMaker : public std::enable_shared_from_this<ArtifactMaker> {
   std::uint64_t boundary_ = 0;  ///< Last event seen that ends what another attempt or cell left.
   std::uint64_t begin_ = 0;
   std::int64_t size_ = 0;  ///< Bytes made, those before the offset included.
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> digest_;
+  Sha256 digest_;
 
   Mutex mutex_;
   Made made_ ABSL_GUARDED_BY(mutex_);

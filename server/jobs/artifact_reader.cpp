@@ -31,9 +31,10 @@ void Add(std::string name, v1::Job* job) {
 
 void AddArtifacts(v1::Job* job) {
   if (!IsFinal(job->state())) return;
-  if (job->has_scenario()) {
-    Add(std::string(kCycles), job);
-    if (!job->scenario().output().ledger_only()) Add(std::string(kTrajectory), job);
+  if (job->has_scenario()) Add(std::string(kCycles), job);
+  if (job->oldest_sequence() > 1) return;  // Compacted.
+  if (job->has_scenario() && !job->scenario().output().ledger_only()) {
+    Add(std::string(kTrajectory), job);
   }
   for (const std::int32_t cell : job->sweep().keep_trajectories()) Add(CellArtifact(cell), job);
 }

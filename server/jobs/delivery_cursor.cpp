@@ -25,6 +25,8 @@ LogCursor::Next DeliveryCursor::Read(std::size_t max_bytes, std::vector<LogRecor
   }
 }
 
+std::uint64_t DeliveryCursor::oldest() const { return cursor_->oldest(); }
+
 std::uint64_t DeliveryCursor::position() const {
   if (gap_.dropped_count() > 0) return gap_.first_sequence() - 1;
   return held_ ? held_->sequence - 1 : cursor_->position();

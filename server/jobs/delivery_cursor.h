@@ -33,6 +33,7 @@ class DeliveryCursor final : public LogCursor {
 
   Next Read(std::size_t max_bytes, std::vector<LogRecord>* out) override;
   std::uint64_t position() const override;
+  std::uint64_t oldest() const override;
 
  private:
   void Pass(LogRecord record, bool due, std::vector<LogRecord>* out);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "storage/records.h"
+
 namespace contact {
 namespace {
 
@@ -42,6 +44,22 @@ Error SlowWatcher(const std::string& what) {
           .reason = "SLOW_WATCHER",
           .message = fmt::format("the watcher of {} fell behind; watch again, or take less", what),
           .retry_after = kRetryAfter};
+}
+
+Error UidMismatch(const std::string& name, const std::string& uid) {
+  return {.code = absl::StatusCode::kFailedPrecondition,
+          .reason = "UID_MISMATCH",
+          .message = fmt::format("{} is another job than the one expected", name),
+          .metadata = {{"name", name}, {"uid", uid}}};
+}
+
+Error EventsCompacted(const std::string& name, std::uint64_t oldest_sequence) {
+  return {.code = absl::StatusCode::kOutOfRange,
+          .reason = "EVENTS_COMPACTED",
+          .message = fmt::format("the trajectory of {} was dropped some time after its end, as the "
+                                 "server is set; ledger, result and other events are there",
+                                 name),
+          .metadata = {{"name", name}, {"oldest_sequence", fmt::format("{}", oldest_sequence)}}};
 }
 
 Error NotEnded(const std::string& name) {
@@ -87,6 +105,7 @@ Error Damaged(const std::string& name) {
 }
 
 Error ToError(const absl::Status& status, const std::string& name) {
+  if (const auto uid = status.GetPayload(kUidPayload)) return UidMismatch(name, std::string(*uid));
   Error error{.code = status.code(), .message = std::string(status.message())};
   if (!name.empty()) error.metadata["name"] = name;
   switch (status.code()) {

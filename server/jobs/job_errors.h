@@ -18,6 +18,10 @@ Error QueueFull(int max_queued_jobs);
 Error WatcherLimit(int max_watchers);
 /// The watcher of `what` fell behind.
 Error SlowWatcher(const std::string& what);
+/// The job of that name is not the one expected, but this one.
+Error UidMismatch(const std::string& name, const std::string& uid);
+/// Frame chunks before `oldest_sequence` were asked for, and have been dropped.
+Error EventsCompacted(const std::string& name, std::uint64_t oldest_sequence);
 /// The job has not ended.
 Error NotEnded(const std::string& name);
 Error NoArtifact(const std::string& name, const std::string& artifact);

@@ -184,6 +184,7 @@ void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
 void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
   v1::Job& job = *creation->request.mutable_job();
   job.set_name("jobs/" + ids.NextJobId());
+  job.set_uid(ids.NextUid());
   const std::vector<v1::Event> events = {
       Apply({v1::Job::QUEUED, reason::kWaitingForWorker}, clock.Now(), &job)};
   store.Create({job, creation->request.request_id(), events, creation->reserved},
@@ -195,8 +196,8 @@ void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
                  v1::Job& answer = stored->job;
                  if (stored->created) {
                    options.metrics->Moved(v1::Job::STATE_UNSPECIFIED, answer);
-                   scheduler.Enqueue(answer, events);
                    MoveSpec(creation->request.mutable_job(), &answer);
+                   scheduler.Enqueue(answer, events);
                  } else if (creation->reserved) {
                    scheduler.Release();
                  }
@@ -243,21 +244,30 @@ void JobManager::List(const v1::ListJobsRequest& request, Callback<v1::ListJobsR
                     });
 }
 
-void JobManager::Cancel(const std::string& name, Callback<v1::Job> done) {
-  impl_->scheduler.Cancel(name,
-                          [this, name, done = std::move(done)](const absl::Status& status) mutable {
-                            if (!status.ok()) return done(ToError(status, name));
-                            Get(name, std::move(done));
-                          });
+void JobManager::Cancel(const v1::CancelJobRequest& request, Callback<v1::Job> done) {
+  const std::string& name = request.name();
+  const std::string& uid = request.expected_uid();
+  // Of a job that has ended the scheduler knows nothing.
+  auto checked = [uid, done = std::move(done)](Result<v1::Job> job) {
+    const bool other = job.ok() && !uid.empty() && job.value().uid() != uid;
+    done(other ? UidMismatch(job.value().name(), job.value().uid()) : std::move(job));
+  };
+  impl_->scheduler.Cancel(
+      name, uid, [this, name, checked = std::move(checked)](const absl::Status& status) mutable {
+        if (!status.ok()) return checked(ToError(status, name));
+        Get(name, std::move(checked));
+      });
 }
 
-void JobManager::Delete(const std::string& name, Callback<bool> done) {
-  impl_->store.Delete(name, [impl = impl_.get(), name,
-                             done = std::move(done)](const absl::StatusOr<bool>& deleted) {
-    if (!deleted.ok()) return done(ToError(deleted.status(), name));
-    impl->feed.Changed(name);
-    done(true);
-  });
+void JobManager::Delete(const v1::DeleteJobRequest& request, Callback<bool> done) {
+  const std::string& name = request.name();
+  impl_->store.Delete(
+      name, request.expected_uid(),
+      [impl = impl_.get(), name, done = std::move(done)](const absl::StatusOr<bool>& deleted) {
+        if (!deleted.ok()) return done(ToError(deleted.status(), name));
+        impl->feed.Changed(name);
+        done(true);
+      });
 }
 
 void JobManager::Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
@@ -287,6 +297,11 @@ void JobManager::Watch(const v1::WatchJobRequest& request, std::function<void()>
                       if (!stored.ok()) {
                         --*impl->watchers;
                         return done(ToError(stored.status(), request.name()));
+                      }
+                      const v1::Job& job = stored->job;
+                      if (!request.expected_uid().empty() && job.uid() != request.expected_uid()) {
+                        --*impl->watchers;
+                        return done(UidMismatch(job.name(), job.uid()));
                       }
                       done(impl->Open(request, rules, std::move(stored->job), std::move(wake)));
                     });
@@ -362,6 +377,9 @@ v1::ServerInfo JobManager::Info() const {
   limits.set_max_attempts(options.max_attempts);
   if (options.retention.age.count() > 0) SetSpan(options.retention.age, limits.mutable_retention());
   limits.set_retained_bytes(options.retention.bytes);
+  if (options.retention.compact_after.count() > 0) {
+    SetSpan(options.retention.compact_after, limits.mutable_compaction());
+  }
   return info;
 }
 

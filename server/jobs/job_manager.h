@@ -34,10 +34,15 @@ struct JobManagerOptions {
   std::chrono::milliseconds step_timeout = std::chrono::minutes(1);  ///< See Watchdog; 0: never.
   std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);  ///< See Watchdog.
   RetentionLimits retention = {};
+  /// Between the checkpoints of a run, at least; 0: none.
+  std::chrono::milliseconds checkpoint_interval{0};
   /// Where what becomes of jobs is counted.
   std::shared_ptr<JobMetrics> metrics = std::make_shared<JobMetrics>();
   /// What solves a scenario; tests put something else here.
   std::function<Outcome(const Scenario&, Observer&, std::stop_token)> run = Run;
+  /// The same from a checkpoint on.
+  std::function<Outcome(const Scenario&, const RunState&, Observer&, std::stop_token)> resume =
+      Resume;
 };
 
 /// Owns the life of every job: accepts, queues, runs on worker threads, records, cancels.
@@ -61,8 +66,8 @@ class JobManager {
   void Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned = {});
   void Get(const std::string& name, Callback<v1::Job> done);
   void List(const v1::ListJobsRequest& request, Callback<v1::ListJobsResponse> done);
-  void Cancel(const std::string& name, Callback<v1::Job> done);
-  void Delete(const std::string& name, Callback<bool> done);
+  void Cancel(const v1::CancelJobRequest& request, Callback<v1::Job> done);
+  void Delete(const v1::DeleteJobRequest& request, Callback<bool> done);
 
   /// Recorded motion, thinned.
   void Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done,

@@ -1,12 +1,17 @@
 #include "jobs/job_runner.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <chrono>
 #include <future>
 #include <utility>
 #include <vector>
 
+#include "jobs/ending_runs.h"
+#include "jobs/replay.h"
 #include "jobs/run_recorder.h"
+#include "jobs/run_state_codec.h"
 #include "jobs/sweep_runner.h"
 #include "version.h"
 #include "wire/result_codec.h"
@@ -16,16 +21,31 @@
 namespace contact {
 namespace {
 
-std::future<absl::StatusOr<StoredJob>> ReadSpec(Store& store, const std::string& name) {
-  const auto promise = std::make_shared<std::promise<absl::StatusOr<StoredJob>>>();
-  store.Read(name, JobPart::kSpec,
-             [promise](absl::StatusOr<StoredJob> job) { promise->set_value(std::move(job)); });
+using Spec = absl::StatusOr<std::shared_ptr<const StoredJob>>;
+
+// The spec at hand, or from the store.
+std::future<Spec> ReadSpec(Store& store, const Assignment& assignment) {
+  const auto promise = std::make_shared<std::promise<Spec>>();
+  if (assignment.spec) {
+    promise->set_value(assignment.spec);
+  } else {
+    store.Read(assignment.job.name(), JobPart::kRun, [promise](absl::StatusOr<StoredJob> stored) {
+      if (!stored.ok()) return promise->set_value(stored.status());
+      promise->set_value(std::make_shared<const StoredJob>(*std::move(stored)));
+    });
+  }
   return promise->get_future();
 }
 
-absl::StatusOr<StoredJob> Await(std::future<absl::StatusOr<StoredJob>> job, RunControl& control) {
+Spec Await(std::future<Spec> spec, RunControl& control) {
   const RunControl::Report report(control);
-  return job.get();
+  return spec.get();
+}
+
+v1::Event AttemptStarted(const Clock& clock, const v1::Job& job) {
+  v1::Event event = EventAt(clock.Now());
+  event.mutable_attempt_started()->set_attempt(job.attempt());
+  return event;
 }
 
 // True if the run has not come to an end of its own.
@@ -47,15 +67,17 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
   v1::Job& job = assignment.job;
   RunControl& control = *assignment.control;
   // Asked for before the job is taken, so that it does not wait for that commit.
-  auto spec = ReadSpec(store_, job.name());
-  LogWriter writer(store_, {job.name(), assignment.epoch, assignment.log}, control, shutdown_);
-  v1::Event attempt = EventAt(clock_.Now());
-  attempt.mutable_attempt_started()->set_attempt(job.attempt());
-  writer.Take(job, {assignment.event, attempt});
+  auto reading = ReadSpec(store_, assignment);
+  const auto writer = std::make_shared<LogWriter>(
+      store_, LogWriter::Place{job.name(), assignment.epoch, assignment.log}, assignment.control,
+      shutdown_);
+  writer->Take(job, {assignment.event, AttemptStarted(clock_, job)});
 
-  const absl::StatusOr<StoredJob> stored = Await(std::move(spec), control);
-  Move move = Solve(stored, assignment, writer);
-  if (control.given_up()) return;
+  const Spec spec = Await(std::move(reading), control);
+  Move move = spec.ok() ? Solve(**spec, assignment, *writer)
+                        : MoveAfterFault(std::string(spec.status().message()));
+  const RunControl::Report report(control);
+  if (!report) return;
   const bool stopped = Stopped(move, control.cause());
   if (stopped && control.cause() == StopCause::kServer) {
     move = BackToQueue(assignment, &job);
@@ -65,46 +87,59 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
     job.MergeFrom(assignment.record->Get(true));
     job.set_server_version(kVersion);
     job.set_server_revision(kRevision);
-    if (stored.ok()) job.set_spec_sha256(SpecSha256(stored->job));
+    if (spec.ok()) job.set_spec_sha256(SpecSha256((*spec)->job));
   }
-  const v1::Event last = Apply(move, clock_.Now(), &job);
-  options_.metrics->Moved(v1::Job::RUNNING, job);
-  writer.Finish(std::move(job), last, std::move(ended));
+  v1::Event last = Apply(move, clock_.Now(), &job);
+  End(std::move(job), std::move(last), writer, std::move(ended));
 }
 
-Move JobRunner::Solve(const absl::StatusOr<StoredJob>& stored, const Assignment& assignment,
+// Hands the end of the job over to the store, and waits only while it is far behind.
+void JobRunner::End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer,
+                    std::function<void()> ended) {
+  LogWriter* const key = writer.get();
+  const auto stored = [&endings = endings_, metrics = options_.metrics, key,
+                       ended = std::move(ended)](const v1::Job* final_job) {
+    endings.Remove(key);
+    if (final_job == nullptr) return;
+    metrics->Moved(v1::Job::RUNNING, *final_job);
+    if (ended) ended();
+  };
+  endings_.Add(std::move(writer), key->pending_bytes() + job.ByteSizeLong());
+  if (!key->Finish(std::move(job), std::move(last), stored)) endings_.Remove(key);
+  endings_.AwaitRoom(shutdown_);
+}
+
+Move JobRunner::Solve(const StoredJob& spec, const Assignment& assignment,
                       LogWriter& writer) const {
-  if (!stored.ok()) return MoveAfterFault(std::string(stored.status().message()));
-  const v1::Job& job = stored->job;
   try {
-    if (!job.has_sweep()) return SolveScenario(job.scenario(), assignment, writer);
-    return SweepRunner(store_, clock_, options_, assignment, writer).Run(job.sweep());
+    if (!spec.job.has_sweep()) return SolveScenario(spec, assignment, writer);
+    return SweepRunner(store_, clock_, options_, assignment, writer).Run(spec.job.sweep());
   } catch (...) {
     return MoveAfterException();
   }
 }
 
-Move JobRunner::SolveScenario(const v1::Scenario& message, const Assignment& assignment,
+Move JobRunner::SolveScenario(const StoredJob& spec, const Assignment& assignment,
                               LogWriter& writer) const {
-  DecodedScenario decoded = DecodeScenario(message, options_.scenario_limits);
+  DecodedScenario decoded = DecodeScenario(spec.job.scenario(), options_.scenario_limits);
   if (decoded.violations.empty()) {
     std::int64_t& max_steps = decoded.scenario.solver.max_steps;
     const std::int64_t budget = assignment.control->budget().steps;
     if (budget > 0) max_steps = std::min(max_steps, budget);
-    return MoveAfter(RunScenario(decoded.scenario, assignment, writer));
+    return MoveAfter(RunScenario(decoded.scenario, spec, assignment, writer));
   }
   const Violation& first = decoded.violations.front();
   return MoveAfterFault("scenario." + first.field + ": " + first.description);
 }
 
-Outcome JobRunner::RunScenario(const Scenario& scenario, const Assignment& assignment,
-                               LogWriter& writer) const {
+Outcome JobRunner::RunScenario(const Scenario& scenario, const StoredJob& spec,
+                               const Assignment& assignment, LogWriter& writer) const {
   const auto start = std::chrono::steady_clock::now();
-  RunControl& control = *assignment.control;
-  RunRecorder recorder(scenario, clock_, control, writer, *assignment.log, *assignment.record);
+  RunRecorder recorder(scenario, clock_, *assignment.control, writer, *assignment.log,
+                       *assignment.record, options_.checkpoint_interval);
   Outcome outcome;
   try {
-    outcome = options_.run(scenario, recorder, control.token());
+    outcome = RunOrResume(scenario, spec, assignment, writer, recorder);
   } catch (const RunStopped&) {
     outcome.end = Outcome::End::kStopped;
     return outcome;
@@ -116,6 +151,25 @@ Outcome JobRunner::RunScenario(const Scenario& scenario, const Assignment& assig
     if (outcome.end != Outcome::End::kFinished) job.clear_convergence();
   });
   return outcome;
+}
+
+// Goes on from the checkpoint of an earlier attempt, if there is one.
+Outcome JobRunner::RunOrResume(const Scenario& scenario, const StoredJob& spec,
+                               const Assignment& assignment, LogWriter& writer,
+                               RunRecorder& recorder) const {
+  RunControl& control = *assignment.control;
+  const std::string& name = assignment.job.name();
+  const std::optional<RunState> from = DecodeRunState(spec.checkpoint);
+  if (!from) return options_.run(scenario, recorder, control.token());
+  if (!Replay(store_, name, spec.checkpoint_sequence, control, recorder)) {
+    // What was repeated so far counts for nothing.
+    writer.Add(AttemptStarted(clock_, assignment.job));
+    assignment.record->Take();
+    return options_.run(scenario, recorder, control.token());
+  }
+  spdlog::info("job={} goes on from t={} s", name, from->state.time);
+  control.CountSteps(from->steps);
+  return options_.resume(scenario, *from, recorder, control.token());
 }
 
 }  // namespace contact

@@ -18,43 +18,53 @@
 
 namespace contact {
 
+class EndingRuns;
+class RunRecorder;
 class SweepRun;
 
 /// A job handed to a worker.
 struct Assignment {
-  v1::Job job;          ///< Header, RUNNING now.
-  v1::Event event;      ///< That tells it; not stored yet.
-  std::uint64_t epoch;  ///< Of the stored job.
+  v1::Job job;                            ///< Header, RUNNING now.
+  std::shared_ptr<const StoredJob> spec;  ///< Null: to be read from the store.
+  v1::Event event;                        ///< That tells it; not stored yet.
+  std::uint64_t epoch;                    ///< Of the stored job.
   std::shared_ptr<JobLog> log;
   std::shared_ptr<RunRecord> record;
   std::shared_ptr<RunControl> control;
   std::function<void(std::shared_ptr<SweepRun>)> offer;  ///< Lets idle workers help with a sweep.
 };
 
-/// Runs one job at a time, from its spec in the store to its result there. Of one worker thread;
-/// may wait for the store.
+/// Runs one job at a time, from its spec in the store to its result on the way there. Of one worker
+/// thread; may wait for the store.
 class JobRunner {
  public:
-  JobRunner(Store& store, const Clock& clock, const JobManagerOptions& options,
+  JobRunner(Store& store, const Clock& clock, const JobManagerOptions& options, EndingRuns& endings,
             std::stop_token shutdown)
-      : store_(store), clock_(clock), options_(options), shutdown_(std::move(shutdown)) {}
+      : store_(store),
+        clock_(clock),
+        options_(options),
+        endings_(endings),
+        shutdown_(std::move(shutdown)) {}
 
-  /// `ended` is called on the store's thread once the final state is committed. It is not called
-  /// if the job goes back into the queue because the server stops, or cannot be stored, or if the
-  /// run was given up.
+  /// `ended` is called on the store's thread once the final state is committed, for which this does
+  /// not wait. It is not called if the job goes back into the queue because the server stops, or
+  /// cannot be stored, or if the run was given up.
   void Run(Assignment assignment, std::function<void()> ended);
 
  private:
-  Move Solve(const absl::StatusOr<StoredJob>& stored, const Assignment& assignment,
-             LogWriter& writer) const;
-  Move SolveScenario(const v1::Scenario& message, const Assignment& assignment,
-                     LogWriter& writer) const;
-  Outcome RunScenario(const Scenario& scenario, const Assignment& assignment,
+  void End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer,
+           std::function<void()> ended);
+  Move Solve(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
+  Move SolveScenario(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
+  Outcome RunScenario(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
                       LogWriter& writer) const;
+  Outcome RunOrResume(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
+                      LogWriter& writer, RunRecorder& recorder) const;
 
   Store& store_;
   const Clock& clock_;
   const JobManagerOptions options_;  ///< A copy: a thread that hangs may outlive its manager.
+  EndingRuns& endings_;
   const std::stop_token shutdown_;
 };
 

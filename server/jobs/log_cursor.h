@@ -27,12 +27,13 @@ LogRecord ToRecord(std::uint64_t sequence, v1::Event event);
 class LogCursor {
  public:
   enum class Next {
-    kEvents,   ///< `out` holds at least one event.
-    kWait,     ///< Nothing now; `wake` will be called.
-    kEnd,      ///< The final state_changed event has been read.
-    kDeleted,  ///< The job was deleted.
-    kSlow,     ///< The reader fell behind, and wanted to be told.
-    kFailed,   ///< The store could not read; watch again.
+    kEvents,     ///< `out` holds at least one event.
+    kWait,       ///< Nothing now; `wake` will be called.
+    kEnd,        ///< The final state_changed event has been read.
+    kDeleted,    ///< The job was deleted.
+    kCompacted,  ///< Frame chunks were asked for that have been dropped; see oldest().
+    kSlow,       ///< The reader fell behind, and wanted to be told.
+    kFailed,     ///< The store could not read; watch again.
   };
 
   virtual ~LogCursor() = default;
@@ -42,6 +43,9 @@ class LogCursor {
 
   /// Sequence up to which everything asked for has been read: a safe point to resume from.
   virtual std::uint64_t position() const = 0;
+
+  /// From this sequence on all events are there, as far as is known.
+  virtual std::uint64_t oldest() const = 0;
 };
 
 }  // namespace contact

@@ -23,18 +23,14 @@ constexpr std::size_t kEventBytes = 128;
 
 }  // namespace
 
-LogWriter::LogWriter(Store& store, Place place, RunControl& run, std::stop_token shutdown)
+LogWriter::LogWriter(Store& store, Place place, std::shared_ptr<RunControl> run,
+                     std::stop_token shutdown)
     : store_(store),
       name_(std::move(place.name)),
       log_(std::move(place.log)),
-      run_(run),
+      run_(std::move(run)),
       shutdown_(std::move(shutdown)),
       epoch_(place.epoch) {}
-
-LogWriter::~LogWriter() {
-  const MutexLock lock(mutex_);
-  while (disk_ == Disk::kWriting) changed_.wait(mutex_);
-}
 
 void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
   pending_.take = true;
@@ -44,17 +40,25 @@ void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
 }
 
 bool LogWriter::Add(v1::Event event) {
-  const RunControl::Report report(run_);
+  const RunControl::Report report(*run_);
   const std::size_t bytes = event.ByteSizeLong();
-  if (!report || !run_.CountOutput(static_cast<std::int64_t>(bytes))) return false;
+  if (!report || !run_->CountOutput(static_cast<std::int64_t>(bytes))) return false;
   pending_.bytes += bytes + kEventBytes;
   pending_.events.push_back(std::move(event));
   WriteWhatIsDue();
   return true;
 }
 
+void LogWriter::AddCheckpoint(std::string state) {
+  const RunControl::Report report(*run_);
+  if (!report) return;
+  pending_.bytes += state.size();
+  pending_.checkpoint = Checkpoint{pending_.events.size(), std::move(state)};
+  Advance(steady_clock::now());
+}
+
 void LogWriter::Pump() {
-  if (const RunControl::Report report(run_); report) WriteWhatIsDue();
+  if (const RunControl::Report report(*run_); report) WriteWhatIsDue();
 }
 
 void LogWriter::WriteWhatIsDue() {
@@ -65,39 +69,69 @@ void LogWriter::WriteWhatIsDue() {
   Advance(now);
 }
 
-bool LogWriter::Finish(v1::Job job, v1::Event event, std::function<void()> committed) {
-  const RunControl::Report report(run_);
-  if (!report) return false;
+bool LogWriter::Finish(v1::Job job, v1::Event event, Ended ended) {
+  report_.emplace(*run_);
+  if (!*report_) return false;
   pending_.job = std::move(job);
   pending_.events.push_back(std::move(event));
-  pending_.committed = std::move(committed);
-  Settle();
+  pending_.ended = std::move(ended);
+  Encode(&pending_);
+  Disk disk;
+  {
+    const MutexLock lock(mutex_);
+    finishing_ = true;
+    disk = disk_;
+  }
+  if (disk == Disk::kLost) {
+    Lose();
+  } else {
+    Advance(steady_clock::now());
+  }
+  return true;
+}
+
+void LogWriter::Retry() {
+  {
+    const MutexLock lock(mutex_);
+    if (!finishing_) return;
+  }
   Advance(steady_clock::now());
-  return Settle() == Disk::kIdle;
+}
+
+// Serialises and compresses what is to be stored, which is not for the store's thread.
+void LogWriter::Encode(Batch* batch) const {
+  batch->encoded = Store::Encode({.name = name_,
+                                  .take = batch->take,
+                                  .job = batch->job ? &*batch->job : nullptr,
+                                  .events = batch->events,
+                                  .checkpoint = batch->checkpoint ? &*batch->checkpoint : nullptr});
 }
 
 // Starts the next batch, or tries the last one again, if it is time. Never waits.
 void LogWriter::Advance(Time now) {
-  Disk disk;
-  {
-    const MutexLock lock(mutex_);
-    disk = disk_;
-  }
-  if (disk == Disk::kFull && now - last_write_ >= kRetryTime) Send(now);
-  if (disk != Disk::kIdle || pending_.events.empty()) return;
-  batch_ = std::exchange(pending_, {});
-  Send(now);
+  if (BeginWriting(now)) Send();
 }
 
-void LogWriter::Send(Time now) {
+// True if the caller has to send batch_, and nobody else.
+bool LogWriter::BeginWriting(Time now) {
+  const MutexLock lock(mutex_);
+  if (disk_ == Disk::kFull) {
+    if (now - last_write_ < kRetryTime) return false;
+  } else {
+    if (disk_ != Disk::kIdle || (pending_.events.empty() && !pending_.checkpoint)) return false;
+    batch_ = std::exchange(pending_, {});
+  }
   last_write_ = now;
-  Become(Disk::kWriting);
-  store_.Update({.name = name_,
-                 .epoch = epoch_,
-                 .take = batch_.take,
-                 .job = batch_.job ? &*batch_.job : nullptr,
-                 .events = batch_.events},
-                [this](const absl::StatusOr<std::uint64_t>& first) { Written(first); });
+  disk_ = Disk::kWriting;
+  return true;
+}
+
+void LogWriter::Send() {
+  if (!batch_.encoded) Encode(&batch_);
+  store_.Update(batch_.encoded, epoch_,
+                [self = shared_from_this()](const absl::StatusOr<std::uint64_t>& first) {
+                  self->Written(first);
+                });
 }
 
 // Waits until nothing is being written, or to be tried again.
@@ -110,31 +144,49 @@ LogWriter::Disk LogWriter::Settle() {
       changed_.wait_for(mutex_, shutdown_, kRetryTime, [] { return false; });
       if (shutdown_.stop_requested()) return disk_ = Disk::kLost;
     }
-    Send(steady_clock::now());
+    Advance(steady_clock::now());
   }
 }
 
 // On the store's thread.
 void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
-  if (first.ok()) {
-    if (batch_.take) ++epoch_;
-    log_->Append(*first, std::move(batch_.events));
-    if (batch_.committed) batch_.committed();
-    return Become(Disk::kIdle);
+  if (!first.ok()) return Failed(first.status());
+  if (batch_.take) ++epoch_;
+  log_->Append(*first, std::move(batch_.events));
+  batch_.encoded = nullptr;
+  if (batch_.ended) {
+    batch_.ended(&*batch_.job);
+    report_.reset();
   }
-  if (!std::exchange(batch_.failed, true)) {
-    spdlog::error("{}: cannot store events: {}", name_, first.status().ToString());
-  }
-  if (absl::IsResourceExhausted(first.status())) return Become(Disk::kFull);
-  log_->Fail();
-  run_.Stop();
-  Become(Disk::kLost);
+  if (Become(Disk::kIdle)) Advance(steady_clock::now());
 }
 
-void LogWriter::Become(Disk disk) {
+void LogWriter::Failed(const absl::Status& status) {
+  if (!std::exchange(batch_.failed, true)) {
+    spdlog::error("{}: cannot store events: {}", name_, status.ToString());
+  }
+  if (absl::IsResourceExhausted(status)) {
+    Become(Disk::kFull);
+    return;
+  }
+  log_->Fail();
+  run_->Stop();
+  if (Become(Disk::kLost)) Lose();
+}
+
+// The end of the job cannot be stored.
+void LogWriter::Lose() {
+  const Ended& ended = batch_.ended ? batch_.ended : pending_.ended;
+  ended(nullptr);
+  report_.reset();
+}
+
+// True if the worker is gone, so that whoever calls has to see to the rest.
+bool LogWriter::Become(Disk disk) {
   const MutexLock lock(mutex_);
   disk_ = disk;
-  changed_.notify_all();  // Under the lock: a waiter may destroy this as soon as it has it.
+  changed_.notify_all();
+  return finishing_;
 }
 
 }  // namespace contact

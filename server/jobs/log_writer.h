@@ -18,29 +18,30 @@
 #include "jobs/job_log.h"
 #include "jobs/run_control.h"
 #include "storage/mutex.h"
+#include "storage/records.h"
 
 namespace contact {
 
 class Store;
+struct JobChange;
 
 /// Writes what happens to a job while one worker has it: to the store in batches, and once they
 /// are committed to the job's log in memory.
 ///
 /// Runs ahead of the disk by a few MiB at most, then makes the worker wait. While the store is
 /// full it waits too, and tries again until there is space or the server stops. If events cannot
-/// be stored at all it stops the run. Calls belong to the worker's thread.
-class LogWriter {
+/// be stored at all it stops the run. Calls belong to the worker's thread, up to Finish: after it
+/// the worker is free, and the writer goes on by itself on the store's thread.
+class LogWriter : public std::enable_shared_from_this<LogWriter> {
  public:
   struct Place {
     std::string name;
     std::uint64_t epoch;  ///< That the job has now; the writer takes it from there.
     std::shared_ptr<JobLog> log;
   };
-  /// Stops `run`, which outlives this, when nothing can be stored any more; once that is given up,
+  /// To be made shared. Stops `run` when nothing can be stored any more; once that is given up,
   /// nothing is stored any more. Gives up waiting for space when `shutdown` is requested.
-  LogWriter(Store& store, Place place, RunControl& run, std::stop_token shutdown);
-  /// Waits for the batch that is being written.
-  ~LogWriter();
+  LogWriter(Store& store, Place place, std::shared_ptr<RunControl> run, std::stop_token shutdown);
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
@@ -49,12 +50,23 @@ class LogWriter {
 
   /// False: it was not taken, because the run has spent its budget or was given up.
   bool Add(v1::Event event);
+  /// Stores where the run may go on, together with what was added before, and soon.
+  void AddCheckpoint(std::string state);
   /// Writes what has waited long enough. To be called now and then.
   void Pump();
 
-  /// Stores the job with the last event, and waits until all is on disk. `committed` is called
-  /// then, on the store's thread, after the log has the events. False: it could not be stored.
-  bool Finish(v1::Job job, v1::Event event, std::function<void()> committed);
+  /// What was not handed to the store yet takes so many bytes of memory, about.
+  std::size_t pending_bytes() const { return pending_.bytes; }
+
+  /// Called with the job once it is on disk with all its events and the log has them; with null if
+  /// it cannot be stored. On the store's thread.
+  using Ended = std::function<void(const v1::Job*)>;
+  /// Stores the job with the last event, after all that was added. Does not wait; until `ended` is
+  /// called the run counts as reporting. False: it was given up, and `ended` is not called.
+  bool Finish(v1::Job job, v1::Event event, Ended ended);
+  /// Tries again what there was no space for, if it is time. To be called now and then after
+  /// Finish, on any thread.
+  void Retry();
 
  private:
   enum class Disk {
@@ -69,34 +81,42 @@ class LogWriter {
     bool take = false;
     bool failed = false;  ///< Once at least.
     std::optional<v1::Job> job;
-    std::function<void()> committed;
+    std::optional<Checkpoint> checkpoint;
+    Ended ended;
+    std::shared_ptr<const JobChange> encoded;  ///< All of it, once it is complete.
   };
   using Time = std::chrono::steady_clock::time_point;
 
   void WriteWhatIsDue();
+  void Encode(Batch* batch) const;
   void Advance(Time now);
-  void Send(Time now);
+  bool BeginWriting(Time now);
+  void Send();
   Disk Settle();
   void Written(const absl::StatusOr<std::uint64_t>& first);
-  void Become(Disk disk);
+  void Failed(const absl::Status& status);
+  void Lose();
+  bool Become(Disk disk);
 
   Store& store_;
   const std::string name_;
   const std::shared_ptr<JobLog> log_;
-  RunControl& run_;
+  const std::shared_ptr<RunControl> run_;
   const std::stop_token shutdown_;
 
-  // Of the worker's thread.
+  // Of the worker's thread up to Finish, then guarded by mutex_.
   Batch pending_;
   Time last_write_ = {};
+  std::optional<RunControl::Report> report_;  ///< Since Finish.
 
-  // Of the store's thread while kWriting, else of the worker's.
+  // Of the store's thread while kWriting, else as above.
   Batch batch_;
   std::uint64_t epoch_;
 
   Mutex mutex_;
   std::condition_variable_any changed_;
   Disk disk_ ABSL_GUARDED_BY(mutex_) = Disk::kIdle;
+  bool finishing_ ABSL_GUARDED_BY(mutex_) = false;  ///< The worker is gone.
 };
 
 }  // namespace contact

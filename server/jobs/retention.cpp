@@ -51,8 +51,14 @@ std::unordered_map<std::string, std::int64_t> ReadBytes(Store& store) {
 
 bool Delete(Store& store, const std::string& name) {
   std::future<absl::StatusOr<bool>> deleted;
-  store.Delete(name, Fulfil(&deleted));
+  store.Delete(name, "", Fulfil(&deleted));
   return deleted.get().ok();  // Else someone was faster.
+}
+
+bool Compact(Store& store, const std::string& name) {
+  std::future<absl::StatusOr<bool>> compacted;
+  store.Compact(name, Fulfil(&compacted));
+  return compacted.get().ok();  // Else it was just deleted.
 }
 
 }  // namespace
@@ -64,6 +70,12 @@ std::optional<WallTime> ExpiryOf(const v1::Job& job, const RetentionLimits& limi
   if (kept.count() == 0) return std::nullopt;
   const std::chrono::nanoseconds end(TimeUtil::TimestampToNanoseconds(job.end_time()));
   return WallTime(std::chrono::duration_cast<WallTime::duration>(end + kept));
+}
+
+bool IsToCompact(const v1::Job& job, WallTime now, const RetentionLimits& limits) {
+  if (limits.compact_after.count() == 0 || !IsFinal(job.state())) return false;
+  const std::chrono::nanoseconds end(TimeUtil::TimestampToNanoseconds(job.end_time()));
+  return end + limits.compact_after <= now.time_since_epoch();
 }
 
 void SetExpireTime(const RetentionLimits& limits, v1::Job* job) {
@@ -122,14 +134,28 @@ void Retention::Loop() {
 }
 
 int Retention::Sweep() {
+  const std::vector<EndedJob> jobs = ListEnded();
+  const int deleted = Delete(jobs);
+  Compact(jobs);
+  return deleted;
+}
+
+int Retention::Delete(const std::vector<EndedJob>& jobs) {
   int deleted = 0;
-  for (const std::string& name : Expired(ListEnded(), clock_.Now(), limits_)) {
+  for (const std::string& name : Expired(jobs, clock_.Now(), limits_)) {
     if (stopped()) break;
-    if (!Delete(store_, name)) continue;
+    if (!contact::Delete(store_, name)) continue;
     feed_.Changed(name);
     ++deleted;
   }
   return deleted;
+}
+
+void Retention::Compact(const std::vector<EndedJob>& jobs) {
+  for (const EndedJob& job : jobs) {
+    if (stopped()) break;
+    if (job.to_compact && contact::Compact(store_, job.name)) feed_.Changed(job.name);
+  }
 }
 
 // Oldest end first.
@@ -144,9 +170,9 @@ std::vector<EndedJob> Retention::ListEnded() {
     for (const StoredJob& stored : page->jobs) {
       const v1::Job& job = stored.job;
       const auto size = bytes.find(job.name());
-      found.push_back(
-          {TimeUtil::TimestampToNanoseconds(job.end_time()),
-           {job.name(), ExpiryOf(job, limits_), size == bytes.end() ? 0 : size->second}});
+      found.push_back({TimeUtil::TimestampToNanoseconds(job.end_time()),
+                       {job.name(), ExpiryOf(job, limits_), size == bytes.end() ? 0 : size->second,
+                        !stored.compacted && IsToCompact(job, clock_.Now(), limits_)}});
     }
     before = page->next;
   } while (before > 0 && !stopped());

@@ -21,12 +21,17 @@ class Store;
 struct RetentionLimits {
   std::chrono::seconds age{0};  ///< Since the end, of jobs that do not say so themselves; 0: any.
   std::int64_t bytes = 0;       ///< Of all ended jobs together; 0: any.
+  /// Since the end, until the frame chunks of a job are dropped; 0: they are kept as long as it.
+  std::chrono::seconds compact_after{0};
 };
 
 using WallTime = std::chrono::system_clock::time_point;
 
 /// When an ended job is too old to be kept; none: never, or it has not ended.
 std::optional<WallTime> ExpiryOf(const v1::Job& job, const RetentionLimits& limits);
+
+/// True if the frame chunks of an ended job are not kept any more.
+bool IsToCompact(const v1::Job& job, WallTime now, const RetentionLimits& limits);
 
 /// Sets `expire_time`.
 void SetExpireTime(const RetentionLimits& limits, v1::Job* job);
@@ -35,13 +40,15 @@ struct EndedJob {
   std::string name;
   std::optional<WallTime> expiry;
   std::int64_t bytes = 0;
+  bool to_compact = false;
 };
 /// Names of the jobs that are not kept any more. `jobs`: all that have ended, oldest end first.
 std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now,
                                  const RetentionLimits& limits);
 
-/// Deletes ended jobs that are not kept any more, once started each minute on a thread of its own.
-/// Reads and deletes little at a time, so that the store serves others in between.
+/// Deletes ended jobs that are not kept any more, and compacts others, once started each minute on
+/// a thread of its own. Reads and deletes little at a time, so that the store serves others in
+/// between.
 class Retention {
  public:
   /// All outlive it.
@@ -49,13 +56,15 @@ class Retention {
   ~Retention();
 
   void Start();
-  /// Deletes what is due now; waits for it. Returns how many jobs that were.
+  /// Deletes and compacts what is due now; waits for it. Returns how many jobs were deleted.
   int Sweep();
   /// Ends the thread. Idempotent.
   void Stop();
 
  private:
   void Loop();
+  int Delete(const std::vector<EndedJob>& jobs);
+  void Compact(const std::vector<EndedJob>& jobs);
   bool stopped() const;
   std::vector<EndedJob> ListEnded();
 

@@ -37,9 +37,9 @@ void RunControl::Stop(StopCause cause) {
   stop_.request_stop();
 }
 
-void RunControl::CountStep() {
-  const std::int64_t steps = steps_.fetch_add(1, std::memory_order_relaxed) + 1;
-  if (budget_.steps > 0 && steps > budget_.steps) Stop(StopCause::kSteps);
+void RunControl::CountSteps(std::int64_t steps) {
+  const std::int64_t used = steps_.fetch_add(steps, std::memory_order_relaxed) + steps;
+  if (budget_.steps > 0 && used > budget_.steps) Stop(StopCause::kSteps);
 }
 
 bool RunControl::CountOutput(std::int64_t bytes) {

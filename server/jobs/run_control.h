@@ -38,8 +38,10 @@ class RunControl {
   std::stop_token token() const { return stop_.get_token(); }
   const RunBudget& budget() const { return budget_; }
 
-  /// One more step begins. Stops the run if that is too many.
-  void CountStep();
+  /// One more step begins, or so many that an earlier attempt has made count too. Stops the run if
+  /// that is too many.
+  void CountStep() { CountSteps(1); }
+  void CountSteps(std::int64_t steps);
   /// So many bytes are to be recorded. False: that is too many; the run is stopped.
   bool CountOutput(std::int64_t bytes);
   /// A number that changes while the run makes progress.

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "jobs/lifecycle.h"
+#include "jobs/run_state_codec.h"
 #include "wire/result_codec.h"
 
 namespace contact {
@@ -12,6 +13,9 @@ namespace {
 // Values in one frame chunk, so that the frames of a large scenario fit into a message: 1 MiB.
 constexpr std::ptrdiff_t kMaxChunkValues = 128 * 1024;
 constexpr std::chrono::milliseconds kProgressTime{100};
+// A larger one would hold up the commits of others. Most of it are samples that wait for their
+// chunk to be full, so the next one may be smaller.
+constexpr std::size_t kMaxCheckpointBytes = 4 << 20;
 // Calls of OnSamples that a run makes before it looks whether it is to stop, unless its step is
 // huge.
 constexpr int kMostChunks = 8;
@@ -29,9 +33,17 @@ void RunRecorder::OnIteration(const Iteration& iteration) {
 void RunRecorder::OnCycle(const Cycle& cycle) {
   v1::Event event = Event();
   *event.mutable_cycle() = Encode(scenario_, cycle);
-  v1::Cycle row = event.cycle();
-  if (!writer_.Add(std::move(event))) return;
-  record_.Do([&](v1::Job& job) { *job.add_cycles() = std::move(row); });
+  Keep(std::move(event));
+}
+
+// Adds an event to the log, and what the ledger has of it to the record.
+void RunRecorder::Keep(v1::Event event) {
+  v1::Job row;
+  if (event.has_cycle()) *row.add_cycles() = event.cycle();
+  if (event.has_log_entry()) row.add_warnings(event.log_entry().message());
+  const bool kept = event.has_cycle() || event.has_log_entry();
+  if (!writer_.Add(std::move(event)) || !kept) return;
+  record_.Do([&](v1::Job& job) { job.MergeFrom(row); });
 }
 
 std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples) {
@@ -71,13 +83,20 @@ void RunRecorder::OnWarning(const std::string& warning) {
   v1::Event event = Event();
   event.mutable_log_entry()->set_severity(v1::LogEntry::WARNING);
   event.mutable_log_entry()->set_message(warning);
-  if (!writer_.Add(std::move(event))) return;
-  record_.Do([&](v1::Job& job) { job.add_warnings(warning); });
+  Keep(std::move(event));
 }
 
 void RunRecorder::OnStep() {
   chunks_ = 0;
   control_.CountStep();
+}
+
+void RunRecorder::OnBoundary(const std::function<RunState()>& state) {
+  const auto now = clock_.Elapsed();
+  if (checkpoint_interval_.count() == 0 || now - last_checkpoint_ < checkpoint_interval_) return;
+  last_checkpoint_ = now;
+  std::string bytes = EncodeRunState(state());
+  if (bytes.size() <= kMaxCheckpointBytes) writer_.AddCheckpoint(std::move(bytes));
 }
 
 }  // namespace contact

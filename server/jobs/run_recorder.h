@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,15 +23,21 @@ struct RunStopped {};
 /// Makes events of what a run reports. May throw RunStopped.
 class RunRecorder final : public Observer {
  public:
-  /// Everything outlives the recorder.
+  /// Everything outlives the recorder. `checkpoint_interval`: see JobManagerOptions.
   RunRecorder(const Scenario& scenario, const Clock& clock, RunControl& control, LogWriter& writer,
-              JobLog& log, RunRecord& record)
+              JobLog& log, RunRecord& record, std::chrono::milliseconds checkpoint_interval)
       : scenario_(scenario),
         clock_(clock),
         control_(control),
         writer_(writer),
         log_(log),
-        record_(record) {}
+        record_(record),
+        checkpoint_interval_(checkpoint_interval),
+        last_checkpoint_(clock.Elapsed()) {}
+
+  /// Adds an event to the log, and what the ledger has of it to the record: also for events that an
+  /// earlier attempt has recorded.
+  void Keep(v1::Event event);
 
   void OnIteration(const Iteration& iteration) override;
   void OnCycle(const Cycle& cycle) override;
@@ -38,6 +45,7 @@ class RunRecorder final : public Observer {
   void OnProgress(const Progress& progress) override;
   void OnWarning(const std::string& warning) override;
   void OnStep() override;
+  void OnBoundary(const std::function<RunState()>& state) override;
 
  private:
   v1::Event Event() const;
@@ -48,6 +56,8 @@ class RunRecorder final : public Observer {
   LogWriter& writer_;
   JobLog& log_;
   RunRecord& record_;
+  const std::chrono::milliseconds checkpoint_interval_;
+  std::chrono::steady_clock::time_point last_checkpoint_;
   std::chrono::steady_clock::time_point last_progress_ = {};
   int chunks_ = 0;  ///< Since the last step, while the run is asked to stop.
 };

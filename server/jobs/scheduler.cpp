@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "jobs/lifecycle.h"
+#include "storage/job_queries.h"
 #include "version.h"
 
 namespace contact {
@@ -17,6 +18,8 @@ namespace {
 constexpr std::chrono::milliseconds kHelpTime{10};
 // How often the runs are looked at.
 constexpr std::chrono::milliseconds kLookTime{50};
+// Specs of waiting jobs that are kept in memory, so that their workers need not wait for the store.
+constexpr std::size_t kMostSpecBytes = 16 << 20;
 // What the runs have to end in when the server does.
 constexpr std::chrono::seconds kEndTime{2};
 
@@ -122,11 +125,27 @@ void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
   active.log->Append(1, std::move(events));
   const MutexLock lock(mutex_);
   --reserved_;
+  KeepSpec(&active);
   Add(std::move(active));
 }
 
+// Takes the spec out of the job, and keeps it if there is room.
+void Scheduler::KeepSpec(Active* active) {
+  v1::Job& job = active->job;
+  if (const std::size_t bytes = job.ByteSizeLong(); spec_bytes_ + bytes <= kMostSpecBytes) {
+    spec_bytes_ += bytes;
+    active->spec = std::make_shared<const StoredJob>(StoredJob{.job = job});
+  }
+  job.clear_spec();
+}
+
+std::shared_ptr<const StoredJob> Scheduler::TakeSpec(Active* active) {
+  if (active->spec) spec_bytes_ -= active->spec->job.ByteSizeLong();
+  return std::exchange(active->spec, nullptr);
+}
+
 void Scheduler::Work(Worker& worker) {
-  JobRunner runner(store_, clock_, options_, shutdown_.get_token());
+  JobRunner runner(store_, clock_, options_, endings_, shutdown_.get_token());
   for (Task task = Next(worker); task.job || task.sweep; task = Next(worker)) {
     if (task.sweep) {
       task.sweep->Work(kHelpTime);
@@ -170,13 +189,10 @@ Assignment Scheduler::Assign(Active& active) {
   active.job.set_attempt(active.job.attempt() + 1);
   v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);
   options_.metrics->Moved(v1::Job::QUEUED, active.job);
-  return {active.job,
-          std::move(event),
-          active.epoch,
-          active.log,
-          active.record,
-          active.control,
-          [this](std::shared_ptr<SweepRun> sweep) { Offer(std::move(sweep)); }};
+  return {active.job,       TakeSpec(&active),
+          std::move(event), active.epoch,
+          active.log,       active.record,
+          active.control,   [this](std::shared_ptr<SweepRun> sweep) { Offer(std::move(sweep)); }};
 }
 
 void Scheduler::Offer(std::shared_ptr<SweepRun> sweep) {
@@ -201,20 +217,26 @@ void Scheduler::Remove(const std::string& name) {
   changed_.notify_all();  // A last attempt may have waited for this.
 }
 
-void Scheduler::Cancel(const std::string& name, Done done) {
+void Scheduler::Cancel(const std::string& name, const std::string& expected_uid, Done done) {
   bool running = false;
   std::optional<Active> queued;
+  std::optional<v1::Job> other;
   {
     const MutexLock lock(mutex_);
     const auto found = active_.find(name);
-    if (found != active_.end() && found->second.control) {
+    if (found != active_.end() && !expected_uid.empty() &&
+        found->second.job.uid() != expected_uid) {
+      other = found->second.job;
+    } else if (found != active_.end() && found->second.control) {
       running = true;
       found->second.control->Stop(StopCause::kUser);
     } else if (found != active_.end() &&
                queue_.Remove(found->second.job.priority(), found->second.number)) {
+      TakeSpec(&found->second);
       queued = found->second;  // From here on no worker finds it.
     }
   }
+  if (other) return done(OtherJob(*other));
   if (queued) return Withdraw(*queued, std::move(done));
   if (!running) return done(absl::OkStatus());
   store_.RequestCancel(name, [done = std::move(done)](const absl::StatusOr<bool>& stored) {
@@ -287,6 +309,7 @@ void Scheduler::Watch() {
       lost = FindLost();
     }
     for (const Active& active : lost) Bury(active);
+    endings_.Retry();
   }
 }
 

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "jobs/ending_runs.h"
 #include "jobs/job_feed.h"
 #include "jobs/job_queue.h"
 #include "jobs/job_runner.h"
@@ -41,12 +42,14 @@ class Scheduler {
   bool Reserve();
   /// Gives it back, if the job does not come.
   void Release();
-  /// Fills it with a job that is stored now, with the first events of its log.
+  /// Fills it with a job that is stored now, all of it, with the first events of its log.
   void Enqueue(v1::Job job, std::vector<v1::Event> events);
 
   /// Takes a job from the queue, or asks its worker to stop. `done` is called on the store's
-  /// thread when that is stored, or at once if there is nothing to do.
-  void Cancel(const std::string& name, std::function<void(const absl::Status&)> done);
+  /// thread when that is stored, or at once if there is nothing to do. ABORTED, with the payload
+  /// kUidPayload: the job's uid is not `expected_uid`, if that is not empty.
+  void Cancel(const std::string& name, const std::string& expected_uid,
+              std::function<void(const absl::Status&)> done);
 
   /// The log of a job that has not ended; else null.
   std::shared_ptr<JobLog> Log(const std::string& name) const;
@@ -61,7 +64,8 @@ class Scheduler {
 
  private:
   struct Active {
-    v1::Job job;  ///< Header.
+    v1::Job job;                            ///< Header.
+    std::shared_ptr<const StoredJob> spec;  ///< Of one that waits; null: in the store only.
     std::uint64_t epoch = 0;
     std::uint64_t number = 0;  ///< Order of coming.
     std::shared_ptr<JobLog> log;
@@ -78,6 +82,8 @@ class Scheduler {
   void Recover(StoredJob stored);
   std::shared_ptr<JobLog> NewLog(const std::string& name, std::uint64_t last);
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void KeepSpec(Active* active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  std::shared_ptr<const StoredJob> TakeSpec(Active* active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Queue(const Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool LastAttempt(const v1::Job& job) const;
   void Work(Worker& worker);
@@ -111,7 +117,9 @@ class Scheduler {
   std::map<std::string, Running> running_ ABSL_GUARDED_BY(mutex_);
   std::vector<std::weak_ptr<SweepRun>> sweeps_ ABSL_GUARDED_BY(mutex_);
   int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
-  std::condition_variable_any started_;  ///< A job, or the end.
+  std::size_t spec_bytes_ ABSL_GUARDED_BY(mutex_) = 0;  ///< Of the specs in memory.
+  std::condition_variable_any started_;                 ///< A job, or the end.
+  EndingRuns endings_;
   // Last: they use all of the above.
   WorkerPool workers_;
   std::thread watch_;

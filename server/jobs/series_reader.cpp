@@ -110,6 +110,9 @@ void SeriesReader::Read(Store& store, Executor& executor, const ScenarioLimits& 
 void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
   if (!stored.ok()) return caller_.done(ToError(stored.status(), request_.name()));
   const v1::Job& job = stored->job;
+  if (job.oldest_sequence() > 1) {
+    return caller_.done(EventsCompacted(job.name(), job.oldest_sequence()));
+  }
   if (!job.has_scenario()) return caller_.done(NoTrajectory(job.name()));
   const DecodedScenario decoded = DecodeScenario(job.scenario(), limits_);
   if (!decoded.violations.empty() || decoded.scenario.sample_interval == 0) {
@@ -193,6 +196,7 @@ void SeriesReader::ReadPage() {
 void SeriesReader::Take(const Page& page) {
   if (caller_.abandoned && caller_.abandoned()) return caller_.done(TooLate());
   if (!page.ok()) return caller_.done(ToError(page.status(), request_.name()));
+  if (page->oldest > 1) return caller_.done(EventsCompacted(request_.name(), page->oldest));
   for (const StoredEvent& event : page->events) {
     if (!Take(event)) return caller_.done(Damaged(request_.name()));
     if (past_end_) break;

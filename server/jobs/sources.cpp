@@ -1,5 +1,7 @@
 #include "jobs/sources.h"
 
+#include <fmt/format.h>
+
 #include <mutex>
 #include <random>
 
@@ -28,7 +30,16 @@ class RandomIdSource final : public IdSource {
     return id;
   }
 
+  // RFC 4122, version 4.
+  std::string NextUid() override {
+    const std::lock_guard lock(mutex_);
+    return fmt::format("{:08x}-{:04x}-4{:03x}-{:04x}-{:08x}{:04x}", Bits(32), Bits(16), Bits(12),
+                       0x8000 | Bits(14), Bits(32), Bits(16));
+  }
+
  private:
+  unsigned int Bits(int count) { return device_() >> (32 - count); }
+
   std::mutex mutex_;
   std::random_device device_;  // Guarded by mutex_.
 };

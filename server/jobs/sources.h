@@ -20,6 +20,8 @@ class IdSource {
   virtual ~IdSource() = default;
   /// A job id that was never used before: lower-case letters and digits.
   virtual std::string NextJobId() = 0;
+  /// A UUID.
+  virtual std::string NextUid() = 0;
 };
 
 /// The real ones. Both are thread-safe and live as long as the process.

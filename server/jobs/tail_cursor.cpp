@@ -68,7 +68,7 @@ LogCursor::Next TailCursor::Read(std::size_t max_bytes, Events* out) {
         return Next::kFailed;
       case JobLog::Tail::Found::kOlder:
         EnterAhead();
-        page_ = {{}, {}, position_};
+        page_ = {{}, {}, position_, oldest_};
         handed_out_ = 0;
         StartFetch(max_bytes);
     }
@@ -88,7 +88,7 @@ void TailCursor::EnterAhead() {
 // On the decoder's thread.
 TailCursor::Page TailCursor::Decode(const std::string& name, absl::StatusOr<EventPage> stored) {
   if (!stored.ok()) return {stored.status(), {}};
-  Page page{{}, {}, stored->position};
+  Page page{{}, {}, stored->position, stored->oldest};
   for (StoredEvent& event : stored->events) {
     std::string payload;
     if (event.TakePayload(&payload)) {
@@ -135,6 +135,9 @@ std::optional<LogCursor::Next> TailCursor::TakeFetched(std::size_t max_bytes) {
   fetch_ = nullptr;
   if (absl::IsNotFound(page_.status)) return Next::kDeleted;
   if (!page_.status.ok()) return Next::kFailed;
+  oldest_ = page_.oldest;
+  const bool frames = (kinds_ & KindBit(v1::Event::kFrameChunk)) != 0;
+  if (frames && position_ + 1 < oldest_) return Next::kCompacted;
   if (ahead_ && log_->IsOlder(page_.position)) StartFetch(max_bytes);
   if (page_.events.empty()) position_ = page_.position;
   return std::nullopt;

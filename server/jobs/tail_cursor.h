@@ -37,6 +37,7 @@ class TailCursor final : public LogCursor {
 
   Next Read(std::size_t max_bytes, std::vector<LogRecord>* out) override;
   std::uint64_t position() const override { return position_; }
+  std::uint64_t oldest() const override { return oldest_; }
 
   /// True if the reader once had read all there was, lost what follows from memory, and has not
   /// caught up within the next few MiB.
@@ -50,6 +51,7 @@ class TailCursor final : public LogCursor {
     absl::Status status;
     Events events;
     std::uint64_t position = 0;
+    std::uint64_t oldest = 1;
   };
   /// A page on its way from the store; the decoder puts it here.
   struct Fetch {
@@ -71,6 +73,7 @@ class TailCursor final : public LogCursor {
   const std::shared_ptr<std::atomic<int>> watchers_;
 
   std::uint64_t position_;
+  std::uint64_t oldest_ = 1;
   std::uint64_t progress_seen_ = 0;
   bool live_ = false;                  ///< Has once read all there was.
   std::size_t lag_ = 0;                ///< Bytes read from the store since it was last in memory.

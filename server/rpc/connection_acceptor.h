@@ -8,9 +8,9 @@
 #include <string>
 #include <thread>
 
-#include "rpc/file_descriptor.h"
 #include "rpc/open_connections.h"
 #include "rpc/tcp_listener.h"
+#include "storage/file_descriptor.h"
 #include "storage/mutex.h"
 
 namespace contact {

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "rpc/call_monitor.h"
-#include "rpc/file_descriptor.h"
 #include "rpc/tcp_listener.h"
+#include "storage/file_descriptor.h"
 
 namespace contact {
 namespace {

@@ -73,15 +73,13 @@ grpc::ServerUnaryReactor* JobService::ListJobs(grpc::CallbackServerContext* cont
 grpc::ServerUnaryReactor* JobService::CancelJob(grpc::CallbackServerContext* context,
                                                 const v1::CancelJobRequest* request,
                                                 v1::Job* response) {
-  return Serve<v1::Job>(context, response,
-                        [&](auto answer) { jobs_.Cancel(request->name(), answer); });
+  return Serve<v1::Job>(context, response, [&](auto answer) { jobs_.Cancel(*request, answer); });
 }
 
 grpc::ServerUnaryReactor* JobService::DeleteJob(grpc::CallbackServerContext* context,
                                                 const v1::DeleteJobRequest* request,
                                                 google::protobuf::Empty* response) {
-  return Serve<bool>(context, response,
-                     [&](auto answer) { jobs_.Delete(request->name(), answer); });
+  return Serve<bool>(context, response, [&](auto answer) { jobs_.Delete(*request, answer); });
 }
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "rpc/file_descriptor.h"
+#include "storage/file_descriptor.h"
 
 namespace contact {
 

@@ -95,6 +95,9 @@ bool WatchReactor::Next(grpc::ByteBuffer* out) {
     case LogCursor::Next::kDeleted:
       EndWith(Deleted(name_));
       return false;
+    case LogCursor::Next::kCompacted:
+      EndWith(ToGrpc(EventsCompacted(name_, watched_.cursor->oldest())));
+      return false;
     case LogCursor::Next::kSlow:
       EndWith(ToGrpc(SlowWatcher(name_)));
       return false;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/run_state.h"
+
 namespace contact {
 namespace {
 
@@ -34,7 +36,7 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       missed_(static_cast<std::size_t>(DampingLaw::kGiven)) {}
 
 void EpisodeSolver::Begin(const State& start, int episode, double until) {
-  KeepGuesses(start);
+  BeginWith(Guesses(start));
   factors_are_of_.clear();
   recording_ = false;
   episode_ = episode;
@@ -55,6 +57,21 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   sensitive_ = !as_paper_;
   window_ = FirstWindow();
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
+}
+
+void EpisodeSolver::Save(RunState* state) const {
+  state->iterations = total_iterations_;
+  state->warned = warned_;
+  state->missed = missed_;
+  state->guesses = Guesses(state->state);
+}
+
+void EpisodeSolver::Restore(const RunState& state) {
+  episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
+  total_iterations_ = state.iterations;
+  warned_ = state.warned;
+  missed_ = state.missed;
+  BeginWith(state.guesses);
 }
 
 Motion::Pause EpisodeSolver::Solve(const State& start, const std::stop_token& stop,
@@ -196,6 +213,18 @@ const EpisodeSolver::Unknown* EpisodeSolver::Find(int contact, int number) const
   return const_cast<EpisodeSolver*>(this)->Find(contact, number);
 }
 
+EpisodeSolver::Unknown EpisodeSolver::MakeUnknown(int index, int number) const {
+  const Contact& contact = scenario_.contacts[At(index)];
+  Unknown made;
+  made.contact = index;
+  made.number = number;
+  made.iterated = contact.damping == DampingLaw::kEnergyRestitution && contact.restitution < 1;
+  if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
+  if (made.iterated) made.goal = std::max(ExactCoefficient(contact.restitution), kLeastGoal);
+  if (contact.damping != DampingLaw::kEnergyRestitution) made.status = Cycle::Status::kGivenLaw;
+  return made;
+}
+
 CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effective_mass,
                                          double external_force) {
   const Cycle& cycle = state.cycle;
@@ -204,16 +233,7 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
   reference_speed_ = std::max(reference_speed_, cycle.approach_velocity);
   Unknown* u = Find(cycle.contact, cycle.number);
   if (u == nullptr) {
-    Unknown made;
-    made.contact = cycle.contact;
-    made.number = cycle.number;
-    made.iterated = contact.damping == DampingLaw::kEnergyRestitution && contact.restitution < 1;
-    if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
-    if (made.iterated) made.goal = std::max(ExactCoefficient(contact.restitution), kLeastGoal);
-    if (contact.damping != DampingLaw::kEnergyRestitution) {
-      made.status = Cycle::Status::kGivenLaw;
-    }
-    unknowns_.push_back(made);
+    unknowns_.push_back(MakeUnknown(cycle.contact, cycle.number));
     u = &unknowns_.back();
   }
   u->seen = true;

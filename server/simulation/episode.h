@@ -14,6 +14,9 @@
 
 namespace contact {
 
+struct Guess;
+struct RunState;
+
 /// Finds the μ of every cycle of an episode together, so that ε_out = ε_in in each: damped Newton
 /// with true sensitivities, (N1) to (N6) of README.md, or as the paper does it, (P1) to (P5).
 /// Then plays host to the recording pass.
@@ -50,6 +53,10 @@ class EpisodeSolver final : public CycleHost {
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
              const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
   void OnStep() override { observer_.OnStep(); }
+
+  /// What outlives an episode.
+  void Save(RunState* state) const;
+  void Restore(const RunState& state);
 
   std::vector<Cycle> accepted;  ///< Cycles ended since BeginRecording.
   std::int64_t iterations() const { return total_iterations_; }
@@ -94,7 +101,9 @@ class EpisodeSolver final : public CycleHost {
   double NeighbourSpeed(int contact) const;
   bool Converged(const Unknown& unknown) const;
   bool Live(const Unknown& unknown) const;
-  void KeepGuesses(const State& start);
+  std::vector<Guess> Guesses(const State& end) const;
+  void BeginWith(const std::vector<Guess>& guesses);
+  Unknown MakeUnknown(int contact, int number) const;
   int FirstWindow() const;
   bool AnyFinal();
   bool Widen();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulation/episode.h"
+#include "simulation/run_state.h"
 
 namespace contact {
 namespace {
@@ -16,26 +17,35 @@ constexpr double kFinal = 0.02;   // Change of a final μ [restitution tolerance
 }  // namespace
 
 // The cycles that the last episode saw beginning after its end have a good μ.
-void EpisodeSolver::KeepGuesses(const State& start) {
-  std::erase_if(unknowns_, [&](const Unknown& u) {
-    const auto contact = static_cast<std::size_t>(u.contact);
-    const bool begun = u.number <= start.contacts[contact].cycles;
-    return !u.corrected || begun || u.status != Cycle::Status::kNotConverged;
-  });
-  for (Unknown& u : unknowns_) {
-    Unknown fresh;
-    fresh.contact = u.contact;
-    fresh.number = u.number;
-    fresh.start_time = u.start_time;
-    fresh.mu = fresh.best_mu = u.mu;
-    fresh.start_mu = u.start_mu;
-    fresh.settled_mu = u.settled_mu;
-    fresh.restitution_in = u.restitution_in;
-    fresh.goal = u.goal;
-    fresh.iterated = fresh.corrected = fresh.seen = true;
-    fresh.length = u.length;
-    fresh.speed = u.speed;
-    u = fresh;
+std::vector<Guess> EpisodeSolver::Guesses(const State& end) const {
+  std::vector<Guess> guesses;
+  for (const Unknown& u : unknowns_) {
+    const bool begun = u.number <= end.contacts[static_cast<std::size_t>(u.contact)].cycles;
+    if (begun || !u.corrected || u.status != Cycle::Status::kNotConverged) continue;
+    guesses.push_back({.contact = u.contact,
+                       .number = u.number,
+                       .start_time = u.start_time,
+                       .mu = u.mu,
+                       .start_mu = u.start_mu,
+                       .settled_mu = u.settled_mu,
+                       .length = u.length,
+                       .speed = u.speed});
+  }
+  return guesses;
+}
+
+void EpisodeSolver::BeginWith(const std::vector<Guess>& guesses) {
+  unknowns_.clear();
+  for (const Guess& guess : guesses) {
+    Unknown u = MakeUnknown(guess.contact, guess.number);
+    u.start_time = guess.start_time;
+    u.mu = u.best_mu = guess.mu;
+    u.start_mu = guess.start_mu;
+    u.settled_mu = guess.settled_mu;
+    u.length = guess.length;
+    u.speed = guess.speed;
+    u.corrected = u.seen = true;
+    unknowns_.push_back(std::move(u));
   }
 }
 

@@ -115,6 +115,11 @@ class Motion {
   double time() const { return time_; }
   std::int64_t steps() const { return steps_; }  ///< Tried so far, in all.
   std::int64_t evaluations() const { return evaluations_; }
+  /// Counts on from what an earlier run has counted.
+  void Restore(std::int64_t steps, std::int64_t evaluations) {
+    steps_ = steps;
+    evaluations_ = evaluations;
+  }
   const Equations& equations() const { return equations_; }
   RungeKutta& integrator() { return rk_; }
   const RungeKutta& integrator() const { return rk_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace contact {
 
@@ -68,6 +69,17 @@ void Recorder::Flush() {
     observer_.OnSamples(samples_);
   }
   samples_.values.clear();
+}
+
+Samples Recorder::pending() const {
+  Samples pending = samples_;
+  pending.first = next_ - samples_.rows();
+  return pending;
+}
+
+void Recorder::Restore(Samples pending) {
+  next_ = pending.first + pending.rows();
+  samples_ = std::move(pending);
 }
 
 void Recorder::Hold() {

@@ -19,6 +19,11 @@ class Recorder final : public StepListener {
   void RecordStart(const State& state);
   void Flush();
 
+  /// Samples that were not handed out yet, with the index of the first.
+  Samples pending() const;
+  /// Goes on after those.
+  void Restore(Samples pending);
+
   /// Keeps the samples from now on until they are released or taken back.
   void Hold();
   void Release();

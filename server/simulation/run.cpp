@@ -6,6 +6,7 @@
 
 #include "simulation/episode.h"
 #include "simulation/recorder.h"
+#include "simulation/run_state.h"
 
 namespace contact {
 namespace {
@@ -21,13 +22,29 @@ class Runner {
         solver_(scenario, motion_, observer),
         recorder_(scenario, motion_, observer) {}
 
-  Outcome Run() {
+  void Start() {
     state_ = InitialState(scenario_);
     recorder_.RecordStart(state_);
     motion_.Begin(state_, true);
     start_energy_ = Energy();
     start_momentum_ = motion_.equations().Momentum(motion_.integrator().y0.data());
     Scale();
+  }
+
+  void Restore(const RunState& from) {
+    state_ = from.state;
+    outcome_ = from.outcome;
+    cycles_ = from.cycles;
+    start_energy_ = from.start_energy;
+    start_momentum_ = from.start_momentum;
+    energy_scale_ = from.energy_scale;
+    momentum_scale_ = from.momentum_scale;
+    motion_.Restore(from.steps, from.evaluations);
+    solver_.Restore(from);
+    recorder_.Restore(from.samples);
+  }
+
+  Outcome Run() {
     while (state_.time < scenario_.end_time && outcome_.end == Outcome::End::kFinished) {
       if (InCycle(state_)) {
         Episode();
@@ -38,6 +55,9 @@ class Runner {
                             .steps = motion_.steps(),
                             .cycles = cycles_,
                             .iterations = solver_.iterations()});
+      if (state_.time < scenario_.end_time && outcome_.end == Outcome::End::kFinished) {
+        observer_.OnBoundary([this] { return Save(); });
+      }
     }
     if (outcome_.end == Outcome::End::kFinished) CutCycles();
     recorder_.Flush();
@@ -46,6 +66,22 @@ class Runner {
   }
 
  private:
+  RunState Save() const {
+    RunState saved;
+    saved.state = state_;
+    saved.outcome = outcome_;
+    saved.cycles = cycles_;
+    saved.start_energy = start_energy_;
+    saved.start_momentum = start_momentum_;
+    saved.energy_scale = energy_scale_;
+    saved.momentum_scale = momentum_scale_;
+    saved.steps = motion_.steps();
+    saved.evaluations = motion_.evaluations();
+    solver_.Save(&saved);
+    saved.samples = recorder_.pending();
+    return saved;
+  }
+
   Motion::Pause Advance(double until) {
     motion_.Begin(state_, true);
     solver_.BeginRecording();
@@ -217,7 +253,16 @@ class Runner {
 }  // namespace
 
 Outcome Run(const Scenario& scenario, Observer& observer, std::stop_token stop) {
-  return Runner(scenario, observer, std::move(stop)).Run();
+  Runner runner(scenario, observer, std::move(stop));
+  runner.Start();
+  return runner.Run();
+}
+
+Outcome Resume(const Scenario& scenario, const RunState& from, Observer& observer,
+               std::stop_token stop) {
+  Runner runner(scenario, observer, std::move(stop));
+  runner.Restore(from);
+  return runner.Run();
 }
 
 }  // namespace contact

@@ -33,9 +33,9 @@ void Remove(const fs::path& file) {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<BackupFile>> BackupFile::Adopt(const fs::path& path) {
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status = {};
-  if (!file.ok() || ::fstat(file.get(), &status) != 0) return Failed("open");
+  if (!file.valid() || ::fstat(file.get(), &status) != 0) return Failed("open");
   if (::unlink(path.c_str()) != 0) return Failed("unlink");
   return std::unique_ptr<BackupFile>(new BackupFile(std::move(file), status.st_size));
 }
@@ -71,10 +71,10 @@ void CopyDatabase(SQLite::Database& from, const fs::path& to) {
   const fs::path draft = to.string() + ".new";
   for (DatabaseCopy copy(from, draft); copy.Step();) {
   }
-  const Descriptor file(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
-  const Descriptor folder(::open(to.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!file.ok() || ::fsync(file.get()) != 0 || ::rename(draft.c_str(), to.c_str()) != 0 ||
-      !folder.ok() || ::fsync(folder.get()) != 0) {
+  const FileDescriptor file(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
+  const FileDescriptor folder(::open(to.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!file.valid() || ::fsync(file.get()) != 0 || ::rename(draft.c_str(), to.c_str()) != 0 ||
+      !folder.valid() || ::fsync(folder.get()) != 0) {
     throw SQLite::Exception(absl::StrCat("cannot write ", to.string()), SQLITE_IOERR);
   }
 }

@@ -13,7 +13,7 @@
 #include <stop_token>
 #include <string>
 
-#include "storage/descriptor.h"
+#include "storage/file_descriptor.h"
 
 namespace contact {
 
@@ -31,9 +31,9 @@ class BackupFile {
   absl::StatusOr<std::string> Read(std::int64_t offset, std::size_t most) const;
 
  private:
-  BackupFile(Descriptor file, std::int64_t size) : file_(std::move(file)), size_(size) {}
+  BackupFile(FileDescriptor file, std::int64_t size) : file_(std::move(file)), size_(size) {}
 
-  const Descriptor file_;
+  const FileDescriptor file_;
   const std::int64_t size_;
 };
 

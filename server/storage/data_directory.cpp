@@ -62,8 +62,8 @@ absl::Status MakeFolder(const fs::path& path) {
 absl::StatusOr<DataDirectory> DataDirectory::Open(const fs::path& path) {
   if (absl::Status made = MakeFolder(path); !made.ok()) return made;
   const fs::path file = path / "lock";
-  Descriptor lock(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
-  if (!lock.ok()) return Failed("open", file);
+  FileDescriptor lock(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  if (!lock.valid()) return Failed("open", file);
   if (!TakeLock(lock.get(), F_WRLCK)) return Held(path, lock.get());
   if (::ftruncate(lock.get(), 0) != 0 || !WriteAll(lock.get(), std::to_string(::getpid()) + "\n")) {
     return Failed("write", file);
@@ -78,10 +78,10 @@ absl::StatusOr<DataDirectory> DataDirectory::OpenToRead(const fs::path& path) {
   if (!fs::is_directory(path)) {
     return absl::NotFoundError(absl::StrCat("there is no data directory ", path.string()));
   }
-  Descriptor lock(::open((path / "lock").c_str(), O_RDONLY | O_CLOEXEC));
+  FileDescriptor lock(::open((path / "lock").c_str(), O_RDONLY | O_CLOEXEC));
   // Without the file no contactd was ever here, such as beside a backup.
-  if (!lock.ok() && errno != ENOENT) return Failed("open", path / "lock");
-  if (lock.ok() && !TakeLock(lock.get(), F_RDLCK)) return Held(path, lock.get());
+  if (!lock.valid() && errno != ENOENT) return Failed("open", path / "lock");
+  if (lock.valid() && !TakeLock(lock.get(), F_RDLCK)) return Held(path, lock.get());
   return DataDirectory(path, std::move(lock));
 }
 
@@ -91,15 +91,15 @@ absl::Status DataDirectory::MarkInitialised() const {
   const fs::path file = path_ / "initialised";
   const fs::path draft = path_ / "initialised.new";
   {
-    const Descriptor out(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
-    if (!out.ok() || !WriteAll(out.get(), "contactd.db belongs here\n") ||
+    const FileDescriptor out(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+    if (!out.valid() || !WriteAll(out.get(), "contactd.db belongs here\n") ||
         ::fsync(out.get()) != 0) {
       return Failed("write", draft);
     }
   }
   if (::rename(draft.c_str(), file.c_str()) != 0) return Failed("write", file);
-  const Descriptor folder(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder.ok() || ::fsync(folder.get()) != 0) return Failed("sync", path_);
+  const FileDescriptor folder(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder.valid() || ::fsync(folder.get()) != 0) return Failed("sync", path_);
   return absl::OkStatus();
 }
 

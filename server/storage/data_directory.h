@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "storage/descriptor.h"
+#include "storage/file_descriptor.h"
 
 namespace contact {
 
@@ -36,11 +36,11 @@ class DataDirectory {
   absl::Status MarkInitialised() const;
 
  private:
-  DataDirectory(std::filesystem::path path, Descriptor lock)
+  DataDirectory(std::filesystem::path path, FileDescriptor lock)
       : path_(std::move(path)), lock_(std::move(lock)) {}
 
   std::filesystem::path path_;
-  Descriptor lock_;  ///< Holds the lock.
+  FileDescriptor lock_;  ///< Holds the lock.
 };
 
 }  // namespace contact

@@ -121,6 +121,7 @@ absl::Status Database::BringUpToDate() {
   if (version_ == 0) {
     SQLite::Transaction transaction(connection_);
     connection_.exec(kSchema);
+    connection_.exec(kSchemaOfVersion3);
     connection_.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
     transaction.commit();
     Checkpoint();

@@ -69,6 +69,7 @@ class Checker {
     Guard("specs", &Checker::CheckSpecs);
     Guard("results", &Checker::CheckResults);
     Guard("events", &Checker::CheckEvents);
+    Guard("checkpoints", &Checker::CheckCheckpoints);
     Guard("jobs", &Checker::CheckTotals);
     return report_;
   }
@@ -77,6 +78,7 @@ class Checker {
   // What a job says of itself, and what was found.
   struct Job {
     std::string name;
+    std::int64_t oldest_sequence = 1;
     std::int64_t last_sequence = 0;
     std::int64_t bytes = 0;
     bool has_spec = false;
@@ -116,14 +118,15 @@ class Checker {
 
   void CheckJobs() {
     SQLite::Statement query(connection_,
-                            "SELECT number, name, state, last_sequence, bytes, crc32, header FROM "
-                            "jobs ORDER BY number");
+                            "SELECT number, name, state, last_sequence, bytes, crc32, header,"
+                            " oldest_sequence FROM jobs ORDER BY number");
     while (query.executeStep()) {
       ++report_.jobs;
       Job& job = jobs_[query.getColumn(0).getInt64()];
       job.name = query.getColumn(1).getString();
       job.last_sequence = query.getColumn(3).getInt64();
       job.bytes = query.getColumn(4).getInt64();
+      job.oldest_sequence = query.getColumn(7).getInt64();
       const std::string header = query.getColumn(6).getString();
       v1::Job message;
       if (Checksum(header) != query.getColumn(5).getInt64()) {
@@ -174,7 +177,7 @@ class Checker {
     const std::int64_t sequence = query.getColumn(1).getInt64();
     const CodedEvent coded{static_cast<Coding>(query.getColumn(3).getInt()),
                            query.getColumn(5).getString()};
-    if (sequence != job->found_sequence + 1) {
+    if (sequence != job->found_sequence + 1 && sequence > job->oldest_sequence) {
       Find(job->name, ": events ", job->found_sequence + 1, " to ", sequence - 1, " are missing");
     }
     job->found_sequence = sequence;
@@ -185,6 +188,17 @@ class Checker {
     } else if (!DecodeEvent(coded.coding, coded.bytes, &event) ||
                static_cast<int>(event.payload_case()) != query.getColumn(2).getInt()) {
       Find(job->name, ": event ", sequence, " is not what its row says");
+    }
+  }
+
+  void CheckCheckpoints() {
+    SQLite::Statement query(connection_, "SELECT job, crc32, state FROM checkpoints");
+    while (query.executeStep()) {
+      const auto job = jobs_.find(query.getColumn(0).getInt64());
+      if (job == jobs_.end()) continue;  // CheckReferences has told.
+      if (Checksum(query.getColumn(2).getString()) != query.getColumn(1).getInt64()) {
+        Find(job->second.name, ": its checkpoint fails its checksum");
+      }
     }
   }
 

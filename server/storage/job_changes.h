@@ -4,6 +4,7 @@
 #include <absl/status/statusor.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,22 +33,26 @@ absl::StatusOr<StoredJob> Insert(Database& database, const JobInsert& insert);
 
 struct JobChange {
   std::string name;
-  std::uint64_t epoch = 0;
   bool take = false;
   int state = 0;
   JobParts parts;  ///< Header empty: the job stays; the spec is not looked at.
   std::vector<EventRow> events;
+  std::optional<Checkpoint> checkpoint;
 };
 /// Returns the sequence of the first event appended: see Store::Update.
-absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change);
+absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change,
+                                     std::uint64_t epoch);
 
 /// Remembers that a user wants the job cancelled: see Store::RequestCancel.
 absl::Status MarkCancelRequested(Database& database, const std::string& name);
 
 /// Removes an ended job: see Store::Delete. Its events only vanish from sight.
-absl::Status Remove(Database& database, const std::string& name);
+absl::Status Remove(Database& database, const std::string& name, const std::string& expected_uid);
 
-/// Removes some events of removed jobs. False: there are none.
+/// Gives up the frame chunks of an ended job: see Store::Compact. They only vanish from sight.
+absl::Status Compact(Database& database, const std::string& name);
+
+/// Removes some of the events that have vanished from sight. False: there are none.
 bool Sweep(Database& database);
 
 }  // namespace contact

@@ -1,5 +1,6 @@
 #include "storage/job_queries.h"
 
+#include <absl/strings/cord.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
 
@@ -19,7 +20,8 @@ namespace {
 constexpr std::uint64_t kMaxScan = 4096;
 
 constexpr char kSelectJob[] =
-    "SELECT number, name, state, epoch, cancel_requested, last_sequence, crc32, header FROM jobs ";
+    "SELECT number, name, state, epoch, cancel_requested, last_sequence, crc32, header,"
+    " oldest_sequence, compacted FROM jobs ";
 
 struct JobRow {
   std::int64_t number = 0;
@@ -39,7 +41,8 @@ JobRow RowOf(const Query& query) {
   job.set_state(static_cast<v1::Job::State>(query.Integer(2)));
   row.stored.epoch = static_cast<std::uint64_t>(query.Integer(3));
   row.stored.cancel_requested = query.Integer(4) != 0;
-  job.set_oldest_sequence(1);
+  row.stored.compacted = query.Integer(9) != 0;
+  job.set_oldest_sequence(static_cast<std::uint64_t>(query.Integer(8)));
   job.set_last_sequence(static_cast<std::uint64_t>(query.Integer(5)));
   return row;
 }
@@ -51,6 +54,15 @@ void MergePart(Database& database, const std::string& sql, JobRow& row) {
   const std::string bytes = query.Bytes(1);
   row.stored.intact = row.stored.intact && Checksum(bytes) == query.Integer(0) &&
                       row.stored.job.MergeFromString(bytes);
+}
+
+void AddCheckpoint(Database& database, JobRow& row) {
+  Query query(database, "SELECT crc32, state, sequence FROM checkpoints WHERE job=?", row.number);
+  if (!query.Next()) return;
+  std::string state = query.Bytes(1);
+  if (Checksum(state) != query.Integer(0)) return;
+  row.stored.checkpoint = std::move(state);
+  row.stored.checkpoint_sequence = static_cast<std::uint64_t>(query.Integer(2));
 }
 
 std::string Placeholders(std::size_t count) {
@@ -74,6 +86,13 @@ absl::Status NoSuchJob(const std::string& name) {
   return absl::NotFoundError(absl::StrCat("there is no job ", name));
 }
 
+absl::Status OtherJob(const v1::Job& job) {
+  absl::Status status =
+      absl::AbortedError(absl::StrCat(job.name(), " is another job than the one expected"));
+  status.SetPayload(kUidPayload, absl::Cord(job.uid()));
+  return status;
+}
+
 absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobPart part) {
   Query query(database, absl::StrCat(kSelectJob, "WHERE name=?"), name);
   if (!query.Next()) return NoSuchJob(name);
@@ -81,6 +100,7 @@ absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobP
   if (part != JobPart::kHeader) {
     MergePart(database, "SELECT crc32, spec FROM specs WHERE job=?", row);
   }
+  if (part == JobPart::kRun) AddCheckpoint(database, row);
   if (part == JobPart::kAll) {
     MergePart(database, "SELECT crc32, result FROM results WHERE job=?", row);
   }
@@ -129,10 +149,12 @@ std::vector<JobSize> Sizes(Database& database) {
 }
 
 absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query) {
-  Query job(database, "SELECT number, last_sequence FROM jobs WHERE name=?", query.name);
+  Query job(database, "SELECT number, last_sequence, oldest_sequence FROM jobs WHERE name=?",
+            query.name);
   if (!job.Next()) return NoSuchJob(query.name);
   const auto last = static_cast<std::uint64_t>(job.Integer(1));
   EventPage page;
+  page.oldest = static_cast<std::uint64_t>(job.Integer(2));
   page.position = query.after;
   if (query.after >= last) return page;
   page.position = query.after + std::min(kMaxScan, last - query.after);

@@ -21,6 +21,12 @@ UPDATE jobs SET
         + COALESCE((SELECT LENGTH(result) FROM results WHERE job=number), 0);
 )sql";
 
+// From 2: frame chunks of ended jobs may be dropped, and long runs have checkpoints.
+constexpr char kToVersion3[] = R"sql(
+ALTER TABLE jobs ADD COLUMN oldest_sequence INTEGER NOT NULL DEFAULT 1;
+ALTER TABLE jobs ADD COLUMN compacted INTEGER NOT NULL DEFAULT 0;
+)sql";
+
 // SQL function: the end of the job with this header in Unix seconds; 0 if it does not tell.
 void EndTimeOf(sqlite3_context* context, int, sqlite3_value** arguments) {
   v1::Job job;
@@ -38,6 +44,8 @@ void Migrate(SQLite::Database& connection, int version) {
                               nullptr);
     connection.exec(kToVersion2);
   }
+  connection.exec(kToVersion3);
+  connection.exec(kSchemaOfVersion3);
   connection.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
   transaction.commit();
 }

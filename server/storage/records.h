@@ -22,28 +22,42 @@ struct NewJob {
   bool may_create = true;  ///< False: only answer a repeated request; RESOURCE_EXHAUSTED if new.
 };
 
+/// Where the run of a job may go on after a crash. Goes when the job ends.
+struct Checkpoint {
+  std::size_t events = 0;  ///< Of the update, those that came before it.
+  std::string state;       ///< For whoever runs it.
+};
+
 /// A change of a job, written as a whole. Only looked at during the call.
 struct JobUpdate {
   const std::string& name;
-  std::uint64_t epoch;  ///< The job must have this one, else ABORTED: another owner took it.
-  bool take = false;    ///< Take the job: its epoch becomes `epoch` + 1.
+  std::uint64_t epoch = 0;  ///< The job must have this one, else ABORTED: another owner took it.
+  bool take = false;        ///< Take the job: its epoch becomes `epoch` + 1.
   const v1::Job* job = nullptr;  ///< Replaces the stored job, except for its spec; or null.
   absl::Span<const v1::Event> events = {};  ///< Appended to its log, without sequence.
+  const Checkpoint* checkpoint = nullptr;   ///< Replaces the one before; or null.
 };
+
+/// Payload of a status: the uid of the job that was found in place of the one expected.
+inline constexpr char kUidPayload[] = "contact/uid";
 
 /// What of a job to read.
 enum class JobPart {
   kHeader,  ///< All but spec, cycles and final bodies.
   kSpec,    ///< Header and spec.
-  kAll,
+  kRun,     ///< The same, and the checkpoint.
+  kAll,     ///< Header, spec, cycles and final bodies.
 };
 
 struct StoredJob {
   v1::Job job;
   std::uint64_t epoch = 0;
   bool cancel_requested = false;
-  bool created = false;  ///< By this call of Create.
-  bool intact = true;  ///< False: fails its checksum; only name, state and last_sequence are true.
+  bool compacted = false;  ///< By Compact.
+  bool created = false;    ///< By this call of Create.
+  bool intact = true;      ///< False: fails its checksum; only name, state and sequences are true.
+  std::string checkpoint = {};            ///< Empty: none, or a damaged one.
+  std::uint64_t checkpoint_sequence = 0;  ///< Of the last event before it.
 };
 
 struct JobQuery {
@@ -91,6 +105,7 @@ struct StoredEvent {
 struct EventPage {
   std::vector<StoredEvent> events;
   std::uint64_t position = 0;  ///< All events asked for up to here have been read.
+  std::uint64_t oldest = 1;    ///< From here on all are there; before it frame chunks were dropped.
 };
 
 }  // namespace contact

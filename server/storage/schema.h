@@ -1,11 +1,12 @@
 #pragma once
 
+#include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
 
 namespace contact {
 
 /// Version of the tables below, kept in PRAGMA user_version. Meaning of each: README.md.
-inline constexpr int kSchemaVersion = 2;
+inline constexpr int kSchemaVersion = 3;
 
 /// SQL condition on a row of jobs: the job has ended.
 inline constexpr char kEnded[] = "state IN (3,4,5)";
@@ -23,7 +24,9 @@ CREATE TABLE jobs(
   end_time INTEGER NOT NULL DEFAULT 0,
   bytes INTEGER NOT NULL DEFAULT 0,
   crc32 INTEGER NOT NULL,
-  header BLOB NOT NULL
+  header BLOB NOT NULL,
+  oldest_sequence INTEGER NOT NULL DEFAULT 1,
+  compacted INTEGER NOT NULL DEFAULT 0
 ) STRICT;
 CREATE INDEX jobs_by_state ON jobs(state, number);
 
@@ -59,6 +62,21 @@ CREATE TABLE events(
 
 CREATE TABLE removed(
   job INTEGER PRIMARY KEY
+) STRICT;
+)sql";
+
+/// What version 3 has added.
+inline constexpr char kSchemaOfVersion3[] = R"sql(
+CREATE TABLE compacting(
+  job INTEGER PRIMARY KEY REFERENCES jobs ON DELETE CASCADE,
+  position INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE checkpoints(
+  job INTEGER PRIMARY KEY REFERENCES jobs ON DELETE CASCADE,
+  sequence INTEGER NOT NULL,
+  crc32 INTEGER NOT NULL,
+  state BLOB NOT NULL
 ) STRICT;
 )sql";
 

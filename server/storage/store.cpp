@@ -57,15 +57,24 @@ void Store::Create(const NewJob& job, Callback<StoredJob> done) {
       std::move(done));
 }
 
-void Store::Update(const JobUpdate& update, Callback<std::uint64_t> done) {
-  JobChange change{update.name, update.epoch, update.take, 0, {}, ToRows(update.events)};
+Store::Encoded Store::Encode(const JobUpdate& update) {
+  JobChange change{update.name, update.take, 0, {}, ToRows(update.events), {}};
+  if (update.checkpoint != nullptr) change.checkpoint = *update.checkpoint;
   if (update.job != nullptr) {
     change.state = update.job->state();
     change.parts = Split(*update.job);
   }
-  Post<std::uint64_t>(
-      [change = std::move(change)](Database& database) { return Change(database, change); },
-      std::move(done));
+  return std::make_shared<const JobChange>(std::move(change));
+}
+
+void Store::Update(const JobUpdate& update, Callback<std::uint64_t> done) {
+  Update(Encode(update), update.epoch, std::move(done));
+}
+
+void Store::Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done) {
+  Post<std::uint64_t>([change = std::move(change),
+                       epoch](Database& database) { return Change(database, *change, epoch); },
+                      std::move(done));
 }
 
 void Store::RequestCancel(std::string name, Callback<bool> done) {
@@ -102,8 +111,15 @@ void Store::ReadEvents(EventQuery query, Callback<EventPage> done) {
                   std::move(done));
 }
 
-void Store::Delete(std::string name, Callback<bool> done) {
-  Post<bool>([name = std::move(name)](Database& database) { return Done(Remove(database, name)); },
+void Store::Delete(std::string name, std::string expected_uid, Callback<bool> done) {
+  Post<bool>([name = std::move(name), uid = std::move(expected_uid)](
+                 Database& database) { return Done(Remove(database, name, uid)); },
+             std::move(done));
+}
+
+void Store::Compact(std::string name, Callback<bool> done) {
+  Post<bool>([name = std::move(name)](
+                 Database& database) { return Done(contact::Compact(database, name)); },
              std::move(done));
 }
 

@@ -19,6 +19,7 @@
 namespace contact {
 
 class Database;
+struct JobChange;
 
 struct StoreOptions {
   /// Largest size of the database in bytes; past it writes are RESOURCE_EXHAUSTED. 0: the disk's.
@@ -60,6 +61,12 @@ class Store {
   /// event appended; the others follow without a hole. ABORTED: stale epoch. NOT_FOUND.
   void Update(const JobUpdate& update, Callback<std::uint64_t> done);
 
+  /// The same in two steps: the first serialises and compresses, on the caller's thread; the
+  /// second costs next to nothing, also on the store's, and may be done again after a failure.
+  using Encoded = std::shared_ptr<const JobChange>;
+  static Encoded Encode(const JobUpdate& update);
+  void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done);
+
   /// Remembers that a user wants a job cancelled, whoever runs it. NOT_FOUND.
   void RequestCancel(std::string name, Callback<bool> done);
 
@@ -73,8 +80,13 @@ class Store {
   /// NOT_FOUND. A page may be empty though more follows; go on from its position.
   void ReadEvents(EventQuery query, Callback<EventPage> done);
 
-  /// Removes a job and its log. NOT_FOUND; FAILED_PRECONDITION: it has not ended.
-  void Delete(std::string name, Callback<bool> done);
+  /// Removes a job and its log. NOT_FOUND; FAILED_PRECONDITION: it has not ended. ABORTED, with the
+  /// payload kUidPayload: its uid is not `expected_uid`, if that is not empty.
+  void Delete(std::string name, std::string expected_uid, Callback<bool> done);
+
+  /// Drops the frame chunks of a job's log, for ever; see EventPage::oldest. NOT_FOUND;
+  /// FAILED_PRECONDITION: it has not ended.
+  void Compact(std::string name, Callback<bool> done);
 
   /// Copies the store bit by bit, with other work between, into a file of its own. Everything
   /// that was asked for before is in it, and what is changed meanwhile may be. One backup is made

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
-#include <openssl/sha.h>
 
-#include <array>
 #include <iterator>
+
+#include "wire/digest.h"
 
 namespace contact {
 namespace {
@@ -28,10 +28,12 @@ std::string SpecSha256(const v1::Job& job) {
   if (job.spec_case() == v1::Job::SPEC_NOT_SET) return "";
   const std::string bytes =
       job.has_sweep() ? Deterministic(job.sweep()) : Deterministic(job.scenario());
-  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
-  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest.data());
+  Sha256 digest;
+  digest.Add(bytes);
   std::string hex;
-  for (const unsigned char byte : digest) fmt::format_to(std::back_inserter(hex), "{:02x}", byte);
+  for (const char byte : digest.Finish()) {
+    fmt::format_to(std::back_inserter(hex), "{:02x}", static_cast<unsigned char>(byte));
+  }
   return hex;
 }
 

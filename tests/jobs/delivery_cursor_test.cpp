@@ -36,6 +36,7 @@ class Script final : public LogCursor {
     return Next::kEvents;
   }
   std::uint64_t position() const override { return position_; }
+  std::uint64_t oldest() const override { return 1; }
 
  private:
   std::deque<std::string> words_;

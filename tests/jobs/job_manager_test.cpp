@@ -272,6 +272,89 @@ TEST_F(JobsTest, OnlyEndedJobsAreDeleted) {
   EXPECT_EQ(Get(queued).error().reason, "JOB_NOT_FOUND");
 }
 
+TEST_F(JobsTest, AnotherJobThanTheOneExpectedIsLeftAlone) {
+  OpenWithFakeRun();
+  const std::string running = Create();
+  run_.AwaitStarted(1);
+  const std::string queued = Create();
+  const std::string uid = Get(queued).value().uid();
+  ASSERT_FALSE(uid.empty());
+  EXPECT_NE(uid, Get(running).value().uid());
+  for (const std::string& name : {running, queued}) {
+    const Error error = Cancel(name, "other").error();
+    EXPECT_EQ(error.code, absl::StatusCode::kFailedPrecondition);
+    EXPECT_EQ(error.reason, "UID_MISMATCH");
+    EXPECT_EQ(error.metadata.at("uid"), Get(name).value().uid());
+  }
+  run_.Allow(2);
+  EXPECT_EQ(Ended(running).state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(Ended(queued).state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(Cancel(queued, "other").error().reason, "UID_MISMATCH") << "it has ended";
+  EXPECT_EQ(Delete(queued, "other").error().reason, "UID_MISMATCH");
+  EXPECT_EQ(Delete(queued, "other").error().metadata.at("uid"), uid);
+  EXPECT_TRUE(Cancel(queued, uid).ok());
+  EXPECT_TRUE(Delete(queued, uid).ok());
+}
+
+TEST_F(JobsTest, JobOfTheSameNameElsewhereIsNotTakenForThisOne) {
+  OpenWithFakeRun();
+  const std::string name = Create();
+  const std::string uid = Get(name).value().uid();
+  run_.Allow();
+  Ended(name);
+  ASSERT_TRUE(Delete(name, uid).ok());
+  ids_.StartNamesAnew();
+  const std::string again = Create();
+  ASSERT_EQ(again, name);
+  EXPECT_EQ(Cancel(name, uid).error().reason, "UID_MISMATCH");
+  LogReader reader;
+  v1::WatchJobRequest request;
+  request.set_name(name);
+  request.set_expected_uid(uid);
+  EXPECT_EQ(Watch(request, reader).error().reason, "UID_MISMATCH");
+}
+
+TEST_F(JobsTest, WorkerTakesTheNextJobWhileTheEndOfTheLastIsStored) {
+  OpenWithFakeRun();
+  const std::string first = Create();
+  const std::string second = Create();
+  run_.AwaitStarted(1);
+  LogReader reader;
+  const auto watched = Watch(first, reader, 3);
+  std::vector<LogRecord> records;
+  while (watched.value().cursor->position() < 3) watched.value().cursor->Read(1, &records);
+  std::promise<void> release;
+  store_->Flush([released = release.get_future().share()] { released.wait(); });
+  run_.Allow(2);
+  run_.AwaitStarted(2);
+  EXPECT_EQ(watched.value().cursor->Read(1, &records), LogCursor::Next::kWait) << "told too early";
+  release.set_value();
+  EXPECT_EQ(Ended(first).state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(Ended(second).state(), v1::Job::SUCCEEDED);
+}
+
+TEST_F(JobsTest, StopWaitsForTheEndsThatAreBeingStored) {
+  std::promise<void> started, go;
+  JobManagerOptions options;
+  options.run = [&](const Scenario&, Observer&, const std::stop_token&) {
+    started.set_value();
+    go.get_future().wait();  // Does not look at the stop token.
+    return Outcome{};
+  };
+  Open(options);
+  const std::string name = Create();
+  started.get_future().wait();
+  std::promise<void> release;
+  store_->Flush([released = release.get_future().share()] { released.wait(); });
+  go.set_value();
+  std::jthread stopping([this] { manager_->Stop(); });
+  release.set_value();
+  stopping.join();
+  Await<absl::StatusOr<StoredJob>> stored;
+  store_->Read(name, JobPart::kHeader, stored.callback());
+  EXPECT_EQ(stored.Get()->job.state(), v1::Job::SUCCEEDED);
+}
+
 TEST_F(JobsTest, LongLedgerIsShortenedInAnswers) {
   constexpr int kCycles = 100'000;
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
@@ -421,11 +504,12 @@ TEST_F(JobsTest, DrainingManagerTakesNoJobs) {
 TEST_F(JobsTest, EveryCallbackHasRunWhenStopReturns) {
   Open(WithFakeRun({.workers = 2}));
   std::atomic<int> answered = 0;
-  std::string name = Create();
+  v1::CancelJobRequest cancel;
+  cancel.set_name(Create());
   for (int i = 0; i < 100; ++i) {
     manager_->Create(RequestFor(BouncingBall()), [&](const auto&) { ++answered; });
-    manager_->Get(name, [&](const auto&) { ++answered; });
-    manager_->Cancel(name, [&](const auto&) { ++answered; });
+    manager_->Get(cancel.name(), [&](const auto&) { ++answered; });
+    manager_->Cancel(cancel, [&](const auto&) { ++answered; });
   }
   manager_->Stop();
   EXPECT_EQ(answered, 300);

@@ -166,14 +166,20 @@ class JobsTest : public testing::Test {
     manager_->Get(name, result.callback());
     return result.Get();
   }
-  Result<v1::Job> Cancel(const std::string& name) {
+  Result<v1::Job> Cancel(const std::string& name, const std::string& expected_uid = "") {
+    v1::CancelJobRequest request;
+    request.set_name(name);
+    request.set_expected_uid(expected_uid);
     Await<Result<v1::Job>> result;
-    manager_->Cancel(name, result.callback());
+    manager_->Cancel(request, result.callback());
     return result.Get();
   }
-  Result<bool> Delete(const std::string& name) {
+  Result<bool> Delete(const std::string& name, const std::string& expected_uid = "") {
+    v1::DeleteJobRequest request;
+    request.set_name(name);
+    request.set_expected_uid(expected_uid);
     Await<Result<bool>> result;
-    manager_->Delete(name, result.callback());
+    manager_->Delete(request, result.callback());
     return result.Get();
   }
   Result<v1::ListJobsResponse> List(const v1::ListJobsRequest& request) {
@@ -184,13 +190,16 @@ class JobsTest : public testing::Test {
   Result<JobManager::Watched> Watch(const std::string& name, LogReader& reader,
                                     std::uint64_t after = 0,
                                     const std::vector<std::string>& kinds = {}) {
-    // A promise of what can only be moved.
-    auto box = std::make_shared<std::promise<Result<JobManager::Watched>>>();
     v1::WatchJobRequest request;
     request.set_name(name);
     request.set_after_sequence(after);
     request.mutable_kinds()->Add(kinds.begin(), kinds.end());
     request.mutable_delivery()->set_overflow(v1::DeliveryOptions::LAG);
+    return Watch(request, reader);
+  }
+  Result<JobManager::Watched> Watch(const v1::WatchJobRequest& request, LogReader& reader) {
+    // A promise of what can only be moved.
+    auto box = std::make_shared<std::promise<Result<JobManager::Watched>>>();
     manager_->Watch(request, reader.wake(), [box](Result<JobManager::Watched> result) {
       box->set_value(std::move(result));
     });

@@ -1,5 +1,7 @@
 #include "jobs/log_writer.h"
 
+#include <thread>
+
 #include "jobs_fixture.h"
 
 namespace contact {
@@ -21,11 +23,37 @@ class LogWriterTest : public testing::Test {
     store_->Create({job, "", events}, created.callback());
     ASSERT_TRUE(created.Get().ok());
   }
-  std::unique_ptr<LogWriter> Writer() {
-    auto writer = std::make_unique<LogWriter>(*store_, LogWriter::Place{"jobs/a", 0, log_}, run_,
+  std::shared_ptr<LogWriter> Writer() {
+    auto writer = std::make_shared<LogWriter>(*store_, LogWriter::Place{"jobs/a", 0, log_}, run_,
                                               shutdown_.get_token());
     writer->Take(Job(v1::Job::RUNNING), {v1::Event()});
     return writer;
+  }
+  // Begins to end the job; `ended` gets whether that was stored.
+  static void Finish(LogWriter& writer, v1::Job::State state, Await<bool>& ended) {
+    writer.Finish(Job(state), v1::Event(),
+                  [told = ended.callback()](const v1::Job* job) { told(job != nullptr); });
+  }
+  static bool Finished(LogWriter& writer, v1::Job::State state) {
+    Await<bool> ended;
+    Finish(writer, state, ended);
+    while (!ended.ready()) {
+      writer.Retry();
+      std::this_thread::yield();
+    }
+    return ended.Get();
+  }
+  void FillStore() {
+    v1::Event small;
+    for (const v1::Event& event : {Big(), small}) {
+      while (Append("jobs/old", {event}).ok()) {
+      }
+    }
+  }
+  void MakeSpace() {
+    Await<absl::StatusOr<bool>> deleted;
+    store_->Delete("jobs/old", "", deleted.callback());
+    ASSERT_TRUE(deleted.Get().ok());
   }
   static v1::Job Job(v1::Job::State state) {
     v1::Job job;
@@ -50,20 +78,32 @@ class LogWriterTest : public testing::Test {
     return job.Get();
   }
 
+  StoredJob ToRun() {
+    Await<absl::StatusOr<StoredJob>> job;
+    store_->Read("jobs/a", JobPart::kRun, job.callback());
+    return *job.Get();
+  }
+  // Once so many events are stored.
+  StoredJob StoredAfter(std::uint64_t sequence, LogWriter& writer) {
+    for (;;) {
+      StoredJob stored = ToRun();
+      if (stored.job.last_sequence() >= sequence) return stored;
+      writer.Pump();
+    }
+  }
+
   TempDirectory directory_;
   std::unique_ptr<Store> store_;
   std::shared_ptr<JobLog> log_ = std::make_shared<JobLog>(1, false);
-  RunControl run_;
+  std::shared_ptr<RunControl> run_ = std::make_shared<RunControl>();
   std::stop_source shutdown_;
 };
 
-TEST_F(LogWriterTest, EverythingIsStoredWhenFinishReturns) {
+TEST_F(LogWriterTest, EverythingIsStoredWhenTheEndIsTold) {
   Open();
   const auto writer = Writer();
   for (int i = 0; i < 100; ++i) writer->Add(Big());
-  bool committed = false;
-  ASSERT_TRUE(writer->Finish(Job(v1::Job::SUCCEEDED), v1::Event(), [&] { committed = true; }));
-  EXPECT_TRUE(committed);
+  ASSERT_TRUE(Finished(*writer, v1::Job::SUCCEEDED));
   EXPECT_EQ(Stored()->job.state(), v1::Job::SUCCEEDED);
   EXPECT_EQ(Stored()->job.last_sequence(), 103U);
   EXPECT_EQ(Stored()->epoch, 1U);
@@ -76,27 +116,19 @@ TEST_F(LogWriterTest, WaitsForSpaceAndLosesNothing) {
   }
   for (int i = 0; i < 20; ++i) writer->Add(Big());
   ASSERT_EQ(Stored()->job.last_sequence(), 2U) << "it is stuck";
-  Await<absl::StatusOr<bool>> deleted;
-  store_->Delete("jobs/old", deleted.callback());
-  ASSERT_TRUE(deleted.Get().ok());
-  EXPECT_TRUE(writer->Finish(Job(v1::Job::SUCCEEDED), v1::Event(), {}));
+  MakeSpace();
+  EXPECT_TRUE(Finished(*writer, v1::Job::SUCCEEDED));
   EXPECT_EQ(Stored()->job.last_sequence(), 23U);
-  EXPECT_FALSE(run_.stopping());
+  EXPECT_FALSE(run_->stopping());
 }
 
 TEST_F(LogWriterTest, TakesTheJobOnceThereIsSpace) {
   Open(3'000'000);
-  v1::Event small;
-  for (const v1::Event& event : {Big(), small}) {
-    while (Append("jobs/old", {event}).ok()) {
-    }
-  }
+  FillStore();
   const auto writer = Writer();
   ASSERT_EQ(Stored()->job.state(), v1::Job::QUEUED) << "it is stuck";
-  Await<absl::StatusOr<bool>> deleted;
-  store_->Delete("jobs/old", deleted.callback());
-  ASSERT_TRUE(deleted.Get().ok());
-  EXPECT_TRUE(writer->Finish(Job(v1::Job::SUCCEEDED), v1::Event(), {}));
+  MakeSpace();
+  EXPECT_TRUE(Finished(*writer, v1::Job::SUCCEEDED));
   EXPECT_EQ(Stored()->epoch, 1U);
   EXPECT_EQ(Stored()->job.last_sequence(), 3U);
 }
@@ -106,8 +138,58 @@ TEST_F(LogWriterTest, ShutdownEndsTheWaitForSpace) {
   const auto writer = Writer();
   shutdown_.request_stop();
   for (int i = 0; i < 100; ++i) writer->Add(Big());
-  EXPECT_FALSE(writer->Finish(Job(v1::Job::SUCCEEDED), v1::Event(), {}));
+  EXPECT_FALSE(Finished(*writer, v1::Job::SUCCEEDED));
   EXPECT_EQ(Stored()->job.state(), v1::Job::RUNNING);
+}
+
+TEST_F(LogWriterTest, NothingIsToldOfTheEndBeforeItIsStored) {
+  Open();
+  const auto writer = Writer();
+  std::promise<void> release;
+  store_->Flush([released = release.get_future().share()] { released.wait(); });
+  Await<bool> ended;
+  Finish(*writer, v1::Job::SUCCEEDED, ended);
+  EXPECT_FALSE(ended.ready());
+  std::uint64_t seen = 0;
+  const auto waker = std::make_shared<const JobLog::Waker>([] {});
+  EXPECT_EQ(log_->After({2, ~0U, 1 << 20}, &seen, waker).found, JobLog::Tail::Found::kNothing);
+  EXPECT_TRUE(run_->reporting()) << "nor is it a stall";
+  release.set_value();
+  EXPECT_TRUE(ended.Get());
+  EXPECT_EQ(Stored()->job.state(), v1::Job::SUCCEEDED);
+}
+
+TEST_F(LogWriterTest, EndThatFindsNoSpaceIsStoredLater) {
+  Open(3'000'000);
+  const auto writer = Writer();
+  ASSERT_EQ(Stored()->job.state(), v1::Job::RUNNING);
+  FillStore();
+  writer->Add(Big());
+  Await<bool> ended;
+  Finish(*writer, v1::Job::SUCCEEDED, ended);
+  ASSERT_EQ(Stored()->job.state(), v1::Job::RUNNING) << "it is stuck";
+  EXPECT_FALSE(ended.ready());
+  MakeSpace();
+  while (!ended.ready()) {
+    writer->Retry();
+    std::this_thread::yield();
+  }
+  EXPECT_TRUE(ended.Get());
+  EXPECT_EQ(Stored()->job.last_sequence(), 4U);
+}
+
+TEST_F(LogWriterTest, CheckpointStandsAfterTheEventsBeforeIt) {
+  Open();
+  const auto writer = Writer();
+  for (int i = 0; i < 3; ++i) writer->Add(Big());
+  writer->AddCheckpoint("here");
+  writer->Add(Big());
+  writer->Pump();
+  const StoredJob stored = StoredAfter(6, *writer);
+  EXPECT_EQ(stored.checkpoint, "here");
+  EXPECT_EQ(stored.checkpoint_sequence, 5U);
+  ASSERT_TRUE(Finished(*writer, v1::Job::QUEUED));
+  EXPECT_EQ(ToRun().checkpoint, "here");
 }
 
 TEST_F(LogWriterTest, RunOfAJobThatAnotherTookIsStopped) {
@@ -115,8 +197,8 @@ TEST_F(LogWriterTest, RunOfAJobThatAnotherTookIsStopped) {
   const auto writer = Writer();
   const auto other = Writer();  // With the same, now stale epoch.
   other->Add(Big());
-  EXPECT_FALSE(other->Finish(Job(v1::Job::FAILED), v1::Event(), {}));
-  EXPECT_TRUE(run_.stopping());
+  EXPECT_FALSE(Finished(*other, v1::Job::FAILED));
+  EXPECT_TRUE(run_->stopping());
   EXPECT_EQ(Stored()->job.state(), v1::Job::RUNNING);
 }
 

@@ -126,5 +126,41 @@ TEST_F(RetentionTest, ManyJobsGoPageByPage) {
   EXPECT_EQ(List({}).value().jobs_size(), 0);
 }
 
+TEST_F(RetentionTest, TrajectoriesGoAndResultsStay) {
+  Open({.retention = {.compact_after = hours(1)}});
+  const std::string name = Create(BouncingBall(5));
+  const v1::Job job = Ended(name);
+  const std::size_t chunks = Log(name, 0, {"frame_chunk"}).size();
+  ASSERT_GT(chunks, 1U);
+  const auto events = Log(name, 0, {"cycle", "iteration"});
+  Retention retention(*store_, clock_, {.compact_after = hours(1)}, feed_);
+  retention.Sweep();
+  EXPECT_EQ(Get(name).value().oldest_sequence(), 1U) << "too soon";
+  clock_.Advance(hours(1));
+  retention.Sweep();
+  const v1::Job compacted = Get(name).value();
+  EXPECT_EQ(compacted.oldest_sequence(), job.last_sequence());
+  EXPECT_EQ(compacted.cycles_size(), job.cycles_size());
+  EXPECT_EQ(Log(name, 0, {"cycle", "iteration"}).size(), events.size());
+  ASSERT_EQ(compacted.artifacts_size(), 1);
+  EXPECT_EQ(compacted.artifacts(0).name(), "cycles.csv");
+
+  LogReader reader;
+  const auto watched = Watch(name, reader);
+  EXPECT_THAT(reader.ToEnd(*watched.value().cursor), IsEmpty());
+  EXPECT_EQ(reader.end(), LogCursor::Next::kCompacted);
+  EXPECT_EQ(watched.value().cursor->oldest(), job.last_sequence());
+  EXPECT_EQ(Log(name, job.last_sequence() - 1).size(), 1U) << "what is left can be watched";
+
+  v1::GetSeriesRequest request;
+  request.set_name(name);
+  Await<Result<v1::Series>> series;
+  manager_->Series(request, series.callback());
+  const Result<v1::Series> answer = series.Get();
+  EXPECT_EQ(answer.error().code, absl::StatusCode::kOutOfRange);
+  EXPECT_EQ(answer.error().reason, "EVENTS_COMPACTED");
+  EXPECT_EQ(answer.error().metadata.at("oldest_sequence"), std::to_string(job.last_sequence()));
+}
+
 }  // namespace
 }  // namespace contact

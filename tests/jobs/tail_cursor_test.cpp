@@ -47,14 +47,17 @@ class TailCursorTest : public testing::Test {
     store_->Create({job_, "", events}, created.callback());
     ASSERT_TRUE(created.Get().ok());
     log_ = std::make_shared<JobLog>(1, false);
-    writer_ = std::make_unique<LogWriter>(*store_, LogWriter::Place{name_, 0, log_}, run_,
+    writer_ = std::make_shared<LogWriter>(*store_, LogWriter::Place{name_, 0, log_}, run_,
                                           std::stop_token());
     writer_->Take(job_, {Changed(v1::Job::RUNNING)});
   }
 
   void Finish() {
     job_.set_state(v1::Job::SUCCEEDED);
-    ASSERT_TRUE(writer_->Finish(job_, Changed(v1::Job::SUCCEEDED), {}));
+    Await<bool> ended;
+    writer_->Finish(job_, Changed(v1::Job::SUCCEEDED),
+                    [told = ended.callback()](const v1::Job* job) { told(job != nullptr); });
+    ASSERT_TRUE(ended.Get());
   }
 
   std::unique_ptr<TailCursor> Cursor(LogReader& reader, std::uint64_t after = 0,
@@ -71,8 +74,8 @@ class TailCursorTest : public testing::Test {
   std::unique_ptr<Store> store_;
   v1::Job job_;
   std::shared_ptr<JobLog> log_;
-  RunControl run_;
-  std::unique_ptr<LogWriter> writer_;
+  std::shared_ptr<RunControl> run_ = std::make_shared<RunControl>();
+  std::shared_ptr<LogWriter> writer_;
   std::shared_ptr<std::atomic<int>> watchers_ = std::make_shared<std::atomic<int>>(0);
 };
 
@@ -200,7 +203,7 @@ TEST_F(TailCursorTest, DeletedJobEndsTheWatch) {
   log_ = std::make_shared<JobLog>(3, true);  // Nothing in memory, as after a restart.
   const auto cursor = Cursor(reader);
   Await<absl::StatusOr<bool>> deleted;
-  store_->Delete(name_, deleted.callback());
+  store_->Delete(name_, "", deleted.callback());
   ASSERT_TRUE(deleted.Get().ok());
   EXPECT_TRUE(reader.ToEnd(*cursor).empty());
   EXPECT_EQ(reader.end(), LogCursor::Next::kDeleted);

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "rpc/file_descriptor.h"
+#include "storage/file_descriptor.h"
 #include "testing/await.h"
 
 namespace contact {

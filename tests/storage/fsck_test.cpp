@@ -12,6 +12,7 @@
 namespace contact {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -53,6 +54,18 @@ class FsckTest : public StoreTest {
 
   std::vector<std::string> findings_;
 };
+
+TEST_F(FsckTest, DroppedFrameChunksAreNotMissed) {
+  Fill();
+  v1::Job ended = MakeJob("jobs/a");
+  ended.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Update({.name = "jobs/a", .job = &ended}).ok());
+  ASSERT_TRUE(Compact("jobs/a").ok());
+  store_.reset();
+  EXPECT_THAT(After("UPDATE jobs SET bytes=bytes"), ElementsAre());
+  EXPECT_THAT(After("DELETE FROM events WHERE job=2 AND sequence=2"),
+              Contains(HasSubstr("events 2 to 2 are missing")));
+}
 
 TEST_F(FsckTest, GoodStoreHasNoFindings) {
   Fill();

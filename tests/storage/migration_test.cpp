@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "storage/schema.h"
 #include "storage/store.h"
 #include "storage/store_fixture.h"
 #include "testing/failing_disk.h"
@@ -85,7 +86,7 @@ TEST_F(MigrationTest, EverythingOfVersion1IsThereAfterwards) {
     }
   }
   store_.reset();
-  EXPECT_EQ(Version(database()), 2);
+  EXPECT_EQ(Version(database()), kSchemaVersion);
   EXPECT_EQ(Rows(database()), before);
 }
 
@@ -141,13 +142,13 @@ TEST_F(MigrationTest, DiskThatFailsAnywhereLeavesTheOldOrTheNew) {
     std::filesystem::remove_all(image);
     std::filesystem::copy(path(), image);
     const int version = Version(image / "contactd.db");
-    EXPECT_TRUE(version == 1 || version == 2) << n;
+    EXPECT_TRUE(version == 1 || version == kSchemaVersion) << n;
     if (version == 1) ++old_left;
     EXPECT_EQ(Rows(image / "contactd.db"), before) << n;
     Open();
     EXPECT_EQ(Sizes()->size(), 2U);
     store_.reset();
-    EXPECT_EQ(Version(database()), 2);
+    EXPECT_EQ(Version(database()), kSchemaVersion);
   }
   EXPECT_GT(old_left, 20) << "the test must bite";
 }

@@ -123,9 +123,14 @@ class StoreTest : public testing::Test {
     Open();
     return bytes;
   }
-  absl::Status Delete(const std::string& name) {
+  absl::Status Delete(const std::string& name, const std::string& expected_uid = "") {
     Await<absl::StatusOr<bool>> result;
-    store_->Delete(name, result.callback());
+    store_->Delete(name, expected_uid, result.callback());
+    return result.Get().status();
+  }
+  absl::Status Compact(const std::string& name) {
+    Await<absl::StatusOr<bool>> result;
+    store_->Compact(name, result.callback());
     return result.Get().status();
   }
 

@@ -316,6 +316,68 @@ TEST_F(StoreTest, DeleteTakesEverythingOfAnEndedJob) {
   EXPECT_EQ(left, 0);
 }
 
+TEST_F(StoreTest, OnlyTheJobExpectedIsDeleted) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  job.set_uid("this");
+  job.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Create(job).ok());
+  const absl::Status refused = Delete("jobs/a", "that");
+  EXPECT_TRUE(absl::IsAborted(refused));
+  EXPECT_EQ(refused.GetPayload(kUidPayload), "this");
+  EXPECT_TRUE(Delete("jobs/a", "this").ok());
+}
+
+TEST_F(StoreTest, CompactionDropsFrameChunksOfAnEndedJobOnly) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  std::vector<v1::Event> events;
+  for (int i = 0; i < 100; ++i) {
+    events.push_back(FrameEvent(64 * i));
+    events.push_back(LogEvent("after chunk " + std::to_string(i)));
+  }
+  ASSERT_TRUE(Append("jobs/a", events).ok());
+  EXPECT_TRUE(absl::IsFailedPrecondition(Compact("jobs/a")));
+  job.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Update({.name = "jobs/a", .job = &job}).ok());
+  EXPECT_EQ(Read("jobs/a")->job.oldest_sequence(), 1U);
+  const std::int64_t before = Sizes()->front().bytes;
+  ASSERT_TRUE(Compact("jobs/a").ok());
+  ASSERT_TRUE(Compact("jobs/a").ok());
+  EXPECT_TRUE(Read("jobs/a")->compacted);
+  EXPECT_EQ(Read("jobs/a")->job.oldest_sequence(), 201U) << "after the last chunk";
+  EXPECT_EQ(ReadEvents({.name = "jobs/a"})->oldest, 201U);
+  // Takes several turns of the store's thread, and goes on after a restart.
+  Open();
+  while (ReadEvents({.name = "jobs/a", .kinds = KindBit(v1::Event::kFrameChunk)})->events.size()) {
+  }
+  EXPECT_LT(Sizes()->front().bytes, before);
+  EXPECT_EQ(Sizes()->front().bytes, StoredBytes("jobs/a"));
+  EXPECT_EQ(ReadEvents({.name = "jobs/a", .max_bytes = 1 << 20})->events.size(), 101U);
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 201U) << "sequences stay";
+}
+
+TEST_F(StoreTest, CheckpointIsReplacedAndGoesWithTheEnd) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  EXPECT_TRUE(Read("jobs/a", JobPart::kRun)->checkpoint.empty());
+  const std::vector<v1::Event> events = {LogEvent("2"), LogEvent("3"), LogEvent("4")};
+  for (const std::string state : {"first", "second"}) {
+    const Checkpoint checkpoint{2, state};
+    ASSERT_TRUE(Update({.name = "jobs/a", .events = events, .checkpoint = &checkpoint}).ok());
+  }
+  EXPECT_EQ(Read("jobs/a", JobPart::kRun)->checkpoint, "second");
+  EXPECT_EQ(Read("jobs/a", JobPart::kRun)->checkpoint_sequence, 6U);
+  EXPECT_TRUE(Read("jobs/a", JobPart::kSpec)->checkpoint.empty()) << "who does not run it";
+  job.set_state(v1::Job::FAILED);
+  job.mutable_end_time()->set_seconds(1);
+  const Checkpoint last{0, "with the end"};
+  ASSERT_TRUE(Update({.name = "jobs/a", .job = &job, .checkpoint = &last}).ok());
+  EXPECT_TRUE(Read("jobs/a", JobPart::kRun)->checkpoint.empty());
+}
+
 TEST_F(StoreTest, CallbacksRunInTheOrderOfTheCalls) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());

@@ -20,6 +20,9 @@ class Await {
   std::function<void(T)> callback() {
     return [promise = promise_](T value) { promise->set_value(std::move(value)); };
   }
+  bool ready() const {
+    return future_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
   T Get() {
     if (future_.wait_for(kPatience) != std::future_status::ready) {
       throw std::runtime_error("no callback");

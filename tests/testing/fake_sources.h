@@ -26,15 +26,19 @@ class FakeClock final : public Clock {
   std::atomic<std::chrono::steady_clock::time_point> elapsed_ = {};
 };
 
-/// a1, a2, a3 …
+/// a1, a2, a3 …; uid-1, uid-2 …
 class CountingIds final : public IdSource {
  public:
   explicit CountingIds(std::string prefix = "a") : prefix_(std::move(prefix)) {}
   std::string NextJobId() override { return prefix_ + std::to_string(++count_); }
+  /// From here on the names come once more.
+  void StartNamesAnew() { count_ = 0; }
+  std::string NextUid() override { return "uid-" + std::to_string(++uids_); }
 
  private:
   const std::string prefix_;
   std::atomic<int> count_ = 0;
+  std::atomic<int> uids_ = 0;
 };
 
 }  // namespace contact

@@ -6,7 +6,7 @@
 
 namespace contact {
 
-/// Owns a file descriptor.
+/// Owns an open file descriptor, or none (-1).
 class FileDescriptor {
  public:
   explicit FileDescriptor(int fd = -1) : fd_(fd) {}

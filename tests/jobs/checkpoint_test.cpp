@@ -1,0 +1,180 @@
+// A long run that the server's death has cut goes on from its last checkpoint.
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <thread>
+
+#include "jobs/lifecycle.h"
+#include "jobs/run_state_codec.h"
+#include "jobs_fixture.h"
+
+namespace contact {
+namespace {
+
+using std::chrono::seconds;
+
+// Passes on what a run tells, and makes a second pass before each boundary. At one of them the run
+// hangs until it is stopped.
+class Interrupter final : public Observer {
+ public:
+  Interrupter(Observer& observer, FakeClock& clock, std::stop_token stop, int hang_at)
+      : observer_(observer), clock_(clock), stop_(std::move(stop)), hang_at_(hang_at) {}
+
+  void OnIteration(const Iteration& iteration) override { observer_.OnIteration(iteration); }
+  void OnCycle(const Cycle& cycle) override { observer_.OnCycle(cycle); }
+  void OnSamples(const Samples& samples) override { observer_.OnSamples(samples); }
+  void OnProgress(const Progress& progress) override { observer_.OnProgress(progress); }
+  void OnWarning(const std::string& warning) override { observer_.OnWarning(warning); }
+  void OnStep() override { observer_.OnStep(); }
+  void OnBoundary(const std::function<RunState()>& state) override {
+    clock_.Advance(seconds(1));
+    observer_.OnBoundary(state);
+    if (++boundaries_ != hang_at_) return;
+    while (!stop_.stop_requested()) {
+      observer_.OnProgress({});  // Lets the log be written.
+      std::this_thread::yield();
+    }
+  }
+
+ private:
+  Observer& observer_;
+  FakeClock& clock_;
+  const std::stop_token stop_;
+  const int hang_at_;
+  int boundaries_ = 0;
+};
+
+class CheckpointTest : public JobsTest {
+ protected:
+  static constexpr int kNever = -1;
+
+  // The real solver; runs that begin anew hang at a boundary.
+  JobManagerOptions Options(int hang_at) {
+    JobManagerOptions options;
+    options.checkpoint_interval = seconds(1);
+    options.run = [this, hang_at](const Scenario& scenario, Observer& observer,
+                                  const std::stop_token& stop) {
+      ++begun_;
+      Interrupter interrupter(observer, clock_, stop, hang_at);
+      return contact::Run(scenario, interrupter, stop);
+    };
+    options.resume = [this](const Scenario& scenario, const RunState& from, Observer& observer,
+                            const std::stop_token& stop) {
+      resumed_from_.push_back(from.state.time);
+      return contact::Resume(scenario, from, observer, stop);
+    };
+    return options;
+  }
+
+  StoredJob Stored(const std::string& name) {
+    Await<absl::StatusOr<StoredJob>> job;
+    store_->Read(name, JobPart::kRun, job.callback());
+    return *job.Get();
+  }
+
+  // Starts the job, and kills the server once a checkpoint after so many events is stored.
+  std::string CutShort(std::uint64_t sequence) {
+    Open(Options(60));
+    const std::string name = Create(Bouncing());
+    while (Stored(name).checkpoint_sequence < sequence) std::this_thread::yield();
+    Crash();
+    return name;
+  }
+
+  static v1::Scenario Bouncing() {
+    v1::Scenario scenario = BouncingBall(10);
+    scenario.mutable_output()->set_sample_interval_s(0.01);
+    scenario.mutable_contacts(0)->set_restitution(0.99);
+    return scenario;
+  }
+
+  // The durable events of the last attempt, without times and places; and the result.
+  std::vector<std::string> Told(const std::string& name) {
+    const v1::Job job = Ended(name);
+    std::vector<std::string> told;
+    for (v1::Event event : Log(name)) {
+      if (event.has_attempt_started()) told.clear();
+      if (event.has_attempt_started() || event.has_progress()) continue;
+      event.clear_sequence();
+      event.clear_event_time();
+      told.push_back(event.SerializeAsString());
+    }
+    v1::Job result;
+    *result.mutable_cycles() = job.cycles();
+    *result.mutable_final_bodies() = job.final_bodies();
+    *result.mutable_warnings() = job.warnings();
+    *result.mutable_summary() = job.summary();
+    result.mutable_summary()->clear_wall_time_s();
+    told.push_back(result.SerializeAsString());
+    return told;
+  }
+
+  int begun_ = 0;
+  std::vector<double> resumed_from_;
+};
+
+TEST_F(CheckpointTest, RunGoesOnToTheSameBytes) {
+  Open(Options(kNever));
+  const std::vector<std::string> undisturbed = Told(Create(Bouncing()));
+  const std::string name = CutShort(40);
+  Open(Options(kNever));
+  EXPECT_EQ(Told(name), undisturbed);
+  ASSERT_EQ(resumed_from_.size(), 1U);
+  EXPECT_GT(resumed_from_[0], 0);
+  EXPECT_EQ(begun_, 2) << "only the first attempts began at the beginning";
+  EXPECT_EQ(Get(name).value().attempt(), 2);
+}
+
+TEST_F(CheckpointTest, ItGoesWithTheEndOfTheJob) {
+  Open(Options(kNever));
+  const std::string name = Create(Bouncing());
+  Ended(name);
+  EXPECT_TRUE(Stored(name).checkpoint.empty());
+}
+
+TEST_F(CheckpointTest, ThereIsNoneBeforeItsTime) {
+  JobManagerOptions options = Options(30);
+  options.checkpoint_interval = seconds(100);
+  Open(options);
+  const std::string name = Create(Bouncing());
+  while (Stored(name).job.last_sequence() < 10) std::this_thread::yield();
+  EXPECT_TRUE(Stored(name).checkpoint.empty());
+}
+
+TEST_F(CheckpointTest, DamagedOneIsAsNone) {
+  Open(Options(kNever));
+  const std::vector<std::string> undisturbed = Told(Create(Bouncing()));
+  const std::string name = CutShort(40);
+  SQLite::Database(directory_.path() / "contactd.db", SQLite::OPEN_READWRITE)
+      .exec("UPDATE checkpoints SET state=zeroblob(100)");
+  Open(Options(kNever));
+  EXPECT_EQ(Told(name), undisturbed);
+  EXPECT_TRUE(resumed_from_.empty());
+}
+
+TEST_F(CheckpointTest, RunWhoseEventsAreDamagedBeginsAnew) {
+  Open(Options(kNever));
+  const std::vector<std::string> undisturbed = Told(Create(Bouncing()));
+  const std::string name = CutShort(40);
+  SQLite::Database(directory_.path() / "contactd.db", SQLite::OPEN_READWRITE)
+      .exec("UPDATE events SET payload=zeroblob(9) WHERE job=2 AND sequence=30");
+  Open(Options(kNever));
+  EXPECT_EQ(Told(name), undisturbed);
+  EXPECT_TRUE(resumed_from_.empty());
+}
+
+TEST(RunStateCodec, RefusesTheBytesOfAnotherBuild) {
+  RunState state;
+  state.state.time = 1.5;
+  state.samples.values = {1, kNaN};
+  const std::string bytes = EncodeRunState(state);
+  ASSERT_TRUE(DecodeRunState(bytes).has_value());
+  EXPECT_EQ(EncodeRunState(*DecodeRunState(bytes)), bytes);
+  std::string other = bytes;
+  ++other[8];  // The first letter of the version, after its length.
+  EXPECT_FALSE(DecodeRunState(other).has_value());
+  EXPECT_FALSE(DecodeRunState(bytes.substr(0, bytes.size() - 1)).has_value());
+  EXPECT_FALSE(DecodeRunState("").has_value());
+}
+
+}  // namespace
+}  // namespace contact
