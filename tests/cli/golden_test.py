@@ -29,7 +29,7 @@ VARIABLE = (
     (r"\b[a-z0-9]{10}(?= (?:            |-o json))", "IDENTIFIER"),
     (r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d", "YYYY-MM-DD hh:mm:ss"),
     (r"[0-9.]+ (?:s|ms|µs) wall", "WALL"),
-    (r"\b\d\.\de-\d\d\b", "N.Ne-NN"),  # Round-off.
+    (r"\b\d\.\de[-+]\d\d\b", "N.Ne-NN"),  # Round-off.
     (r"\d+ steps", "NNN steps"),
     (r"\r\x1b\[K[^\r\n]*(?=\r\x1b\[K)", ""),  # Progress that was erased again.
     (r"(?:\r\x1b\[K)+", ""),
