@@ -1,5 +1,6 @@
 #include "jobs/ending_runs.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -33,8 +34,14 @@ void EndingRuns::Remove(const LogWriter* writer) {
 
 void EndingRuns::AwaitRoom(const std::stop_token& stop) {
   const MutexLock lock(mutex_);
-  removed_.wait(mutex_, stop,
-                [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return bytes_ < kMostBytes; });
+  removed_.wait(mutex_, stop, [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    return bytes_ < kMostBytes && !OutOfSpace();
+  });
+}
+
+bool EndingRuns::OutOfSpace() const {
+  return std::ranges::any_of(
+      endings_, [](const auto& ending) { return ending.second.writer->out_of_space(); });
 }
 
 void EndingRuns::Retry() {

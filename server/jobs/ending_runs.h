@@ -20,8 +20,8 @@ class EndingRuns {
   void Add(std::shared_ptr<LogWriter> writer, std::size_t bytes);
   void Remove(const LogWriter* writer);
 
-  /// Waits while they take too much memory, or until `stop` is requested: so a worker runs ahead of
-  /// the disk by a few MiB, or some hundred jobs.
+  /// Waits while they take too much memory or the store has no space for one, or until `stop` is
+  /// requested: so a worker runs ahead of the disk by a few MiB, or some hundred jobs.
   void AwaitRoom(const std::stop_token& stop);
 
   /// Tries again to store what there was no space for. To be called now and then.
@@ -32,6 +32,8 @@ class EndingRuns {
     std::shared_ptr<LogWriter> writer;
     std::size_t bytes;
   };
+
+  bool OutOfSpace() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   Mutex mutex_;
   std::condition_variable_any removed_;

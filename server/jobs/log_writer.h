@@ -58,6 +58,12 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   /// What was not handed to the store yet takes so many bytes of memory, about.
   std::size_t pending_bytes() const { return pending_.bytes; }
 
+  /// Whether what was handed to the store found no space, and is to be tried again.
+  bool out_of_space() const {
+    const MutexLock lock(mutex_);
+    return disk_ == Disk::kFull;
+  }
+
   /// Called with the job once it is on disk with all its events and the log has them; with null if
   /// it cannot be stored. On the store's thread.
   using Ended = std::function<void(const v1::Job*)>;
@@ -113,7 +119,7 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   Batch batch_;
   std::uint64_t epoch_;
 
-  Mutex mutex_;
+  mutable Mutex mutex_;
   std::condition_variable_any changed_;
   Disk disk_ ABSL_GUARDED_BY(mutex_) = Disk::kIdle;
   bool finishing_ ABSL_GUARDED_BY(mutex_) = false;  ///< The worker is gone.

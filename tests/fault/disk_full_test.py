@@ -69,29 +69,40 @@ class StoreLimitTest(FaultTest):
         scenario.output.sample_interval_s = 1e-5
         golden = self.golden(scenario)
         names = []
+        full = False  # Ends, which are large, find no space before new jobs do.
         with self.assertRaises(grpc.RpcError) as refused:
             for i in range(500):
                 names.append(submit(self.server, self.history, scenario, f"{i}").name)
-                follow_or_leave(self.server, names[-1])
+                full = full or not ends(self.server, names[-1])
         self.assertEqual(details_of(refused.exception)["ErrorInfo"].reason, "STORE_FULL")
         self.assertEqual(get(self.server, self.history, names[0]).state, Job.SUCCEEDED)
-        for name in [job.name for job in all_jobs(self.server, states=[Job.SUCCEEDED])]:
-            with self.history.call("delete", name=name) as call:
-                self.server.delete(name)
-                call.ok()
+        self.delete_ended()
         recovered = wait_for(lambda: all_jobs(self.server, states=[Job.SUCCEEDED]))
+        wait_for(self.all_have_ended)
         submit(self.server, self.history, scenario, "after")
         self.figures |= dict(jobs=len(names))
         self.assertKept("recovered_after", recovered, 2)
         self.assertPromises(self.server, golden=golden, max_attempts=1)
 
+    def delete_ended(self):
+        for job in all_jobs(self.server, states=[Job.SUCCEEDED]):
+            with self.history.call("delete", name=job.name) as call:
+                self.server.delete(job.name)
+                call.ok()
 
-def follow_or_leave(server, name):
-    """Waits for the end of the job for a second: on a full store it does not come."""
+    def all_have_ended(self):
+        """Those who waited for space need it one after the other."""
+        self.delete_ended()
+        return not all_jobs(self.server, states=[Job.QUEUED, Job.RUNNING])
+
+
+def ends(server, name):
+    """Whether it ends within a second: on a full store it does not."""
     try:
         wait_for(lambda: server.get(name).state == Job.SUCCEEDED, limit=1)
+        return True
     except AssertionError:
-        pass
+        return False
 
 
 if __name__ == "__main__":
