@@ -389,12 +389,24 @@ class ExitCodeTest(CliTest):
                 elif command[0] == "watch":
                     read_until(process.stdout, b"cycle 1")
                 else:
-                    time.sleep(0.3)  # It says nothing; before it listens it dies by the signal.
+                    until_it_listens(process)  # It says nothing; before, it dies by the signal.
                 process.send_signal(signal.SIGINT)
                 out, said = process.communicate(timeout=PATIENCE_S)
                 self.assertEqual(process.returncode, 130, said)
                 self.assertIn(b"the job continues: contactctl watch ", said)
         self.assertEqual(len(self.run_it("list", "--state", "RUNNING", "-o", "name")[0].split()), 1)
+
+
+def until_it_listens(process):
+    """Waits until the process handles SIGINT."""
+    deadline = time.monotonic() + PATIENCE_S
+    while time.monotonic() < deadline:
+        status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
+        caught = int(status.split("SigCgt:")[1].split()[0], 16)
+        if caught & 1 << (signal.SIGINT - 1):
+            return
+        time.sleep(0.01)
+    raise AssertionError("it never listened")
 
 
 def shut(one):

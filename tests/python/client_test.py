@@ -111,10 +111,12 @@ class ClientTest(ServerTest):
         after = max(event.sequence for event in seen)
         self.addCleanup(self.server.kill)
         heard = []
+        connected = threading.Event()
 
         def listen():
             for event in self.client.watch(name, after_sequence=after, timeout_s=PATIENCE_S):
                 heard.append(event)
+                connected.set()
 
         # A listener that is connected when the link breaks again.
         self.server.flags = (*flags, f"--listen=127.0.0.1:{port}")
@@ -122,6 +124,7 @@ class ClientTest(ServerTest):
         listener = threading.Thread(target=listen)
         listener.start()
         self.server.wait_until(name, lambda e: e.sequence > after and is_cycle(e))
+        self.assertTrue(connected.wait(PATIENCE_S))
         self.server.kill()
         self.server.start()
         self.server.wait_until(name, lambda e: e.HasField("attempt_started")
