@@ -163,7 +163,7 @@ void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
 
 void LogWriter::Failed(const absl::Status& status) {
   if (!std::exchange(batch_.failed, true)) {
-    spdlog::error("{}: cannot store events: {}", name_, status.ToString());
+    spdlog::error("job={} cannot store events: {}", name_, status.ToString());
   }
   if (absl::IsResourceExhausted(status)) {
     Become(Disk::kFull);

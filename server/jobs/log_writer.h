@@ -65,7 +65,7 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   }
 
   /// Called with the job once it is on disk with all its events and the log has them; with null if
-  /// it cannot be stored. On the store's thread.
+  /// it cannot be stored. On the store's thread, or in Finish if the store had failed before.
   using Ended = std::function<void(const v1::Job*)>;
   /// Stores the job with the last event, after all that was added. Does not wait; until `ended` is
   /// called the run counts as reporting. False: it was given up, and `ended` is not called.

@@ -70,7 +70,7 @@ class EpisodeSolver final : public CycleHost {
     double pass_mu = 0;        // Of the last pass.
     double start_mu = 0;       // The first guess.
     double best_mu = 0;        // Of the best pass.
-    double settled_mu = kNaN;  // When all in a smaller window had converged.
+    double settled_mu = kNaN;  // When all in the last window had converged.
     double restitution_in = kNaN;
     double goal = 1;                    // A(ε_in),
     double residual = kNaN, slope = 0;  // A(ε_out)/A(ε_in) − 1 of the last pass; d/d(ε_out²).
@@ -81,13 +81,12 @@ class EpisodeSolver final : public CycleHost {
     bool corrected = false;            // Its μ is no mere guess any more.
     bool weak = false;                 // Its W_c is next to nothing.
     double length = 0, speed = 0;      // Scales of its motion in the first pass.
-    double work = 0;
-    double squared = kNaN;       // ε_out² = −W_r/W_c of the last pass.
-    Eigen::ArrayXd gradient;     // ∂ε_out²/∂μ of each column.
-    double frozen_slope = kNaN;  // Paper (30).
-    double low = 0, high = 0;    // μ known to give too much, too little restitution; 0: none.
-    int shrinks = 0;             // Corrections in a row that wanted μ ≤ 0.
-    int wild = 0;                // Corrections in all that were clipped.
+    double squared = kNaN;             // ε_out² = −W_r/W_c of the last pass.
+    Eigen::ArrayXd gradient;           // ∂ε_out²/∂μ of each column.
+    double frozen_slope = kNaN;        // Paper (30).
+    double low = 0, high = 0;  // μ known to give too much, too little restitution; 0: none.
+    int shrinks = 0;           // Corrections in a row that wanted μ ≤ 0.
+    int wild = 0;              // Corrections in all that were clipped.
     bool zero_tried = false;
     Iteration::Update update = Iteration::Update::kNothing;
   };

@@ -32,6 +32,7 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
              "Give reference_velocity_m_per_s");
     return std::isnan(state.last_mu) ? 0 : state.last_mu;
   }
+  if (alpha == 0) return 0;  // ε = 1.
   if (as_paper_) return PaperStartFactor(state, contact, own);
   if (own == 0 && state.last_mu > 0) return state.last_mu;
   if (const double speed = std::max(own, NeighbourSpeed(cycle.contact)); speed > 0) {

@@ -11,11 +11,11 @@ namespace contact {
 /// What an episode knows of a cycle that begins after it, for the next one.
 struct Guess {
   int contact = 0;
-  int number = 1;         ///< Of the contact's cycles.
-  double start_time = 0;  ///< Expected [s].
-  double mu = 0;          ///< The best so far; at first; when all had last converged.
-  double start_mu = 0;
-  double settled_mu = kNaN;
+  int number = 1;                ///< Of the contact's cycles.
+  double start_time = 0;         ///< Expected [s].
+  double mu = 0;                 ///< The last one [N·s/mⁿ⁺¹],
+  double start_mu = 0;           ///< the first, and
+  double settled_mu = kNaN;      ///< the one when all in a window had converged; NaN before.
   double length = 0, speed = 0;  ///< See CycleHost::Factor.
 };
 
