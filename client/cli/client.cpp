@@ -74,7 +74,7 @@ std::string Words(const grpc::Status& status, const std::string& reason,
   std::string words = status.error_message();
   if (!reason.empty()) words += fmt::format(" ({})", reason);
   if (reason == "EVENTS_COMPACTED") {
-    words += "\n  the rest:  contactctl get JOB, contactctl watch JOB --kinds cycle,iteration";
+    words += "\n  the rest:  contactctl describe JOB, contactctl watch JOB --kinds cycle,iteration";
   }
   return words.empty()
              ? fmt::format("the server failed with code {}", static_cast<int>(status.error_code()))

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <memory>
 
 #include "cli/checked_scenario.h"
@@ -10,6 +9,7 @@
 #include "cli/follow.h"
 #include "cli/job_options.h"
 #include "cli/job_source.h"
+#include "cli/no_limits.h"
 #include "cli/render_json.h"
 
 namespace contact::cli {
@@ -34,12 +34,6 @@ v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& 
   arguments.job.Apply(request.mutable_job());
   return request;
 }
-
-// How much is too much is for the server to say.
-constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
-                                   .max_contacts = std::numeric_limits<std::int32_t>::max(),
-                                   .max_samples = std::numeric_limits<std::int64_t>::max(),
-                                   .max_cells = std::numeric_limits<std::int32_t>::max()};
 
 // The same bits are promised of the same server only.
 void TellOfOtherServer(Client& client, const v1::Job& job) {

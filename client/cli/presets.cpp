@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "cli/failure.h"
+#include "cli/no_limits.h"
 #include "cli/run_energy.h"
 #include "wire/scenario_codec.h"
 
@@ -157,9 +157,6 @@ class Artist {
   static constexpr double kLeastResidual = 1e-17;  // Zero has no logarithm.
 
   static Scenario DecodeRun(const v1::Job& job) {
-    constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
-                                       .max_contacts = std::numeric_limits<std::int32_t>::max(),
-                                       .max_samples = std::numeric_limits<std::int64_t>::max()};
     return DecodeScenario(job.scenario(), kNoLimits).scenario;
   }
 

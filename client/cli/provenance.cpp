@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <set>
 
+#include "cli/no_limits.h"
 #include "cli/render_json.h"
 #include "wire/scenario_codec.h"
 
@@ -28,9 +28,6 @@ std::string_view Value(const Provenance& provenance, std::string_view name) {
 }  // namespace
 
 v1::Solver SolverInFull(const v1::Scenario& scenario) {
-  constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
-                                     .max_contacts = std::numeric_limits<std::int32_t>::max(),
-                                     .max_samples = std::numeric_limits<std::int64_t>::max()};
   const SolverOptions options = DecodeScenario(scenario, kNoLimits).scenario.solver;
   v1::Solver solver = scenario.solver();
   solver.set_method(options.fixed_step > 0 ? v1::Solver::RK4 : v1::Solver::ADAPTIVE);

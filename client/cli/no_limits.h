@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "wire/scenario_codec.h"
+
+namespace contact::cli {
+
+/// How much is too much is for the server to say.
+inline constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
+                                          .max_contacts = std::numeric_limits<std::int32_t>::max(),
+                                          .max_samples = std::numeric_limits<std::int64_t>::max(),
+                                          .max_cells = std::numeric_limits<std::int32_t>::max()};
+
+}  // namespace contact::cli
