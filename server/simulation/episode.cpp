@@ -37,7 +37,7 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
 
 void EpisodeSolver::Begin(const State& start, int episode, double until) {
   BeginWith(Guesses(start));
-  factors_are_of_.clear();
+  jacobian_.Forget();
   recording_ = false;
   episode_ = episode;
   iterations_ = best_number_ = 0;
@@ -46,7 +46,7 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   damping_ = 1;
   solved_until_ = start.time;
   guessing_ = true;
-  best_merit_ = merit_ = std::numeric_limits<double>::infinity();
+  StartAfresh();
   const SolverOptions& options = scenario_.solver;
   // A clipped force has a kink that a coarse pass may miss.
   const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "simulation/motion.h"
+#include "simulation/quasi_newton.h"
 #include "simulation/run.h"
 
 namespace contact {
@@ -119,6 +120,8 @@ class EpisodeSolver final : public CycleHost {
   void Finish();
   static void Measure(Unknown& unknown);
   std::vector<Unknown*> LiveUnknowns();
+  static Eigen::VectorXd Values(const std::vector<Unknown*>& live, double Unknown::*value);
+  static QuasiNewton::Cycles CyclesOf(const std::vector<Unknown*>& live);
   void Factorize(const std::vector<Unknown*>& live);
   bool FactorsServe();
   void Correct();
@@ -145,11 +148,11 @@ class EpisodeSolver final : public CycleHost {
   std::vector<bool> missed_;       // Per law.
   double reference_speed_ = 0;     // Largest approach velocity in the episode.
   double damping_ = 1;             // Of the Newton step.
-  double merit_ = 0, best_merit_ = 0;
-  int best_number_ = 0;                              // Corrections before the best pass.
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;     // Of the last Jacobian, which is that
-  std::vector<std::pair<int, int>> factors_are_of_;  // of these contacts and numbers, taken
-  double factors_merit_ = 0;                         // where the merit was this.
+  double merit_ = 0, last_merit_ = 0, best_merit_ = 0;
+  double product_ = 0;    // Of two merits, of which the next pass should leave
+  double curvature_ = 1;  // this part.
+  int best_number_ = 0;   // Corrections before the best pass.
+  QuasiNewton jacobian_;
   enum class Stage {
     kSolving,
     kExpected,  // The recording is expected to be the last pass.

@@ -8,7 +8,9 @@ namespace contact {
 namespace {
 
 constexpr double kLeast = 1e-8, kMost = 1e8;  // μ, in units of the first guess.
-constexpr double kFeigned = 10;               // Residual that a pass may feign, of its tolerance.
+constexpr double kLedWell = 0.3;              // Ratio of merits after a pass without sensitivities.
+constexpr int kFewColumns = 4;                // They cost less than the pass that they save,
+constexpr double kFar = 0.5;                  // and where the merit is more than this.
 constexpr int kWild = 6, kWildIfWeak = 3;     // Corrections out of bounds before it is given up.
 constexpr double kHeldSamples = 4096;         // That a recording may have to take back.
 
@@ -34,16 +36,27 @@ std::vector<EpisodeSolver::Unknown*> EpisodeSolver::LiveUnknowns() {
   return live;
 }
 
-// The Jacobian of the residuals by the relative changes of μ, from the last pass.
+Eigen::VectorXd EpisodeSolver::Values(const std::vector<Unknown*>& live, double Unknown::*value) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(live.size()));
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = live[i]->*value;
+  }
+  return values;
+}
+
+QuasiNewton::Cycles EpisodeSolver::CyclesOf(const std::vector<Unknown*>& live) {
+  QuasiNewton::Cycles cycles;
+  for (const Unknown* u : live) cycles.emplace_back(u->contact, u->number);
+  return cycles;
+}
+
+// Takes the Jacobian of the residuals by the relative changes of μ from the last pass.
 void EpisodeSolver::Factorize(const std::vector<Unknown*>& live) {
   const auto n = static_cast<Eigen::Index>(live.size());
-  factors_are_of_.clear();
-  factors_merit_ = std::max(Merit(), kFeigned * tolerance_);
-  if (n == 0) return;
+  if (n == 0) return jacobian_.Forget();
   Eigen::MatrixXd jacobian(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Unknown& u = *live[static_cast<std::size_t>(i)];
-    factors_are_of_.emplace_back(u.contact, u.number);
     for (Eigen::Index j = 0; j < n; ++j) {
       const Unknown& other = *live[static_cast<std::size_t>(j)];
       const bool known = other.column != kNone && other.column < u.gradient.size();
@@ -51,18 +64,14 @@ void EpisodeSolver::Factorize(const std::vector<Unknown*>& live) {
       if (i == j && u.mu == 0) jacobian(i, j) = 1;  // Its correction is none of Newton's.
     }
   }
-  factors_.compute(jacobian);
+  jacobian_.Set(CyclesOf(live), Values(live, &Unknown::pass_mu), Values(live, &Unknown::residual),
+                jacobian);
 }
 
 // Whether the last Jacobian may correct this pass, which has none of its own: it is of the same
 // cycles, and has led well so far.
 bool EpisodeSolver::FactorsServe() {
-  const std::vector<Unknown*> live = LiveUnknowns();
-  return Merit() <= 0.1 * merit_ &&
-         std::equal(live.begin(), live.end(), factors_are_of_.begin(), factors_are_of_.end(),
-                    [](const Unknown* u, const auto& of) {
-                      return u->contact == of.first && u->number == of.second;
-                    });
+  return Merit() <= kLedWell * merit_ && jacobian_.IsOf(CyclesOf(LiveUnknowns()));
 }
 
 // (N2): relative corrections of μ that bring every A(ε_out) to A(ε_in), to first order.
@@ -79,18 +88,20 @@ void EpisodeSolver::Correct() {
   const std::vector<Unknown*> live = LiveUnknowns();
   if (live.empty()) return;
   const double merit = Merit();
-  if (sensitive_) Factorize(live);
-  Eigen::VectorXd step(static_cast<Eigen::Index>(live.size()));
-  for (std::size_t i = 0; i < live.size(); ++i) {
-    step[static_cast<Eigen::Index>(i)] = -live[i]->residual;
+  if (sensitive_) {
+    Factorize(live);
+  } else {
+    jacobian_.Update(Values(live, &Unknown::pass_mu), Values(live, &Unknown::residual));
   }
-  step = factors_.solve(step).eval();
+  Eigen::VectorXd step = jacobian_.Step();
   if (!step.allFinite()) {
     for (std::size_t i = 0; i < live.size(); ++i) {
       step[static_cast<Eigen::Index>(i)] = 1 / (1 + live[i]->residual) - 1;
     }
   }
   damping_ = merit > 2 * merit_ ? std::max(0.25 * damping_, 0.05) : std::min(1.0, 2 * damping_);
+  if (product_ > 0) curvature_ = std::clamp(merit / product_, 0.05, 1.0);
+  last_merit_ = merit_;
   merit_ = merit;
   for (std::size_t i = 0; i < live.size(); ++i) {
     MoveBy(*live[i], damping_ * step[static_cast<Eigen::Index>(i)], live.size() == 1);
@@ -142,15 +153,18 @@ void EpisodeSolver::PlanLastPasses(bool converges) {
   if (converges && closed_ && few) stage_ = Stage::kExpected;
 }
 
-// (N5): a correction leaves the product of the residual and of the one at which its Jacobian was
-// taken. A pass that is not the last but one need not be exact, and no Jacobian is needed for what
-// the last one can do.
+// (N5): a correction leaves a part, the curvature, of the product of the residual and of the one at
+// which its Jacobian was taken, or last updated. A pass that is not the last but one need not be
+// exact, and no Jacobian is needed for what the last one can do.
 void EpisodeSolver::PlanNextPass() {
   const double wanted = scenario_.solver.restitution_tolerance;
-  const double next = merit_ * factors_merit_;
+  product_ = merit_ * (sensitive_ ? merit_ : last_merit_);
+  const double next = curvature_ * product_;
+  const double after = curvature_ * next * merit_;
   const bool full = damping_ == 1;
-  if (full && next * factors_merit_ <= wanted) return PlanLastPasses(next <= 0.1 * wanted);
-  sensitive_ = true;
+  if (full && next <= 0.5 * wanted) return PlanLastPasses(true);
+  if (full && after <= wanted) return PlanLastPasses(false);
+  sensitive_ = !full || merit_ > kFar || columns_ <= kFewColumns;
   if (!full || next * next <= 10 * wanted) tolerance_ = fine_;
 }
 

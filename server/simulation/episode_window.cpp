@@ -82,6 +82,8 @@ bool EpisodeSolver::Widen() {
 void EpisodeSolver::StartAfresh() {
   best_number_ = iterations_;
   best_merit_ = merit_ = std::numeric_limits<double>::infinity();
+  product_ = 0;
+  curvature_ = 1;
 }
 
 // Leaves the cycle alone that keeps the others from their solution. False: there is no other.
