@@ -112,6 +112,23 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
 template <class Count>
 [[gnu::always_inline]] inline void Equations::AddContacts(Count n, const double* y, double* dy,
                                                           double* works, double pace) const {
+  double* a = dy + n;
+  for (const ActiveContact& c : active) {
+    const double rate = c.Relative(y + n);
+    const double force = pace * c.ForceAt(c.Relative(y) - c.gap, rate);
+    a[c.left] -= force * c.left_inverse;
+    a[c.right] += force * c.right_inverse;
+    works[c.contact] = force * rate;                    // (W1)
+    if (recording) dy[impulse()] += force * c.outward;  // (B2)
+  }
+}
+
+// The same with the variational equations (S1): y' = f(y, μ) differentiated by the μ of each
+// column.
+template <class Count>
+[[gnu::always_inline]] inline void Equations::AddSensitiveContacts(Count n, const double* y,
+                                                                   double* dy, double* works,
+                                                                   double pace) const {
   const std::ptrdiff_t sensitive = tangents();
   for (const ActiveContact& contact : active) {
     const ActiveContact c = contact;  // A copy, which no store to dy can change.
@@ -122,9 +139,7 @@ template <class Count>
     double* work = works + c.contact;
     a[c.left] -= force * c.left_inverse;
     a[c.right] += force * c.right_inverse;
-    *work = force * rate;                               // (W1)
-    if (recording) dy[impulse()] += force * c.outward;  // (B2)
-    // The variational equations (S1): y' = f(y, μ) differentiated by the μ of each column.
+    *work = force * rate;
     const double* u = y;
     for (std::ptrdiff_t column = 0; column < sensitive; ++column) {
       u += 2 * n;
@@ -158,6 +173,7 @@ template <class Count>
     dy[n + load.body] += pace * LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
   if (!scenario_.supports.empty()) AddSupports(y, dy, pace);
+  if (tangents() > 0) return AddSensitiveContacts(n, y, dy, works, pace);
   AddContacts(n, y, dy, works, pace);
   if (recording) AddRecord(t, y, dy, pace);
 }

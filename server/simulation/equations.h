@@ -57,6 +57,13 @@ struct ActiveContact {
     return {power * load, 1.5 * root * load, mu * power, power * rate};
   }
   Force General(double deformation, double rate) const;
+  /// At(…).force alone.
+  double ForceAt(double deformation, double rate) const {
+    if (!plain) return General(deformation, rate).force;
+    const double load = stiffness + mu * rate;
+    if (deformation <= 0 || (clipped && load < 0)) return 0;
+    return deformation * std::sqrt(deformation) * load;
+  }
   /// Whether (M2) would pull and is clipped; at δ ≤ 0 whether it does so just before.
   bool Clips(double deformation, double rate) const {
     if (!clipped) return false;
@@ -131,6 +138,8 @@ class Equations {
   void AddSupports(const double* y, double* dy, double pace) const;
   template <class Count>
   void AddContacts(Count n, const double* y, double* dy, double* works, double pace) const;
+  template <class Count>
+  void AddSensitiveContacts(Count n, const double* y, double* dy, double* works, double pace) const;
   template <class Count>
   void Evaluate(Count n, double t, const double* y, double* dy, double pace) const;
   void AddRecord(double t, const double* y, double* dy, double pace) const;
