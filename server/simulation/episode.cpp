@@ -55,7 +55,7 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
                               tolerance_)
                  : 0;
   sensitive_ = !as_paper_;
-  window_ = FirstWindow();
+  window_ = FirstWindow(start);
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
 }
 

@@ -104,7 +104,7 @@ class EpisodeSolver final : public CycleHost {
   std::vector<Guess> Guesses(const State& end) const;
   void BeginWith(const std::vector<Guess>& guesses);
   Unknown MakeUnknown(int contact, int number) const;
-  int FirstWindow() const;
+  int FirstWindow(const State& start) const;
   bool AnyFinal();
   bool Widen();
   void StartAfresh();

@@ -49,10 +49,13 @@ void EpisodeSolver::BeginWith(const std::vector<Guess>& guesses) {
   }
 }
 
-int EpisodeSolver::FirstWindow() const {
+// While one cycle lasts, about as many begin as are running.
+int EpisodeSolver::FirstWindow(const State& start) const {
   if (as_paper_) return motion_.max_cycles();
   const int known = static_cast<int>(unknowns_.size());
-  return std::min(std::max(known, kFirstWindow), motion_.max_cycles());
+  const auto running = static_cast<int>(std::ranges::count_if(
+      start.contacts, [](const ContactState& c) { return c.phase == Phase::kRestitution; }));
+  return std::min(std::max({known, kFirstWindow, running + kMoreCycles}), motion_.max_cycles());
 }
 
 // Whether some cycles are final, so that the episode can be recorded up to the first that is not:
