@@ -12,13 +12,14 @@ namespace {
 constexpr double kForever = 1e300;
 constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
 constexpr std::int64_t kStepsPerPass = 5'000;
-constexpr int kPatience = 12;          // Corrections without a better pass.
-constexpr double kCoarse = 1e-6;       // Relative tolerance of the first passes, and
-constexpr double kCoarseError = 1e-4;  // the residual that it may feign.
-constexpr double kFine = 0.03;         // Of ξ: tolerance of the last pass but one.
-constexpr double kNear = 0.02;         // A merit at which the guesses are left alone.
-constexpr double kWeak = 1e-5;         // W_c of a contact's largest.
-constexpr double kLeastGoal = 1e-6;    // A(ε_in) to which residuals are relative.
+constexpr int kPatience = 12;            // Corrections without a better pass.
+constexpr double kCoarse = 1e-6;         // Relative tolerance of the first passes, and
+constexpr double kCoarseError = 1e-4;    // the residual that it may feign.
+constexpr double kFine = 0.03;           // Of ξ: tolerance of the last pass but one.
+constexpr std::size_t kFewContacts = 4;  // Whose first pass has sensitivities.
+constexpr double kNear = 0.02;           // A merit at which the guesses are left alone.
+constexpr double kWeak = 1e-5;           // W_c of a contact's largest.
+constexpr double kLeastGoal = 1e-6;      // A(ε_in) to which residuals are relative.
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -54,7 +55,8 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   fine_ = coarse ? std::clamp(kFine * options.restitution_tolerance, options.relative_tolerance,
                               tolerance_)
                  : 0;
-  sensitive_ = !as_paper_;
+  // Of many cycles it is not known yet which end, and so have a μ to be found.
+  sensitive_ = !as_paper_ && scenario_.contacts.size() <= kFewContacts;
   window_ = FirstWindow(start);
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
 }
@@ -125,8 +127,8 @@ void EpisodeSolver::NextPass() {
     PlanLastPasses(done);
     return;
   }
-  if (!done && !sensitive_ && !as_paper_ && !FactorsServe()) {
-    tolerance_ = fine_;  // The same once more, with sensitivities.
+  if (!done && !as_paper_ && (sensitive_ ? LacksColumns() : !FactorsServe())) {
+    tolerance_ = std::max(tolerance_, fine_);  // The same once more, with sensitivities.
     sensitive_ = true;
     return;
   }
@@ -184,6 +186,7 @@ void EpisodeSolver::ForgetPass() {
       u.low = u.high = 0;
       u.shrinks = u.wild = 0;
     }
+    if (u.seen) u.ends = u.ended;
     u.seen = u.ended = false;
     u.squared = u.residual = kNaN;
     u.column = kNone;
@@ -243,7 +246,7 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
   }
   u->pass_mu = u->mu;
   u->start_time = cycle.start_time;
-  if (sensitive_ && u->iterated && u->mu > 0) u->column = columns_++;
+  if (sensitive_ && u->iterated && u->ends && u->mu > 0) u->column = columns_++;
   return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
 }
 

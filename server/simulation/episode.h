@@ -79,6 +79,7 @@ class EpisodeSolver final : public CycleHost {
     Cycle::Status status = Cycle::Status::kNotConverged;
     int column = kNone;
     bool seen = false, ended = false;  // In the last pass.
+    bool ends = true;                  // As far as is known: else no μ of its own is sought.
     bool corrected = false;            // Its μ is no mere guess any more.
     bool weak = false;                 // Its W_c is next to nothing.
     double length = 0, speed = 0;      // Scales of its motion in the first pass.
@@ -124,6 +125,7 @@ class EpisodeSolver final : public CycleHost {
   static QuasiNewton::Cycles CyclesOf(const std::vector<Unknown*>& live);
   void Factorize(const std::vector<Unknown*>& live);
   bool FactorsServe();
+  bool LacksColumns();
   void Correct();
   static void GiveUp(Unknown& unknown);
   void MoveBy(Unknown& unknown, double relative_step, bool alone);

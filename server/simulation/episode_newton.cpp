@@ -74,6 +74,12 @@ bool EpisodeSolver::FactorsServe() {
   return Merit() <= kLedWell * merit_ && jacobian_.IsOf(CyclesOf(LiveUnknowns()));
 }
 
+// Whether a cycle has ended of which that was not expected.
+bool EpisodeSolver::LacksColumns() {
+  return std::ranges::any_of(LiveUnknowns(),
+                             [](const Unknown* u) { return !u->ends && u->mu > 0; });
+}
+
 // (N2): relative corrections of μ that bring every A(ε_out) to A(ε_in), to first order.
 void EpisodeSolver::Correct() {
   for (Unknown& u : unknowns_) {
@@ -164,7 +170,8 @@ void EpisodeSolver::PlanNextPass() {
   const bool full = damping_ == 1;
   if (full && next <= 0.5 * wanted) return PlanLastPasses(true);
   if (full && after <= wanted) return PlanLastPasses(false);
-  sensitive_ = !full || merit_ > kFar || columns_ <= kFewColumns;
+  const bool led_well = merit_ <= kLedWell * last_merit_;
+  sensitive_ = !full || !led_well || merit_ > kFar || columns_ <= kFewColumns;
   if (!full || next * next <= 10 * wanted) tolerance_ = fine_;
 }
 

@@ -84,7 +84,7 @@ bool EpisodeSolver::Widen() {
 // Nothing before compares with what comes.
 void EpisodeSolver::StartAfresh() {
   best_number_ = iterations_;
-  best_merit_ = merit_ = std::numeric_limits<double>::infinity();
+  best_merit_ = merit_ = last_merit_ = std::numeric_limits<double>::infinity();
   product_ = 0;
   curvature_ = 1;
 }
