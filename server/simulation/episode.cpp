@@ -343,6 +343,20 @@ void EpisodeSolver::Label(Cycle& cycle, bool rested, bool weak) const {
   }
 }
 
+// The next episode does not know them: their μ is no unknown of it.
+void EpisodeSolver::HandOver(std::vector<ContactState>& contacts) const {
+  for (ContactState& state : contacts) {
+    const bool runs = state.phase == Phase::kCompression || state.phase == Phase::kRestitution;
+    Cycle& cycle = state.cycle;
+    const Unknown* u = runs ? Find(cycle.contact, cycle.number) : nullptr;
+    if (u == nullptr) continue;
+    cycle.status = u->status;
+    cycle.iterations = u->iterated ? iterations_ : 0;
+    const bool known = u->ended && u->squared >= 0 && u->mu == u->pass_mu;
+    if (known) cycle.restitution_out = std::sqrt(u->squared);
+  }
+}
+
 void EpisodeSolver::FinishCut(const ContactState& state, Cycle& cycle) const {
   const bool turned = state.phase == Phase::kRestitution;
   Label(cycle, state.phase == Phase::kResting, turned && IsWeak(state));

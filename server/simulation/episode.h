@@ -42,6 +42,9 @@ class EpisodeSolver final : public CycleHost {
   /// begins whose end the last pass did not see. `until` if that is at once.
   double SolvedUntil(double until) const;
 
+  /// Writes into the cycles that run on after the episode what became of their requests.
+  void HandOver(std::vector<ContactState>& contacts) const;
+
   /// Forgets the last recording's cycles and takes those that end from now on into the ledger,
   /// with the μ that Solve found.
   void BeginRecording();
@@ -103,6 +106,7 @@ class EpisodeSolver final : public CycleHost {
   std::vector<Guess> Guesses(const State& end) const;
   void BeginWith(const std::vector<Guess>& guesses);
   Unknown MakeUnknown(int contact, int number) const;
+  double Before(double cycle_start, double until) const;
   int FirstWindow() const;
   bool AnyFinal();
   bool Widen();

@@ -13,6 +13,7 @@ namespace {
 constexpr int kFirstWindow = 12;  // Cycles in the first passes,
 constexpr int kMoreCycles = 8;    // and how many more when these have converged.
 constexpr double kFinal = 0.02;   // Change of a final μ [restitution tolerance].
+constexpr double kBefore = 1e-9;  // Of the episode's length: distance of its end from a cycle.
 
 }  // namespace
 
@@ -94,15 +95,21 @@ bool EpisodeSolver::GiveUpWorst() {
   return true;
 }
 
+// A little before the cycle begins, or round-off might let it begin with a μ that is not final.
+double EpisodeSolver::Before(double cycle_start, double until) const {
+  if (cycle_start >= until) return until;
+  return cycle_start - kBefore * (cycle_start - start_time_);
+}
+
 double EpisodeSolver::SolvedUntil(double until) const {
-  if (solved_until_ > start_time_) return std::min(until, solved_until_);
+  if (solved_until_ > start_time_) return Before(solved_until_, until);
   double solved = until;
   bool any = false;
   for (const Unknown& u : unknowns_) {
     any |= u.ended;
     if (u.seen && !u.ended) solved = std::min(solved, u.start_time);
   }
-  return any && solved > start_time_ ? solved : until;
+  return any && solved > start_time_ ? Before(solved, until) : until;
 }
 
 }  // namespace contact
