@@ -29,7 +29,7 @@ void EpisodeSolver::Measure(Unknown& u) {
 std::vector<EpisodeSolver::Unknown*> EpisodeSolver::LiveUnknowns() {
   std::vector<Unknown*> live;
   for (Unknown& u : unknowns_) {
-    if (Live(u)) live.push_back(&u);
+    if (Live(u) && !u.decided) live.push_back(&u);
   }
   return live;
 }
@@ -76,6 +76,7 @@ void EpisodeSolver::Correct() {
     }
     (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
   }
+  if (careful_) Decide();
   const std::vector<Unknown*> live = LiveUnknowns();
   if (live.empty()) return;
   const double merit = Merit();
@@ -90,6 +91,7 @@ void EpisodeSolver::Correct() {
       step[static_cast<Eigen::Index>(i)] = 1 / (1 + live[i]->residual) - 1;
     }
   }
+  if (!careful_ && Lost(live, step)) return BeCareful();
   damping_ = merit > 2 * merit_ ? std::max(0.25 * damping_, 0.05) : std::min(1.0, 2 * damping_);
   merit_ = merit;
   for (std::size_t i = 0; i < live.size(); ++i) {
@@ -107,6 +109,7 @@ void EpisodeSolver::GiveUp(Unknown& u) {
 // (N3): keeps μ > 0, the step within a factor of 8, and, for a cycle alone, within the bracket.
 void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
   u.corrected = true;
+  if (std::abs(u.residual) > kSolved) ++u.corrections;
   u.update = damping_ < 1 ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
   if (u.mu == 0) {  // Feasible after all: somewhere between 0 and what was tried before.
     u.mu = (u.high > 0 ? u.high : u.start_mu) / 2;
@@ -115,8 +118,9 @@ void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
   }
   u.shrinks = relative_step <= -1 ? u.shrinks + 1 : 0;
   if (relative_step <= -0.875 || relative_step >= 7) ++u.wild;
+  if (careful_ && u.corrections > scenario_.solver.max_iterations) return GiveUp(u);
   if (u.wild >= (u.weak ? kWildIfWeak : kWild)) return GiveUp(u);
-  if (u.shrinks >= 3 && !u.zero_tried) {
+  if (u.shrinks >= 3 && !u.zero_tried && !careful_) {
     u.zero_tried = true;
     u.mu = 0;
     u.update = Iteration::Update::kZero;
