@@ -18,6 +18,7 @@ constexpr double kCoarseError = 1e-4;    // the residual that it may feign.
 constexpr double kFine = 0.03;           // Of ξ: tolerance of the last pass but one.
 constexpr std::size_t kFewContacts = 4;  // Whose first pass has sensitivities.
 constexpr double kNear = 0.02;           // A merit at which the guesses are left alone.
+constexpr double kPressed = 1e-3;        // Elastic energy at a start, of a contact's largest W_c.
 constexpr double kWeak = 1e-5;           // W_c of a contact's largest.
 constexpr double kLeastGoal = 1e-6;      // A(ε_in) to which residuals are relative.
 
@@ -31,6 +32,8 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       nothing_to_find_(std::none_of(
           scenario.contacts.begin(), scenario.contacts.end(),
           [](const Contact& c) { return c.damping == DampingLaw::kEnergyRestitution; })),
+      packing_(!scenario.loads.empty() || !scenario.supports.empty() ||
+               scenario.contacts.size() >= scenario.bodies.size()),
       motion_(motion),
       observer_(observer),
       warned_(scenario.contacts.size()),
@@ -51,12 +54,16 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   const SolverOptions& options = scenario_.solver;
   // A clipped force has a kink that a coarse pass may miss.
   const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
-  tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
+  coarse_ = tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
   fine_ = coarse ? std::clamp(kFine * options.restitution_tolerance, options.relative_tolerance,
                               tolerance_)
                  : 0;
   // Of many cycles it is not known yet which end, and so have a μ to be found.
-  sensitive_ = !as_paper_ && scenario_.contacts.size() <= kFewContacts;
+  sensitive_ = !as_paper_ && (packing_ || scenario_.contacts.size() <= kFewContacts);
+  again_ = false;
+  careful_ = false;
+  looks_ = 0;
+  natural_.assign(scenario_.contacts.size(), kNaN);
   window_ = FirstWindow(start);
   stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
 }
@@ -120,22 +127,27 @@ void EpisodeSolver::BeginRecording() {
 
 // Looks at the pass that has been, and decides on the next.
 void EpisodeSolver::NextPass() {
-  const bool done = Done();
+  if (LookAgain() || TakeInNext()) return;
+  const bool done = Done() && !(careful_ && Revive());
   if (!Exact() && (done || (tolerance_ > fine_ && Merit() < kCoarseError))) {
     // The same once more, exactly.
     if (sensitive_) Factorize(LiveUnknowns());
     PlanLastPasses(done);
     return;
   }
-  if (!done && !as_paper_ && (sensitive_ ? LacksColumns() : !FactorsServe())) {
-    tolerance_ = std::max(tolerance_, fine_);  // The same once more, with sensitivities.
+  again_ = !done && !as_paper_ && !again_ && (sensitive_ ? LacksColumns() : !FactorsServe());
+  if (again_) {
+    // The same once more, with sensitivities; not so coarse that it is content with what this
+    // pass was not.
+    if (!sensitive_ && Exact() && packing_) fine_ = 0;
+    tolerance_ = std::max(tolerance_, fine_);
     sensitive_ = true;
     return;
   }
   KeepBest();
   if (done && crowded_ && !AnyFinal() && Widen()) return;
   // Newton that finds nothing better has failed; the paper's rules may be slow.
-  const int most = scenario_.solver.max_iterations;
+  const int most = careful_ ? std::numeric_limits<int>::max() : scenario_.solver.max_iterations;
   const int patience = as_paper_ ? most : best_number_ + kPatience;
   const bool stuck = iterations_ >= patience && iterations_ < most;
   if (!done && stuck && GiveUpWorst()) {
@@ -186,7 +198,7 @@ void EpisodeSolver::ForgetPass() {
       u.low = u.high = 0;
       u.shrinks = u.wild = 0;
     }
-    if (u.seen) u.ends = u.ended;
+    if (u.seen && !packing_) u.ends = u.ended;
     u.seen = u.ended = false;
     u.squared = u.residual = kNaN;
     u.column = kNone;
@@ -242,8 +254,10 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
   u->seen = true;
   const bool law = contact.damping != DampingLaw::kEnergyRestitution;
   if (law || (!u->corrected && (guessing_ || u->start_mu == 0))) {
-    u->mu = u->start_mu = u->best_mu = StartFactor(state, effective_mass, external_force);
+    u->mu = u->start_mu = u->best_mu = FirstFactor(*u, state, effective_mass, external_force);
   }
+  u->pressed =
+      packing_ && ElasticEnergy(contact, cycle.start_deformation) > kPressed * state.largest_work;
   u->pass_mu = u->mu;
   u->start_time = cycle.start_time;
   if (sensitive_ && u->iterated && u->ends && u->mu > 0) u->column = columns_++;
@@ -280,6 +294,7 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
   Unknown* u = Find(cycle.contact, cycle.number);
   if (u != nullptr) {
     u->ended = true;
+    u->end_time = cycle.end_time;
     if (u->length == 0) {
       u->length = length;
       u->speed = speed;
@@ -287,12 +302,16 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
     u->squared = -cycle.work_restitution / cycle.work_compression;
     u->frozen_slope = FrozenSlope(cycle);
     if (u->iterated && std::isfinite(u->squared)) Measure(*u);
+    if (u->iterated) u->natural_mu = natural_[At(cycle.contact)] = NaturalFactor(contact, cycle);
     u->gradient =
         -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
     u->weak = cycle.work_compression <= kWeak * state.largest_work;
     if (weak && u->iterated) {
       u->iterated = false;
       u->status = Cycle::Status::kSettled;
+    } else if (careful_ && !weak && !u->weak && u->status == Cycle::Status::kSettled) {
+      u->iterated = true;  // It was weak only as long as the others were wrong.
+      u->status = Cycle::Status::kNotConverged;
     }
   }
   if (!recording_) return;
@@ -324,15 +343,15 @@ void EpisodeSolver::Label(Cycle& cycle, bool rested, bool weak) const {
   } else {
     const bool cut = cycle.end == Cycle::End::kRunEnd;
     if (u != nullptr) {
-      cycle.iterations = u->iterated ? iterations_ : 0;
+      cycle.iterations = Corrections(*u);
       cycle.status = u->status;
       // What the solving passes saw beyond the end of the run.
       if (cut && u->ended && u->squared >= 0 && u->mu == u->pass_mu) {
         cycle.restitution_out = std::sqrt(u->squared);
       }
     }
-    if (cycle.status == Cycle::Status::kInfeasible &&
-        cycle.restitution_out > cycle.restitution_in) {
+    const bool too_much = cycle.restitution_out > cycle.restitution_in;
+    if (cycle.status == Cycle::Status::kInfeasible && too_much == (cycle.mu == 0)) {
       cycle.status = Cycle::Status::kNotConverged;  // The others have changed since.
     }
     const double miss = std::abs(cycle.restitution_out - cycle.restitution_in);
@@ -344,6 +363,25 @@ void EpisodeSolver::Label(Cycle& cycle, bool rested, bool weak) const {
       cycle.status = Cycle::Status::kSettled;  // It began before this episode, or ends after it.
     }
   }
+}
+
+// The next episode does not know them: their μ is no unknown of it.
+void EpisodeSolver::HandOver(std::vector<ContactState>& contacts) const {
+  for (ContactState& state : contacts) {
+    const bool runs = state.phase == Phase::kCompression || state.phase == Phase::kRestitution;
+    Cycle& cycle = state.cycle;
+    const Unknown* u = runs ? Find(cycle.contact, cycle.number) : nullptr;
+    if (u == nullptr) continue;
+    cycle.status = u->status;
+    cycle.iterations = Corrections(*u);
+    const bool known = u->ended && u->squared >= 0 && u->mu == u->pass_mu;
+    if (known) cycle.restitution_out = std::sqrt(u->squared);
+  }
+}
+
+int EpisodeSolver::Corrections(const Unknown& u) const {
+  if (!u.iterated) return 0;
+  return careful_ ? u.corrections : iterations_;
 }
 
 void EpisodeSolver::FinishCut(const ContactState& state, Cycle& cycle) const {

@@ -43,6 +43,9 @@ class EpisodeSolver final : public CycleHost {
   /// begins whose end the last pass did not see. `until` if that is at once.
   double SolvedUntil(double until) const;
 
+  /// Writes into the cycles that run on after the episode what became of their requests.
+  void HandOver(std::vector<ContactState>& contacts) const;
+
   /// Forgets the last recording's cycles and takes those that end from now on into the ledger,
   /// with the μ that Solve found.
   void BeginRecording();
@@ -66,11 +69,12 @@ class EpisodeSolver final : public CycleHost {
   struct Unknown {
     int contact = 0;
     int number = 1;
-    double start_time = 0;
+    double start_time = 0, end_time = 0;
     double mu = 0;
     double pass_mu = 0;        // Of the last pass.
     double start_mu = 0;       // The first guess.
     double best_mu = 0;        // Of the best pass.
+    double natural_mu = kNaN;  // That suits its duration in the last pass.
     double settled_mu = kNaN;  // When all in the last window had converged.
     double restitution_in = kNaN;
     double goal = 1;                    // A(ε_in),
@@ -82,6 +86,7 @@ class EpisodeSolver final : public CycleHost {
     bool ends = true;                  // As far as is known: else no μ of its own is sought.
     bool corrected = false;            // Its μ is no mere guess any more.
     bool weak = false;                 // Its W_c is next to nothing.
+    bool pressed = false;              // It begins compressed.
     double length = 0, speed = 0;      // Scales of its motion in the first pass.
     double squared = kNaN;             // ε_out² = −W_r/W_c of the last pass.
     Eigen::ArrayXd gradient;           // ∂ε_out²/∂μ of each column.
@@ -90,6 +95,10 @@ class EpisodeSolver final : public CycleHost {
     int shrinks = 0;           // Corrections in a row that wanted μ ≤ 0.
     int wild = 0;              // Corrections in all that were clipped.
     bool zero_tried = false;
+    double low_residual = 0, high_residual = 0;  // At the ends of the bracket.
+    bool decided = false;                        // The next pass tells whether it has a solution.
+    int corrections = 0;                         // Of this μ,
+    int chances = 0;  // and how often it was iterated again after it was given up.
     Iteration::Update update = Iteration::Update::kNothing;
   };
 
@@ -97,6 +106,9 @@ class EpisodeSolver final : public CycleHost {
   void Label(Cycle& cycle, bool rested, bool weak) const;
   Unknown* Find(int contact, int number);
   const Unknown* Find(int contact, int number) const;
+  double NearestNatural(int contact) const;
+  double FirstFactor(const Unknown& unknown, const ContactState& state, double effective_mass,
+                     double external_force);
   double StartFactor(const ContactState& state, double effective_mass, double external_force);
   int Neighbour(int contact, int except) const;
   double NeighbourSpeed(int contact) const;
@@ -105,11 +117,29 @@ class EpisodeSolver final : public CycleHost {
   std::vector<Guess> Guesses(const State& end) const;
   void BeginWith(const std::vector<Guess>& guesses);
   Unknown MakeUnknown(int contact, int number) const;
+  bool Advances(double time) const;
+  double Before(double cycle_start, double until) const;
   int FirstWindow(const State& start) const;
   bool AnyFinal();
   bool Widen();
   void StartAfresh();
   bool GiveUpWorst();
+  bool Lost(const std::vector<Unknown*>& live, const Eigen::VectorXd& step) const;
+  void BeCareful();
+  void Decide();
+  bool DecideOn(Unknown& unknown) const;
+  static void DeclareInfeasible(Unknown& unknown, double mu);
+  bool LookAgain();
+  static double NaturalFactor(const Contact& contact, const Cycle& cycle);
+  void Iterate(Unknown& unknown);
+  void TakeInMore();
+  static constexpr double kSolved = 1e-3;  // Residual of a cycle that lets others be taken in.
+  bool Undecided() const;
+  bool TakeInNext();
+  bool Foreseen(const Unknown& unknown) const;
+  bool MayBeSolved(const Unknown& unknown) const;
+  bool Revive();
+  int Corrections(const Unknown& unknown) const;
   void ForgetPass();
   Motion::Pause Pass(const State& start, const std::stop_token& stop, std::int64_t step_limit);
   void NextPass();
@@ -143,6 +173,7 @@ class EpisodeSolver final : public CycleHost {
   const Scenario& scenario_;
   const bool as_paper_;
   const bool nothing_to_find_;  // Every μ comes from a law.
+  const bool packing_;          // Loads or walls may keep contacts closed.
   Motion& motion_;
   Observer& observer_;
   std::vector<Unknown> unknowns_;  // In order of appearance.
@@ -160,15 +191,22 @@ class EpisodeSolver final : public CycleHost {
     kExpected,  // The recording is expected to be the last pass.
     kSolved,
   } stage_ = Stage::kSolved;
-  double start_time_ = 0;    // Of the episode, and
-  double until_ = 0;         // up to where it may be recorded.
-  double solved_until_ = 0;  // Where the first cycle begins that is not final.
-  int window_ = 0;           // Cycles in a pass at most.
-  bool crowded_ = false;     // The last pass had so many.
-  bool closed_ = false;      // The last pass came to a quiet instant before that.
-  double fine_ = 0;          // Tolerance of the integration that a residual near ξ demands.
-  double tolerance_ = 0;     // Of the integration in this pass, and whether it has
-  bool sensitive_ = true;    // sensitivities.
+  double start_time_ = 0;        // Of the episode, and
+  double until_ = 0;             // up to where it may be recorded.
+  double solved_until_ = 0;      // Where the first cycle begins that is not final.
+  int window_ = 0;               // Cycles in a pass at most.
+  bool careful_ = false;         // Cycles are taken into it one by one, until it has
+  int whole_window_ = 0;         // so many.
+  int looks_ = 0;                // Passes to come that only measure durations.
+  int known_ = 0;                // Cycles with which it begins then.
+  std::vector<double> natural_;  // μ that suits the last cycle of each contact; NaN: none yet.
+  bool crowded_ = false;         // The last pass had so many.
+  bool closed_ = false;          // The last pass came to a quiet instant before that.
+  double fine_ = 0;              // Tolerance of the integration that a residual near ξ demands.
+  double coarse_ = 0;            // Tolerance of the first passes.
+  double tolerance_ = 0;         // Of the integration in this pass, and whether it has
+  bool sensitive_ = true;        // sensitivities.
+  bool again_ = false;           // It is the one before once more, with sensitivities.
   int columns_ = 0;
   int episode_ = 0;
   int iterations_ = 0;

@@ -13,6 +13,28 @@ std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
+// (N7) of the contact's last cycle, or of one next to it that has the same law.
+double EpisodeSolver::NearestNatural(int contact) const {
+  const auto count = static_cast<int>(natural_.size());
+  for (int away = 0; away < count; ++away) {
+    for (const int other : {contact - away, contact + away}) {
+      if (other < 0 || other >= count || !(natural_[At(other)] > 0)) continue;
+      return natural_[At(other)];
+    }
+  }
+  return 0;
+}
+
+// (N1), or (N7) as soon as a pass has seen the cycle or another one of its contact.
+double EpisodeSolver::FirstFactor(const Unknown& u, const ContactState& state,
+                                  double effective_mass, double external_force) {
+  if (careful_ && u.iterated) {
+    if (u.natural_mu > 0) return u.natural_mu;
+    if (const double natural = NearestNatural(u.contact); natural > 0) return natural;
+  }
+  return StartFactor(state, effective_mass, external_force);
+}
+
 double EpisodeSolver::StartFactor(const ContactState& state, double effective_mass,
                                   double external_force) {
   const Cycle& cycle = state.cycle;
@@ -35,7 +57,7 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
   if (alpha == 0) return 0;  // ε = 1.
   if (as_paper_) return PaperStartFactor(state, contact, own);
   if (own == 0 && state.last_mu > 0) return state.last_mu;
-  if (const double speed = std::max(own, NeighbourSpeed(cycle.contact)); speed > 0) {
+  if (const double speed = std::max(own, careful_ ? 0 : NeighbourSpeed(cycle.contact)); speed > 0) {
     return alpha * contact.stiffness / speed;
   }
   if (reference_speed_ > 0) return alpha * contact.stiffness / reference_speed_;

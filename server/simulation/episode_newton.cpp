@@ -31,7 +31,7 @@ void EpisodeSolver::Measure(Unknown& u) {
 std::vector<EpisodeSolver::Unknown*> EpisodeSolver::LiveUnknowns() {
   std::vector<Unknown*> live;
   for (Unknown& u : unknowns_) {
-    if (Live(u)) live.push_back(&u);
+    if (Live(u) && !u.decided) live.push_back(&u);
   }
   return live;
 }
@@ -61,7 +61,8 @@ void EpisodeSolver::Factorize(const std::vector<Unknown*>& live) {
       const Unknown& other = *live[static_cast<std::size_t>(j)];
       const bool known = other.column != kNone && other.column < u.gradient.size();
       jacobian(i, j) = known ? u.slope * u.gradient[other.column] * other.mu : 0;
-      if (i == j && u.mu == 0) jacobian(i, j) = 1;  // Its correction is none of Newton's.
+      // Its correction is none of Newton's, or that of an isolated collision.
+      if (i == j && (u.mu == 0 || u.column == kNone)) jacobian(i, j) = 1;
     }
   }
   jacobian_.Set(CyclesOf(live), Values(live, &Unknown::pass_mu), Values(live, &Unknown::residual),
@@ -91,6 +92,7 @@ void EpisodeSolver::Correct() {
     }
     (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
   }
+  if (careful_) Decide();
   const std::vector<Unknown*> live = LiveUnknowns();
   if (live.empty()) return;
   const double merit = Merit();
@@ -105,6 +107,7 @@ void EpisodeSolver::Correct() {
       step[static_cast<Eigen::Index>(i)] = 1 / (1 + live[i]->residual) - 1;
     }
   }
+  if (!careful_ && Lost(live, step)) return BeCareful();
   damping_ = merit > 2 * merit_ ? std::max(0.25 * damping_, 0.05) : std::min(1.0, 2 * damping_);
   if (product_ > 0) curvature_ = std::clamp(merit / product_, 0.05, 1.0);
   last_merit_ = merit_;
@@ -124,6 +127,7 @@ void EpisodeSolver::GiveUp(Unknown& u) {
 // (N3): keeps μ > 0, the step within a factor of 8, and, for a cycle alone, within the bracket.
 void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
   u.corrected = true;
+  if (std::abs(u.residual) > kSolved) ++u.corrections;
   u.update = damping_ < 1 ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
   if (u.mu == 0) {  // Feasible after all: somewhere between 0 and what was tried before.
     u.mu = (u.high > 0 ? u.high : u.start_mu) / 2;
@@ -132,8 +136,9 @@ void EpisodeSolver::MoveBy(Unknown& u, double relative_step, bool alone) {
   }
   u.shrinks = relative_step <= -1 ? u.shrinks + 1 : 0;
   if (relative_step <= -0.875 || relative_step >= 7) ++u.wild;
+  if (careful_ && u.corrections > scenario_.solver.max_iterations) return GiveUp(u);
   if (u.wild >= (u.weak ? kWildIfWeak : kWild)) return GiveUp(u);
-  if (u.shrinks >= 3 && !u.zero_tried) {
+  if (u.shrinks >= 3 && !u.zero_tried && !careful_) {
     u.zero_tried = true;
     u.mu = 0;
     u.update = Iteration::Update::kZero;
@@ -171,7 +176,7 @@ void EpisodeSolver::PlanNextPass() {
   if (full && next <= 0.5 * wanted) return PlanLastPasses(true);
   if (full && after <= wanted) return PlanLastPasses(false);
   const bool led_well = merit_ <= kLedWell * last_merit_;
-  sensitive_ = !full || !led_well || merit_ > kFar || columns_ <= kFewColumns;
+  sensitive_ = !full || packing_ || !led_well || merit_ > kFar || columns_ <= kFewColumns;
   if (!full || next * next <= 10 * wanted) tolerance_ = fine_;
 }
 

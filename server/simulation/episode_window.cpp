@@ -10,9 +10,11 @@
 namespace contact {
 namespace {
 
-constexpr int kFirstWindow = 12;  // Cycles in the first passes,
-constexpr int kMoreCycles = 8;    // and how many more when these have converged.
-constexpr double kFinal = 0.02;   // Change of a final μ [restitution tolerance].
+constexpr int kFirstWindow = 12;        // Cycles in the first passes,
+constexpr int kMoreCycles = 8;          // and how many more when these have converged.
+constexpr double kFinal = 0.02;         // Change of a final μ [restitution tolerance].
+constexpr double kLeastAdvance = 1e-3;  // Of what a pass sees.
+constexpr double kBefore = 1e-9;  // Of the episode's length: distance of its end from a cycle.
 
 }  // namespace
 
@@ -62,20 +64,29 @@ int EpisodeSolver::FirstWindow(const State& start) const {
 // they have the μ that they had when the cycles of the window before had converged.
 bool EpisodeSolver::AnyFinal() {
   const double change = kFinal * scenario_.solver.restitution_tolerance;
+  const bool packed = std::ranges::any_of(
+      unknowns_, [](const Unknown& u) { return u.seen && u.pressed && !u.weak; });
   solved_until_ = std::numeric_limits<double>::infinity();
   for (Unknown& u : unknowns_) {
     if (!u.seen) continue;
     const double before = std::exchange(u.settled_mu, u.mu);
-    const bool final = u.ended && (!u.iterated || std::abs(u.mu - before) <= change * u.mu);
+    const bool final = u.ended && (!u.iterated || std::abs(u.mu - before) <= change * u.mu) &&
+                       (!packed || Foreseen(u));
     if (!final) solved_until_ = std::min(solved_until_, u.start_time);
   }
-  return solved_until_ > start_time_;
+  return Advances(solved_until_);
+}
+
+// Whether an episode that ends there would not be next to nothing.
+bool EpisodeSolver::Advances(double time) const {
+  return time > start_time_ && time - start_time_ > kLeastAdvance * (motion_.time() - start_time_);
 }
 
 // Takes in more cycles, if there may be more.
 bool EpisodeSolver::Widen() {
   if (window_ >= motion_.max_cycles()) return false;
-  window_ = std::min(window_ + kMoreCycles, motion_.max_cycles());
+  whole_window_ = std::min(window_ + kMoreCycles, motion_.max_cycles());
+  window_ = careful_ ? window_ + 1 : whole_window_;
   guessing_ = true;
   StartAfresh();
   return true;
@@ -99,15 +110,21 @@ bool EpisodeSolver::GiveUpWorst() {
   return true;
 }
 
+// A little before the cycle begins, or round-off might let it begin with a μ that is not final.
+double EpisodeSolver::Before(double cycle_start, double until) const {
+  if (cycle_start >= until) return until;
+  return cycle_start - kBefore * (cycle_start - start_time_);
+}
+
 double EpisodeSolver::SolvedUntil(double until) const {
-  if (solved_until_ > start_time_) return std::min(until, solved_until_);
+  if (Advances(solved_until_)) return Before(solved_until_, until);
   double solved = until;
   bool any = false;
   for (const Unknown& u : unknowns_) {
     any |= u.ended;
     if (u.seen && !u.ended) solved = std::min(solved, u.start_time);
   }
-  return any && solved > start_time_ ? solved : until;
+  return any && Advances(solved) ? Before(solved, until) : until;
 }
 
 }  // namespace contact

@@ -120,6 +120,7 @@ class Runner {
       case Motion::Pause::kQuiet:
       case Motion::Pause::kCrowded:
         state_ = motion_.Save();
+        solver_.HandOver(state_.contacts);
         Scale();
         return;
       case Motion::Pause::kStopped:
