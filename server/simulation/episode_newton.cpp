@@ -58,6 +58,8 @@ void EpisodeSolver::Factorize(const std::vector<Unknown*>& live) {
 // cycles, and has led well so far.
 bool EpisodeSolver::FactorsServe() {
   const std::vector<Unknown*> live = LiveUnknowns();
+  const auto undecided = [](const Unknown& u) { return u.decided || (u.iterated && u.mu == 0); };
+  if (std::ranges::any_of(unknowns_, undecided)) return false;
   return Merit() <= 0.1 * merit_ &&
          std::equal(live.begin(), live.end(), factors_are_of_.begin(), factors_are_of_.end(),
                     [](const Unknown* u, const auto& of) {
@@ -76,7 +78,7 @@ void EpisodeSolver::Correct() {
     }
     (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
   }
-  if (careful_) Decide();
+  if (careful_ && sensitive_) Decide();
   const std::vector<Unknown*> live = LiveUnknowns();
   if (live.empty()) return;
   const double merit = Merit();
