@@ -12,6 +12,7 @@ namespace {
 constexpr double kForever = 1e300;
 constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
 constexpr std::int64_t kStepsPerPass = 5'000;
+constexpr int kCarefulShare = 10;        // Of max_iterations, where cycles are taken in one by one.
 constexpr int kPatience = 12;            // Corrections without a better pass.
 constexpr double kCoarse = 1e-6;         // Relative tolerance of the first passes, and
 constexpr double kCoarseError = 1e-4;    // the residual that it may feign.
@@ -147,7 +148,7 @@ void EpisodeSolver::NextPass() {
   KeepBest();
   if (done && crowded_ && !AnyFinal() && Widen()) return;
   // Newton that finds nothing better has failed; the paper's rules may be slow.
-  const int most = careful_ ? std::numeric_limits<int>::max() : scenario_.solver.max_iterations;
+  const int most = scenario_.solver.max_iterations * (careful_ ? kCarefulShare : 1);
   const int patience = as_paper_ ? most : best_number_ + kPatience;
   const bool stuck = iterations_ >= patience && iterations_ < most;
   if (!done && stuck && GiveUpWorst()) {
@@ -309,9 +310,12 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
     if (weak && u->iterated) {
       u->iterated = false;
       u->status = Cycle::Status::kSettled;
-    } else if (careful_ && !weak && !u->weak && u->status == Cycle::Status::kSettled) {
+    } else if (careful_ && !weak && !u->weak && u->status == Cycle::Status::kSettled &&
+               u->chances < kChances) {
+      ++u->chances;
       u->iterated = true;  // It was weak only as long as the others were wrong.
       u->status = Cycle::Status::kNotConverged;
+      if (std::isfinite(u->squared)) Measure(*u);
     }
   }
   if (!recording_) return;

@@ -98,6 +98,7 @@ class EpisodeSolver final : public CycleHost {
     double low_residual = 0, high_residual = 0;  // At the ends of the bracket.
     bool decided = false;                        // The next pass tells whether it has a solution.
     int corrections = 0;                         // Of this μ,
+    int decisions = 0;                           // How often it was decided,
     int chances = 0;  // and how often it was iterated again after it was given up.
     Iteration::Update update = Iteration::Update::kNothing;
   };
@@ -133,6 +134,7 @@ class EpisodeSolver final : public CycleHost {
   static double NaturalFactor(const Contact& contact, const Cycle& cycle);
   void Iterate(Unknown& unknown);
   void TakeInMore();
+  static constexpr int kChances = 3;       // To be iterated again after it was given up.
   static constexpr double kSolved = 1e-3;  // Residual of a cycle that lets others be taken in.
   bool Undecided() const;
   bool TakeInNext();

@@ -72,6 +72,8 @@ void EpisodeSolver::Factorize(const std::vector<Unknown*>& live) {
 // Whether the last Jacobian may correct this pass, which has none of its own: it is of the same
 // cycles, and has led well so far.
 bool EpisodeSolver::FactorsServe() {
+  const auto undecided = [](const Unknown& u) { return u.decided || (u.iterated && u.mu == 0); };
+  if (std::ranges::any_of(unknowns_, undecided)) return false;
   return Merit() <= kLedWell * merit_ && jacobian_.IsOf(CyclesOf(LiveUnknowns()));
 }
 
@@ -92,7 +94,7 @@ void EpisodeSolver::Correct() {
     }
     (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
   }
-  if (careful_) Decide();
+  if (careful_ && sensitive_) Decide();
   const std::vector<Unknown*> live = LiveUnknowns();
   if (live.empty()) return;
   const double merit = Merit();
@@ -109,7 +111,7 @@ void EpisodeSolver::Correct() {
   }
   if (!careful_ && Lost(live, step)) return BeCareful();
   damping_ = merit > 2 * merit_ ? std::max(0.25 * damping_, 0.05) : std::min(1.0, 2 * damping_);
-  if (product_ > 0) curvature_ = std::clamp(merit / product_, 0.05, 1.0);
+  if (product_ > 0 && !packing_) curvature_ = std::clamp(merit / product_, 0.05, 1.0);
   last_merit_ = merit_;
   merit_ = merit;
   for (std::size_t i = 0; i < live.size(); ++i) {

@@ -12,8 +12,8 @@ namespace {
 constexpr double kFar = 0.05;  // Residual that is none of a cycle nearly solved.
 constexpr double kMostMore = 8, kMostLess = 0.95;  // Relative change of its μ that it may want.
 constexpr double kJump = 0.05;  // Width of a bracket in which no root is looked for.
+constexpr int kDecisions = 20;  // On one cycle.
 constexpr int kLooks = 3;       // Passes with natural μ.
-constexpr int kChances = 3;     // To come back for a cycle that was given up.
 
 }  // namespace
 
@@ -124,7 +124,12 @@ void EpisodeSolver::Decide() {
   for (Unknown& u : unknowns_) {
     u.decided = false;
     if (!Live(u)) continue;
-    u.decided = DecideOn(u);
+    const bool unknown_slope = u.mu > 0 && u.column == kNone;  // It was not iterated so far.
+    u.decided = unknown_slope || DecideOn(u);
+    if (u.decided && ++u.decisions > kDecisions) {
+      u.decided = false;
+      GiveUp(u);
+    }
     any |= u.decided || !u.iterated;
     if (u.decided) u.corrected = true;
   }
@@ -144,7 +149,7 @@ bool EpisodeSolver::DecideOn(Unknown& u) const {
     if (!(u.high > 0)) u.high = -2 * u.residual * u.start_mu;
     return halve();
   }
-  if (std::abs(u.residual) < kFar || u.column == kNone) return false;
+  if (std::abs(u.residual) < kFar) return false;
   const double slope = u.slope * u.gradient[u.column] * u.mu;
   const double step = -u.residual / slope;
   (too_much ? u.low_residual : u.high_residual) = u.residual;
