@@ -101,7 +101,7 @@ void EpisodeSolver::Correct() {
   if (sensitive_) {
     Factorize(live);
   } else {
-    jacobian_.Update(Values(live, &Unknown::pass_mu), Values(live, &Unknown::residual));
+    jacobian_.Update(Values(live, &Unknown::pass_mu), Values(live, &Unknown::residual), !packing_);
   }
   Eigen::VectorXd step = jacobian_.Step();
   if (!step.allFinite()) {
@@ -111,7 +111,7 @@ void EpisodeSolver::Correct() {
   }
   if (!careful_ && Lost(live, step)) return BeCareful();
   damping_ = merit > 2 * merit_ ? std::max(0.25 * damping_, 0.05) : std::min(1.0, 2 * damping_);
-  if (product_ > 0 && !packing_) curvature_ = std::clamp(merit / product_, 0.05, 1.0);
+  if (product_ > 0) curvature_ = std::clamp(merit / product_, 0.05, 1.0);
   last_merit_ = merit_;
   merit_ = merit;
   for (std::size_t i = 0; i < live.size(); ++i) {

@@ -13,10 +13,10 @@ void QuasiNewton::Set(Cycles of, const Eigen::VectorXd& mu, const Eigen::VectorX
   factors_.compute(jacobian_);
 }
 
-void QuasiNewton::Update(const Eigen::VectorXd& mu, const Eigen::VectorXd& r) {
+void QuasiNewton::Update(const Eigen::VectorXd& mu, const Eigen::VectorXd& r, bool learn) {
   const Eigen::VectorXd at = mu.cwiseQuotient(unit_);
   const Eigen::VectorXd step = at - at_;
-  if (const double square = step.squaredNorm(); square > 0) {
+  if (const double square = step.squaredNorm(); learn && square > 0) {
     // From a tangent on, r is a parabola along the step, of which the tangent's miss is half of
     // what the slope has changed.
     const Eigen::VectorXd miss = r - r_ - jacobian_ * step;
