@@ -13,6 +13,7 @@
 #include "cli/job_options.h"
 #include "cli/job_source.h"
 #include "cli/provenance.h"
+#include "cli/picture_source.h"
 #include "cli/render_sweep.h"
 #include "cli/sweep_file.h"
 #include "cli/watch.h"
@@ -99,7 +100,7 @@ void DrawHeatMap(const v1::Job& job, const SweepCells& cells, const SweepArgumen
   }
   const int metric = MetricOf(job.sweep(), arguments.metric);
   DrawScript(HeatMapScript(job, cells, metric, format, path), path);
-  if (format == "svg") DescribeSvg(path, job.sweep().base().title(), {SourceOf(job)});
+  DescribePicture(format, path, job.sweep().base().title(), {SourceOf(job)});
   fmt::print(stderr, "{}\n", path);
 }
 

@@ -1,0 +1,87 @@
+#include "cli/picture_source.h"
+
+#include <fmt/format.h>
+
+#include <boost/crc.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#define POINTERHOLDER_TRANSITION 4  // std::shared_ptr only.
+#include <qpdf/QPDF.hh>
+#include <qpdf/QPDFWriter.hh>
+
+#include "cli/failure.h"
+#include "cli/html.h"
+#include "cli/text_file.h"
+
+namespace contact::cli {
+namespace {
+
+// Puts `content` in the place of what the first element of this name has: gnuplot names itself.
+void Replace(const std::string& element, const std::string& content, std::string* svg) {
+  const std::string open = fmt::format("<{}>", element);
+  const auto begin = svg->find(open);
+  const auto end = svg->find(fmt::format("</{}>", element));
+  if (begin == std::string::npos || end == std::string::npos) return;
+  svg->replace(begin + open.size(), end - begin - open.size(), content);
+}
+
+std::string BigEndian(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    bytes += static_cast<char>((value >> static_cast<unsigned>(shift)) & 0xFFU);
+  }
+  return bytes;
+}
+
+// An iTXt chunk of PNG: UTF-8, not compressed, in no named language.
+std::string TextChunk(std::string_view keyword, std::string_view text) {
+  using namespace std::string_literals;
+  const std::string content = fmt::format("iTXt{}{}{}", keyword, "\0\0\0\0\0"s, text);
+  boost::crc_32_type crc;
+  crc.process_bytes(content.data(), content.size());
+  return BigEndian(static_cast<std::uint32_t>(content.size() - 4)) + content +
+         BigEndian(crc.checksum());
+}
+
+std::string DescribedPng(std::string png, const std::string& title, const std::string& lines) {
+  constexpr std::size_t kHeader = 8 + 25;  // Signature and IHDR, which comes first.
+  return png.insert(kHeader, TextChunk("Title", title) + TextChunk("Description", lines));
+}
+
+std::string DescribedPdf(const std::string& bytes, const std::string& title,
+                         const std::string& lines) {
+  QPDF pdf;
+  pdf.processMemoryFile("picture", bytes.data(), bytes.size());
+  QPDFObjectHandle information = pdf.getTrailer().getKey("/Info");
+  information.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
+  information.replaceKey("/Subject", QPDFObjectHandle::newUnicodeString(lines));
+  information.removeKey("/CreationDate");
+  QPDFWriter writer(pdf);
+  writer.setDeterministicID(true);
+  writer.setOutputMemory();
+  writer.write();
+  const auto written = writer.getBufferSharedPointer();
+  return {reinterpret_cast<const char*>(written->getBuffer()), written->getSize()};
+}
+
+}  // namespace
+
+void DescribePicture(std::string_view format, const std::string& path, const std::string& title,
+                     const std::vector<Provenance>& sources) try {
+  std::string picture = ReadText(path);
+  const std::string lines = Lines(sources, "");
+  if (format == "png") {
+    picture = DescribedPng(std::move(picture), title, lines);
+  } else if (format == "pdf") {
+    picture = DescribedPdf(picture, title, lines);
+  } else {
+    Replace("title", HtmlText(title), &picture);
+    Replace("desc", HtmlText(lines), &picture);
+  }
+  WriteText(picture, path);
+} catch (const QPDFExc& error) {
+  throw Failure(ExitCode::kLocal, fmt::format("{}: {}", path, error.what()));
+}
+
+}  // namespace contact::cli
