@@ -5,9 +5,10 @@
 
 namespace contact::cli {
 
-/// A scenario that is shipped with the program, from client/scenarios.
+/// A scenario or sweep that is shipped with the program, from client/scenarios.
 struct Template {
-  std::string_view name;  ///< That of its file, without `.yaml`.
+  std::string_view name;   ///< That of its file, without `.yaml`.
+  std::string_view shows;  ///< Its title.
   std::string_view text;
 };
 
