@@ -31,9 +31,12 @@ v1::Job::State ParseState(std::string text) {
                          [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
   if (v1::Job::State_Parse(text, &state) && state != v1::Job::STATE_UNSPECIFIED) return state;
+  const std::string_view nearest =
+      Nearest(text, {"QUEUED", "RUNNING", "SUCCEEDED", "FAILED", "CANCELLED"});
   throw Failure(ExitCode::kUsage,
-                fmt::format("--state {}: one of QUEUED, RUNNING, SUCCEEDED, FAILED, CANCELLED",
-                            Quoted(text)));
+                fmt::format("--state {}: one of QUEUED, RUNNING, SUCCEEDED, FAILED, CANCELLED{}",
+                            Quoted(text),
+                            nearest.empty() ? "" : fmt::format(" — did you mean {}?", nearest)));
 }
 
 // All pages, up to the limit.
@@ -94,7 +97,9 @@ ExitCode List(const ListArguments& arguments, const Settings& settings) {
                {"CONVERGENCE", false, 3},
                {"CREATED (UTC)", false, 1},
                {"ENDED (UTC)", false, 4},
-               {"LABELS", false, 5}});
+               {"LABELS", false, 5},
+               {"CYCLES", true, Table::kOnlyWide},
+               {"ATTEMPT", true, Table::kOnlyWide}});
   for (const v1::Job& job : all.jobs()) {
     if (settings.output == "name") {
       fmt::print("{}\n", job.name());
@@ -106,7 +111,9 @@ ExitCode List(const ListArguments& arguments, const Settings& settings) {
                Convergence(job),
                Instant(job.create_time()),
                Instant(job.end_time()),
-               Labels(job)});
+               Labels(job),
+               fmt::to_string(job.progress().cycles()),
+               fmt::to_string(job.attempt())});
   }
   if (settings.output == "table") fmt::print("{}", table.Text(settings.OutputStyle()));
   if (settings.output == "table" && !all.next_page_token().empty()) {

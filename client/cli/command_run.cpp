@@ -22,6 +22,8 @@ struct RunArguments {
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions job;
+  std::string rows = "first";  ///< Of the μ-iteration.
+  bool cancel_on_interrupt = false;
 };
 
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
@@ -93,13 +95,20 @@ ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
   return ExitCode::kOk;
 }
 
+IterationRows RowsOf(const std::string& word) {
+  if (word == "all") return IterationRows::kAll;
+  return word == "none" ? IterationRows::kNone : IterationRows::kFirst;
+}
+
 ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "json", "name"});
   const auto deadline = settings.Deadline();
   Client client = settings.Connect();
   const v1::Job job = Create(client, arguments);
-  const WatchEnd end = FollowRun(client, job.name(), deadline, settings);
-  if (end != WatchEnd::kFinished) return DetachOrCancel(client, end, job.name(), settings);
+  const WatchEnd end = FollowRun(client, job.name(), deadline, RowsOf(arguments.rows), settings);
+  if (end != WatchEnd::kFinished) {
+    return DetachOrCancel(client, end, job.name(), arguments.cancel_on_interrupt, settings);
+  }
 
   const v1::Job result = GetJob(client, job.name());
   PrintJob(result, settings);
@@ -133,11 +142,24 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
   return arguments;
 }
 
+// How `run` follows what it submitted.
+void AddFollowing(CLI::App& run, RunArguments* arguments) {
+  run.add_option("--iterations", arguments->rows,
+                 "Rows of the μ-iteration to show: the first 60, all or none")
+      ->check(CLI::IsMember({"first", "all", "none"}))
+      ->type_name("ROWS")
+      ->capture_default_str();
+  run.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
+               "A first Ctrl-C cancels the job instead of leaving it to the server");
+}
+
 }  // namespace
 
 void AddRunCommands(CLI::App& app, const Settings& settings, Action* action) {
   CLI::App* run = app.add_subcommand("run", "Submit a scenario, watch it, show its result");
-  run->callback([arguments = AddArguments(*run), &settings, action] {
+  auto arguments = AddArguments(*run);
+  AddFollowing(*run, arguments.get());
+  run->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Run(*arguments, settings); };
   });
   CLI::App* submit = app.add_subcommand("submit", "Submit a scenario and leave");
