@@ -11,13 +11,16 @@
 #include "cli/job_source.h"
 #include "cli/no_limits.h"
 #include "cli/render_json.h"
+#include "cli/sweep_file.h"
+#include "cli/templates.h"
 
 namespace contact::cli {
 namespace {
 
 struct RunArguments {
   std::string file;
-  std::string like;  ///< The job that is repeated instead of a file.
+  std::string like;           ///< The job that is repeated instead of a file.
+  std::string from_template;  ///< The shipped scenario that is taken instead of a file.
   std::vector<std::string> overrides;
   std::vector<std::string> labels;
   std::string request_id;
@@ -49,6 +52,13 @@ void TellOfOtherServer(Client& client, const v1::Job& job) {
              info.revision());
 }
 
+ScenarioFile Checked(ScenarioFile file, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) file.Set(assignment);
+  file.Check(kNoLimits);
+  RequireNoMistakes(file);
+  return file;
+}
+
 // The scenario of an earlier job, with the overrides.
 ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
   const v1::Job job = GetJob(client, arguments.like);
@@ -56,17 +66,27 @@ ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
   }
   TellOfOtherServer(client, job);
-  ScenarioFile file(job.name(), ToJsonLine(job.scenario()));
-  for (const std::string& assignment : arguments.overrides) file.Set(assignment);
-  file.Check(kNoLimits);
-  RequireNoMistakes(file);
-  return file;
+  return Checked(ScenarioFile(job.name(), ToJsonLine(job.scenario())), arguments.overrides);
+}
+
+ScenarioFile OpenTemplate(const RunArguments& arguments) {
+  const Template& scenario = FindTemplate(arguments.from_template);
+  const std::string text(scenario.text);
+  if (IsSweep(text)) {
+    throw Failure(ExitCode::kUsage, fmt::format("{0} is a sweep; contactctl init {0} writes it",
+                                                arguments.from_template));
+  }
+  return Checked(ScenarioFile(arguments.from_template, text), arguments.overrides);
 }
 
 ScenarioFile Open(Client& client, const RunArguments& arguments) {
-  if (arguments.file.empty() == arguments.like.empty()) {
-    throw Failure(ExitCode::kUsage, "give either a FILE or --like JOB");
+  const int sources = static_cast<int>(!arguments.file.empty()) +
+                      static_cast<int>(!arguments.like.empty()) +
+                      static_cast<int>(!arguments.from_template.empty());
+  if (sources != 1) {
+    throw Failure(ExitCode::kUsage, "give a FILE, --template NAME or --like JOB, one of them");
   }
+  if (!arguments.from_template.empty()) return OpenTemplate(arguments);
   return arguments.like.empty() ? OpenChecked(arguments.file, arguments.overrides, kNoLimits)
                                 : OpenLike(client, arguments);
 }
@@ -123,6 +143,10 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
       .add_option("--like", arguments->like,
                   "Repeat this job instead of a file; on the same server bit for bit")
       ->type_name("JOB");
+  command
+      .add_option("-t,--template", arguments->from_template,
+                  "Take a scenario that init would write, instead of a file")
+      ->type_name("TEMPLATE");
   command
       .add_option("--set", arguments->overrides,
                   "Override a field, such as contacts[0].restitution=0.7; repeatable")

@@ -17,7 +17,6 @@
 #include "cli/templates.h"
 #include "cli/text_file.h"
 #include "wire/contact_codec.h"
-#include "wire/spelling.h"
 #include "wire/sweep_codec.h"
 
 namespace contact::cli {
@@ -88,19 +87,6 @@ ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) 
   v1::Job job;
   *job.mutable_scenario() = scenario;
   return ValidateOnServer(job, settings);
-}
-
-const Template& FindTemplate(const std::string& name) {
-  std::vector<std::string_view> names;
-  for (const Template& scenario : Templates()) {
-    if (scenario.name == name) return scenario;
-    names.push_back(scenario.name);
-  }
-  const std::string_view nearest = Nearest(name, names);
-  throw Failure(ExitCode::kUsage,
-                fmt::format("there is no template {} — {}", Quoted(name),
-                            nearest.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
-                                            : fmt::format("did you mean '{}'?", nearest)));
 }
 
 void WriteFile(const std::string& path, std::string_view text, bool force) {

@@ -73,6 +73,9 @@ std::string NextSteps(const v1::Job& job) {
       "Next:  contactctl watch {0}             the iteration and all events again\n"
       "       contactctl describe {0} -o json  every number\n",
       id);
+  if (job.cycles_size() > 0 && !job.scenario().output().ledger_only()) {
+    text += fmt::format("       contactctl plot {} hysteresis   force over deformation\n", id);
+  }
   if (job.convergence() == v1::Job::PARTIAL) {
     text +=
         "Try:   --set solver.max_iterations=200, or --set solver.restitution_tolerance=1e-6,\n"

@@ -5,10 +5,10 @@
 #include <boost/crc.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #define POINTERHOLDER_TRANSITION 4  // std::shared_ptr only.
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFWriter.hh>
+#include <utility>
 
 #include "cli/failure.h"
 #include "cli/html.h"

@@ -23,6 +23,18 @@ std::string Row(const std::string& episode, const std::string& n, const std::str
                      Pad(mu, -15), Pad(out, -13), Pad(error, -9), update);
 }
 
+// The interval in which μ is known to lie; a side that is not known yet is `-`.
+std::string Bracket(const v1::Iteration::Unknown& unknown) {
+  const auto side = [](double mu) { return mu == 0 ? "-" : Digits(mu, 9); };
+  return fmt::format("[{}, {}]", side(unknown.bracket_low()), side(unknown.bracket_high()));
+}
+
+// What stands to the right of a row in wide tables.
+std::string WithBracket(std::string row, const std::string& bracket, const Style& style) {
+  constexpr int kRow = 82;
+  return style.wide ? Pad(row, kRow) + bracket : row;
+}
+
 std::string NextStep(const v1::Iteration& iteration, const v1::Iteration::Unknown& unknown) {
   if (iteration.accepted()) return "accepted";
   if (unknown.update() == v1::Iteration::UPDATE_UNSPECIFIED) return "-";
@@ -95,15 +107,17 @@ void LiveView::ShowIteration(const v1::Iteration& iteration) {
       continue;
     }
     if (!std::exchange(header_shown_, true)) {
-      Write(rows_, Paint(Row("EPISODE", "n", "CONTACT", "μ", "ε OUT", "|Δε|/ε", "NEXT"),
-                         Tone::kFaint, rows_style_));
+      const std::string header = Row("EPISODE", "n", "CONTACT", "μ", "ε OUT", "|Δε|/ε", "NEXT");
+      Write(rows_,
+            Paint(WithBracket(header, "BRACKET OF μ", rows_style_), Tone::kFaint, rows_style_));
     }
     const double error = RestitutionError(unknown.restitution_out(), unknown.restitution_in());
     const std::string row =
         Row(fmt::to_string(iteration.episode()), fmt::to_string(iteration.number()),
             unknown.contact(), Digits(unknown.mu(), 9), Digits(unknown.restitution_out(), 8),
             Error(error), NextStep(iteration, unknown));
-    Write(rows_, Paint(row, iteration.accepted() ? Tone::kStrong : Tone::kPlain, rows_style_));
+    Write(rows_, Paint(WithBracket(row, Bracket(unknown), rows_style_),
+                       iteration.accepted() ? Tone::kStrong : Tone::kPlain, rows_style_));
   }
 }
 

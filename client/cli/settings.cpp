@@ -45,7 +45,11 @@ Style Settings::OutputStyle() const {
   return style;
 }
 
-Style Settings::MessageStyle() const { return StyleOf(STDERR_FILENO, color); }
+Style Settings::MessageStyle() const {
+  Style style = StyleOf(STDERR_FILENO, color);
+  style.wide = wide;
+  return style;
+}
 
 void PrintJob(const v1::Job& job, const Settings& settings) {
   if (settings.output == "name") {

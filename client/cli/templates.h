@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace contact::cli {
@@ -13,5 +14,8 @@ struct Template {
 };
 
 std::span<const Template> Templates();
+
+/// The one of this name. Throws Failure (kUsage) if there is none.
+const Template& FindTemplate(const std::string& name);
 
 }  // namespace contact::cli

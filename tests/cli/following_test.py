@@ -1,5 +1,7 @@
 """How files are checked, submitted and followed, and which columns a table has."""
 
+import contextlib
+import re
 import signal
 import subprocess
 import unittest
@@ -54,6 +56,8 @@ class FollowingTest(CliTest):
         self.assertNotIn("PEAK FORCE [N]", narrow)
         self.assertIn("PEAK FORCE [N]", wide)
         self.assertIn("104.6521", wide)
+        rows = self.run_it("run", CHAIN, "-o", "wide")[1]
+        self.assertRegex(rows, r"NEWTON +\[[-\d.e+]+, [-\d.e+]+\]\n")
         self.assertIn("ATTEMPT", self.run_it("list", "-o", "wide")[0])
 
     def test_server_is_asked_whether_it_would_take_a_file(self):
@@ -61,6 +65,27 @@ class FollowingTest(CliTest):
         self.assertIn(f"contactd at 127.0.0.1:{self.server.port} would take it\n", printed)
         self.run_it("validate", CHAIN, "--on-server", server="127.0.0.1:1", code=4)
         self.assertEqual(self.run_it("list", "-o", "name")[0], "")
+
+    def test_shipped_scenarios_run_without_a_file(self):
+        name = self.run_it("run", "-t", "three-ball-chain", "--set",
+                           "contacts[*].restitution=0.5", "-o", "name")[0].strip()
+        self.assertEqual([c.restitution for c in self.server.get(name).scenario.contacts],
+                         [0.5, 0.5])
+        self.assertIn("did you mean 'two-balls'?",
+                      self.run_it("run", "-t", "two-bals", code=2)[1])
+        self.assertIn("contactctl init table-3-sweep",
+                      self.run_it("submit", "-t", "table-3-sweep", code=2)[1])
+        self.run_it("run", CHAIN, "-t", "two-balls", code=2)
+
+    def test_next_steps_of_a_run_work(self):
+        for flags, shown in (((), True), (("--set", "output.ledger_only=true"), False)):
+            said = self.run_it("run", CHAIN, *flags)[1]
+            steps = re.findall("contactctl ((?:watch|describe|plot) .*?)(?:   |  [a-z])", said)
+            self.assertEqual([step.split()[0] for step in steps],
+                             ["watch", "describe"] + ["plot"] * shown)
+            for step in steps:
+                with contextlib.chdir(self.folder):
+                    self.run_it(*step.split())
 
     def test_grid_of_a_scenario_is_a_sweep(self):
         printed = self.run_it("sweep", "run", CHAIN, "-o", "csv",
