@@ -1,13 +1,13 @@
 #include "cli/picture_source.h"
 
 #include <fmt/format.h>
+#include <qpdf/qpdf-c.h>
 
 #include <boost/crc.hpp>
 #include <cstddef>
 #include <cstdint>
-#define POINTERHOLDER_TRANSITION 4  // std::shared_ptr only.
-#include <qpdf/QPDF.hh>
-#include <qpdf/QPDFWriter.hh>
+#include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "cli/failure.h"
@@ -49,26 +49,38 @@ std::string DescribedPng(std::string png, const std::string& title, const std::s
   return png.insert(kHeader, TextChunk("Title", title) + TextChunk("Description", lines));
 }
 
+struct EndPdf {
+  void operator()(qpdf_data pdf) const { qpdf_cleanup(&pdf); }
+};
+using Pdf = std::unique_ptr<std::remove_pointer_t<qpdf_data>, EndPdf>;
+
+void Check(const Pdf& pdf, QPDF_ERROR_CODE code) {
+  if ((static_cast<unsigned>(code) & QPDF_ERRORS) == 0) return;
+  throw Failure(ExitCode::kLocal, qpdf_get_error_full_text(pdf.get(), qpdf_get_error(pdf.get())));
+}
+
 std::string DescribedPdf(const std::string& bytes, const std::string& title,
                          const std::string& lines) {
-  QPDF pdf;
-  pdf.processMemoryFile("picture", bytes.data(), bytes.size());
-  QPDFObjectHandle information = pdf.getTrailer().getKey("/Info");
-  information.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
-  information.replaceKey("/Subject", QPDFObjectHandle::newUnicodeString(lines));
-  information.removeKey("/CreationDate");
-  QPDFWriter writer(pdf);
-  writer.setDeterministicID(true);
-  writer.setOutputMemory();
-  writer.write();
-  const auto written = writer.getBufferSharedPointer();
-  return {reinterpret_cast<const char*>(written->getBuffer()), written->getSize()};
+  const Pdf pdf(qpdf_init());
+  Check(pdf, qpdf_read_memory(pdf.get(), "picture", bytes.data(), bytes.size(), nullptr));
+  const qpdf_oh about = qpdf_oh_get_key(pdf.get(), qpdf_get_trailer(pdf.get()), "/Info");
+  const auto set = [&](const char* key, const std::string& text) {
+    qpdf_oh_replace_key(pdf.get(), about, key, qpdf_oh_new_unicode_string(pdf.get(), text.c_str()));
+  };
+  set("/Title", title);
+  set("/Subject", lines);
+  qpdf_oh_remove_key(pdf.get(), about, "/CreationDate");
+  Check(pdf, qpdf_init_write_memory(pdf.get()));
+  qpdf_set_deterministic_ID(pdf.get(), QPDF_TRUE);
+  Check(pdf, qpdf_write(pdf.get()));
+  const auto* written = reinterpret_cast<const char*>(qpdf_get_buffer(pdf.get()));
+  return {written, qpdf_get_buffer_length(pdf.get())};
 }
 
 }  // namespace
 
 void DescribePicture(std::string_view format, const std::string& path, const std::string& title,
-                     const std::vector<Provenance>& sources) try {
+                     const std::vector<Provenance>& sources) {
   std::string picture = ReadText(path);
   const std::string lines = Lines(sources, "");
   if (format == "png") {
@@ -80,8 +92,6 @@ void DescribePicture(std::string_view format, const std::string& path, const std
     Replace("desc", HtmlText(lines), &picture);
   }
   WriteText(picture, path);
-} catch (const QPDFExc& error) {
-  throw Failure(ExitCode::kLocal, fmt::format("{}: {}", path, error.what()));
 }
 
 }  // namespace contact::cli

@@ -149,6 +149,7 @@ std::string Steps(const std::string& axis, const std::string& range) {
   if (ends.size() != 3 || !(ends[2] >= 1) || ends[2] > kMost) FailAxis(axis);
   const int count = static_cast<int>(ends[2]);
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     values.push_back(std::lerp(ends[0], ends[1], count == 1 ? 0.0 : 1.0 * i / (count - 1)));
   }
