@@ -119,7 +119,7 @@ std::string PrintValues(const CLI::Option& option, const Settings& settings, con
                         const std::string& prefix, const std::string& word) {
   Candidates values = Values(option, settings, line);
   const std::size_t entry = IsList(option) ? word.rfind(',') + 1 : 0;
-  const std::string given = "," + word.substr(0, entry);
+  const std::string given = fmt::format(",{}", word.substr(0, entry));
   std::erase_if(values, [&given](const Candidate& value) {
     return given.find(fmt::format(",{},", value.text)) != std::string::npos;
   });

@@ -34,10 +34,11 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--server", settings->server, "The server")
       ->type_name("HOST:PORT")
       ->capture_default_str();
-  app.add_option("-o,--output", settings->output,
-                 "How to print: table, wide (a table with all columns), json, name; jsonl (watch, "
-                 "list --watch, export); csv (series, sweep, model, export); netcdf (export); svg, "
-                 "png, pdf, gp, csv (plot)")
+  app.add_option(
+         "-o,--output", settings->output,
+         "How to print: table, wide (a table with all columns), json, name; jsonl (list, watch, "
+         "export); csv (list, series, sweep, model, export); netcdf (export); svg, png, "
+         "pdf, gp, csv (plot)")
       ->check(CLI::IsMember(
           {"table", "wide", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")

@@ -30,7 +30,7 @@ std::string Bracket(const v1::Iteration::Unknown& unknown) {
 }
 
 // What stands to the right of a row in wide tables.
-std::string WithBracket(std::string row, const std::string& bracket, const Style& style) {
+std::string WithBracket(const std::string& row, const std::string& bracket, const Style& style) {
   constexpr int kRow = 82;
   return style.wide ? Pad(row, kRow) + bracket : row;
 }

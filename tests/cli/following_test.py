@@ -1,6 +1,8 @@
 """How files are checked, submitted and followed, and which columns a table has."""
 
 import contextlib
+import csv
+import json
 import re
 import signal
 import subprocess
@@ -76,6 +78,15 @@ class FollowingTest(CliTest):
         self.assertIn("contactctl init table-3-sweep",
                       self.run_it("submit", "-t", "table-3-sweep", code=2)[1])
         self.run_it("run", CHAIN, "-t", "two-balls", code=2)
+
+    def test_lists_are_for_programs_too(self):
+        names = [self.run_it("run", CHAIN, "--label", "study=one", *flags, "-o", "name")[0].strip()
+                 for flags in ((), ("--label", "who=me"))]
+        rows = list(csv.DictReader(self.run_it("list", "-o", "csv")[0].splitlines()))
+        self.assertEqual([(f"jobs/{row['job']}", row["labels"], row["cycles"]) for row in rows],
+                         [(names[1], "study=one, who=me", "2"), (names[0], "study=one", "2")])
+        lines = self.run_it("list", "-o", "jsonl")[0].splitlines()
+        self.assertEqual([json.loads(line)["name"] for line in lines], names[::-1])
 
     def test_next_steps_of_a_run_work(self):
         for flags, shown in (((), True), (("--set", "output.ledger_only=true"), False)):

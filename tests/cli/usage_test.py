@@ -71,7 +71,7 @@ class Usage(unittest.TestCase):
 
     def test_wrong_usage_is_code_2_on_stderr(self):
         for arguments in (["run"], ["list", "extra"], ["list", "--limit", "-1"],
-                          ["list", "-o", "xml"], ["list", "-o", "jsonl"], ["list", "--state", "X"],
+                          ["list", "-o", "xml"], ["list", "-o", "svg"], ["list", "--state", "X"],
                           ["list", "--label", "novalue"], ["list", "--timeout", "soon"],
                           ["list", "--server", "nowhere"], ["watch", "x", "-o", "json"],
                           ["init", "no-such"], ["validate", CHAIN, "--set", "nonsense"],
