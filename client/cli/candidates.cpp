@@ -140,11 +140,24 @@ Candidates Items(const Settings&, const Line&) {
   return items;
 }
 
-Candidates ConfigKeyNames(const Settings&, const Line& line) {
-  Candidates keys;
+const CLI::App& RootOf(const Line& line) {
   const CLI::App* root = line.command;
   while (root->get_parent() != nullptr) root = root->get_parent();
-  for (const std::string& key : ConfigKeys(*root)) keys.push_back({key, VariableOf(key)});
+  return *root;
+}
+
+// What `help` takes.
+Candidates Commands(const Settings&, const Line& line) {
+  Candidates commands = {{"tutorial", "the way through all of them"}};
+  for (const CLI::App* command : RootOf(line).get_subcommands({})) {
+    commands.push_back({command->get_name(), command->get_description()});
+  }
+  return commands;
+}
+
+Candidates ConfigKeyNames(const Settings&, const Line& line) {
+  Candidates keys;
+  for (const std::string& key : ConfigKeys(RootOf(line))) keys.push_back({key, VariableOf(key)});
   return keys;
 }
 
@@ -189,7 +202,8 @@ Candidates Values(const CLI::Option& option, const Settings& settings, const Lin
       {"LAW", Laws},           {"STATE", States},
       {"KIND,…", EventKinds},  {"KEY", ConfigKeyNames},
       {"ITEM", Items},         {"PROFILE", ProfileNames},
-      {"ARTIFACT", Artifacts}, {"METRIC", Metrics}};
+      {"ARTIFACT", Artifacts}, {"METRIC", Metrics},
+      {"COMMAND", Commands}};
   const auto source = kSources.find(KindOf(option));
   return source == kSources.end() ? Allowed(option) : source->second(settings, line);
 }
