@@ -79,6 +79,29 @@ Candidates Channels(const Settings& settings, const Line& line) {
   return channels;
 }
 
+std::optional<v1::Job> JobOf(const Settings& settings, const Line& line) {
+  if (line.positionals.empty()) return std::nullopt;
+  v1::GetJobRequest request;
+  request.set_name(JobName(line.positionals.front()));
+  return Ask(settings, &Client::Stub::GetJob, request);
+}
+
+Candidates Artifacts(const Settings& settings, const Line& line) {
+  Candidates artifacts;
+  const auto job = JobOf(settings, line);
+  if (!job) return artifacts;
+  for (const v1::Artifact& artifact : job->artifacts()) artifacts.push_back({artifact.name(), ""});
+  return artifacts;
+}
+
+Candidates Metrics(const Settings& settings, const Line& line) {
+  Candidates metrics;
+  const auto job = JobOf(settings, line);
+  if (!job) return metrics;
+  for (const std::string& metric : job->sweep().metrics()) metrics.push_back({metric, ""});
+  return metrics;
+}
+
 Candidates TemplateNames(const Settings&, const Line&) {
   Candidates names;
   for (const Template& scenario : Templates()) names.push_back({std::string(scenario.name), ""});
@@ -117,11 +140,24 @@ Candidates Items(const Settings&, const Line&) {
   return items;
 }
 
-Candidates ConfigKeyNames(const Settings&, const Line& line) {
-  Candidates keys;
+const CLI::App& RootOf(const Line& line) {
   const CLI::App* root = line.command;
   while (root->get_parent() != nullptr) root = root->get_parent();
-  for (const std::string& key : ConfigKeys(*root)) keys.push_back({key, VariableOf(key)});
+  return *root;
+}
+
+// What `help` takes.
+Candidates Commands(const Settings&, const Line& line) {
+  Candidates commands = {{"tutorial", "the way through all of them"}};
+  for (const CLI::App* command : RootOf(line).get_subcommands({})) {
+    commands.push_back({command->get_name(), command->get_description()});
+  }
+  return commands;
+}
+
+Candidates ConfigKeyNames(const Settings&, const Line& line) {
+  Candidates keys;
+  for (const std::string& key : ConfigKeys(RootOf(line))) keys.push_back({key, VariableOf(key)});
   return keys;
 }
 
@@ -161,11 +197,13 @@ std::string KindOf(const CLI::Option& option) {
 Candidates Values(const CLI::Option& option, const Settings& settings, const Line& line) {
   using Source = Candidates (*)(const Settings&, const Line&);
   static const std::map<std::string, Source> kSources = {
-      {"JOB", Jobs},          {"NAME", Channels},
-      {"NAME,…", Channels},   {"TEMPLATE", TemplateNames},
-      {"LAW", Laws},          {"STATE", States},
-      {"KIND,…", EventKinds}, {"KEY", ConfigKeyNames},
-      {"ITEM", Items},        {"PROFILE", ProfileNames}};
+      {"JOB", Jobs},           {"NAME", Channels},
+      {"NAME,…", Channels},    {"TEMPLATE", TemplateNames},
+      {"LAW", Laws},           {"STATE", States},
+      {"KIND,…", EventKinds},  {"KEY", ConfigKeyNames},
+      {"ITEM", Items},         {"PROFILE", ProfileNames},
+      {"ARTIFACT", Artifacts}, {"METRIC", Metrics},
+      {"COMMAND", Commands}};
   const auto source = kSources.find(KindOf(option));
   return source == kSources.end() ? Allowed(option) : source->second(settings, line);
 }

@@ -3,12 +3,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "cli/commands.h"
+#include "cli/csv_metadata.h"
 #include "cli/download.h"
 #include "cli/interrupt.h"
 #include "cli/job_source.h"
 #include "cli/number.h"
+#include "cli/provenance.h"
 #include "cli/render_json.h"
 
 namespace contact::cli {
@@ -34,6 +37,11 @@ ExitCode ListArtifacts(const ArtifactArguments& arguments, const Settings& setti
   return ExitCode::kOk;
 }
 
+std::string Hex(const std::string& bytes) {
+  return fmt::format("{:02x}",
+                     fmt::join(std::vector<unsigned char>(bytes.begin(), bytes.end()), ""));
+}
+
 ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table"});
   Client client = settings.Connect();
@@ -49,7 +57,12 @@ ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& setting
                             fmt::print(stderr, "connection lost ({}); trying again\n", why);
                           }};
   const Interrupt interrupt;
+  const v1::Job job = GetJob(client, arguments.job);
   const v1::Artifact artifact = Download(client, options);
+  Provenance source = SourceOf(job);
+  source.emplace_back("artifact", artifact.name());
+  source.emplace_back("artifact_sha256", Hex(artifact.sha256()));
+  WriteCsvMetadata({}, {source}, path);
   fmt::print(stderr, "{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
   return ExitCode::kOk;
 }
@@ -70,7 +83,7 @@ void AddArtifactCommands(CLI::App& app, const Settings& settings, Action* action
   CLI::App* get = group->add_subcommand(
       "get", "Fetch one, going on where an earlier try has left a part of it");
   get->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
-  get->add_option("NAME", arguments->artifact, "Such as trajectory.csv")->required();
+  get->add_option("ARTIFACT", arguments->artifact, "Such as trajectory.csv")->required();
   get->add_option("-f,--file", arguments->file, "Where to. Default: the last part of its name")
       ->type_name("FILE");
   get->callback([arguments, &settings, action] {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
+#include <string_view>
 
 #include "cli/commands.h"
+#include "cli/export_text.h"
 #include "cli/follow.h"
 #include "cli/job_source.h"
 #include "cli/list_watch.h"
@@ -31,9 +33,12 @@ v1::Job::State ParseState(std::string text) {
                          [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
   if (v1::Job::State_Parse(text, &state) && state != v1::Job::STATE_UNSPECIFIED) return state;
+  const std::string_view nearest =
+      Nearest(text, {"QUEUED", "RUNNING", "SUCCEEDED", "FAILED", "CANCELLED"});
   throw Failure(ExitCode::kUsage,
-                fmt::format("--state {}: one of QUEUED, RUNNING, SUCCEEDED, FAILED, CANCELLED",
-                            Quoted(text)));
+                fmt::format("--state {}: one of QUEUED, RUNNING, SUCCEEDED, FAILED, CANCELLED{}",
+                            Quoted(text),
+                            nearest.empty() ? "" : fmt::format(" — did you mean {}?", nearest)));
 }
 
 // All pages, up to the limit.
@@ -79,36 +84,67 @@ v1::WatchJobsRequest WatchRequest(const ListArguments& arguments) {
   return request;
 }
 
+std::vector<Table::Column> ListColumns() {
+  return {{"JOB"},
+          {"STATE"},
+          {"REASON", false, 2},
+          {"CONVERGENCE", false, 3},
+          {"CREATED (UTC)", false, 1},
+          {"ENDED (UTC)", false, 4},
+          {"LABELS", false, 5},
+          {"CYCLES", true, Table::kOnlyWide},
+          {"ATTEMPT", true, Table::kOnlyWide}};
+}
+
+std::vector<Table::Cell> ListRow(const v1::Job& job) {
+  return {ShortName(job.name()),
+          {v1::Job::State_Name(job.state()), ToneOf(job.state())},
+          job.state_reason().empty() ? "-" : job.state_reason(),
+          Convergence(job),
+          Instant(job.create_time()),
+          Instant(job.end_time()),
+          Labels(job),
+          fmt::to_string(job.progress().cycles()),
+          fmt::to_string(job.attempt())};
+}
+
+// All columns, as in a wide table.
+std::string ListCsv(const v1::ListJobsResponse& all) {
+  std::string text = "job,state,reason,convergence,created,ended,labels,cycles,attempt\n";
+  for (const v1::Job& job : all.jobs()) {
+    std::string_view separator;
+    for (const Table::Cell& cell : ListRow(job)) {
+      text.append(separator).append(CsvText(cell.text == "-" ? "" : cell.text));
+      separator = ",";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string ListTable(const v1::ListJobsResponse& all, const Style& style) {
+  Table table(ListColumns());
+  for (const v1::Job& job : all.jobs()) table.Add(ListRow(job));
+  return table.Text(style);
+}
+
 ExitCode List(const ListArguments& arguments, const Settings& settings) {
   if (arguments.watch) return ListAndWatch(WatchRequest(arguments), settings);
-  settings.RequireOutput({"table", "json", "name"});
+  settings.RequireOutput({"table", "json", "jsonl", "csv", "name"});
   Client client = settings.Connect();
   const v1::ListJobsResponse all = ListAll(client, arguments);
   if (settings.output == "json") {
     fmt::print("{}", ToJson(all));
-    return ExitCode::kOk;
-  }
-  Table table({{"JOB"},
-               {"STATE"},
-               {"REASON", false, 2},
-               {"CONVERGENCE", false, 3},
-               {"CREATED (UTC)", false, 1},
-               {"ENDED (UTC)", false, 4},
-               {"LABELS", false, 5}});
-  for (const v1::Job& job : all.jobs()) {
-    if (settings.output == "name") {
-      fmt::print("{}\n", job.name());
-      continue;
+  } else if (settings.output == "csv") {
+    fmt::print("{}", ListCsv(all));
+  } else if (settings.output == "table") {
+    fmt::print("{}", ListTable(all, settings.OutputStyle()));
+  } else {
+    const bool names = settings.output == "name";
+    for (const v1::Job& job : all.jobs()) {
+      fmt::print("{}", names ? job.name() + "\n" : ToJsonLine(job));
     }
-    table.Add({ShortName(job.name()),
-               {v1::Job::State_Name(job.state()), ToneOf(job.state())},
-               job.state_reason().empty() ? "-" : job.state_reason(),
-               Convergence(job),
-               Instant(job.create_time()),
-               Instant(job.end_time()),
-               Labels(job)});
   }
-  if (settings.output == "table") fmt::print("{}", table.Text(settings.OutputStyle()));
   if (settings.output == "table" && !all.next_page_token().empty()) {
     fmt::print(stderr, "… and more; --limit 0 lists all\n");
   }

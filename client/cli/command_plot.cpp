@@ -44,8 +44,12 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   const std::string path =
       arguments.file.empty() ? arguments.preset + "." + format : arguments.file;
   Client client = settings.Connect();
-  const Figure figure =
-      DrawPreset(arguments.preset, ReadRecording(client, arguments.job, settings));
+  const Recording recording = ReadRecording(client, arguments.job, settings);
+  const Figure figure = DrawPreset(arguments.preset, recording);
+  const bool of_samples = !figure.panels.front().counted_x;
+  if (const std::string note = CoarseSampling(recording); of_samples && !note.empty()) {
+    fmt::print(stderr, "{}\n", note);
+  }
   const bool drawn = format != "gp" && format != "csv";
   if (drawn && !arguments.keep.empty()) Keep(figure, format, arguments, path);
   Draw(figure, format, path);

@@ -55,30 +55,41 @@ std::string DrawTogether(const std::vector<Recording>& runs) {
   return DrawThinned(std::move(figure));
 }
 
-std::vector<Recording> Read(Client& client, const ReportArguments& arguments,
-                            const Settings& settings) {
-  std::vector<Recording> recordings;
-  for (const std::string& job : arguments.jobs) {
-    recordings.push_back(ReadRecording(client, job, settings));
-    if (recordings.back().job.has_sweep()) {
-      throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep; see sweep export", job));
-    }
-  }
-  return recordings;
+Recording Read(Client& client, const std::string& job, const Settings& settings) {
+  Recording recording = ReadRecording(client, job, settings);
+  if (!recording.job.has_sweep()) return recording;
+  throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep; see sweep export", job));
+}
+
+// All that is still to be drawn once a run has its own figures, which may be long.
+void KeepContactForces(Recording* recording) {
+  std::erase_if(recording->columns, [](const SampleColumn& column) {
+    return column.name != "time" && !column.name.ends_with(".contact_force");
+  });
 }
 
 ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table"});
   Client client = settings.Connect();
-  std::vector<Recording> recordings = Read(client, arguments, settings);
-  std::vector<RunPart> runs(recordings.size());
-  std::string overlay;
-  try {
-    overlay = DrawTogether(recordings);
-    for (std::size_t i = 0; i < runs.size(); ++i) runs[i].figures = DrawAll(recordings[i]);
-  } catch (const Failure& failure) {  // Such as that gnuplot is not installed.
-    fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
+  bool drawn = true;
+  const auto draw = [&drawn](auto make) {
+    if (!drawn) return;
+    try {
+      make();
+    } catch (const Failure& failure) {  // Such as that gnuplot is not installed.
+      drawn = false;
+      fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
+    }
+  };
+  std::vector<RunPart> runs(arguments.jobs.size());
+  std::vector<Recording> recordings;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    recordings.push_back(Read(client, arguments.jobs[i], settings));
+    draw([&] { runs[i].figures = DrawAll(recordings[i]); });
+    KeepContactForces(&recordings[i]);
   }
+  std::string overlay;
+  draw([&] { overlay = DrawTogether(recordings); });
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].recording = std::move(recordings[i]);
   const std::string page = ReportPage(runs, overlay, client.server());
   WriteText(page, arguments.file);

@@ -11,17 +11,22 @@
 #include "cli/job_source.h"
 #include "cli/no_limits.h"
 #include "cli/render_json.h"
+#include "cli/sweep_file.h"
+#include "cli/templates.h"
 
 namespace contact::cli {
 namespace {
 
 struct RunArguments {
   std::string file;
-  std::string like;  ///< The job that is repeated instead of a file.
+  std::string like;           ///< The job that is repeated instead of a file.
+  std::string from_template;  ///< The shipped scenario that is taken instead of a file.
   std::vector<std::string> overrides;
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions job;
+  std::string rows = "first";  ///< Of the μ-iteration.
+  bool cancel_on_interrupt = false;
 };
 
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
@@ -47,6 +52,13 @@ void TellOfOtherServer(Client& client, const v1::Job& job) {
              info.revision());
 }
 
+ScenarioFile Checked(ScenarioFile file, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) file.Set(assignment);
+  file.Check(kNoLimits);
+  RequireNoMistakes(file);
+  return file;
+}
+
 // The scenario of an earlier job, with the overrides.
 ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
   const v1::Job job = GetJob(client, arguments.like);
@@ -54,17 +66,27 @@ ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
   }
   TellOfOtherServer(client, job);
-  ScenarioFile file(job.name(), ToJsonLine(job.scenario()));
-  for (const std::string& assignment : arguments.overrides) file.Set(assignment);
-  file.Check(kNoLimits);
-  RequireNoMistakes(file);
-  return file;
+  return Checked(ScenarioFile(job.name(), ToJsonLine(job.scenario())), arguments.overrides);
+}
+
+ScenarioFile OpenTemplate(const RunArguments& arguments) {
+  const Template& scenario = FindTemplate(arguments.from_template);
+  const std::string text(scenario.text);
+  if (IsSweep(text)) {
+    throw Failure(ExitCode::kUsage, fmt::format("{0} is a sweep; contactctl init {0} writes it",
+                                                arguments.from_template));
+  }
+  return Checked(ScenarioFile(arguments.from_template, text), arguments.overrides);
 }
 
 ScenarioFile Open(Client& client, const RunArguments& arguments) {
-  if (arguments.file.empty() == arguments.like.empty()) {
-    throw Failure(ExitCode::kUsage, "give either a FILE or --like JOB");
+  const int sources = static_cast<int>(!arguments.file.empty()) +
+                      static_cast<int>(!arguments.like.empty()) +
+                      static_cast<int>(!arguments.from_template.empty());
+  if (sources != 1) {
+    throw Failure(ExitCode::kUsage, "give a FILE, --template NAME or --like JOB, one of them");
   }
+  if (!arguments.from_template.empty()) return OpenTemplate(arguments);
   return arguments.like.empty() ? OpenChecked(arguments.file, arguments.overrides, kNoLimits)
                                 : OpenLike(client, arguments);
 }
@@ -93,13 +115,20 @@ ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
   return ExitCode::kOk;
 }
 
+IterationRows RowsOf(const std::string& word) {
+  if (word == "all") return IterationRows::kAll;
+  return word == "none" ? IterationRows::kNone : IterationRows::kFirst;
+}
+
 ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "json", "name"});
   const auto deadline = settings.Deadline();
   Client client = settings.Connect();
   const v1::Job job = Create(client, arguments);
-  const WatchEnd end = FollowRun(client, job.name(), deadline, settings);
-  if (end != WatchEnd::kFinished) return DetachOrCancel(client, end, job.name(), settings);
+  const WatchEnd end = FollowRun(client, job.name(), deadline, RowsOf(arguments.rows), settings);
+  if (end != WatchEnd::kFinished) {
+    return DetachOrCancel(client, end, job.name(), arguments.cancel_on_interrupt, settings);
+  }
 
   const v1::Job result = GetJob(client, job.name());
   PrintJob(result, settings);
@@ -114,6 +143,10 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
       .add_option("--like", arguments->like,
                   "Repeat this job instead of a file; on the same server bit for bit")
       ->type_name("JOB");
+  command
+      .add_option("-t,--template", arguments->from_template,
+                  "Take a scenario that init would write, instead of a file")
+      ->type_name("TEMPLATE");
   command
       .add_option("--set", arguments->overrides,
                   "Override a field, such as contacts[0].restitution=0.7; repeatable")
@@ -133,11 +166,24 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
   return arguments;
 }
 
+// How `run` follows what it submitted.
+void AddFollowing(CLI::App& run, RunArguments* arguments) {
+  run.add_option("--iterations", arguments->rows,
+                 "Rows of the μ-iteration to show: the first 60, all or none")
+      ->check(CLI::IsMember({"first", "all", "none"}))
+      ->type_name("ROWS")
+      ->capture_default_str();
+  run.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
+               "A first Ctrl-C cancels the job instead of leaving it to the server");
+}
+
 }  // namespace
 
 void AddRunCommands(CLI::App& app, const Settings& settings, Action* action) {
   CLI::App* run = app.add_subcommand("run", "Submit a scenario, watch it, show its result");
-  run->callback([arguments = AddArguments(*run), &settings, action] {
+  auto arguments = AddArguments(*run);
+  AddFollowing(*run, arguments.get());
+  run->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Run(*arguments, settings); };
   });
   CLI::App* submit = app.add_subcommand("submit", "Submit a scenario and leave");

@@ -17,7 +17,6 @@
 #include "cli/templates.h"
 #include "cli/text_file.h"
 #include "wire/contact_codec.h"
-#include "wire/spelling.h"
 #include "wire/sweep_codec.h"
 
 namespace contact::cli {
@@ -26,6 +25,7 @@ namespace {
 struct ValidateArguments {
   std::string file;
   std::vector<std::string> overrides;
+  bool on_server = false;
 };
 
 struct InitArguments {
@@ -35,7 +35,24 @@ struct InitArguments {
   bool force = false;
 };
 
-ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& text) {
+// Limits are the server's own, and may be narrower than those that are checked here.
+ExitCode ValidateOnServer(const v1::Job& job, const Settings& settings) {
+  v1::CreateJobRequest request;
+  *request.mutable_job() = job;
+  request.set_validate_only(true);
+  Client client = settings.Connect();
+  try {
+    const v1::Job checked = client.Call(&Client::Stub::CreateJob, request);
+    for (const std::string& warning : checked.warnings()) fmt::print("warning: {}\n", warning);
+  } catch (const CallFailure& failure) {
+    throw failure.AllTold();
+  }
+  fmt::print("contactd at {} would take it\n", client.server());
+  return ExitCode::kOk;
+}
+
+ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& text,
+                       const Settings& settings) {
   if (!arguments.overrides.empty()) {
     throw Failure(ExitCode::kUsage, "--set is for scenarios; a sweep has axes");
   }
@@ -46,13 +63,16 @@ ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& te
           DecodeSweep(sweep, {.max_cells = std::numeric_limits<std::int32_t>::max()}).axes.cells(),
           "cell", "cells"),
       Count(sweep.axes_size(), "axis", "axes"), Count(sweep.metrics_size(), "metric", "metrics"));
-  return ExitCode::kOk;
+  if (!arguments.on_server) return ExitCode::kOk;
+  v1::Job job;
+  *job.mutable_sweep() = sweep;
+  return ValidateOnServer(job, settings);
 }
 
 ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table"});
   const std::string text = ReadText(arguments.file);
-  if (IsSweep(text)) return ValidateSweep(arguments, text);
+  if (IsSweep(text)) return ValidateSweep(arguments, text, settings);
   ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text);
   for (const std::string& assignment : arguments.overrides) file.Set(assignment);
   file.Check();
@@ -63,24 +83,10 @@ ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) 
              Count(CountContacts(scenario), "contact", "contacts"),
              Count(scenario.supports_size(), "support", "supports"),
              Count(scenario.loads_size(), "load", "loads"), Seconds(scenario.end_time_s()));
-  return ExitCode::kOk;
-}
-
-std::string Title(const Template& scenario) {
-  return ScenarioFile(std::string(scenario.name), std::string(scenario.text)).scenario().title();
-}
-
-const Template& FindTemplate(const std::string& name) {
-  std::vector<std::string_view> names;
-  for (const Template& scenario : Templates()) {
-    if (scenario.name == name) return scenario;
-    names.push_back(scenario.name);
-  }
-  const std::string_view nearest = Nearest(name, names);
-  throw Failure(ExitCode::kUsage,
-                fmt::format("there is no template {} — {}", Quoted(name),
-                            nearest.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
-                                            : fmt::format("did you mean '{}'?", nearest)));
+  if (!arguments.on_server) return ExitCode::kOk;
+  v1::Job job;
+  *job.mutable_scenario() = scenario;
+  return ValidateOnServer(job, settings);
 }
 
 void WriteFile(const std::string& path, std::string_view text, bool force) {
@@ -96,12 +102,24 @@ void WriteFile(const std::string& path, std::string_view text, bool force) {
   }
 }
 
+// The scenario that a sweep names, unless there is a file of this name beside it.
+void WriteBase(const Template& sweep, const std::string& path) {
+  for (const Template& scenario : Templates()) {
+    const std::string name = std::string(scenario.name) + ".yaml";
+    if (sweep.text.find("\nbase: " + name) == std::string_view::npos) continue;
+    const std::string base = std::filesystem::path(path).replace_filename(name).string();
+    if (std::filesystem::exists(base)) continue;
+    WriteFile(base, scenario.text, false);
+    fmt::print("{}\n", base);
+  }
+}
+
 ExitCode Init(const InitArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "name"});
   if (arguments.list || arguments.name.empty()) {
     Table table({{"TEMPLATE"}, {"SHOWS"}});
     for (const Template& scenario : Templates()) {
-      table.Add({std::string(scenario.name), Title(scenario)});
+      table.Add({std::string(scenario.name), std::string(scenario.shows)});
     }
     fmt::print("{}", table.Text(settings.OutputStyle()));
     fmt::print(stderr, "Next:  contactctl init {}\n", Templates().front().name);
@@ -115,10 +133,13 @@ ExitCode Init(const InitArguments& arguments, const Settings& settings) {
   const std::string path = arguments.file.empty() ? arguments.name + ".yaml" : arguments.file;
   WriteFile(path, scenario.text, arguments.force);
   fmt::print("{}\n", path);
+  const bool sweep = IsSweep(std::string(scenario.text));
+  if (sweep) WriteBase(scenario, path);
   fmt::print(stderr,
-             "Next:  contactctl run {}\n"
-             "       contactctl schema > contact.schema.json  (beside it, for your editor)\n",
-             path);
+             "Next:  contactctl {} {}\n"
+             "       contactctl schema {}  (beside it, for your editor)\n",
+             sweep ? "sweep run" : "run", path,
+             sweep ? "sweep > contact-sweep.schema.json" : "> contact.schema.json");
   return ExitCode::kOk;
 }
 
@@ -136,12 +157,14 @@ void AddScenarioCommands(CLI::App& app, const Settings& settings, Action* action
       ->type_name("FIELD=VALUE")
       ->take_all()
       ->allow_extra_args(false);
+  validate->add_flag("--on-server", scenario->on_server,
+                     "Ask the server too, whose limits may be narrower");
   validate->callback([scenario, &settings, action] {
     *action = [scenario, &settings] { return Validate(*scenario, settings); };
   });
 
   auto arguments = std::make_shared<InitArguments>();
-  CLI::App* init = app.add_subcommand("init", "Write an example scenario to start from");
+  CLI::App* init = app.add_subcommand("init", "Write an example scenario or sweep to start from");
   init->add_option("TEMPLATE", arguments->name, "Which; without it they are listed");
   init->add_option("--file", arguments->file, "Where to; - is the standard output")
       ->type_name("FILE");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -12,7 +13,9 @@
 #include "cli/interrupt.h"
 #include "cli/job_options.h"
 #include "cli/job_source.h"
+#include "cli/picture_source.h"
 #include "cli/provenance.h"
+#include "cli/render_live.h"
 #include "cli/render_sweep.h"
 #include "cli/sweep_file.h"
 #include "cli/watch.h"
@@ -29,12 +32,14 @@ struct SweepArguments {
   std::string metric;    ///< Of the heat map.
   std::string heat_map;  ///< File to draw it to.
   bool comments = false;
+  std::vector<std::string> grid;  ///< Axes over a scenario, instead of a sweep file.
+  bool cancel_on_interrupt = false;
 };
 
-// Gathers cells, and shows how far the sweep is while someone looks.
+// Gathers cells, and tells how far the sweep is.
 class CellWatcher final : public WatchObserver {
  public:
-  explicit CellWatcher(const Style& style) : style_(style) {}
+  explicit CellWatcher(ProgressForm form) : form_(form) {}
   ~CellWatcher() override { Erase(); }
 
   void OnEvent(const v1::Event& event) override {
@@ -49,9 +54,17 @@ class CellWatcher final : public WatchObserver {
 
  private:
   void Show(const v1::Progress& progress) {
-    if (!style_.terminal) return;
-    fmt::print(stderr, "\r\x1b[K{} of {} cells, {} failed, {} not converged", progress.cells_done(),
-               progress.cells(), progress.cells_failed(), progress.cells_not_converged());
+    const double done = PartDone(progress);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    const std::string words = fmt::format(
+        "{} of {} cells, {} failed, {} not converged{}", progress.cells_done(), progress.cells(),
+        progress.cells_failed(), progress.cells_not_converged(), TimeLeft(done, elapsed.count()));
+    const int tenths = static_cast<int>(10 * done);
+    if (form_ == ProgressForm::kLines && tenths > std::exchange(told_tenths_, tenths)) {
+      fmt::print(stderr, "{}\n", words);
+    }
+    if (form_ != ProgressForm::kBar) return;
+    fmt::print(stderr, "\r\x1b[K{}", words);
     std::fflush(stderr);
     shown_ = true;
   }
@@ -59,8 +72,10 @@ class CellWatcher final : public WatchObserver {
     if (std::exchange(shown_, false)) fmt::print(stderr, "\r\x1b[K");
   }
 
-  const Style style_;
+  const ProgressForm form_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SweepCells cells_;
+  int told_tenths_ = 0;
   bool shown_ = false;
 };
 
@@ -99,7 +114,7 @@ void DrawHeatMap(const v1::Job& job, const SweepCells& cells, const SweepArgumen
   }
   const int metric = MetricOf(job.sweep(), arguments.metric);
   DrawScript(HeatMapScript(job, cells, metric, format, path), path);
-  if (format == "svg") DescribeSvg(path, job.sweep().base().title(), {SourceOf(job)});
+  DescribePicture(format, path, job.sweep().base().title(), {SourceOf(job)});
   fmt::print(stderr, "{}\n", path);
 }
 
@@ -122,12 +137,14 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
     const Interrupt interrupt;
     const bool submitted = arguments.job.empty() && settings.output == "table";
     if (submitted) fmt::print(stderr, "{} submitted\n", name);
-    CellWatcher watcher(settings.MessageStyle());
+    CellWatcher watcher(settings.Progress());
     end = Watch(client, options, watcher);
     cells = watcher.cells();
   }
   if (end != WatchEnd::kFinished) {
-    return arguments.job.empty() ? DetachOrCancel(client, end, name, settings) : Detach(end, name);
+    return arguments.job.empty()
+               ? DetachOrCancel(client, end, name, arguments.cancel_on_interrupt, settings)
+               : Detach(end, name);
   }
   const v1::Job job = GetJob(client, name);
   if (!arguments.heat_map.empty()) DrawHeatMap(job, cells, arguments);
@@ -147,7 +164,9 @@ v1::Job Create(Client& client, const v1::CreateJobRequest& request) {
 ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "csv", "json", "name"});
   v1::CreateJobRequest request;
-  *request.mutable_job()->mutable_sweep() = OpenSweep(arguments.file);
+  *request.mutable_job()->mutable_sweep() =
+      arguments.grid.empty() ? OpenSweep(arguments.file)
+                             : MakeGrid(arguments.file, arguments.grid, arguments.metric);
   MetricOf(request.job().sweep(), arguments.metric);
   request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
@@ -204,8 +223,18 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
   auto arguments = std::make_shared<SweepArguments>();
   CLI::App* run = AddSweepCommand(*sweep, "run", "Submit a sweep, watch it, show its cells",
                                   arguments, Run, settings, action);
-  run->add_option("FILE", arguments->file, "Sweep in YAML or JSON; - is the standard input")
+  run->add_option("FILE", arguments->file,
+                  "Sweep in YAML or JSON; - is the standard input. With --grid a scenario")
       ->required();
+  run->add_option("--grid", arguments->grid,
+                  "Every value of this field with every one of the others, such as "
+                  "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is then "
+                  "what is computed, iterations unless given")
+      ->type_name("FIELD=VALUES")
+      ->take_all()
+      ->allow_extra_args(false);
+  run->add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
+                "A first Ctrl-C cancels the sweep instead of leaving it to the server");
   run->add_option("--label", arguments->labels, "Label of the job; repeatable")
       ->type_name("KEY=VALUE")
       ->take_all()

@@ -55,8 +55,9 @@ WatchOptions Options(const std::string& job, const Settings& settings) {
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
   if (settings.output == "jsonl") return std::make_unique<JsonLines>();
-  return std::make_unique<LiveView>(stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
-                                    LiveView::Options{.job = arguments.job});
+  return std::make_unique<LiveView>(
+      stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
+      LiveView::Options{.job = arguments.job, .progress = settings.Progress()});
 }
 
 // `1e-3x`: simulated seconds in a second.

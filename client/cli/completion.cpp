@@ -83,8 +83,10 @@ Candidates Flags(const CLI::App& command) {
   return flags;
 }
 
+bool IsList(const CLI::Option& option) { return KindOf(option).ends_with(",…"); }
+
 std::string Directive(const CLI::Option& option) {
-  if (KindOf(option) == "FIELD=VALUE") return ":nospace\n";
+  if (KindOf(option) == "FIELD=VALUE" || IsList(option)) return ":nospace\n";
   if (KindOf(option) == "DIR") return ":directories\n";
   if (KindOf(option) != "FILE") return ":none\n";
   return option.get_positional() ? ":scenarios\n" : ":files\n";
@@ -110,6 +112,18 @@ std::string Print(const Candidates& candidates, const std::string& prefix,
     text += fmt::format("{}{}\t{}\n", prefix, candidate.text, FirstSentence(candidate.about));
   }
   return text;
+}
+
+// The values of an option; of a list those for its last entry, without what stands before it.
+std::string PrintValues(const CLI::Option& option, const Settings& settings, const Line& line,
+                        const std::string& prefix, const std::string& word) {
+  Candidates values = Values(option, settings, line);
+  const std::size_t entry = IsList(option) ? word.rfind(',') + 1 : 0;
+  const std::string given = fmt::format(",{}", word.substr(0, entry));
+  std::erase_if(values, [&given](const Candidate& value) {
+    return given.find(fmt::format(",{},", value.text)) != std::string::npos;
+  });
+  return Print(values, prefix + word.substr(0, entry), word.substr(entry)) + Directive(option);
 }
 
 // The words as they were before bash split them at `=`.
@@ -157,7 +171,7 @@ std::string Complete(CLI::App& app, const std::vector<std::string>& split, Setti
     return Print(assignments, prefix, "") + Directive(*line.open);
   }
   if (line.open != nullptr) {
-    return Print(Values(*line.open, *settings, line), prefix, word) + Directive(*line.open);
+    return PrintValues(*line.open, *settings, line, prefix, word);
   }
   if (word.starts_with("-")) return Print(Flags(*line.command), "", word) + ":none\n";
   const CLI::Option* positional = Positional(line);
@@ -165,7 +179,7 @@ std::string Complete(CLI::App& app, const std::vector<std::string>& split, Setti
     const bool first = line.positionals.empty();
     return Print(first ? Verbs(*line.command) : Candidates(), "", word) + ":none\n";
   }
-  return Print(Values(*positional, *settings, line), "", word) + Directive(*positional);
+  return PrintValues(*positional, *settings, line, "", word);
 } catch (const Failure&) {  // Such as an address that is none: nothing to offer.
   return ":none\n";
 }

@@ -161,7 +161,7 @@ std::size_t DataColumn::size() const {
 }
 
 DataTable SeriesTable(Recording&& recording) {
-  DataTable table{"series", "sample", {}};
+  DataTable table{"series", "time", {}};
   for (SampleColumn& column : recording.columns) {
     std::string description = Description(column);
     table.columns.push_back({std::move(column.name), std::move(column.unit), std::move(description),

@@ -24,7 +24,7 @@ struct DataColumn {
 /// A part of a result as columns of equal length.
 struct DataTable {
   std::string name;  ///< series, cycles, iterations or bodies.
-  std::string row;   ///< What a row is, such as `cycle`.
+  std::string row;   ///< What tells rows apart: `cycle`, or the column `time`.
   std::vector<DataColumn> columns;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }

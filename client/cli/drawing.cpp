@@ -6,8 +6,8 @@
 
 #include "cli/csv_metadata.h"
 #include "cli/gnuplot.h"
-#include "cli/html.h"
 #include "cli/output_file.h"
+#include "cli/picture_source.h"
 #include "cli/scratch_folder.h"
 #include "cli/text_file.h"
 
@@ -18,15 +18,6 @@ void Remove(std::string_view part, std::string* text) {
   for (auto at = text->find(part); at != std::string::npos; at = text->find(part, at)) {
     text->erase(at, part.size());
   }
-}
-
-// Puts `content` in the place of what the first element of this name has.
-void Replace(const std::string& element, const std::string& content, std::string* text) {
-  const std::string open = fmt::format("<{}>", element);
-  const auto begin = text->find(open);
-  const auto end = text->find(fmt::format("</{}>", element));
-  if (begin == std::string::npos || end == std::string::npos) return;
-  text->replace(begin + open.size(), end - begin - open.size(), content);
 }
 
 void WritePoints(const Figure& figure, const std::string& path) {
@@ -52,7 +43,7 @@ void Draw(const Figure& figure, std::string_view format, const std::string& path
     return WriteText(GnuplotScript(figure, "svg", picture), path);
   }
   DrawScript(GnuplotScript(figure, format, path), path);
-  if (format == "svg") DescribeSvg(path, figure.title, figure.sources);
+  DescribePicture(format, path, figure.title, figure.sources);
 }
 
 void DrawScript(const std::string& script, const std::string& path) {
@@ -61,15 +52,6 @@ void DrawScript(const std::string& script, const std::string& path) {
   const std::string script_path = scratch.path() / "figure.gp";
   WriteText(script, script_path);
   RunGnuplot(script_path);
-}
-
-// gnuplot names itself there.
-void DescribeSvg(const std::string& path, const std::string& title,
-                 const std::vector<Provenance>& sources) {
-  std::string svg = ReadText(path);
-  Replace("title", HtmlText(title), &svg);
-  Replace("desc", HtmlText(Lines(sources, "")), &svg);
-  WriteText(svg, path);
 }
 
 std::string DrawInline(const Figure& figure) {
@@ -85,8 +67,9 @@ std::string InlineSvg(std::string_view document) {
   // HTML knows both name spaces by itself.
   Remove(R"(xmlns="http://www.w3.org/2000/svg")", &svg);
   Remove(R"(xmlns:xlink="http://www.w3.org/1999/xlink")", &svg);
-  Replace("title", "", &svg);
-  Remove("<title></title>", &svg);  // Would be shown wherever the pointer is.
+  const auto title = svg.find("<title>");  // Would be shown wherever the pointer is.
+  const auto end = svg.find("</title>");
+  if (end != std::string::npos) svg.erase(title, end + 8 - title);
   return svg;
 }
 

@@ -18,10 +18,6 @@ void Draw(const Figure& figure, std::string_view format, const std::string& path
 /// Runs a script that draws to a file. Throws as Draw does.
 void DrawScript(const std::string& script, const std::string& path);
 
-/// Gives an SVG file that was drawn its title and its sources, as `title` and `desc`.
-void DescribeSvg(const std::string& path, const std::string& title,
-                 const std::vector<Provenance>& sources);
-
 /// The figure as SVG that can stand in an HTML page: no declarations, nothing from elsewhere.
 /// Throws as Draw does.
 std::string DrawInline(const Figure& figure);

@@ -10,7 +10,7 @@
 namespace contact::cli {
 namespace {
 
-// One netCDF file that is being written; removed by the caller if that fails.
+// One netCDF file that is being written.
 class NetcdfFile {
  public:
   explicit NetcdfFile(const std::string& path) : path_(path) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "cli/gnuplot.h"
@@ -18,9 +19,15 @@ namespace {
 // Okabe and Ito's colours, which colour-blind readers can tell apart.
 constexpr std::array<std::string_view, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                    "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array kDashes{1, 4, 5};       // For colours that come again.
 constexpr std::size_t kMostLevelLabels = 4;  // More are written upright.
+constexpr std::size_t kMostCounted = 20;     // Whole numbers that an axis can name.
+constexpr std::size_t kMostKeys = 8;         // Beyond them dashed curves are not in the key.
+constexpr std::size_t kMostPoints = 4000;    // Of a curve, which is five a pixel.
 
-constexpr std::size_t kMostCounted = 20;  // Whole numbers that an axis can name.
+constexpr char kMarksExplained[] =
+    "set label 'o start, × end of a contact cycle' at screen 0.01,0.015 left font ',7' "
+    "textcolor rgb '#666666'";
 
 std::size_t Longest(const Figure::Panel& panel) {
   std::size_t longest = 0;
@@ -28,12 +35,15 @@ std::size_t Longest(const Figure::Panel& panel) {
   return longest;
 }
 
-std::string_view Colour(int colour) { return kColours[static_cast<std::size_t>(colour) % 7]; }
+std::string_view Colour(int colour) {
+  return kColours[static_cast<std::size_t>(colour) % kColours.size()];
+}
 
-std::string_view Style(Figure::Mark mark) {
+std::string Style(Figure::Mark mark, int colour) {
   switch (mark) {
     case Figure::Mark::kLine:
-      return "lines lw 1.5";
+      return fmt::format("lines lw 1.5 dt {}",
+                         kDashes[static_cast<std::size_t>(colour) / kColours.size() % 3]);
     case Figure::Mark::kDashed:
       return "lines lw 1.5 dt 2";
     case Figure::Mark::kDotted:
@@ -48,18 +58,9 @@ std::string_view Style(Figure::Mark mark) {
   return "lines";
 }
 
-std::string Terminal(std::string_view format, std::size_t panels) {
-  const double height = panels > 1 ? 7 : 5;  // inches; 100 pixels each
-  if (format == "pdf") {
-    return fmt::format("pdfcairo noenhanced color size 8in,{}in font 'Sans,11'", height);
-  }
-  return fmt::format("{} noenhanced size 800,{} background '#ffffff' font 'Sans,12'",
-                     format == "png" ? "pngcairo" : "svg", height * 100);
-}
-
 // gnuplot's words for an axis that all points fit: `*` where it finds the limit itself.
 std::string Range(const Figure::Panel& panel, std::vector<double> Figure::Curve::*axis,
-                  bool counted) {
+                  bool counted, bool log) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const Figure::Curve& curve : panel.curves) {
@@ -71,8 +72,26 @@ std::string Range(const Figure::Panel& panel, std::vector<double> Figure::Curve:
   }
   if (counted) return fmt::format("[{}:{}]", low - 0.5, high + 0.5);
   if (low < high) return "[*:*] noextend";
+  if (log) return fmt::format("[{}:{}]", low / 10, high * 10);
   const double space = low == 0 ? 1 : std::abs(low) / 2;  // Of one value alone.
   return fmt::format("[{}:{}]", low - space, low + space);
+}
+
+bool HasUnnamedMarks(const Figure::Panel& panel) {
+  bool marked = false;
+  for (const Figure::Curve& curve : panel.curves) {
+    if (curve.mark != Figure::Mark::kStart && curve.mark != Figure::Mark::kEnd) continue;
+    if (!curve.label.empty()) return false;
+    marked = true;
+  }
+  return marked;
+}
+
+// Bands of many contacts lie over each other, and must not hide the curves.
+double BandOpacity(const Figure::Panel& panel) {
+  std::set<int> contacts;
+  for (const Figure::Band& band : panel.bands) contacts.insert(band.colour);
+  return std::min(0.12, 0.4 / static_cast<double>(contacts.size()));
 }
 
 // Writes a script piece by piece.
@@ -81,7 +100,7 @@ class Script {
   std::string Write(const Figure& figure, std::string_view format, const std::string& path) {
     text_ += Lines(figure.sources, "# ");
     Line("set encoding utf8");
-    Line("set terminal {}", Terminal(format, figure.panels.size()));
+    Line("set terminal {}", GnuplotTerminal(format, figure.panels.size() > 1 ? 7 : 5));
     Line("set output {}", GnuplotString(path));
     for (const Figure::Panel& panel : figure.panels) Data(panel);
     Line("set grid lc rgb '#dddddd' lt 1");
@@ -91,7 +110,10 @@ class Script {
     Line("set multiplot layout {},1 title {}.\"\\n\"", figure.panels.size(),
          GnuplotString(figure.title));
     for (const Figure::Panel& panel : figure.panels) {
-      if (&panel == &figure.panels.back()) text_ += GnuplotCaption(figure.sources);
+      if (&panel == &figure.panels.back()) {
+        text_ += GnuplotCaption(figure.sources);
+        if (HasUnnamedMarks(panel)) Line("{}", kMarksExplained);
+      }
       Draw(panel);
     }
     Line("unset multiplot");
@@ -120,14 +142,14 @@ class Script {
     Line("{} logscale y", panel.log_y ? "set" : "unset");
     Line("{}", panel.log_y ? "set format y '%.0e'" : "set format y '%g'");
     Line("set xtics {}", panel.counted_x && Longest(panel) <= kMostCounted ? "1" : "autofreq");
-    Line("set xrange {}", Range(panel, &Figure::Curve::x, panel.counted_x));
-    Line("set yrange {}", Range(panel, &Figure::Curve::y, false));
+    Line("set xrange {}", Range(panel, &Figure::Curve::x, panel.counted_x, false));
+    Line("set yrange {}", Range(panel, &Figure::Curve::y, false, panel.log_y));
     if (panel.lowest_y) Line("set yrange [{}:*]", *panel.lowest_y);
     for (const Figure::Band& band : panel.bands) {
       Line(
           "set object rectangle from first {}, graph 0 to first {}, graph 1 behind "
-          "fillcolor rgb '{}' fillstyle transparent solid 0.12 noborder",
-          band.start, band.end, Colour(band.colour));
+          "fillcolor rgb '{}' fillstyle transparent solid {:.2g} noborder",
+          band.start, band.end, Colour(band.colour), BandOpacity(panel));
     }
     for (const Figure::Label& label : panel.labels) {
       Line("set label {} at {},{} {} font ',9'", GnuplotString(label.text), label.x, label.y,
@@ -147,11 +169,15 @@ class Script {
   }
 
   void Curves(const Figure::Panel& panel) {
+    const bool few = std::ranges::count(panel.curves, false, [](const Figure::Curve& curve) {
+                       return curve.label.empty();
+                     }) <= std::ptrdiff_t{kMostKeys};
     std::string_view separator = "plot ";
     for (const Figure::Curve& curve : panel.curves) {
       text_ += fmt::format("{}$curve{} with {} lc rgb '{}' ", separator, ++drawn_,
-                           Style(curve.mark), Colour(curve.colour));
-      text_ += curve.label.empty() ? "notitle" : "title " + GnuplotString(curve.label);
+                           Style(curve.mark, curve.colour), Colour(curve.colour));
+      const bool keyed = !curve.label.empty() && (few || curve.mark != Figure::Mark::kDashed);
+      text_ += keyed ? "title " + GnuplotString(curve.label) : "notitle";
       separator = ", \\\n     ";
     }
     text_ += '\n';
@@ -185,7 +211,8 @@ std::string_view Name(Figure::Mark mark) {
 
 }  // namespace
 
-std::string GnuplotScript(const Figure& figure, std::string_view format, const std::string& path) {
+std::string GnuplotScript(Figure figure, std::string_view format, const std::string& path) {
+  Thin(kMostPoints, &figure);
   return Script().Write(figure, format, path);
 }
 

@@ -55,9 +55,9 @@ struct Figure {
   std::vector<Provenance> sources = {};  ///< What it shows; a caption tells it.
 };
 
-/// A gnuplot script with its data inside, and where they come from, that draws the figure as svg,
-/// png or pdf to a file.
-std::string GnuplotScript(const Figure& figure, std::string_view format, const std::string& path);
+/// A gnuplot script with its data inside, as many as can be seen, and where they come from, that
+/// draws the figure as svg, png or pdf to a file.
+std::string GnuplotScript(Figure figure, std::string_view format, const std::string& path);
 
 /// Leaves at most about `points` of each curve: of points that follow each other the first, the
 /// last, the lowest and the highest.

@@ -11,9 +11,22 @@
 
 namespace contact::cli {
 
-WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline,
+namespace {
+
+ExitCode Cancel(Client& client, const std::string& name) {
+  v1::CancelJobRequest request;
+  request.set_name(name);
+  client.Call(&Client::Stub::CancelJob, request);
+  fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
+  return ExitCode::kInterrupted;
+}
+
+}  // namespace
+
+WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, IterationRows rows,
                    const Settings& settings) {
   constexpr int kMostIterations = 60;
+  const Interrupt interrupt;  // From before the name is told on.
   WatchOptions options;
   options.name = name;
   options.deadline = deadline;
@@ -21,12 +34,15 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline,
   options.kinds = {"progress"};
   if (settings.output == "table") {
     fmt::print(stderr, "{} submitted\n", name);
-    options.kinds = {"progress", "iteration", "log_entry", "attempt_started"};
+    options.kinds = {"progress", "log_entry", "attempt_started"};
+    if (rows != IterationRows::kNone) options.kinds.emplace_back("iteration");
   }
   const Style style = settings.MessageStyle();
-  const Interrupt interrupt;
   LiveView view(stderr, style, stderr, style,
-                {.cycles = false, .most_iterations = kMostIterations, .job = ShortName(name)});
+                {.cycles = false,
+                 .most_iterations = rows == IterationRows::kAll ? 0 : kMostIterations,
+                 .job = ShortName(name),
+                 .progress = settings.Progress()});
   return Watch(client, options, view);
 }
 
@@ -37,20 +53,15 @@ ExitCode Detach(WatchEnd end, const std::string& name) {
   return interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout;
 }
 
-ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name,
+ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, bool cancel,
                         const Settings& settings) {
   using namespace std::chrono_literals;
+  if (end == WatchEnd::kStopped && cancel) return Cancel(client, name);
   if (end != WatchEnd::kStopped || !settings.MessageStyle().terminal) return Detach(end, name);
   const Interrupt again;
   fmt::print(stderr, "contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
   for (auto waited = 0ms; waited < 2s; waited += 50ms) {
-    if (Interrupt::raised()) {
-      v1::CancelJobRequest request;
-      request.set_name(name);
-      client.Call(&Client::Stub::CancelJob, request);
-      fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
-      return ExitCode::kInterrupted;
-    }
+    if (Interrupt::raised()) return Cancel(client, name);
     std::this_thread::sleep_for(50ms);
   }
   return Detach(end, name);
@@ -62,6 +73,9 @@ std::string NextSteps(const v1::Job& job) {
       "Next:  contactctl watch {0}             the iteration and all events again\n"
       "       contactctl describe {0} -o json  every number\n",
       id);
+  if (job.cycles_size() > 0 && !job.scenario().output().ledger_only()) {
+    text += fmt::format("       contactctl plot {} hysteresis   force over deformation\n", id);
+  }
   if (job.convergence() == v1::Job::PARTIAL) {
     text +=
         "Try:   --set solver.max_iterations=200, or --set solver.restitution_tolerance=1e-6,\n"

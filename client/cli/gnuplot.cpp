@@ -41,6 +41,20 @@ std::string GnuplotString(std::string_view text) {
   return quoted + "'";
 }
 
+std::string GnuplotTerminal(std::string_view format, double height_in) {
+  if (format == "pdf") {
+    return fmt::format("pdfcairo noenhanced color size 8in,{}in font 'Sans,11'", height_in);
+  }
+  if (format == "png") {  // Its points are 4/3 of svg's.
+    return fmt::format(
+        "pngcairo noenhanced size 1600,{} background '#ffffff' font 'Sans,12' fontscale 1.5 "
+        "linewidth 2 pointscale 2",
+        height_in * 200);
+  }
+  return fmt::format("svg noenhanced size 800,{} background '#ffffff' font 'Sans,12'",
+                     height_in * 100);
+}
+
 std::string GnuplotCaption(const std::vector<Provenance>& sources) {
   if (sources.empty()) return "";
   return fmt::format(

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMostCells = 10'000;
 constexpr std::size_t kMostTics = 20;
+constexpr std::size_t kMostNumbers = 100;  // More would not be legible in their cells.
 
 // Viridis, which grows evenly lighter, for colour-blind readers too.
 constexpr char kPalette[] =
@@ -94,6 +95,7 @@ std::string Overlay(const v1::SweepCell& cell, std::size_t x, std::size_t y, boo
 struct Scale {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
+  bool whole = true;  // All values are whole numbers.
 
   Scale(const SweepCells& cells, int metric) {
     for (const auto& [index, cell] : cells) {
@@ -101,6 +103,7 @@ struct Scale {
       if (!std::isfinite(value)) continue;
       low = std::min(low, value);
       high = std::max(high, value);
+      whole = whole && value == std::round(value);
     }
     if (low < high) return;
     const double middle = low == high ? low : 0;  // One value, or none.
@@ -108,12 +111,6 @@ struct Scale {
     high = middle + std::max(std::abs(middle) / 2, 0.5);
   }
 };
-
-std::string Terminal(std::string_view format) {
-  if (format == "pdf") return "pdfcairo noenhanced color size 8in,5in font 'Sans,11'";
-  return fmt::format("{} noenhanced size 800,500 background '#ffffff' font 'Sans,12'",
-                     format == "png" ? "pngcairo" : "svg");
-}
 
 }  // namespace
 
@@ -125,7 +122,7 @@ std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, int metri
   const Axis columns(cells, 1);
   std::string text =
       fmt::format("{}set encoding utf8\nset terminal {}\nset output {}\n$cells << end\n",
-                  Lines({SourceOf(job)}, "# "), Terminal(format), GnuplotString(path));
+                  Lines({SourceOf(job)}, "# "), GnuplotTerminal(format, 5), GnuplotString(path));
   std::string overlays;
   const Scale scale(cells, metric);
   for (const auto& [index, cell] : cells) {
@@ -148,11 +145,18 @@ std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, int metri
       rows.Tics(), static_cast<double>(columns.size()) - 0.5,
       static_cast<double>(rows.size()) - 0.5, scale.low, scale.high,
       GnuplotCaption({SourceOf(job)}));
+  if (scale.whole && scale.high - scale.low < kMostTics) text += "set cbtics 1\n";
   // Boxes, as an image would be a bitmap inside.
-  return text +
-         "set style fill solid noborder\n"
-         "plot $cells using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror lc palette\n"
-         "unset output\n";
+  text +=
+      "set style fill solid noborder\n"
+      "plot $cells using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror lc palette";
+  if (cells.size() <= kMostNumbers) {
+    text += fmt::format(
+        ", $cells using 1:2:(sprintf('%.4g', $3)):($3 < {} ? 0xffffff : 0) with labels font ',9' "
+        "textcolor rgb variable",
+        (scale.low + scale.high) / 2);
+  }
+  return text + "\nunset output\n";
 }
 
 }  // namespace contact::cli

@@ -13,9 +13,9 @@ constexpr char kStyle[] =
     "h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2.2rem}"
     "table{border-collapse:collapse;display:block;overflow-x:auto;font-variant-numeric:tabular-"
     "nums;"
-    "font-size:.87rem;margin:.8rem 0}"
-    "th,td{padding:.2rem .45rem;text-align:left;border-bottom:1px solid #ddd;vertical-align:top}"
-    ".n{text-align:right;white-space:nowrap}tr.d{background:#fde7d9}"
+    "font-size:.82rem;margin:.8rem 0}"
+    "th,td{padding:.2rem .35rem;text-align:left;border-bottom:1px solid #ddd;vertical-align:top}"
+    "th{vertical-align:bottom}.n{text-align:right}td.n{white-space:nowrap}tr.d{background:#fde7d9}"
     "svg{max-width:100%;height:auto}"
     "pre{background:#f5f5f5;padding:.7rem;overflow-x:auto;font-size:.82rem}"
     "figure{margin:1rem 0}";

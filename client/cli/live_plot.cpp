@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <limits>
 #include <string_view>
 
@@ -141,17 +140,6 @@ double LivePlot::Until() const {
 
 std::vector<std::string> LivePlot::Picture() const {
   return RenderLivePlot(columns_, options_.channels, Until(), SizeOf(terminal_), options_.braille);
-}
-
-bool TerminalHasUtf8() {
-  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
-    const char* value = std::getenv(name);
-    if (value == nullptr || *value == '\0') continue;
-    const std::string_view locale = value;
-    return locale.find("UTF-8") != std::string_view::npos ||
-           locale.find("utf8") != std::string_view::npos;
-  }
-  return false;
 }
 
 }  // namespace contact::cli

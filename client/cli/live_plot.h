@@ -54,7 +54,4 @@ class LivePlot : public Recorder {
   bool stale_ = true;                                           ///< Chunks came since columns_.
 };
 
-/// True if the environment says that the terminal shows UTF-8.
-bool TerminalHasUtf8();
-
 }  // namespace contact::cli

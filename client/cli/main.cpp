@@ -9,7 +9,7 @@
 #include "cli/completion.h"
 #include "cli/manual.h"
 #include "cli/resolve.h"
-#include "wire/spelling.h"
+#include "cli/usage.h"
 
 namespace contact::cli {
 namespace {
@@ -20,7 +20,7 @@ A scenario is a YAML file: bodies on a line, their contacts, what holds and driv
 A job is a scenario that the server solves, and it goes on when you leave.
 Its result is a ledger of every contact cycle, the recorded motion, and figures.
 No server yet?  contactctl dev starts one. Something wrong?  contactctl doctor looks.
-All commands:   contactctl --help, and for one of them contactctl run --help.
+All commands:   contactctl --help; the way through them: contactctl help tutorial.
 
   contactctl init three-ball-chain        write an example scenario
   contactctl run three-ball-chain.yaml    submit it, watch it, see its ledger
@@ -34,16 +34,25 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--server", settings->server, "The server")
       ->type_name("HOST:PORT")
       ->capture_default_str();
-  app.add_option("-o,--output", settings->output,
-                 "How to print: table, json, name; jsonl (watch, list --watch, export); csv "
-                 "(series, sweep, model, export); netcdf (export); svg, png, pdf, gp, csv (plot)")
+  app.add_option(
+         "-o,--output", settings->output,
+         "How to print: table, wide (a table with all columns), json, name; jsonl (list, watch, "
+         "export); csv (list, series, sweep, model, export); netcdf (export); svg, png, "
+         "pdf, gp, csv (plot)")
       ->check(CLI::IsMember(
-          {"table", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
+          {"table", "wide", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->type_name("WHEN")
+      ->capture_default_str();
+  app.add_option(
+         "--progress", settings->progress,
+         "How to tell how far a job is: bar, plain (a line for each tenth) or none; auto is "
+         "a bar on a terminal")
+      ->check(CLI::IsMember({"auto", "bar", "plain", "none"}))
+      ->type_name("HOW")
       ->capture_default_str();
   app.add_option("--timeout", settings->timeout,
                  "Give up after this time. Default: 10s for a call, none for run, watch and wait")
@@ -56,7 +65,7 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
 bool NeedsSettings(const CLI::App& app) {
   const std::string& command = app.get_subcommands().front()->get_name();
   return command != "config" && command != "version" && command != "schema" &&
-         command != "completion" && command != "doctor";
+         command != "completion" && command != "doctor" && command != "help";
 }
 
 void AddCommands(CLI::App& app, const Settings& settings, Action* action) {
@@ -79,39 +88,7 @@ void AddCommands(CLI::App& app, const Settings& settings, Action* action) {
   AddCompletionCommand(app, action);
   AddDevCommand(app, settings, action);
   AddDoctorCommand(app, settings, action);
-}
-
-std::vector<std::string_view> Known(const CLI::App& app, bool flags,
-                                    std::vector<std::string>* storage) {
-  for (const CLI::App* scope = &app; scope != nullptr; scope = scope->get_parent()) {
-    for (const CLI::Option* option : scope->get_options()) {
-      for (const std::string& name : option->get_lnames()) {
-        if (flags) storage->push_back("--" + name);
-      }
-    }
-  }
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (!flags) storage->push_back(command->get_name());
-  }
-  return {storage->begin(), storage->end()};
-}
-
-// The words of CLI11, or better ones where a command or flag is misspelt.
-std::string UsageMessage(CLI::App& app, const CLI::ParseError& error) {
-  CLI::App* scope = &app;
-  while (!scope->get_subcommands().empty()) scope = scope->get_subcommands().front();
-  std::vector<std::string> extras = app.remaining(true);
-  const bool group = !scope->get_subcommands({}).empty();
-  if (extras.empty() || (scope != &app && !group && !extras.front().starts_with("-"))) {
-    return error.what();
-  }
-  const std::string& extra = extras.front();
-  const bool flag = extra.starts_with("-");
-  std::vector<std::string> storage;
-  const std::string_view nearest =
-      Nearest(extra.substr(0, extra.find('=')), Known(*scope, flag, &storage));
-  return fmt::format("unknown {} {}{}", flag ? "flag" : "command", Quoted(extra),
-                     nearest.empty() ? "" : fmt::format(" — did you mean '{}'?", nearest));
+  AddHelpCommand(app, action);
 }
 
 int Tell(const Failure& failure) {
@@ -142,7 +119,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    throw Failure(ExitCode::kUsage, UsageMessage(app, error) + "\nSee contactctl --help.");
+    throw Failure(ExitCode::kUsage, UsageMessage(app, error));
   }
   if (!action) {
     fmt::print("{}\n", kTour);

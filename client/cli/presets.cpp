@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "cli/failure.h"
 #include "cli/no_limits.h"
+#include "cli/number.h"
 #include "cli/run_energy.h"
 #include "wire/scenario_codec.h"
 
@@ -19,7 +22,8 @@ namespace {
 using Mark = Figure::Mark;
 using Panel = Figure::Panel;
 
-constexpr int kMostLabels = 12;  // More would hide the curves.
+constexpr int kMostLabels = 12;             // More would hide the curves.
+constexpr std::ptrdiff_t kFewSamples = 10;  // Fewer show no cycle.
 
 // y at x between samples; the samples' x ascend.
 double Interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
@@ -29,6 +33,11 @@ double Interpolate(const std::vector<double>& xs, const std::vector<double>& ys,
   if (i == 0) return ys.front();
   const double part = (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
   return ys[i - 1] + part * (ys[i] - ys[i - 1]);
+}
+
+std::ptrdiff_t SamplesIn(const v1::Cycle& cycle, const std::vector<double>& time) {
+  return std::ranges::upper_bound(time, cycle.end_time_s()) -
+         std::ranges::lower_bound(time, cycle.start_time_s());
 }
 
 // Draws the figures of one run.
@@ -61,6 +70,7 @@ class Artist {
     });
     for (const v1::Cycle& cycle : recording_.job.cycles()) {
       if (std::isnan(cycle.turn_time_s()) || panel.labels.size() == kMostLabels) continue;
+      if (SamplesIn(cycle, Column("time")) < kFewSamples) continue;  // Its peak is not drawn.
       panel.labels.push_back({cycle.turn_time_s(), cycle.peak_force_n(),
                               fmt::format("μ/k = {:.4g} s/m", cycle.mu_over_k_s_per_m())});
     }
@@ -115,31 +125,30 @@ class Artist {
     const auto& all = recording_.iterations;
     if (all.empty()) throw Failure(ExitCode::kUsage, "this run iterated nothing");
     const int episode = std::ranges::max(all, {}, &v1::Iteration::number).episode();
-    std::map<std::pair<std::string, int>, std::pair<Figure::Curve, Figure::Curve>> curves;
+    const bool only = std::ranges::all_of(
+        all, [episode](const v1::Iteration& pass) { return pass.episode() == episode; });
+    const std::string x_label = only ? "pass" : fmt::format("pass of episode {}", episode);
+    std::map<std::pair<std::string, int>, std::size_t> places;
+    std::vector<std::pair<Figure::Curve, Figure::Curve>> curves;  // As cycles come.
     for (const v1::Iteration& pass : all) {
       if (pass.episode() != episode) continue;
       for (const auto& unknown : pass.unknowns()) {
-        auto& [mu, residual] = curves[{unknown.contact(), unknown.number()}];
+        const auto [place, added] =
+            places.try_emplace({unknown.contact(), unknown.number()}, curves.size());
+        if (added) curves.push_back(IterationCurves(unknown, static_cast<int>(curves.size())));
+        auto& [mu, residual] = curves[place->second];
         mu.x.push_back(pass.number());
         mu.y.push_back(unknown.mu());
         residual.x.push_back(pass.number());
         residual.y.push_back(std::max(std::abs(unknown.residual()), kLeastResidual));
       }
     }
-    Panel mu{.x_label = "pass", .y_label = "μ [N s/m^(n+1)]", .counted_x = true};
+    Panel mu{.x_label = x_label, .y_label = "μ [N s/m^(n+1)]", .counted_x = true};
     Panel residual{
-        .x_label = "pass", .y_label = "|W_r/W_c + ε²| [1]", .counted_x = true, .log_y = true};
-    int colour = 0;
-    for (auto& [key, pair] : curves) {
-      pair.first.label = fmt::format("{} #{}", key.first, key.second);
-      pair.second.label = pair.first.label;
-      for (Figure::Curve* curve : {&pair.first, &pair.second}) {
-        curve->colour = colour;
-        curve->mark = Mark::kLinePoints;
-      }
-      ++colour;
-      mu.curves.push_back(std::move(pair.first));
-      residual.curves.push_back(std::move(pair.second));
+        .x_label = x_label, .y_label = "|W_r/W_c + ε²| [1]", .counted_x = true, .log_y = true};
+    for (auto& [of_mu, of_residual] : curves) {
+      mu.curves.push_back(std::move(of_mu));
+      residual.curves.push_back(std::move(of_residual));
     }
     return {std::move(mu), std::move(residual)};
   }
@@ -158,6 +167,16 @@ class Artist {
 
   static Scenario DecodeRun(const v1::Job& job) {
     return DecodeScenario(job.scenario(), kNoLimits).scenario;
+  }
+
+  static std::pair<Figure::Curve, Figure::Curve> IterationCurves(
+      const v1::Iteration::Unknown& unknown, int colour) {
+    const Figure::Curve curve{fmt::format("{} #{}", unknown.contact(), unknown.number()),
+                              colour,
+                              Mark::kLinePoints,
+                              {},
+                              {}};
+    return {curve, curve};
   }
 
   const std::vector<double>& Column(const std::string& name) const {
@@ -279,6 +298,25 @@ Figure DrawPreset(const std::string& preset, const Recording& recording) {
     if (IsEmpty(panel)) throw Failure(ExitCode::kUsage, "this run has nothing to show there");
   }
   return figure;
+}
+
+std::string CoarseSampling(const Recording& recording) {
+  constexpr double kEnoughSamples = 50;
+  const SampleColumn* time = recording.Find("time");
+  if (time == nullptr) return "";
+  double shortest = std::numeric_limits<double>::infinity();
+  std::int64_t coarse = 0;
+  for (const v1::Cycle& cycle : recording.job.cycles()) {
+    if (cycle.end() == v1::Cycle::RUN_END) continue;
+    if (SamplesIn(cycle, time->values) < kFewSamples) ++coarse;
+    shortest = std::min(shortest, cycle.end_time_s() - cycle.start_time_s());
+  }
+  if (coarse == 0) return "";
+  return fmt::format(
+      "{} fewer than {} samples, too few to show. For more:\n"
+      "  contactctl run --like {} --set output.sample_interval_s={:.0e}",
+      Count(coarse, "contact cycle has", "contact cycles have"), kFewSamples, recording.job.name(),
+      shortest / kEnoughSamples);
 }
 
 }  // namespace contact::cli

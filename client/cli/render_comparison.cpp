@@ -101,7 +101,9 @@ std::string LatexText(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) escaped += '\\';
-    escaped += c == '^' ? std::string("\\textasciicircum{}") : std::string(1, c);
+    escaped += c == '^'    ? std::string("\\textasciicircum{}")
+               : c == '\\' ? std::string("\\textbackslash{}")
+                           : std::string(1, c);
   }
   for (const auto& [greek, command] :
        {std::pair("μ", "$\\mu$"), {"ε", "$\\varepsilon$"}, {"δ", "$\\delta$"}}) {

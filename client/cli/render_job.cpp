@@ -87,7 +87,11 @@ std::string Ledger(const v1::Job& job, const Style& style) {
                {"ε OUT", true},
                {"ERROR", true},
                {"t START [s]", true, 3},
-               {"t END [s]", true, 3}});
+               {"t END [s]", true, 3},
+               {"PEAK FORCE [N]", true, Table::kOnlyWide},
+               {"δ MAX [m]", true, Table::kOnlyWide},
+               {"W_c [J]", true, Table::kOnlyWide},
+               {"W_r [J]", true, Table::kOnlyWide}});
   for (const v1::Cycle& cycle : job.cycles()) {
     table.Add({cycle.contact(),
                fmt::to_string(cycle.number()),
@@ -101,7 +105,11 @@ std::string Ledger(const v1::Job& job, const Style& style) {
                Digits(cycle.restitution_out(), 10),
                Error(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
                Digits(cycle.start_time_s(), 7),
-               Digits(cycle.end_time_s(), 7)});
+               Digits(cycle.end_time_s(), 7),
+               Digits(cycle.peak_force_n(), 7),
+               Digits(cycle.delta_max_m(), 7),
+               Digits(cycle.work_compression_j(), 7),
+               Digits(cycle.work_restitution_j(), 7)});
   }
   return fmt::format("\n{}", table.Text(style, kMostRows, "… {} more cycles; -o json prints all"));
 }

@@ -23,6 +23,18 @@ std::string Row(const std::string& episode, const std::string& n, const std::str
                      Pad(mu, -15), Pad(out, -13), Pad(error, -9), update);
 }
 
+// The interval in which μ is known to lie; a side that is not known yet is `-`.
+std::string Bracket(const v1::Iteration::Unknown& unknown) {
+  const auto side = [](double mu) { return mu == 0 ? "-" : Digits(mu, 9); };
+  return fmt::format("[{}, {}]", side(unknown.bracket_low()), side(unknown.bracket_high()));
+}
+
+// What stands to the right of a row in wide tables.
+std::string WithBracket(const std::string& row, const std::string& bracket, const Style& style) {
+  constexpr int kRow = 82;
+  return style.wide ? Pad(row, kRow) + bracket : row;
+}
+
 std::string NextStep(const v1::Iteration& iteration, const v1::Iteration::Unknown& unknown) {
   if (iteration.accepted()) return "accepted";
   if (unknown.update() == v1::Iteration::UPDATE_UNSPECIFIED) return "-";
@@ -95,15 +107,17 @@ void LiveView::ShowIteration(const v1::Iteration& iteration) {
       continue;
     }
     if (!std::exchange(header_shown_, true)) {
-      Write(rows_, Paint(Row("EPISODE", "n", "CONTACT", "μ", "ε OUT", "|Δε|/ε", "NEXT"),
-                         Tone::kFaint, rows_style_));
+      const std::string header = Row("EPISODE", "n", "CONTACT", "μ", "ε OUT", "|Δε|/ε", "NEXT");
+      Write(rows_,
+            Paint(WithBracket(header, "BRACKET OF μ", rows_style_), Tone::kFaint, rows_style_));
     }
     const double error = RestitutionError(unknown.restitution_out(), unknown.restitution_in());
     const std::string row =
         Row(fmt::to_string(iteration.episode()), fmt::to_string(iteration.number()),
             unknown.contact(), Digits(unknown.mu(), 9), Digits(unknown.restitution_out(), 8),
             Error(error), NextStep(iteration, unknown));
-    Write(rows_, Paint(row, iteration.accepted() ? Tone::kStrong : Tone::kPlain, rows_style_));
+    Write(rows_, Paint(WithBracket(row, Bracket(unknown), rows_style_),
+                       iteration.accepted() ? Tone::kStrong : Tone::kPlain, rows_style_));
   }
 }
 
@@ -130,12 +144,23 @@ void LiveView::ShowState(const v1::StateChanged& change) {
 
 void LiveView::DrawProgress() {
   const auto elapsed = std::chrono::steady_clock::now() - start_;
-  if (!messages_style_.terminal || !progress_ || elapsed < kBeforeProgress) return;
+  if (!progress_ || elapsed < kBeforeProgress) return;
   const double seconds = std::chrono::duration<double>(elapsed).count();
+  if (options_.progress == ProgressForm::kLines) TellProgress(seconds);
+  if (options_.progress != ProgressForm::kBar) return;
   const int width = StyleOf(fileno(messages_), "never").width;  // It may have been resized.
-  std::fputs(("\r\x1b[K" + RenderProgress(*progress_, seconds, width - 1)).c_str(), messages_);
+  const std::string line =
+      RenderProgress(*progress_, seconds, std::max(width - 1, 0), TerminalHasUtf8());
+  std::fputs(("\r\x1b[K" + line).c_str(), messages_);
   std::fflush(messages_);
   drawn_ = true;
+}
+
+void LiveView::TellProgress(double elapsed_s) {
+  const int tenths = static_cast<int>(10 * PartDone(*progress_));
+  if (tenths <= told_tenths_) return;
+  told_tenths_ = tenths;
+  Write(messages_, ProgressWords(*progress_, elapsed_s));
 }
 
 void LiveView::EraseProgress() {
@@ -144,18 +169,29 @@ void LiveView::EraseProgress() {
   std::fflush(messages_);
 }
 
-std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width) {
-  const double done = progress.end_time_s() > 0
-                          ? std::clamp(progress.time_s() / progress.end_time_s(), 0.0, 1.0)
-                          : 0;
-  const int filled = static_cast<int>(std::lround(done * kBar));
+double PartDone(const v1::Progress& progress) {
+  if (progress.cells() > 0) return static_cast<double>(progress.cells_done()) / progress.cells();
+  if (progress.end_time_s() <= 0) return 0;
+  return std::clamp(progress.time_s() / progress.end_time_s(), 0.0, 1.0);
+}
+
+std::string TimeLeft(double part_done, double elapsed_s) {
+  if (part_done <= 0.01) return "";
+  return fmt::format(", {} left", Seconds(elapsed_s * (1 - part_done) / part_done));
+}
+
+std::string ProgressWords(const v1::Progress& progress, double elapsed_s) {
+  const double done = PartDone(progress);
+  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s, {} cycles, {} iterations{}", 100 * done,
+                     progress.time_s(), progress.end_time_s(), progress.cycles(),
+                     progress.iterations(), TimeLeft(done, elapsed_s));
+}
+
+std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width, bool utf8) {
+  const int filled = static_cast<int>(std::lround(PartDone(progress) * kBar));
   std::string bar;
-  for (int i = 0; i < kBar; ++i) bar += i < filled ? "━" : "─";
-  const std::string left =
-      done > 0.01 ? fmt::format(", {} left", Seconds(elapsed_s * (1 - done) / done)) : "";
-  const std::string words = fmt::format(
-      "{:3.0f} %  t = {:.4g} of {:.4g} s, {} cycles, {} iterations{}", 100 * done,
-      progress.time_s(), progress.end_time_s(), progress.cycles(), progress.iterations(), left);
+  for (int i = 0; i < kBar; ++i) bar += i < filled ? (utf8 ? "━" : "#") : (utf8 ? "─" : "-");
+  const std::string words = ProgressWords(progress, elapsed_s);
   if (width <= 0 || Width(words) + kBar + 1 <= width) return bar + " " + words;
   return Cut(words, width);
 }

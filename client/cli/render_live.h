@@ -11,14 +11,15 @@
 
 namespace contact::cli {
 
-/// Shows a watch as it goes on: a growing table of the μ-iteration, remarks, and, on a terminal,
-/// a line of progress below that is drawn anew ten times a second.
+/// Shows a watch as it goes on: a growing table of the μ-iteration, remarks, and how far the job
+/// is, as a line below that is drawn anew ten times a second or as a line for each tenth.
 class LiveView : public WatchObserver {
  public:
   struct Options {
     bool cycles = true;       ///< Show ledger rows too.
     int most_iterations = 0;  ///< Rows of the iteration table; 0: all.
     std::string job;          ///< To say how to see the rest.
+    ProgressForm progress = ProgressForm::kNone;
   };
 
   /// Events go to `rows`, the line of progress and troubles to `messages`, which may be the same.
@@ -37,6 +38,7 @@ class LiveView : public WatchObserver {
   void ShowCycle(const v1::Cycle& cycle);
   void ShowState(const v1::StateChanged& change);
   void DrawProgress();
+  void TellProgress(double elapsed_s);
   void EraseProgress();
 
   std::FILE* rows_;
@@ -49,9 +51,20 @@ class LiveView : public WatchObserver {
   std::int64_t iterations_ = 0;
   bool header_shown_ = false;
   bool drawn_ = false;
+  int told_tenths_ = 0;
 };
 
-/// The line of progress, at most `width` characters (0: no limit).
-std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width);
+/// How far a run is and how long it may still take, in words.
+std::string ProgressWords(const v1::Progress& progress, double elapsed_s);
+
+/// The same after a bar, at most `width` characters (0: no limit).
+std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width,
+                           bool utf8 = true);
+
+/// The part of a run or sweep that is done, from 0 to 1.
+double PartDone(const v1::Progress& progress);
+
+/// `, 3.2 s left`, if enough is done to tell.
+std::string TimeLeft(double part_done, double elapsed_s);
 
 }  // namespace contact::cli

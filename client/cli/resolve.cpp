@@ -93,6 +93,8 @@ void ResolveSettings(CLI::App& app, Settings* settings) {
       Resolve(option, files, settings);
     }
   }
+  settings->wide = settings->output == "wide";
+  if (settings->wide) settings->output = "table";
 }
 
 }  // namespace contact::cli

@@ -52,6 +52,19 @@ void AddSupports(const Scenario& scenario, const Recording& recording, Values* e
   }
 }
 
+bool IsConstant(const Load& load) {
+  return load.begin == 0 && std::isinf(load.end) && load.slope == 0 && load.amplitude == 0;
+}
+
+void AddConstantLoads(const Scenario& scenario, const Recording& recording, Values* energy) {
+  for (const Load& load : scenario.loads) {
+    if (!IsConstant(load)) continue;
+    const std::string& body = scenario.bodies[static_cast<std::size_t>(load.body)].name;
+    const Values& position = Column(recording, body + ".position");
+    for (std::size_t i = 0; i < energy->size(); ++i) (*energy)[i] -= load.constant * position[i];
+  }
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, Values>> MechanicalEnergy(const Scenario& scenario,
@@ -62,7 +75,11 @@ std::vector<std::pair<std::string, Values>> MechanicalEnergy(const Scenario& sce
   AddContacts(scenario, recording, &parts[1].second);
   if (!scenario.supports.empty()) {
     parts.emplace_back("supports", zero);
-    AddSupports(scenario, recording, &parts[2].second);
+    AddSupports(scenario, recording, &parts.back().second);
+  }
+  if (std::ranges::any_of(scenario.loads, IsConstant)) {
+    parts.emplace_back("constant loads", zero);
+    AddConstantLoads(scenario, recording, &parts.back().second);
   }
   Values sum = zero;
   for (const auto& [name, values] : parts) {

@@ -32,8 +32,24 @@ std::optional<std::chrono::steady_clock::time_point> Settings::Deadline() const 
   return std::chrono::steady_clock::now() + ParseDuration(timeout);
 }
 
-Style Settings::OutputStyle() const { return StyleOf(STDOUT_FILENO, color); }
-Style Settings::MessageStyle() const { return StyleOf(STDERR_FILENO, color); }
+ProgressForm Settings::Progress() const {
+  if (progress == "plain") return ProgressForm::kLines;
+  const bool bar = progress == "bar" || (progress == "auto" && MessageStyle().terminal);
+  return bar ? ProgressForm::kBar : ProgressForm::kNone;
+}
+
+Style Settings::OutputStyle() const {
+  Style style = StyleOf(STDOUT_FILENO, color);
+  style.wide = wide;
+  if (wide) style.width = 0;
+  return style;
+}
+
+Style Settings::MessageStyle() const {
+  Style style = StyleOf(STDERR_FILENO, color);
+  style.wide = wide;
+  return style;
+}
 
 void PrintJob(const v1::Job& job, const Settings& settings) {
   if (settings.output == "name") {

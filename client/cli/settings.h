@@ -27,7 +27,9 @@ struct Settings {
   std::string profile;  ///< Section of the config files; empty: none.
   std::string server = "127.0.0.1:7070";
   std::string output = "table";
+  bool wide = false;  ///< `output` is a table with all its columns.
   std::string color = "auto";
+  std::string progress = "auto";
   std::string timeout;  ///< Empty: the default of the command.
 
   /// Where each comes from, by its key in config files: a flag, a variable, or `path:line`.
@@ -43,6 +45,7 @@ struct Settings {
   /// When a command that follows a job gives up; none without `timeout`.
   std::optional<std::chrono::steady_clock::time_point> Deadline() const;
 
+  ProgressForm Progress() const;
   Style OutputStyle() const;   ///< Of the standard output.
   Style MessageStyle() const;  ///< Of the standard error.
 };

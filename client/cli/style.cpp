@@ -119,4 +119,15 @@ std::string Cut(std::string_view text, int width) {
   return std::string(text);
 }
 
+bool TerminalHasUtf8() {
+  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(name);
+    if (value == nullptr || *value == '\0') continue;
+    const std::string_view locale = value;
+    return locale.find("UTF-8") != std::string_view::npos ||
+           locale.find("utf8") != std::string_view::npos;
+  }
+  return false;
+}
+
 }  // namespace contact::cli

@@ -8,11 +8,19 @@ namespace contact::cli {
 
 enum class Tone { kPlain, kStrong, kGood, kWarning, kBad, kFaint };
 
+/// How it is told how far a job is.
+enum class ProgressForm {
+  kNone,
+  kBar,    ///< A line that is drawn anew.
+  kLines,  ///< A line for each tenth.
+};
+
 /// How to write to a stream.
 struct Style {
   bool terminal = false;  ///< Someone looks at it live.
   bool color = false;
-  int width = 0;  ///< Characters in a line; 0: no limit.
+  int width = 0;      ///< Characters in a line; 0: no limit.
+  bool wide = false;  ///< Tables have all their columns.
 };
 
 /// The style of an open file descriptor. `color` is auto, always or never; auto is in colour on
@@ -39,5 +47,8 @@ std::string Pad(std::string_view text, int width);
 
 /// The first `width` characters.
 std::string Cut(std::string_view text, int width);
+
+/// True if the environment says that the terminal shows UTF-8.
+bool TerminalHasUtf8();
 
 }  // namespace contact::cli

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cli/failure.h"
+#include "cli/scalar.h"
 #include "cli/scenario_file.h"
 #include "cli/text_file.h"
 #include "cli/yaml_reader.h"
@@ -127,12 +130,64 @@ class SweepFile {
   std::vector<Diagnostic> mistakes_;
 };
 
+[[noreturn]] void FailAxis(const std::string& axis) {
+  throw Failure(ExitCode::kUsage, fmt::format("--grid {}: expected FIELD=FIRST:LAST:COUNT or "
+                                              "FIELD=A,B,C",
+                                              axis));
+}
+
+// `FIRST:LAST:COUNT` as a list of values, which may also fall.
+std::string Steps(const std::string& axis, const std::string& range) {
+  std::vector<double> ends;
+  std::istringstream parts(range);
+  for (std::string part; std::getline(parts, part, ':');) {
+    const auto number = ParseNumber(part);
+    if (!number) FailAxis(axis);
+    ends.push_back(*number);
+  }
+  constexpr double kMost = 10'000;
+  if (ends.size() != 3 || !(ends[2] >= 1) || ends[2] > kMost) FailAxis(axis);
+  const int count = static_cast<int>(ends[2]);
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    values.push_back(std::lerp(ends[0], ends[1], count == 1 ? 0.0 : 1.0 * i / (count - 1)));
+  }
+  return fmt::format("{:.15g}", fmt::join(values, ", "));  // Not 0.8999999999999999.
+}
+
+// In single quotes only the quote is special.
+std::string QuotedYaml(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// An axis as it stands in a sweep file.
+std::string AxisEntry(const std::string& axis) {
+  const std::size_t equals = axis.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == axis.size()) FailAxis(axis);
+  const std::string values = axis.substr(equals + 1);
+  if (values.find_first_of("[]{}#\n\"'") != std::string::npos) FailAxis(axis);
+  const bool range = values.find(':') != std::string::npos;
+  return fmt::format("  - {{field: {}, values: [{}]}}\n", QuotedYaml(axis.substr(0, equals)),
+                     range ? Steps(axis, values) : values);
+}
+
 }  // namespace
 
 v1::Sweep OpenSweep(const std::string& path) { return ReadSweep(path, ReadText(path)); }
 
 v1::Sweep ReadSweep(const std::string& path, const std::string& text) {
   return SweepFile(path).Read(text);
+}
+
+v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
+                   const std::string& metric) {
+  std::string text = fmt::format("base: {}\naxes:\n", QuotedYaml(scenario));
+  for (const std::string& axis : axes) text += AxisEntry(axis);
+  text += fmt::format("metrics: [{}]\n", QuotedYaml(metric.empty() ? "iterations" : metric));
+  return ReadSweep("--grid", text);
 }
 
 bool IsSweep(const std::string& text) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "contact/v1/scenario.pb.h"
 
@@ -13,6 +14,12 @@ v1::Sweep OpenSweep(const std::string& path);
 
 /// The same of text that stands in the file at `path`.
 v1::Sweep ReadSweep(const std::string& path, const std::string& text);
+
+/// The sweep of a scenario file over every combination of the values of some fields, each axis as
+/// `FIELD=FIRST:LAST:COUNT`, in equal steps, or `FIELD=A,B,C`; `metric` is `iterations` if empty.
+/// Throws as OpenSweep does, and Failure (kUsage) for an axis that is none.
+v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
+                   const std::string& metric);
 
 /// True if a document has a part that only a sweep has: `base` or `axes`.
 bool IsSweep(const std::string& text);

@@ -42,18 +42,18 @@ int Table::Layout::Total() const {
   return total;
 }
 
-Table::Layout Table::Wide() const {
+Table::Layout Table::Full(const Style& style) const {
   Layout layout;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     layout.headers.push_back({columns_[i].header});
     layout.widths.push_back(std::max(Width(columns_[i].header), WidestCell(i)));
-    layout.shown.push_back(i);
+    if (style.wide || columns_[i].spare != kOnlyWide) layout.shown.push_back(i);
   }
   return layout;
 }
 
 Table::Layout Table::Narrow(const Style& style) const {
-  Layout layout = Wide();
+  Layout layout = Full(style);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const std::vector<std::string> parts = Parts(columns_[i].header);
     layout.widths[i] = std::max(Widest(parts), WidestCell(i));
@@ -62,7 +62,7 @@ Table::Layout Table::Narrow(const Style& style) const {
   while (layout.Total() > style.width) {
     const auto spare = [this](std::size_t i) { return columns_[i].spare; };
     const auto first = std::ranges::max_element(layout.shown, {}, spare);
-    if (columns_[*first].spare == 0) break;
+    if (columns_[*first].spare <= 0) break;
     layout.shown.erase(first);
   }
   return layout;
@@ -98,11 +98,11 @@ std::string Table::Row(const Layout& layout, std::size_t row, const Style& style
   return TrimRight(std::move(text)) + "\n";
 }
 
-std::string Table::Block(std::size_t row, const Style& style) const {
+std::string Table::Block(const Layout& layout, std::size_t row, const Style& style) const {
   int label = 0;
-  for (const Column& column : columns_) label = std::max(label, Width(column.header));
+  for (const std::size_t i : layout.shown) label = std::max(label, Width(columns_[i].header));
   std::string text = row == 0 ? "" : "\n";
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
+  for (const std::size_t i : layout.shown) {
     const Cell& cell = rows_[row][i];
     const std::string gap(kGap, ' ');
     const std::string words = Paint(cell.text, cell.tone, style) + "\n";
@@ -116,8 +116,8 @@ std::string Table::Block(std::size_t row, const Style& style) const {
 }
 
 std::string Table::Text(const Style& style, std::size_t most, const std::string& more) const {
-  Layout layout = Wide();
-  if (style.width > 0 && layout.Total() > style.width) layout = Narrow(style);
+  const Layout full = Full(style);
+  const Layout layout = style.width > 0 && full.Total() > style.width ? Narrow(style) : full;
   const bool blocks = style.width > 0 && layout.Total() > style.width;
   std::string text = blocks ? "" : Header(layout, style);
   const std::size_t head = most == 0 || rows_.size() <= most ? rows_.size() : most / 2;
@@ -127,7 +127,7 @@ std::string Table::Text(const Style& style, std::size_t most, const std::string&
       text += Paint(fmt::format(fmt::runtime(more), tail - head), Tone::kFaint, style) + "\n";
       row = tail;
     }
-    text += blocks ? Block(row, style) : Row(layout, row, style);
+    text += blocks ? Block(full, row, style) : Row(layout, row, style);
   }
   return text;
 }

@@ -12,10 +12,12 @@ namespace contact::cli {
 /// block of all its cells, one below the other.
 class Table {
  public:
+  static constexpr int kOnlyWide = -1;
   struct Column {
     std::string header;
     bool right = false;  ///< Aligned to the right, as numbers are.
-    int spare = 0;       ///< > 0: left out on a narrow terminal, the highest first.
+    /// > 0: left out on a narrow terminal, the highest first; kOnlyWide: shown in wide tables.
+    int spare = 0;
   };
   struct Cell {
     Cell(std::string words, Tone its_tone = Tone::kPlain)  // NOLINT(google-explicit-constructor)
@@ -43,11 +45,11 @@ class Table {
   };
 
   int WidestCell(std::size_t column) const;
-  Layout Wide() const;
+  Layout Full(const Style& style) const;
   Layout Narrow(const Style& style) const;
   std::string Header(const Layout& layout, const Style& style) const;
   std::string Row(const Layout& layout, std::size_t row, const Style& style) const;
-  std::string Block(std::size_t row, const Style& style) const;
+  std::string Block(const Layout& layout, std::size_t row, const Style& style) const;
 
   std::vector<Column> columns_;
   std::vector<std::vector<Cell>> rows_;

@@ -1,16 +1,21 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace contact::cli {
 
-/// A scenario that is shipped with the program, from client/scenarios.
+/// A scenario or sweep that is shipped with the program, from client/scenarios.
 struct Template {
-  std::string_view name;  ///< That of its file, without `.yaml`.
+  std::string_view name;   ///< That of its file, without `.yaml`.
+  std::string_view shows;  ///< Its title.
   std::string_view text;
 };
 
 std::span<const Template> Templates();
+
+/// The one of this name. Throws Failure (kUsage) if there is none.
+const Template& FindTemplate(const std::string& name);
 
 }  // namespace contact::cli

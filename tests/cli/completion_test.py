@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from contactctl_test import CHAIN, CONTACTCTL, CliTest, read_until
+from contactctl_test import CHAIN, CONTACTCTL, SCENARIOS, CliTest, read_until
 from contactd import PATIENCE_S
 
 
@@ -63,6 +63,8 @@ class CompletionTest(CliTest):
         self.assertEqual(self.offered("model", "show", "hunt")[0], ["hunt-crossley"])
         self.assertEqual(self.offered("init", "three")[0], ["three-ball-chain"])
         self.assertEqual(self.offered("completion", "")[0], ["bash", "zsh", "fish"])
+        self.assertEqual(self.offered("help", "t")[0], ["tutorial"])
+        self.assertEqual(self.offered("run", "-t", "newt")[0], ["newton-cradle"])
         self.assertEqual(self.offered("run", "")[1], ":scenarios")
         self.assertEqual(self.offered("plot", "--keep", "")[1], ":directories")
 
@@ -86,6 +88,26 @@ class CompletionTest(CliTest):
         self.assertEqual(self.offered("describe", job[:2])[0], [job])
         self.assertIn("B3.velocity", self.offered("series", job, "--channel", "B3.")[0])
         self.assertEqual(self.offered("--server", "127.0.0.1:1", "describe", "")[0], [])
+
+    def test_lists_are_completed_at_their_last_entry(self):
+        job = self.run_it("run", CHAIN, "-o", "name")[0].strip().removeprefix("jobs/")
+        offer, rule = self.offered("watch", job, "--plot", "B1.velocity,B")
+        self.assertEqual(rule, ":nospace")
+        self.assertIn("B1.velocity,B2.velocity", offer)
+        self.assertNotIn("B1.velocity,B1.velocity", offer)
+        self.assertEqual(self.offered("export", job, "--channels=B3.velocity,B1.p")[0],
+                         ["--channels=B3.velocity,B1.position"])
+        self.assertEqual(self.offered("export", job, "--channels", "=", "B3.velocity,B1.p")[0],
+                         ["B3.velocity,B1.position"])
+        self.assertEqual(self.offered("watch", job, "--kinds", "cycle,progr")[0],
+                         ["cycle,progress"])
+
+    def test_artifacts_and_metrics_are_those_of_the_job(self):
+        job = self.run_it("run", CHAIN, "-o", "name")[0].strip()
+        self.assertEqual(self.offered("artifact", "get", job, "traj")[0], ["trajectory.csv"])
+        sweep = self.run_it("sweep", "run", SCENARIOS / "table-3-sweep.yaml", "-o", "name")[0]
+        self.assertEqual(self.offered("sweep", "export", sweep.strip(), "--metric", "iter")[0],
+                         ["iterations"])
 
     def test_without_a_server_it_is_silent_and_soon_over(self):
         start = time.monotonic()

@@ -65,8 +65,8 @@ class ConfigTest(unittest.TestCase):
     def test_commands_obey(self):
         self.user.write_text('server = "127.0.0.1:1"\ntimeout = "2s"\n')
         self.assertIn("cannot reach contactd at 127.0.0.1:1", self.run_it("list", code=4)[1])
-        self.assertIn("CONTACT_OUTPUT: output csv: this command prints",
-                      self.run_it("list", code=2, CONTACT_OUTPUT="csv")[1])
+        self.assertIn("CONTACT_OUTPUT: output svg: this command prints",
+                      self.run_it("list", code=2, CONTACT_OUTPUT="svg")[1])
 
     def test_set_keeps_what_else_is_in_the_file(self):
         self.user.write_text("# mine\nserver = 'a:1'  # old\n\n[profile.lab]\n# theirs\n")

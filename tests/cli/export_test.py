@@ -9,9 +9,11 @@ import shutil
 import subprocess
 import unittest
 
+import h5py
 import netCDF4
 import numpy as np
 import pandas
+import xarray
 from contactctl_test import CHAIN, PATIENCE_S, CliTest
 
 
@@ -117,6 +119,20 @@ class ExportTest(CliTest):
             self.assertEqual(data.revision, self.job.server_revision)
             solver = json.loads(data.solver)
             self.assertEqual((solver["method"], solver["update"]), ("ADAPTIVE", "NEWTON_COUPLED"))
+
+    def test_xarray_and_h5py_read_the_same_doubles(self):
+        path = self.folder / "chain.nc"
+        self.run_it("export", self.name, "-f", path)
+        recorded = self.recorded()
+        with xarray.open_dataset(path, group="series") as series:
+            velocity = series["B3.velocity"]
+            self.assertEqual((velocity.dims, velocity.attrs["units"]), (("time",), "m/s"))
+            np.testing.assert_array_equal(velocity, recorded["B3.velocity"])
+            np.testing.assert_array_equal(velocity.time, recorded["time"])
+        with h5py.File(path) as file:
+            np.testing.assert_array_equal(file["series/B3.velocity"], recorded["B3.velocity"])
+            self.assertEqual(file["cycles/mu"].attrs["units"], b"N s/m^(n+1)")
+            self.assertEqual(file.attrs["job"], self.name.encode())
 
     def test_octave_reads_the_same_doubles(self):
         if not shutil.which("octave-cli"):

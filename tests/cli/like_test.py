@@ -49,7 +49,7 @@ class LikeTest(CliTest):
         self.assertEqual(self.server.get(second).scenario, self.server.get(first).scenario)
 
     def test_wrong_uses_are_told(self):
-        self.assertIn("either a FILE or --like JOB", self.run_it("run", code=2)[1])
+        self.assertIn("a FILE, --template NAME or --like JOB", self.run_it("run", code=2)[1])
         self.run_it("run", CHAIN, "--like", "x", code=2)
         self.repeat("nix", code=6)
         _, said = self.run_it("sweep", "run", SCENARIOS / "table-3-sweep.yaml")

@@ -8,6 +8,7 @@ import subprocess
 import unittest
 
 import numpy as np
+from PIL import Image
 from contactctl_test import CHAIN, PATIENCE_S, SCENARIOS, CliTest
 
 PRESETS = ("position", "velocity", "force", "deformation-velocity", "hysteresis", "restitution",
@@ -54,9 +55,12 @@ class PlotTest(CliTest):
         self.assertTrue(self.plot("force", "a.dat", "-o", "png").startswith(b"\x89PNG"))
         self.assertTrue(self.plot("force", "a.csv").startswith(b"curve,time [s],force [N]"))
 
-    def test_same_run_gives_the_same_svg(self):
-        first = self.plot("hysteresis", "same.svg")
-        self.assertEqual(self.plot("hysteresis", "same.svg"), first)
+    def test_same_run_gives_the_same_picture(self):
+        for form in ("svg", "png", "pdf"):
+            first = self.plot("hysteresis", f"same.{form}")
+            self.assertEqual(self.plot("hysteresis", f"same.{form}"), first, form)
+            for instant in (b"/CreationDate", b"tIME"):
+                self.assertNotIn(instant, first)
 
     def test_script_draws_the_figure_without_us(self):
         drawn = self.plot("force", "alone.svg")
@@ -71,7 +75,8 @@ class PlotTest(CliTest):
     def test_script_and_data_are_kept_on_request(self):
         keep = self.folder / "new" / "kept"
         self.plot("energy", "e.png", "--keep", keep)
-        self.assertEqual({path.name for path in keep.iterdir()}, {"energy.gp", "energy.csv", "energy.csv-metadata.json"})
+        self.assertEqual({path.name for path in keep.iterdir()},
+                         {"energy.gp", "energy.csv", "energy.csv-metadata.json"})
 
     def test_every_picture_tells_where_it_comes_from(self):
         svg = self.plot("force", "a.svg").decode()
@@ -86,7 +91,29 @@ class PlotTest(CliTest):
         self.assertEqual(described, [f"{name}: {value}" for name, value in source.items()])
         self.assertEqual(script.splitlines()[:5], [f"# {line}" for line in described])
         self.assertIn("<title>Triple-ball chain</title>", svg)
+        self.plot("force", "a.png")
+        png = Image.open(self.folder / "a.png").text
+        self.assertEqual((png["Title"], png["Description"].splitlines()),
+                         ("Triple-ball chain", described))
+        self.plot("force", "a.pdf")
+        pdf = subprocess.run(["pdfinfo", self.folder / "a.pdf"], check=True, text=True,
+                             capture_output=True, timeout=PATIENCE_S).stdout
+        self.assertIn("Title:           Triple-ball chain\n", pdf)
+        for line in described:
+            self.assertIn(line, pdf)
         self.assertIn(f"{self.name} ({self.job.spec_sha256[:12]}), contactd ", svg)
+
+    def test_heat_maps_tell_where_they_come_from_too(self):
+        sweep = self.run_it("sweep", "run", SCENARIOS / "table-3-sweep.yaml", "-o", "name")[0]
+        sha256 = self.server.get(sweep.strip()).spec_sha256
+        for form in ("svg", "png", "pdf"):
+            path = self.folder / f"map.{form}"
+            self.run_it("sweep", "export", sweep.strip(), "--heatmap", path)
+            told = (path.read_text("utf-8") if form == "svg" else
+                    Image.open(path).text["Description"] if form == "png" else
+                    subprocess.run(["pdfinfo", path], check=True, capture_output=True, text=True,
+                                   timeout=PATIENCE_S).stdout)
+            self.assertIn(f"scenario_sha256: {sha256}", told, form)
 
     def test_comments_of_a_script_stay_comments(self):
         name = self.submit(CHAIN, "--set", 'title="a\\nset output \'pwned\'"')
@@ -113,6 +140,32 @@ class PlotTest(CliTest):
         total = self.curves("energy")["sum"][:, 1]
         self.assertAlmostEqual(total[0], 0.01, delta=1e-15)
         self.assertAlmostEqual(total[-1], self.job.summary.kinetic_energy_j, delta=1e-12)
+
+    def test_energy_of_gravity_is_in_the_sum(self):
+        self.name = self.submit(SCENARIOS / "bouncing-ball.yaml")
+        curves = self.curves("energy")
+        total = curves["sum"][:, 1]
+        self.assertAlmostEqual(curves["constant loads"][0, 1], 0.5 * 9.81 * 1.0, delta=1e-12)
+        falling = curves["sum"][:, 0] < 0.44  # Before the ball touches the floor.
+        np.testing.assert_allclose(total[falling], total[0], rtol=1e-9)
+        self.assertLess(np.diff(total).max(), 1e-6 * total[0])
+
+    def test_cycles_between_samples_are_told_with_what_shows_them(self):
+        name = self.submit(SCENARIOS / "bouncing-ball.yaml", "--set", "output={}")
+        path = self.folder / "coarse.svg"
+        said = self.run_it("plot", name, "force", "-f", path)[1]
+        command = re.search("contactctl (run --like .*)", said)[1].split()
+        self.assertRegex(said, "contact cycles have fewer than 10 samples")
+        self.assertNotIn("μ/k", path.read_text())
+        again = self.run_it(*command, "-o", "name")[0].strip()
+        self.assertIn(b"\xce\xbc/k", self.plot("force", "fine.svg", name=again))
+
+    def test_long_curves_are_drawn_thinned_and_kept_whole(self):
+        name = self.submit(CHAIN, "--set", "output.sample_interval_s=1e-7")
+        svg = self.plot("position", "long.svg", name=name)
+        self.assertLess(len(svg), 400_000)  # Three curves of 40 000 samples.
+        points = self.plot("position", "long.csv", name=name).splitlines()
+        self.assertGreater(len(points), 120_000)
 
     def test_residual_falls_to_the_tolerance(self):
         points = self.curves("iterations")["B1-B2 #1"]

@@ -94,6 +94,20 @@ TEST(RenderProgress, FitsTheWidth) {
   }
 }
 
+TEST(RenderProgress, NeedsNoUtf8) {
+  v1::Progress progress;
+  progress.set_time_s(1);
+  progress.set_end_time_s(2);
+  const std::string line = RenderProgress(progress, 3, 0, false);
+  EXPECT_THAT(line, testing::StartsWith("############------------  50 %"));
+  EXPECT_EQ(line.size(), static_cast<std::size_t>(Width(line)));
+}
+
+TEST(TimeLeft, IsToldOnceEnoughIsDone) {
+  EXPECT_EQ(TimeLeft(0.005, 10), "");
+  EXPECT_EQ(TimeLeft(0.25, 10), ", 30 s left");
+}
+
 TEST(RenderProgress, NothingKnownIsNothingDone) {
   EXPECT_THAT(RenderProgress({}, 0, 0), testing::HasSubstr("  0 %"));
 }

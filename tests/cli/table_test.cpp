@@ -27,6 +27,14 @@ TEST(Table, NarrowTerminalLosesTheColumnsToSpareFirst) {
             "δ           1       3\n");
 }
 
+TEST(Table, SomeColumnsAreOfWideTablesOnly) {
+  Table table({{"NAME"}, {"WORK", true, Table::kOnlyWide}});
+  table.Add({std::string("B1-B2"), std::string("2.5")});
+  EXPECT_EQ(table.Text({}), "NAME\nB1-B2\n");
+  EXPECT_EQ(table.Text({.width = 6}), "NAME\nB1-B2\n");
+  EXPECT_EQ(table.Text({.wide = true}), "NAME   WORK\nB1-B2   2.5\n");
+}
+
 TEST(Table, NarrowTerminalHasHeadersOfSeveralLinesFirst) {
   Table table({{"bodies[0].velocity_m_per_s", true}, {"VERDICT"}});
   table.Add({std::string("0.1"), std::string("FULL")});

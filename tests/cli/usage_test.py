@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -45,20 +46,32 @@ class Usage(unittest.TestCase):
             self.assertIn("Usage:", printed)
             self.assertEqual(said, "")
 
+    def test_help_is_a_command_too(self):
+        self.assertEqual(self.run_it("help", "run", code=0), self.run_it("run", "--help", code=0))
+        self.assertEqual(self.run_it("help", "sweep", "export", code=0),
+                         self.run_it("sweep", "export", "--help", code=0))
+        self.assertIn("did you mean 'plot'?", self.run_it("help", "plto", code=2)[1])
+        tutorial = self.run_it("help", "tutorial", code=0)[0]
+        for command in re.findall("contactctl ([a-z]+)", tutorial):
+            self.run_it("help", command, code=0)
+
     def test_misspelt_commands_and_flags_have_a_hint(self):
         self.assertEqual(self.run_it("rnu", "x.yaml", code=2)[1],
                          "contactctl: unknown command 'rnu' — did you mean 'run'?\n"
                          "See contactctl --help.\n")
         self.assertEqual(self.run_it("list", "--sever=x:1", code=2)[1],
                          "contactctl: unknown flag '--sever=x:1' — did you mean '--server'?\n"
-                         "See contactctl --help.\n")
+                         "See contactctl list --help.\n")
         self.assertEqual(self.run_it("server", "inof", code=2)[1],
                          "contactctl: unknown command 'inof' — did you mean 'info'?\n"
-                         "See contactctl --help.\n")
+                         "See contactctl server --help.\n")
+        self.assertIn("— did you mean 'table'?\n", self.run_it("list", "-o", "tabel", code=2)[1])
+        self.assertIn("— did you mean RUNNING?\n",
+                      self.run_it("list", "--state", "runing", code=2)[1])
 
     def test_wrong_usage_is_code_2_on_stderr(self):
         for arguments in (["run"], ["list", "extra"], ["list", "--limit", "-1"],
-                          ["list", "-o", "xml"], ["list", "-o", "jsonl"], ["list", "--state", "X"],
+                          ["list", "-o", "xml"], ["list", "-o", "svg"], ["list", "--state", "X"],
                           ["list", "--label", "novalue"], ["list", "--timeout", "soon"],
                           ["list", "--server", "nowhere"], ["watch", "x", "-o", "json"],
                           ["init", "no-such"], ["validate", CHAIN, "--set", "nonsense"],
@@ -133,6 +146,15 @@ class Usage(unittest.TestCase):
         self.assertIn("spring-wall", self.run_it("init", "--list", code=0)[0])
         self.assertEqual(self.run_it("init", "spring-wall", "--file", "-", code=0)[0],
                          (SCENARIOS / "spring-wall.yaml").read_text())
+
+    def test_init_of_a_sweep_writes_its_scenario_too(self):
+        printed, said = self.run_it("init", "table-3-sweep", code=0)
+        self.assertEqual(printed, "table-3-sweep.yaml\nthree-ball-chain.yaml\n")
+        self.assertIn("contactctl sweep run table-3-sweep.yaml\n", said)
+        self.assertIn(": valid; 50 cells", self.run_it("validate", "table-3-sweep.yaml", code=0)[0])
+        (self.folder / "three-ball-chain.yaml").write_text("mine")
+        self.run_it("init", "table-3-sweep", "--force", code=0)
+        self.assertEqual((self.folder / "three-ball-chain.yaml").read_text(), "mine")
 
     def test_models_are_shown_without_a_server(self):
         self.assertIn("α = 3(1−ε)/2", self.run_it("model", "list", code=0)[0])

@@ -62,6 +62,7 @@ class ClientTest(ServerTest):
         self.assertEqual(set(sweep.frame.convergence), {"FULL"})
         half = sweep.frame[sweep.frame["contacts[*].restitution"] == 0.5]
         np.testing.assert_allclose(half["cycles[B1-B2].alpha"], 2.206095738306658, rtol=1e-6)
+        self.assertEqual(sweep.xr["iterations"].sel({"contacts[*].restitution": 0.5}).shape, (2,))
         ax = sweep.heatmap("cycles[B1-B2].alpha")
         self.assertEqual(ax.get_xlabel(), "contacts[*].restitution")
         self.assertEqual(len(ax.images), 1)

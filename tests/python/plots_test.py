@@ -47,6 +47,13 @@ class PlotsTest(ServerTest):
         self.assertAlmostEqual(total[-1], self.chain.job.summary.kinetic_energy_j, delta=1e-12)
         self.assertTrue((np.diff(total) < 1e-9).all())
 
+    def test_energy_of_gravity_is_in_the_sum(self):
+        fall = self.client.run(SCENARIOS / "bouncing-ball.yaml")
+        time = fall["time"]
+        total = fall.plot.energy().lines[-1].get_ydata()
+        np.testing.assert_allclose(total[time < 0.44], 0.5 * 9.81 * 1.0, rtol=1e-9)
+        self.assertLess(total[-1], 0.5 * total[0])
+
     def test_marks_stand_where_cycles_start_and_end(self):
         ax = self.chain.plot.deformation_velocity()
         marks = {line.get_marker(): line.get_xydata()[0] for line in ax.lines[:3]}

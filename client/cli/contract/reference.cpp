@@ -109,11 +109,9 @@ std::string InMarkdown(const Term& field) {
 std::string Shipped() {
   std::string page = "| File | Shows |\n|---|---|\n";
   for (const Template& scenario : Templates()) {
-    const std::string name(scenario.name);
-    page += fmt::format("| [{0}.yaml]({0}.yaml) | {1} |\n", name,
-                        ScenarioFile(name, std::string(scenario.text)).scenario().title());
+    page += fmt::format("| [{0}.yaml]({0}.yaml) | {1} |\n", scenario.name, scenario.shows);
   }
-  return page + "| [table-3-sweep.yaml](table-3-sweep.yaml) | The paper's Table 3, a sweep |\n";
+  return page;
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ PaperItem Table3(Lab& lab) {
   std::vector<std::pair<double, double>> cells;
   for (int v = 1; v <= 5; ++v) {
     for (int e = 95; e >= 50; e -= 5) {
-      cells.emplace_back(v * 0.1, e * 0.01);
+      cells.emplace_back(v / 10.0, e / 100.0);
       const auto [velocity, restitution] = cells.back();
       v1::Scenario exact = TripleChain(restitution, restitution, velocity);
       exact.set_end_time_s(1e-2);

@@ -69,6 +69,10 @@ std::string Section(const PaperItem& item, const std::map<std::string, std::stri
   return section + Files(item);
 }
 
+bool IsCompared(const PaperItem& item) {
+  return std::ranges::any_of(item.numbers, [](const auto& n) { return !std::isnan(n.limit); });
+}
+
 }  // namespace
 
 std::string IndexPage(const std::vector<PaperItem>& items,
@@ -77,9 +81,9 @@ std::string IndexPage(const std::vector<PaperItem>& items,
   std::vector<HtmlRow> verdicts;
   for (const PaperItem& item : items) {
     verdicts.push_back({{item.id, item.title,
-                         item.numbers.empty() ? "shown"
-                         : item.holds()       ? "holds"
-                                              : "DIFFERS"},
+                         !IsCompared(item) ? "shown"
+                         : item.holds()    ? "holds"
+                                           : "DIFFERS"},
                         !item.holds()});
   }
   body += HtmlTable({"Item", "What it shows", "Verdict"}, verdicts);

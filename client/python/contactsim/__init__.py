@@ -2,8 +2,8 @@
 
 from .aio import AsyncClient
 from .client import Client
-from .errors import (CallError, ContactError, DownloadFailed, InvalidScenario, JobNotFound, Overloaded, RunFailed,
-                     Timeout, Unreachable, Violation)
+from .errors import (CallError, ContactError, DownloadFailed, InvalidScenario, JobNotFound,
+                     Overloaded, RunFailed, Timeout, Unreachable, Violation)
 from .result import Result
 from .scenario import load_scenario
 from .sweeping import SweepResult
@@ -11,7 +11,7 @@ from .watching import JobChange
 
 __all__ = [
     "AsyncClient", "CallError", "Client", "ContactError", "DownloadFailed", "InvalidScenario",
-    "JobChange", "JobNotFound", "Overloaded", "Result", "RunFailed", "SweepResult", "Timeout", "Unreachable", "Violation",
-    "load_scenario"
+    "JobChange", "JobNotFound", "Overloaded", "Result", "RunFailed", "SweepResult", "Timeout",
+    "Unreachable", "Violation", "load_scenario"
 ]
 __version__ = "0.1.0"

@@ -8,6 +8,8 @@ import math
 import numpy as np
 from contact.v1 import scenario_pb2
 
+_STANDARD_GRAVITY = 9.80665  # m/s²
+
 
 @dataclasses.dataclass(frozen=True)
 class ContactLaw:
@@ -49,9 +51,25 @@ def mass(body: scenario_pb2.Body) -> float:
     return body.mass_kg
 
 
+def constant_loads(scenario: scenario_pb2.Scenario) -> list[tuple[str, float]]:
+    """Body and force, in N, of each load that stays the same: gravity and constant ones."""
+    forces = []
+    for load in scenario.loads:
+        kind = load.WhichOneof("kind")
+        if kind == "constant":
+            forces.append((load.body, load.constant.force_n))
+        elif kind == "gravity":
+            given = load.gravity.HasField("acceleration_m_per_s2")
+            acceleration = load.gravity.acceleration_m_per_s2 if given else -_STANDARD_GRAVITY
+            forces += [(body.name, mass(body) * acceleration) for body in scenario.bodies
+                       if not body.fixed and load.body in ("", body.name)]
+    return forces
+
+
 def mechanical_energy(scenario: scenario_pb2.Scenario,
                       arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Kinetic energy, elastic energy of contacts and supports, and their sum, in J."""
+    """Kinetic energy, elastic energy of contacts and supports, that of constant loads, which is 0
+    where positions are, and their sum, in J."""
     zero = np.zeros_like(arrays["time"])
     kinetic = sum((0.5 * mass(b) * arrays[f"{b.name}.velocity"]**2 for b in scenario.bodies), zero)
     contacts = sum((_elastic(law, arrays) for law in contact_laws(scenario)), zero)
@@ -59,7 +77,10 @@ def mechanical_energy(scenario: scenario_pb2.Scenario,
     parts = {"kinetic": kinetic, "contacts": contacts}
     if scenario.supports:
         parts["supports"] = supports
-    return {**parts, "sum": kinetic + contacts + supports}
+    loads = [-force * arrays[f"{body}.position"] for body, force in constant_loads(scenario)]
+    if loads:
+        parts["constant loads"] = sum(loads, zero)
+    return {**parts, "sum": sum(parts.values(), zero)}
 
 
 def _elastic(law: ContactLaw, arrays: dict[str, np.ndarray]) -> np.ndarray:

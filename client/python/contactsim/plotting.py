@@ -132,7 +132,7 @@ class Plots:
         return axes
 
     def energy(self, ax: Axes | None = None) -> Axes:
-        """Kinetic and elastic energy over t, and their sum, which damping and loads change."""
+        """What holds energy over t, and the sum, which damping and loads that vary change."""
         ax = self._over_time(ax, "energy [J]")
         parts = mechanical_energy(self._result.scenario, self._result.arrays)
         for colour, (label, values) in zip(_COLOURS, parts.items()):

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from contact.v1 import event_pb2, job_pb2
 
-KINDS = ("attempt_started", "iteration", "cycle", "frame_chunk")  #: The events that a recording needs.
+#: The events that a recording needs.
+KINDS = ("attempt_started", "iteration", "cycle", "frame_chunk")
 
 
 class Recording:

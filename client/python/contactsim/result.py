@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import html
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -13,6 +13,9 @@ from google.protobuf.descriptor import FieldDescriptor
 
 from .plotting import Plots
 from .recording import Recording
+
+if TYPE_CHECKING:
+    import xarray
 
 _LEDGER = ("contact", "number", "kind", "end", "status", "mu", "restitution_in",
            "restitution_out", "start_time_s", "end_time_s", "peak_force_n")
@@ -65,6 +68,15 @@ class Result:
         """
         named = {f"{name} [{self.units[name]}]": values for name, values in self.arrays.items()}
         return pd.DataFrame(named, copy=False)
+
+    @functools.cached_property
+    def xr(self) -> xarray.Dataset:
+        """The trajectory over `time`, with units as attributes. Needs xarray."""
+        import xarray  # Only who asks for it needs it.
+
+        variables = {name: ("time", values, {"units": self.units[name]})
+                     for name, values in self.arrays.items()}
+        return xarray.Dataset(variables, attrs=self.provenance)
 
     @functools.cached_property
     def cycles(self) -> pd.DataFrame:

@@ -12,6 +12,7 @@ from contact.v1 import event_pb2, job_pb2, scenario_pb2
 from .scenario import ScenarioLike, load_scenario
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.axes import Axes
 
 
@@ -42,6 +43,11 @@ class SweepResult:
     def name(self) -> str:
         """Format: `jobs/{id}`."""
         return self.job.name
+
+    @property
+    def xr(self) -> xarray.Dataset:
+        """The metrics of a grid over its axes. Needs xarray."""
+        return self.frame.set_index(self.axes)[self.metrics].to_xarray()
 
     def heatmap(self, metric: str | None = None, ax: Axes | None = None) -> Axes:
         """A metric, by default the first, over the two axes of the sweep: the first one down.

@@ -1,0 +1,25 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "cli/failure.h"
+#include "cli/templates.h"
+#include "wire/spelling.h"
+
+namespace contact::cli {
+
+const Template& FindTemplate(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const Template& scenario : Templates()) {
+    if (scenario.name == name) return scenario;
+    names.push_back(scenario.name);
+  }
+  const std::string_view nearest = Nearest(name, names);
+  throw Failure(ExitCode::kUsage,
+                fmt::format("there is no template {} — {}", Quoted(name),
+                            nearest.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+                                            : fmt::format("did you mean '{}'?", nearest)));
+}
+
+}  // namespace contact::cli
