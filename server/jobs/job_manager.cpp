@@ -130,8 +130,9 @@ struct JobManager::Impl {
   JobFeed feed;
   Scheduler scheduler;
   Retention retention;
-  Executor executor;  ///< Checks scenarios and reads series: too long for the callers' threads.
-  Executor decoder;   ///< Decodes what watchers read from the store.
+  /// Checks scenarios and reads series: too long for the callers' threads.
+  Executor executor{"checker"};
+  Executor decoder{"decoder"};  ///< Decodes what watchers read from the store.
   const EventSource source{store, decoder};
 };
 

@@ -4,6 +4,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <pthread.h>
 #include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <sys/resource.h>
@@ -99,6 +100,7 @@ std::size_t ConnectionAcceptor::open() const {
 }
 
 void ConnectionAcceptor::Loop() {
+  pthread_setname_np(pthread_self(), "acceptor");
   std::vector<pollfd> waiting = {{stop_.get(), POLLIN, 0}};
   for (const auto& socket : listener_.sockets) waiting.push_back({socket.get(), POLLIN, 0});
   for (;;) {

@@ -1,5 +1,7 @@
 #include "rpc/watch_loop.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -69,6 +71,7 @@ void WatchLoop::Tick(steady_clock::time_point now) {
 }
 
 void WatchLoop::Run() {
+  pthread_setname_np(pthread_self(), "watch-loop");
   auto next_tick = steady_clock::now() + tick_;
   std::unique_lock lock(mutex_);
   while (!stopped_) {

@@ -1,5 +1,7 @@
 #include "jobs/job_manager.h"
 
+#include <sys/resource.h>
+
 #include <set>
 
 #include "jobs/lifecycle.h"
@@ -187,6 +189,19 @@ TEST_F(JobsTest, FullStoreRefusesJobsAndTellsTheOthers) {
   EXPECT_GT(last.error().retry_after.count(), 0);
   EXPECT_TRUE(Get(first).ok());
   EXPECT_EQ(manager_->Info().queued_jobs(), accepted) << "what was refused has no place";
+}
+
+// Every thread here began as nice as this one.
+TEST_F(JobsTest, RunsStepBackBehindWhoeverAnswersCalls) {
+  int niceness = 0;
+  FakeRun run([&](const auto&...) {
+    niceness = getpriority(PRIO_PROCESS, 0);
+    return Outcome{};
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  Ended(Create(BouncingBall()));
+  EXPECT_GT(niceness, getpriority(PRIO_PROCESS, 0));
 }
 
 TEST_F(JobsTest, JobsRunFirstComeFirstServed) {
