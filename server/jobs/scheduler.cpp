@@ -183,8 +183,8 @@ std::optional<std::string> Scheduler::NextJob() {
 }
 
 Assignment Scheduler::Assign(Active& active) {
+  if (running_.empty()) started_.notify_one();
   running_.emplace(active.job.name(), Running{Watchdog(clock_.Elapsed()), LastAttempt(active.job)});
-  started_.notify_one();
   active.control = std::make_shared<RunControl>(BudgetOf(active.job, options_.max_budget));
   active.job.set_attempt(active.job.attempt() + 1);
   v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);

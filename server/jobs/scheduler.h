@@ -118,7 +118,7 @@ class Scheduler {
   std::vector<std::weak_ptr<SweepRun>> sweeps_ ABSL_GUARDED_BY(mutex_);
   int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
   std::size_t spec_bytes_ ABSL_GUARDED_BY(mutex_) = 0;  ///< Of the specs in memory.
-  std::condition_variable_any started_;                 ///< A job, or the end.
+  std::condition_variable_any started_;                 ///< A job where none ran, or the end.
   EndingRuns endings_;
   // Last: they use all of the above.
   WorkerPool workers_;
