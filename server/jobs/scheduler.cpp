@@ -273,16 +273,11 @@ std::shared_ptr<JobLog> Scheduler::Log(const std::string& name) const {
   return found == active_.end() ? nullptr : found->second.log;
 }
 
-void Scheduler::AddRecord(bool with_ledger, v1::Job* job) const {
-  if (job->state() != v1::Job::RUNNING) return;
-  std::shared_ptr<RunRecord> record;
-  {
-    const MutexLock lock(mutex_);
-    const auto found = active_.find(job->name());
-    if (found == active_.end()) return;
-    record = found->second.record;
-  }
-  job->MergeFrom(record->Get(with_ledger));
+std::shared_ptr<const RunRecord> Scheduler::Record(const v1::Job& job) const {
+  if (job.state() != v1::Job::RUNNING) return nullptr;
+  const MutexLock lock(mutex_);
+  const auto found = active_.find(job.name());
+  return found == active_.end() ? nullptr : found->second.record;
 }
 
 int Scheduler::queued() const {

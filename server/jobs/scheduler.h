@@ -53,8 +53,8 @@ class Scheduler {
 
   /// The log of a job that has not ended; else null.
   std::shared_ptr<JobLog> Log(const std::string& name) const;
-  /// Adds what the run of the job has brought so far, if it is running.
-  void AddRecord(bool with_ledger, v1::Job* job) const;
+  /// What the run of the job has brought so far, if it is running; else null.
+  std::shared_ptr<const RunRecord> Record(const v1::Job& job) const;
 
   int queued() const;
   int running() const;
