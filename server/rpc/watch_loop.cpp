@@ -24,8 +24,9 @@ void WatchLoop::Add(const std::shared_ptr<Stream>& watcher) {
 
 void WatchLoop::Wake(const std::weak_ptr<Stream>& watcher) {
   const std::lock_guard lock(mutex_);
+  // Whoever wakes a thousand, which may be a solver, wakes the thread once.
+  if (woken_.empty()) changed_.notify_one();
   woken_.insert(watcher);
-  changed_.notify_one();
 }
 
 void WatchLoop::Drain() {
