@@ -2,6 +2,7 @@
 // dumped from one that the program of that version had made, version_2.sql from one made with the
 // tables of that version, with events as its program coded them.
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -52,8 +53,7 @@ class MigrationTest : public StoreTest, public testing::WithParamInterface<int> 
     std::filesystem::create_directory(path());
     SQLite::Database raw(database(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     raw.exec("PRAGMA synchronous=OFF");
-    raw.exec(
-        Text(CONTACT_SOURCE_DIR "/tests/storage/version_" + std::to_string(GetParam()) + ".sql"));
+    raw.exec(Text(absl::StrCat(CONTACT_SOURCE_DIR, "/tests/storage/version_", GetParam(), ".sql")));
     std::ofstream(path() / "initialised") << "contactd.db belongs here\n";
   }
 
@@ -121,7 +121,7 @@ TEST_P(MigrationTest, OldDatabaseIsKeptBesideTheNew) {
   const std::set<std::string> before = Rows(database());
   Open();
   store_.reset();
-  const std::filesystem::path kept = path() / ("contactd.db.v" + std::to_string(GetParam()));
+  const std::filesystem::path kept = path() / absl::StrCat("contactd.db.v", GetParam());
   EXPECT_EQ(Version(kept), GetParam());
   EXPECT_EQ(Rows(kept), before);
 }
