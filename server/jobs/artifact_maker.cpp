@@ -31,7 +31,9 @@ ArtifactMaker::ArtifactMaker(Store& store, Executor& executor, ArtifactPlan plan
 void ArtifactMaker::Continue() {
   if (plan_.kind == ArtifactPlan::Kind::kCycles) {
     return Post([](ArtifactMaker& self) {
-      self.Emit(CyclesCsv(self.plan_.job));
+      StoredJob& stored = self.plan_.stored;
+      if (!stored.MergeResult()) return self.Fail(Damaged(stored.job.name()));
+      self.Emit(CyclesCsv(stored.job));
       self.Finish();
     });
   }
@@ -49,7 +51,7 @@ void ArtifactMaker::Post(std::function<void(ArtifactMaker&)> work) {
 }
 
 void ArtifactMaker::ReadPage(std::uint32_t kinds, void (ArtifactMaker::*take)(const Page&)) {
-  store_.ReadEvents({plan_.job.name(), position_, kinds, kPageBytes},
+  store_.ReadEvents({plan_.stored.job.name(), position_, kinds, kPageBytes},
                     [weak = weak_from_this(), take](Page page) {
                       const auto self = weak.lock();
                       if (!self) return;
@@ -60,19 +62,19 @@ void ArtifactMaker::ReadPage(std::uint32_t kinds, void (ArtifactMaker::*take)(co
 
 // Looks for the samples of the last attempt, or for those that stand before the cell.
 void ArtifactMaker::Look(const Page& page) {
-  if (!page.ok()) return Fail(ToError(page.status(), plan_.job.name()));
+  if (!page.ok()) return Fail(ToError(page.status(), plan_.stored.job.name()));
   for (const StoredEvent& event : page->events) {
     v1::Event content;
     if (!event.Parse(&content)) {
-      return Fail(Damaged(plan_.job.name()));
+      return Fail(Damaged(plan_.stored.job.name()));
     }
     Note(event, content);
   }
   position_ = page->position;
-  if (position_ < plan_.job.last_sequence()) return Continue();
+  if (position_ < plan_.stored.job.last_sequence()) return Continue();
   if (plan_.kind == ArtifactPlan::Kind::kTrajectory) {
     begin_ = boundary_;
-    end_ = plan_.job.last_sequence();
+    end_ = plan_.stored.job.last_sequence();
   }
   position_ = begin_;
   looked_ = true;
@@ -88,11 +90,11 @@ void ArtifactMaker::Note(const StoredEvent& event, const v1::Event& content) {
 }
 
 void ArtifactMaker::Write(const Page& page) {
-  if (!page.ok()) return Fail(ToError(page.status(), plan_.job.name()));
-  if (page->oldest > 1) return Fail(EventsCompacted(plan_.job.name(), page->oldest));
+  if (!page.ok()) return Fail(ToError(page.status(), plan_.stored.job.name()));
+  if (page->oldest > 1) return Fail(EventsCompacted(plan_.stored.job.name(), page->oldest));
   for (const StoredEvent& event : page->events) {
     if (event.sequence > end_) break;
-    if (!Write(event)) return Fail(Damaged(plan_.job.name()));
+    if (!Write(event)) return Fail(Damaged(plan_.stored.job.name()));
   }
   position_ = page->position;
   if (position_ >= end_) return Finish();
@@ -136,7 +138,7 @@ void ArtifactMaker::Emit(const std::string& text) {
 }
 
 void ArtifactMaker::Finish() {
-  if (size_ == 0) return Fail(NoArtifact(plan_.job.name(), plan_.artifact));
+  if (size_ == 0) return Fail(NoArtifact(plan_.stored.job.name(), plan_.artifact));
   if (plan_.offset > size_) return Fail(OffsetOutOfRange(plan_.offset, size_));
   v1::ReadArtifactResponse last;
   last.set_offset(size_);

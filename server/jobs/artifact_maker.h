@@ -57,7 +57,7 @@ class ArtifactMaker : public std::enable_shared_from_this<ArtifactMaker> {
 
   Store& store_;
   Executor& executor_;
-  const ArtifactPlan plan_;
+  ArtifactPlan plan_;  // Its result is merged once, on the executor.
   const std::function<void()> wake_;
 
   // Of whoever works.

@@ -39,9 +39,10 @@ void AddArtifacts(v1::Job* job) {
   for (const std::int32_t cell : job->sweep().keep_trajectories()) Add(CellArtifact(cell), job);
 }
 
-Result<ArtifactPlan> PlanArtifact(v1::Job job, const v1::ReadArtifactRequest& request) {
+Result<ArtifactPlan> PlanArtifact(StoredJob stored, const v1::ReadArtifactRequest& request) {
+  const v1::Job& job = stored.job;
   if (!IsFinal(job.state())) return NotEnded(job.name());
-  ArtifactPlan plan{.job = {}, .artifact = request.artifact(), .offset = request.offset()};
+  ArtifactPlan plan{.stored = {}, .artifact = request.artifact(), .offset = request.offset()};
   if (job.has_scenario() && plan.artifact == kCycles) {
     plan.kind = ArtifactPlan::Kind::kCycles;
   } else if (job.has_scenario() && plan.artifact == kTrajectory) {
@@ -54,7 +55,7 @@ Result<ArtifactPlan> PlanArtifact(v1::Job job, const v1::ReadArtifactRequest& re
     plan.kind = ArtifactPlan::Kind::kCellTrajectory;
     plan.cell = *cell;
   }
-  plan.job = std::move(job);
+  plan.stored = std::move(stored);
   return plan;
 }
 

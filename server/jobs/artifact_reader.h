@@ -21,14 +21,14 @@ void AddArtifacts(v1::Job* job);
 /// An artifact that is to be made.
 struct ArtifactPlan {
   enum class Kind { kCycles, kTrajectory, kCellTrajectory };
-  v1::Job job;  ///< With its ledger for kCycles.
+  StoredJob stored;  ///< With its result for kCycles, not merged.
   std::string artifact;
   std::int64_t offset = 0;
   Kind kind = Kind::kCycles;
   std::int32_t cell = 0;  ///< For kCellTrajectory.
 };
 /// ARTIFACT_NOT_FOUND, INVALID_STATE. Asks for a job read as a whole.
-Result<ArtifactPlan> PlanArtifact(v1::Job job, const v1::ReadArtifactRequest& request);
+Result<ArtifactPlan> PlanArtifact(StoredJob stored, const v1::ReadArtifactRequest& request);
 
 /// Reads an artifact: it is made from the log piece by piece, on the thread that checks scenarios,
 /// no faster than it is read. Not thread-safe: one reader. Destroying it ends the making.

@@ -1,10 +1,16 @@
 #include "jobs/executor.h"
 
+#include <pthread.h>
+
 #include <utility>
 
 namespace contact {
 
-Executor::Executor() : thread_([this] { Loop(); }) {}
+Executor::Executor(const char* name)
+    : thread_([this, name] {
+        pthread_setname_np(pthread_self(), name);
+        Loop();
+      }) {}
 
 Executor::~Executor() { Stop(); }
 

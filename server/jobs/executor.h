@@ -14,7 +14,8 @@ class Executor {
  public:
   using Task = std::function<void()>;
 
-  Executor();
+  /// The thread gets this name, of at most 15 letters.
+  explicit Executor(const char* name = "executor");
   ~Executor();
 
   /// False once stopped: the task will not run. Thread-safe.

@@ -11,6 +11,12 @@ namespace {
 constexpr std::size_t kMaxEvents = 4096;
 constexpr std::size_t kMaxBytes = 1 << 20;
 
+bool Ends(const LogRecord& record) {
+  v1::Event event;
+  return record.kind == v1::Event::kStateChanged && event.ParseFromString(*record.event) &&
+         IsFinal(event.state_changed().state());
+}
+
 void Call(const std::set<std::shared_ptr<const JobLog::Waker>>& wakers) {
   for (const auto& waker : wakers) (*waker)();
 }
@@ -23,15 +29,26 @@ LogRecord ToRecord(std::uint64_t sequence, v1::Event event) {
           std::make_shared<const std::string>(event.SerializeAsString())};
 }
 
-void JobLog::Append(std::uint64_t first, std::vector<v1::Event> events) {
+std::vector<LogRecord> ToRecords(const std::vector<v1::Event>& events) {
+  std::vector<LogRecord> records;
+  records.reserve(events.size());
+  for (const v1::Event& event : events) {
+    records.push_back(
+        {0, event.payload_case(), std::make_shared<const std::string>(event.SerializeAsString())});
+  }
+  return records;
+}
+
+void JobLog::Append(std::uint64_t first, std::vector<LogRecord> records) {
   Wakers wakers;
   bool moved = false;
   {
     const MutexLock lock(mutex_);
-    for (v1::Event& event : events) {
-      const bool ended = event.has_state_changed() && IsFinal(event.state_changed().state());
-      moved |= event.has_state_changed();
-      Push(ToRecord(first++, std::move(event)), ended);
+    for (LogRecord& record : records) {
+      record.sequence = first++;
+      moved |= record.kind == v1::Event::kStateChanged;
+      const bool ended = Ends(record);
+      Push(std::move(record), ended);
     }
     wakers = TakeWaiting();
   }

@@ -27,8 +27,12 @@ class JobLog {
   JobLog(std::uint64_t last, bool ended, Waker on_state = {})
       : on_state_(std::move(on_state)), last_(last), ended_(ended) {}
 
-  /// Adds events that are stored now, the first as `first`, the next after the newest one.
-  void Append(std::uint64_t first, std::vector<v1::Event> events);
+  /// Adds events that are stored now, the first as `first`, the next after the newest one. The
+  /// records get their sequences here.
+  void Append(std::uint64_t first, std::vector<LogRecord> records);
+  void Append(std::uint64_t first, const std::vector<v1::Event>& events) {
+    Append(first, ToRecords(events));
+  }
 
   /// Replaces the progress that watchers have not seen yet.
   void SetProgress(v1::Event progress);

@@ -17,6 +17,7 @@
 #include "jobs/series_reader.h"
 #include "jobs/sources.h"
 #include "jobs/tail_cursor.h"
+#include "storage/job_queries.h"
 #include "storage/store.h"
 #include "wire/scenario_codec.h"
 #include "wire/sweep_codec.h"
@@ -108,11 +109,13 @@ struct JobManager::Impl {
   void Check(const std::shared_ptr<Creation>& creation);
   void Accept(const std::shared_ptr<Creation>& creation);
   void Refuse(const Creation& creation, Error error);
-  /// Adds to a stored job what is not stored.
-  void Complete(bool with_ledger, v1::Job* job) const {
-    scheduler.AddRecord(with_ledger, job);
+  /// Adds to a stored header what is not stored.
+  void Complete(v1::Job* job) const {
+    if (const auto record = scheduler.Record(*job)) job->MergeFrom(record->Get(false));
     SetExpireTime(options.retention, job);
   }
+  /// Answers with all of a stored job. Its ledger may be long, so it is parsed on the executor.
+  void Answer(StoredJob stored, Callback<v1::Job> done);
 
   /// Counts one more; false if there are too many.
   bool AddWatcher();
@@ -130,8 +133,9 @@ struct JobManager::Impl {
   JobFeed feed;
   Scheduler scheduler;
   Retention retention;
-  Executor executor;  ///< Checks scenarios and reads series: too long for the callers' threads.
-  Executor decoder;   ///< Decodes what watchers read from the store.
+  /// Checks scenarios and reads series: too long for the callers' threads.
+  Executor executor{"checker"};
+  Executor decoder{"decoder"};  ///< Decodes what watchers read from the store.
   const EventSource source{store, decoder};
 };
 
@@ -193,14 +197,14 @@ void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
                    return Refuse(*creation, QueueFull(options.max_queued_jobs));
                  }
                  if (!stored.ok()) return Refuse(*creation, ToError(stored.status(), ""));
-                 v1::Job& answer = stored->job;
-                 if (stored->created) {
-                   options.metrics->Moved(v1::Job::STATE_UNSPECIFIED, answer);
-                   MoveSpec(creation->request.mutable_job(), &answer);
-                   scheduler.Enqueue(answer, events);
-                 } else if (creation->reserved) {
-                   scheduler.Release();
+                 if (!stored->created) {
+                   if (creation->reserved) scheduler.Release();
+                   return Answer(*std::move(stored), creation->done);
                  }
+                 v1::Job& answer = stored->job;
+                 options.metrics->Moved(v1::Job::STATE_UNSPECIFIED, answer);
+                 MoveSpec(creation->request.mutable_job(), &answer);
+                 scheduler.Enqueue(answer, events);
                  creation->done(std::move(answer));
                });
 }
@@ -213,7 +217,23 @@ bool JobManager::Impl::AddWatcher() {
 
 void JobManager::Impl::Complete(StoredJob* stored) const {
   if (!stored->intact) DescribeDamage(&stored->job);
-  Complete(false, &stored->job);
+  Complete(&stored->job);
+}
+
+void JobManager::Impl::Answer(StoredJob stored, Callback<v1::Job> done) {
+  // Asked for here: on the store's thread it is there just if the job has not ended.
+  const auto record = scheduler.Record(stored.job);
+  const auto whole = std::make_shared<StoredJob>(std::move(stored));
+  const auto answer = [this, record, whole, done = std::move(done)] {
+    v1::Job& job = whole->job;
+    if (!whole->MergeResult()) return done(ToError(FailsChecksum(job.name()), job.name()));
+    if (record) job.MergeFrom(record->Get(true));
+    SetExpireTime(options.retention, &job);
+    ShortenLedger(&job);
+    AddArtifacts(&job);
+    done(std::move(job));
+  };
+  if (!executor.Post(answer)) answer();  // At the end nobody has to be spared.
 }
 
 void JobManager::Get(const std::string& name, Callback<v1::Job> done) {
@@ -221,10 +241,7 @@ void JobManager::Get(const std::string& name, Callback<v1::Job> done) {
       name, JobPart::kAll,
       [impl = impl_.get(), name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
         if (!stored.ok()) return done(ToError(stored.status(), name));
-        impl->Complete(true, &stored->job);
-        ShortenLedger(&stored->job);
-        AddArtifacts(&stored->job);
-        done(std::move(stored->job));
+        impl->Answer(*std::move(stored), done);
       });
 }
 
@@ -311,7 +328,7 @@ JobManager::Watched JobManager::Impl::Open(const v1::WatchJobRequest& request, W
                                            v1::Job job, std::function<void()> wake) {
   auto log = scheduler.Log(request.name());
   if (!log) log = std::make_shared<JobLog>(job.last_sequence(), true);
-  Complete(false, &job);
+  Complete(&job);
   if (job.has_sweep() && request.kinds().empty()) rules.kinds &= ~KindBit(v1::Event::kFrameChunk);
   auto tail = std::make_unique<TailCursor>(
       source, request.name(), std::move(log),
@@ -344,7 +361,7 @@ void JobManager::ReadArtifact(const v1::ReadArtifactRequest& request, std::funct
       request.name(), JobPart::kAll,
       [impl = impl_.get(), request, wake = std::move(wake),
        done = std::move(done)](absl::StatusOr<StoredJob> stored) mutable {
-        Result<ArtifactPlan> plan = stored.ok() ? PlanArtifact(std::move(stored->job), request)
+        Result<ArtifactPlan> plan = stored.ok() ? PlanArtifact(*std::move(stored), request)
                                                 : ToError(stored.status(), request.name());
         if (!plan.ok()) {
           --*impl->watchers;

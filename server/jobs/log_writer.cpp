@@ -98,13 +98,14 @@ void LogWriter::Retry() {
   Advance(steady_clock::now());
 }
 
-// Serialises and compresses what is to be stored, which is not for the store's thread.
+// Serialises and compresses all that is to be stored and told, which is not for the store's thread.
 void LogWriter::Encode(Batch* batch) const {
   batch->encoded = Store::Encode({.name = name_,
                                   .take = batch->take,
                                   .job = batch->job ? &*batch->job : nullptr,
                                   .events = batch->events,
                                   .checkpoint = batch->checkpoint ? &*batch->checkpoint : nullptr});
+  batch->records = ToRecords(std::exchange(batch->events, {}));
 }
 
 // Starts the next batch, or tries the last one again, if it is time. Never waits.
@@ -118,7 +119,8 @@ bool LogWriter::BeginWriting(Time now) {
   if (disk_ == Disk::kFull) {
     if (now - last_write_ < kRetryTime) return false;
   } else {
-    if (disk_ != Disk::kIdle || (pending_.events.empty() && !pending_.checkpoint)) return false;
+    const bool some = pending_.encoded || !pending_.events.empty() || pending_.checkpoint;
+    if (disk_ != Disk::kIdle || !some) return false;
     batch_ = std::exchange(pending_, {});
   }
   last_write_ = now;
@@ -152,7 +154,7 @@ LogWriter::Disk LogWriter::Settle() {
 void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
   if (!first.ok()) return Failed(first.status());
   if (batch_.take) ++epoch_;
-  log_->Append(*first, std::move(batch_.events));
+  log_->Append(*first, std::move(batch_.records));
   batch_.encoded = nullptr;
   if (batch_.ended) {
     batch_.ended(&*batch_.job);

@@ -82,7 +82,7 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
     kLost,     ///< Nothing can be stored any more.
   };
   struct Batch {
-    std::vector<v1::Event> events;
+    std::vector<v1::Event> events;  ///< Until they are encoded.
     std::size_t bytes = 0;
     bool take = false;
     bool failed = false;  ///< Once at least.
@@ -90,6 +90,7 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
     std::optional<Checkpoint> checkpoint;
     Ended ended;
     std::shared_ptr<const JobChange> encoded;  ///< All of it, once it is complete.
+    std::vector<LogRecord> records;            ///< The events then, for the log.
   };
   using Time = std::chrono::steady_clock::time_point;
 

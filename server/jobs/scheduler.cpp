@@ -183,8 +183,8 @@ std::optional<std::string> Scheduler::NextJob() {
 }
 
 Assignment Scheduler::Assign(Active& active) {
+  if (running_.empty()) started_.notify_one();
   running_.emplace(active.job.name(), Running{Watchdog(clock_.Elapsed()), LastAttempt(active.job)});
-  started_.notify_one();
   active.control = std::make_shared<RunControl>(BudgetOf(active.job, options_.max_budget));
   active.job.set_attempt(active.job.attempt() + 1);
   v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);
@@ -273,16 +273,11 @@ std::shared_ptr<JobLog> Scheduler::Log(const std::string& name) const {
   return found == active_.end() ? nullptr : found->second.log;
 }
 
-void Scheduler::AddRecord(bool with_ledger, v1::Job* job) const {
-  if (job->state() != v1::Job::RUNNING) return;
-  std::shared_ptr<RunRecord> record;
-  {
-    const MutexLock lock(mutex_);
-    const auto found = active_.find(job->name());
-    if (found == active_.end()) return;
-    record = found->second.record;
-  }
-  job->MergeFrom(record->Get(with_ledger));
+std::shared_ptr<const RunRecord> Scheduler::Record(const v1::Job& job) const {
+  if (job.state() != v1::Job::RUNNING) return nullptr;
+  const MutexLock lock(mutex_);
+  const auto found = active_.find(job.name());
+  return found == active_.end() ? nullptr : found->second.record;
 }
 
 int Scheduler::queued() const {

@@ -53,8 +53,8 @@ class Scheduler {
 
   /// The log of a job that has not ended; else null.
   std::shared_ptr<JobLog> Log(const std::string& name) const;
-  /// Adds what the run of the job has brought so far, if it is running.
-  void AddRecord(bool with_ledger, v1::Job* job) const;
+  /// What the run of the job has brought so far, if it is running; else null.
+  std::shared_ptr<const RunRecord> Record(const v1::Job& job) const;
 
   int queued() const;
   int running() const;
@@ -118,7 +118,7 @@ class Scheduler {
   std::vector<std::weak_ptr<SweepRun>> sweeps_ ABSL_GUARDED_BY(mutex_);
   int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
   std::size_t spec_bytes_ ABSL_GUARDED_BY(mutex_) = 0;  ///< Of the specs in memory.
-  std::condition_variable_any started_;                 ///< A job, or the end.
+  std::condition_variable_any started_;                 ///< A job where none ran, or the end.
   EndingRuns endings_;
   // Last: they use all of the above.
   WorkerPool workers_;

@@ -1,11 +1,25 @@
 #include "jobs/worker_pool.h"
 
+#include <pthread.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace contact {
 namespace {
 
 constexpr std::chrono::milliseconds kLookTime{10};
+
+// More than enough for whoever answers calls and commits to come first; less than would let a run
+// starve beside other programs.
+constexpr int kNiceness = 10;
+
+// Solving is batch work and answering is not: without this a submit waits behind the solvers for a
+// core. On Linux each thread has a nice value of its own.
+void StepBack() {
+  pthread_setname_np(pthread_self(), "worker");
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+}
 
 }  // namespace
 
@@ -48,6 +62,7 @@ void WorkerPool::Start(int threads) {
   for (int i = 0; i < threads; ++i) {
     auto worker = std::make_shared<Worker>();
     std::thread thread([worker, loop = loop_] {
+      StepBack();
       loop(*worker);
       worker->Finish();
     });

@@ -4,10 +4,12 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <pthread.h>
 #include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +30,7 @@ constexpr milliseconds kSweepTime{10};
 constexpr milliseconds kDescriptorWait{50};
 
 std::string PeerOf(const sockaddr_storage& address) {
+  if (address.ss_family == AF_UNIX) return "unix";
   std::array<char, INET6_ADDRSTRLEN> text = {};
   const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
   const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
@@ -70,7 +73,7 @@ ConnectionLimits FitToDescriptors(ConnectionLimits wanted) {
   return wanted;
 }
 
-ConnectionAcceptor::ConnectionAcceptor(TcpListener listener, ConnectionLimits limits,
+ConnectionAcceptor::ConnectionAcceptor(Listener listener, ConnectionLimits limits,
                                        HandOver hand_over)
     : listener_(std::move(listener)),
       limits_(limits),
@@ -85,6 +88,7 @@ void ConnectionAcceptor::Close() {
   eventfd_write(stop_.get(), 1);
   thread_.join();
   listener_.sockets.clear();
+  if (!listener_.file.empty()) unlink(listener_.file.c_str());
 }
 
 void ConnectionAcceptor::Cut() {
@@ -99,11 +103,14 @@ std::size_t ConnectionAcceptor::open() const {
 }
 
 void ConnectionAcceptor::Loop() {
+  pthread_setname_np(pthread_self(), "acceptor");
   std::vector<pollfd> waiting = {{stop_.get(), POLLIN, 0}};
   for (const auto& socket : listener_.sockets) waiting.push_back({socket.get(), POLLIN, 0});
   for (;;) {
-    if (poll(waiting.data(), waiting.size(), -1) < 0) continue;
+    const int ready = poll(waiting.data(), waiting.size(), PollTime());
     if (waiting.front().revents != 0) return;
+    CutStalled();
+    if (ready <= 0) continue;
     for (std::size_t i = 1; i < waiting.size(); ++i) {
       if (waiting[i].revents == 0) continue;
       const bool shortage = !Accept(waiting[i].fd);
@@ -112,6 +119,22 @@ void ConnectionAcceptor::Loop() {
       if (shortage && StoppedWithin(kDescriptorWait)) return;
     }
   }
+}
+
+// How long to wait for a connection before the others are looked at.
+int ConnectionAcceptor::PollTime() const {
+  constexpr milliseconds::rep kLooks = 8;  // In the time of a stall.
+  if (listener_.file.empty()) return -1;
+  return static_cast<int>(std::max<milliseconds::rep>(1, limits_.stall.count() / kLooks));
+}
+
+// The system cuts stalled connections of the network, but none of a file.
+void ConnectionAcceptor::CutStalled() {
+  const auto now = steady_clock::now();
+  const MutexLock lock(mutex_);
+  if (listener_.file.empty() || now - looked_ < milliseconds(PollTime())) return;
+  connections_.CutStalled(now, limits_.stall);
+  looked_ = now;
 }
 
 // False: there is no descriptor; the connection stays in the system's queue.

@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "rpc/listener.h"
 #include "rpc/open_connections.h"
-#include "rpc/tcp_listener.h"
 #include "storage/file_descriptor.h"
 #include "storage/mutex.h"
 
@@ -34,7 +34,7 @@ class ConnectionAcceptor {
   /// Takes a connection over, with its descriptor.
   using HandOver = std::function<void(int listener, int fd)>;
 
-  ConnectionAcceptor(TcpListener listener, ConnectionLimits limits, HandOver hand_over);
+  ConnectionAcceptor(Listener listener, ConnectionLimits limits, HandOver hand_over);
   ~ConnectionAcceptor();
   ConnectionAcceptor(const ConnectionAcceptor&) = delete;
   ConnectionAcceptor& operator=(const ConnectionAcceptor&) = delete;
@@ -52,12 +52,14 @@ class ConnectionAcceptor {
 
  private:
   void Loop();
+  int PollTime() const;
+  void CutStalled();
   bool Accept(int listener);
   bool Admit(int fd, const std::string& peer);
   bool Full(const std::string& peer) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool StoppedWithin(std::chrono::milliseconds time) const;
 
-  TcpListener listener_;
+  Listener listener_;
   const ConnectionLimits limits_;
   const HandOver hand_over_;
   const FileDescriptor stop_;        ///< An eventfd; readable: stop.
@@ -67,6 +69,7 @@ class ConnectionAcceptor {
   mutable Mutex mutex_;
   mutable OpenConnections connections_ ABSL_GUARDED_BY(mutex_);
   std::chrono::steady_clock::time_point swept_ ABSL_GUARDED_BY(mutex_);
+  std::chrono::steady_clock::time_point looked_ ABSL_GUARDED_BY(mutex_);
   std::thread thread_;  // Last: it uses all of the above.
 };
 

@@ -5,14 +5,10 @@
 #include <grpcpp/impl/server_builder_option.h>
 #include <grpcpp/resource_quota.h>
 #include <spdlog/spdlog.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/un.h>
 
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -20,8 +16,7 @@
 #include <vector>
 
 #include "rpc/call_monitor.h"
-#include "rpc/tcp_listener.h"
-#include "storage/file_descriptor.h"
+#include "rpc/listener.h"
 
 namespace contact {
 namespace {
@@ -104,16 +99,6 @@ class Watchdog {
 
 constexpr char kUnix[] = "unix:";
 
-// gRPC would take a socket file away from the server that listens on it.
-bool IsServed(const std::string& path) {
-  const FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  sockaddr_un address = {};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof(address.sun_path)) return false;  // gRPC will say so.
-  std::memcpy(address.sun_path, path.data(), path.size());
-  return connect(socket.get(), reinterpret_cast<sockaddr*>(&address), sizeof(address)) == 0;
-}
-
 GrpcServerOptions Fitted(GrpcServerOptions options) {
   options.connections = FitToDescriptors(options.connections);
   options.connections.stall = options.write_stall;
@@ -154,28 +139,16 @@ std::optional<int> GrpcServer::Start(const std::string& address) {
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> monitors;
   monitors.push_back(std::make_unique<CallMonitor>(metrics_, streams_));
   builder.experimental().SetInterceptorCreators(std::move(monitors));
-  const auto port = address.starts_with(kUnix) ? ListenOnFile(address, builder)
-                                               : ListenOnNetwork(address, builder);
+  const auto port =
+      Listen(address.starts_with(kUnix) ? OpenFileListener(address.substr(sizeof(kUnix) - 1))
+                                        : OpenTcpListener(address),
+             builder);
   if (!port) return std::nullopt;
   server_->GetHealthCheckService()->SetServingStatus("contact.v1.JobService", true);
   return port;
 }
 
-std::optional<int> GrpcServer::ListenOnFile(const std::string& address,
-                                            grpc::ServerBuilder& builder) {
-  const std::string path = address.substr(sizeof(kUnix) - 1);
-  if (IsServed(path)) return std::nullopt;
-  int listening = 0;
-  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &listening);
-  server_ = builder.BuildAndStart();
-  if (!server_ || listening == 0) return std::nullopt;
-  chmod(path.c_str(), 0660);
-  return 0;
-}
-
-std::optional<int> GrpcServer::ListenOnNetwork(const std::string& address,
-                                               grpc::ServerBuilder& builder) {
-  TcpListener listener = OpenTcpListener(address);
+std::optional<int> GrpcServer::Listen(Listener listener, grpc::ServerBuilder& builder) {
   if (listener.sockets.empty()) return std::nullopt;
   const int port = listener.port;
   using Experimental = grpc::ServerBuilder::experimental_type;

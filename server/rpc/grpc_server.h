@@ -57,7 +57,7 @@ class GrpcServer {
   /// WatchJob calls that are open.
   std::size_t watchers() const { return watches_->watchers(); }
 
-  /// Connections that are open, and those that were past a limit. Of a socket file: none.
+  /// Connections that are open, and those that were past a limit.
   std::size_t connections() const { return acceptor_ ? acceptor_->open() : 0; }
   std::int64_t refused_connections() const { return acceptor_ ? acceptor_->refused() : 0; }
 
@@ -66,8 +66,7 @@ class GrpcServer {
   std::shared_ptr<const StreamMetrics> stream_metrics() const { return watches_->metrics(); }
 
  private:
-  std::optional<int> ListenOnFile(const std::string& address, grpc::ServerBuilder& builder);
-  std::optional<int> ListenOnNetwork(const std::string& address, grpc::ServerBuilder& builder);
+  std::optional<int> Listen(Listener listener, grpc::ServerBuilder& builder);
 
   const GrpcServerOptions options_;
   const std::shared_ptr<WatchLoop> watches_;

@@ -1,5 +1,7 @@
 #include "rpc/open_connections.h"
 
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 
@@ -18,7 +20,7 @@ void OpenConnections::Add(int fd, const std::string& peer) {
   if (const auto before = sockets_.find(fd); before != sockets_.end()) {
     Leave(before->second.peer);  // Closed, and its number given anew.
   }
-  sockets_.insert_or_assign(fd, Socket{InodeOf(fd), peer});
+  sockets_.insert_or_assign(fd, Socket{.inode = InodeOf(fd), .peer = peer});
   ++peers_[peer];
 }
 
@@ -33,6 +35,20 @@ void OpenConnections::Sweep() {
 void OpenConnections::Cut() {
   Sweep();
   for (const auto& [fd, socket] : sockets_) shutdown(fd, SHUT_RDWR);
+}
+
+void OpenConnections::CutStalled(Time now, std::chrono::milliseconds stall) {
+  Sweep();
+  for (auto& [fd, socket] : sockets_) {
+    int waiting = 0;
+    ioctl(fd, SIOCOUTQ, &waiting);
+    if (waiting == 0 || waiting != socket.waiting) {
+      socket.waiting = waiting;
+      socket.since = now;
+    } else if (now - socket.since >= stall) {
+      shutdown(fd, SHUT_RDWR);
+    }
+  }
 }
 
 std::size_t OpenConnections::CountOf(const std::string& peer) const {

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -13,11 +14,16 @@ namespace contact {
 /// Not thread-safe.
 class OpenConnections {
  public:
+  using Time = std::chrono::steady_clock::time_point;
+
   void Add(int fd, const std::string& peer);
   /// Forgets those that are closed.
   void Sweep();
   /// Ends those that are left, as if their peers had left; gRPC will close them.
   void Cut();
+  /// The same for those whose peers have taken nothing of what waits for them since `stall`, as far
+  /// as earlier calls have seen it. To be called several times in that time.
+  void CutStalled(Time now, std::chrono::milliseconds stall);
 
   std::size_t size() const { return sockets_.size(); }
   /// Of one peer.
@@ -27,6 +33,8 @@ class OpenConnections {
   struct Socket {
     ino_t inode;
     std::string peer;
+    int waiting = 0;  ///< Bytes that its peer had not taken,
+    Time since = {};  ///< so many since then.
   };
   void Leave(const std::string& peer);
 

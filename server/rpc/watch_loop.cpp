@@ -1,5 +1,7 @@
 #include "rpc/watch_loop.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -22,8 +24,9 @@ void WatchLoop::Add(const std::shared_ptr<Stream>& watcher) {
 
 void WatchLoop::Wake(const std::weak_ptr<Stream>& watcher) {
   const std::lock_guard lock(mutex_);
+  // Whoever wakes a thousand, which may be a solver, wakes the thread once.
+  if (woken_.empty()) changed_.notify_one();
   woken_.insert(watcher);
-  changed_.notify_one();
 }
 
 void WatchLoop::Drain() {
@@ -69,6 +72,7 @@ void WatchLoop::Tick(steady_clock::time_point now) {
 }
 
 void WatchLoop::Run() {
+  pthread_setname_np(pthread_self(), "watch-loop");
   auto next_tick = steady_clock::now() + tick_;
   std::unique_lock lock(mutex_);
   while (!stopped_) {

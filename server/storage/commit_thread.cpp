@@ -1,5 +1,7 @@
 #include "storage/commit_thread.h"
 
+#include <pthread.h>
+
 #include <chrono>
 #include <iterator>
 #include <utility>
@@ -52,6 +54,7 @@ void CommitThread::Post(Task task) {
 }
 
 void CommitThread::Loop() {
+  pthread_setname_np(pthread_self(), "store");
   while (std::optional<Batch> batch = NextBatch()) {
     const bool idle = batch->empty() && !untidy_ && !task_;
     if (!batch->empty()) {

@@ -1,5 +1,7 @@
 #include "storage/event_coding.h"
 
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/wire_format_lite.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -18,8 +20,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "values are stored as they are");
 
+using google::protobuf::internal::WireFormatLite;
+
 // Measured in README.md: higher levels cost more time than they save space.
-constexpr int kLevel = 3;
+constexpr int kLevel = -1;
 // Far more than a frame chunk has; a larger size is not ours.
 constexpr std::size_t kMaxDecoded = std::size_t{1} << 30;
 constexpr std::size_t kDouble = sizeof(std::uint64_t);
@@ -116,15 +120,23 @@ void JoinColumn(const char* planes, std::size_t stride, std::size_t count, char*
   }
 }
 
-std::string Compress(const std::string& bytes) {
+// Bytes that nobody has filled with zeros first.
+struct Buffer {
+  explicit Buffer(std::size_t room) : data(std::make_unique_for_overwrite<char[]>(room)) {}
+
+  std::unique_ptr<char[]> data;
+  std::size_t size = 0;
+};
+
+std::string Compress(const Buffer& bytes) {
   // To make one costs as much as a chunk of a small job.
   thread_local const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
                                                                                   ZSTD_freeCCtx);
-  std::string out(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t room = ZSTD_compressBound(bytes.size);
+  const Buffer out(room);
   const std::size_t size =
-      ZSTD_compressCCtx(context.get(), out.data(), out.size(), bytes.data(), bytes.size(), kLevel);
-  out.resize(ZSTD_isError(size) != 0 ? 0 : size);
-  return out;
+      ZSTD_compressCCtx(context.get(), out.data.get(), room, bytes.data.get(), bytes.size, kLevel);
+  return {out.data.get(), ZSTD_isError(size) != 0 ? 0 : size};
 }
 
 // Nothing if it is no such frame.
@@ -148,29 +160,42 @@ bool HasWholeColumns(const v1::FrameChunk& chunk) {
   return chunk.samples() > 0;
 }
 
-// Length of the event without its values, that event, and the planes of the values.
-std::string Rearrange(const v1::Event& event) {
-  v1::Event rest = event;
-  for (v1::FrameChunk::Column& column : *rest.mutable_frame_chunk()->mutable_columns()) {
-    column.clear_values();
+// The event without its values, which are most of it.
+v1::Event WithoutValues(const v1::Event& event) {
+  v1::Event rest;
+  rest.set_sequence(event.sequence());
+  if (event.has_event_time()) *rest.mutable_event_time() = event.event_time();
+  const v1::FrameChunk& chunk = event.frame_chunk();
+  v1::FrameChunk& bare = *rest.mutable_frame_chunk();
+  bare.set_first_sample(chunk.first_sample());
+  bare.set_samples(chunk.samples());
+  for (const v1::FrameChunk::Column& column : chunk.columns()) {
+    v1::FrameChunk::Column& head = *bare.add_columns();
+    head.set_name(column.name());
+    head.set_quantity(column.quantity());
+    head.set_unit(column.unit());
   }
+  return rest;
+}
+
+// Length of the event without its values, that event, and the planes of the values.
+Buffer Rearrange(const v1::Event& event) {
+  const v1::Event rest = WithoutValues(event);
   const auto length = static_cast<std::uint32_t>(rest.ByteSizeLong());
-  std::string bytes(sizeof length, '\0');
-  std::memcpy(bytes.data(), &length, sizeof length);
-  rest.AppendToString(&bytes);
   const auto samples = static_cast<std::size_t>(event.frame_chunk().samples());
   const auto columns = static_cast<std::size_t>(event.frame_chunk().columns_size());
-  const std::size_t start = bytes.size();
-  bytes.resize(start + samples * columns * kDouble);
-  char* planes = bytes.data() + start;
+  Buffer bytes(sizeof length + length + samples * columns * kDouble);
+  std::memcpy(bytes.data.get(), &length, sizeof length);
+  rest.SerializeToArray(bytes.data.get() + sizeof length, static_cast<int>(length));
+  bytes.size = sizeof length + length;
+  char* planes = bytes.data.get() + bytes.size;
   for (const v1::FrameChunk::Column& column : event.frame_chunk().columns()) {
     SplitColumn(column.values(), samples * columns, planes);
     planes += samples;
   }
+  bytes.size += samples * columns * kDouble;
   return bytes;
 }
-
-using Columns = google::protobuf::RepeatedPtrField<v1::FrameChunk::Column>;
 
 void AppendVarint(std::uint64_t value, std::string* text) {
   for (; value > 127; value >>= 7) text->push_back(static_cast<char>(value | 128));
@@ -179,48 +204,116 @@ void AppendVarint(std::uint64_t value, std::string* text) {
 
 // Tag and length of a field that is so long.
 void AppendHead(int field, std::size_t size, std::string* text) {
-  constexpr int kLengthDelimited = 2;
-  AppendVarint(static_cast<std::uint64_t>(field) << 3 | kLengthDelimited, text);
+  AppendVarint(WireFormatLite::MakeTag(field, WireFormatLite::WIRETYPE_LENGTH_DELIMITED), text);
   AppendVarint(size, text);
 }
 
-// Each as a field of its chunk, but for its values, which are last: `size` bytes.
-std::vector<std::string> HeadsOf(const Columns& columns, std::size_t size) {
+// One field of a serialised message after the other.
+class Fields {
+ public:
+  explicit Fields(std::string_view bytes)
+      : bytes_(bytes),
+        stream_(reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                static_cast<int>(bytes.size())) {}
+
+  // False after the last one, and where there is none.
+  bool Next() {
+    start_ = Position();
+    const std::uint32_t tag = stream_.ReadTag();
+    if (tag == 0) return false;
+    number_ = WireFormatLite::GetTagFieldNumber(tag);
+    begin_ = Position();
+    if (WireFormatLite::GetTagWireType(tag) == WireFormatLite::WIRETYPE_LENGTH_DELIMITED) {
+      std::uint32_t length = 0;
+      good_ = stream_.ReadVarint32(&length);
+      begin_ = Position();
+      good_ = good_ && stream_.Skip(static_cast<int>(length));
+    } else {
+      good_ = WireFormatLite::SkipField(&stream_, tag);
+    }
+    return good_;
+  }
+  int number() const { return number_; }
+  std::string_view whole() const { return bytes_.substr(start_, Position() - start_); }
+  // Without its tag, and its length if it has one.
+  std::string_view content() const { return bytes_.substr(begin_, Position() - begin_); }
+  // Of a field that is one.
+  std::uint64_t Number() const {
+    const std::string_view bytes = content();
+    google::protobuf::io::CodedInputStream stream(
+        reinterpret_cast<const std::uint8_t*>(bytes.data()), static_cast<int>(bytes.size()));
+    std::uint64_t number = 0;
+    return stream.ReadVarint64(&number) ? number : 0;
+  }
+  bool complete() const { return good_ && Position() == bytes_.size(); }
+
+ private:
+  std::size_t Position() const { return static_cast<std::size_t>(stream_.CurrentPosition()); }
+
+  const std::string_view bytes_;
+  google::protobuf::io::CodedInputStream stream_;
+  std::size_t start_ = 0;
+  std::size_t begin_ = 0;
+  int number_ = 0;
+  bool good_ = true;
+};
+
+// An event without its values, taken apart where they belong. Not parsed: to fill a message in and
+// to serialise it takes three times as long.
+struct Parts {
+  std::string event;  // All but the chunk.
+  std::string chunk;  // All but the columns.
+  std::uint64_t samples = 0;
+  std::vector<std::string_view> columns;
+};
+
+bool TakeApart(std::string_view bytes, Parts* parts) {
+  Fields event(bytes);
+  std::string_view chunk;
+  while (event.Next()) {
+    if (event.number() == v1::Event::kFrameChunkFieldNumber) {
+      chunk = event.content();
+    } else {
+      parts->event += event.whole();
+    }
+  }
+  Fields fields(chunk);
+  while (fields.Next()) {
+    if (fields.number() == v1::FrameChunk::kSamplesFieldNumber) parts->samples = fields.Number();
+    if (fields.number() == v1::FrameChunk::kColumnsFieldNumber) {
+      parts->columns.push_back(fields.content());
+    } else {
+      parts->chunk += fields.whole();
+    }
+  }
+  return event.complete() && fields.complete();
+}
+
+// The event, serialised, with these planes as its values.
+std::string Compose(const Parts& parts, std::string_view planes) {
+  const std::size_t stride = planes.size() / kDouble;
+  const std::size_t size = parts.samples * kDouble;
   std::vector<std::string> heads;
-  for (const v1::FrameChunk::Column& column : columns) {
-    std::string rest = column.SerializeAsString();
+  std::size_t chunk = parts.chunk.size() + planes.size();
+  for (const std::string_view column : parts.columns) {
+    std::string rest(column);
     AppendHead(v1::FrameChunk::Column::kValuesFieldNumber, size, &rest);
     AppendHead(v1::FrameChunk::kColumnsFieldNumber, rest.size() + size, &heads.emplace_back());
     heads.back() += rest;
+    chunk += heads.back().size();
   }
-  return heads;
-}
-
-// The event, serialised, with these planes as its values. Written by hand: to fill a message in
-// and to serialise it takes twice as long.
-std::string Compose(v1::Event event, std::string_view planes, std::size_t samples) {
-  v1::FrameChunk chunk;
-  chunk.Swap(event.mutable_frame_chunk());
-  event.clear_payload();
-  Columns columns;
-  columns.Swap(chunk.mutable_columns());
-  const std::vector<std::string> heads = HeadsOf(columns, samples * kDouble);
-
-  const std::string head = chunk.SerializeAsString();
-  std::size_t size = head.size() + planes.size();
-  for (const std::string& column : heads) size += column.size();
-  std::string out = event.SerializeAsString();
-  AppendHead(v1::Event::kFrameChunkFieldNumber, size, &out);
-  out += head;
+  std::string out = parts.event;
+  AppendHead(v1::Event::kFrameChunkFieldNumber, chunk, &out);
+  out += parts.chunk;
   std::size_t at = out.size();
-  out.resize(at + size - head.size());
+  out.resize(at + chunk - parts.chunk.size());
   const char* plane = planes.data();
-  for (const std::string& column : heads) {
-    column.copy(out.data() + at, column.size());
-    at += column.size();
-    JoinColumn(plane, planes.size() / kDouble, samples, out.data() + at);
-    at += samples * kDouble;
-    plane += samples;
+  for (const std::string& head : heads) {
+    head.copy(out.data() + at, head.size());
+    at += head.size();
+    JoinColumn(plane, stride, parts.samples, out.data() + at);
+    at += size;
+    plane += parts.samples;
   }
   return out;
 }
@@ -230,15 +323,14 @@ bool Restore(std::string_view bytes, std::string* payload) {
   if (bytes.size() < sizeof length) return false;
   std::memcpy(&length, bytes.data(), sizeof length);
   bytes.remove_prefix(sizeof length);
-  v1::Event event;
-  if (bytes.size() < length || !event.ParseFromArray(bytes.data(), static_cast<int>(length))) {
+  Parts parts;
+  if (bytes.size() < length || !TakeApart(bytes.substr(0, length), &parts)) return false;
+  bytes.remove_prefix(length);
+  if (bytes.size() % kDouble != 0 || parts.samples > kMaxDecoded ||
+      bytes.size() / kDouble != parts.samples * parts.columns.size()) {
     return false;
   }
-  bytes.remove_prefix(length);
-  const auto samples = static_cast<std::size_t>(event.frame_chunk().samples());
-  const auto columns = static_cast<std::size_t>(event.frame_chunk().columns_size());
-  if (bytes.size() % kDouble != 0 || bytes.size() / kDouble != samples * columns) return false;
-  *payload = Compose(std::move(event), bytes, samples);
+  *payload = Compose(parts, bytes);
   return true;
 }
 

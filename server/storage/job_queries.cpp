@@ -56,6 +56,13 @@ void MergePart(Database& database, const std::string& sql, JobRow& row) {
                       row.stored.job.MergeFromString(bytes);
 }
 
+void AddResult(Database& database, JobRow& row) {
+  Query query(database, "SELECT crc32, result FROM results WHERE job=?", row.number);
+  if (!query.Next()) return;
+  row.stored.result_crc32 = query.Integer(0);
+  row.stored.result = query.Bytes(1);
+}
+
 void AddCheckpoint(Database& database, JobRow& row) {
   Query query(database, "SELECT crc32, state, sequence FROM checkpoints WHERE job=?", row.number);
   if (!query.Next()) return;
@@ -86,6 +93,15 @@ absl::Status NoSuchJob(const std::string& name) {
   return absl::NotFoundError(absl::StrCat("there is no job ", name));
 }
 
+absl::Status FailsChecksum(const std::string& name) {
+  return absl::DataLossError(absl::StrCat(name, " fails its checksum in the store"));
+}
+
+bool StoredJob::MergeResult() {
+  const std::string bytes = std::exchange(result, {});
+  return bytes.empty() || (Checksum(bytes) == result_crc32 && job.MergeFromString(bytes));
+}
+
 absl::Status OtherJob(const v1::Job& job) {
   absl::Status status =
       absl::AbortedError(absl::StrCat(job.name(), " is another job than the one expected"));
@@ -101,12 +117,8 @@ absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobP
     MergePart(database, "SELECT crc32, spec FROM specs WHERE job=?", row);
   }
   if (part == JobPart::kRun) AddCheckpoint(database, row);
-  if (part == JobPart::kAll) {
-    MergePart(database, "SELECT crc32, result FROM results WHERE job=?", row);
-  }
-  if (!row.stored.intact) {
-    return absl::DataLossError(absl::StrCat(name, " fails its checksum in the store"));
-  }
+  if (part == JobPart::kAll) AddResult(database, row);
+  if (!row.stored.intact) return FailsChecksum(name);
   return std::move(row.stored);
 }
 

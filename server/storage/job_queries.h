@@ -15,6 +15,8 @@ class Database;
 /// Operations that read the tables. SQL errors are thrown as SQLite::Exception.
 
 absl::Status NoSuchJob(const std::string& name);
+/// DATA_LOSS.
+absl::Status FailsChecksum(const std::string& name);
 /// ABORTED, with the uid that the job has.
 absl::Status OtherJob(const v1::Job& job);
 

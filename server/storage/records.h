@@ -46,7 +46,7 @@ enum class JobPart {
   kHeader,  ///< All but spec, cycles and final bodies.
   kSpec,    ///< Header and spec.
   kRun,     ///< The same, and the checkpoint.
-  kAll,     ///< Header, spec, cycles and final bodies.
+  kAll,     ///< Header, spec, and the result: cycles and final bodies, not parsed.
 };
 
 struct StoredJob {
@@ -58,6 +58,12 @@ struct StoredJob {
   bool intact = true;      ///< False: fails its checksum; only name, state and sequences are true.
   std::string checkpoint = {};            ///< Empty: none, or a damaged one.
   std::uint64_t checkpoint_sequence = 0;  ///< Of the last event before it.
+  std::string result = {};                ///< As it is stored; empty: none, or not asked for.
+  std::int64_t result_crc32 = 0;
+
+  /// Puts the result into the job. A long ledger takes a while: not for the store's thread. False
+  /// if it is damaged.
+  bool MergeResult();
 };
 
 struct JobQuery {

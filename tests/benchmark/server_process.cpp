@@ -55,6 +55,25 @@ std::string AddressIn(const std::string& greeting) {
   return greeting.substr(at, greeting.find_first_of(",\n", at) - at);
 }
 
+// As contactd calls the threads that solve.
+constexpr char kWorker[] = "worker";
+
+struct Thread {
+  pid_t id;
+  std::string name;
+};
+
+std::vector<Thread> ThreadsOf(pid_t process) {
+  std::vector<Thread> threads;
+  std::error_code gone;
+  for (const auto& task : fs::directory_iterator(fmt::format("/proc/{}/task", process), gone)) {
+    Thread thread{std::stoi(task.path().filename()), ""};
+    std::getline(std::ifstream(task.path() / "comm"), thread.name);
+    threads.push_back(std::move(thread));
+  }
+  return threads;
+}
+
 // One thread a call, as plain as gRPC gets.
 class BareService final : public v1::JobService::Service {
  public:
@@ -121,6 +140,54 @@ double ServerProcess::ResidentMegabytes() const {
     if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) / 1024;
   }
   return 0;
+}
+
+double ServerProcess::CpuSeconds() const {
+  std::ifstream stat(fmt::format("/proc/{}/stat", pid_));
+  std::string field;
+  std::getline(stat, field, ')');  // The name may have spaces in it.
+  for (int i = 0; i < 11; ++i) stat >> field;
+  double user = 0;
+  double system = 0;
+  stat >> user >> system;
+  return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+double ServerProcess::WorkerSeconds() const {
+  double nanoseconds = 0;
+  for (const Thread& thread : ThreadsOf(pid_)) {
+    double used = 0;
+    std::ifstream(fmt::format("/proc/{}/task/{}/schedstat", pid_, thread.id)) >> used;
+    if (thread.name == kWorker) nanoseconds += used;
+  }
+  return 1e-9 * nanoseconds;
+}
+
+WorkersApart::WorkersApart(const ServerProcess& server) : server_(server) {
+  if (::sched_getaffinity(0, sizeof all_, &all_) != 0 || CPU_COUNT(&all_) < 2) {
+    throw std::runtime_error("two cores are needed");
+  }
+  std::array<cpu_set_t, 2> cores;
+  int core = 0;
+  for (cpu_set_t& one : cores) {
+    while (!CPU_ISSET(core, &all_)) ++core;
+    CPU_ZERO(&one);
+    CPU_SET(core++, &one);
+  }
+  for (const Thread& thread : ThreadsOf(server.pid())) {
+    ::sched_setaffinity(thread.id, sizeof(cpu_set_t), &cores[thread.name == kWorker ? 0 : 1]);
+  }
+  for (const Thread& thread : ThreadsOf(::getpid())) {
+    ::sched_setaffinity(thread.id, sizeof(cpu_set_t), &cores[1]);
+  }
+}
+
+WorkersApart::~WorkersApart() {
+  for (const pid_t process : {server_.pid(), ::getpid()}) {
+    for (const Thread& thread : ThreadsOf(process)) {
+      ::sched_setaffinity(thread.id, sizeof all_, &all_);
+    }
+  }
 }
 
 int ServeBare(const fs::path& data_dir, int messages, int bytes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sched.h>
 #include <sys/types.h>
 
 #include <filesystem>
@@ -22,11 +23,31 @@ class ServerProcess {
 
   const std::string& address() const { return address_; }
   double ResidentMegabytes() const;
+  /// What all its threads have used.
+  double CpuSeconds() const;
+  /// What those have used that solve; exact while none of them runs.
+  double WorkerSeconds() const;
+  pid_t pid() const { return pid_; }
 
  private:
   std::filesystem::path folder_;
   pid_t pid_ = -1;
   std::string address_;
+};
+
+/// Gives the workers of a server one core for themselves, and all other threads of it and of this
+/// process another one, those to come too: so what is left of a slow-down is not the want of a
+/// core. Everything has all cores again when it is destroyed.
+class WorkersApart {
+ public:
+  explicit WorkersApart(const ServerProcess& server);
+  ~WorkersApart();
+  WorkersApart(const WorkersApart&) = delete;
+  WorkersApart& operator=(const WorkersApart&) = delete;
+
+ private:
+  const ServerProcess& server_;
+  cpu_set_t all_;
 };
 
 /// What the service cannot be faster than: CreateJob writes 1 KiB and syncs it, WatchJob sends

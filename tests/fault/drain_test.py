@@ -1,5 +1,10 @@
 """A server that is asked to end hands over: no attempt is burned, no watcher misses anything."""
 
+import fcntl
+import pathlib
+import struct
+import tempfile
+import termios
 import threading
 import unittest
 
@@ -58,12 +63,18 @@ class StuckTest(FaultTest):
         scenario.output.sample_interval_s = 2e-6
         self.name = self.server.run(scenario).name
         self.base = descriptors(self.server)
-        self.client = http2.greet(self.server.port, window=http2.LARGEST_WINDOW)
+        self.client = self.connect()
         self.addCleanup(self.client.close)
         request = job_service_pb2.WatchJobRequest(name=self.name).SerializeToString()
         for stream in (1, 3, 5, 7):
             self.client.sendall(http2.headers(stream, WATCH) + http2.message(stream, request))
-        wait_for(lambda: self.unsent() > 1 << 20)
+        wait_for(self.stuck)
+
+    def connect(self):
+        return http2.greet(self.server.port, window=http2.LARGEST_WINDOW)
+
+    def stuck(self):
+        return self.unsent() > 1 << 20
 
     def unsent(self):
         """Bytes in the server's socket that the client's does not take."""
@@ -83,6 +94,24 @@ class StuckTest(FaultTest):
     def test_it_is_cut(self):
         freed = wait_for(lambda: descriptors(self.server) <= self.base)
         self.assertKept("cut_after", freed, 10)
+
+
+class StuckOnFileTest(StuckTest):
+    """The same through a socket file, where the system itself cuts nobody."""
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.file = pathlib.Path(place.name) / "socket"
+        self.flags = (*StuckTest.flags, f"--listen=unix:{self.file}")
+        super().setUp()
+
+    def connect(self):
+        return http2.greet(None, window=http2.LARGEST_WINDOW, file=self.file)
+
+    def stuck(self):
+        waiting = fcntl.ioctl(self.client, termios.FIONREAD, bytes(4))
+        return struct.unpack("i", waiting)[0] > 100_000
 
 
 if __name__ == "__main__":

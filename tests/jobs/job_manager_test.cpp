@@ -1,5 +1,9 @@
 #include "jobs/job_manager.h"
 
+#include <pthread.h>
+#include <sys/resource.h>
+
+#include <array>
 #include <set>
 
 #include "jobs/lifecycle.h"
@@ -189,6 +193,19 @@ TEST_F(JobsTest, FullStoreRefusesJobsAndTellsTheOthers) {
   EXPECT_EQ(manager_->Info().queued_jobs(), accepted) << "what was refused has no place";
 }
 
+// Every thread here began as nice as this one.
+TEST_F(JobsTest, RunsStepBackBehindWhoeverAnswersCalls) {
+  int niceness = 0;
+  FakeRun run([&](const auto&...) {
+    niceness = getpriority(PRIO_PROCESS, 0);
+    return Outcome{};
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  Ended(Create(BouncingBall()));
+  EXPECT_GT(niceness, getpriority(PRIO_PROCESS, 0));
+}
+
 TEST_F(JobsTest, JobsRunFirstComeFirstServed) {
   std::vector<double> order;
   FakeRun run([&](const Scenario& scenario, Observer&, const std::stop_token&) {
@@ -353,6 +370,26 @@ TEST_F(JobsTest, StopWaitsForTheEndsThatAreBeingStored) {
   Await<absl::StatusOr<StoredJob>> stored;
   store_->Read(name, JobPart::kHeader, stored.callback());
   EXPECT_EQ(stored.Get()->job.state(), v1::Job::SUCCEEDED);
+}
+
+// It would hold up the commits of others.
+TEST_F(JobsTest, LedgerIsNotParsedOnTheStoresThread) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
+    observer.OnCycle({});
+    return Outcome{};
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  const std::string name = Create(BouncingBall());
+  Ended(name);
+  Await<std::string> thread;
+  manager_->Get(name, [told = thread.callback()](const Result<v1::Job>& job) {
+    EXPECT_EQ(job.value().cycles_size(), 1);
+    std::array<char, 16> own{};
+    pthread_getname_np(pthread_self(), own.data(), own.size());
+    told(own.data());
+  });
+  EXPECT_EQ(thread.Get(), "checker");
 }
 
 TEST_F(JobsTest, LongLedgerIsShortenedInAnswers) {

@@ -75,7 +75,9 @@ class LogWriterTest : public testing::Test {
   absl::StatusOr<StoredJob> Stored() {
     Await<absl::StatusOr<StoredJob>> job;
     store_->Read("jobs/a", JobPart::kAll, job.callback());
-    return job.Get();
+    auto stored = job.Get();
+    EXPECT_TRUE(!stored.ok() || stored->MergeResult());
+    return stored;
   }
 
   StoredJob ToRun() {

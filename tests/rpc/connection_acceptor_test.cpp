@@ -3,14 +3,19 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <list>
 #include <memory>
 #include <vector>
 
 #include "client_socket.h"
-#include "rpc/tcp_listener.h"
+#include "rpc/listener.h"
+#include "rpc/open_connections.h"
 #include "test_server.h"
+#include "testing/temp_directory.h"
 
 namespace contact {
 namespace {
@@ -20,16 +25,16 @@ using namespace std::chrono_literals;
 // What a connection is kept for to see that it is not refused.
 constexpr auto kAWhile = 50ms;
 
-TEST(TcpListenerTest, PortZeroIsOnePortForAllAddresses) {
+TEST(ListenerTest, PortZeroIsOnePortForAllAddresses) {
   for (const char* address : {"127.0.0.1:0", "[::1]:0", "localhost:0"}) {
-    const TcpListener listener = OpenTcpListener(address);
+    const Listener listener = OpenTcpListener(address);
     EXPECT_FALSE(listener.sockets.empty()) << address;
     EXPECT_GT(listener.port, 0) << address;
   }
 }
 
-TEST(TcpListenerTest, TakenPortAndUnknownHostGiveNothing) {
-  const TcpListener first = OpenTcpListener("127.0.0.1:0");
+TEST(ListenerTest, TakenPortAndUnknownHostGiveNothing) {
+  const Listener first = OpenTcpListener("127.0.0.1:0");
   const std::string port = std::to_string(first.port);
   EXPECT_TRUE(OpenTcpListener("127.0.0.1:" + port).sockets.empty());
   EXPECT_TRUE(OpenTcpListener("localhost:" + port).sockets.empty());
@@ -37,11 +42,76 @@ TEST(TcpListenerTest, TakenPortAndUnknownHostGiveNothing) {
   EXPECT_TRUE(OpenTcpListener("nowhere").sockets.empty());
 }
 
+TEST(ListenerTest, FileIsForOneServerAndTakenOverFromADeadOne) {
+  const TempDirectory folder;
+  const std::string file = folder.path() / "socket";
+  {
+    const Listener first = OpenFileListener(file);
+    ASSERT_EQ(first.sockets.size(), 1U);
+    EXPECT_TRUE(OpenFileListener(file).sockets.empty());
+  }
+  EXPECT_EQ(OpenFileListener(file).sockets.size(), 1U) << "as a killed server has left it";
+  EXPECT_TRUE(OpenFileListener(folder.path() / "none" / "socket").sockets.empty());
+  EXPECT_TRUE(OpenFileListener(std::string(200, 'x')).sockets.empty());
+  const std::string precious = folder.path() / "precious";
+  std::ofstream(precious) << "no socket";
+  EXPECT_TRUE(OpenFileListener(precious).sockets.empty());
+  EXPECT_TRUE(std::filesystem::exists(precious));
+}
+
+// A connection through a file, without a server.
+class StalledConnectionTest : public testing::Test {
+ protected:
+  StalledConnectionTest() {
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+      throw std::runtime_error("no sockets");
+    }
+    ours_ = FileDescriptor(ends[0]);
+    theirs_ = FileDescriptor(ends[1]);
+    connections_.Add(ours_.get(), "unix");
+  }
+
+  // Sends as much as there is room for.
+  void Fill() {
+    while (send(ours_.get(), block_.data(), block_.size(), MSG_NOSIGNAL) > 0) {
+    }
+  }
+  void Take() { EXPECT_GT(recv(theirs_.get(), block_.data(), block_.size(), 0), 0); }
+  void Look(std::chrono::milliseconds at) { connections_.CutStalled(begin_ + at, 100ms); }
+  bool IsCut() { return recv(ours_.get(), block_.data(), 1, 0) == 0; }
+
+  std::vector<char> block_ = std::vector<char>(4096);
+  FileDescriptor ours_;
+  FileDescriptor theirs_;
+  OpenConnections connections_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+TEST_F(StalledConnectionTest, WhoTakesNothingIsCut) {
+  Fill();
+  Look(0ms);
+  Look(99ms);
+  EXPECT_FALSE(IsCut());
+  Look(100ms);
+  EXPECT_TRUE(IsCut());
+}
+
+TEST_F(StalledConnectionTest, WhoTakesALittleOrIsSentNothingIsKept) {
+  for (int i = 0; i < 10; ++i) Look(i * 90ms);
+  Fill();
+  for (int i = 10; i < 50; ++i) {
+    Look(i * 90ms);
+    Take();
+  }
+  EXPECT_FALSE(IsCut());
+}
+
 // Keeps the connections instead of gRPC.
 class ConnectionAcceptorTest : public testing::Test {
  protected:
   void Open(ConnectionLimits limits) {
-    TcpListener listener = OpenTcpListener("127.0.0.1:0");
+    Listener listener = OpenTcpListener("127.0.0.1:0");
     port_ = listener.port;
     acceptor_ =
         std::make_unique<ConnectionAcceptor>(std::move(listener), limits, [this](int, int fd) {

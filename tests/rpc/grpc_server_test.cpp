@@ -4,6 +4,7 @@
 #include <grpcpp/generic/generic_stub.h>
 #include <sys/stat.h>
 
+#include <filesystem>
 #include <string>
 
 #include "client_socket.h"
@@ -116,6 +117,8 @@ TEST(GrpcServerTest, SocketFileIsForOwnerAndGroupAndForOneServer) {
   GrpcServer second(first.jobs(), {}, {});
   EXPECT_FALSE(second.Start("unix:" + file));
   EXPECT_TRUE(Answers("unix:" + file));
+  server.Shutdown(std::chrono::seconds(1));
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(GrpcServerTest, SilentConnectionIsClosed) {

@@ -1,6 +1,8 @@
 #include "storage/event_coding.h"
 
+#include <google/protobuf/message.h>
 #include <gtest/gtest.h>
+#include <zstd.h>
 
 #include <cmath>
 #include <cstring>
@@ -40,6 +42,44 @@ void ExpectSame(const v1::Event& event) {
   std::string payload;
   ASSERT_TRUE(DecodePayload(coded.coding, coded.bytes, &payload));
   EXPECT_EQ(payload.size(), event.ByteSizeLong());
+}
+
+// Gives every field of one number or text a value that is not its default.
+void Fill(google::protobuf::Message* message) {
+  using Field = google::protobuf::FieldDescriptor;
+  const auto* const reflection = message->GetReflection();
+  for (int i = 0; i < message->GetDescriptor()->field_count(); ++i) {
+    const Field* const field = message->GetDescriptor()->field(i);
+    if (field->is_repeated() || field->cpp_type() == Field::CPPTYPE_MESSAGE) continue;
+    switch (field->cpp_type()) {
+      case Field::CPPTYPE_INT32:
+        reflection->SetInt32(message, field, 8);
+        break;
+      case Field::CPPTYPE_INT64:
+        reflection->SetInt64(message, field, 8);
+        break;
+      case Field::CPPTYPE_UINT64:
+        reflection->SetUInt64(message, field, 8);
+        break;
+      case Field::CPPTYPE_STRING:
+        reflection->SetString(message, field, std::string(64, 'x'));
+        break;
+      default:
+        FAIL() << "no value for " << field->full_name();
+    }
+  }
+}
+
+// The encoder copies a chunk field by field; whoever adds one must not lose it there.
+TEST(EventCodingTest, EveryFieldOfAChunkIsKept) {
+  v1::Event event;
+  Fill(&event);
+  Fill(event.mutable_event_time());
+  Fill(event.mutable_frame_chunk());
+  Fill(event.mutable_frame_chunk()->add_columns());
+  ASSERT_EQ(EncodeEvent(event).coding, Coding::kFrames);
+  ExpectSame(event);
+  EXPECT_EQ(v1::Event::descriptor()->field_count(), 12) << "an event has more than it had";
 }
 
 TEST(EventCodingTest, FramesComeBackBitByBit) {
@@ -93,6 +133,31 @@ TEST(EventCodingTest, GarbageIsRefused) {
   EXPECT_FALSE(DecodeEvent(Coding::kFrames, "some words", &event));
   EXPECT_FALSE(DecodeEvent(Coding::kFrames, good.substr(0, good.size() / 2), &event));
   EXPECT_FALSE(DecodeEvent(static_cast<Coding>(7), good, &event));
+}
+
+std::string Squeezed(const std::string& bytes) {
+  std::string out(ZSTD_compressBound(bytes.size()), '\0');
+  out.resize(ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1));
+  return out;
+}
+
+// Bytes that look right from outside, but do not fit together, are refused and never overrun.
+TEST(EventCodingTest, ChunkCutOrBentAnywhereIsRefusedOrAnEvent) {
+  const std::string good = EncodeEvent(Frames({Sine(16), Sine(16)})).bytes;
+  std::string inside(DecodedSize(Coding::kFrames, good), '\0');
+  ZSTD_decompress(inside.data(), inside.size(), good.data(), good.size());
+  std::string payload;
+  ASSERT_TRUE(DecodePayload(Coding::kFrames, Squeezed(inside), &payload));
+  for (std::size_t size = 0; size < inside.size(); ++size) {
+    EXPECT_FALSE(DecodePayload(Coding::kFrames, Squeezed(inside.substr(0, size)), &payload))
+        << size;
+  }
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    std::string bent = inside;
+    bent[i] = static_cast<char>(bent[i] ^ 0x7f);
+    v1::Event event;
+    if (DecodePayload(Coding::kFrames, Squeezed(bent), &payload)) event.ParseFromString(payload);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
-// What becomes of the databases of earlier versions. version_1.sql was dumped from one that the
-// program of that version had made: two jobs that succeeded.
+// What becomes of the databases of earlier versions: two jobs that succeeded. version_1.sql was
+// dumped from one that the program of that version had made, version_2.sql from one made with the
+// tables of that version, with events as its program coded them.
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -29,7 +31,8 @@ std::set<std::string> Rows(const std::filesystem::path& database) {
   for (const char* sql :
        {"SELECT name || state || last_sequence || hex(header) FROM jobs",
         "SELECT job || '/' || sequence || '/' || kind || hex(payload) FROM events",
-        "SELECT job || hex(spec) FROM specs", "SELECT job || hex(result) FROM results"}) {
+        "SELECT key || '=' || value || job FROM labels", "SELECT job || hex(spec) FROM specs",
+        "SELECT job || hex(result) FROM results"}) {
     SQLite::Statement query(raw, sql);
     while (query.executeStep()) rows.insert(query.getColumn(0).getString());
   }
@@ -42,15 +45,15 @@ int Version(const std::filesystem::path& database) {
       .getInt();
 }
 
-class MigrationTest : public StoreTest {
+class MigrationTest : public StoreTest, public testing::WithParamInterface<int> {
  protected:
-  void MakeVersion1() {
+  void MakeOldVersion() {
     store_.reset();
     std::filesystem::remove_all(path());
     std::filesystem::create_directory(path());
     SQLite::Database raw(database(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     raw.exec("PRAGMA synchronous=OFF");
-    raw.exec(Text(CONTACT_SOURCE_DIR "/tests/storage/version_1.sql"));
+    raw.exec(Text(absl::StrCat(CONTACT_SOURCE_DIR, "/tests/storage/version_", GetParam(), ".sql")));
     std::ofstream(path() / "initialised") << "contactd.db belongs here\n";
   }
 
@@ -67,8 +70,8 @@ class MigrationTest : public StoreTest {
   }
 };
 
-TEST_F(MigrationTest, EverythingOfVersion1IsThereAfterwards) {
-  MakeVersion1();
+TEST_P(MigrationTest, EverythingIsThereAfterwards) {
+  MakeOldVersion();
   const std::set<std::string> before = Rows(database());
   Open();
   const auto jobs = List({});
@@ -90,8 +93,8 @@ TEST_F(MigrationTest, EverythingOfVersion1IsThereAfterwards) {
   EXPECT_EQ(Rows(database()), before);
 }
 
-TEST_F(MigrationTest, TablesAreThoseOfANewStore) {
-  MakeVersion1();
+TEST_P(MigrationTest, TablesAreThoseOfANewStore) {
+  MakeOldVersion();
   Open();
   store_.reset();
   const std::set<std::string> migrated = Tables();
@@ -101,8 +104,8 @@ TEST_F(MigrationTest, TablesAreThoseOfANewStore) {
   EXPECT_EQ(migrated, Tables());
 }
 
-TEST_F(MigrationTest, EndsAndSizesAreFilledIn) {
-  MakeVersion1();
+TEST_P(MigrationTest, EndsAndSizesAreFilledIn) {
+  MakeOldVersion();
   Open();
   const auto sizes = Sizes();
   ASSERT_TRUE(sizes.ok());
@@ -113,24 +116,24 @@ TEST_F(MigrationTest, EndsAndSizesAreFilledIn) {
   }
 }
 
-TEST_F(MigrationTest, OldDatabaseIsKeptBesideTheNew) {
-  MakeVersion1();
+TEST_P(MigrationTest, OldDatabaseIsKeptBesideTheNew) {
+  MakeOldVersion();
   const std::set<std::string> before = Rows(database());
   Open();
   store_.reset();
-  const std::filesystem::path kept = path() / "contactd.db.v1";
-  EXPECT_EQ(Version(kept), 1);
+  const std::filesystem::path kept = path() / absl::StrCat("contactd.db.v", GetParam());
+  EXPECT_EQ(Version(kept), GetParam());
   EXPECT_EQ(Rows(kept), before);
 }
 
-TEST_F(MigrationTest, DiskThatFailsAnywhereLeavesTheOldOrTheNew) {
-  MakeVersion1();
+TEST_P(MigrationTest, DiskThatFailsAnywhereLeavesTheOldOrTheNew) {
+  MakeOldVersion();
   const std::set<std::string> before = Rows(database());
   int old_left = 0;
   bool done = false;
   for (int n = 0; !done; ++n) {
     ASSERT_LT(n, 1000);
-    MakeVersion1();
+    MakeOldVersion();
     {
       FailingDisk disk;
       disk.FailAfter(n);
@@ -142,8 +145,8 @@ TEST_F(MigrationTest, DiskThatFailsAnywhereLeavesTheOldOrTheNew) {
     std::filesystem::remove_all(image);
     std::filesystem::copy(path(), image);
     const int version = Version(image / "contactd.db");
-    EXPECT_TRUE(version == 1 || version == kSchemaVersion) << n;
-    if (version == 1) ++old_left;
+    EXPECT_TRUE(version == GetParam() || version == kSchemaVersion) << n;
+    if (version == GetParam()) ++old_left;
     EXPECT_EQ(Rows(image / "contactd.db"), before) << n;
     Open();
     EXPECT_EQ(Sizes()->size(), 2U);
@@ -152,6 +155,24 @@ TEST_F(MigrationTest, DiskThatFailsAnywhereLeavesTheOldOrTheNew) {
   }
   EXPECT_GT(old_left, 20) << "the test must bite";
 }
+
+// What version 3 has added is as if the job had been made by it.
+TEST_P(MigrationTest, NothingIsCompactedNorGoesOn) {
+  MakeOldVersion();
+  Open();
+  const auto jobs = List({});
+  ASSERT_TRUE(jobs.ok());
+  for (const StoredJob& header : jobs->jobs) {
+    const auto job = Read(header.job.name(), JobPart::kRun);
+    ASSERT_TRUE(job.ok()) << job.status();
+    EXPECT_FALSE(job->compacted);
+    EXPECT_EQ(job->job.oldest_sequence(), 1U);
+    EXPECT_TRUE(job->checkpoint.empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(FromVersion, MigrationTest, testing::Values(1, 2),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace contact

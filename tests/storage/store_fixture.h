@@ -83,7 +83,9 @@ class StoreTest : public testing::Test {
   absl::StatusOr<StoredJob> Read(const std::string& name, JobPart part = JobPart::kAll) {
     Await<absl::StatusOr<StoredJob>> result;
     store_->Read(name, part, result.callback());
-    return result.Get();
+    absl::StatusOr<StoredJob> stored = result.Get();
+    if (stored.ok() && !stored->MergeResult()) return absl::DataLossError("the result is damaged");
+    return stored;
   }
   absl::StatusOr<JobPage> List(JobQuery query) {
     Await<absl::StatusOr<JobPage>> result;

@@ -56,6 +56,25 @@ TEST_F(StoreTest, RepeatedRequestAnswersTheSameJob) {
   EXPECT_TRUE(absl::IsNotFound(Read("jobs/b").status()));
 }
 
+TEST_F(StoreTest, ResultIsReadAsBytesAndParsedByWhoeverAsked) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  job.add_cycles()->set_number(7);
+  ASSERT_TRUE(Update({.name = job.name(), .epoch = 0, .job = &job}).ok());
+  Await<absl::StatusOr<StoredJob>> read;
+  store_->Read(job.name(), JobPart::kAll, read.callback());
+  absl::StatusOr<StoredJob> stored = read.Get();
+  ASSERT_TRUE(stored.ok());
+  EXPECT_EQ(stored->job.cycles_size(), 0);
+  StoredJob damaged = *stored;
+  damaged.result.front() = static_cast<char>(damaged.result.front() ^ 1);
+  EXPECT_FALSE(damaged.MergeResult());
+  ASSERT_TRUE(stored->MergeResult());
+  ASSERT_EQ(stored->job.cycles_size(), 1);
+  EXPECT_EQ(stored->job.cycles(0).number(), 7);
+}
+
 TEST_F(StoreTest, RequestIdNamesOneJobOnly) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a"), "request").ok());

@@ -24,7 +24,9 @@ ENDED = (Job.SUCCEEDED, Job.FAILED, Job.CANCELLED)
 
 
 class Server:
-    """One contactd process after the other on the same data directory."""
+    """One contactd process after the other on the same data directory.
+
+    Listens on a free port of this host, unless a flag says where."""
 
     def __init__(self, data_dir, *flags, environment=None):
         self.data_dir = pathlib.Path(data_dir)
@@ -35,18 +37,20 @@ class Server:
         self.channel = None
 
     def start(self, **popen):
+        told = any(flag.startswith("--listen=") for flag in self.flags)
+        listen = [] if told else ["--listen=127.0.0.1:0"]
         with open(self.log_path, "ab") as log:
             self.process = subprocess.Popen(
-                [BINARY, "--listen=127.0.0.1:0", f"--data-dir={self.data_dir}", *self.flags],
+                [BINARY, *listen, f"--data-dir={self.data_dir}", *self.flags],
                 stdout=subprocess.PIPE, stderr=log, text=True, env=self.environment, **popen)
         ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE_S)
         self.greeting = self.process.stdout.readline() if ready else ""
-        match = re.search(r"listening on 127\.0\.0\.1:(\d+)", self.greeting)
+        match = re.search(r"listening on (127\.0\.0\.1:(\d+)|unix:[^,]+)", self.greeting)
         if not match:
             self.kill()
             raise RuntimeError(f"contactd said {self.greeting!r} and logged {self.log()}")
-        self.port = int(match[1])
-        self.channel = grpc.insecure_channel(f"127.0.0.1:{self.port}")
+        self.port = int(match[2] or 0)
+        self.channel = grpc.insecure_channel(match[1])
         self.stub = job_service_pb2_grpc.JobServiceStub(self.channel)
         return self
 

@@ -49,9 +49,14 @@ def message(stream, content=b""):
     return frame(DATA, END_STREAM, stream, b"\0" + struct.pack(">I", len(content)) + content)
 
 
-def greet(port, *, window=None):
-    """A connection that has said who it is; `window`: what it is ready to take."""
-    connection = socket.create_connection(("127.0.0.1", port), 5)
+def greet(port, *, window=None, file=None):
+    """A connection that has said who it is; `window`: what it is ready to take. To a port of this
+    host, or to a socket file."""
+    if file:
+        connection = socket.socket(socket.AF_UNIX)
+        connection.connect(str(file))
+    else:
+        connection = socket.create_connection(("127.0.0.1", port), 5)
     settings = struct.pack(">HI", INITIAL_WINDOW_SIZE, window) if window else b""
     connection.sendall(PREFACE + frame(SETTINGS, 0, 0, settings))
     if window:

@@ -1,12 +1,17 @@
-#include "rpc/tcp_listener.h"
+#include "rpc/listener.h"
 
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace contact {
 namespace {
@@ -64,10 +69,35 @@ FileDescriptor Listen(const addrinfo& info, int port) {
 // This machine may lack IPv6, and `localhost` still stand for an address of it.
 bool MayMiss(int error) { return error == EADDRNOTAVAIL || error == EAFNOSUPPORT; }
 
+// Not valid: the path is too long.
+std::optional<sockaddr_un> FileAddress(const std::string& path) {
+  sockaddr_un address = {};
+  address.sun_family = AF_UNIX;
+  if (path.empty() || path.size() >= sizeof(address.sun_path)) return std::nullopt;
+  std::memcpy(address.sun_path, path.data(), path.size());
+  return address;
+}
+
+FileDescriptor FileSocket() {
+  return FileDescriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+}
+
+bool IsServed(const sockaddr_un& address) {
+  const FileDescriptor socket = FileSocket();
+  return connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0 ||
+         errno == EAGAIN;
+}
+
+// What a server that was killed has left; nothing else.
+void RemoveSocket(const std::string& path) {
+  struct stat status = {};
+  if (lstat(path.c_str(), &status) == 0 && S_ISSOCK(status.st_mode)) unlink(path.c_str());
+}
+
 }  // namespace
 
-TcpListener OpenTcpListener(const std::string& address) {
-  TcpListener listener;
+Listener OpenTcpListener(const std::string& address) {
+  Listener listener;
   const Addresses addresses = Resolve(address);
   for (const addrinfo* info = addresses.get(); info != nullptr; info = info->ai_next) {
     FileDescriptor socket = Listen(*info, listener.port);
@@ -78,6 +108,21 @@ TcpListener OpenTcpListener(const std::string& address) {
     listener.port = PortOf(socket.get());
     listener.sockets.push_back(std::move(socket));
   }
+  return listener;
+}
+
+Listener OpenFileListener(const std::string& path) {
+  const auto address = FileAddress(path);
+  if (!address || IsServed(*address)) return {};
+  RemoveSocket(path);
+  FileDescriptor socket = FileSocket();
+  if (bind(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) != 0) {
+    return {};
+  }
+  constexpr mode_t kOwnerAndGroup = 0660;
+  Listener listener{.sockets = {}, .file = path};
+  if (chmod(path.c_str(), kOwnerAndGroup) != 0 || listen(socket.get(), SOMAXCONN) != 0) return {};
+  listener.sockets.push_back(std::move(socket));
   return listener;
 }
 
