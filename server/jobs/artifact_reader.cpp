@@ -42,7 +42,9 @@ void AddArtifacts(v1::Job* job) {
 Result<ArtifactPlan> PlanArtifact(StoredJob stored, const v1::ReadArtifactRequest& request) {
   const v1::Job& job = stored.job;
   if (!IsFinal(job.state())) return NotEnded(job.name());
-  ArtifactPlan plan{.stored = {}, .artifact = request.artifact(), .offset = request.offset()};
+  ArtifactPlan plan;
+  plan.artifact = request.artifact();
+  plan.offset = request.offset();
   if (job.has_scenario() && plan.artifact == kCycles) {
     plan.kind = ArtifactPlan::Kind::kCycles;
   } else if (job.has_scenario() && plan.artifact == kTrajectory) {
