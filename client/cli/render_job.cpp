@@ -102,7 +102,7 @@ std::string Ledger(const v1::Job& job, const Style& style) {
                Digits(cycle.mu(), 7),
                AlphaOrRatio(cycle),
                Digits(cycle.restitution_in(), 6),
-               Digits(cycle.restitution_out(), 10),
+               Digits(cycle.restitution_out(), 8),
                Error(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
                Digits(cycle.start_time_s(), 7),
                Digits(cycle.end_time_s(), 7),

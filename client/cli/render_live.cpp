@@ -129,7 +129,7 @@ void LiveView::ShowCycle(const v1::Cycle& cycle) {
             v1::Cycle::Kind_Name(cycle.kind()), v1::Cycle::End_Name(cycle.end()),
             Paint(v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status()), rows_style_),
             Digits(cycle.start_time_s(), 7), Digits(cycle.end_time_s(), 7),
-            Digits(cycle.restitution_out(), 10)));
+            Digits(cycle.restitution_out(), 8)));
 }
 
 void LiveView::ShowState(const v1::StateChanged& change) {

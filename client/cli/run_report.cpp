@@ -34,7 +34,7 @@ std::string Ledger(const v1::Job& job) {
         {{cycle.contact(), fmt::to_string(cycle.number()), v1::Cycle::Kind_Name(cycle.kind()),
           v1::Cycle::End_Name(cycle.end()), v1::Cycle::Status_Name(cycle.status()),
           fmt::to_string(cycle.iterations()), Digits(cycle.mu(), 7), AlphaOrRatio(cycle),
-          Digits(cycle.restitution_in(), 6), Digits(cycle.restitution_out(), 10),
+          Digits(cycle.restitution_in(), 6), Digits(cycle.restitution_out(), 8),
           Error(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
           Digits(cycle.peak_force_n(), 7), Digits(cycle.start_time_s(), 7),
           Digits(cycle.end_time_s(), 7)},
@@ -55,7 +55,7 @@ std::string Iterations(const std::vector<v1::Iteration>& iterations) {
       rows.push_back(
           {{fmt::to_string(pass.episode()), fmt::to_string(pass.number()),
             fmt::format("{} #{}", unknown.contact(), unknown.number()), Digits(unknown.mu(), 9),
-            Digits(unknown.restitution_out(), 10), Error(unknown.residual()),
+            Digits(unknown.restitution_out(), 8), Error(unknown.residual()),
             pass.accepted() ? "accepted" : v1::Iteration::Update_Name(unknown.update())}});
     }
   }
