@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -32,7 +33,9 @@ struct SweepArguments {
   std::string metric;    ///< Of the heat map.
   std::string heat_map;  ///< File to draw it to.
   bool comments = false;
-  std::vector<std::string> grid;  ///< Axes over a scenario, instead of a sweep file.
+  std::vector<std::string> grid;        ///< Axes over a scenario, instead of a sweep file.
+  int random = 0, latin_hypercube = 0;  ///< Cells to draw from the axes.
+  std::int64_t seed = 0;
   bool cancel_on_interrupt = false;
 };
 
@@ -163,10 +166,13 @@ v1::Job Create(Client& client, const v1::CreateJobRequest& request) {
 
 ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "csv", "json", "name"});
+  const DrawnCells drawn{.count = std::max(arguments.random, arguments.latin_hypercube),
+                         .latin_hypercube = arguments.latin_hypercube > 0,
+                         .seed = arguments.seed};
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_sweep() =
       arguments.grid.empty() ? OpenSweep(arguments.file)
-                             : MakeGrid(arguments.file, arguments.grid, arguments.metric);
+                             : MakeGrid(arguments.file, arguments.grid, arguments.metric, drawn);
   MetricOf(request.job().sweep(), arguments.metric);
   request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
@@ -226,13 +232,32 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
   run->add_option("FILE", arguments->file,
                   "Sweep in YAML or JSON; - is the standard input. With --grid a scenario")
       ->required();
-  run->add_option("--grid", arguments->grid,
-                  "Every value of this field with every one of the others, such as "
-                  "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is then "
-                  "what is computed, iterations unless given")
-      ->type_name("FIELD=VALUES")
-      ->take_all()
-      ->allow_extra_args(false);
+  CLI::Option* grid =
+      run->add_option(
+             "--grid", arguments->grid,
+             "Every value of this field with every one of the others, such as "
+             "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is then "
+             "what is computed, iterations unless given")
+          ->type_name("FIELD=VALUES")
+          ->take_all()
+          ->allow_extra_args(false);
+  CLI::Option* random =
+      run->add_option(
+             "--random", arguments->random,
+             "So many cells with values drawn by chance, each axis of --grid as FIELD=LOW:HIGH "
+             "or FIELD=A,B,C")
+          ->type_name("CELLS")
+          ->check(CLI::Range(1, 1'000'000))
+          ->needs(grid);
+  run->add_option("--lhs", arguments->latin_hypercube,
+                  "The same as a Latin hypercube, which covers every axis evenly")
+      ->type_name("CELLS")
+      ->check(CLI::Range(1, 1'000'000))
+      ->needs(grid)
+      ->excludes(random);
+  run->add_option("--seed", arguments->seed,
+                  "Of the drawn values: the same seed, the same cells (default 0)")
+      ->needs(grid);
   run->add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
                 "A first Ctrl-C cancels the sweep instead of leaving it to the server");
   run->add_option("--label", arguments->labels, "Label of the job; repeatable")

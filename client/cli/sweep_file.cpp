@@ -130,23 +130,29 @@ class SweepFile {
   std::vector<Diagnostic> mistakes_;
 };
 
-[[noreturn]] void FailAxis(const std::string& axis) {
-  throw Failure(ExitCode::kUsage, fmt::format("--grid {}: expected FIELD=FIRST:LAST:COUNT or "
-                                              "FIELD=A,B,C",
-                                              axis));
+[[noreturn]] void FailAxis(const std::string& axis, bool drawn) {
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("--grid {}: expected FIELD={} or FIELD=A,B,C", axis,
+                  drawn ? "LOW:HIGH, which --random and --lhs draw from," : "FIRST:LAST:COUNT"));
+}
+
+std::vector<double> Numbers(const std::string& axis, const std::string& range, bool drawn) {
+  std::vector<double> numbers;
+  std::istringstream parts(range);
+  for (std::string part; std::getline(parts, part, ':');) {
+    const auto number = ParseNumber(part);
+    if (!number) FailAxis(axis, drawn);
+    numbers.push_back(*number);
+  }
+  return numbers;
 }
 
 // `FIRST:LAST:COUNT` as a list of values, which may also fall.
 std::string Steps(const std::string& axis, const std::string& range) {
-  std::vector<double> ends;
-  std::istringstream parts(range);
-  for (std::string part; std::getline(parts, part, ':');) {
-    const auto number = ParseNumber(part);
-    if (!number) FailAxis(axis);
-    ends.push_back(*number);
-  }
+  const std::vector<double> ends = Numbers(axis, range, false);
   constexpr double kMost = 10'000;
-  if (ends.size() != 3 || !(ends[2] >= 1) || ends[2] > kMost) FailAxis(axis);
+  if (ends.size() != 3 || !(ends[2] >= 1) || ends[2] > kMost) FailAxis(axis, false);
   const int count = static_cast<int>(ends[2]);
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(count));
@@ -163,15 +169,26 @@ std::string QuotedYaml(const std::string& text) {
   return quoted + "'";
 }
 
+// `LOW:HIGH` to draw from.
+std::string Range(const std::string& axis, const std::string& range) {
+  const std::vector<double> ends = Numbers(axis, range, true);
+  if (ends.size() != 2) FailAxis(axis, true);
+  return fmt::format("linear: {{low: {}, high: {}}}", ends[0], ends[1]);
+}
+
 // An axis as it stands in a sweep file.
-std::string AxisEntry(const std::string& axis) {
+std::string AxisEntry(const std::string& axis, bool drawn) {
   const std::size_t equals = axis.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == axis.size()) FailAxis(axis);
+  if (equals == std::string::npos || equals == 0 || equals + 1 == axis.size()) {
+    FailAxis(axis, drawn);
+  }
   const std::string values = axis.substr(equals + 1);
-  if (values.find_first_of("[]{}#\n\"'") != std::string::npos) FailAxis(axis);
+  if (values.find_first_of("[]{}#\n\"'") != std::string::npos) FailAxis(axis, drawn);
   const bool range = values.find(':') != std::string::npos;
-  return fmt::format("  - {{field: {}, values: [{}]}}\n", QuotedYaml(axis.substr(0, equals)),
-                     range ? Steps(axis, values) : values);
+  return fmt::format("  - {{field: {}, {}}}\n", QuotedYaml(axis.substr(0, equals)),
+                     range && drawn
+                         ? Range(axis, values)
+                         : fmt::format("values: [{}]", range ? Steps(axis, values) : values));
 }
 
 }  // namespace
@@ -183,10 +200,15 @@ v1::Sweep ReadSweep(const std::string& path, const std::string& text) {
 }
 
 v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
-                   const std::string& metric) {
+                   const std::string& metric, const DrawnCells& drawn) {
   std::string text = fmt::format("base: {}\naxes:\n", QuotedYaml(scenario));
-  for (const std::string& axis : axes) text += AxisEntry(axis);
+  for (const std::string& axis : axes) text += AxisEntry(axis, drawn.count > 0);
   text += fmt::format("metrics: [{}]\n", QuotedYaml(metric.empty() ? "iterations" : metric));
+  if (drawn.count > 0) {
+    text +=
+        fmt::format("combination: {}\ncount: {}\nseed: {}\n",
+                    drawn.latin_hypercube ? "LATIN_HYPERCUBE" : "RANDOM", drawn.count, drawn.seed);
+  }
   return ReadSweep("--grid", text);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,19 @@ v1::Sweep OpenSweep(const std::string& path);
 /// The same of text that stands in the file at `path`.
 v1::Sweep ReadSweep(const std::string& path, const std::string& text);
 
-/// The sweep of a scenario file over every combination of the values of some fields, each axis as
-/// `FIELD=FIRST:LAST:COUNT`, in equal steps, or `FIELD=A,B,C`; `metric` is `iterations` if empty.
-/// Throws as OpenSweep does, and Failure (kUsage) for an axis that is none.
+/// Cells with values drawn by chance, instead of every combination of the values.
+struct DrawnCells {
+  int count = 0;                 ///< 0: none are drawn.
+  bool latin_hypercube = false;  ///< Every axis is covered evenly.
+  std::int64_t seed = 0;         ///< The same seed, the same cells.
+};
+
+/// The sweep of a scenario file over some fields: every combination of their values, each axis as
+/// `FIELD=FIRST:LAST:COUNT`, in equal steps, or `FIELD=A,B,C`; or cells drawn from axes of
+/// `FIELD=LOW:HIGH` or `FIELD=A,B,C`. `metric` is `iterations` if empty. Throws as OpenSweep does,
+/// and Failure (kUsage) for an axis that is none.
 v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
-                   const std::string& metric);
+                   const std::string& metric, const DrawnCells& drawn = {});
 
 /// True if a document has a part that only a sweep has: `base` or `axes`.
 bool IsSweep(const std::string& text);

@@ -115,6 +115,22 @@ class FollowingTest(CliTest):
                            code=3)[1]
         self.assertIn("did you mean 'restitution'?", said)
 
+    def test_cells_of_a_scenario_are_drawn(self):
+        def draw(*how):
+            printed = self.run_it("sweep", "run", CHAIN, "-o", "csv",
+                                  "--grid", "contacts[*].restitution=0.5:0.9", *how)[0]
+            return [float(line.split(",")[1]) for line in printed.splitlines()[1:]]
+
+        evenly = draw("--lhs", "8")
+        self.assertEqual(sorted(int((e - 0.5) / 0.05) for e in evenly), list(range(8)))
+        drawn = draw("--random", "8", "--seed", "3")
+        self.assertEqual(drawn, draw("--random", "8", "--seed", "3"))
+        self.assertNotEqual(drawn, draw("--random", "8"))
+        said = self.run_it("sweep", "run", CHAIN, "--grid", "end_time_s=1:2:3", "--lhs", "4",
+                           code=2)[1]
+        self.assertIn("expected FIELD=LOW:HIGH", said)
+        self.run_it("sweep", "run", CHAIN, "--lhs", "4", code=2)
+
 
 if __name__ == "__main__":
     unittest.main()
