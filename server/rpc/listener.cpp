@@ -69,7 +69,7 @@ FileDescriptor Listen(const addrinfo& info, int port) {
 // This machine may lack IPv6, and `localhost` still stand for an address of it.
 bool MayMiss(int error) { return error == EADDRNOTAVAIL || error == EAFNOSUPPORT; }
 
-// Not valid: the path is too long.
+// None if the path is too long.
 std::optional<sockaddr_un> FileAddress(const std::string& path) {
   sockaddr_un address = {};
   address.sun_family = AF_UNIX;

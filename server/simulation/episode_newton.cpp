@@ -98,7 +98,7 @@ void EpisodeSolver::Correct() {
   const std::vector<Unknown*> live = LiveUnknowns();
   if (live.empty()) return;
   const double merit = Merit();
-  if (sensitive_) {
+  if (sensitive_ || !jacobian_.IsOf(CyclesOf(live))) {  // One may have been given up just now.
     Factorize(live);
   } else {
     jacobian_.Update(Values(live, &Unknown::pass_mu), Values(live, &Unknown::residual), !packing_);

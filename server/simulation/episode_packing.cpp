@@ -1,5 +1,4 @@
-// The part of EpisodeSolver that takes packings cycle by cycle, (N7) and (N8) of
-// README.md.
+// The part of EpisodeSolver that takes packings cycle by cycle, (N7) and (N8) of README.md.
 #include <algorithm>
 #include <cmath>
 #include <limits>

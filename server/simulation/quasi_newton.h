@@ -21,8 +21,8 @@ class QuasiNewton {
   /// Takes the true Jacobian ∂r/∂ln μ at μ > 0, where the residuals are r.
   void Set(Cycles of, const Eigen::VectorXd& mu, const Eigen::VectorXd& r,
            const Eigen::MatrixXd& by_logarithm);
-  /// Takes it that μ has the residuals r, and learns from it unless chords mislead: in a packing
-  /// the motion changes in jumps.
+  /// Takes it that μ has the residuals r. With `learn` the Jacobian is updated; without, kept: for
+  /// packings, whose motion changes in jumps.
   void Update(const Eigen::VectorXd& mu, const Eigen::VectorXd& r, bool learn = true);
   /// The relative changes of μ that bring r to 0, to first order, from the last Set or Update.
   Eigen::VectorXd Step() const;
