@@ -1,7 +1,8 @@
 """Every command that a README shows in a block marked as runnable works as it stands there.
 
-Such a block begins with ```sh run or ```console run; in the latter the commands follow `$ `, and
-what stands between them is their output. Those of Python begin with ```python run or ```pycon run.
+Such a block begins with ```sh run or ```console run; in the latter the commands follow `$ `, lines
+that go on `> `, and what stands between them is their output. A number after `run` is the exit code
+of the last command, 0 if there is none. Blocks of Python begin with ```python run or ```pycon run.
 The blocks of a file are one session. Jobs have other ids each time: an id is replaced by the one
 that the same command printed here.
 """
@@ -26,17 +27,36 @@ ROOT = pathlib.Path(__file__).parents[2]
 TOOLS = ("jq", "gnuplot")  # A command that needs one that is not here is left out.
 JOB = re.compile(r"jobs/([0-9a-z]{10})\b")
 
+# What is not run here, since it installs, builds or never ends: how it begins, and what runs it.
+RUN_ELSEWHERE = {
+    "./deploy/run": "deploy/test",
+    "./deploy/package": "tests/package/package_test",
+    "$ contactctl dev\n": "tests/cli/dev_test.py",
+    "source <(contactctl completion bash)": "tests/cli/completion_test.py",
+    "$ cd client/node": "tests/node/example_test.py",
+    "cd client/python && python3 setup.py": "tests/python/package_test.py",
+    "for change in client.watch_jobs": "tests/python/client_test.py",
+    "contactctl server backup": "tests/cli/backup_test.py",
+    "$ contactd fsck": "tests/system/storage_test.py",
+}
+
 
 def blocks(text):
-    """Language and content of each runnable block."""
-    return re.findall(r"^```(sh|console|python|pycon) run\n(.*?)^```$", text, re.S | re.M)
+    """Language, exit code and content of each runnable block."""
+    found = re.findall(r"^```(sh|console|python|pycon) run ?(\d*)\n(.*?)^```$", text, re.S | re.M)
+    return [(language, int(code or 0), content) for language, code, content in found]
+
+
+def others(text):
+    """The content of each block that is not runnable, of a language that could be."""
+    return re.findall(r"^```(?:sh|console|python|pycon)\n(.*?)^```$", text, re.S | re.M)
 
 
 def commands(language, content):
     """Pairs of a command and the output that is shown for it."""
     if language == "sh":
         return [(content, "")]
-    parts = re.split(r"^\$ ", content, flags=re.M)[1:]
+    parts = re.split(r"^\$ ", content.replace("\\\n> ", ""), flags=re.M)[1:]
     return [(command, output) for command, _, output in (part.partition("\n") for part in parts)]
 
 
@@ -56,15 +76,20 @@ class CommandsTest(ServerTest):
         env = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
                "HOME": str(folder), "CONTACT_SERVER": f"127.0.0.1:{self.server.port}"}
         ids, count = {}, 0
-        for language, content in blocks(path.read_text("utf-8")):
-            for command, shown in commands(language, content):
+        shell = [block for block in blocks(path.read_text("utf-8"))
+                 if block[0] in ("sh", "console")]
+        for language, code, content in shell:
+            pairs = commands(language, content)
+            for command, shown in pairs:
                 if any(tool in command and not shutil.which(tool) for tool in TOOLS):
                     continue
                 for theirs, ours in ids.items():
                     command = command.replace(theirs, ours)
                 run = subprocess.run(["bash", "-ec", command], cwd=folder, env=env,
                                      capture_output=True, encoding="utf-8", timeout=5 * PATIENCE_S)
-                self.assertEqual(run.returncode, 0, f"$ {command}\n{run.stdout}{run.stderr}")
+                expected = code if (command, shown) == pairs[-1] else 0
+                self.assertEqual(run.returncode, expected,
+                                 f"$ {command}\n{run.stdout}{run.stderr}")
                 printed = dict.fromkeys(JOB.findall(run.stdout + run.stderr))
                 new = [name for name in dict.fromkeys(JOB.findall(shown)) if name not in ids]
                 ids.update(zip(new, [name for name in printed if name not in ids.values()]))
@@ -77,17 +102,17 @@ class CommandsTest(ServerTest):
     def test_client_readme(self):
         self.assertGreater(self.session(ROOT / "client" / "README.md"), 15)
 
-    def test_python_readme(self):
+    def python_session(self, path):
         (self.folder / "client").symlink_to(ROOT / "client")
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)
         names, count = {}, 0
-        text = (ROOT / "client" / "python" / "README.md").read_text("utf-8")
-        for language, content in blocks(text.replace("127.0.0.1:7070",
-                                                     f"127.0.0.1:{self.server.port}")):
+        text = path.read_text("utf-8").replace("127.0.0.1:7070", f"127.0.0.1:{self.server.port}")
+        python = [block for block in blocks(text) if block[0] in ("python", "pycon")]
+        for language, _, content in python:
             for statements, shown in ([(content, "")] if language == "python" else
                                       examples(content)):
-                code = compile(statements, "README.md", "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
+                code = compile(statements, path.name, "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
                 refused = re.match(r"contactsim\.errors\.(\w+): ", shown)
                 with (self.assertRaises(getattr(contactsim, refused[1])) if refused else
                       contextlib.nullcontext()):
@@ -95,15 +120,34 @@ class CommandsTest(ServerTest):
                     if asyncio.iscoroutine(done):
                         asyncio.run(done)
                 count += 1
-        self.assertGreater(count, 10)
+        return count
+
+    def test_python_of_readme(self):
+        self.assertEqual(self.python_session(ROOT / "README.md"), 1)
+
+    def test_python_readme(self):
+        self.assertGreater(self.python_session(ROOT / "client" / "python" / "README.md"), 10)
 
 
 class BlocksTest(unittest.TestCase):
 
     def test_finds_commands_with_what_they_print(self):
-        text = "```console run\n$ a b\nout\n$ c\n```\n```console\n$ x\n```\n```sh run\nd\ne\n```\n"
-        found = [pair for block in blocks(text) for pair in commands(*block)]
-        self.assertEqual(found, [("a b", "out\n"), ("c", ""), ("d\ne\n", "")])
+        text = ("```console run\n$ a \\\n>   b\nout\n$ c\n```\n```console\n$ x\n```\n"
+                "```sh run 3\nd\ne\n```\n")
+        self.assertEqual([code for _, code, _ in blocks(text)], [0, 3])
+        found = [pair for language, _, content in blocks(text)
+                 for pair in commands(language, content)]
+        self.assertEqual(found, [("a   b", "out\n"), ("c", ""), ("d\ne\n", "")])
+
+    def test_what_is_not_run_here_is_run_elsewhere(self):
+        files = subprocess.run(["git", "-C", ROOT, "ls-files", "*.md"], check=True,
+                               capture_output=True, encoding="utf-8").stdout.split()
+        left = [block for file in files for block in others((ROOT / file).read_text("utf-8"))]
+        for block in left:
+            self.assertTrue(block.startswith(tuple(RUN_ELSEWHERE)), block)
+        for begin, test in RUN_ELSEWHERE.items():
+            self.assertTrue(any(block.startswith(begin) for block in left), begin)
+            self.assertTrue((ROOT / test).exists(), test)
 
 
 if __name__ == "__main__":
