@@ -1,5 +1,6 @@
 """Starts contactd for a test and talks to it as any client would."""
 
+import collections.abc
 import os
 import pathlib
 import re
@@ -113,7 +114,10 @@ class Server:
         """Submits, watches to the end, returns the ended job."""
         name = self.create(scenario, **request).name
         self.events(name, kinds=["state_changed"])
-        return self.get(name)
+        job = self.get(name)
+        if job.state not in ENDED:
+            raise AssertionError(f"the end of {name} was told, and it is {Job.State.Name(job.state)}")
+        return job
 
     def wait_until(self, name, wanted):
         """Watches until an event for which `wanted` is true has come; returns the events."""
@@ -147,7 +151,8 @@ class ServerTest(unittest.TestCase):
         """Checks code and reason of a call that must fail; returns its google.rpc details."""
         with self.assertRaises(grpc.RpcError) as caught:
             answer = call(*arguments, **keywords)
-            list(answer)  # A stream fails when it is read.
+            if isinstance(answer, collections.abc.Iterable):
+                list(answer)  # A stream fails when it is read.
         self.assertEqual(caught.exception.code(), code, caught.exception)
         details = details_of(caught.exception)
         self.assertEqual(details["ErrorInfo"].domain, "contact")
