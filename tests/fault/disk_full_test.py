@@ -40,6 +40,10 @@ class DiskFullTest(FaultTest):
         follow(self.server, self.history.watch(running))
         self.server.cancel(long)
         self.assertPromises(self.server, golden=golden, max_attempts=1)
+        for name in long, running:
+            starts = [event for event in self.server.events(name)
+                      if event.HasField("attempt_started")]
+            self.assertEqual(len(starts), 1, f"{name} did not wait but began again")
 
     def refusal(self):
         """Seconds that the first refusal took; space inside of the files is used up before."""
