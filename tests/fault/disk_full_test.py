@@ -27,6 +27,7 @@ class DiskFullTest(FaultTest):
 
         self.full.touch()
         self.assertKept("refused_after", self.refusal(), 1)
+        wait_for(lambda: f"job={long} cannot store events" in self.server.log())
         self.assertEqual(get(self.server, self.history, ended).state, Job.SUCCEEDED)
         self.assertTrue(self.server.list().jobs)
         follow(self.server, self.history.watch(ended))
