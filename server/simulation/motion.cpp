@@ -200,6 +200,7 @@ void Motion::RefreshActive() {
     equations_.active.push_back(
         equations_.Activate(c, contact.gap, contact.cycle.mu, contact.column));
   }
+  equations_.Prepare();
   equations_(time_, rk_.y0.data(), rk_.slope0.data());
   ++evaluations_;
 }
