@@ -25,6 +25,11 @@ bool IsStarting(const ContactState& c) { return c.phase == Phase::kStarting; }
 
 }  // namespace
 
+bool IsPacking(const Scenario& scenario) {
+  return !scenario.loads.empty() || !scenario.supports.empty() ||
+         scenario.contacts.size() >= scenario.bodies.size();
+}
+
 bool InCycle(const State& state) {
   return std::any_of(state.contacts.begin(), state.contacts.end(), [](const ContactState& c) {
     return IsRunning(c) || (IsStarting(c) && !c.settled);
@@ -63,6 +68,7 @@ Motion::Motion(const Scenario& scenario)
     : scenario_(scenario),
       fixed_step_(scenario.solver.fixed_step),
       split_at_force_(scenario.solver.phase_split == PhaseSplit::kPeakForce),
+      shifts_(fixed_step_ == 0 && !IsPacking(scenario)),
       equations_(scenario),
       rk_(fixed_step_ > 0 ? RungeKutta::Method::kClassical : RungeKutta::Method::kDormandPrince),
       deformation_scale_(scenario.contacts.size()),

@@ -49,6 +49,9 @@ struct State {
 /// The state at t = 0: touching contacts that approach are starting.
 State InitialState(const Scenario& scenario);
 
+/// Whether loads, supports or walls may keep contacts closed.
+bool IsPacking(const Scenario& scenario);
+
 /// Whether a cycle runs or wants to start; a resting contact has none.
 bool InCycle(const State& state);
 
@@ -152,6 +155,7 @@ class Motion {
   DeformationPath Path(int contact) const;
   bool Land(const Found& found);
   double Correction(const Found& found) const;
+  void Shift(double time, bool tangent);
   void Repeat(double h, bool parting);
   void Accept(StepListener* listener);
   void Apply(const Found& found, CycleHost& host);
@@ -169,6 +173,7 @@ class Motion {
   const Scenario& scenario_;
   const double fixed_step_;  // Of the classical method [s]; 0: error control.
   const bool split_at_force_;
+  const bool shifts_;  // To an event nearby, where it matters to no one by how little it is missed.
   Equations equations_;
   RungeKutta rk_;
   std::vector<ContactState> contacts_;
