@@ -234,7 +234,12 @@ void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, do
     }
     move(y, change, to);
   }
-  if (of.recording) of.AddRecord(0, y, dy, pace);
+  if (!of.recording) return;
+  for (std::size_t j = 0; j < kCount; ++j) {  // (W3); there are no loads.
+    const ActiveContact& c = contact[j];
+    const double net = c.Relative(dy + n) / (c.left_inverse + c.right_inverse);
+    dy[of.external_work(c.contact)] = net * rate[j] + force[j] * rate[j];
+  }
 }
 
 void Equations::Prepare() {

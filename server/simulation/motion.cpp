@@ -179,13 +179,16 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
       next_step_ = step_.h;  // The same again, but for what begins.
     }
     if (found.contact != kNone) Apply(found, host);
-    WakeResting(host);
+    const bool changes = found.contact != kNone || resting_;
+    if (resting_) WakeResting(host);
     events_at_once = moves ? 0 : events_at_once + 1;
     if (events_at_once > kMaxEventsAtOnce) return Pause::kNumeric;
-    StartCycles(host, !Busy());
-    if (busy && !Busy()) return Pause::kQuiet;
-    if (!busy && std::any_of(contacts_.begin(), contacts_.end(), IsStarting)) {
-      return Pause::kCycleStarts;
+    if (changes) {
+      StartCycles(host, !Busy());
+      if (busy && !Busy()) return Pause::kQuiet;
+      if (!busy && std::any_of(contacts_.begin(), contacts_.end(), IsStarting)) {
+        return Pause::kCycleStarts;
+      }
     }
     if (cycles_in_stretch_ >= most_cycles_) return Pause::kCrowded;
   }
@@ -200,9 +203,11 @@ void Motion::SelectLoads() {
 
 void Motion::RefreshActive() {
   equations_.active.clear();
+  resting_ = false;
   for (int c = 0; c < equations_.contacts(); ++c) {
     const ContactState& contact = contacts_[At(c)];
     if (!IsRunning(contact) && contact.phase != Phase::kResting) continue;
+    resting_ |= contact.phase == Phase::kResting;
     equations_.active.push_back(
         equations_.Activate(c, contact.gap, contact.cycle.mu, contact.column));
   }
@@ -211,7 +216,7 @@ void Motion::RefreshActive() {
   ++evaluations_;
 }
 
-DeformationPath Motion::Path(int contact) const {
+std::pair<DeformationPath::End, DeformationPath::End> Motion::PathEnds(int contact) const {
   const int n = equations_.bodies();
   const double bend = 2 * step_.h * (1 - step_.warp);  // d²t/dθ²
   const auto end = [&](const auto& y, const auto& slope, double theta) {
@@ -244,8 +249,10 @@ Motion::Found Motion::FindEvent() const {
   Found first;
   for (int c = 0; c < equations_.contacts(); ++c) {
     const Phase phase = contacts_[At(c)].phase;
+    const auto [start, end] = PathEnds(c);
+    if (DeformationPath::IsPlain(phase, start, end)) continue;
     const double noise = phase == Phase::kOpen ? Noise(c) : 0;
-    const auto event = FirstEvent(phase, Path(c), event_[At(c)], noise);
+    const auto event = FirstEvent(phase, {start, end}, event_[At(c)], noise);
     if (!event) continue;
     if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
   }

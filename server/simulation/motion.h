@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "simulation/contact_events.h"
@@ -152,7 +153,7 @@ class Motion {
   double Noise(int contact) const;
   Found FindEvent() const;
   Found PassTurns();
-  DeformationPath Path(int contact) const;
+  std::pair<DeformationPath::End, DeformationPath::End> PathEnds(int contact) const;
   bool Land(const Found& found);
   double Correction(const Found& found) const;
   void Shift(double time, bool tangent);
@@ -195,6 +196,7 @@ class Motion {
   double touch_time_ = kNaN;   // When the latest collision began.
   Eigen::ArrayXd inside_;      // y at a turn inside the step.
   double next_step_ = 0;
+  bool resting_ = false;  // Whether a contact rests.
   std::int64_t steps_ = 0;
   std::int64_t evaluations_ = 0;
   double contact_loss_ = 0;

@@ -284,7 +284,8 @@ void Motion::ObserveForce(const ActiveContact& active) {
   double where = last.force > first.force ? 1 : 0;
   double largest = std::max(first.force, last.force);
   if (pulls || peaks) {
-    const DeformationPath path = Path(active.contact);
+    const auto ends = PathEnds(active.contact);
+    const DeformationPath path(ends.first, ends.second);
     const auto force = [&](double theta) {
       const double dt = step_.h * step_.Rate(theta);
       return law.At(path.Value(theta), dt > 0 ? path.Slope(theta) / dt : 0).force;
