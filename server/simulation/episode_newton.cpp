@@ -12,7 +12,7 @@ constexpr double kLedWell = 0.3;              // Ratio of merits after a pass wi
 constexpr int kFewColumns = 4;                // They cost less than the pass that they save,
 constexpr double kFar = 0.5;                  // and where the merit is more than this.
 constexpr int kWild = 6, kWildIfWeak = 3;     // Corrections out of bounds before it is given up.
-constexpr double kNoise = 0.01;               // Tolerance, of what the next but one may leave.
+constexpr double kNoise = 0.03;               // Tolerance, of what the next but one may leave.
 constexpr double kHeldSamples = 4096;         // That a recording may have to take back.
 
 }  // namespace

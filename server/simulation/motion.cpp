@@ -97,6 +97,7 @@ void Motion::Begin(const State& state, bool recording, double tolerance, int mos
   most_cycles_ = std::min(most_cycles, max_cycles_);
   flight_length_ = flight_speed_ = 0;
   touch_time_ = kNaN;
+  cruise_ = 0;
 
   equations_.base = state.positions;
   equations_.recording = recording;
@@ -179,6 +180,9 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
       next_step_ = step_.h;  // The same again, but for what begins.
     }
     if (found.contact != kNone) Apply(found, host);
+    if (shifts_ && found.contact != kNone && found.event.kind == EventKind::kSeparation) {
+      next_step_ = std::max(next_step_, cruise_);
+    }
     const bool changes = found.contact != kNone || resting_;
     if (resting_) WakeResting(host);
     events_at_once = moves ? 0 : events_at_once + 1;

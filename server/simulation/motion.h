@@ -196,6 +196,7 @@ class Motion {
   double touch_time_ = kNaN;   // When the latest collision began.
   Eigen::ArrayXd inside_;      // y at a turn inside the step.
   double next_step_ = 0;
+  double cruise_ = 0;     // The last step that no separation near has shortened.
   bool resting_ = false;  // Whether a contact rests.
   std::int64_t steps_ = 0;
   std::int64_t evaluations_ = 0;

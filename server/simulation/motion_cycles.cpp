@@ -106,7 +106,7 @@ double Motion::FirstStep(int contact) const {
   if (cycle.approach_velocity > 0) {
     const double v = cycle.approach_velocity;
     // In √t the error grows with the 9th power, t^4.5.
-    return 4 * std::pow(tolerance_, 2.0 / 9) *
+    return std::min(4 * std::pow(tolerance_, 2.0 / 9), 0.2) *
            MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
   }
   double deformation = cycle.start_deformation;

@@ -67,6 +67,7 @@ StepTime Motion::Plan(double until) {
     const double time = TimeToSeparation(active);
     if (time < parting) parting = time, first = &active;
   }
+  if (parting > 2 * h) cruise_ = h;
   if (parting * kReach <= h && parting <= left) {
     const double deformation = first->Relative(rk_.y0.data()) - first->gap;
     const double near = kNear * std::pow(tolerance_, 1.0 / 7);
