@@ -55,7 +55,7 @@ std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise
 }  // namespace
 
 DeformationPath::DeformationPath(End start, End end)
-    : end_value_(end.value), end_slope_(end.slope), end_curvature_(end.curvature) {
+    : end_value_(end.value), end_slope_(end.slope) {
   c_[0] = start.value;
   c_[1] = start.slope;
   c_[2] = start.curvature / 2;
@@ -66,13 +66,6 @@ DeformationPath::DeformationPath(End start, End end)
   c_[3] = 10 * value - 4 * slope + curvature / 2;
   c_[4] = -15 * value + 7 * slope - curvature;
   c_[5] = 6 * value - 3 * slope + curvature / 2;
-}
-
-bool DeformationPath::StaysInPhase(Phase phase) const {
-  const double sign = phase == Phase::kCompression ? 1 : -1;
-  const bool ends_in_phase = end_value_ > 0 && sign * end_slope_ > 0;
-  const bool may_dip = sign * c_[2] < 0 && sign * end_curvature_ > 0;
-  return ends_in_phase && !may_dip;
 }
 
 double DeformationPath::Value(double t) const {
@@ -86,7 +79,7 @@ double DeformationPath::Slope(double t) const {
 std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from,
                                        double noise) {
   if (phase == Phase::kOpen) return FirstTouch(path, noise);
-  if (phase == Phase::kStarting || path.StaysInPhase(phase)) return std::nullopt;
+  if (phase == Phase::kStarting) return std::nullopt;
   const auto rising = [&](double theta) { return path.Slope(theta); };
   const auto falling = [&](double theta) { return -path.Slope(theta); };
   if (phase == Phase::kCompression) {

@@ -38,17 +38,24 @@ class DeformationPath {
 
   double Value(double theta) const;
   double Slope(double theta) const;
+  /// True if a contact in this phase plainly has no event between these ends: that of a cycle whose
+  /// δ̇ keeps its sign, or an open one that does not come near.
+  static bool IsPlain(Phase phase, const End& start, const End& end) {
+    if (phase == Phase::kOpen) return end.value <= 0 && !(start.slope > 0 && end.slope < 0);
+    const double sign = phase == Phase::kCompression ? 1 : -1;
+    const bool ends_in_phase = end.value > 0 && sign * end.slope > 0;
+    const bool may_dip = sign * start.curvature < 0 && sign * end.curvature > 0;
+    return ends_in_phase && !may_dip;
+  }
+
   double start_value() const { return c_[0]; }
   double start_slope() const { return c_[1]; }
   double end_value() const { return end_value_; }
   double end_slope() const { return end_slope_; }
 
-  /// True if δ̇ plainly keeps the phase's sign all along, by what both ends show.
-  bool StaysInPhase(Phase phase) const;
-
  private:
   double c_[6];
-  double end_value_, end_slope_, end_curvature_;
+  double end_value_, end_slope_;
 };
 
 /// The first event of a contact after `from` in a step, if any. It finds crossings between eighths

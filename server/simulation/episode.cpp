@@ -15,8 +15,10 @@ constexpr std::int64_t kStepsPerPass = 5'000;
 constexpr int kCarefulShare = 10;        // Of max_iterations, where cycles are taken in one by one.
 constexpr int kPatience = 12;            // Corrections without a better pass.
 constexpr double kCoarse = 1e-6;         // Relative tolerance of the first passes, and
-constexpr double kCoarseError = 1e-4;    // the residual that it may feign.
-constexpr double kFine = 0.03;           // Of ξ: tolerance of the last pass but one.
+constexpr double kFine = 0.03;           // of ξ: of the last but one;
+constexpr double kShortCoarse = 1e-4;    // the same for
+constexpr double kShortFine = 0.1;       // short rows,
+constexpr std::size_t kShort = 12;       // of so many contacts at most.
 constexpr std::size_t kFewContacts = 4;  // Whose first pass has sensitivities.
 constexpr double kNear = 0.02;           // A merit at which the guesses are left alone.
 constexpr double kPressed = 1e-3;        // Elastic energy at a start, of a contact's largest W_c.
@@ -33,8 +35,8 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       nothing_to_find_(std::none_of(
           scenario.contacts.begin(), scenario.contacts.end(),
           [](const Contact& c) { return c.damping == DampingLaw::kEnergyRestitution; })),
-      packing_(!scenario.loads.empty() || !scenario.supports.empty() ||
-               scenario.contacts.size() >= scenario.bodies.size()),
+      packing_(IsPacking(scenario)),
+      short_(!packing_ && scenario.contacts.size() <= kShort),
       motion_(motion),
       observer_(observer),
       warned_(scenario.contacts.size()),
@@ -55,10 +57,10 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   const SolverOptions& options = scenario_.solver;
   // A clipped force has a kink that a coarse pass may miss.
   const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
-  coarse_ = tolerance_ = coarse ? std::max(kCoarse, options.relative_tolerance) : 0;
-  fine_ = coarse ? std::clamp(kFine * options.restitution_tolerance, options.relative_tolerance,
-                              tolerance_)
-                 : 0;
+  coarse_ = tolerance_ =
+      coarse ? std::max(short_ ? kShortCoarse : kCoarse, options.relative_tolerance) : 0;
+  const double fine = (short_ ? kShortFine : kFine) * options.restitution_tolerance;
+  fine_ = coarse ? std::clamp(fine, options.relative_tolerance, tolerance_) : 0;
   // Of many cycles it is not known yet which end, and so have a μ to be found.
   sensitive_ = !as_paper_ && (packing_ || scenario_.contacts.size() <= kFewContacts);
   again_ = false;
@@ -130,7 +132,7 @@ void EpisodeSolver::BeginRecording() {
 void EpisodeSolver::NextPass() {
   if (LookAgain() || TakeInNext()) return;
   const bool done = Done() && !(careful_ && Revive());
-  if (!Exact() && (done || (tolerance_ > fine_ && Merit() < kCoarseError))) {
+  if (!Exact() && (done || (tolerance_ > fine_ && Merit() < Feigned()))) {
     // The same once more, exactly.
     if (sensitive_) Factorize(LiveUnknowns());
     PlanLastPasses(done);

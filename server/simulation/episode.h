@@ -147,6 +147,8 @@ class EpisodeSolver final : public CycleHost {
   void NextPass();
   double Merit() const;
   bool Done() const;
+  /// The residual that the error of this pass may feign.
+  double Feigned() const { return (short_ ? 10 : 100) * tolerance_; }
   bool Exact() const { return tolerance_ <= scenario_.solver.relative_tolerance; }
   void KeepBest();
   void UseBest();
@@ -176,6 +178,7 @@ class EpisodeSolver final : public CycleHost {
   const bool as_paper_;
   const bool nothing_to_find_;  // Every μ comes from a law.
   const bool packing_;          // Loads or walls may keep contacts closed.
+  const bool short_;            // No packing, and of so few contacts that all passes see all.
   Motion& motion_;
   Observer& observer_;
   std::vector<Unknown> unknowns_;  // In order of appearance.
@@ -185,7 +188,7 @@ class EpisodeSolver final : public CycleHost {
   double damping_ = 1;             // Of the Newton step.
   double merit_ = 0, last_merit_ = 0, best_merit_ = 0;
   double product_ = 0;    // Of two merits, of which the next pass should leave
-  double curvature_ = 1;  // this part.
+  double curvature_ = 0;  // this part; see StartAfresh.
   int best_number_ = 0;   // Corrections before the best pass.
   QuasiNewton jacobian_;
   enum class Stage {

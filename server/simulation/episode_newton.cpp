@@ -12,6 +12,7 @@ constexpr double kLedWell = 0.3;              // Ratio of merits after a pass wi
 constexpr int kFewColumns = 4;                // They cost less than the pass that they save,
 constexpr double kFar = 0.5;                  // and where the merit is more than this.
 constexpr int kWild = 6, kWildIfWeak = 3;     // Corrections out of bounds before it is given up.
+constexpr double kNoise = 0.03;               // Tolerance, of what the next but one may leave.
 constexpr double kHeldSamples = 4096;         // That a recording may have to take back.
 
 }  // namespace
@@ -92,7 +93,9 @@ void EpisodeSolver::Correct() {
       u.status = Cycle::Status::kInfeasible;
       continue;
     }
-    (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
+    if (!short_ || Exact() || std::abs(u.residual) > Feigned()) {
+      (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
+    }
   }
   if (careful_ && sensitive_) Decide();
   const std::vector<Unknown*> live = LiveUnknowns();
@@ -179,7 +182,11 @@ void EpisodeSolver::PlanNextPass() {
   if (full && after <= wanted) return PlanLastPasses(false);
   const bool led_well = merit_ <= kLedWell * last_merit_;
   sensitive_ = !full || packing_ || !led_well || merit_ > kFar || columns_ <= kFewColumns;
-  if (!full || next * next <= 10 * wanted) tolerance_ = fine_;
+  if (!full || (!short_ && next * next <= 10 * wanted)) {
+    tolerance_ = fine_;
+  } else if (short_) {
+    tolerance_ = std::clamp(kNoise * next * next, fine_, coarse_);
+  }
 }
 
 }  // namespace contact

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kFirstWindow = 12;        // Cycles in the first passes,
 constexpr int kMoreCycles = 8;          // and how many more when these have converged.
+constexpr double kCurvature = 0.15;     // Usual part of the product of residuals that is left.
 constexpr double kFinal = 0.02;         // Change of a final μ [restitution tolerance].
 constexpr double kLeastAdvance = 1e-3;  // Of what a pass sees.
 constexpr double kBefore = 1e-9;  // Of the episode's length: distance of its end from a cycle.
@@ -97,7 +98,7 @@ void EpisodeSolver::StartAfresh() {
   best_number_ = iterations_;
   best_merit_ = merit_ = last_merit_ = std::numeric_limits<double>::infinity();
   product_ = 0;
-  curvature_ = 1;
+  curvature_ = short_ ? kCurvature : 1;
 }
 
 // Leaves the cycle alone that keeps the others from their solution. False: there is no other.

@@ -100,6 +100,10 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
     made.right = c.right;
     made.right_inverse = inverse_mass_[At(c.right)];
   }
+  if (At(bodies_) <= made.response.size()) {
+    made.response[static_cast<std::size_t>(made.left)] -= made.left_inverse;
+    made.response[static_cast<std::size_t>(made.right)] += made.right_inverse;
+  }
   made.stiffness = c.stiffness;
   made.exponent = c.exponent;
   made.damping_exponent = DampingExponent(c.damping, c.exponent);
@@ -178,8 +182,83 @@ template <class Count>
   if (recording) AddRecord(t, y, dy, pace);
 }
 
-void Equations::operator()(double t, const double* y, double* dy, double pace) const {
-  WithCount<1, 2, 3>(bodies(), [&](auto n) { Evaluate(n, t, y, dy, pace); });
+// The same for a few bodies, all accelerations in registers.
+template <std::ptrdiff_t n, std::size_t kCount>
+void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, double pace) {
+  const std::ptrdiff_t sensitive = of.tangents();
+  const ActiveContact* const contact = of.active.data();
+  // Stored in pairs, as the integrator loads them: else it had to wait for the stores.
+  const auto move = [&](const double* from, const std::array<double, kCount>& force, double* to) {
+    const auto slope = [&](std::ptrdiff_t i) {
+      if (i < n) return pace * from[n + i];
+      double sum = force[0] * contact[0].response[static_cast<std::size_t>(i - n)];
+      for (std::size_t j = 1; j < kCount; ++j) {
+        sum += force[j] * contact[j].response[static_cast<std::size_t>(i - n)];
+      }
+      return sum;
+    };
+    for (std::ptrdiff_t i = 0; i < 2 * n; i += 2) {
+      Rows<2>()(to + i) = Rows<2>::Array(slope(i), slope(i + 1));
+    }
+  };
+  double* work = dy + 2 * n * (1 + sensitive);
+  const std::ptrdiff_t works =
+      of.contacts() * (1 + sensitive) + (of.recording ? of.contacts() + 3 : 0);
+  if (works != kCount) {
+    InRows(works, [=](auto rows, std::ptrdiff_t j) { rows(work + j).setZero(); });
+  }
+  std::array<ActiveContact::Force, kCount> law;
+  std::array<double, kCount> rate, force;
+  for (std::size_t j = 0; j < kCount; ++j) {
+    const ActiveContact& c = contact[j];
+    rate[j] = c.Relative(y + n);
+    law[j] = c.Plain(c.Relative(y) - c.gap, rate[j]);
+    force[j] = pace * law[j].force;
+    work[c.contact] = force[j] * rate[j];                        // (W1)
+    if (of.recording) dy[of.impulse()] += force[j] * c.outward;  // (B2)
+  }
+  move(y, force, dy);
+  double* to = dy;
+  for (std::ptrdiff_t column = 0; column < sensitive; ++column) {  // (S1)
+    y += 2 * n;
+    to += 2 * n;
+    work += of.contacts();
+    std::array<double, kCount> change;
+    for (std::size_t j = 0; j < kCount; ++j) {
+      const ActiveContact& c = contact[j];
+      const double rate_s = c.Relative(y + n);
+      double by_mu = law[j].by_deformation * c.Relative(y) + law[j].by_rate * rate_s;
+      if (column == c.column) by_mu += law[j].damping;
+      change[j] = pace * by_mu;
+      work[c.contact] = change[j] * rate[j] + force[j] * rate_s;
+    }
+    move(y, change, to);
+  }
+  if (!of.recording) return;
+  for (std::size_t j = 0; j < kCount; ++j) {  // (W3); there are no loads.
+    const ActiveContact& c = contact[j];
+    const double net = c.Relative(dy + n) / (c.left_inverse + c.right_inverse);
+    dy[of.external_work(c.contact)] = net * rate[j] + force[j] * rate[j];
+  }
+}
+
+void Equations::Prepare() {
+  few_ = nullptr;
+  const bool plain =
+      std::ranges::all_of(active, [](const ActiveContact& c) { return c.plain && !c.clipped; });
+  if (!plain || !acting_.empty() || !scenario_.supports.empty()) return;
+  if (active.size() == 1) {
+    if (bodies_ == 1) few_ = &Equations::EvaluateFew<1, 1>;
+    if (bodies_ == 2) few_ = &Equations::EvaluateFew<2, 1>;
+    if (bodies_ == 3) few_ = &Equations::EvaluateFew<3, 1>;
+  } else if (active.size() == 2) {
+    if (bodies_ == 2) few_ = &Equations::EvaluateFew<2, 2>;
+    if (bodies_ == 3) few_ = &Equations::EvaluateFew<3, 2>;
+  }
+}
+
+void Equations::EvaluateMany(double t, const double* y, double* dy, double pace) const {
+  Evaluate(std::ptrdiff_t{bodies()}, t, y, dy, pace);
 }
 
 void Equations::AddSupports(const double* y, double* dy, double pace) const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -37,6 +38,8 @@ struct ActiveContact {
   bool clipped = false;  ///< A force below 0 counts as 0.
   bool plain = false;    ///< n = p = 1.5: what most are.
   double outward = 0;  ///< Of F, what is no internal force: 1 or −1 against a wall or fixed body.
+  /// Accelerations of the bodies by a force of 1 N, where there are no more than these.
+  std::array<double, 3> response = {};
 
   double Relative(const double* of_bodies) const {
     return left_counts * of_bodies[left] - right_counts * of_bodies[right];
@@ -48,12 +51,13 @@ struct ActiveContact {
     double force, by_deformation, by_rate, damping;  ///< damping = ∂F/∂μ = δᵖ δ̇.
   };
   Force At(double deformation, double rate) const {
-    if (!plain) return General(deformation, rate);
-    if (deformation <= 0) return {};
-    const double root = std::sqrt(deformation);
+    if (!plain || clipped) return General(deformation, rate);
+    return Plain(deformation, rate);
+  }
+  Force Plain(double deformation, double rate) const {
+    const double root = std::sqrt(std::max(deformation, 0.0));
     const double power = deformation * root;
     const double load = stiffness + mu * rate;
-    if (clipped && load < 0) return {};
     return {power * load, 1.5 * root * load, mu * power, power * rate};
   }
   Force General(double deformation, double rate) const;
@@ -105,7 +109,9 @@ class Equations {
   std::ptrdiff_t impulse() const { return load_work() + 2; }
 
   /// dy = pace · f(t, y): slopes by a clock of which a second is 1/pace.
-  void operator()(double t, const double* y, double* dy, double pace = 1) const;
+  void operator()(double t, const double* y, double* dy, double pace = 1) const {
+    few_ == nullptr ? EvaluateMany(t, y, dy, pace) : few_(*this, y, dy, pace);
+  }
 
   /// Difference left − right of a per-body quantity; a wall counts 0.
   double Relative(int contact, const double* of_bodies) const {
@@ -125,6 +131,10 @@ class Equations {
   /// begins or ends; infinite if none does. Each goes on as its formula does past that instant.
   double SelectLoads(double time);
 
+  /// Call when `active` or the selected loads have changed: sees whether all there is are one or
+  /// two plain contacts of at most three bodies, for which there is a shorter way.
+  void Prepare();
+
   /// Shortest time in which a selected load or a support changes [s]; infinite without any.
   double ForcingTime() const;
 
@@ -142,6 +152,9 @@ class Equations {
   void AddSensitiveContacts(Count n, const double* y, double* dy, double* works, double pace) const;
   template <class Count>
   void Evaluate(Count n, double t, const double* y, double* dy, double pace) const;
+  void EvaluateMany(double t, const double* y, double* dy, double pace) const;
+  template <std::ptrdiff_t n, std::size_t kCount>
+  static void EvaluateFew(const Equations& of, const double* y, double* dy, double pace);
   void AddRecord(double t, const double* y, double* dy, double pace) const;
   double LoadForce(const Load& load, double t) const;
   double SupportForce(const Support& s, const double* u, const double* v) const;
@@ -151,6 +164,7 @@ class Equations {
   std::vector<double> inverse_mass_;  // 0 for a fixed body.
   std::vector<Load> acting_;          // The loads selected.
   std::vector<double> breakpoints_;   // Where loads begin and end; sorted.
+  void (*few_)(const Equations&, const double*, double*, double) = nullptr;  // The shorter way.
 };
 
 /// U = k δⁿ⁺¹/(n + 1) [J].

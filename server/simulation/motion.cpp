@@ -25,6 +25,11 @@ bool IsStarting(const ContactState& c) { return c.phase == Phase::kStarting; }
 
 }  // namespace
 
+bool IsPacking(const Scenario& scenario) {
+  return !scenario.loads.empty() || !scenario.supports.empty() ||
+         scenario.contacts.size() >= scenario.bodies.size();
+}
+
 bool InCycle(const State& state) {
   return std::any_of(state.contacts.begin(), state.contacts.end(), [](const ContactState& c) {
     return IsRunning(c) || (IsStarting(c) && !c.settled);
@@ -63,6 +68,7 @@ Motion::Motion(const Scenario& scenario)
     : scenario_(scenario),
       fixed_step_(scenario.solver.fixed_step),
       split_at_force_(scenario.solver.phase_split == PhaseSplit::kPeakForce),
+      shifts_(fixed_step_ == 0 && !IsPacking(scenario)),
       equations_(scenario),
       rk_(fixed_step_ > 0 ? RungeKutta::Method::kClassical : RungeKutta::Method::kDormandPrince),
       deformation_scale_(scenario.contacts.size()),
@@ -91,6 +97,7 @@ void Motion::Begin(const State& state, bool recording, double tolerance, int mos
   most_cycles_ = std::min(most_cycles, max_cycles_);
   flight_length_ = flight_speed_ = 0;
   touch_time_ = kNaN;
+  cruise_ = 0;
 
   equations_.base = state.positions;
   equations_.recording = recording;
@@ -173,13 +180,19 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
       next_step_ = step_.h;  // The same again, but for what begins.
     }
     if (found.contact != kNone) Apply(found, host);
-    WakeResting(host);
+    if (shifts_ && found.contact != kNone && found.event.kind == EventKind::kSeparation) {
+      next_step_ = std::max(next_step_, cruise_);
+    }
+    const bool changes = found.contact != kNone || resting_;
+    if (resting_) WakeResting(host);
     events_at_once = moves ? 0 : events_at_once + 1;
     if (events_at_once > kMaxEventsAtOnce) return Pause::kNumeric;
-    StartCycles(host, !Busy());
-    if (busy && !Busy()) return Pause::kQuiet;
-    if (!busy && std::any_of(contacts_.begin(), contacts_.end(), IsStarting)) {
-      return Pause::kCycleStarts;
+    if (changes) {
+      StartCycles(host, !Busy());
+      if (busy && !Busy()) return Pause::kQuiet;
+      if (!busy && std::any_of(contacts_.begin(), contacts_.end(), IsStarting)) {
+        return Pause::kCycleStarts;
+      }
     }
     if (cycles_in_stretch_ >= most_cycles_) return Pause::kCrowded;
   }
@@ -194,17 +207,20 @@ void Motion::SelectLoads() {
 
 void Motion::RefreshActive() {
   equations_.active.clear();
+  resting_ = false;
   for (int c = 0; c < equations_.contacts(); ++c) {
     const ContactState& contact = contacts_[At(c)];
     if (!IsRunning(contact) && contact.phase != Phase::kResting) continue;
+    resting_ |= contact.phase == Phase::kResting;
     equations_.active.push_back(
         equations_.Activate(c, contact.gap, contact.cycle.mu, contact.column));
   }
+  equations_.Prepare();
   equations_(time_, rk_.y0.data(), rk_.slope0.data());
   ++evaluations_;
 }
 
-DeformationPath Motion::Path(int contact) const {
+std::pair<DeformationPath::End, DeformationPath::End> Motion::PathEnds(int contact) const {
   const int n = equations_.bodies();
   const double bend = 2 * step_.h * (1 - step_.warp);  // d²t/dθ²
   const auto end = [&](const auto& y, const auto& slope, double theta) {
@@ -237,8 +253,10 @@ Motion::Found Motion::FindEvent() const {
   Found first;
   for (int c = 0; c < equations_.contacts(); ++c) {
     const Phase phase = contacts_[At(c)].phase;
+    const auto [start, end] = PathEnds(c);
+    if (DeformationPath::IsPlain(phase, start, end)) continue;
     const double noise = phase == Phase::kOpen ? Noise(c) : 0;
-    const auto event = FirstEvent(phase, Path(c), event_[At(c)], noise);
+    const auto event = FirstEvent(phase, {start, end}, event_[At(c)], noise);
     if (!event) continue;
     if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
   }

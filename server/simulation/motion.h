@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "simulation/contact_events.h"
@@ -48,6 +49,9 @@ struct State {
 
 /// The state at t = 0: touching contacts that approach are starting.
 State InitialState(const Scenario& scenario);
+
+/// Whether loads, supports or walls may keep contacts closed.
+bool IsPacking(const Scenario& scenario);
 
 /// Whether a cycle runs or wants to start; a resting contact has none.
 bool InCycle(const State& state);
@@ -149,9 +153,10 @@ class Motion {
   double Noise(int contact) const;
   Found FindEvent() const;
   Found PassTurns();
-  DeformationPath Path(int contact) const;
+  std::pair<DeformationPath::End, DeformationPath::End> PathEnds(int contact) const;
   bool Land(const Found& found);
   double Correction(const Found& found) const;
+  void Shift(double time, bool tangent);
   void Repeat(double h, bool parting);
   void Accept(StepListener* listener);
   void Apply(const Found& found, CycleHost& host);
@@ -169,6 +174,7 @@ class Motion {
   const Scenario& scenario_;
   const double fixed_step_;  // Of the classical method [s]; 0: error control.
   const bool split_at_force_;
+  const bool shifts_;  // To an event nearby, where it matters to no one by how little it is missed.
   Equations equations_;
   RungeKutta rk_;
   std::vector<ContactState> contacts_;
@@ -190,6 +196,8 @@ class Motion {
   double touch_time_ = kNaN;   // When the latest collision began.
   Eigen::ArrayXd inside_;      // y at a turn inside the step.
   double next_step_ = 0;
+  double cruise_ = 0;     // The last step that no separation near has shortened.
+  bool resting_ = false;  // Whether a contact rests.
   std::int64_t steps_ = 0;
   std::int64_t evaluations_ = 0;
   double contact_loss_ = 0;

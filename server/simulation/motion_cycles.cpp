@@ -106,7 +106,7 @@ double Motion::FirstStep(int contact) const {
   if (cycle.approach_velocity > 0) {
     const double v = cycle.approach_velocity;
     // In √t the error grows with the 9th power, t^4.5.
-    return 4 * std::pow(tolerance_, 2.0 / 9) *
+    return std::min(4 * std::pow(tolerance_, 2.0 / 9), 0.2) *
            MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
   }
   double deformation = cycle.start_deformation;
@@ -284,7 +284,8 @@ void Motion::ObserveForce(const ActiveContact& active) {
   double where = last.force > first.force ? 1 : 0;
   double largest = std::max(first.force, last.force);
   if (pulls || peaks) {
-    const DeformationPath path = Path(active.contact);
+    const auto ends = PathEnds(active.contact);
+    const DeformationPath path(ends.first, ends.second);
     const auto force = [&](double theta) {
       const double dt = step_.h * step_.Rate(theta);
       return law.At(path.Value(theta), dt > 0 ? path.Slope(theta) / dt : 0).force;

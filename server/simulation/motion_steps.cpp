@@ -17,6 +17,7 @@ constexpr double kReach = 0.85;
 constexpr double kNear = 0.7;
 // and else at most so far towards it.
 constexpr double kApproach = 0.8;
+constexpr double kTrapezoid = 0.1;
 constexpr double kSafety = 0.8;  // Of the next step.
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
@@ -66,6 +67,7 @@ StepTime Motion::Plan(double until) {
     const double time = TimeToSeparation(active);
     if (time < parting) parting = time, first = &active;
   }
+  if (parting > 2 * h) cruise_ = h;
   if (parting * kReach <= h && parting <= left) {
     const double deformation = first->Relative(rk_.y0.data()) - first->gap;
     const double near = kNear * std::pow(tolerance_, 1.0 / 7);
@@ -193,7 +195,14 @@ bool Motion::Land(const Found& found) {
   const bool parting = found.event.kind == EventKind::kSeparation;
   const StepTime planned = step_;
   const double left = breakpoint_ - time_;
-  if (found.event.theta < 1) Repeat(step_.Offset(found.event.theta), parting);
+  // What the trapezoidal rule leaves is of third order in time.
+  const double nearby = shifts_ ? kTrapezoid * std::cbrt(tolerance_) * (time_ - touch_time_) : 0;
+  const double event = step_.Offset(found.event.theta);
+  if (separating_ == found.contact && step_.h - event <= nearby) {
+    if (found.event.theta < 1) Shift(event - step_.h, false);
+  } else if (found.event.theta < 1) {
+    Repeat(event, parting);
+  }
   for (int i = 0; i < kMaxLandings; ++i) {
     const double correction = Correction(found);
     const double h = step_.h + correction;
@@ -202,19 +211,34 @@ bool Motion::Land(const Found& found) {
       Repeat(left, false);
       return false;
     }
-    if (std::abs(correction) <= 1e-7 * step_.h) {
-      // So near that the tangent leads there: its error is of second order.
-      rk_.y1 += correction * rk_.slope1;
-      step_.h = h;
-      rk_.FinishStep(equations_, step_);
-      ++evaluations_;
-      return true;
+    // So near that the tangent leads there: its error is of second order.
+    const bool there = std::abs(correction) <= 1e-7 * step_.h;
+    if (there || std::abs(correction) <= nearby) {
+      Shift(correction, there);
+      if (there) return true;
+    } else {
+      Repeat(h, parting);
     }
-    Repeat(h, parting);
   }
   if (!parting) return true;  // As near as it gets.
   Repeat(planned.h, planned.warp == 2);
   return false;
+}
+
+// Moves the end of the step by a short time: along the tangent, or by the trapezoidal rule.
+void Motion::Shift(double time, bool tangent) {
+  step_.h += time;
+  if (!tangent) {
+    rk_.y1 += time * rk_.slope1;
+    inside_ = rk_.slope1;
+    rk_.FinishStep(equations_, step_);
+    ++evaluations_;
+    rk_.y1 += 0.5 * time * (rk_.slope1 - inside_);
+  } else {
+    rk_.y1 += time * rk_.slope1;
+  }
+  rk_.FinishStep(equations_, step_);
+  ++evaluations_;
 }
 
 void Motion::Repeat(double h, bool parting) {
