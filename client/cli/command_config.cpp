@@ -59,8 +59,11 @@ ExitCode View(const CLI::App& app, const ConfigArguments& arguments, const Setti
     table.Add(std::move(row));
     json[key] = {{"value", value}, {"origin", origin}};
   }
-  fmt::print("{}",
-             settings.output == "json" ? json.dump(2) + "\n" : table.Text(settings.OutputStyle()));
+  if (settings.output == "json") {
+    PrintJson(json.dump(2) + "\n", settings);
+  } else {
+    fmt::print("{}", table.Text(settings.OutputStyle()));
+  }
   return TellProblems(settings);
 }
 

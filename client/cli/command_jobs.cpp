@@ -134,7 +134,7 @@ ExitCode List(const ListArguments& arguments, const Settings& settings) {
   Client client = settings.Connect();
   const v1::ListJobsResponse all = ListAll(client, arguments);
   if (settings.output == "json") {
-    fmt::print("{}", ToJson(all));
+    PrintJson(ToJson(all), settings);
   } else if (settings.output == "csv") {
     fmt::print("{}", ListCsv(all));
   } else if (settings.output == "table") {

@@ -65,7 +65,7 @@ std::string Percent(double miss) { return fmt::format("{:+.2f} %", 100 * miss); 
 ExitCode List(const Settings& settings) {
   settings.RequireOutput({"table", "json"});
   if (settings.output == "json") {
-    fmt::print("{}", JsonList(LawCatalogue()));
+    PrintJson(JsonList(LawCatalogue()), settings);
     return ExitCode::kOk;
   }
   Table table({{"LAW"}, {"FORMULA"}, {"SOURCE", false, 1}});
@@ -80,7 +80,7 @@ ExitCode Show(const std::string& name, const Settings& settings) {
   settings.RequireOutput({"table", "json"});
   const LawEntry& law = FindLaw(name);
   if (settings.output == "json") {
-    fmt::print("{}\n", Json(law));
+    PrintJson(Json(law) + "\n", settings);
     return ExitCode::kOk;
   }
   fmt::print("{}\nformula  {}\nsource   {}\nrange    {}\n", law.name(), law.formula, law.source,
@@ -149,7 +149,7 @@ ExitCode Compare(const CompareArguments& arguments, const Settings& settings) {
   std::vector<LawPoint> points = Points(arguments);
   Simulate(&points, settings);
   if (settings.output == "json") {
-    fmt::print("{}", JsonList(points));
+    PrintJson(JsonList(points), settings);
   } else if (settings.output == "csv") {
     fmt::print("law,requested,delivered,miss,method\n");
     for (const LawPoint& p : points) {

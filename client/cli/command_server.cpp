@@ -23,7 +23,7 @@ ExitCode Status(const Settings& settings) {
   Client client = settings.Connect();
   const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
   if (settings.output == "json") {
-    fmt::print("{}", ToJson(info));
+    PrintJson(ToJson(info), settings);
     return ExitCode::kOk;
   }
   const v1::ServerLimits& limits = info.limits();

@@ -99,7 +99,7 @@ void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& ar
     fmt::print("{}{}", arguments.comments ? Lines({SourceOf(job)}, "# ") : "",
                SweepCsv(job.sweep(), cells));
   } else if (settings.output == "json") {
-    fmt::print("{}", SweepJson(job, cells));
+    PrintJson(SweepJson(job, cells), settings);
   } else if (settings.output == "name") {
     fmt::print("{}\n", job.name());
   } else {

@@ -36,11 +36,12 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->capture_default_str();
   app.add_option(
          "-o,--output", settings->output,
-         "How to print: table, wide (a table with all columns), json, name; jsonl (list, watch, "
-         "export); csv (list, series, sweep, model, export); netcdf (export); svg, png, "
+         "How to print: table, wide (a table with all columns), json, yaml (what json says), "
+         "name; jsonl (list, watch, export); csv (list, series, sweep, model, export); netcdf "
+         "(export); svg, png, "
          "pdf, gp, csv (plot)")
-      ->check(CLI::IsMember(
-          {"table", "wide", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
+      ->check(CLI::IsMember({"table", "wide", "json", "yaml", "jsonl", "name", "csv", "netcdf",
+                             "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
