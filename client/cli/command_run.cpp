@@ -5,11 +5,13 @@
 #include <memory>
 
 #include "cli/checked_scenario.h"
+#include "cli/column_choice.h"
 #include "cli/commands.h"
 #include "cli/follow.h"
 #include "cli/job_options.h"
 #include "cli/job_source.h"
 #include "cli/no_limits.h"
+#include "cli/render_job.h"
 #include "cli/render_json.h"
 #include "cli/sweep_file.h"
 #include "cli/templates.h"
@@ -27,6 +29,7 @@ struct RunArguments {
   JobOptions job;
   std::string rows = "first";  ///< Of the μ-iteration.
   bool cancel_on_interrupt = false;
+  ColumnChoice columns;
 };
 
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
@@ -122,6 +125,7 @@ IterationRows RowsOf(const std::string& word) {
 
 ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "json", "name"});
+  arguments.columns.Check(LedgerColumns(), settings);
   const auto deadline = settings.Deadline();
   Client client = settings.Connect();
   const v1::Job job = Create(client, arguments);
@@ -131,7 +135,7 @@ ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   }
 
   const v1::Job result = GetJob(client, job.name());
-  PrintJob(result, settings);
+  PrintJob(result, settings, arguments.columns.names());
   if (settings.output == "table") fmt::print(stderr, "{}", NextSteps(result));
   return Outcome(result);
 }
@@ -175,6 +179,7 @@ void AddFollowing(CLI::App& run, RunArguments* arguments) {
       ->capture_default_str();
   run.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
                "A first Ctrl-C cancels the job instead of leaving it to the server");
+  arguments->columns.AddTo(run, LedgerColumns());
 }
 
 }  // namespace

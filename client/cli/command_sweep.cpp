@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "cli/column_choice.h"
 #include "cli/commands.h"
 #include "cli/drawing.h"
 #include "cli/follow.h"
@@ -37,6 +38,7 @@ struct SweepArguments {
   int random = 0, latin_hypercube = 0;  ///< Cells to draw from the axes.
   std::int64_t seed = 0;
   bool cancel_on_interrupt = false;
+  ColumnChoice columns;
 };
 
 // Gathers cells, and tells how far the sweep is.
@@ -93,17 +95,24 @@ int MetricOf(const v1::Sweep& sweep, const std::string& name) {
                 fmt::format("--metric {}: the sweep has none of this name", name));
 }
 
+// Throws Failure (kUsage) unless the sweep has the metric and the columns that are named.
+void CheckNames(const v1::Sweep& sweep, const SweepArguments& arguments, const Settings& settings) {
+  MetricOf(sweep, arguments.metric);
+  arguments.columns.Check(settings.output == "csv" ? SweepCsvColumns(sweep) : SweepColumns(sweep),
+                          settings);
+}
+
 void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments,
            const Settings& settings) {
   if (settings.output == "csv") {
     fmt::print("{}{}", arguments.comments ? Lines({SourceOf(job)}, "# ") : "",
-               SweepCsv(job.sweep(), cells));
+               SweepCsv(job.sweep(), cells, arguments.columns.names()));
   } else if (settings.output == "json") {
     PrintJson(SweepJson(job, cells), settings);
   } else if (settings.output == "name") {
     fmt::print("{}\n", job.name());
   } else {
-    const Style style = settings.OutputStyle();
+    const Style style = arguments.columns.OutputStyle(settings);
     fmt::print("{}{}", RenderSweep(job, cells, style),
                HeatMap(job.sweep(), cells, MetricOf(job.sweep(), arguments.metric), style));
   }
@@ -127,7 +136,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   if (const v1::Job job = GetJob(client, name); !job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is no sweep; see contactctl describe", name));
   } else {
-    MetricOf(job.sweep(), arguments.metric);
+    CheckNames(job.sweep(), arguments, settings);
   }
   WatchOptions options;
   options.name = name;
@@ -213,6 +222,7 @@ CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::s
       ->add_option("--heatmap", arguments->heat_map,
                    "Draw it to this file too, through gnuplot: .svg, .png or .pdf")
       ->type_name("FILE");
+  arguments->columns.AddTo(*command);
   command->add_flag("--comments", arguments->comments,
                     "Begin csv with where it comes from, in lines that start with #");
   command->callback([arguments, act, &settings, action] {
