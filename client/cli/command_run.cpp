@@ -24,6 +24,7 @@ struct RunArguments {
   std::string like;           ///< The job that is repeated instead of a file.
   std::string from_template;  ///< The shipped scenario that is taken instead of a file.
   std::vector<std::string> overrides;
+  std::vector<std::string> variables;  ///< --var
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions job;
@@ -69,7 +70,9 @@ ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
   }
   TellOfOtherServer(client, job);
-  return Checked(ScenarioFile(job.name(), ToJsonLine(job.scenario())), arguments.overrides);
+  return Checked(
+      ScenarioFile(job.name(), ToJsonLine(job.scenario()), ParseVariables(arguments.variables)),
+      arguments.overrides);
 }
 
 ScenarioFile OpenTemplate(const RunArguments& arguments) {
@@ -79,7 +82,8 @@ ScenarioFile OpenTemplate(const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, fmt::format("{0} is a sweep; contactctl init {0} writes it",
                                                 arguments.from_template));
   }
-  return Checked(ScenarioFile(arguments.from_template, text), arguments.overrides);
+  return Checked(ScenarioFile(arguments.from_template, text, ParseVariables(arguments.variables)),
+                 arguments.overrides);
 }
 
 ScenarioFile Open(Client& client, const RunArguments& arguments) {
@@ -90,7 +94,8 @@ ScenarioFile Open(Client& client, const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, "give a FILE, --template NAME or --like JOB, one of them");
   }
   if (!arguments.from_template.empty()) return OpenTemplate(arguments);
-  return arguments.like.empty() ? OpenChecked(arguments.file, arguments.overrides, kNoLimits)
+  return arguments.like.empty() ? OpenChecked(arguments.file, arguments.overrides, kNoLimits,
+                                              ParseVariables(arguments.variables))
                                 : OpenLike(client, arguments);
 }
 
@@ -157,6 +162,7 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
       ->type_name("FIELD=VALUE")
       ->take_all()
       ->allow_extra_args(false);
+  AddVariableFlag(command, &arguments->variables);
   command
       .add_option("--label", arguments->labels, "Label of the job, to find it again; repeatable")
       ->type_name("KEY=VALUE")

@@ -28,6 +28,7 @@ namespace {
 struct SweepArguments {
   std::string file;
   std::string job;
+  std::vector<std::string> variables;  ///< --var
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions settings;
@@ -178,11 +179,13 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   const DrawnCells drawn{.count = std::max(arguments.random, arguments.latin_hypercube),
                          .latin_hypercube = arguments.latin_hypercube > 0,
                          .seed = arguments.seed};
+  const VariableValues variables = ParseVariables(arguments.variables);
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_sweep() =
-      arguments.grid.empty() ? OpenSweep(arguments.file)
-                             : MakeGrid(arguments.file, arguments.grid, arguments.metric, drawn);
-  MetricOf(request.job().sweep(), arguments.metric);
+      arguments.grid.empty()
+          ? OpenSweep(arguments.file, variables)
+          : MakeGrid(arguments.file, arguments.grid, arguments.metric, drawn, variables);
+  CheckNames(request.job().sweep(), arguments, settings);
   request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
@@ -242,6 +245,7 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
   run->add_option("FILE", arguments->file,
                   "Sweep in YAML or JSON; - is the standard input. With --grid a scenario")
       ->required();
+  AddVariableFlag(*run, &arguments->variables);
   CLI::Option* grid =
       run->add_option(
              "--grid", arguments->grid,
