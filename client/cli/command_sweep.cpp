@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cli/column_choice.h"
@@ -45,9 +46,17 @@ struct SweepArguments {
 // Gathers cells, and tells how far the sweep is.
 class CellWatcher final : public WatchObserver {
  public:
-  explicit CellWatcher(ProgressForm form) : form_(form) {}
+  CellWatcher(const std::string& job, const Settings& settings) : form_(settings.Progress()) {
+    const bool json = form_ == ProgressForm::kJson;
+    if (json || settings.TaskbarProgress()) {
+      signals_.emplace(stderr, ShortName(job), json, settings.TaskbarProgress());
+    }
+  }
   ~CellWatcher() override { Erase(); }
 
+  void OnSnapshot(const v1::Job& job) override {
+    if (job.has_progress() && signals_) signals_->Hear(job.progress());
+  }
   void OnEvent(const v1::Event& event) override {
     if (event.has_sweep_cell()) cells_[event.sweep_cell().index()] = event.sweep_cell();
     if (event.has_progress()) Show(event.progress());
@@ -60,6 +69,7 @@ class CellWatcher final : public WatchObserver {
 
  private:
   void Show(const v1::Progress& progress) {
+    if (signals_) signals_->Hear(progress);
     const double done = PartDone(progress);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     const std::string words = fmt::format(
@@ -79,6 +89,7 @@ class CellWatcher final : public WatchObserver {
   }
 
   const ProgressForm form_;
+  std::optional<ProgressSignals> signals_;  ///< Unless nobody wants them.
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SweepCells cells_;
   int told_tenths_ = 0;
@@ -150,8 +161,9 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
     const Interrupt interrupt;
     const bool submitted = arguments.job.empty() && settings.output == "table";
     if (submitted) fmt::print(stderr, "{} submitted\n", name);
-    CellWatcher watcher(settings.Progress());
+    CellWatcher watcher(name, settings);
     end = Watch(client, options, watcher);
+    if (end == WatchEnd::kFinished) watcher.OnSnapshot(GetJob(client, name));  // How far it came.
     cells = watcher.cells();
   }
   if (end != WatchEnd::kFinished) {

@@ -48,13 +48,15 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->type_name("WHEN")
       ->capture_default_str();
-  app.add_option(
-         "--progress", settings->progress,
-         "How to tell how far a job is: bar, plain (a line for each tenth) or none; auto is "
-         "a bar on a terminal")
-      ->check(CLI::IsMember({"auto", "bar", "plain", "none"}))
+  app.add_option("--progress", settings->progress,
+                 "How to tell how far a job is: bar, plain (a line for each tenth), json (an "
+                 "object a line, "
+                 "for programs) or none; auto is a bar on a terminal")
+      ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}))
       ->type_name("HOW")
       ->capture_default_str();
+  app.add_flag("--taskbar-progress", settings->taskbar_progress,
+               "Show it in the task bar too, of terminals that can (OSC 9;4)");
   app.add_option("--timeout", settings->timeout,
                  "Give up after this time. Default: 10s for a call, none for run, watch and wait")
       ->type_name("TIME");
