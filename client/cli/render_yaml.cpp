@@ -1,5 +1,6 @@
 #include "cli/render_yaml.h"
 
+#include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -28,12 +29,10 @@ bool NeedsQuotes(const std::string& text) {
 
 // `1e-08` is a text to readers of YAML 1.1, `1.0e-08` is not.
 std::string Number(const Json& value) {
-  std::string text = value.dump();
+  const std::string text = value.dump();
   const std::size_t exponent = text.find('e');
-  if (exponent != std::string::npos && text.find('.') == std::string::npos) {
-    text.insert(exponent, ".0");
-  }
-  return text;
+  if (exponent == std::string::npos || text.find('.') != std::string::npos) return text;
+  return fmt::format("{}.0{}", text.substr(0, exponent), text.substr(exponent));
 }
 
 void Emit(const Json& value, YAML::Emitter* out) {

@@ -1,5 +1,6 @@
 #include "cli/render_yaml.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -26,7 +27,8 @@ TEST(RenderYaml, TextsThatLookLikeSomethingElseAreInQuotes) {
   for (const std::string text :
        {"1000", "-1", "0x10", "1e5", ".5", "NaN", "Infinity", "true", "No", "off", "y", "null", "~",
         "", "2026-11-21", "- x", "[a]", "#", "="}) {
-    EXPECT_EQ(YamlOfJson("\"" + text + "\""), "\"" + text + "\"\n");
+    const std::string quoted = fmt::format("\"{}\"", text);
+    EXPECT_EQ(YamlOfJson(quoted), fmt::format("{}\n", quoted));
   }
   EXPECT_EQ(YamlOfJson(R"("SUCCEEDED")"), "SUCCEEDED\n");
 }
