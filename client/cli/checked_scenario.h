@@ -7,10 +7,10 @@
 
 namespace contact::cli {
 
-/// Reads a scenario file, applies the overrides and checks the rules. Throws Failure
-/// (kInvalidScenario) that lists every mistake.
+/// Reads a scenario file with these values of its variables, applies the overrides and checks the
+/// rules. Throws Failure (kInvalidScenario) that lists every mistake.
 ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides,
-                         const ScenarioLimits& limits = {});
+                         const ScenarioLimits& limits = {}, const VariableValues& variables = {});
 
 /// Throws Failure (kInvalidScenario) if the file has mistakes.
 void RequireNoMistakes(const ScenarioFile& file);

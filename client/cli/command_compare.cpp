@@ -9,6 +9,7 @@
 #include "cli/job_source.h"
 #include "cli/overlay.h"
 #include "cli/render_comparison.h"
+#include "cli/render_yaml.h"
 
 namespace contact::cli {
 namespace {
@@ -24,7 +25,7 @@ struct CompareArguments {
 std::string Format(const CompareArguments& arguments, const Settings& settings) {
   if (!arguments.format.empty()) return arguments.format;
   settings.RequireOutput({"table", "json", "csv"});
-  return settings.output;
+  return settings.yaml ? "yaml" : settings.output;
 }
 
 void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
@@ -52,7 +53,9 @@ ExitCode CompareJobs(const CompareArguments& arguments, const Settings& settings
   }
   if (!arguments.plot.empty()) DrawRuns(arguments, settings);
   const JobComparison comparison = Compare(jobs, arguments.tolerance);
-  if (format == "json") {
+  if (format == "yaml") {
+    fmt::print("{}", YamlOfJson(ComparisonJson(comparison)));
+  } else if (format == "json") {
     fmt::print("{}", ComparisonJson(comparison));
   } else if (format == "csv") {
     fmt::print("{}", ComparisonCsv(comparison));
@@ -84,8 +87,9 @@ void AddCompareCommand(CLI::App& app, const Settings& settings, Action* action) 
                    "The same relative to the baseline; the larger one counts")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--format", arguments->format, "table, json, csv or latex, instead of -o")
-      ->check(CLI::IsMember({"table", "json", "csv", "latex"}))
+  command
+      ->add_option("--format", arguments->format, "table, json, yaml, csv or latex, instead of -o")
+      ->check(CLI::IsMember({"table", "json", "yaml", "csv", "latex"}))
       ->type_name("FORMAT");
   command
       ->add_option("--plot", arguments->plot,

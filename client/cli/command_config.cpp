@@ -38,7 +38,9 @@ ExitCode TellProblems(const Settings& settings) {
 std::string ValueOf(const CLI::App& app, std::string key) {
   std::ranges::replace(key, '_', '-');
   const CLI::Option* option = app.get_option("--" + key);
-  return option->count() > 0 ? option->results().back() : option->get_default_str();
+  if (option->count() > 0) return option->results().back();
+  const bool flag = option->get_items_expected_max() == 0;
+  return flag ? "false" : option->get_default_str();
 }
 
 std::string OriginOf(const Settings& settings, const std::string& key) {
@@ -59,8 +61,11 @@ ExitCode View(const CLI::App& app, const ConfigArguments& arguments, const Setti
     table.Add(std::move(row));
     json[key] = {{"value", value}, {"origin", origin}};
   }
-  fmt::print("{}",
-             settings.output == "json" ? json.dump(2) + "\n" : table.Text(settings.OutputStyle()));
+  if (settings.output == "json") {
+    PrintJson(json.dump(2) + "\n", settings);
+  } else {
+    fmt::print("{}", table.Text(settings.OutputStyle()));
+  }
   return TellProblems(settings);
 }
 

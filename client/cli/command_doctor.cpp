@@ -132,8 +132,11 @@ ExitCode Doctor(const CLI::App& app, const Settings& settings) {
   LookAtServer(settings, &findings);
   findings.push_back(LookAtGnuplot());
   findings.push_back(LookAtTerminal(settings));
-  fmt::print("{}",
-             settings.output == "json" ? Json(findings) : Text(findings, settings.OutputStyle()));
+  if (settings.output == "json") {
+    PrintJson(Json(findings), settings);
+  } else {
+    fmt::print("{}", Text(findings, settings.OutputStyle()));
+  }
   for (const Finding& finding : findings) {
     if (!finding.fix.empty()) return finding.code;
   }

@@ -7,8 +7,8 @@
 #include <memory>
 #include <string_view>
 
+#include "cli/column_choice.h"
 #include "cli/commands.h"
-#include "cli/export_text.h"
 #include "cli/follow.h"
 #include "cli/job_source.h"
 #include "cli/list_watch.h"
@@ -26,6 +26,7 @@ struct ListArguments {
   std::vector<std::string> labels;
   int limit = 50;
   bool watch = false;
+  ColumnChoice columns;
 };
 
 v1::Job::State ParseState(std::string text) {
@@ -108,37 +109,24 @@ std::vector<Table::Cell> ListRow(const v1::Job& job) {
           fmt::to_string(job.attempt())};
 }
 
-// All columns, as in a wide table.
-std::string ListCsv(const v1::ListJobsResponse& all) {
-  std::string text = "job,state,reason,convergence,created,ended,labels,cycles,attempt\n";
-  for (const v1::Job& job : all.jobs()) {
-    std::string_view separator;
-    for (const Table::Cell& cell : ListRow(job)) {
-      text.append(separator).append(CsvText(cell.text == "-" ? "" : cell.text));
-      separator = ",";
-    }
-    text += '\n';
-  }
-  return text;
-}
-
-std::string ListTable(const v1::ListJobsResponse& all, const Style& style) {
+Table ListTable(const v1::ListJobsResponse& all) {
   Table table(ListColumns());
   for (const v1::Job& job : all.jobs()) table.Add(ListRow(job));
-  return table.Text(style);
+  return table;
 }
 
 ExitCode List(const ListArguments& arguments, const Settings& settings) {
   if (arguments.watch) return ListAndWatch(WatchRequest(arguments), settings);
   settings.RequireOutput({"table", "json", "jsonl", "csv", "name"});
+  arguments.columns.Check(ListColumns(), settings);
   Client client = settings.Connect();
   const v1::ListJobsResponse all = ListAll(client, arguments);
   if (settings.output == "json") {
-    fmt::print("{}", ToJson(all));
+    PrintJson(ToJson(all), settings);
   } else if (settings.output == "csv") {
-    fmt::print("{}", ListCsv(all));
+    fmt::print("{}", ListTable(all).Csv(arguments.columns.names()));
   } else if (settings.output == "table") {
-    fmt::print("{}", ListTable(all, settings.OutputStyle()));
+    fmt::print("{}", ListTable(all).Text(arguments.columns.OutputStyle(settings)));
   } else {
     const bool names = settings.output == "name";
     for (const v1::Job& job : all.jobs()) {
@@ -151,10 +139,11 @@ ExitCode List(const ListArguments& arguments, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-ExitCode Describe(const std::string& job, const Settings& settings) {
+ExitCode Describe(const std::string& job, const ColumnChoice& columns, const Settings& settings) {
   settings.RequireOutput({"table", "json", "name"});
+  columns.Check(LedgerColumns(), settings);
   Client client = settings.Connect();
-  PrintJob(GetJob(client, job), settings);
+  PrintJob(GetJob(client, job), settings, columns.names());
   return ExitCode::kOk;
 }
 
@@ -195,6 +184,18 @@ CLI::App* AddJobCommand(CLI::App& app, const std::string& name, const std::strin
   return command;
 }
 
+void AddDescribeCommand(CLI::App& app, const Settings& settings, Action* action) {
+  auto job = std::make_shared<std::string>();
+  auto columns = std::make_shared<ColumnChoice>();
+  CLI::App* describe =
+      app.add_subcommand("describe", "Show a job with its ledger (also: result)")->alias("result");
+  describe->add_option("JOB", *job, "ID or jobs/ID")->required();
+  columns->AddTo(*describe, LedgerColumns());
+  describe->callback([job, columns, &settings, action] {
+    *action = [job, columns, &settings] { return Describe(*job, *columns, settings); };
+  });
+}
+
 }  // namespace
 
 void AddJobCommands(CLI::App& app, const Settings& settings, Action* action) {
@@ -214,13 +215,12 @@ void AddJobCommands(CLI::App& app, const Settings& settings, Action* action) {
       ->capture_default_str();
   list->add_flag("--watch", arguments->watch,
                  "All of them, and then a line for each change; -o jsonl for programs");
+  arguments->columns.AddTo(*list, ListColumns());
   list->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return List(*arguments, settings); };
   });
 
-  AddJobCommand(app, "describe", "Show a job with its ledger (also: result)", Describe, settings,
-                action)
-      ->alias("result");
+  AddDescribeCommand(app, settings, action);
   AddJobCommand(app, "cancel", "Ask a job to stop; what it recorded is kept", Cancel, settings,
                 action);
   AddJobCommand(app, "delete", "Remove an ended job and its events", Delete, settings, action);

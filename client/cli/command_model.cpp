@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/column_choice.h"
 #include "cli/commands.h"
 #include "cli/law_study.h"
 #include "cli/number.h"
@@ -19,6 +20,7 @@ namespace {
 struct CompareArguments {
   std::vector<std::string> laws;
   std::vector<double> restitutions = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
+  ColumnChoice columns;
 };
 
 // `hunt-crossley` is as good as HUNT_CROSSLEY.
@@ -62,17 +64,20 @@ std::string JsonList(const Items& items) {
 
 std::string Percent(double miss) { return fmt::format("{:+.2f} %", 100 * miss); }
 
-ExitCode List(const Settings& settings) {
+std::vector<Table::Column> ListColumns() { return {{"LAW"}, {"FORMULA"}, {"SOURCE", false, 1}}; }
+
+ExitCode List(const ColumnChoice& columns, const Settings& settings) {
   settings.RequireOutput({"table", "json"});
+  columns.Check(ListColumns(), settings);
   if (settings.output == "json") {
-    fmt::print("{}", JsonList(LawCatalogue()));
+    PrintJson(JsonList(LawCatalogue()), settings);
     return ExitCode::kOk;
   }
-  Table table({{"LAW"}, {"FORMULA"}, {"SOURCE", false, 1}});
+  Table table(ListColumns());
   for (const LawEntry& law : LawCatalogue()) {
     table.Add({std::string(law.name()), std::string(law.formula), std::string(law.source)});
   }
-  fmt::print("{}", table.Text(settings.OutputStyle()));
+  fmt::print("{}", table.Text(columns.OutputStyle(settings)));
   return ExitCode::kOk;
 }
 
@@ -80,7 +85,7 @@ ExitCode Show(const std::string& name, const Settings& settings) {
   settings.RequireOutput({"table", "json"});
   const LawEntry& law = FindLaw(name);
   if (settings.output == "json") {
-    fmt::print("{}\n", Json(law));
+    PrintJson(Json(law) + "\n", settings);
     return ExitCode::kOk;
   }
   fmt::print("{}\nformula  {}\nsource   {}\nrange    {}\n", law.name(), law.formula, law.source,
@@ -124,14 +129,28 @@ std::vector<LawPoint> Points(const CompareArguments& arguments) {
   return points;
 }
 
-// A row for each law, a column for each restitution asked for.
-std::string CompareTable(const std::vector<LawPoint>& points, std::size_t columns,
-                         const Style& style) {
+// Of csv a row for each point; else a column for each restitution asked for.
+std::vector<Table::Column> CompareColumns(const CompareArguments& arguments, bool csv) {
+  if (csv) return {{"law"}, {"requested"}, {"delivered"}, {"miss"}, {"method"}};
   std::vector<Table::Column> header = {{"LAW"}};
-  for (std::size_t i = 0; i < columns; ++i) {
-    header.push_back({fmt::format("{}", points[i].requested), true});
+  for (const double e : arguments.restitutions) header.push_back({fmt::to_string(e), true});
+  return header;
+}
+
+std::string CompareCsv(const std::vector<LawPoint>& points, const CompareArguments& arguments) {
+  Table table(CompareColumns(arguments, true));
+  for (const LawPoint& p : points) {
+    table.Add({std::string(p.law->name()), fmt::to_string(p.requested), fmt::to_string(p.delivered),
+               fmt::to_string(p.miss()), std::string(p.method)});
   }
-  Table table(std::move(header));
+  return table.Csv(arguments.columns.names());
+}
+
+// A row for each law.
+std::string CompareTable(const std::vector<LawPoint>& points, const CompareArguments& arguments,
+                         const Style& style) {
+  const std::size_t columns = arguments.restitutions.size();
+  Table table(CompareColumns(arguments, false));
   for (std::size_t first = 0; first < points.size(); first += columns) {
     std::vector<Table::Cell> row = {std::string(points[first].law->name())};
     for (std::size_t i = first; i < first + columns; ++i) {
@@ -147,16 +166,14 @@ std::string CompareTable(const std::vector<LawPoint>& points, std::size_t column
 ExitCode Compare(const CompareArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "json", "csv"});
   std::vector<LawPoint> points = Points(arguments);
+  arguments.columns.Check(CompareColumns(arguments, settings.output == "csv"), settings);
   Simulate(&points, settings);
   if (settings.output == "json") {
-    fmt::print("{}", JsonList(points));
+    PrintJson(JsonList(points), settings);
   } else if (settings.output == "csv") {
-    fmt::print("law,requested,delivered,miss,method\n");
-    for (const LawPoint& p : points) {
-      fmt::print("{},{},{},{},{}\n", p.law->name(), p.requested, p.delivered, p.miss(), p.method);
-    }
+    fmt::print("{}", CompareCsv(points, arguments));
   } else {
-    fmt::print("{}", CompareTable(points, arguments.restitutions.size(), settings.OutputStyle()));
+    fmt::print("{}", CompareTable(points, arguments, arguments.columns.OutputStyle(settings)));
   }
   return ExitCode::kOk;
 }
@@ -166,8 +183,12 @@ ExitCode Compare(const CompareArguments& arguments, const Settings& settings) {
 void AddModelCommands(CLI::App& app, const Settings& settings, Action* action) {
   CLI::App* model = app.add_subcommand("model", "Show and compare damping laws");
   model->require_subcommand(1);
-  model->add_subcommand("list", "List the laws with formula and source")
-      ->callback([&settings, action] { *action = [&settings] { return List(settings); }; });
+  CLI::App* list = model->add_subcommand("list", "List the laws with formula and source");
+  auto columns = std::make_shared<ColumnChoice>();
+  columns->AddTo(*list, ListColumns());
+  list->callback([columns, &settings, action] {
+    *action = [columns, &settings] { return List(*columns, settings); };
+  });
 
   CLI::App* show = model->add_subcommand("show", "Show one law and what it delivers");
   auto name = std::make_shared<std::string>();
@@ -186,6 +207,7 @@ void AddModelCommands(CLI::App& app, const Settings& settings, Action* action) {
       ->delimiter(',')
       ->take_all()
       ->allow_extra_args(false);
+  arguments->columns.AddTo(*compare);
   compare->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Compare(*arguments, settings); };
   });

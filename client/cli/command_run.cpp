@@ -5,11 +5,13 @@
 #include <memory>
 
 #include "cli/checked_scenario.h"
+#include "cli/column_choice.h"
 #include "cli/commands.h"
 #include "cli/follow.h"
 #include "cli/job_options.h"
 #include "cli/job_source.h"
 #include "cli/no_limits.h"
+#include "cli/render_job.h"
 #include "cli/render_json.h"
 #include "cli/sweep_file.h"
 #include "cli/templates.h"
@@ -22,11 +24,13 @@ struct RunArguments {
   std::string like;           ///< The job that is repeated instead of a file.
   std::string from_template;  ///< The shipped scenario that is taken instead of a file.
   std::vector<std::string> overrides;
+  std::vector<std::string> variables;  ///< --var
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions job;
   std::string rows = "first";  ///< Of the μ-iteration.
   bool cancel_on_interrupt = false;
+  ColumnChoice columns;
 };
 
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
@@ -66,7 +70,9 @@ ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
   }
   TellOfOtherServer(client, job);
-  return Checked(ScenarioFile(job.name(), ToJsonLine(job.scenario())), arguments.overrides);
+  return Checked(
+      ScenarioFile(job.name(), ToJsonLine(job.scenario()), ParseVariables(arguments.variables)),
+      arguments.overrides);
 }
 
 ScenarioFile OpenTemplate(const RunArguments& arguments) {
@@ -76,7 +82,8 @@ ScenarioFile OpenTemplate(const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, fmt::format("{0} is a sweep; contactctl init {0} writes it",
                                                 arguments.from_template));
   }
-  return Checked(ScenarioFile(arguments.from_template, text), arguments.overrides);
+  return Checked(ScenarioFile(arguments.from_template, text, ParseVariables(arguments.variables)),
+                 arguments.overrides);
 }
 
 ScenarioFile Open(Client& client, const RunArguments& arguments) {
@@ -87,7 +94,8 @@ ScenarioFile Open(Client& client, const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, "give a FILE, --template NAME or --like JOB, one of them");
   }
   if (!arguments.from_template.empty()) return OpenTemplate(arguments);
-  return arguments.like.empty() ? OpenChecked(arguments.file, arguments.overrides, kNoLimits)
+  return arguments.like.empty() ? OpenChecked(arguments.file, arguments.overrides, kNoLimits,
+                                              ParseVariables(arguments.variables))
                                 : OpenLike(client, arguments);
 }
 
@@ -122,6 +130,7 @@ IterationRows RowsOf(const std::string& word) {
 
 ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "json", "name"});
+  arguments.columns.Check(LedgerColumns(), settings);
   const auto deadline = settings.Deadline();
   Client client = settings.Connect();
   const v1::Job job = Create(client, arguments);
@@ -131,7 +140,7 @@ ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   }
 
   const v1::Job result = GetJob(client, job.name());
-  PrintJob(result, settings);
+  PrintJob(result, settings, arguments.columns.names());
   if (settings.output == "table") fmt::print(stderr, "{}", NextSteps(result));
   return Outcome(result);
 }
@@ -153,6 +162,7 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
       ->type_name("FIELD=VALUE")
       ->take_all()
       ->allow_extra_args(false);
+  AddVariableFlag(command, &arguments->variables);
   command
       .add_option("--label", arguments->labels, "Label of the job, to find it again; repeatable")
       ->type_name("KEY=VALUE")
@@ -175,6 +185,7 @@ void AddFollowing(CLI::App& run, RunArguments* arguments) {
       ->capture_default_str();
   run.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
                "A first Ctrl-C cancels the job instead of leaving it to the server");
+  arguments->columns.AddTo(run, LedgerColumns());
 }
 
 }  // namespace

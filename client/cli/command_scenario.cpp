@@ -25,6 +25,7 @@ namespace {
 struct ValidateArguments {
   std::string file;
   std::vector<std::string> overrides;
+  std::vector<std::string> variables;  ///< --var
   bool on_server = false;
 };
 
@@ -56,7 +57,7 @@ ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& te
   if (!arguments.overrides.empty()) {
     throw Failure(ExitCode::kUsage, "--set is for scenarios; a sweep has axes");
   }
-  const v1::Sweep sweep = ReadSweep(arguments.file, text);
+  const v1::Sweep sweep = ReadSweep(arguments.file, text, ParseVariables(arguments.variables));
   fmt::print(
       "{}: valid; {}, {}, {}\n", arguments.file,
       Count(
@@ -73,7 +74,8 @@ ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) 
   settings.RequireOutput({"table"});
   const std::string text = ReadText(arguments.file);
   if (IsSweep(text)) return ValidateSweep(arguments, text, settings);
-  ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text);
+  ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text,
+                    ParseVariables(arguments.variables));
   for (const std::string& assignment : arguments.overrides) file.Set(assignment);
   file.Check();
   RequireNoMistakes(file);
@@ -157,6 +159,7 @@ void AddScenarioCommands(CLI::App& app, const Settings& settings, Action* action
       ->type_name("FIELD=VALUE")
       ->take_all()
       ->allow_extra_args(false);
+  AddVariableFlag(*validate, &scenario->variables);
   validate->add_flag("--on-server", scenario->on_server,
                      "Ask the server too, whose limits may be narrower");
   validate->callback([scenario, &settings, action] {

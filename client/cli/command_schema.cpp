@@ -17,8 +17,11 @@ struct SchemaArguments {
 ExitCode Schema(const SchemaArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "json"});
   const Contract contract;
-  fmt::print("{}", arguments.markdown ? ReferenceInMarkdown(ScenarioReference(contract))
-                                      : JsonSchema(contract, arguments.kind));
+  if (arguments.markdown) {
+    fmt::print("{}", ReferenceInMarkdown(ScenarioReference(contract)));
+  } else {
+    PrintJson(JsonSchema(contract, arguments.kind), settings);
+  }
   return ExitCode::kOk;
 }
 

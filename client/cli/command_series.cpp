@@ -54,7 +54,7 @@ ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
   if (settings.output == "csv") {
     fmt::print("{}{}", Comments(client, arguments), SeriesCsv(series));
   } else if (settings.output == "json") {
-    fmt::print("{}", SeriesJson(series));
+    PrintJson(SeriesJson(series), settings);
   } else {
     fmt::print("{}", RenderSeries(series, settings.OutputStyle()));
   }

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 
 #include "cli/backup_file.h"
 #include "cli/commands.h"
+#include "cli/failure.h"
+#include "cli/http_get.h"
 #include "cli/number.h"
 #include "cli/render_json.h"
 #include "version.h"
@@ -23,7 +26,7 @@ ExitCode Status(const Settings& settings) {
   Client client = settings.Connect();
   const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
   if (settings.output == "json") {
-    fmt::print("{}", ToJson(info));
+    PrintJson(ToJson(info), settings);
     return ExitCode::kOk;
   }
   const v1::ServerLimits& limits = info.limits();
@@ -50,6 +53,23 @@ ExitCode Backup(const std::string& path, const Settings& settings) {
   return ExitCode::kOk;
 }
 
+// The page as Prometheus reads it.
+ExitCode Metrics(const std::string& address, const Settings& settings) {
+  settings.RequireOutput({"table"});
+  constexpr std::chrono::seconds kTimeout{10};
+  try {
+    fmt::print("{}",
+               HttpGet(address, "/metrics",
+                       settings.timeout.empty() ? kTimeout : ParseDuration(settings.timeout)));
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::kUnreachable) throw;
+    throw Failure(failure.code(), fmt::format("no metrics at {}: a server tells them with contactd "
+                                              "--metrics-listen HOST:PORT, --metrics names that",
+                                              failure.what()));
+  }
+  return ExitCode::kOk;
+}
+
 }  // namespace
 
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action) {
@@ -71,6 +91,15 @@ void AddServerCommands(CLI::App& app, const Settings& settings, Action* action) 
                    "server's start")
       ->required()
       ->type_name("FILE");
+  CLI::App* metrics = server->add_subcommand(
+      "metrics", "Print the metrics of a server that was started with --metrics-listen");
+  auto address = std::make_shared<std::string>("127.0.0.1:9464");
+  metrics->add_option("--metrics", *address, "Where the server tells them")
+      ->type_name("HOST:PORT")
+      ->capture_default_str();
+  metrics->callback([address, &settings, action] {
+    *action = [address, &settings] { return Metrics(*address, settings); };
+  });
   backup->callback([path, &settings, action] {
     *action = [path, &settings] { return Backup(*path, settings); };
   });

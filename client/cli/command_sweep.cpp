@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include "cli/column_choice.h"
 #include "cli/commands.h"
 #include "cli/drawing.h"
 #include "cli/follow.h"
@@ -27,6 +29,7 @@ namespace {
 struct SweepArguments {
   std::string file;
   std::string job;
+  std::vector<std::string> variables;  ///< --var
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions settings;
@@ -37,14 +40,23 @@ struct SweepArguments {
   int random = 0, latin_hypercube = 0;  ///< Cells to draw from the axes.
   std::int64_t seed = 0;
   bool cancel_on_interrupt = false;
+  ColumnChoice columns;
 };
 
 // Gathers cells, and tells how far the sweep is.
 class CellWatcher final : public WatchObserver {
  public:
-  explicit CellWatcher(ProgressForm form) : form_(form) {}
+  CellWatcher(const std::string& job, const Settings& settings) : form_(settings.Progress()) {
+    const bool json = form_ == ProgressForm::kJson;
+    if (json || settings.TaskbarProgress()) {
+      signals_.emplace(stderr, ShortName(job), json, settings.TaskbarProgress());
+    }
+  }
   ~CellWatcher() override { Erase(); }
 
+  void OnSnapshot(const v1::Job& job) override {
+    if (job.has_progress() && signals_) signals_->Hear(job.progress());
+  }
   void OnEvent(const v1::Event& event) override {
     if (event.has_sweep_cell()) cells_[event.sweep_cell().index()] = event.sweep_cell();
     if (event.has_progress()) Show(event.progress());
@@ -57,6 +69,7 @@ class CellWatcher final : public WatchObserver {
 
  private:
   void Show(const v1::Progress& progress) {
+    if (signals_) signals_->Hear(progress);
     const double done = PartDone(progress);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     const std::string words = fmt::format(
@@ -76,6 +89,7 @@ class CellWatcher final : public WatchObserver {
   }
 
   const ProgressForm form_;
+  std::optional<ProgressSignals> signals_;  ///< Unless nobody wants them.
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SweepCells cells_;
   int told_tenths_ = 0;
@@ -93,17 +107,24 @@ int MetricOf(const v1::Sweep& sweep, const std::string& name) {
                 fmt::format("--metric {}: the sweep has none of this name", name));
 }
 
+// Throws Failure (kUsage) unless the sweep has the metric and the columns that are named.
+void CheckNames(const v1::Sweep& sweep, const SweepArguments& arguments, const Settings& settings) {
+  MetricOf(sweep, arguments.metric);
+  arguments.columns.Check(settings.output == "csv" ? SweepCsvColumns(sweep) : SweepColumns(sweep),
+                          settings);
+}
+
 void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments,
            const Settings& settings) {
   if (settings.output == "csv") {
     fmt::print("{}{}", arguments.comments ? Lines({SourceOf(job)}, "# ") : "",
-               SweepCsv(job.sweep(), cells));
+               SweepCsv(job.sweep(), cells, arguments.columns.names()));
   } else if (settings.output == "json") {
-    fmt::print("{}", SweepJson(job, cells));
+    PrintJson(SweepJson(job, cells), settings);
   } else if (settings.output == "name") {
     fmt::print("{}\n", job.name());
   } else {
-    const Style style = settings.OutputStyle();
+    const Style style = arguments.columns.OutputStyle(settings);
     fmt::print("{}{}", RenderSweep(job, cells, style),
                HeatMap(job.sweep(), cells, MetricOf(job.sweep(), arguments.metric), style));
   }
@@ -127,7 +148,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   if (const v1::Job job = GetJob(client, name); !job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is no sweep; see contactctl describe", name));
   } else {
-    MetricOf(job.sweep(), arguments.metric);
+    CheckNames(job.sweep(), arguments, settings);
   }
   WatchOptions options;
   options.name = name;
@@ -140,8 +161,9 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
     const Interrupt interrupt;
     const bool submitted = arguments.job.empty() && settings.output == "table";
     if (submitted) fmt::print(stderr, "{} submitted\n", name);
-    CellWatcher watcher(settings.Progress());
+    CellWatcher watcher(name, settings);
     end = Watch(client, options, watcher);
+    if (end == WatchEnd::kFinished) watcher.OnSnapshot(GetJob(client, name));  // How far it came.
     cells = watcher.cells();
   }
   if (end != WatchEnd::kFinished) {
@@ -169,11 +191,13 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   const DrawnCells drawn{.count = std::max(arguments.random, arguments.latin_hypercube),
                          .latin_hypercube = arguments.latin_hypercube > 0,
                          .seed = arguments.seed};
+  const VariableValues variables = ParseVariables(arguments.variables);
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_sweep() =
-      arguments.grid.empty() ? OpenSweep(arguments.file)
-                             : MakeGrid(arguments.file, arguments.grid, arguments.metric, drawn);
-  MetricOf(request.job().sweep(), arguments.metric);
+      arguments.grid.empty()
+          ? OpenSweep(arguments.file, variables)
+          : MakeGrid(arguments.file, arguments.grid, arguments.metric, drawn, variables);
+  CheckNames(request.job().sweep(), arguments, settings);
   request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
@@ -213,6 +237,7 @@ CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::s
       ->add_option("--heatmap", arguments->heat_map,
                    "Draw it to this file too, through gnuplot: .svg, .png or .pdf")
       ->type_name("FILE");
+  arguments->columns.AddTo(*command);
   command->add_flag("--comments", arguments->comments,
                     "Begin csv with where it comes from, in lines that start with #");
   command->callback([arguments, act, &settings, action] {
@@ -232,6 +257,7 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
   run->add_option("FILE", arguments->file,
                   "Sweep in YAML or JSON; - is the standard input. With --grid a scenario")
       ->required();
+  AddVariableFlag(*run, &arguments->variables);
   CLI::Option* grid =
       run->add_option(
              "--grid", arguments->grid,

@@ -55,9 +55,10 @@ WatchOptions Options(const std::string& job, const Settings& settings) {
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
   if (settings.output == "jsonl") return std::make_unique<JsonLines>();
-  return std::make_unique<LiveView>(
-      stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
-      LiveView::Options{.job = arguments.job, .progress = settings.Progress()});
+  return std::make_unique<LiveView>(stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
+                                    LiveView::Options{.job = ShortName(arguments.job),
+                                                      .progress = settings.Progress(),
+                                                      .taskbar = settings.TaskbarProgress()});
 }
 
 // `1e-3x`: simulated seconds in a second.
@@ -120,8 +121,10 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   const Interrupt interrupt;
   const auto observer = Observer(arguments, settings);
   const WatchEnd end = Watch(client, options, *observer);
-  return end == WatchEnd::kFinished ? Outcome(GetJob(client, arguments.job))
-                                    : Detach(end, options.name);
+  if (end != WatchEnd::kFinished) return Detach(end, options.name);
+  const v1::Job job = GetJob(client, arguments.job);
+  observer->OnSnapshot(job);  // How far it came.
+  return Outcome(job);
 }
 
 ExitCode Wait(const std::string& job, const Settings& settings) {

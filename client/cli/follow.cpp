@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/interrupt.h"
+#include "cli/job_source.h"
 #include "cli/render_live.h"
 
 namespace contact::cli {
@@ -42,8 +43,11 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
                 {.cycles = false,
                  .most_iterations = rows == IterationRows::kAll ? 0 : kMostIterations,
                  .job = ShortName(name),
-                 .progress = settings.Progress()});
-  return Watch(client, options, view);
+                 .progress = settings.Progress(),
+                 .taskbar = settings.TaskbarProgress()});
+  const WatchEnd end = Watch(client, options, view);
+  if (end == WatchEnd::kFinished) view.OnSnapshot(GetJob(client, name));  // How far it came.
+  return end;
 }
 
 ExitCode Detach(WatchEnd end, const std::string& name) {

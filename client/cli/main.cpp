@@ -36,24 +36,27 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->capture_default_str();
   app.add_option(
          "-o,--output", settings->output,
-         "How to print: table, wide (a table with all columns), json, name; jsonl (list, watch, "
-         "export); csv (list, series, sweep, model, export); netcdf (export); svg, png, "
+         "How to print: table, wide (a table with all columns), json, yaml (what json says), "
+         "name; jsonl (list, watch, export); csv (list, series, sweep, model, export); netcdf "
+         "(export); svg, png, "
          "pdf, gp, csv (plot)")
-      ->check(CLI::IsMember(
-          {"table", "wide", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
+      ->check(CLI::IsMember({"table", "wide", "json", "yaml", "jsonl", "name", "csv", "netcdf",
+                             "svg", "png", "pdf", "gp"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->type_name("WHEN")
       ->capture_default_str();
-  app.add_option(
-         "--progress", settings->progress,
-         "How to tell how far a job is: bar, plain (a line for each tenth) or none; auto is "
-         "a bar on a terminal")
-      ->check(CLI::IsMember({"auto", "bar", "plain", "none"}))
+  app.add_option("--progress", settings->progress,
+                 "How to tell how far a job is: bar, plain (a line for each tenth), json (an "
+                 "object a line, "
+                 "for programs) or none; auto is a bar on a terminal")
+      ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}))
       ->type_name("HOW")
       ->capture_default_str();
+  app.add_flag("--taskbar-progress", settings->taskbar_progress,
+               "Show it in the task bar too, of terminals that can (OSC 9;4)");
   app.add_option("--timeout", settings->timeout,
                  "Give up after this time. Default: 10s for a call, none for run, watch and wait")
       ->type_name("TIME");

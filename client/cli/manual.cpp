@@ -135,7 +135,10 @@ std::string ScenarioPage() {
   std::string page = Head("contact-scenario", 5, "scenario and sweep files of contactctl");
   page +=
       "# DESCRIPTION\n\nA scenario file is one Scenario, a sweep file one Sweep, in YAML or JSON. "
-      "What may stand in them follows.\n\n# FIELDS\n\n";
+      "A mapping *variables* at its top has names and values; ${name} stands for the value "
+      "wherever "
+      "a value stands, in quotes within braces, and $${ is ${ itself. *--var* gives other values. "
+      "What else may stand in them follows.\n\n# FIELDS\n\n";
   for (const Chapter& chapter : ScenarioReference(Contract())) {
     page += fmt::format("## {}\n\n{}\n", chapter.name, Paragraphs(chapter.text));
     for (const Term& field : chapter.fields) {

@@ -75,23 +75,7 @@ std::string Treatment(const v1::Job& job) {
 
 std::string Ledger(const v1::Job& job, const Style& style) {
   if (job.cycles().empty()) return "";
-  Table table({{"CONTACT"},
-               {"#", true},
-               {"KIND"},
-               {"END", false, 2},
-               {"STATUS"},
-               {"n", true, 1},
-               {"μ", true},
-               {"α, or μ/k", true, 4},
-               {"ε IN", true},
-               {"ε OUT", true},
-               {"ERROR", true},
-               {"t START [s]", true, 3},
-               {"t END [s]", true, 3},
-               {"PEAK FORCE [N]", true, Table::kOnlyWide},
-               {"δ MAX [m]", true, Table::kOnlyWide},
-               {"W_c [J]", true, Table::kOnlyWide},
-               {"W_r [J]", true, Table::kOnlyWide}});
+  Table table(LedgerColumns());
   for (const v1::Cycle& cycle : job.cycles()) {
     table.Add({cycle.contact(),
                fmt::to_string(cycle.number()),
@@ -120,7 +104,9 @@ std::string Bodies(const v1::Job& job, const Style& style) {
   for (const v1::FinalBody& body : job.final_bodies()) {
     table.Add({body.name(), Digits(body.position_m(), 10), Digits(body.velocity_m_per_s(), 10)});
   }
-  return fmt::format("\n{}", table.Text(style, kMostRows, "… {} more bodies; -o json prints all"));
+  Style all = style;
+  all.columns.clear();
+  return fmt::format("\n{}", table.Text(all, kMostRows, "… {} more bodies; -o json prints all"));
 }
 
 std::string Balances(const v1::Job& job, const Style& style) {
@@ -139,6 +125,26 @@ std::string Balances(const v1::Job& job, const Style& style) {
 }
 
 }  // namespace
+
+std::vector<Table::Column> LedgerColumns() {
+  return {{"CONTACT"},
+          {"#", true, 0, "number"},
+          {"KIND"},
+          {"END", false, 2},
+          {"STATUS"},
+          {"n", true, 1, "iterations"},
+          {"μ", true, 0, "mu"},
+          {"α, or μ/k", true, 4, "alpha"},
+          {"ε IN", true, 0, "restitution_in"},
+          {"ε OUT", true, 0, "restitution_out"},
+          {"ERROR", true},
+          {"t START [s]", true, 3, "start_time"},
+          {"t END [s]", true, 3, "end_time"},
+          {"PEAK FORCE [N]", true, Table::kOnlyWide},
+          {"δ MAX [m]", true, Table::kOnlyWide, "delta_max"},
+          {"W_c [J]", true, Table::kOnlyWide, "work_compression"},
+          {"W_r [J]", true, Table::kOnlyWide, "work_restitution"}};
+}
 
 std::string RenderJob(const v1::Job& job, const Style& style) {
   std::string text = Title(job, style) + Wrap(Treatment(job), style);

@@ -1,13 +1,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/style.h"
+#include "cli/table.h"
 #include "contact/v1/job.pb.h"
 
 namespace contact::cli {
 
-/// A job for people: state, ledger, final bodies, balances, warnings.
+/// The columns of a job's ledger.
+std::vector<Table::Column> LedgerColumns();
+
+/// A job for people: state, ledger, final bodies, balances, warnings. The
+/// columns of the style are those of its ledger.
 std::string RenderJob(const v1::Job& job, const Style& style);
 
 /// `SUCCEEDED`, in its colour.

@@ -49,12 +49,18 @@ LiveView::LiveView(std::FILE* rows, const Style& rows_style, std::FILE* messages
       rows_style_(rows_style),
       messages_(messages),
       messages_style_(messages_style),
-      options_(std::move(options)) {}
+      options_(std::move(options)) {
+  const bool json = options_.progress == ProgressForm::kJson;
+  if (json || options_.taskbar) {
+    signals_.emplace(messages_, options_.job, json, options_.taskbar);
+  }
+}
 
 LiveView::~LiveView() { EraseProgress(); }
 
 void LiveView::OnSnapshot(const v1::Job& job) {
   if (job.has_progress() && !IsFinal(job.state())) progress_ = job.progress();
+  if (job.has_progress() && signals_) signals_->Hear(job.progress());
 }
 
 void LiveView::OnEvent(const v1::Event& event) {
@@ -78,6 +84,7 @@ void LiveView::OnEvent(const v1::Event& event) {
       return;
     case v1::Event::kProgress:
       progress_ = event.progress();
+      if (signals_) signals_->Hear(*progress_);
       return;
     default:  // Frames are for programs; of kinds to come nothing is known.
       return;
@@ -169,15 +176,9 @@ void LiveView::EraseProgress() {
   std::fflush(messages_);
 }
 
-double PartDone(const v1::Progress& progress) {
-  if (progress.cells() > 0) return static_cast<double>(progress.cells_done()) / progress.cells();
-  if (progress.end_time_s() <= 0) return 0;
-  return std::clamp(progress.time_s() / progress.end_time_s(), 0.0, 1.0);
-}
-
 std::string TimeLeft(double part_done, double elapsed_s) {
-  if (part_done <= 0.01) return "";
-  return fmt::format(", {} left", Seconds(elapsed_s * (1 - part_done) / part_done));
+  const std::optional<double> left = TimeToGo(part_done, elapsed_s);
+  return left ? fmt::format(", {} left", Seconds(*left)) : "";
 }
 
 std::string ProgressWords(const v1::Progress& progress, double elapsed_s) {

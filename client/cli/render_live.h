@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/progress_signals.h"
 #include "cli/style.h"
 #include "cli/watch.h"
 
@@ -20,6 +21,7 @@ class LiveView : public WatchObserver {
     int most_iterations = 0;  ///< Rows of the iteration table; 0: all.
     std::string job;          ///< To say how to see the rest.
     ProgressForm progress = ProgressForm::kNone;
+    bool taskbar = false;  ///< Show progress in the task bar of the terminal too.
   };
 
   /// Events go to `rows`, the line of progress and troubles to `messages`, which may be the same.
@@ -48,6 +50,7 @@ class LiveView : public WatchObserver {
   Options options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<v1::Progress> progress_;
+  std::optional<ProgressSignals> signals_;  ///< Unless nobody wants them.
   std::int64_t iterations_ = 0;
   bool header_shown_ = false;
   bool drawn_ = false;
@@ -60,9 +63,6 @@ std::string ProgressWords(const v1::Progress& progress, double elapsed_s);
 /// The same after a bar, at most `width` characters (0: no limit).
 std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width,
                            bool utf8 = true);
-
-/// The part of a run or sweep that is done, from 0 to 1.
-double PartDone(const v1::Progress& progress);
 
 /// `, 3.2 s left`, if enough is done to tell.
 std::string TimeLeft(double part_done, double elapsed_s);

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/export_text.h"
 #include "cli/number.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
@@ -84,16 +83,20 @@ std::string Glyph(const v1::SweepCell* cell, int metric, const Scale& scale, con
   return Paint(fmt::format("{}!", shade), Tone::kWarning, style);
 }
 
+// The columns of cell, axes and metrics. Metrics are the first to be left out.
+std::vector<Table::Column> Quantities(const v1::Sweep& sweep) {
+  std::vector<Table::Column> columns{{"CELL", true}};
+  for (const auto& axis : sweep.axes()) columns.push_back({axis.field(), true, 0, axis.field()});
+  for (const std::string& metric : sweep.metrics()) {
+    columns.push_back({metric, true, static_cast<int>(columns.size()), metric});
+  }
+  return columns;
+}
+
 }  // namespace
 
 std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style& style) {
-  std::vector<Table::Column> columns{{"CELL", true}};
-  for (const auto& axis : job.sweep().axes()) columns.push_back({axis.field(), true});
-  for (const std::string& metric : job.sweep().metrics()) {
-    columns.push_back({metric, true, static_cast<int>(columns.size())});
-  }
-  columns.push_back({"VERDICT"});
-  Table table(std::move(columns));
+  Table table(SweepColumns(job.sweep()));
   for (const auto& [index, cell] : cells) {
     std::vector<Table::Cell> row{fmt::to_string(index)};
     for (const double value : cell.values()) row.emplace_back(Digits(value, 6));
@@ -149,22 +152,33 @@ std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
                      style);
 }
 
-std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells) {
-  std::string text = "cell";
-  for (const auto& axis : sweep.axes()) text.append(",").append(CsvText(axis.field()));
-  for (const std::string& metric : sweep.metrics()) text.append(",").append(CsvText(metric));
-  text += ",state,convergence,message\n";
+std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells,
+                     const std::vector<std::string>& columns) {
+  Table table(SweepCsvColumns(sweep));
   for (const auto& [index, cell] : cells) {
-    text += fmt::to_string(index);
-    for (const double value : cell.values()) text += fmt::format(",{}", value);
-    for (const double metric : cell.metrics()) text += fmt::format(",{}", metric);
-    for (int i = cell.metrics_size(); i < sweep.metrics_size(); ++i) text += ",nan";
+    std::vector<Table::Cell> row{fmt::to_string(index)};
+    for (const double value : cell.values()) row.emplace_back(fmt::to_string(value));
+    for (const double metric : cell.metrics()) row.emplace_back(fmt::to_string(metric));
+    for (int i = cell.metrics_size(); i < sweep.metrics_size(); ++i) row.emplace_back("nan");
     const bool failed = cell.state() == v1::Job::FAILED;
-    text += fmt::format(",{},{},{}\n", v1::Job::State_Name(cell.state()),
-                        failed ? "" : v1::Job::Convergence_Name(cell.convergence()),
-                        CsvText(failed ? cell.state_reason() + ": " + cell.message() : ""));
+    row.emplace_back(v1::Job::State_Name(cell.state()));
+    row.emplace_back(failed ? "" : v1::Job::Convergence_Name(cell.convergence()));
+    row.emplace_back(failed ? cell.state_reason() + ": " + cell.message() : "");
+    table.Add(std::move(row));
   }
-  return text;
+  return table.Csv(columns);
+}
+
+std::vector<Table::Column> SweepColumns(const v1::Sweep& sweep) {
+  std::vector<Table::Column> columns = Quantities(sweep);
+  columns.push_back({"VERDICT"});
+  return columns;
+}
+
+std::vector<Table::Column> SweepCsvColumns(const v1::Sweep& sweep) {
+  std::vector<Table::Column> columns = Quantities(sweep);
+  for (const char* name : {"state", "convergence", "message"}) columns.push_back({name});
+  return columns;
 }
 
 std::string SweepJson(const v1::Job& job, const SweepCells& cells) {

@@ -3,8 +3,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/style.h"
+#include "cli/table.h"
 #include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
 
@@ -21,8 +23,14 @@ std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style
 std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
                     const Style& style);
 
-/// All cells as CSV: cell, axes, metrics, state, convergence, message.
-std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells);
+/// All cells as CSV: cell, axes, metrics, state, convergence, message; or the columns of these
+/// names, which Table::Csv knows.
+std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells,
+                     const std::vector<std::string>& columns = {});
+
+/// The columns of the table, and those of CSV.
+std::vector<Table::Column> SweepColumns(const v1::Sweep& sweep);
+std::vector<Table::Column> SweepCsvColumns(const v1::Sweep& sweep);
 
 /// The job and all cells as one JSON document.
 std::string SweepJson(const v1::Job& job, const SweepCells& cells);

@@ -95,6 +95,8 @@ void ResolveSettings(CLI::App& app, Settings* settings) {
   }
   settings->wide = settings->output == "wide";
   if (settings->wide) settings->output = "table";
+  settings->yaml = settings->output == "yaml";
+  if (settings->yaml) settings->output = "json";
 }
 
 }  // namespace contact::cli

@@ -35,19 +35,21 @@ std::string Format(const Diagnostic& diagnostic) {
   return text;
 }
 
-ScenarioFile ScenarioFile::Open(const std::string& path) {
-  return {path == "-" ? "<stdin>" : path, ReadText(path)};
+ScenarioFile ScenarioFile::Open(const std::string& path, const VariableValues& variables) {
+  return {path == "-" ? "<stdin>" : path, ReadText(path), variables};
 }
 
-ScenarioFile::ScenarioFile(std::string name, const std::string& text) : name_(std::move(name)) {
+ScenarioFile::ScenarioFile(std::string name, const std::string& text,
+                           const VariableValues& variables)
+    : name_(std::move(name)) {
   try {
-    ReadDocument(text);
+    ReadDocument(text, variables);
   } catch (const YAML::Exception& error) {
     AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
   }
 }
 
-void ScenarioFile::ReadDocument(const std::string& text) {
+void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& variables) {
   const std::vector<YAML::Node> documents = YAML::LoadAll(text);
   if (documents.empty() || documents.front().IsNull()) {
     return AddAt(YAML::Mark::null_mark(), "", "is empty", "contactctl init writes an example");
@@ -56,10 +58,12 @@ void ScenarioFile::ReadDocument(const std::string& text) {
   if (documents.size() > 1) {
     AddAt(documents[1].Mark(), "", "holds a second document", "a file is one scenario");
   }
-  const YamlReader reader([this](const YAML::Mark& mark, const std::string& field,
-                                 const std::string& what,
-                                 const std::string& hint) { AddAt(mark, field, what, hint); });
-  reader.ReadMessage(root_, "", &scenario_);
+  const YamlReader::Report report = [this](const YAML::Mark& mark, const std::string& field,
+                                           const std::string& what, const std::string& hint) {
+    AddAt(mark, field, what, hint);
+  };
+  RequireKnown(variables, ResolveVariables(variables, report, &root_));
+  YamlReader(report).ReadMessage(root_, "", &scenario_);
 }
 
 void ScenarioFile::Set(const std::string& assignment) {

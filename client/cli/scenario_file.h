@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/variables.h"
 #include "contact/v1/scenario.pb.h"
 #include "wire/scenario_codec.h"
 
@@ -29,10 +30,11 @@ std::string Format(const Diagnostic& diagnostic);
 class ScenarioFile {
  public:
   /// Reads `path`; `-` is the standard input. Throws Failure (kLocal) if there is no such file.
-  static ScenarioFile Open(const std::string& path);
+  static ScenarioFile Open(const std::string& path, const VariableValues& variables = {});
 
-  /// Reads `text`; `name` is what mistakes call it.
-  ScenarioFile(std::string name, const std::string& text);
+  /// Reads `text`; `name` is what mistakes call it. Throws Failure (kUsage) if it has not one of
+  /// the variables.
+  ScenarioFile(std::string name, const std::string& text, const VariableValues& variables = {});
 
   /// Overrides a field: `contacts[0].restitution=0.7`. `[*]` is every entry of a list. The value
   /// is YAML. Throws Failure (kUsage) if this is no assignment.
@@ -51,7 +53,7 @@ class ScenarioFile {
   std::vector<Diagnostic> diagnostics() const;
 
  private:
-  void ReadDocument(const std::string& text);
+  void ReadDocument(const std::string& text, const VariableValues& variables);
   void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint);
   bool MayFollowFrom(const std::vector<Diagnostic>& mistakes, const Violation& violation) const;
 

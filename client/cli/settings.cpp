@@ -10,16 +10,22 @@
 #include "cli/number.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
+#include "cli/render_yaml.h"
 
 namespace contact::cli {
 
 void Settings::RequireOutput(std::initializer_list<std::string_view> formats) const {
   if (std::ranges::find(formats, output) != formats.end()) return;
+  std::vector<std::string_view> known;
+  for (const std::string_view format : formats) {
+    known.push_back(format);
+    if (format == "json") known.emplace_back("yaml");
+  }
   const auto origin = origins.find("output");
   const bool flag = origin == origins.end() || origin->second == "--output";
   throw Failure(ExitCode::kUsage, fmt::format("{} {}: this command prints {}",
                                               flag ? "--output" : origin->second + ": output",
-                                              output, fmt::join(formats, ", ")));
+                                              yaml ? "yaml" : output, fmt::join(known, ", ")));
 }
 
 Client Settings::Connect() const {
@@ -34,9 +40,12 @@ std::optional<std::chrono::steady_clock::time_point> Settings::Deadline() const 
 
 ProgressForm Settings::Progress() const {
   if (progress == "plain") return ProgressForm::kLines;
+  if (progress == "json") return ProgressForm::kJson;
   const bool bar = progress == "bar" || (progress == "auto" && MessageStyle().terminal);
   return bar ? ProgressForm::kBar : ProgressForm::kNone;
 }
+
+bool Settings::TaskbarProgress() const { return taskbar_progress && MessageStyle().terminal; }
 
 Style Settings::OutputStyle() const {
   Style style = StyleOf(STDOUT_FILENO, color);
@@ -51,13 +60,20 @@ Style Settings::MessageStyle() const {
   return style;
 }
 
-void PrintJob(const v1::Job& job, const Settings& settings) {
+void PrintJson(const std::string& json, const Settings& settings) {
+  fmt::print("{}", settings.yaml ? YamlOfJson(json) : json);
+}
+
+void PrintJob(const v1::Job& job, const Settings& settings,
+              const std::vector<std::string>& columns) {
   if (settings.output == "name") {
     fmt::print("{}\n", job.name());
   } else if (settings.output == "json") {
-    fmt::print("{}", ToJson(job));
+    PrintJson(ToJson(job), settings);
   } else {
-    fmt::print("{}", RenderJob(job, settings.OutputStyle()));
+    Style style = settings.OutputStyle();
+    style.columns = columns;
+    fmt::print("{}", RenderJob(job, style));
   }
 }
 

@@ -13,14 +13,16 @@ enum class ProgressForm {
   kNone,
   kBar,    ///< A line that is drawn anew.
   kLines,  ///< A line for each tenth.
+  kJson,   ///< An object a line, for programs.
 };
 
 /// How to write to a stream.
 struct Style {
   bool terminal = false;  ///< Someone looks at it live.
   bool color = false;
-  int width = 0;      ///< Characters in a line; 0: no limit.
-  bool wide = false;  ///< Tables have all their columns.
+  int width = 0;                          ///< Characters in a line; 0: no limit.
+  bool wide = false;                      ///< Tables have all their columns.
+  std::vector<std::string> columns = {};  ///< Tables have only these, in this order; empty: all.
 };
 
 /// The style of an open file descriptor. `color` is auto, always or never; auto is in colour on

@@ -44,7 +44,8 @@ const google::protobuf::EnumDescriptor* EnumAt(const std::string& path) {
 // A sweep while it is read: gathers mistakes at their places.
 class SweepFile {
  public:
-  explicit SweepFile(std::string path) : path_(std::move(path)) {}
+  SweepFile(std::string path, VariableValues variables)
+      : path_(std::move(path)), variables_(std::move(variables)) {}
 
   v1::Sweep Read(const std::string& text) {
     try {
@@ -64,16 +65,21 @@ class SweepFile {
  private:
   void ReadRoot() {
     if (root_.IsNull()) return AddAt(root_.Mark(), "", "is empty", "a sweep has base and axes");
+    const YamlReader::Report report = [this](const YAML::Mark& mark, const std::string& field,
+                                             const std::string& what, const std::string& hint) {
+      AddAt(mark, field, what, hint);
+    };
+    const VariableValues own = ResolveVariables(variables_, report, &root_);
+    std::erase_if(variables_, [&own](const auto& given) { return own.contains(given.first); });
     YAML::Node rest = YAML::Clone(root_);
     if (rest.IsMap() && rest["base"].IsDefined() && rest["base"].IsScalar()) {
       OpenBase(rest["base"].Scalar());
       rest.remove("base");
+    } else {
+      RequireKnown(variables_, own);
     }
     NumberEnums(&rest);
-    const YamlReader reader([this](const YAML::Mark& mark, const std::string& field,
-                                   const std::string& what,
-                                   const std::string& hint) { AddAt(mark, field, what, hint); });
-    reader.ReadMessage(rest, "", &sweep_);
+    YamlReader(report).ReadMessage(rest, "", &sweep_);
   }
 
   // The values of an enum are its numbers on the wire; here they may be its words.
@@ -91,8 +97,9 @@ class SweepFile {
   }
 
   void OpenBase(const std::string& name) {
-    base_ = ScenarioFile::Open((std::filesystem::path(path_).parent_path() / name).string());
-    mistakes_ = base_->diagnostics();
+    base_ = ScenarioFile::Open((std::filesystem::path(path_).parent_path() / name).string(),
+                               variables_);
+    for (Diagnostic& mistake : base_->diagnostics()) mistakes_.push_back(std::move(mistake));
     *sweep_.mutable_base() = base_->scenario();
   }
 
@@ -124,6 +131,7 @@ class SweepFile {
   }
 
   const std::string path_;
+  VariableValues variables_;  ///< That are not the file's own.
   YAML::Node root_;
   std::optional<ScenarioFile> base_;  ///< If it is a file of its own.
   v1::Sweep sweep_;
@@ -193,14 +201,18 @@ std::string AxisEntry(const std::string& axis, bool drawn) {
 
 }  // namespace
 
-v1::Sweep OpenSweep(const std::string& path) { return ReadSweep(path, ReadText(path)); }
+v1::Sweep OpenSweep(const std::string& path, const VariableValues& variables) {
+  return ReadSweep(path, ReadText(path), variables);
+}
 
-v1::Sweep ReadSweep(const std::string& path, const std::string& text) {
-  return SweepFile(path).Read(text);
+v1::Sweep ReadSweep(const std::string& path, const std::string& text,
+                    const VariableValues& variables) {
+  return SweepFile(path, variables).Read(text);
 }
 
 v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
-                   const std::string& metric, const DrawnCells& drawn) {
+                   const std::string& metric, const DrawnCells& drawn,
+                   const VariableValues& variables) {
   std::string text = fmt::format("base: {}\naxes:\n", QuotedYaml(scenario));
   for (const std::string& axis : axes) text += AxisEntry(axis, drawn.count > 0);
   text += fmt::format("metrics: [{}]\n", QuotedYaml(metric.empty() ? "iterations" : metric));
@@ -209,7 +221,7 @@ v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& 
         fmt::format("combination: {}\ncount: {}\nseed: {}\n",
                     drawn.latin_hypercube ? "LATIN_HYPERCUBE" : "RANDOM", drawn.count, drawn.seed);
   }
-  return ReadSweep("--grid", text);
+  return ReadSweep("--grid", text, variables);
 }
 
 bool IsSweep(const std::string& text) {

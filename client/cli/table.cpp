@@ -1,10 +1,16 @@
 #include "cli/table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <string_view>
+
+#include "cli/export_text.h"
+#include "cli/failure.h"
+#include "wire/spelling.h"
 
 namespace contact::cli {
 namespace {
@@ -22,6 +28,35 @@ std::vector<std::string> Parts(const std::string& header) {
   return parts;
 }
 
+bool SameLetters(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](unsigned char left, unsigned char right) {
+    return std::tolower(left) == std::tolower(right);
+  });
+}
+
+// The column of this name or header. Throws Failure (kUsage) if there is none.
+std::size_t Find(const std::vector<Table::Column>& columns, const std::string& name) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    known.push_back(columns[i].Name());
+    if (SameLetters(name, known.back()) || name == columns[i].header) return i;
+  }
+  const std::string_view nearest = Nearest(name, {known.begin(), known.end()});
+  throw Failure(ExitCode::kUsage,
+                fmt::format("--columns: there is no column {}{} — there are {}", Quoted(name),
+                            nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest),
+                            fmt::join(known, ", ")));
+}
+
+// Those of these names, in their order; all without names.
+std::vector<std::size_t> Picked(const std::vector<Table::Column>& columns,
+                                const std::vector<std::string>& names) {
+  std::vector<std::size_t> picked;
+  for (const std::string& name : names) picked.push_back(Find(columns, name));
+  for (std::size_t i = 0; names.empty() && i < columns.size(); ++i) picked.push_back(i);
+  return picked;
+}
+
 int Widest(const std::vector<std::string>& texts) {
   int widest = 0;
   for (const std::string& text : texts) widest = std::max(widest, Width(TrimRight(text)));
@@ -29,6 +64,20 @@ int Widest(const std::vector<std::string>& texts) {
 }
 
 }  // namespace
+
+std::string Table::Column::Name() const {
+  if (!name.empty()) return name;
+  std::string made = header.substr(0, std::min(header.find(" ["), header.find(" (")));
+  std::ranges::transform(made, made.begin(), [](unsigned char c) {
+    return c == ' ' ? '_' : static_cast<char>(std::tolower(c));
+  });
+  return made;
+}
+
+void Table::RequireColumns(const std::vector<Column>& columns,
+                           const std::vector<std::string>& names) {
+  for (const std::string& name : names) Find(columns, name);
+}
 
 int Table::WidestCell(std::size_t column) const {
   int widest = 0;
@@ -47,7 +96,10 @@ Table::Layout Table::Full(const Style& style) const {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     layout.headers.push_back({columns_[i].header});
     layout.widths.push_back(std::max(Width(columns_[i].header), WidestCell(i)));
-    if (style.wide || columns_[i].spare != kOnlyWide) layout.shown.push_back(i);
+  }
+  layout.shown = Picked(columns_, style.columns);
+  if (!style.wide && style.columns.empty()) {
+    std::erase_if(layout.shown, [this](std::size_t i) { return columns_[i].spare == kOnlyWide; });
   }
   return layout;
 }
@@ -59,7 +111,7 @@ Table::Layout Table::Narrow(const Style& style) const {
     layout.widths[i] = std::max(Widest(parts), WidestCell(i));
     layout.headers[i] = Fold(parts, layout.widths[i]);
   }
-  while (layout.Total() > style.width) {
+  while (style.columns.empty() && layout.Total() > style.width) {
     const auto spare = [this](std::size_t i) { return columns_[i].spare; };
     const auto first = std::ranges::max_element(layout.shown, {}, spare);
     if (columns_[*first].spare <= 0) break;
@@ -128,6 +180,24 @@ std::string Table::Text(const Style& style, std::size_t most, const std::string&
       row = tail;
     }
     text += blocks ? Block(full, row, style) : Row(layout, row, style);
+  }
+  return text;
+}
+
+std::string Table::Csv(const std::vector<std::string>& names) const {
+  const std::vector<std::size_t> picked = Picked(columns_, names);
+  const auto line = [&picked](const auto& text_of) {
+    std::string text;
+    std::string_view separator;
+    for (const std::size_t i : picked) {
+      text.append(separator).append(CsvText(text_of(i)));
+      separator = ",";
+    }
+    return text + "\n";
+  };
+  std::string text = line([this](std::size_t i) { return columns_[i].Name(); });
+  for (const auto& row : rows_) {
+    text += line([&row](std::size_t i) { return row[i].text == "-" ? "" : row[i].text; });
   }
   return text;
 }

@@ -8,8 +8,8 @@
 namespace contact::cli {
 
 /// Rows of text in columns as wide as their widest cell. Where a terminal is too narrow, headers go
-/// over several lines; then columns are left out; and where not even the others fit, each row is a
-/// block of all its cells, one below the other.
+/// over several lines; then columns are left out, unless they were asked for; and where not even
+/// the others fit, each row is a block of all its cells, one below the other.
 class Table {
  public:
   static constexpr int kOnlyWide = -1;
@@ -18,6 +18,10 @@ class Table {
     bool right = false;  ///< Aligned to the right, as numbers are.
     /// > 0: left out on a narrow terminal, the highest first; kOnlyWide: shown in wide tables.
     int spare = 0;
+    /// What --columns and CSV call it; empty: its header in small letters without its unit.
+    std::string name = {};
+
+    std::string Name() const;
   };
   struct Cell {
     Cell(std::string words, Tone its_tone = Tone::kPlain)  // NOLINT(google-explicit-constructor)
@@ -25,6 +29,10 @@ class Table {
     std::string text;
     Tone tone;
   };
+
+  /// Throws Failure (kUsage) unless each of `names` is the name or header of a column.
+  static void RequireColumns(const std::vector<Column>& columns,
+                             const std::vector<std::string>& names);
 
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
@@ -34,6 +42,10 @@ class Table {
   /// The table, with at most `most` rows (0: all): of more, the first and the last are shown and
   /// `more` stands between them, its {} being how many are not.
   std::string Text(const Style& style, std::size_t most = 0, const std::string& more = "") const;
+
+  /// All rows as CSV below the names of the columns: of those named, or of all. A cell of `-` is
+  /// empty.
+  std::string Csv(const std::vector<std::string>& names = {}) const;
 
  private:
   struct Layout {

@@ -220,7 +220,9 @@ void YamlReader::ReadEnum(const YAML::Node& node, const std::string& path,
 
 void YamlReader::Refuse(const YAML::Node& node, const std::string& path,
                         const std::string& expected, const std::string& hint) const {
-  report_(node.Mark(), path, fmt::format("expected {}, got {}", expected, Shown(node)), hint);
+  const bool variable = node.IsScalar() && node.Scalar().find("${") != std::string::npos;
+  report_(node.Mark(), path, fmt::format("expected {}, got {}", expected, Shown(node)),
+          variable ? "give it a value below variables:" : hint);
 }
 
 }  // namespace contact::cli

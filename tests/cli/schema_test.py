@@ -83,6 +83,20 @@ class SchemaTest(ServerTest):
             kind = "sweep" if file.stem.endswith("-sweep") else "scenario"
             self.assertEqual(self.mistakes(kind, file.read_text()), [[]], file.name)
 
+    def test_variables_may_stand_for_any_value(self):
+        good = CHAIN.replace("title:", "variables: {e: 0.8, u: NEWTON, n: B1}\ntitle:").replace(
+            "restitution: 0.8", 'restitution: "${e}"').replace(
+            "solver: {", 'solver: {update: "${u}", max_iterations: "${e}", ').replace(
+            "between: [B1, B2]", 'between: ["${n}", B2]')
+        bad = [good.replace("e: 0.8", "e: [1]"), good.replace("e: 0.8", "a b: 1"),
+               CHAIN.replace("restitution: 0.8", 'restitution: "$e"')]
+        told, *wrong = self.mistakes("scenario", good, *bad)
+        self.assertEqual(told, [])
+        self.assertTrue(all(wrong), wrong)
+        sweep = SWEEP.replace("base:", "variables: {low: 0.1}\nbase:").replace(
+            "low: 0.1, high", 'low: "${low}", high')
+        self.assertEqual(self.mistakes("sweep", sweep), [[]])
+
     def test_sweep_may_hold_its_base(self):
         base = json.dumps({"bodies": [{"name": "A", "mass_kg": 1}], "end_time_s": 1})
         good = SWEEP.replace("three-ball-chain.yaml", base)

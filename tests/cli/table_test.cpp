@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "cli/failure.h"
+
 namespace contact::cli {
 namespace {
 
@@ -33,6 +35,41 @@ TEST(Table, SomeColumnsAreOfWideTablesOnly) {
   EXPECT_EQ(table.Text({}), "NAME\nB1-B2\n");
   EXPECT_EQ(table.Text({.width = 6}), "NAME\nB1-B2\n");
   EXPECT_EQ(table.Text({.wide = true}), "NAME   WORK\nB1-B2   2.5\n");
+}
+
+TEST(Table, ColumnsThatAreAskedForAreShownInTheirOrderHoweverNarrowTheTerminal) {
+  EXPECT_EQ(Example().Text({.columns = {"t", "end", "NAME"}}),
+            " t [s]  END         NAME\n"
+            "0.0021  SEPARATION  B1-B2\n"
+            "     3  -           δ\n");
+  EXPECT_EQ(Example().Text({.width = 25, .columns = {"t", "end", "NAME"}}),
+            Example().Text({.columns = {"t", "end", "NAME"}}));
+  Table table({{"NAME"}, {"W_c [J]", true, Table::kOnlyWide, "work"}});
+  table.Add({std::string("B1-B2"), std::string("2.5")});
+  EXPECT_EQ(table.Text({.columns = {"work"}}), "W_c [J]\n    2.5\n");
+}
+
+TEST(Table, CsvHasNamesWithoutUnitsAndNothingForADash) {
+  EXPECT_EQ(Example().Csv(),
+            "name,μ,end,t\n"
+            "B1-B2,2.26e8,SEPARATION,0.0021\n"
+            "δ,1,,3\n");
+  EXPECT_EQ(Example().Csv({"end", "name"}), "end,name\nSEPARATION,B1-B2\n,δ\n");
+  Table table({{"CREATED (UTC)"}, {"TIME LEFT"}});
+  table.Add({std::string(""), std::string("a, \"b\"")});
+  EXPECT_EQ(table.Csv(), "created,time_left\n,\"a, \"\"b\"\"\"\n");
+}
+
+TEST(Table, UnknownColumnIsToldWithThoseThatThereAre) {
+  try {
+    (void)Example().Text({.columns = {"name", "emd"}});
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::kUsage);
+    EXPECT_STREQ(failure.what(),
+                 "--columns: there is no column 'emd', did you mean 'end'? — there are name, μ, "
+                 "end, t");
+  }
 }
 
 TEST(Table, NarrowTerminalHasHeadersOfSeveralLinesFirst) {

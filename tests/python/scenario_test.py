@@ -41,6 +41,30 @@ class LoadTest(unittest.TestCase):
         self.assertEqual(scenario.solver.max_steps, 10**9)
         self.assertEqual(scenario.end_time_s, float("inf"))
 
+    def test_variables_stand_for_their_values(self):
+        text = ("variables: {e: 0.8, name: ball, side: left}\ntitle: ε is ${e}, $${e}\n"
+                "bodies: [{name: '${name}', mass_kg: 1}]\n"
+                "contacts:\n  - {between: ['${name}'], wall: {side: '${side}'}, restitution: '${e}'}\n")
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            scenario, other = load_scenario(file.name), load_scenario(file.name, {"e": 0.5})
+            with self.assertRaisesRegex(ValueError, "unknown variable 'ee': the file has e, name"):
+                load_scenario(file.name, {"ee": 0.5})
+        self.assertEqual(scenario.title, "ε is 0.8, ${e}")
+        self.assertEqual(scenario.bodies[0].name, "ball")
+        self.assertEqual(scenario.contacts[0].between, ["ball"])
+        self.assertEqual(scenario.contacts[0].wall.side, scenario_pb2.Wall.LEFT)
+        self.assertEqual(scenario.contacts[0].restitution, 0.8)
+        self.assertEqual(other.contacts[0].restitution, 0.5)
+        self.assertEqual(load_scenario({"title": "${e}"}).title, "${e}")  # Nothing is declared.
+
+    def test_undefined_variable_is_told_at_its_place(self):
+        self.assertInvalid({"variables": {"e": 0.8}, "contacts": [{"restitution": "${f}"}]},
+                           "contacts[0].restitution: undefined variable 'f' — there are e")
+        self.assertInvalid({"contacts": [{"restitution": "${f}"}]},
+                           "contacts[0].restitution: expected a number, got '${f}'")
+
     def test_json_file_and_dict_and_message_are_one(self):
         text = '{"bodies": [{"name": "A", "mass_kg": 2}], "loads": [{"gravity": {}}]}'
         message = scenario_pb2.Scenario(

@@ -42,6 +42,12 @@ ordered_json Double(const std::string& comment, Side side) {
   return {{"anyOf", {number, {{"enum", {"NaN", "Infinity", "-Infinity"}}}}}};
 }
 
+// A variable of the file, which may stand for any value.
+ordered_json OrVariable(const ordered_json& schema, Side side) {
+  if (side == Side::kPrinted) return schema;
+  return {{"anyOf", {schema, {{"$ref", "#/definitions/variable"}}}}};
+}
+
 void AddBounds(const FieldRules& rules, ordered_json* schema) {
   if (rules.low) {
     (*schema)[rules.low->open ? "exclusiveMinimum" : "minimum"] = rules.low->value;
@@ -122,7 +128,7 @@ class Maker {
     if (field.is_map()) {
       schema.update({{"type", "object"}, {"additionalProperties", {{"type", "string"}}}});
     } else if (field.is_repeated()) {
-      schema.update({{"type", "array"}, {"items", Single(field, comment)}});
+      schema.update({{"type", "array"}, {"items", Item(field, comment)}});
       if (rules.required) schema["minItems"] = 1;
       if (rules.max_entries) schema["maxItems"] = *rules.max_entries;
     } else if (named_base_ && field.full_name() == "contact.v1.Sweep.base") {
@@ -130,15 +136,25 @@ class Maker {
     } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
       schema["allOf"] = {Single(field, comment)};  // Beside $ref a description is not seen.
     } else {
-      schema.update(Single(field, comment));
-      AddBounds(rules, &schema);
+      schema.update(Scalar(field, comment, rules));
       AddDefault(field, rules.default_value, &schema);
-      if (rules.required && field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-        schema["minLength"] = 1;
-      }
-      if (rules.max_characters) schema["maxLength"] = *rules.max_characters;
     }
     return schema;
+  }
+
+  ordered_json Scalar(const FieldDescriptor& field, const std::string& comment,
+                      const FieldRules& rules) {
+    ordered_json schema = Single(field, comment);
+    AddBounds(rules, &schema);
+    const bool text = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING;
+    if (rules.required && text) schema["minLength"] = 1;
+    if (rules.max_characters) schema["maxLength"] = *rules.max_characters;
+    return text ? schema : OrVariable(schema, side_);
+  }
+
+  ordered_json Item(const FieldDescriptor& field, const std::string& comment) {
+    const bool message = field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+    return message ? Single(field, comment) : Scalar(field, comment, FieldRules());
   }
 
   ordered_json Single(const FieldDescriptor& field, const std::string& comment) {
@@ -166,6 +182,18 @@ class Maker {
   ordered_json definitions_ = ordered_json::object();
 };
 
+// Lets the message `type`, which is the whole file, declare variables.
+void AddVariables(const std::string& type, ordered_json* definitions) {
+  (*definitions)[type]["properties"]["variables"] = {
+      {"description", "Values by name, for ${name} in the file. --var NAME=VALUE gives others."},
+      {"type", "object"},
+      {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}},
+      {"additionalProperties", {{"type", {"number", "string", "boolean"}}}}};
+  (*definitions)["variable"] = {{"description", "The value of a variable of the file."},
+                                {"type", "string"},
+                                {"pattern", "\\$\\{[A-Za-z_][A-Za-z0-9_]*\\}"}};
+}
+
 }  // namespace
 
 std::string JsonSchema(const Contract& contract, const std::string& kind) {
@@ -179,6 +207,7 @@ std::string JsonSchema(const Contract& contract, const std::string& kind) {
   schema.erase("$ref");
   schema["allOf"] = {reference};
   schema["definitions"] = maker.definitions();
+  if (kind != "job") AddVariables(type, &schema["definitions"]);
   return schema.dump(2) + "\n";
 }
 

@@ -106,6 +106,24 @@ std::string InMarkdown(const Term& field) {
   return page;
 }
 
+constexpr char kVariables[] = R"(
+## Variables
+
+A file may begin with `variables`, names and their values; `${name}` in any value below stands for the
+value, also within a text. In braces or brackets it needs quotes. `$${` is `${` itself. contactctl and the
+Python client put the values in; what the server gets has none.
+
+```yaml
+variables: {restitution: 0.8, height_m: 1.0}
+title: Dropped from ${height_m} m
+bodies:
+  - {name: ball, mass_kg: 0.5, radius_m: 0.05, position_m: "${height_m}"}
+```
+
+`run`, `submit`, `validate` and `sweep run` take other values: `--var restitution=0.7`. Of a sweep file
+whose base is a file, each has its own variables; `--var` is for that which has the name.
+)";
+
 std::string Shipped() {
   std::string page = "| File | Shows |\n|---|---|\n";
   for (const Template& scenario : Templates()) {
@@ -132,6 +150,7 @@ std::string ReferenceInMarkdown(const std::vector<Chapter>& chapters) {
       "\nA scenario file is one `Scenario`, a sweep file one `Sweep`, in YAML or JSON. What may "
       "stand in\nthem follows. An editor that knows JSON Schema completes and checks it: see the "
       "first line of each\nfile, and `contactctl schema`.\n";
+  page += kVariables;
   for (const Chapter& chapter : chapters) {
     page += fmt::format("\n## {}\n\n{}", chapter.name, Paragraphs(chapter.text, ""));
     page += chapter.fields.empty() ? "" : "\n";

@@ -13,6 +13,7 @@ from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
 from .downloading import Download, PathLike
 from .errors import RunFailed, from_rpc
+from .progress import ProgressBar
 from .recording import KINDS, Recording
 from .result import Result
 from .scenario import ScenarioLike, load_scenario
@@ -59,14 +60,16 @@ class Client:
 
     def run(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
             on_event: Callable[[event_pb2.Event], None] | None = None,
-            timeout_s: float | None = None) -> Result:
+            progress: bool = False, timeout_s: float | None = None) -> Result:
         """Submits a scenario, follows it to its end and returns its result.
 
-        `on_event` hears every event as it happens. Raises InvalidScenario, RunFailed, and Timeout
-        after `timeout_s`; the job then goes on.
+        `on_event` hears every event as it happens; `progress` shows a bar, for which tqdm must be
+        installed. Raises InvalidScenario, RunFailed, and Timeout after `timeout_s`; the job then
+        goes on.
         """
         deadline = deadline_of(timeout_s)
-        return self._follow(self.submit(scenario, labels=labels).name, on_event, deadline)
+        with ProgressBar(progress) as bar:
+            return self._follow(self.submit(scenario, labels=labels).name, on_event, deadline, bar)
 
     def submit(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
                request_id: str | None = None) -> job_pb2.Job:
@@ -78,28 +81,33 @@ class Client:
 
     def sweep(self, scenario: ScenarioLike, grid: Mapping[str, Iterable[float]],
               metrics: Iterable[str] = ("iterations",), *,
-              labels: Mapping[str, str] | None = None,
+              labels: Mapping[str, str] | None = None, progress: bool = False,
               timeout_s: float | None = None) -> SweepResult:
         """Solves a scenario for every combination of values of its fields, as one job.
 
         `grid` has the values by path, such as `{"contacts[*].restitution": [0.9, 0.8]}`; `metrics`
         are paths of numbers in the result, such as `cycles[B1-B2].alpha`. Cells that fail or do
-        not converge do not raise: the result tells which. Raises InvalidScenario, RunFailed if the
+        not converge do not raise: the result tells which. `progress` shows a bar, for which tqdm
+        must be installed. Raises InvalidScenario, RunFailed if the
         whole sweep ended early, and Timeout after `timeout_s`; the job then goes on.
         """
         deadline = deadline_of(timeout_s)
         job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics), labels=labels)
         request = job_service_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
-        return self._sweep(self._call(self._stub.CreateJob, request).name, deadline)
+        with ProgressBar(progress) as bar:
+            return self._sweep(self._call(self._stub.CreateJob, request).name, deadline, bar)
 
     def sweep_result(self, job: JobLike, *, timeout_s: float | None = None) -> SweepResult:
         """The cells of a sweep, once it has ended."""
-        return self._sweep(job_name(job), deadline_of(timeout_s))
+        return self._sweep(job_name(job), deadline_of(timeout_s), ProgressBar(False))
 
-    def _sweep(self, name: str, deadline: float | None) -> SweepResult:
-        position = Position(name, self.address, 0, ["sweep_cell"], deadline)
-        cells = [event.sweep_cell for event in self._watch(position)
-                 if event.WhichOneof("payload") == "sweep_cell"]
+    def _sweep(self, name: str, deadline: float | None, bar: ProgressBar) -> SweepResult:
+        position = Position(name, self.address, 0, ["sweep_cell", *bar.kinds], deadline)
+        cells = []
+        for event in self._watch(position):
+            bar.hear(event)
+            if event.WhichOneof("payload") == "sweep_cell":
+                cells.append(event.sweep_cell)
         job = self.get(name)
         if job.state != job_pb2.Job.SUCCEEDED:
             raise RunFailed(job)
@@ -176,7 +184,7 @@ class Client:
 
     def result(self, job: JobLike, *, timeout_s: float | None = None) -> Result:
         """The result of a job: waits for its end and fetches all that it recorded."""
-        return self._follow(job_name(job), None, deadline_of(timeout_s))
+        return self._follow(job_name(job), None, deadline_of(timeout_s), ProgressBar(False))
 
     def get(self, job: JobLike) -> job_pb2.Job:
         """The job as it is now, with its ledger so far."""
@@ -208,12 +216,13 @@ class Client:
         return self._call(self._stub.GetServerInfo, job_service_pb2.GetServerInfoRequest())
 
     def _follow(self, name: str, on_event: Callable[[event_pb2.Event], None] | None,
-                deadline: float | None) -> Result:
+                deadline: float | None, bar: ProgressBar) -> Result:
         recording = Recording()
-        kinds = () if on_event else KINDS
+        kinds = () if on_event else (*KINDS, *bar.kinds)
         for event in self._watch(Position(name, self.address, 0, kinds, deadline,
                                           delivery=WHOLE)):
             recording.add(event)
+            bar.hear(event)
             if on_event:
                 on_event(event)
         return ended(self.get(name), recording)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import os
 import pathlib
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, Union
 
@@ -14,23 +15,29 @@ from google.protobuf.descriptor import Descriptor, EnumDescriptor, FieldDescript
 
 from .errors import InvalidScenario, Violation
 
+_VARIABLE = re.compile(r"\$\$\{|\$\{([^}]+)\}")
+
 ScenarioLike = Union[scenario_pb2.Scenario, Mapping[str, Any], str, "os.PathLike[str]"]
 
 
-def load_scenario(source: ScenarioLike) -> scenario_pb2.Scenario:
+def load_scenario(source: ScenarioLike,
+                  variables: Mapping[str, Any] | None = None) -> scenario_pb2.Scenario:
     """The scenario of a dict, of a YAML or JSON file, or the message itself.
 
-    Raises InvalidScenario with every field that does not exist or has the wrong type. Ranges are
-    for the server to check.
+    `variables` are other values for those that the file declares and uses as `${name}`. Raises
+    ValueError if it has not one of them, and InvalidScenario with every field that does not exist
+    or has the wrong type. Ranges are for the server to check.
     """
     if isinstance(source, scenario_pb2.Scenario):
+        if variables:
+            raise ValueError("a message has no variables")
         return source
     if not isinstance(source, Mapping):
         # BaseLoader: every scalar stays text, so that 1e8, on and 007 mean what they say.
         source = yaml.load(pathlib.Path(source).read_bytes(), yaml.BaseLoader)
     scenario = scenario_pb2.Scenario()
     reader = _Reader()
-    reader.message(source, "", scenario)
+    reader.message(reader.resolved(source, variables or {}), "", scenario)
     if reader.violations:
         raise InvalidScenario(reader.violations)
     return scenario
@@ -41,6 +48,37 @@ class _Reader:
 
     def __init__(self) -> None:
         self.violations: list[Violation] = []
+
+    def resolved(self, source: Any, given: Mapping[str, Any]) -> Any:
+        """The document without its `variables`, their values where it names them."""
+        declared = source.get("variables") if isinstance(source, Mapping) else None
+        values = dict(declared) if isinstance(declared, Mapping) else {}
+        for name in given:
+            if name not in values:
+                known = ", ".join(values) or "none"
+                raise ValueError(f"unknown variable '{name}': the file has {known}")
+        if not isinstance(source, Mapping) or "variables" not in source:
+            return source
+        values.update(given)
+        return {key: self._put(value, values, str(key)) for key, value in source.items()
+                if key != "variables"}
+
+    def _put(self, part: Any, values: Mapping[str, Any], path: str) -> Any:
+        if isinstance(part, Mapping):
+            return {key: self._put(value, values, f"{path}.{key}") for key, value in part.items()}
+        if isinstance(part, (list, tuple)):
+            return [self._put(value, values, f"{path}[{i}]") for i, value in enumerate(part)]
+        if not isinstance(part, str):
+            return part
+        unknown = [name for name in _VARIABLE.findall(part) if name and name not in values]
+        if unknown:
+            known = f"there are {', '.join(values)}" if values else "the file has none"
+            self.violations.append(Violation(path, f"undefined variable '{unknown[0]}'", known))
+            return None
+        alone = _VARIABLE.fullmatch(part)
+        if alone and alone[1]:
+            return values[alone[1]]
+        return _VARIABLE.sub(lambda found: str(values[found[1]]) if found[1] else "${", part)
 
     def message(self, source: Any, path: str, message: Any) -> None:
         if source is None or source == "":
