@@ -35,15 +35,15 @@ struct InitArguments {
   bool force = false;
 };
 
-// Limits are the server's own, and may be narrower than those that are checked here.
+// Limits are the server's own, and may be narrower than those that are checked here. What it
+// advises was told already.
 ExitCode ValidateOnServer(const v1::Job& job, const Settings& settings) {
   v1::CreateJobRequest request;
   *request.mutable_job() = job;
   request.set_validate_only(true);
   Client client = settings.Connect();
   try {
-    const v1::Job checked = client.Call(&Client::Stub::CreateJob, request);
-    for (const std::string& warning : checked.warnings()) fmt::print("warning: {}\n", warning);
+    client.Call(&Client::Stub::CreateJob, request);
   } catch (const CallFailure& failure) {
     throw failure.AllTold();
   }
@@ -77,6 +77,7 @@ ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) 
   for (const std::string& assignment : arguments.overrides) file.Set(assignment);
   file.Check();
   RequireNoMistakes(file);
+  TellAdvice(file);
   const v1::Scenario& scenario = file.scenario();
   fmt::print("{}: valid; {}, {}, {}, {}, {}\n", arguments.file,
              Count(scenario.bodies_size(), "body", "bodies"),

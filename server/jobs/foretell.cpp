@@ -1,0 +1,26 @@
+#include "jobs/foretell.h"
+
+#include <vector>
+
+#include "wire/scenario_advice.h"
+
+namespace contact {
+namespace {
+
+void AddWarnings(const std::vector<Violation>& advice, v1::Job* job) {
+  for (const Violation& a : advice) job->add_warnings(Text(a));
+}
+
+}  // namespace
+
+void Foretell(const ScenarioLimits& limits, v1::Job* job) {
+  if (job->has_sweep()) {
+    const DecodedSweep plan = DecodeSweep(job->sweep(), limits);
+    AddWarnings(Advise(job->sweep(), plan), job);
+  } else {
+    const DecodedScenario decoded = DecodeScenario(job->scenario(), limits);
+    AddWarnings(Advise(job->scenario(), decoded.scenario), job);
+  }
+}
+
+}  // namespace contact
