@@ -12,6 +12,7 @@
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
 #include "cli/number.h"
+#include "cli/render_estimate.h"
 #include "cli/sweep_file.h"
 #include "cli/table.h"
 #include "cli/templates.h"
@@ -42,12 +43,15 @@ ExitCode ValidateOnServer(const v1::Job& job, const Settings& settings) {
   *request.mutable_job() = job;
   request.set_validate_only(true);
   Client client = settings.Connect();
+  v1::Job checked;
   try {
-    client.Call(&Client::Stub::CreateJob, request);
+    checked = client.Call(&Client::Stub::CreateJob, request);
   } catch (const CallFailure& failure) {
     throw failure.AllTold();
   }
-  fmt::print("contactd at {} would take it\n", client.server());
+  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  fmt::print("contactd at {} would take it\n{}", client.server(),
+             RenderEstimate(checked, info.limits(), settings.OutputStyle()));
   return ExitCode::kOk;
 }
 
@@ -159,7 +163,7 @@ void AddScenarioCommands(CLI::App& app, const Settings& settings, Action* action
       ->take_all()
       ->allow_extra_args(false);
   validate->add_flag("--on-server", scenario->on_server,
-                     "Ask the server too, whose limits may be narrower");
+                     "Ask the server too: whether it would take it, and what that would take");
   validate->callback([scenario, &settings, action] {
     *action = [scenario, &settings] { return Validate(*scenario, settings); };
   });

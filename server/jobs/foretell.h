@@ -5,7 +5,7 @@
 
 namespace contact {
 
-/// Adds to a valid job what the answer to `validate_only` has besides: advice.
+/// Adds to a valid job what the answer to `validate_only` has besides: estimate and advice.
 void Foretell(const ScenarioLimits& limits, v1::Job* job);
 
 }  // namespace contact

@@ -54,5 +54,27 @@ class AdviceTest(CliTest):
                 self.assertEqual(self.run_it("validate", path)[1], "")
 
 
+class EstimateTest(CliTest):
+
+    flags = ("--max-steps", "5000000", "--max-wall-time", "1h")
+
+    def test_server_estimates_beside_its_limits(self):
+        printed = self.run_it("validate", CHAIN, "--on-server")[0]
+        rows = dict(re.split(r"  +", line.strip(), maxsplit=1)
+                    for line in printed.splitlines()[2:] if "  " in line)
+        self.assertEqual(list(rows), ["TAKES", "steps", "samples", "output", "memory", "wall time"])
+        self.assertRegex(rows["steps"], r"^\d+ +5000000$")
+        self.assertRegex(rows["samples"], r"^1001 +\d+$")
+        self.assertRegex(rows["output"], r"^\d+ kB +-$")
+        self.assertRegex(rows["wall time"], r"^[\d.]+ [µm]?s +")
+
+    def test_estimate_of_a_sweep_is_that_of_its_cells(self):
+        steps = []
+        for path in (CHAIN, SWEEP):
+            printed = self.run_it("validate", path, "--on-server")[0]
+            steps.append(float(re.search(r"^steps +(\S+)", printed, re.MULTILINE)[1]))
+        self.assertAlmostEqual(steps[1] / steps[0], 50, delta=3)  # Two digits are shown.
+
+
 if __name__ == "__main__":
     unittest.main()
