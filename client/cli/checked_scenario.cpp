@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "cli/failure.h"
 
 namespace contact::cli {
@@ -13,6 +15,12 @@ void RequireNoMistakes(const ScenarioFile& file) {
   for (const Diagnostic& mistake : mistakes) text += Format(mistake) + "\n";
   text += mistakes.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes.size());
   throw Failure(ExitCode::kInvalidScenario, text);
+}
+
+void TellAdvice(const ScenarioFile& file) {
+  for (const Diagnostic& advice : file.advice()) {
+    fmt::print(stderr, "{}\n", Format(advice, "warning"));
+  }
 }
 
 ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides,

@@ -15,4 +15,7 @@ ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>
 /// Throws Failure (kInvalidScenario) if the file has mistakes.
 void RequireNoMistakes(const ScenarioFile& file);
 
+/// Tells on the standard error what Check advises.
+void TellAdvice(const ScenarioFile& file);
+
 }  // namespace contact::cli

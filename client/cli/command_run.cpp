@@ -102,6 +102,7 @@ ScenarioFile Open(Client& client, const RunArguments& arguments) {
 // What the server finds wrong is shown at its place in the file, as what is found here.
 v1::Job Create(Client& client, const RunArguments& arguments) {
   ScenarioFile file = Open(client, arguments);
+  TellAdvice(file);
   try {
     return client.Call(&Client::Stub::CreateJob, Request(arguments, file.scenario()));
   } catch (const CallFailure& failure) {

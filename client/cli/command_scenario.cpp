@@ -12,6 +12,7 @@
 #include "cli/checked_scenario.h"
 #include "cli/commands.h"
 #include "cli/number.h"
+#include "cli/render_estimate.h"
 #include "cli/sweep_file.h"
 #include "cli/table.h"
 #include "cli/templates.h"
@@ -36,19 +37,22 @@ struct InitArguments {
   bool force = false;
 };
 
-// Limits are the server's own, and may be narrower than those that are checked here.
+// Limits are the server's own, and may be narrower than those that are checked here. What it
+// advises was told already.
 ExitCode ValidateOnServer(const v1::Job& job, const Settings& settings) {
   v1::CreateJobRequest request;
   *request.mutable_job() = job;
   request.set_validate_only(true);
   Client client = settings.Connect();
+  v1::Job checked;
   try {
-    const v1::Job checked = client.Call(&Client::Stub::CreateJob, request);
-    for (const std::string& warning : checked.warnings()) fmt::print("warning: {}\n", warning);
+    checked = client.Call(&Client::Stub::CreateJob, request);
   } catch (const CallFailure& failure) {
     throw failure.AllTold();
   }
-  fmt::print("contactd at {} would take it\n", client.server());
+  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  fmt::print("contactd at {} would take it\n{}", client.server(),
+             RenderEstimate(checked, info.limits(), settings.OutputStyle()));
   return ExitCode::kOk;
 }
 
@@ -79,6 +83,7 @@ ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) 
   for (const std::string& assignment : arguments.overrides) file.Set(assignment);
   file.Check();
   RequireNoMistakes(file);
+  TellAdvice(file);
   const v1::Scenario& scenario = file.scenario();
   fmt::print("{}: valid; {}, {}, {}, {}, {}\n", arguments.file,
              Count(scenario.bodies_size(), "body", "bodies"),
@@ -161,7 +166,7 @@ void AddScenarioCommands(CLI::App& app, const Settings& settings, Action* action
       ->allow_extra_args(false);
   AddVariableFlag(*validate, &scenario->variables);
   validate->add_flag("--on-server", scenario->on_server,
-                     "Ask the server too, whose limits may be narrower");
+                     "Ask the server too: whether it would take it, and what that would take");
   validate->callback([scenario, &settings, action] {
     *action = [scenario, &settings] { return Validate(*scenario, settings); };
   });

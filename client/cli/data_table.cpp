@@ -156,10 +156,6 @@ std::string DataColumn::Header() const {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
 
-std::size_t DataColumn::size() const {
-  return std::visit([](const auto& all) { return all.size(); }, values);
-}
-
 DataTable SeriesTable(Recording&& recording) {
   DataTable table{"series", "time", {}};
   for (SampleColumn& column : recording.columns) {

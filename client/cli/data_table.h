@@ -18,7 +18,9 @@ struct DataColumn {
 
   /// `velocity [m/s]`; the bare name of a column of words.
   std::string Header() const;
-  std::size_t size() const;
+  std::size_t size() const {
+    return std::visit([](const auto& all) { return all.size(); }, values);
+  }
 };
 
 /// A part of a result as columns of equal length.

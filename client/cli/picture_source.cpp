@@ -1,17 +1,14 @@
 #include "cli/picture_source.h"
 
 #include <fmt/format.h>
-#include <qpdf/qpdf-c.h>
 
 #include <boost/crc.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <type_traits>
 #include <utility>
 
-#include "cli/failure.h"
 #include "cli/html.h"
+#include "cli/pdf_source.h"
 #include "cli/text_file.h"
 
 namespace contact::cli {
@@ -49,34 +46,6 @@ std::string DescribedPng(std::string png, const std::string& title, const std::s
   return png.insert(kHeader, TextChunk("Title", title) + TextChunk("Description", lines));
 }
 
-struct EndPdf {
-  void operator()(qpdf_data pdf) const { qpdf_cleanup(&pdf); }
-};
-using Pdf = std::unique_ptr<std::remove_pointer_t<qpdf_data>, EndPdf>;
-
-void Check(const Pdf& pdf, QPDF_ERROR_CODE code) {
-  if ((static_cast<unsigned>(code) & QPDF_ERRORS) == 0) return;
-  throw Failure(ExitCode::kLocal, qpdf_get_error_full_text(pdf.get(), qpdf_get_error(pdf.get())));
-}
-
-std::string DescribedPdf(const std::string& bytes, const std::string& title,
-                         const std::string& lines) {
-  const Pdf pdf(qpdf_init());
-  Check(pdf, qpdf_read_memory(pdf.get(), "picture", bytes.data(), bytes.size(), nullptr));
-  const qpdf_oh about = qpdf_oh_get_key(pdf.get(), qpdf_get_trailer(pdf.get()), "/Info");
-  const auto set = [&](const char* key, const std::string& text) {
-    qpdf_oh_replace_key(pdf.get(), about, key, qpdf_oh_new_unicode_string(pdf.get(), text.c_str()));
-  };
-  set("/Title", title);
-  set("/Subject", lines);
-  qpdf_oh_remove_key(pdf.get(), about, "/CreationDate");
-  Check(pdf, qpdf_init_write_memory(pdf.get()));
-  qpdf_set_deterministic_ID(pdf.get(), QPDF_TRUE);
-  Check(pdf, qpdf_write(pdf.get()));
-  const auto* written = reinterpret_cast<const char*>(qpdf_get_buffer(pdf.get()));
-  return {written, qpdf_get_buffer_length(pdf.get())};
-}
-
 }  // namespace
 
 void DescribePicture(std::string_view format, const std::string& path, const std::string& title,
@@ -86,7 +55,7 @@ void DescribePicture(std::string_view format, const std::string& path, const std
   if (format == "png") {
     picture = DescribedPng(std::move(picture), title, lines);
   } else if (format == "pdf") {
-    picture = DescribedPdf(picture, title, lines);
+    DescribePdf(title, lines, &picture);
   } else {
     Replace("title", HtmlText(title), &picture);
     Replace("desc", HtmlText(lines), &picture);

@@ -12,6 +12,7 @@
 #include "cli/text_file.h"
 #include "cli/yaml_reader.h"
 #include "wire/field_path.h"
+#include "wire/scenario_advice.h"
 
 namespace contact::cli {
 namespace {
@@ -26,9 +27,10 @@ bool Within(std::string_view path, std::string_view whole) {
 
 }  // namespace
 
-std::string Format(const Diagnostic& diagnostic) {
+std::string Format(const Diagnostic& diagnostic, std::string_view kind) {
   std::string text = diagnostic.source;
   if (diagnostic.line > 0) text += fmt::format(":{}:{}", diagnostic.line, diagnostic.column);
+  if (!kind.empty()) text += fmt::format(": {}", kind);
   if (!diagnostic.field.empty()) text += ": " + diagnostic.field;
   text += ": " + diagnostic.what;
   if (!diagnostic.hint.empty()) text += " — " + diagnostic.hint;
@@ -75,24 +77,34 @@ void ScenarioFile::Set(const std::string& assignment) {
 
 void ScenarioFile::Check(const ScenarioLimits& limits) {
   const std::vector<Diagnostic> mistakes = diagnostics_;
-  for (const Violation& violation : DecodeScenario(scenario_, limits).violations) {
+  const DecodedScenario decoded = DecodeScenario(scenario_, limits);
+  for (const Violation& violation : decoded.violations) {
     if (!MayFollowFrom(mistakes, violation)) Add(violation);
+  }
+  if (!decoded.violations.empty()) return;
+  for (const Violation& advice : Advise(scenario_, decoded.scenario)) {
+    advice_.push_back(Place(advice));
   }
 }
 
-void ScenarioFile::Add(const Violation& violation) {
+void ScenarioFile::Add(const Violation& violation) { diagnostics_.push_back(Place(violation)); }
+
+Diagnostic ScenarioFile::Place(const Violation& violation) const {
+  Diagnostic diagnostic{.source = name_,
+                        .field = violation.field,
+                        .what = violation.description,
+                        .hint = violation.hint};
   const auto overridden = [&violation](const std::string& path) {
     return Within(violation.field, path);
   };
   if (std::ranges::any_of(overridden_, overridden)) {
-    diagnostics_.push_back({.source = std::string(kOverride),
-                            .field = violation.field,
-                            .what = violation.description,
-                            .hint = violation.hint});
-    return;
+    diagnostic.source = kOverride;
+    return diagnostic;
   }
-  AddAt(FindNode(root_, violation.field).node.Mark(), violation.field, violation.description,
-        violation.hint);
+  const YAML::Mark mark = FindNode(root_, violation.field).node.Mark();
+  diagnostic.line = mark.line + 1;
+  diagnostic.column = mark.column + 1;
+  return diagnostic;
 }
 
 // A number out of its range is so whatever else is wrong, unless in the same message.

@@ -22,8 +22,8 @@ struct Diagnostic {
   std::string hint;  ///< May be empty.
 };
 
-/// `file:line:col: field: what — hint`.
-std::string Format(const Diagnostic& diagnostic);
+/// `file:line:col: field: what — hint`, or `file:line:col: kind: field: …`.
+std::string Format(const Diagnostic& diagnostic, std::string_view kind = {});
 
 /// A scenario as its author wrote it: a YAML file (of which JSON is a part) and overrides of its
 /// fields. Mistakes are gathered, not thrown.
@@ -47,10 +47,16 @@ class ScenarioFile {
   /// Adds a broken rule at the place where its field is written.
   void Add(const Violation& violation);
 
+  /// A broken rule, or advice, with the place where its field is written, or would be.
+  Diagnostic Place(const Violation& violation) const;
+
   const v1::Scenario& scenario() const { return scenario_; }
 
   /// All mistakes, in order of place.
   std::vector<Diagnostic> diagnostics() const;
+
+  /// What Check found that is no mistake, but will probably not show what the author wants.
+  const std::vector<Diagnostic>& advice() const { return advice_; }
 
  private:
   void ReadDocument(const std::string& text, const VariableValues& variables);
@@ -62,6 +68,7 @@ class ScenarioFile {
   v1::Scenario scenario_;
   std::vector<std::string> overridden_;  // paths
   std::vector<Diagnostic> diagnostics_;
+  std::vector<Diagnostic> advice_;
 };
 
 }  // namespace contact::cli

@@ -4,6 +4,7 @@
 #include <google/protobuf/descriptor.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "cli/text_file.h"
 #include "cli/yaml_reader.h"
 #include "wire/field_path.h"
+#include "wire/scenario_advice.h"
 #include "wire/sweep_codec.h"
 
 namespace contact::cli {
@@ -55,6 +57,7 @@ class SweepFile {
       AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
     }
     if (mistakes_.empty()) Check();
+    for (const Diagnostic& advice : advice_) fmt::print(stderr, "{}\n", Format(advice, "warning"));
     if (mistakes_.empty()) return std::move(sweep_);
     std::string list;
     for (const Diagnostic& mistake : mistakes_) list += Format(mistake) + "\n";
@@ -104,25 +107,33 @@ class SweepFile {
   }
 
   void Check() {
-    constexpr std::string_view kBase = "base.";
     if (!sweep_.has_base()) {
       return AddAt(root_.Mark(), "base", "is missing", "name a scenario file, or write one here");
     }
-    for (Violation& violation : DecodeSweep(sweep_, kLimits).violations) {
-      if (base_ && violation.field.starts_with(kBase)) {
-        violation.field.erase(0, kBase.size());
-        base_->Add(violation);
-      } else {
-        AddAt(FindNode(root_, violation.field).node.Mark(), violation.field, violation.description,
-              violation.hint);
-      }
+    const DecodedSweep plan = DecodeSweep(sweep_, kLimits);
+    for (const Violation& violation : plan.violations) mistakes_.push_back(Place(violation));
+    if (!plan.violations.empty()) return;
+    for (const Violation& advice : Advise(sweep_, plan)) advice_.push_back(Place(advice));
+  }
+
+  // In the sweep, or in the file of its base.
+  Diagnostic Place(Violation violation) const {
+    constexpr std::string_view kBase = "base.";
+    if (base_ && violation.field.starts_with(kBase)) {
+      violation.field.erase(0, kBase.size());
+      return base_->Place(violation);
     }
-    if (!base_) return;
-    for (Diagnostic& mistake : base_->diagnostics()) mistakes_.push_back(std::move(mistake));
+    const YAML::Mark mark = FindNode(root_, violation.field).node.Mark();
+    return {.source = name(),
+            .line = mark.line + 1,
+            .column = mark.column + 1,
+            .field = violation.field,
+            .what = violation.description,
+            .hint = violation.hint};
   }
 
   void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint) {
-    mistakes_.push_back({.source = path_ == "-" ? "<stdin>" : path_,
+    mistakes_.push_back({.source = name(),
                          .line = mark.line + 1,
                          .column = mark.column + 1,
                          .field = std::move(field),
@@ -130,12 +141,15 @@ class SweepFile {
                          .hint = std::move(hint)});
   }
 
+  std::string name() const { return path_ == "-" ? "<stdin>" : path_; }
+
   const std::string path_;
   VariableValues variables_;  ///< That are not the file's own.
   YAML::Node root_;
   std::optional<ScenarioFile> base_;  ///< If it is a file of its own.
   v1::Sweep sweep_;
   std::vector<Diagnostic> mistakes_;
+  std::vector<Diagnostic> advice_;
 };
 
 [[noreturn]] void FailAxis(const std::string& axis, bool drawn) {

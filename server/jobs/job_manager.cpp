@@ -9,6 +9,7 @@
 
 #include "jobs/delivery_cursor.h"
 #include "jobs/executor.h"
+#include "jobs/foretell.h"
 #include "jobs/job_errors.h"
 #include "jobs/job_feed.h"
 #include "jobs/lifecycle.h"
@@ -180,8 +181,11 @@ void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
   MoveSpec(creation->request.mutable_job(), &job);
   *job.mutable_labels() = request.job().labels();
   CopySettings(request.job(), &job);
+  if (request.validate_only()) {
+    Foretell(options.scenario_limits, &job);
+    return creation->done(std::move(job));
+  }
   *creation->request.mutable_job() = std::move(job);
-  if (request.validate_only()) return creation->done(std::move(*creation->request.mutable_job()));
   Accept(creation);
 }
 

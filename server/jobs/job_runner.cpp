@@ -15,6 +15,7 @@
 #include "jobs/sweep_runner.h"
 #include "version.h"
 #include "wire/result_codec.h"
+#include "wire/scenario_advice.h"
 #include "wire/scenario_codec.h"
 #include "wire/spec_digest.h"
 
@@ -123,10 +124,15 @@ Move JobRunner::SolveScenario(const StoredJob& spec, const Assignment& assignmen
                               LogWriter& writer) const {
   DecodedScenario decoded = DecodeScenario(spec.job.scenario(), options_.scenario_limits);
   if (decoded.violations.empty()) {
+    const std::vector<Violation> advice = AdviseOnTime(decoded.scenario);
     std::int64_t& max_steps = decoded.scenario.solver.max_steps;
     const std::int64_t budget = assignment.control->budget().steps;
     if (budget > 0) max_steps = std::min(max_steps, budget);
-    return MoveAfter(RunScenario(decoded.scenario, spec, assignment, writer));
+    const Outcome outcome = RunScenario(decoded.scenario, spec, assignment, writer);
+    assignment.record->Do([&advice](v1::Job& job) {
+      for (const Violation& a : advice) job.add_warnings(Text(a));
+    });
+    return MoveAfter(outcome);
   }
   const Violation& first = decoded.violations.front();
   return MoveAfterFault("scenario." + first.field + ": " + first.description);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "wire/scenario_advice.h"
+
 namespace contact {
 namespace {
 
@@ -36,6 +38,7 @@ Move SweepRunner::Run(const v1::Sweep& sweep) {
     return MoveAfterFault("sweep." + first.field + ": " + first.description);
   }
   const std::int32_t cells = plan.axes.cells();
+  const std::vector<Violation> advice = AdviseOnTime(sweep, plan);
   std::vector<bool> done(static_cast<std::size_t>(cells));
   if (!ReadDone(&done)) return MoveAfterFault("the cells of an earlier attempt cannot be read");
   {
@@ -51,7 +54,7 @@ Move SweepRunner::Run(const v1::Sweep& sweep) {
   while (run->Work(kSlice)) {
   }
   while (!run->AwaitIdle(kPulseTime)) Pulse();
-  return Conclude();
+  return Conclude(advice);
 }
 
 // What is stored already. A damaged cell is computed again.
@@ -117,7 +120,7 @@ void SweepRunner::Publish() {
   assignment_.log->SetProgress(std::move(event));
 }
 
-Move SweepRunner::Conclude() {
+Move SweepRunner::Conclude(const std::vector<Violation>& advice) {
   const MutexLock lock(mutex_);
   Publish();
   if (progress_.cells_done() < progress_.cells()) return {v1::Job::CANCELLED, reason::kUserRequest};
@@ -128,6 +131,7 @@ Move SweepRunner::Conclude() {
       job.add_warnings(
           fmt::format("{} of {} cells failed", progress_.cells_failed(), progress_.cells()));
     }
+    for (const Violation& a : advice) job.add_warnings(Text(a));
   });
   return {v1::Job::SUCCEEDED};
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "jobs/job_runner.h"
 #include "jobs/sweep_run.h"
@@ -28,7 +29,7 @@ class SweepRunner {
   void StoreCell(SolvedCell solved);
   void Pulse();
   void Publish() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  Move Conclude();
+  Move Conclude(const std::vector<Violation>& advice);
 
   Store& store_;
   const Clock& clock_;

@@ -47,13 +47,14 @@ DecodedSweep DecodeSweep(const v1::Sweep& message, const ScenarioLimits& limits)
   if (!violations->empty()) return decoded;
 
   std::vector<double> values = decoded.axes.Values(0);
-  const DecodedScenario first = DecodeScenario(fields.Set(values), limits);
+  DecodedScenario first = DecodeScenario(fields.Set(values), limits);
   for (Violation violation : first.violations) {
     if (fields.Sets(violation.field)) continue;  // This cell will fail, and tell why.
     violation.field = "base." + violation.field;
     violations->push_back(std::move(violation));
   }
   if (violations->empty()) decoded.metrics.CheckNames(first.scenario, violations);
+  if (first.violations.empty()) decoded.first = std::move(first.scenario);
   return decoded;
 }
 

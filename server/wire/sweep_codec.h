@@ -12,6 +12,7 @@ namespace contact {
 struct DecodedSweep {
   SweepAxes axes;
   SweepMetrics metrics;
+  Scenario first;                     ///< Of the first cell; empty if that is invalid.
   std::vector<Violation> violations;  ///< Paths from the sweep. With any, the rest is incomplete.
 };
 

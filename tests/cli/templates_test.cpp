@@ -42,6 +42,7 @@ TEST(Templates, ObeyTheRulesAndSayWhatTheyShow) {
     file.Check();
     EXPECT_EQ(file.scenario().title(), scenario.shows) << scenario.name;
     for (const Diagnostic& diagnostic : file.diagnostics()) ADD_FAILURE() << Format(diagnostic);
+    for (const Diagnostic& advice : file.advice()) ADD_FAILURE() << Format(advice, "warning");
   }
 }
 

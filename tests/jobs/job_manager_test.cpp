@@ -444,7 +444,7 @@ TEST_F(JobsTest, FailedRunKeepsItsReasonAndWarnings) {
   const v1::Job job = Ended(Create());
   EXPECT_EQ(job.state_reason(), "NUMERIC");
   EXPECT_EQ(job.error().message(), "at t = 1 s");
-  EXPECT_THAT(job.warnings(), ElementsAre("careful"));
+  EXPECT_THAT(job.warnings(), ElementsAre("careful", HasSubstr("output.sample_interval_s: gives")));
   const auto log = Log(job.name(), 0, {"log_entry"});
   EXPECT_EQ(log[2].log_entry().message(), "careful");
   EXPECT_EQ(log[2].log_entry().severity(), v1::LogEntry::WARNING);

@@ -217,7 +217,7 @@ TEST_F(LostRunTest, StalledRunThatHearsKeepsItsResult) {
   Open(options);
   const v1::Job job = EndedInTime(Create());
   EXPECT_EQ(job.state_reason(), "STALLED");
-  EXPECT_THAT(job.warnings(), ElementsAre("it was hard"));
+  EXPECT_THAT(job.warnings(), ElementsAre("it was hard", testing::HasSubstr("sample_interval_s")));
   EXPECT_TRUE(job.has_summary());
 }
 

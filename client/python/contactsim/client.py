@@ -113,11 +113,15 @@ class Client:
             raise RunFailed(job)
         return SweepResult(job, cells)
 
-    def validate(self, scenario: ScenarioLike) -> None:
-        """Raises InvalidScenario unless the server would accept the scenario."""
+    def validate(self, scenario: ScenarioLike) -> job_pb2.Job:
+        """Raises InvalidScenario unless the server would accept the scenario.
+
+        Returns a job that was not submitted: its `warnings` tell what the scenario will probably
+        not show, its `estimate` what it would take.
+        """
         request = create_request(scenario, None, None)
         request.validate_only = True
-        self._call(self._stub.CreateJob, request)
+        return self._call(self._stub.CreateJob, request)
 
     def watch(self, job: JobLike, *, after_sequence: int = 0, kinds: Iterable[str] = (),
               live_only: bool = False, min_frame_interval_s: float = 0.0,

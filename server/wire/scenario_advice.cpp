@@ -1,0 +1,187 @@
+#include "wire/scenario_advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "wire/contact_codec.h"
+#include "wire/encounter.h"
+#include "wire/law_catalogue.h"
+#include "wire/sweep_fields.h"
+
+namespace contact {
+namespace {
+
+constexpr double kGoodResolution = 200;  // Steps, or samples, in a contact.
+constexpr double kFewestSteps = 200;
+constexpr double kFewestSamples = 20;
+constexpr double kManySteps = 1e9;
+constexpr double kManySamples = 1e6;  // That nobody is told to record.
+constexpr double kLowRestitution = 0.3;
+constexpr double kMiss = 0.01;  // Of the restitution; as in the warnings of a run.
+
+// The contact that is soonest over, of those of which it is known.
+struct Shortest {
+  const Contact* contact = nullptr;
+  Encounter encounter;
+};
+
+Shortest FindShortest(const Scenario& scenario) {
+  Shortest shortest;
+  const auto encounters = Foresee(scenario);
+  for (std::size_t i = 0; i < encounters.size(); ++i) {
+    if (!encounters[i]) continue;
+    if (shortest.contact != nullptr && shortest.encounter.duration <= encounters[i]->duration) {
+      continue;
+    }
+    shortest = {&scenario.contacts[i], *encounters[i]};
+  }
+  return shortest;
+}
+
+// Down to one digit.
+double Rounded(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  return std::floor(value / power * (1 + 1e-12)) * power;
+}
+
+std::string Describe(const Shortest& shortest, double interval, const char* what) {
+  const Encounter& encounter = shortest.encounter;
+  return fmt::format("gives a contact of {} {:.3g} {}; it lasts about {:.2g} s {}",
+                     shortest.contact->name, encounter.duration / interval, what,
+                     encounter.duration,
+                     encounter.speed > 0 ? fmt::format("at {:.3g} m/s", encounter.speed)
+                                         : std::string("under its load"));
+}
+
+void AdviseOnStep(const Scenario& scenario, const Shortest& shortest,
+                  std::vector<Violation>* advice) {
+  const double step = scenario.solver.fixed_step;
+  if (step == 0) return;
+  const double steps = scenario.end_time / step;
+  if (steps > static_cast<double>(scenario.solver.max_steps)) {
+    advice->push_back({"solver.step_s",
+                       fmt::format("makes {:.2g} steps, more than max_steps, {:.2g}: the run will "
+                                   "fail with BUDGET_STEPS",
+                                   steps, static_cast<double>(scenario.solver.max_steps)),
+                       "take method ADAPTIVE, or a longer step"});
+  } else if (steps > kManySteps) {
+    advice->push_back({"solver.step_s", fmt::format("makes {:.2g} steps", steps),
+                       "take method ADAPTIVE, or a longer step"});
+  }
+  if (shortest.contact == nullptr || shortest.encounter.duration >= kFewestSteps * step) return;
+  advice->push_back(
+      {"solver.step_s", Describe(shortest, step, "steps"),
+       fmt::format("{:g} gives it {:g}", Rounded(shortest.encounter.duration / kGoodResolution),
+                   kGoodResolution)});
+}
+
+void AdviseOnSamples(const Scenario& scenario, const Shortest& shortest,
+                     std::vector<Violation>* advice) {
+  const double interval = scenario.sample_interval;
+  if (interval == 0 || shortest.contact == nullptr) return;
+  const double duration = shortest.encounter.duration;
+  if (duration >= kFewestSamples * interval) return;
+  const double good = Rounded(duration / kGoodResolution);
+  advice->push_back({"output.sample_interval_s", Describe(shortest, interval, "samples"),
+                     scenario.end_time / good <= kManySamples
+                         ? fmt::format("{:g} gives it {:g}", good, kGoodResolution)
+                         : "set output.ledger_only if its cycles are enough"});
+}
+
+const LawEntry* FindLaw(v1::Contact::Damping damping) {
+  const auto laws = LawCatalogue();
+  const auto found = std::ranges::find(laws, damping, &LawEntry::damping);
+  return found == laws.end() ? nullptr : &*found;
+}
+
+// Once for each law, as in a run.
+void AdviseOnNamedLaws(const v1::Scenario& message, std::vector<Violation>* advice) {
+  std::set<int> told;
+  for (int i = 0; i < message.contacts_size(); ++i) {
+    const v1::Contact& contact = message.contacts(i);
+    if (contact.restitution() >= kLowRestitution) continue;
+    const LawEntry* law = FindLaw(contact.damping());
+    if (law == nullptr || !law->closed_form()) continue;
+    if (contact.has_reference_velocity_m_per_s()) continue;  // Then it depends on the speed.
+    const double delivered = law->Delivered(contact.restitution());
+    if (std::abs(delivered - contact.restitution()) <= kMiss * contact.restitution()) continue;
+    if (!told.insert(contact.damping()).second) continue;
+    advice->push_back({fmt::format("contacts[{}].restitution", i),
+                       fmt::format("is {}; with {} an isolated collision has {:.4f}",
+                                   contact.restitution(), law->name(), delivered),
+                       "ENERGY_RESTITUTION and EXACT deliver what is asked for"});
+  }
+}
+
+bool IsIteratedLow(const v1::Contact& contact) {
+  const bool iterated = contact.damping() == v1::Contact::DAMPING_UNSPECIFIED ||
+                        contact.damping() == v1::Contact::ENERGY_RESTITUTION;
+  return iterated && contact.restitution() < kLowRestitution;
+}
+
+// It corrects every μ on its own, from the start (23), which low restitution makes a poor one.
+void AdviseOnPaperProcess(const v1::Scenario& message, std::vector<Violation>* advice) {
+  const v1::Solver::Update update = message.solver().update();
+  if (update == v1::Solver::UPDATE_UNSPECIFIED || update == v1::Solver::NEWTON_COUPLED) return;
+  if (CountContacts(message) < 2 || std::ranges::none_of(message.contacts(), IsIteratedLow)) return;
+  advice->push_back({"solver.update",
+                     fmt::format("is {}, which often does not converge where contacts with a "
+                                 "restitution below {} act together",
+                                 v1::Solver::Update_Name(update), kLowRestitution),
+                     "NEWTON_COUPLED does"});
+}
+
+// With paths from the sweep, and without what its axes decide.
+std::vector<Violation> OfBase(const v1::Sweep& sweep, std::vector<Violation> advice) {
+  std::vector<Violation> broken;
+  const SweepFields fields(sweep, &broken);
+  std::erase_if(advice, [&fields](const Violation& a) { return fields.Sets(a.field); });
+  for (Violation& a : advice) a.field = "base." + a.field;
+  return advice;
+}
+
+}  // namespace
+
+std::vector<Violation> AdviseOnTime(const Scenario& scenario) {
+  std::vector<Violation> advice;
+  const Shortest shortest = FindShortest(scenario);
+  AdviseOnStep(scenario, shortest, &advice);
+  AdviseOnSamples(scenario, shortest, &advice);
+  return advice;
+}
+
+std::vector<Violation> AdviseOnLaws(const v1::Scenario& message) {
+  std::vector<Violation> advice;
+  AdviseOnNamedLaws(message, &advice);
+  AdviseOnPaperProcess(message, &advice);
+  return advice;
+}
+
+std::vector<Violation> Advise(const v1::Scenario& message, const Scenario& scenario) {
+  std::vector<Violation> advice = AdviseOnLaws(message);
+  std::ranges::move(AdviseOnTime(scenario), std::back_inserter(advice));
+  return advice;
+}
+
+std::vector<Violation> AdviseOnTime(const v1::Sweep& sweep, const DecodedSweep& plan) {
+  Scenario first = plan.first;
+  if (sweep.keep_trajectories().empty()) first.sample_interval = 0;
+  return OfBase(sweep, AdviseOnTime(first));
+}
+
+std::vector<Violation> Advise(const v1::Sweep& sweep, const DecodedSweep& plan) {
+  std::vector<Violation> advice = OfBase(sweep, AdviseOnLaws(sweep.base()));
+  std::ranges::move(AdviseOnTime(sweep, plan), std::back_inserter(advice));
+  return advice;
+}
+
+std::string Text(const Violation& advice) {
+  return fmt::format("{}: {}{}{}", advice.field, advice.description,
+                     advice.hint.empty() ? "" : " — ", advice.hint);
+}
+
+}  // namespace contact

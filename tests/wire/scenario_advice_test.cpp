@@ -1,0 +1,220 @@
+#include "wire/scenario_advice.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "wire/encounter.h"
+#include "wire/scenario_builder.h"
+
+namespace contact {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<std::string> AdviceOn(const v1::Scenario& message) {
+  const DecodedScenario decoded = DecodeScenario(message);
+  EXPECT_THAT(Lines(decoded.violations), IsEmpty());
+  return Lines(Advise(message, decoded.scenario));
+}
+
+std::optional<Encounter> FirstEncounter(const v1::Scenario& message) {
+  return Foresee(DecodeScenario(message).scenario).front();
+}
+
+v1::Scenario FallingBall() {
+  return FromText(R"(
+      bodies { name: "ball" mass_kg: 0.5 radius_m: 0.05 position_m: 1 }
+      contacts { between: "ball" wall { side: LEFT } stiffness: 1e8 restitution: 0.8 }
+      loads { gravity { acceleration_m_per_s2: -9.81 } }
+      output { sample_interval_s: 5e-5 }
+      end_time_s: 3)");
+}
+
+v1::Scenario PressedTooth() {
+  return FromText(R"(
+      bodies { name: "tooth" mass_kg: 0.2 }
+      contacts { between: "tooth" wall { side: RIGHT } stiffness: 1e8 restitution: 0.6 }
+      loads { body: "tooth" constant { force_n: 200 } }
+      end_time_s: 0.01)");
+}
+
+TEST(Encounter, DurationOfAnImpactIsThatOfHertz) {
+  const double mass = 2800 * 4 / 3.0 * M_PI * 1e-6 / 2;
+  const double modulus = 48e9 / (1 - 0.04) / 2;
+  EXPECT_NEAR(ImpactDuration(mass, 20, 4 / 3.0 * modulus * std::sqrt(0.005), 1.5), 40.33946e-6,
+              1e-10);
+}
+
+TEST(Encounter, DurationOfALinearImpactIsHalfAPeriodWhateverTheSpeed) {
+  for (const double speed : {0.1, 10.0}) {
+    EXPECT_NEAR(ImpactDuration(0.5, speed, 2e6, 1), M_PI * std::sqrt(0.5 / 2e6), 1e-12);
+  }
+}
+
+TEST(Encounter, SwingAboutALoadOfALinearContactIsItsPeriod) {
+  EXPECT_NEAR(SwingPeriod(0.5, 30, 2e6, 1), 2 * M_PI * std::sqrt(0.5 / 2e6), 1e-12);
+}
+
+TEST(Encounter, OfAFallingBallIsKnown) {
+  const auto encounter = FirstEncounter(FallingBall());
+  ASSERT_TRUE(encounter);
+  EXPECT_NEAR(encounter->speed, std::sqrt(2 * 9.81 * 0.95), 1e-12);
+  EXPECT_NEAR(encounter->start, std::sqrt(2 * 0.95 / 9.81), 1e-12);
+}
+
+TEST(Encounter, OfABallThrownUpIsThatOfItsFall) {
+  v1::Scenario scenario = FallingBall();
+  scenario.mutable_bodies(0)->set_velocity_m_per_s(2);
+  const auto encounter = FirstEncounter(scenario);
+  ASSERT_TRUE(encounter);
+  EXPECT_NEAR(encounter->speed, std::sqrt(4 + 2 * 9.81 * 0.95), 1e-12);
+  EXPECT_NEAR(encounter->start, (encounter->speed + 2) / 9.81, 1e-12);
+}
+
+TEST(Encounter, OfABallOnASpringHasTheEnergyOfTheSpring) {
+  const auto encounter = FirstEncounter(FromText(R"(
+      bodies { name: "ball" mass_kg: 0.5 position_m: -0.01 }
+      contacts { between: "ball" wall { side: RIGHT } stiffness: 1e8 restitution: 0.8 }
+      supports { body: "ball" stiffness_n_per_m: 1e6 }
+      end_time_s: 1)"));
+  ASSERT_TRUE(encounter);
+  EXPECT_NEAR(encounter->speed, 0.01 * std::sqrt(1e6 / 0.5), 1e-9);
+}
+
+TEST(Encounter, OfBodiesThatOnlyAnotherContactMovesIsNotGuessedAt) {
+  v1::Scenario row = TwoBalls();
+  *row.add_bodies() =
+      FromText(R"(bodies { name: "B3" mass_kg: 0.5 radius_m: 0.05 position_m: 0.2 })").bodies(0);
+  row.mutable_contacts(0)->add_between("B3");
+  const auto encounters = Foresee(DecodeScenario(row).scenario);
+  ASSERT_EQ(encounters.size(), 2u);
+  EXPECT_TRUE(encounters[0]);
+  EXPECT_FALSE(encounters[1]);
+}
+
+TEST(Encounter, OfAPulseIsOnTheSideToWhichItPushes) {
+  v1::Scenario scenario = PressedTooth();
+  v1::Load::HalfSinePulse& pulse = *scenario.mutable_loads(0)->mutable_half_sine_pulse();
+  pulse.set_amplitude_n(800);
+  pulse.set_start_time_s(1e-3);
+  pulse.set_duration_s(4e-3);
+  const auto encounter = FirstEncounter(scenario);
+  ASSERT_TRUE(encounter);
+  EXPECT_EQ(encounter->speed, 0);
+  EXPECT_NEAR(encounter->pressed, 4e-3, 1e-12);
+  pulse.set_amplitude_n(-800);
+  EXPECT_FALSE(FirstEncounter(scenario));
+}
+
+TEST(Encounter, AfterTheEndIsNone) {
+  v1::Scenario scenario = FallingBall();
+  scenario.set_end_time_s(0.4);
+  EXPECT_FALSE(FirstEncounter(scenario));
+  scenario.set_end_time_s(0.5);
+  EXPECT_TRUE(FirstEncounter(scenario));
+}
+
+TEST(ScenarioAdvice, IsNoneForAScenarioThatShowsItsContacts) {
+  EXPECT_THAT(AdviceOn(TwoBalls()), IsEmpty());
+  EXPECT_THAT(AdviceOn(FallingBall()), IsEmpty());
+  EXPECT_THAT(AdviceOn(PressedTooth()), IsEmpty());
+}
+
+TEST(ScenarioAdvice, TellsOfAStepTooLongForAContact) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.mutable_solver()->set_method(v1::Solver::RK4);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+  scenario.mutable_solver()->set_step_s(1e-5);
+  EXPECT_THAT(AdviceOn(scenario),
+              ElementsAre("solver.step_s: gives a contact of B1-B2 161 steps; it lasts about "
+                          "0.0016 s at 0.2 m/s — 8e-06 gives it 200"));
+}
+
+TEST(ScenarioAdvice, TellsOfAStepTooLongForASwingUnderALoad) {
+  v1::Scenario scenario = PressedTooth();
+  scenario.mutable_solver()->set_method(v1::Solver::RK4);
+  scenario.mutable_solver()->set_step_s(2e-5);
+  EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("under its load")));
+}
+
+TEST(ScenarioAdvice, TellsOfSamplesTooFewForAContact) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.mutable_output()->set_sample_interval_s(1e-4);
+  EXPECT_THAT(AdviceOn(scenario),
+              ElementsAre("output.sample_interval_s: gives a contact of B1-B2 16.1 samples; it "
+                          "lasts about 0.0016 s at 0.2 m/s — 8e-06 gives it 200"));
+  scenario.mutable_output()->set_ledger_only(true);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+}
+
+TEST(ScenarioAdvice, AsksNobodyToRecordMillionsOfSamples) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.set_end_time_s(1000);
+  EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("set output.ledger_only")));
+}
+
+TEST(ScenarioAdvice, TellsOfMoreStepsThanTheRunMayMake) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.mutable_solver()->set_method(v1::Solver::RK4);
+  scenario.mutable_output()->set_ledger_only(true);
+  scenario.set_end_time_s(200);
+  EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("makes 2e+08 steps, more than max_steps")));
+  scenario.mutable_solver()->set_max_steps(1'000'000'000'000);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+  scenario.set_end_time_s(2000);
+  EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("makes 2e+09 steps")));
+}
+
+TEST(ScenarioAdvice, TellsOfALawThatMissesALowRestitution) {
+  v1::Scenario scenario = TwoBalls();
+  v1::Contact& contact = *scenario.mutable_contacts(0);
+  contact.set_restitution(0.2);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());  // Iterated: nothing is lost.
+  contact.set_damping(v1::Contact::EXACT);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+  contact.set_damping(v1::Contact::PAPER_EQ23);
+  EXPECT_THAT(AdviceOn(scenario),
+              ElementsAre("contacts[0].restitution: is 0.2; with PAPER_EQ23 an isolated collision "
+                          "has 0.1960 — ENERGY_RESTITUTION and EXACT deliver what is asked for"));
+  contact.set_restitution(0.5);
+  contact.set_damping(v1::Contact::HUNT_CROSSLEY);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());  // The run tells of it.
+}
+
+TEST(ScenarioAdvice, TellsThatThePapersProcessOftenFailsForLowRestitution) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.mutable_solver()->set_update(v1::Solver::PAPER_RATIO);
+  scenario.mutable_contacts(0)->set_restitution(0.2);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());  // Alone it converges.
+  *scenario.add_bodies() =
+      FromText(R"(bodies { name: "B3" mass_kg: 0.5 radius_m: 0.05 position_m: 0.2 })").bodies(0);
+  scenario.mutable_contacts(0)->add_between("B3");
+  EXPECT_THAT(
+      AdviceOn(scenario),
+      ElementsAre(HasSubstr("solver.update: is PAPER_RATIO, which often does not converge")));
+}
+
+TEST(ScenarioAdvice, OfASweepIsThatOfItsBaseButForWhatAxesSet) {
+  v1::Sweep sweep;
+  *sweep.mutable_base() = TwoBalls();
+  sweep.mutable_base()->mutable_solver()->set_method(v1::Solver::RK4);
+  sweep.mutable_base()->mutable_solver()->set_step_s(1e-5);
+  sweep.mutable_base()->mutable_output()->set_sample_interval_s(1e-3);
+  sweep.add_metrics("iterations");
+  sweep.add_axes()->set_field("bodies[0].velocity_m_per_s");
+  sweep.mutable_axes(0)->add_values(0.2);
+  const auto advice = [&sweep] { return Lines(Advise(sweep, DecodeSweep(sweep))); };
+  EXPECT_THAT(advice(), ElementsAre(HasSubstr("base.solver.step_s: gives")));
+  sweep.add_keep_trajectories(0);
+  EXPECT_THAT(advice(), ElementsAre(HasSubstr("base.solver.step_s"),
+                                    HasSubstr("base.output.sample_interval_s")));
+  sweep.mutable_axes(0)->set_field("solver.step_s");
+  sweep.mutable_axes(0)->set_values(0, 1e-5);
+  EXPECT_THAT(advice(), ElementsAre(HasSubstr("base.output.sample_interval_s")));
+}
+
+}  // namespace
+}  // namespace contact
