@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -24,7 +25,7 @@ struct PlotArguments {
 // As -o says, or as the file is called.
 std::string Format(const PlotArguments& arguments, const Settings& settings) {
   if (settings.output != "table") {
-    settings.RequireOutput({"svg", "png", "pdf", "gp", "csv"});
+    settings.RequireOutput({"svg", "png", "pdf", "txt", "tikz", "gp", "csv"});
     return settings.output;
   }
   return FormatOf(arguments.file);
@@ -35,14 +36,21 @@ void Keep(const Figure& figure, const std::string& format, const PlotArguments& 
   const fs::path folder = arguments.keep;
   std::error_code error;
   fs::create_directories(folder, error);
-  WriteText(GnuplotScript(figure, format, path), folder / (arguments.preset + ".gp"));
+  WriteText(GnuplotScript(figure, Medium(format), path), folder / (arguments.preset + ".gp"));
   Draw(figure, "csv", folder / (arguments.preset + ".csv"));
+}
+
+// Of a picture in characters: as wide as the terminal.
+int Columns(const Settings& settings) {
+  constexpr int kLeast = 40;
+  const int width = settings.OutputStyle().width;
+  return width > 0 ? std::max(width, kLeast) : Medium::kColumns;
 }
 
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   const std::string format = Format(arguments, settings);
   const std::string path =
-      arguments.file.empty() ? arguments.preset + "." + format : arguments.file;
+      arguments.file.empty() ? arguments.preset + "." + EndingOf(format) : arguments.file;
   Client client = settings.Connect();
   const Recording recording = ReadRecording(client, arguments.job, settings);
   const Figure figure = DrawPreset(arguments.preset, recording);
@@ -52,7 +60,12 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   }
   const bool drawn = format != "gp" && format != "csv";
   if (drawn && !arguments.keep.empty()) Keep(figure, format, arguments, path);
-  Draw(figure, format, path);
+  const int columns = Columns(settings);
+  if (format == "txt" && arguments.file.empty()) {
+    fmt::print("{}", DrawText(figure, columns));
+    return ExitCode::kOk;
+  }
+  Draw(figure, format, path, columns);
   fmt::print("{}\n", path);
   return ExitCode::kOk;
 }
@@ -62,7 +75,7 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
 void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command = app.add_subcommand(
-      "plot", "Draw a job that has ended, through gnuplot: -o svg, png, pdf, gp or csv");
+      "plot", "Draw a job that has ended, through gnuplot: -o svg, png, pdf, txt, tikz, gp or csv");
   command->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
   command->add_option("PRESET", arguments->preset, "What to draw")
       ->check(CLI::IsMember(PresetNames()))
@@ -70,7 +83,8 @@ void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action) {
       ->required();
   command
       ->add_option("-f,--file", arguments->file,
-                   "Where to; without -o its ending tells the format. Default: PRESET.svg")
+                   "Where to; without -o its ending tells the format, .tex being tikz. Default: "
+                   "PRESET.svg; txt is printed")
       ->type_name("FILE");
   command
       ->add_option("--keep", arguments->keep,

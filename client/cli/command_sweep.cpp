@@ -112,11 +112,12 @@ void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& ar
 void DrawHeatMap(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments) {
   const std::string& path = arguments.heat_map;
   const std::string format = FormatOf(path);
-  if (format == "gp" || format == "csv") {
-    throw Failure(ExitCode::kUsage, fmt::format("--heatmap {}: is drawn as svg, png or pdf", path));
+  if (format == "gp" || format == "csv" || format == "txt") {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--heatmap {}: is drawn as svg, png, pdf or tex", path));
   }
   const int metric = MetricOf(job.sweep(), arguments.metric);
-  DrawScript(HeatMapScript(job, cells, metric, format, path), path);
+  DrawScript(HeatMapScript(job, cells, metric, Medium(format), path), path);
   DescribePicture(format, path, job.sweep().base().title(), {SourceOf(job)});
   fmt::print(stderr, "{}\n", path);
 }
@@ -211,7 +212,7 @@ CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::s
       ->type_name("METRIC");
   command
       ->add_option("--heatmap", arguments->heat_map,
-                   "Draw it to this file too, through gnuplot: .svg, .png or .pdf")
+                   "Draw it to this file too, through gnuplot: .svg, .png, .pdf or .tex")
       ->type_name("FILE");
   command->add_flag("--comments", arguments->comments,
                     "Begin csv with where it comes from, in lines that start with #");

@@ -115,14 +115,14 @@ struct Scale {
 }  // namespace
 
 std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, int metric,
-                          std::string_view format, const std::string& path) {
+                          const Medium& medium, const std::string& path) {
   const v1::Sweep& sweep = job.sweep();
   RequireMap(sweep, cells);
   const Axis rows(cells, 0);
   const Axis columns(cells, 1);
   std::string text =
       fmt::format("{}set encoding utf8\nset terminal {}\nset output {}\n$cells << end\n",
-                  Lines({SourceOf(job)}, "# "), GnuplotTerminal(format, 5), GnuplotString(path));
+                  Lines({SourceOf(job)}, "# "), medium.Terminal(5), GnuplotString(path));
   std::string overlays;
   const Scale scale(cells, metric);
   for (const auto& [index, cell] : cells) {
@@ -138,13 +138,13 @@ std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, int metri
       "set title {}\nset xlabel {}\nset ylabel {}\nset cblabel {}\n"
       "set xtics out nomirror ({})\nset ytics out nomirror ({})\n"
       "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [{}:{}]\n"
-      "set label 'hatched: not converged; crossed: failed' at screen 0.01,0.015 font ',9'\n"
+      "set label 'hatched: not converged; crossed: failed' at screen 0.01,0.015{}\n"
       "unset key\n{}",
-      GnuplotString(sweep.base().title()), GnuplotString(sweep.axes(1).field()),
-      GnuplotString(sweep.axes(0).field()), GnuplotString(sweep.metrics(metric)), columns.Tics(),
+      medium.Text(sweep.base().title()), medium.Text(sweep.axes(1).field()),
+      medium.Text(sweep.axes(0).field()), medium.Text(sweep.metrics(metric)), columns.Tics(),
       rows.Tics(), static_cast<double>(columns.size()) - 0.5,
-      static_cast<double>(rows.size()) - 0.5, scale.low, scale.high,
-      GnuplotCaption({SourceOf(job)}));
+      static_cast<double>(rows.size()) - 0.5, scale.low, scale.high, medium.Font(9),
+      medium.Caption({SourceOf(job)}));
   if (scale.whole && scale.high - scale.low < kMostTics) text += "set cbtics 1\n";
   // Boxes, as an image would be a bitmap inside.
   text +=
@@ -152,9 +152,9 @@ std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, int metri
       "plot $cells using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror lc palette";
   if (cells.size() <= kMostNumbers) {
     text += fmt::format(
-        ", $cells using 1:2:(sprintf('%.4g', $3)):($3 < {} ? 0xffffff : 0) with labels font ',9' "
+        ", $cells using 1:2:(sprintf('%.4g', $3)):($3 < {} ? 0xffffff : 0) with labels{} "
         "textcolor rgb variable",
-        (scale.low + scale.high) / 2);
+        (scale.low + scale.high) / 2, medium.Font(9));
   }
   return text + "\nunset output\n";
 }

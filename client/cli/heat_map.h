@@ -1,8 +1,8 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
+#include "cli/gnuplot.h"
 #include "cli/render_sweep.h"
 
 namespace contact::cli {
@@ -11,6 +11,6 @@ namespace contact::cli {
 /// the second across. Cells that did not converge are hatched, those that failed crossed. Throws
 /// Failure (kUsage) unless the sweep is a grid of two axes and at most 10 000 cells.
 std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, int metric,
-                          std::string_view format, const std::string& path);
+                          const Medium& medium, const std::string& path);
 
 }  // namespace contact::cli

@@ -38,9 +38,9 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
          "-o,--output", settings->output,
          "How to print: table, wide (a table with all columns), json, name; jsonl (list, watch, "
          "export); csv (list, series, sweep, model, export); netcdf (export); svg, png, "
-         "pdf, gp, csv (plot)")
-      ->check(CLI::IsMember(
-          {"table", "wide", "json", "jsonl", "name", "csv", "netcdf", "svg", "png", "pdf", "gp"}))
+         "pdf, txt, tikz, gp, csv (plot)")
+      ->check(CLI::IsMember({"table", "wide", "json", "jsonl", "name", "csv", "netcdf", "svg",
+                             "png", "pdf", "txt", "tikz", "gp"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")

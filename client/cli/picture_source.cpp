@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 
 #include "cli/failure.h"
 #include "cli/html.h"
+#include "cli/style.h"
 #include "cli/text_file.h"
 
 namespace contact::cli {
@@ -77,6 +79,28 @@ std::string DescribedPdf(const std::string& bytes, const std::string& title,
   return {written, qpdf_get_buffer_length(pdf.get())};
 }
 
+// Without the lines in which gnuplot tells its version and the time.
+std::string DescribedTikz(const std::string& picture, const std::vector<Provenance>& sources) {
+  std::string described = Lines(sources, "% ") + "% \\usepackage{gnuplot-lua-tikz}\n";
+  std::istringstream lines(picture);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("%%")) described.append(line).append("\n");
+  }
+  return described;
+}
+
+// Without the spaces that fill its lines.
+std::string DescribedCharacters(const std::string& picture,
+                                const std::vector<Provenance>& sources) {
+  std::string described;
+  std::istringstream lines(picture);
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(0, line.starts_with('\f') ? 1 : 0);
+    described.append(TrimRight(line)).append("\n");
+  }
+  return TrimRight(described) + "\n" + Caption(sources) + "\n";
+}
+
 }  // namespace
 
 void DescribePicture(std::string_view format, const std::string& path, const std::string& title,
@@ -87,6 +111,10 @@ void DescribePicture(std::string_view format, const std::string& path, const std
     picture = DescribedPng(std::move(picture), title, lines);
   } else if (format == "pdf") {
     picture = DescribedPdf(picture, title, lines);
+  } else if (format == "tikz") {
+    picture = DescribedTikz(picture, sources);
+  } else if (format == "txt") {
+    picture = DescribedCharacters(picture, sources);
   } else {
     Replace("title", HtmlText(title), &picture);
     Replace("desc", HtmlText(lines), &picture);
