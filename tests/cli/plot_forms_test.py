@@ -68,7 +68,7 @@ class PlotFormsTest(CliTest):
         last = {body: next(i for i, row in enumerate(rows) if mark * 4 in row[-12:])
                 for body, mark in marks.items() if body != "B1"}  # Which lies on the axis.
         self.assertEqual(sorted(last, key=last.get), ["B3", "B2"])  # The faster one on top.
-        self.assertIn("o start, × end of a contact cycle", lines[-2])
+        self.assertIn("\n o start, × end of a contact cycle\n", "\n".join(lines))
 
     def test_picture_in_characters_is_as_wide_as_the_terminal(self):
         for width in (60, 120):
