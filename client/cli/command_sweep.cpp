@@ -8,13 +8,11 @@
 #include <utility>
 
 #include "cli/commands.h"
-#include "cli/drawing.h"
 #include "cli/follow.h"
-#include "cli/heat_map.h"
+#include "cli/heat_map_options.h"
 #include "cli/interrupt.h"
 #include "cli/job_options.h"
 #include "cli/job_source.h"
-#include "cli/picture_source.h"
 #include "cli/provenance.h"
 #include "cli/render_live.h"
 #include "cli/render_sweep.h"
@@ -30,7 +28,7 @@ struct SweepArguments {
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions settings;
-  std::string metric;    ///< Of the heat map.
+  HeatMapOptions map;
   std::string heat_map;  ///< File to draw it to.
   bool comments = false;
   std::vector<std::string> grid;        ///< Axes over a scenario, instead of a sweep file.
@@ -82,17 +80,6 @@ class CellWatcher final : public WatchObserver {
   bool shown_ = false;
 };
 
-// The metric of the heat map: the one named, or the first.
-int MetricOf(const v1::Sweep& sweep, const std::string& name) {
-  if (name.empty()) return 0;
-  const auto found = std::ranges::find(sweep.metrics(), name);
-  if (found != sweep.metrics().end()) {
-    return static_cast<int>(found - sweep.metrics().begin());
-  }
-  throw Failure(ExitCode::kUsage,
-                fmt::format("--metric {}: the sweep has none of this name", name));
-}
-
 void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments,
            const Settings& settings) {
   if (settings.output == "csv") {
@@ -105,21 +92,8 @@ void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& ar
   } else {
     const Style style = settings.OutputStyle();
     fmt::print("{}{}", RenderSweep(job, cells, style),
-               HeatMap(job.sweep(), cells, MetricOf(job.sweep(), arguments.metric), style));
+               arguments.map.Text(job.sweep(), cells, style));
   }
-}
-
-void DrawHeatMap(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments) {
-  const std::string& path = arguments.heat_map;
-  const std::string format = FormatOf(path);
-  if (format == "gp" || format == "csv" || format == "txt") {
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("--heatmap {}: is drawn as svg, png, pdf or tex", path));
-  }
-  const int metric = MetricOf(job.sweep(), arguments.metric);
-  DrawScript(HeatMapScript(job, cells, metric, Medium(format), path), path);
-  DescribePicture(format, path, job.sweep().base().title(), {SourceOf(job)});
-  fmt::print(stderr, "{}\n", path);
 }
 
 // Follows a sweep to its end, from its first cell on, and prints it.
@@ -128,7 +102,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   if (const v1::Job job = GetJob(client, name); !job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is no sweep; see contactctl describe", name));
   } else {
-    MetricOf(job.sweep(), arguments.metric);
+    arguments.map.MetricOf(job.sweep());
   }
   WatchOptions options;
   options.name = name;
@@ -151,7 +125,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
                : Detach(end, name);
   }
   const v1::Job job = GetJob(client, name);
-  if (!arguments.heat_map.empty()) DrawHeatMap(job, cells, arguments);
+  if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
   Print(job, cells, arguments, settings);
   return Outcome(job);
 }
@@ -172,9 +146,10 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
                          .seed = arguments.seed};
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_sweep() =
-      arguments.grid.empty() ? OpenSweep(arguments.file)
-                             : MakeGrid(arguments.file, arguments.grid, arguments.metric, drawn);
-  MetricOf(request.job().sweep(), arguments.metric);
+      arguments.grid.empty()
+          ? OpenSweep(arguments.file)
+          : MakeGrid(arguments.file, arguments.grid, arguments.map.metric(), drawn);
+  arguments.map.MetricOf(request.job().sweep());
   request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
@@ -208,8 +183,7 @@ CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::s
                           ExitCode (*act)(const SweepArguments&, const Settings&),
                           const Settings& settings, Action* action) {
   CLI::App* command = sweep.add_subcommand(name, description);
-  command->add_option("--metric", arguments->metric, "Of the heat map. Default: the first")
-      ->type_name("METRIC");
+  arguments->map.AddTo(*command);
   command
       ->add_option("--heatmap", arguments->heat_map,
                    "Draw it to this file too, through gnuplot: .svg, .png, .pdf or .tex")
@@ -277,6 +251,7 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
                   arguments, Export, settings, action)
       ->add_option("JOB", arguments->job, "ID or jobs/ID")
       ->required();
+  AddSweepCellCommands(*sweep, settings, action);
 }
 
 }  // namespace contact::cli
