@@ -37,10 +37,11 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option(
          "-o,--output", settings->output,
          "How to print: table, wide (a table with all columns), json, name; jsonl (list, watch, "
-         "export); csv (list, series, sweep, model, export); netcdf (export); svg, png, "
+         "export); csv (list, series, sweep, model, export); netcdf, mat, protobuf (export); svg, "
+         "png, "
          "pdf, txt, tikz, gp, csv (plot)")
-      ->check(CLI::IsMember({"table", "wide", "json", "jsonl", "name", "csv", "netcdf", "svg",
-                             "png", "pdf", "txt", "tikz", "gp"}))
+      ->check(CLI::IsMember({"table", "wide", "json", "jsonl", "name", "csv", "netcdf", "mat",
+                             "protobuf", "svg", "png", "pdf", "txt", "tikz", "gp"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
