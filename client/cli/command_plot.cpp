@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <system_error>
 
 #include "cli/commands.h"
 #include "cli/drawing.h"
+#include "cli/picture_output.h"
 #include "cli/presets.h"
 #include "cli/text_file.h"
 
@@ -22,15 +22,6 @@ struct PlotArguments {
   std::string keep;
 };
 
-// As -o says, or as the file is called.
-std::string Format(const PlotArguments& arguments, const Settings& settings) {
-  if (settings.output != "table") {
-    settings.RequireOutput({"svg", "png", "pdf", "txt", "tikz", "gp", "csv"});
-    return settings.output;
-  }
-  return FormatOf(arguments.file);
-}
-
 void Keep(const Figure& figure, const std::string& format, const PlotArguments& arguments,
           const std::string& path) {
   const fs::path folder = arguments.keep;
@@ -40,17 +31,8 @@ void Keep(const Figure& figure, const std::string& format, const PlotArguments& 
   Draw(figure, "csv", folder / (arguments.preset + ".csv"));
 }
 
-// Of a picture in characters: as wide as the terminal.
-int Columns(const Settings& settings) {
-  constexpr int kLeast = 40;
-  const int width = settings.OutputStyle().width;
-  return width > 0 ? std::max(width, kLeast) : Medium::kColumns;
-}
-
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
-  const std::string format = Format(arguments, settings);
-  const std::string path =
-      arguments.file.empty() ? arguments.preset + "." + EndingOf(format) : arguments.file;
+  const std::string format = PictureFormat(arguments.file, settings);
   Client client = settings.Connect();
   const Recording recording = ReadRecording(client, arguments.job, settings);
   const Figure figure = DrawPreset(arguments.preset, recording);
@@ -59,14 +41,10 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
     fmt::print(stderr, "{}\n", note);
   }
   const bool drawn = format != "gp" && format != "csv";
-  if (drawn && !arguments.keep.empty()) Keep(figure, format, arguments, path);
-  const int columns = Columns(settings);
-  if (format == "txt" && arguments.file.empty()) {
-    fmt::print("{}", DrawText(figure, columns));
-    return ExitCode::kOk;
+  if (drawn && !arguments.keep.empty()) {
+    Keep(figure, format, arguments, PicturePath(arguments.file, arguments.preset, settings));
   }
-  Draw(figure, format, path, columns);
-  fmt::print("{}\n", path);
+  WritePicture(figure, arguments.preset, arguments.file, settings);
   return ExitCode::kOk;
 }
 

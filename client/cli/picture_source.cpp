@@ -98,7 +98,9 @@ std::string DescribedCharacters(const std::string& picture,
     line.erase(0, line.starts_with('\f') ? 1 : 0);
     described.append(TrimRight(line)).append("\n");
   }
-  return TrimRight(described) + "\n" + Caption(sources) + "\n";
+  described.erase(described.find_last_not_of('\n') + 1);
+  described += '\n';
+  return sources.empty() ? described : described + "\n" + Caption(sources) + "\n";
 }
 
 }  // namespace
