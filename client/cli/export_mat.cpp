@@ -43,6 +43,7 @@ Variable Column(const std::vector<double>& numbers) {
 Variable Column(const std::vector<std::string>& words) {
   std::array<std::size_t, 2> size{words.size(), 1};
   std::vector<matvar_t*> entries;
+  entries.reserve(words.size());
   for (const std::string& word : words) entries.push_back(Text(word).release());
   return Owned(Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, 2, size.data(), entries.data(), 0));
 }
@@ -52,6 +53,7 @@ class Struct {
  public:
   Struct(const char* name, const std::vector<std::string>& fields) : fields_(fields) {
     std::vector<const char*> texts;
+    texts.reserve(fields_.size());
     for (const std::string& field : fields_) texts.push_back(field.c_str());
     std::array<std::size_t, 2> size{1, 1};
     variable_ = Owned(Mat_VarCreateStruct(name, 2, size.data(), texts.data(),
@@ -71,6 +73,7 @@ class Struct {
 
 std::vector<std::string> FieldsOf(const DataTable& table) {
   std::vector<std::string> names;
+  names.reserve(table.columns.size());
   for (const DataColumn& column : table.columns) names.push_back(column.name);
   return MatlabNames(names);
 }
@@ -87,6 +90,7 @@ Variable ForEachColumn(const char* name, const DataTable& table, const Show& sho
 // The same of all tables, each in a field of its own.
 Variable ForEachTable(const char* name, const std::vector<DataTable>& tables, const Show& show) {
   std::vector<std::string> names;
+  names.reserve(tables.size());
   for (const DataTable& table : tables) names.push_back(table.name);
   Struct all(name, names);
   for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -97,6 +101,7 @@ Variable ForEachTable(const char* name, const std::vector<DataTable>& tables, co
 
 Variable Sources(const Provenance& provenance) {
   std::vector<std::string> names;
+  names.reserve(provenance.size());
   for (const auto& [name, text] : provenance) names.push_back(name);
   Struct all("provenance", names);
   for (std::size_t i = 0; i < provenance.size(); ++i) all.Set(i, Text(provenance[i].second));
@@ -144,6 +149,7 @@ std::string Valid(const std::string& name) {
 std::vector<std::string> MatlabNames(const std::vector<std::string>& names) {
   constexpr std::size_t kLongest = 63;
   std::vector<std::string> valid;
+  valid.reserve(names.size());
   std::set<std::string> used;
   for (const std::string& name : names) {
     const std::string stem = Valid(name);

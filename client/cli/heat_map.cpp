@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/contours.h"
 #include "cli/failure.h"
 #include "cli/gnuplot.h"
 #include "cli/number.h"
@@ -100,45 +101,9 @@ std::pair<double, double> Ends(const HeatScale& scale) {
   return {middle - space, middle + space};
 }
 
-// About six round numbers between two.
-std::vector<double> RoundNumbers(double low, double high) {
-  constexpr double kWanted = 6;
-  const double decade = std::pow(10, std::floor(std::log10((high - low) / kWanted)));
-  double step = decade;
-  for (const double part : {2.0, 5.0, 10.0}) {
-    if (step * kWanted < high - low) step = part * decade;
-  }
-  std::vector<double> numbers;
-  for (double i = std::ceil(low / step); i * step <= high; ++i) numbers.push_back(i * step);
-  return numbers;
-}
-
-// On a log scale 1, 2 and 5 of each decade, or 1 of many; round numbers where there is no decade.
-std::vector<double> LogLevels(double low, double high) {
-  constexpr double kMostDecades = 4;
-  const double decades = std::log10(high / low);
-  if (decades < 1) return RoundNumbers(low, high);
-  std::vector<double> levels;
-  for (int k = static_cast<int>(std::floor(std::log10(low))); std::pow(10, k) <= high; ++k) {
-    for (const double part : {1.0, 2.0, 5.0}) {
-      const double level = part * std::pow(10, k);
-      if (level < low || level > high || (part > 1 && decades > kMostDecades)) continue;
-      levels.push_back(level);
-    }
-  }
-  return levels;
-}
-
-// Which point of a line of equal value has its label: the middle of one across the shorter side.
-std::size_t PlaceOfLabel(const Axis& rows, const Axis& columns) {
-  return std::max<std::size_t>(std::min(rows.size(), columns.size()) / 2, 1);
-}
-
-// Finds the lines of equal value, through the cells that converged.
-std::string FindContours(const SweepCells& cells, const HeatScale& scale, const Axis& rows,
-                         const Axis& columns) {
-  const std::vector<double> levels =
-      scale.log() ? LogLevels(scale.low(), scale.high()) : RoundNumbers(scale.low(), scale.high());
+// The values through which lines of equal value go, row by row; NaN where none may.
+std::vector<double> Converged(const SweepCells& cells, const HeatScale& scale, const Axis& rows,
+                              const Axis& columns) {
   std::vector<double> values(rows.size() * columns.size(),
                              std::numeric_limits<double>::quiet_NaN());
   for (const auto& [index, cell] : cells) {
@@ -146,33 +111,7 @@ std::string FindContours(const SweepCells& cells, const HeatScale& scale, const 
     values[rows.Place(cell.values(0)) * columns.size() + columns.Place(cell.values(1))] =
         scale.Shown(cell);
   }
-  std::string text = "$grid << end\n";
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::size_t x = i % columns.size();
-    const std::string value = std::isnan(values[i]) ? "NaN" : fmt::to_string(values[i]);
-    fmt::format_to(std::back_inserter(text), "{} {} {}\n", x, i / columns.size(), value);
-    if (x + 1 == columns.size()) text += '\n';
-  }
-  return text + fmt::format(
-                    "end\nset contour base\nunset surface\n{}set cntrparam levels discrete {}\n"
-                    "set xrange [0:{}]\nset yrange [0:{}]\nset zrange [{}:{}]\n"
-                    "set table $contours\nsplot $grid using 1:2:3\nunset table\n"
-                    // Below the map, so that there is something to draw without lines too.
-                    "set print $contours append\nprint ''\n"
-                    "do for [i=0:{}] {{ print '0 {} 0' }}\nunset print\n",
-                    scale.log() ? "set logscale z\n" : "", fmt::join(levels, ","),
-                    columns.size() - 1, rows.size() - 1, scale.low(), scale.high(),
-                    PlaceOfLabel(rows, columns), rows.size() + 1);
-}
-
-// White on both sides, so that they are seen on every colour; a label on each.
-std::string DrawContours(const Axis& rows, const Axis& columns, const Medium& medium) {
-  return fmt::format(
-      ", $contours using 1:2 with lines lc rgb 'white' lw 2.5"
-      ", $contours using 1:2 with lines lc rgb 'black' lw 1"
-      ", $contours using 1:2:(sprintf('%.4g', $3)) every 1000000::{} with labels{} "
-      "textcolor rgb 'black'{}",
-      PlaceOfLabel(rows, columns), medium.tex() ? "" : " boxed", medium.Font(8));
+  return values;
 }
 
 std::string Numbers(const HeatScale& scale, const Medium& medium) {
@@ -184,21 +123,41 @@ std::string Numbers(const HeatScale& scale, const Medium& medium) {
 }
 
 std::string Legend(const HeatScale& scale) {
-  const std::string legend = "hatched: not converged; crossed: failed";
+  std::string legend = "hatched: not converged; crossed: failed";
   if (scale.unshown() == 0) return legend;
   return legend + fmt::format("; white: {}", Count(scale.unshown(), "value <= 0", "values <= 0"));
+}
+
+std::string Axes(const v1::Sweep& sweep, const HeatScale& scale, const Axis& rows,
+                 const Axis& columns, const Medium& medium) {
+  const auto [low, high] = Ends(scale);
+  std::string text = fmt::format(
+      "set title {}\nset xlabel {}\nset ylabel {}\nset cblabel {}\n"
+      "set xtics out nomirror ({})\nset ytics out nomirror ({})\n"
+      "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [{}:{}]\n"
+      "set label {} at screen 0.01,0.015{}\nunset key\n",
+      medium.Text(sweep.base().title()), medium.Text(sweep.axes(1).field()),
+      medium.Text(sweep.axes(0).field()), medium.Text(sweep.metrics(scale.metric())),
+      columns.Tics(), rows.Tics(), static_cast<double>(columns.size()) - 0.5,
+      static_cast<double>(rows.size()) - 0.5, low, high, medium.Text(Legend(scale)),
+      medium.Font(9));
+  if (scale.log()) {
+    text +=
+        fmt::format("set logscale cb\nset cbtics ({})\n", fmt::join(LogLevels(low, high), ", "));
+  } else if (scale.whole() && high - low < kMostTics) {
+    text += "set cbtics 1\n";
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, const HeatScale& scale,
                           bool contours, const Medium& medium, const std::string& path) {
-  const v1::Sweep& sweep = job.sweep();
-  RequireMap(sweep, cells);
+  RequireMap(job.sweep(), cells);
   const Axis rows(cells, 0);
   const Axis columns(cells, 1);
-  const auto [low, high] = Ends(scale);
-  // One level has no lines, and one row or column has nothing to lie between.
+  // One value has no lines, and one row or column has nothing to lie between.
   const bool lines =
       contours && scale.low() < scale.high() && rows.size() > 1 && columns.size() > 1;
   std::string text =
@@ -213,33 +172,17 @@ std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, const Hea
     overlays += Overlay(cell, x, y, scale.Height(value) < 0.5);
   }
   // Below the map, so that there is something to draw where no cell has a value.
-  text += fmt::format("0 {} {}\nend\n{}{}", rows.size() + 1, low, kPalette,
-                      lines ? FindContours(cells, scale, rows, columns) : "");
-  text += overlays;
-  text += fmt::format(
-      "set title {}\nset xlabel {}\nset ylabel {}\nset cblabel {}\n"
-      "set xtics out nomirror ({})\nset ytics out nomirror ({})\n"
-      "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [{}:{}]\n"
-      "set label {} at screen 0.01,0.015{}\n"
-      "unset key\n{}",
-      medium.Text(sweep.base().title()), medium.Text(sweep.axes(1).field()),
-      medium.Text(sweep.axes(0).field()), medium.Text(sweep.metrics(scale.metric())),
-      columns.Tics(), rows.Tics(), static_cast<double>(columns.size()) - 0.5,
-      static_cast<double>(rows.size()) - 0.5, low, high, medium.Text(Legend(scale)), medium.Font(9),
-      medium.Caption({SourceOf(job)}));
-  if (scale.log()) {
-    text +=
-        fmt::format("set logscale cb\nset cbtics ({})\n", fmt::join(LogLevels(low, high), ", "));
-  } else if (scale.whole() && high - low < kMostTics) {
-    text += "set cbtics 1\n";
-  }
+  text += fmt::format("0 {} {}\nend\n{}", rows.size() + 1, Ends(scale).first, kPalette);
+  if (lines) text += FindContours(Converged(cells, scale, rows, columns), columns.size(), scale);
+  text +=
+      overlays + Axes(job.sweep(), scale, rows, columns, medium) + medium.Caption({SourceOf(job)});
   // Boxes, as an image would be a bitmap inside.
   text +=
       "set style fill solid noborder\nset style textbox opaque noborder fillcolor rgb 'white' "
       "margins 1.5,1.2\n"
       "plot $cells using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror lc palette";
   if (lines) {
-    text += DrawContours(rows, columns, medium);
+    text += DrawContours(rows.size(), columns.size(), medium);
   } else if (cells.size() <= kMostNumbers) {
     text += Numbers(scale, medium);
   }
