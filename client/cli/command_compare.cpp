@@ -92,8 +92,10 @@ void AddCompareCommand(CLI::App& app, const Settings& settings, Action* action) 
       ->check(CLI::IsMember({"table", "json", "yaml", "csv", "latex"}))
       ->type_name("FORMAT");
   command
-      ->add_option("--plot", arguments->plot,
-                   "Draw the runs over each other to this file too: .svg, .png, .pdf, .gp or .csv")
+      ->add_option(
+          "--plot", arguments->plot,
+          "Draw the runs over each other to this file too: .svg, .png, .pdf, .txt, .tex, .gp "
+          "or .csv")
       ->type_name("FILE");
   command
       ->add_option("--channels", arguments->channels,

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -9,10 +8,10 @@
 
 #include "cli/column_choice.h"
 #include "cli/commands.h"
+#include "cli/law_plot.h"
 #include "cli/law_study.h"
 #include "cli/number.h"
 #include "cli/table.h"
-#include "wire/spelling.h"
 
 namespace contact::cli {
 namespace {
@@ -22,24 +21,6 @@ struct CompareArguments {
   std::vector<double> restitutions = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
   ColumnChoice columns;
 };
-
-// `hunt-crossley` is as good as HUNT_CROSSLEY.
-const LawEntry& FindLaw(const std::string& text) {
-  std::string name = text;
-  std::ranges::transform(name, name.begin(), [](unsigned char c) {
-    return c == '-' ? '_' : static_cast<char>(std::toupper(c));
-  });
-  std::vector<std::string_view> names;
-  for (const LawEntry& law : LawCatalogue()) {
-    if (law.name() == name) return law;
-    names.push_back(law.name());
-  }
-  const std::string_view nearest = Nearest(name, names);
-  throw Failure(ExitCode::kUsage,
-                fmt::format("there is no law {} — {}", Quoted(text),
-                            nearest.empty() ? "see contactctl model list"
-                                            : fmt::format("did you mean '{}'?", nearest)));
-}
 
 std::string Json(const LawEntry& law) {
   return fmt::format(
@@ -211,6 +192,7 @@ void AddModelCommands(CLI::App& app, const Settings& settings, Action* action) {
   compare->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Compare(*arguments, settings); };
   });
+  AddLawPlotCommand(*model, settings, action);
 }
 
 }  // namespace contact::cli

@@ -49,7 +49,7 @@ std::map<std::string, std::string> DrawAll(const std::vector<PaperItem>& items,
   try {
     for (const PaperItem& item : items) {
       if (!item.figure) continue;
-      const std::string path = fs::path(arguments.directory) / (item.id + "." + format);
+      const std::string path = fs::path(arguments.directory) / (item.id + "." + EndingOf(format));
       Draw(*item.figure, format, path);
       inlined[item.id] = format == "svg" ? InlineSvg(ReadText(path)) : DrawInline(*item.figure);
     }
@@ -128,8 +128,8 @@ void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action) {
       ->capture_default_str();
   paper
       ->add_option("--format", arguments->format,
-                   "Draw the figures as svg, png or pdf. Default: svg, if gnuplot is there")
-      ->check(CLI::IsMember({"svg", "png", "pdf"}))
+                   "Draw the figures as svg, png, pdf or tikz. Default: svg, if gnuplot is there")
+      ->check(CLI::IsMember({"svg", "png", "pdf", "tikz"}))
       ->type_name("FORMAT");
   paper->callback([arguments, &settings, action] {
     *action = [arguments, &settings] { return Paper(*arguments, settings); };

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/drawing.h"
+#include "cli/picture_output.h"
 #include "cli/presets.h"
 #include "cli/text_file.h"
 
@@ -21,28 +22,17 @@ struct PlotArguments {
   std::string keep;
 };
 
-// As -o says, or as the file is called.
-std::string Format(const PlotArguments& arguments, const Settings& settings) {
-  if (settings.output != "table") {
-    settings.RequireOutput({"svg", "png", "pdf", "gp", "csv"});
-    return settings.output;
-  }
-  return FormatOf(arguments.file);
-}
-
 void Keep(const Figure& figure, const std::string& format, const PlotArguments& arguments,
           const std::string& path) {
   const fs::path folder = arguments.keep;
   std::error_code error;
   fs::create_directories(folder, error);
-  WriteText(GnuplotScript(figure, format, path), folder / (arguments.preset + ".gp"));
+  WriteText(GnuplotScript(figure, Medium(format), path), folder / (arguments.preset + ".gp"));
   Draw(figure, "csv", folder / (arguments.preset + ".csv"));
 }
 
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
-  const std::string format = Format(arguments, settings);
-  const std::string path =
-      arguments.file.empty() ? arguments.preset + "." + format : arguments.file;
+  const std::string format = PictureFormat(arguments.file, settings);
   Client client = settings.Connect();
   const Recording recording = ReadRecording(client, arguments.job, settings);
   const Figure figure = DrawPreset(arguments.preset, recording);
@@ -51,9 +41,10 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
     fmt::print(stderr, "{}\n", note);
   }
   const bool drawn = format != "gp" && format != "csv";
-  if (drawn && !arguments.keep.empty()) Keep(figure, format, arguments, path);
-  Draw(figure, format, path);
-  fmt::print("{}\n", path);
+  if (drawn && !arguments.keep.empty()) {
+    Keep(figure, format, arguments, PicturePath(arguments.file, arguments.preset, settings));
+  }
+  WritePicture(figure, arguments.preset, arguments.file, settings);
   return ExitCode::kOk;
 }
 
@@ -62,7 +53,7 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
 void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command = app.add_subcommand(
-      "plot", "Draw a job that has ended, through gnuplot: -o svg, png, pdf, gp or csv");
+      "plot", "Draw a job that has ended, through gnuplot: -o svg, png, pdf, txt, tikz, gp or csv");
   command->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
   command->add_option("PRESET", arguments->preset, "What to draw")
       ->check(CLI::IsMember(PresetNames()))
@@ -70,7 +61,8 @@ void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action) {
       ->required();
   command
       ->add_option("-f,--file", arguments->file,
-                   "Where to; without -o its ending tells the format. Default: PRESET.svg")
+                   "Where to; without -o its ending tells the format, .tex being tikz. Default: "
+                   "PRESET.svg; txt is printed")
       ->type_name("FILE");
   command
       ->add_option("--keep", arguments->keep,

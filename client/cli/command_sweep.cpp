@@ -10,13 +10,11 @@
 
 #include "cli/column_choice.h"
 #include "cli/commands.h"
-#include "cli/drawing.h"
 #include "cli/follow.h"
-#include "cli/heat_map.h"
+#include "cli/heat_map_options.h"
 #include "cli/interrupt.h"
 #include "cli/job_options.h"
 #include "cli/job_source.h"
-#include "cli/picture_source.h"
 #include "cli/provenance.h"
 #include "cli/render_live.h"
 #include "cli/render_sweep.h"
@@ -33,7 +31,7 @@ struct SweepArguments {
   std::vector<std::string> labels;
   std::string request_id;
   JobOptions settings;
-  std::string metric;    ///< Of the heat map.
+  HeatMapOptions map;
   std::string heat_map;  ///< File to draw it to.
   bool comments = false;
   std::vector<std::string> grid;        ///< Axes over a scenario, instead of a sweep file.
@@ -96,20 +94,9 @@ class CellWatcher final : public WatchObserver {
   bool shown_ = false;
 };
 
-// The metric of the heat map: the one named, or the first.
-int MetricOf(const v1::Sweep& sweep, const std::string& name) {
-  if (name.empty()) return 0;
-  const auto found = std::ranges::find(sweep.metrics(), name);
-  if (found != sweep.metrics().end()) {
-    return static_cast<int>(found - sweep.metrics().begin());
-  }
-  throw Failure(ExitCode::kUsage,
-                fmt::format("--metric {}: the sweep has none of this name", name));
-}
-
 // Throws Failure (kUsage) unless the sweep has the metric and the columns that are named.
 void CheckNames(const v1::Sweep& sweep, const SweepArguments& arguments, const Settings& settings) {
-  MetricOf(sweep, arguments.metric);
+  arguments.map.MetricOf(sweep);
   arguments.columns.Check(settings.output == "csv" ? SweepCsvColumns(sweep) : SweepColumns(sweep),
                           settings);
 }
@@ -126,20 +113,8 @@ void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& ar
   } else {
     const Style style = arguments.columns.OutputStyle(settings);
     fmt::print("{}{}", RenderSweep(job, cells, style),
-               HeatMap(job.sweep(), cells, MetricOf(job.sweep(), arguments.metric), style));
+               arguments.map.Text(job.sweep(), cells, style));
   }
-}
-
-void DrawHeatMap(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments) {
-  const std::string& path = arguments.heat_map;
-  const std::string format = FormatOf(path);
-  if (format == "gp" || format == "csv") {
-    throw Failure(ExitCode::kUsage, fmt::format("--heatmap {}: is drawn as svg, png or pdf", path));
-  }
-  const int metric = MetricOf(job.sweep(), arguments.metric);
-  DrawScript(HeatMapScript(job, cells, metric, format, path), path);
-  DescribePicture(format, path, job.sweep().base().title(), {SourceOf(job)});
-  fmt::print(stderr, "{}\n", path);
 }
 
 // Follows a sweep to its end, from its first cell on, and prints it.
@@ -172,7 +147,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
                : Detach(end, name);
   }
   const v1::Job job = GetJob(client, name);
-  if (!arguments.heat_map.empty()) DrawHeatMap(job, cells, arguments);
+  if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
   Print(job, cells, arguments, settings);
   return Outcome(job);
 }
@@ -196,7 +171,7 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   *request.mutable_job()->mutable_sweep() =
       arguments.grid.empty()
           ? OpenSweep(arguments.file, variables)
-          : MakeGrid(arguments.file, arguments.grid, arguments.metric, drawn, variables);
+          : MakeGrid(arguments.file, arguments.grid, arguments.map.metric(), drawn, variables);
   CheckNames(request.job().sweep(), arguments, settings);
   request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
@@ -231,11 +206,10 @@ CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::s
                           ExitCode (*act)(const SweepArguments&, const Settings&),
                           const Settings& settings, Action* action) {
   CLI::App* command = sweep.add_subcommand(name, description);
-  command->add_option("--metric", arguments->metric, "Of the heat map. Default: the first")
-      ->type_name("METRIC");
+  arguments->map.AddTo(*command);
   command
       ->add_option("--heatmap", arguments->heat_map,
-                   "Draw it to this file too, through gnuplot: .svg, .png or .pdf")
+                   "Draw it to this file too, through gnuplot: .svg, .png, .pdf or .tex")
       ->type_name("FILE");
   arguments->columns.AddTo(*command);
   command->add_flag("--comments", arguments->comments,
@@ -302,6 +276,7 @@ void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
                   arguments, Export, settings, action)
       ->add_option("JOB", arguments->job, "ID or jobs/ID")
       ->required();
+  AddSweepCellCommands(*sweep, settings, action);
 }
 
 }  // namespace contact::cli

@@ -20,6 +20,8 @@ void AddScenarioCommands(CLI::App& app, const Settings& settings,
                          Action* action);                                         // validate, init
 void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action);  // series
 void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action);   // sweep run, …
+void AddSweepCellCommands(CLI::App& sweep, const Settings& settings,
+                          Action* action);                                        // heatmap, cell
 void AddServerCommands(CLI::App& app, const Settings& settings, Action* action);  // version, server
 void AddModelCommands(CLI::App& app, const Settings& settings, Action* action);   // model
 

@@ -30,20 +30,31 @@ void WritePoints(const Figure& figure, const std::string& path) {
 }  // namespace
 
 std::string FormatOf(const std::string& path) {
-  for (const char* format : {"png", "pdf", "gp", "csv"}) {
-    if (std::filesystem::path(path).extension() == std::string(".") + format) return format;
+  const std::string ending = std::filesystem::path(path).extension();
+  if (ending == ".tex") return "tikz";
+  for (const char* format : {"png", "pdf", "txt", "gp", "csv"}) {
+    if (ending == std::string(".") + format) return format;
   }
   return "svg";
 }
 
-void Draw(const Figure& figure, std::string_view format, const std::string& path) {
+std::string EndingOf(const std::string& format) { return format == "tikz" ? "tex" : format; }
+
+void Draw(const Figure& figure, std::string_view format, const std::string& path, int columns) {
   if (format == "csv") return WritePoints(figure, path);
   if (format == "gp") {
     const auto picture = std::filesystem::path(path).replace_extension("svg");
-    return WriteText(GnuplotScript(figure, "svg", picture), path);
+    return WriteText(GnuplotScript(figure, Medium("svg"), picture), path);
   }
-  DrawScript(GnuplotScript(figure, format, path), path);
+  DrawScript(GnuplotScript(figure, Medium(format, columns), path), path);
   DescribePicture(format, path, figure.title, figure.sources);
+}
+
+std::string DrawText(const Figure& figure, int columns) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.path() / "figure.txt";
+  Draw(figure, "txt", path, columns);
+  return ReadText(path);
 }
 
 void DrawScript(const std::string& script, const std::string& path) {

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "cli/gnuplot.h"
 #include "cli/provenance.h"
 
 namespace contact::cli {
@@ -56,8 +56,8 @@ struct Figure {
 };
 
 /// A gnuplot script with its data inside, as many as can be seen, and where they come from, that
-/// draws the figure as svg, png or pdf to a file.
-std::string GnuplotScript(Figure figure, std::string_view format, const std::string& path);
+/// draws the figure to a file.
+std::string GnuplotScript(Figure figure, const Medium& medium, const std::string& path);
 
 /// Leaves at most about `points` of each curve: of points that follow each other the first, the
 /// last, the lowest and the highest.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "cli/export_mat.h"
 #include "cli/export_netcdf.h"
 #include "cli/failure.h"
 #include "cli/formats_module.h"
@@ -24,9 +25,10 @@ void* Load() {
     if (void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
     throw Failure(ExitCode::kLocal, dlerror());
   }
-  throw Failure(ExitCode::kLocal,
-                fmt::format("{}: neither in {} nor in ../lib/contactctl; netCDF and PDF need it",
-                            kModule, folder.string()));
+  throw Failure(
+      ExitCode::kLocal,
+      fmt::format("{}: neither in {} nor in ../lib/contactctl; netCDF, MAT and PDF need it",
+                  kModule, folder.string()));
 }
 
 template <class Function>
@@ -42,6 +44,11 @@ void WriteNetcdf(const std::vector<DataTable>& tables, const Provenance& provena
                  const std::string& path) {
   using Function = decltype(contactctl_write_netcdf);
   Exported<Function>("contactctl_write_netcdf")(tables, provenance, path);
+}
+
+void WriteMat(const std::vector<DataTable>& tables, const Provenance& provenance,
+              const std::string& path) {
+  Exported<decltype(contactctl_write_mat)>("contactctl_write_mat")(tables, provenance, path);
 }
 
 void DescribePdf(const std::string& title, const std::string& subject, std::string* picture) {

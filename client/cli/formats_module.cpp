@@ -1,7 +1,8 @@
-// The module itself: hands on what it is asked for. Its own WriteNetcdf and DescribePdf do the
-// work.
+// The module itself: hands on what it is asked for. Its own WriteNetcdf, WriteMat and
+// DescribePdf do the work.
 #include "cli/formats_module.h"
 
+#include "cli/export_mat.h"
 #include "cli/export_netcdf.h"
 #include "cli/pdf_source.h"
 
@@ -11,6 +12,12 @@ namespace contact::cli {
                                                             const Provenance& provenance,
                                                             const std::string& path) {
   WriteNetcdf(tables, provenance, path);
+}
+
+[[gnu::visibility("default")]] void contactctl_write_mat(const std::vector<DataTable>& tables,
+                                                         const Provenance& provenance,
+                                                         const std::string& path) {
+  WriteMat(tables, provenance, path);
 }
 
 [[gnu::visibility("default")]] void contactctl_describe_pdf(const std::string& title,

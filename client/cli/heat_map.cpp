@@ -1,6 +1,7 @@
 #include "cli/heat_map.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/contours.h"
 #include "cli/failure.h"
 #include "cli/gnuplot.h"
 #include "cli/number.h"
@@ -56,11 +58,6 @@ class Axis {
 
 bool Failed(const v1::SweepCell& cell) { return cell.state() == v1::Job::FAILED; }
 
-double MetricOf(const v1::SweepCell& cell, int metric) {
-  const bool has = !Failed(cell) && metric < cell.metrics_size();
-  return has ? cell.metrics(metric) : std::numeric_limits<double>::quiet_NaN();
-}
-
 void RequireMap(const v1::Sweep& sweep, const SweepCells& cells) {
   const bool grid = sweep.combination() == v1::Sweep::GRID ||
                     sweep.combination() == v1::Sweep::COMBINATION_UNSPECIFIED;
@@ -92,69 +89,102 @@ std::string Overlay(const v1::SweepCell& cell, std::size_t x, std::size_t y, boo
       left, top, right, bottom);
 }
 
-struct Scale {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  bool whole = true;  // All values are whole numbers.
-
-  Scale(const SweepCells& cells, int metric) {
-    for (const auto& [index, cell] : cells) {
-      const double value = MetricOf(cell, metric);
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-      whole = whole && value == std::round(value);
-    }
-    if (low < high) return;
-    const double middle = low == high ? low : 0;  // One value, or none.
-    low = middle - std::max(std::abs(middle) / 2, 0.5);
-    high = middle + std::max(std::abs(middle) / 2, 0.5);
+// The ends of the colours, which are apart also for one value, or none.
+std::pair<double, double> Ends(const HeatScale& scale) {
+  if (scale.low() < scale.high()) return {scale.low(), scale.high()};
+  if (scale.log()) {
+    const double middle = scale.low() == scale.high() ? scale.low() : 1;
+    return {middle / 2, middle * 2};
   }
-};
+  const double middle = scale.low() == scale.high() ? scale.low() : 0;
+  const double space = std::max(std::abs(middle) / 2, 0.5);
+  return {middle - space, middle + space};
+}
 
-}  // namespace
-
-std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, int metric,
-                          std::string_view format, const std::string& path) {
-  const v1::Sweep& sweep = job.sweep();
-  RequireMap(sweep, cells);
-  const Axis rows(cells, 0);
-  const Axis columns(cells, 1);
-  std::string text =
-      fmt::format("{}set encoding utf8\nset terminal {}\nset output {}\n$cells << end\n",
-                  Lines({SourceOf(job)}, "# "), GnuplotTerminal(format, 5), GnuplotString(path));
-  std::string overlays;
-  const Scale scale(cells, metric);
+// The values through which lines of equal value go, row by row; NaN where none may.
+std::vector<double> Converged(const SweepCells& cells, const HeatScale& scale, const Axis& rows,
+                              const Axis& columns) {
+  std::vector<double> values(rows.size() * columns.size(),
+                             std::numeric_limits<double>::quiet_NaN());
   for (const auto& [index, cell] : cells) {
-    const std::size_t x = columns.Place(cell.values(1));
-    const std::size_t y = rows.Place(cell.values(0));
-    const double value = MetricOf(cell, metric);
-    if (std::isfinite(value)) fmt::format_to(std::back_inserter(text), "{} {} {}\n", x, y, value);
-    overlays += Overlay(cell, x, y, value < (scale.low + scale.high) / 2);
+    if (cell.convergence() != v1::Job::FULL) continue;
+    values[rows.Place(cell.values(0)) * columns.size() + columns.Place(cell.values(1))] =
+        scale.Shown(cell);
   }
-  // Below the map, so that there is something to draw where no cell has a value.
-  text += fmt::format("0 {} 0\nend\n{}{}", rows.size() + 1, kPalette, overlays);
-  text += fmt::format(
+  return values;
+}
+
+std::string Numbers(const HeatScale& scale, const Medium& medium) {
+  const auto [low, high] = Ends(scale);
+  return fmt::format(
+      ", $cells using 1:2:(sprintf('%.4g', $3)):($3 < {} ? 0xffffff : 0) with labels{} "
+      "textcolor rgb variable",
+      scale.log() ? std::sqrt(low * high) : (low + high) / 2, medium.Font(9));
+}
+
+std::string Legend(const HeatScale& scale) {
+  std::string legend = "hatched: not converged; crossed: failed";
+  if (scale.unshown() == 0) return legend;
+  return legend + fmt::format("; white: {}", Count(scale.unshown(), "value <= 0", "values <= 0"));
+}
+
+std::string Axes(const v1::Sweep& sweep, const HeatScale& scale, const Axis& rows,
+                 const Axis& columns, const Medium& medium) {
+  const auto [low, high] = Ends(scale);
+  std::string text = fmt::format(
       "set title {}\nset xlabel {}\nset ylabel {}\nset cblabel {}\n"
       "set xtics out nomirror ({})\nset ytics out nomirror ({})\n"
       "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [{}:{}]\n"
-      "set label 'hatched: not converged; crossed: failed' at screen 0.01,0.015 font ',9'\n"
-      "unset key\n{}",
-      GnuplotString(sweep.base().title()), GnuplotString(sweep.axes(1).field()),
-      GnuplotString(sweep.axes(0).field()), GnuplotString(sweep.metrics(metric)), columns.Tics(),
-      rows.Tics(), static_cast<double>(columns.size()) - 0.5,
-      static_cast<double>(rows.size()) - 0.5, scale.low, scale.high,
-      GnuplotCaption({SourceOf(job)}));
-  if (scale.whole && scale.high - scale.low < kMostTics) text += "set cbtics 1\n";
+      "set label {} at screen 0.01,0.015{}\nunset key\n",
+      medium.Text(sweep.base().title()), medium.Text(sweep.axes(1).field()),
+      medium.Text(sweep.axes(0).field()), medium.Text(sweep.metrics(scale.metric())),
+      columns.Tics(), rows.Tics(), static_cast<double>(columns.size()) - 0.5,
+      static_cast<double>(rows.size()) - 0.5, low, high, medium.Text(Legend(scale)),
+      medium.Font(9));
+  if (scale.log()) {
+    text +=
+        fmt::format("set logscale cb\nset cbtics ({})\n", fmt::join(LogLevels(low, high), ", "));
+  } else if (scale.whole() && high - low < kMostTics) {
+    text += "set cbtics 1\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, const HeatScale& scale,
+                          bool contours, const Medium& medium, const std::string& path) {
+  RequireMap(job.sweep(), cells);
+  const Axis rows(cells, 0);
+  const Axis columns(cells, 1);
+  // One value has no lines, and one row or column has nothing to lie between.
+  const bool lines =
+      contours && scale.low() < scale.high() && rows.size() > 1 && columns.size() > 1;
+  std::string text =
+      fmt::format("{}set encoding utf8\nset terminal {}\nset output {}\n$cells << end\n",
+                  Lines({SourceOf(job)}, "# "), medium.Terminal(5), GnuplotString(path));
+  std::string overlays;
+  for (const auto& [index, cell] : cells) {
+    const std::size_t x = columns.Place(cell.values(1));
+    const std::size_t y = rows.Place(cell.values(0));
+    const double value = scale.Shown(cell);
+    if (!std::isnan(value)) fmt::format_to(std::back_inserter(text), "{} {} {}\n", x, y, value);
+    overlays += Overlay(cell, x, y, scale.Height(value) < 0.5);
+  }
+  // Below the map, so that there is something to draw where no cell has a value.
+  text += fmt::format("0 {} {}\nend\n{}", rows.size() + 1, Ends(scale).first, kPalette);
+  if (lines) text += FindContours(Converged(cells, scale, rows, columns), columns.size(), scale);
+  text +=
+      overlays + Axes(job.sweep(), scale, rows, columns, medium) + medium.Caption({SourceOf(job)});
   // Boxes, as an image would be a bitmap inside.
   text +=
-      "set style fill solid noborder\n"
+      "set style fill solid noborder\nset style textbox opaque noborder fillcolor rgb 'white' "
+      "margins 1.5,1.2\n"
       "plot $cells using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror lc palette";
-  if (cells.size() <= kMostNumbers) {
-    text += fmt::format(
-        ", $cells using 1:2:(sprintf('%.4g', $3)):($3 < {} ? 0xffffff : 0) with labels font ',9' "
-        "textcolor rgb variable",
-        (scale.low + scale.high) / 2);
+  if (lines) {
+    text += DrawContours(rows.size(), columns.size(), medium);
+  } else if (cells.size() <= kMostNumbers) {
+    text += Numbers(scale, medium);
   }
   return text + "\nunset output\n";
 }

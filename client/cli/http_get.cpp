@@ -1,49 +1,68 @@
 #include "cli/http_get.h"
 
-#include <curl/curl.h>
 #include <fmt/format.h>
 
-#include <cstddef>
-#include <memory>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/use_future.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <utility>  // Boost 1.74 wants it before its own.
 
 #include "cli/failure.h"
 
 namespace contact::cli {
 namespace {
 
-std::size_t Append(const char* data, std::size_t size, std::size_t count, void* page) {
-  static_cast<std::string*>(page)->append(data, size * count);
-  return size * count;
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+
+// Runs one asynchronous operation to its end: only these can have a time limit.
+template <class Begin>
+void Await(asio::io_context& io, Begin begin) {
+  auto result = begin(asio::use_future);
+  io.restart();
+  io.run();
+  result.get();
+}
+
+http::response<http::string_body> Ask(const std::string& address, const std::string& path,
+                                      std::chrono::milliseconds timeout) {
+  const std::size_t colon = address.rfind(':');
+  std::string host = address.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  const std::string port = colon == std::string::npos ? "80" : address.substr(colon + 1);
+  asio::io_context io;
+  const auto places = asio::ip::tcp::resolver(io).resolve(host, port);
+  beast::tcp_stream stream(io);
+  stream.expires_after(timeout);
+  Await(io, [&](auto token) { return stream.async_connect(places, token); });
+  http::request<http::empty_body> request(http::verb::get, path, 11);
+  request.set(http::field::host, address);
+  Await(io, [&](auto token) { return http::async_write(stream, request, token); });
+  beast::flat_buffer buffer;
+  http::response<http::string_body> response;
+  Await(io, [&](auto token) { return http::async_read(stream, buffer, response, token); });
+  return response;
 }
 
 }  // namespace
 
 std::string HttpGet(const std::string& address, const std::string& path,
                     std::chrono::milliseconds timeout) {
-  const std::unique_ptr<CURL, void (*)(CURL*)> curl(curl_easy_init(), curl_easy_cleanup);
   const std::string url = fmt::format("http://{}{}", address, path);
-  std::string page;
-  if (!curl) throw Failure(ExitCode::kLocal, "libcurl cannot be started");
-  curl_easy_setopt(curl.get(), CURLOPT_URL, url.c_str());
-  curl_easy_setopt(curl.get(), CURLOPT_PROTOCOLS_STR, "http");
-  curl_easy_setopt(curl.get(), CURLOPT_NOPROXY, "*");
-  curl_easy_setopt(curl.get(), CURLOPT_NOSIGNAL, 1L);
-  curl_easy_setopt(curl.get(), CURLOPT_TIMEOUT_MS, static_cast<long>(timeout.count()));
-  curl_easy_setopt(curl.get(), CURLOPT_WRITEFUNCTION, Append);
-  curl_easy_setopt(curl.get(), CURLOPT_WRITEDATA, &page);
-  const CURLcode result = curl_easy_perform(curl.get());
-  if (result == CURLE_OPERATION_TIMEDOUT) {
-    throw Failure(ExitCode::kTimeout, fmt::format("{}: no answer in time", url));
+  try {
+    http::response<http::string_body> response = Ask(address, path, timeout);
+    if (response.result() == http::status::ok) return std::move(response.body());
+    throw Failure(ExitCode::kUnreachable,
+                  fmt::format("{}: answers with status {}", url, response.result_int()));
+  } catch (const boost::system::system_error& error) {
+    if (error.code() == beast::error::timeout) {
+      throw Failure(ExitCode::kTimeout, fmt::format("{}: no answer in time", url));
+    }
+    throw Failure(ExitCode::kUnreachable, fmt::format("{}: {}", url, error.code().message()));
   }
-  if (result != CURLE_OK) {
-    throw Failure(ExitCode::kUnreachable, fmt::format("{}: {}", url, curl_easy_strerror(result)));
-  }
-  long status = 0;
-  curl_easy_getinfo(curl.get(), CURLINFO_RESPONSE_CODE, &status);
-  if (status != 200) {
-    throw Failure(ExitCode::kUnreachable, fmt::format("{}: answers with status {}", url, status));
-  }
-  return page;
 }
 
 }  // namespace contact::cli

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "wire/spelling.h"
 
 namespace contact::cli {
 namespace {
@@ -44,6 +48,23 @@ v1::Job RunToItsEnd(Client& client, const v1::Scenario& scenario, const Settings
 }
 
 }  // namespace
+
+const LawEntry& FindLaw(const std::string& text) {
+  std::string name = text;
+  std::ranges::transform(name, name.begin(), [](unsigned char c) {
+    return c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  });
+  std::vector<std::string_view> names;
+  for (const LawEntry& law : LawCatalogue()) {
+    if (law.name() == name) return law;
+    names.push_back(law.name());
+  }
+  const std::string_view nearest = Nearest(name, names);
+  throw Failure(ExitCode::kUsage,
+                fmt::format("there is no law {} — {}", Quoted(text),
+                            nearest.empty() ? "see contactctl model list"
+                                            : fmt::format("did you mean '{}'?", nearest)));
+}
 
 v1::Scenario CollisionsOf(const std::vector<LawPoint>& points) {
   v1::Scenario scenario;

@@ -19,6 +19,10 @@ struct LawPoint {
   double miss() const { return delivered / requested - 1; }
 };
 
+/// The law with this name; `hunt-crossley` is as good as HUNT_CROSSLEY. Throws Failure (kUsage),
+/// which suggests the nearest one.
+const LawEntry& FindLaw(const std::string& text);
+
 /// The scenario in which each of these points is a ball that hits a wall of its own, one after
 /// the other. Contact i of its ledger is point i.
 v1::Scenario CollisionsOf(const std::vector<LawPoint>& points);

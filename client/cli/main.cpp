@@ -37,11 +37,10 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option(
          "-o,--output", settings->output,
          "How to print: table, wide (a table with all columns), json, yaml (what json says), "
-         "name; jsonl (list, watch, export); csv (list, series, sweep, model, export); netcdf "
-         "(export); svg, png, "
-         "pdf, gp, csv (plot)")
+         "name; jsonl (list, watch, export); csv (list, series, sweep, model, export); netcdf, "
+         "mat, protobuf (export); svg, png, pdf, txt, tikz, gp, csv (plot)")
       ->check(CLI::IsMember({"table", "wide", "json", "yaml", "jsonl", "name", "csv", "netcdf",
-                             "svg", "png", "pdf", "gp"}))
+                             "mat", "protobuf", "svg", "png", "pdf", "txt", "tikz", "gp"}))
       ->type_name("FORMAT")
       ->capture_default_str();
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")

@@ -5,10 +5,12 @@
 #include <boost/crc.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <sstream>
 #include <utility>
 
 #include "cli/html.h"
 #include "cli/pdf_source.h"
+#include "cli/style.h"
 #include "cli/text_file.h"
 
 namespace contact::cli {
@@ -46,6 +48,30 @@ std::string DescribedPng(std::string png, const std::string& title, const std::s
   return png.insert(kHeader, TextChunk("Title", title) + TextChunk("Description", lines));
 }
 
+// Without the lines in which gnuplot tells its version and the time.
+std::string DescribedTikz(const std::string& picture, const std::vector<Provenance>& sources) {
+  std::string described = Lines(sources, "% ") + "% \\usepackage{gnuplot-lua-tikz}\n";
+  std::istringstream lines(picture);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("%%")) described.append(line).append("\n");
+  }
+  return described;
+}
+
+// Without the spaces that fill its lines.
+std::string DescribedCharacters(const std::string& picture,
+                                const std::vector<Provenance>& sources) {
+  std::string described;
+  std::istringstream lines(picture);
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(0, line.starts_with('\f') ? 1 : 0);
+    described.append(TrimRight(line)).append("\n");
+  }
+  described.erase(described.find_last_not_of('\n') + 1);
+  described += '\n';
+  return sources.empty() ? described : described + "\n" + Caption(sources) + "\n";
+}
+
 }  // namespace
 
 void DescribePicture(std::string_view format, const std::string& path, const std::string& title,
@@ -56,6 +82,10 @@ void DescribePicture(std::string_view format, const std::string& path, const std
     picture = DescribedPng(std::move(picture), title, lines);
   } else if (format == "pdf") {
     DescribePdf(title, lines, &picture);
+  } else if (format == "tikz") {
+    picture = DescribedTikz(picture, sources);
+  } else if (format == "txt") {
+    picture = DescribedCharacters(picture, sources);
   } else {
     Replace("title", HtmlText(title), &picture);
     Replace("desc", HtmlText(lines), &picture);

@@ -8,6 +8,7 @@
 
 #include "cli/export_text.h"
 #include "cli/html.h"
+#include "cli/latex.h"
 #include "cli/number.h"
 #include "cli/table.h"
 
@@ -95,23 +96,6 @@ Json Number(const Value& value) {
   if (const auto* word = std::get_if<std::string>(&value)) return *word;
   const auto* number = std::get_if<double>(&value);
   return number == nullptr || !std::isfinite(*number) ? Json() : Json(*number);
-}
-
-std::string LatexText(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) escaped += '\\';
-    escaped += c == '^'    ? std::string("\\textasciicircum{}")
-               : c == '\\' ? std::string("\\textbackslash{}")
-                           : std::string(1, c);
-  }
-  for (const auto& [greek, command] :
-       {std::pair("μ", "$\\mu$"), {"ε", "$\\varepsilon$"}, {"δ", "$\\delta$"}}) {
-    for (auto at = escaped.find(greek); at != std::string::npos; at = escaped.find(greek, at)) {
-      escaped.replace(at, std::string_view(greek).size(), command);
-    }
-  }
-  return escaped;
 }
 
 std::string LatexRow(const std::vector<std::string>& cells) {

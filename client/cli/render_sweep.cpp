@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string_view>
 #include <vector>
 
+#include "cli/heat_scale.h"
 #include "cli/number.h"
 #include "cli/render_job.h"
 #include "cli/render_json.h"
@@ -53,32 +53,15 @@ std::vector<double> ValuesOf(const SweepCells& cells, int axis) {
   return values;
 }
 
-struct Scale {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-};
-
-Scale ScaleOf(const SweepCells& cells, int metric) {
-  Scale scale;
-  for (const auto& [index, cell] : cells) {
-    const double value = metric < cell.metrics_size() ? cell.metrics(metric) : NAN;
-    if (cell.state() == v1::Job::FAILED || !std::isfinite(value)) continue;
-    scale.low = std::min(scale.low, value);
-    scale.high = std::max(scale.high, value);
-  }
-  return scale;
-}
-
 // Two characters for a cell.
-std::string Glyph(const v1::SweepCell* cell, int metric, const Scale& scale, const Style& style) {
+std::string Glyph(const v1::SweepCell* cell, const HeatScale& scale, const Style& style) {
   constexpr std::array<std::string_view, 4> kShades{"░", "▒", "▓", "█"};
   if (cell == nullptr) return "··";
   if (cell->state() == v1::Job::FAILED) return Paint("××", Tone::kBad, style);
-  const double value = cell->metrics(metric);
-  if (!std::isfinite(value)) return "--";
-  const double height = scale.high > scale.low ? (value - scale.low) / (scale.high - scale.low) : 0;
+  const double value = scale.Shown(*cell);
+  if (std::isnan(value)) return "--";
   const std::string_view shade =
-      kShades[std::min<std::size_t>(3, static_cast<std::size_t>(height * 4))];
+      kShades[std::min<std::size_t>(3, static_cast<std::size_t>(scale.Height(value) * 4))];
   if (cell->convergence() == v1::Job::FULL) return fmt::format("{0}{0}", shade);
   return Paint(fmt::format("{}!", shade), Tone::kWarning, style);
 }
@@ -91,6 +74,14 @@ std::vector<Table::Column> Quantities(const v1::Sweep& sweep) {
     columns.push_back({metric, true, static_cast<int>(columns.size()), metric});
   }
   return columns;
+}
+
+std::string Legend(const HeatScale& scale) {
+  std::string legend =
+      fmt::format("░ {} … █ {}{};  ! not converged, ×× failed, -- no value", Digits(scale.low(), 5),
+                  Digits(scale.high(), 5), scale.log() ? ", log scale" : "");
+  if (scale.unshown() == 0) return legend;
+  return legend + fmt::format(" ({})", Count(scale.unshown(), "is <= 0", "are <= 0"));
 }
 
 }  // namespace
@@ -113,8 +104,8 @@ std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style
   return text + "\n" + table.Text(style, kMostRows, "… {} more cells; -o csv prints all");
 }
 
-std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
-                    const Style& style) {
+std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric, const Style& style,
+                    bool log) {
   const bool grid = sweep.combination() == v1::Sweep::GRID ||
                     sweep.combination() == v1::Sweep::COMBINATION_UNSPECIFIED;
   if (!grid || sweep.axes_size() != 2 || metric < 0 || metric >= sweep.metrics_size() ||
@@ -132,7 +123,7 @@ std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
 
   std::map<std::pair<double, double>, const v1::SweepCell*> at;
   for (const auto& [index, cell] : cells) at[{cell.values(0), cell.values(1)}] = &cell;
-  const Scale scale = ScaleOf(cells, metric);
+  const HeatScale scale(cells, metric, log);
   std::string text =
       Wrap(fmt::format("\n{} over {} (down) and {} (across, {} … {})\n", sweep.metrics(metric),
                        sweep.axes(0).field(), sweep.axes(1).field(), Digits(columns.front(), 4),
@@ -142,14 +133,11 @@ std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
     text += Pad(labels[r], -label) + " ";
     for (const double column : columns) {
       const auto found = at.find({rows[r], column});
-      text.append(" ").append(
-          Glyph(found == at.end() ? nullptr : found->second, metric, scale, style));
+      text.append(" ").append(Glyph(found == at.end() ? nullptr : found->second, scale, style));
     }
     text += "\n";
   }
-  return text + Wrap(fmt::format("░ {} … █ {};  ! not converged, ×× failed, -- no value\n",
-                                 Digits(scale.low, 5), Digits(scale.high, 5)),
-                     style);
+  return text + Wrap(Legend(scale) + "\n", style);
 }
 
 std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells,

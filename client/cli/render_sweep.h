@@ -18,10 +18,10 @@ using SweepCells = std::map<int, v1::SweepCell>;  ///< By number.
 std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style& style);
 
 /// A metric over two axes as shades, the first axis down, the second across. Cells that did not
-/// converge carry a `!`, those that failed are `××`. Empty unless the sweep is a grid of two axes
-/// that fits into the terminal, and has this metric.
-std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
-                    const Style& style);
+/// converge carry a `!`, those that failed are `××`. With `log` the shades are of its logarithm.
+/// Empty unless the sweep is a grid of two axes that fits into the terminal, and has this metric.
+std::string HeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric, const Style& style,
+                    bool log = false);
 
 /// All cells as CSV: cell, axes, metrics, state, convergence, message; or the columns of these
 /// names, which Table::Csv knows.

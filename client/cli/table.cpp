@@ -156,10 +156,10 @@ std::string Table::Block(const Layout& layout, std::size_t row, const Style& sty
   std::string text = row == 0 ? "" : "\n";
   for (const std::size_t i : layout.shown) {
     const Cell& cell = rows_[row][i];
-    const std::string gap(kGap, ' ');
     const std::string words = Paint(cell.text, cell.tone, style) + "\n";
     if (label + kGap + Width(cell.text) <= style.width) {
-      text += Paint(Pad(columns_[i].header, label), Tone::kFaint, style) + gap + words;
+      text.append(Paint(Pad(columns_[i].header, label), Tone::kFaint, style));
+      text.append(kGap, ' ').append(words);
     } else {
       text += Paint(columns_[i].header, Tone::kFaint, style) + "\n" + Wrap(words, style);
     }

@@ -1,4 +1,4 @@
-"""The libraries of netCDF and PDF are loaded when they are asked for, and from where they are."""
+"""The libraries of netCDF, MAT and PDF are loaded when they are asked for, and from where they are."""
 
 import os
 import pathlib
@@ -33,7 +33,7 @@ class FormatsTest(CliTest):
         needed = subprocess.run(["ldd", PROGRAM], capture_output=True, encoding="utf-8",
                                 check=True, timeout=PATIENCE_S).stdout
         self.assertIn("libgrpc++", needed)
-        for library in ("libnetcdf", "libhdf5", "libqpdf"):
+        for library in ("libnetcdf", "libhdf5", "libmatio", "libqpdf", "libcurl"):
             self.assertNotIn(library, needed)
 
     def test_module_is_found_where_it_is_installed(self):
@@ -48,7 +48,7 @@ class FormatsTest(CliTest):
         run, _ = self.export()
         self.assertEqual(run.returncode, 11, run.stderr)
         self.assertIn(f"{MODULE}: neither in {self.bin} nor in ../lib/contactctl", run.stderr)
-        self.assertIn("netCDF and PDF need it", run.stderr)
+        self.assertIn("netCDF, MAT and PDF need it", run.stderr)
 
     def test_damaged_module_is_told_as_such(self):
         (self.bin / MODULE).write_bytes(b"no library")

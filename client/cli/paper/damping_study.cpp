@@ -107,9 +107,8 @@ Figure DrawPostRestitution(const Data& data) {
                               {"Hunt and Crossley", "Lankarani and Nikravesh", "Flores et al.",
                                "Hu and Guo", "paper, (23)"});
   figure.title = "Restitution that each law delivers; ideal dotted";
-  std::vector<Figure::Curve>& curves = figure.panels.front().curves;
-  curves.back().mark = Figure::Mark::kDashed;  // As printed.
-  curves.push_back({"", 6, Figure::Mark::kDotted, {0, 1}, {0, 1}});
+  figure.panels.front().curves.back().mark = Figure::Mark::kDashed;  // As printed.
+  AddIdeal(&figure);
   return figure;
 }
 

@@ -61,6 +61,11 @@ Figure DrawColumns(const Data& data, const std::string& y_label,
   return {"", {std::move(panel)}};
 }
 
+void AddIdeal(Figure* figure) {
+  constexpr int kBlack = 6;
+  figure->panels.front().curves.push_back({"", kBlack, Figure::Mark::kDotted, {0, 1}, {0, 1}});
+}
+
 Figure DrawVelocities(const Solved& run) {
   constexpr std::array kMarks{Figure::Mark::kLine, Figure::Mark::kDashed, Figure::Mark::kDotted};
   Figure figure = DrawPreset("velocity", run);

@@ -16,6 +16,9 @@ Figure DrawDeformationVelocities(const Data& data);
 Figure DrawColumns(const Data& data, const std::string& y_label,
                    const std::vector<std::string>& labels);
 
+/// Fig. 4: the restitution asked for, dotted.
+void AddIdeal(Figure* figure);
+
 /// Fig. 9: B1 solid, B2 dashed, B3 dotted.
 Figure DrawVelocities(const Solved& run);
 
