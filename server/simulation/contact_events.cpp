@@ -8,6 +8,9 @@ namespace contact {
 namespace {
 
 constexpr int kPieces = 8;
+// A deformation that so many times its noise begins in a step is no start from rest, which would
+// have begun in the step before: by chance that one ended on the touch.
+constexpr double kFast = 100;
 
 // Root of f between a and b, where it changes sign; a when it already has b's sign there.
 template <class F>
@@ -38,7 +41,8 @@ std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise
   // What plainly moves apart is not at rest; it may come back in the step.
   if (std::abs(path.start_value()) <= noise && path.start_slope() >= -noise) {
     if (path.end_value() <= noise) return std::nullopt;
-    return ContactEvent{EventKind::kRestTouch, 0};
+    const bool at_rest = path.start_slope() <= kFast * noise;
+    return ContactEvent{at_rest ? EventKind::kRestTouch : EventKind::kTouch, 0};
   }
   const bool peaks = path.start_slope() > 0 && path.end_slope() < 0;
   if (path.end_value() <= noise && !peaks) return std::nullopt;

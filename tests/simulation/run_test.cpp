@@ -55,6 +55,21 @@ TEST(Run, AnElasticHertzImpactHasTheClassicalTimeDepthAndForce) {
   EXPECT_NEAR(r.outcome.velocities[0], -10, 1e-9);
 }
 
+// Fixed steps of 1 µs, one of which ends on the touch but for round-off, on either side.
+TEST(Run, ATouchAtTheEndOfAStepIsACollision) {
+  for (const double touch : {1e-3, 1e-3 - 1e-19, 1e-3 + 1e-19, 1e-3 + 3e-7}) {
+    Scenario s = testing::Chain({0.1, 0.1}, {1e8}, {0.5}, 1, 4e-3);
+    s.bodies[1].position += touch;
+    s.solver.fixed_step = 1e-6;
+    const Record r = RunAndRecord(s);
+    ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << touch << ' ' << r.outcome.message;
+    ASSERT_EQ(r.cycles.size(), 1u);
+    EXPECT_EQ(r.cycles[0].kind, Cycle::Kind::kCollision);
+    EXPECT_NEAR(r.cycles[0].approach_velocity, 1, 1e-12);
+    EXPECT_NEAR(r.outcome.velocities[1] - r.outcome.velocities[0], 0.5, 1e-6);
+  }
+}
+
 // Three equal balls without damping: a classical result of the Hertz chain.
 TEST(Run, AnUndampedHertzChainOfThreeEndsWithTheKnownVelocities) {
   const Record r = RunAndRecord(testing::Chain({1, 1, 1}, {1e9, 1e9}, {1, 1}, 1, 0.01));
