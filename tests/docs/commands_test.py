@@ -68,17 +68,21 @@ def examples(content):
 
 class CommandsTest(ServerTest):
 
-    def session(self, path):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "session").mkdir()
+        (self.folder / "session" / "client").symlink_to(ROOT / "client")
+
+    def shell(self, path):
+        """Runs the commands of a page; how many."""
         folder = self.folder / "session"
-        folder.mkdir()
-        (folder / "client").symlink_to(ROOT / "client")
         tools = pathlib.Path(os.environ["CONTACTCTL"]).parent
         env = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
                "HOME": str(folder), "CONTACT_SERVER": f"127.0.0.1:{self.server.port}"}
         ids, count = {}, 0
-        shell = [block for block in blocks(path.read_text("utf-8"))
+        found = [block for block in blocks(path.read_text("utf-8"))
                  if block[0] in ("sh", "console")]
-        for language, code, content in shell:
+        for language, code, content in found:
             pairs = commands(language, content)
             for command, shown in pairs:
                 if any(tool in command and not shutil.which(tool) for tool in TOOLS):
@@ -96,20 +100,14 @@ class CommandsTest(ServerTest):
                 count += 1
         return count
 
-    def test_readme(self):
-        self.assertGreater(self.session(ROOT / "README.md"), 10)
-
-    def test_client_readme(self):
-        self.assertGreater(self.session(ROOT / "client" / "README.md"), 15)
-
-    def python_session(self, path):
-        (self.folder / "client").symlink_to(ROOT / "client")
+    def python(self, path):
+        """Runs the statements of a page, beside what its commands left; how many."""
         self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(self.folder)
+        os.chdir(self.folder / "session")
         names, count = {}, 0
         text = path.read_text("utf-8").replace("127.0.0.1:7070", f"127.0.0.1:{self.server.port}")
-        python = [block for block in blocks(text) if block[0] in ("python", "pycon")]
-        for language, _, content in python:
+        found = [block for block in blocks(text) if block[0] in ("python", "pycon")]
+        for language, _, content in found:
             for statements, shown in ([(content, "")] if language == "python" else
                                       examples(content)):
                 code = compile(statements, path.name, "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
@@ -122,11 +120,16 @@ class CommandsTest(ServerTest):
                 count += 1
         return count
 
-    def test_python_of_readme(self):
-        self.assertEqual(self.python_session(ROOT / "README.md"), 1)
+    def test_readme(self):
+        self.assertGreater(self.shell(ROOT / "README.md"), 10)
+        self.assertEqual(self.python(ROOT / "README.md"), 1)
+
+    def test_client_readme(self):
+        self.assertGreater(self.shell(ROOT / "client" / "README.md"), 15)
+        self.assertEqual(self.python(ROOT / "client" / "README.md"), 1)
 
     def test_python_readme(self):
-        self.assertGreater(self.python_session(ROOT / "client" / "python" / "README.md"), 10)
+        self.assertGreater(self.python(ROOT / "client" / "python" / "README.md"), 10)
 
 
 class BlocksTest(unittest.TestCase):
