@@ -1,6 +1,7 @@
 #include "cli/progress_signals.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/util/message_differencer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,8 @@ ProgressSignals::~ProgressSignals() {
 
 void ProgressSignals::Hear(const v1::Progress& progress, Clock::time_point now) {
   if (progress.cells() == 0 && progress.end_time_s() <= 0) return;  // Nothing is known yet.
-  untold_ = progress;
+  if (last_ && google::protobuf::util::MessageDifferencer::Equals(*last_, progress)) return;
+  last_ = untold_ = progress;
   if (!told_ || now - *told_ >= kInterval) Tell(now);
 }
 

@@ -38,6 +38,7 @@ class ProgressSignals {
   const bool taskbar_;
   const Clock::time_point start_ = Clock::now();
   std::optional<Clock::time_point> told_;
+  std::optional<v1::Progress> last_;  // Heard.
   std::optional<v1::Progress> untold_;
 };
 
