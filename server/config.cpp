@@ -86,6 +86,7 @@ const std::map<std::string, LogFormat> kLogFormats{{"text", LogFormat::kText},
 // Flags whose value needs a second look. Times in seconds.
 struct Switches {
   bool no_reflection = false;
+  bool channelz = false;
   bool insecure = false;
   double write_stall_s = 30;
   double max_wall_time_s = 0;
@@ -124,6 +125,8 @@ void AddFlags(CLI::App* app, Config* config, Switches* switches) {
                   "HOST:PORT that tells metrics to Prometheus, such as 127.0.0.1:9464");
   app->add_flag("--no-reflection", switches->no_reflection,
                 "Do not tell clients which services there are");
+  app->add_flag("--channelz", switches->channelz,
+                "Tell clients of this host which connections there are, for debugging");
   app->add_flag("--insecure-i-know", switches->insecure,
                 "Listen without encryption and passwords on an address that others can reach");
 }
@@ -261,6 +264,7 @@ void Check(const Switches& switches, Config* config) {
   }
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
   config->rpc.reflection = loopback && !switches.no_reflection;
+  config->rpc.channelz = loopback && switches.channelz;
   config->rpc.write_stall = Milliseconds(switches.write_stall_s);
   config->jobs.max_budget.wall_time = Milliseconds(switches.max_wall_time_s);
   config->jobs.step_timeout = Milliseconds(switches.step_timeout_s);

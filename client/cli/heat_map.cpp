@@ -142,8 +142,8 @@ std::string Axes(const v1::Sweep& sweep, const HeatScale& scale, const Axis& row
       static_cast<double>(rows.size()) - 0.5, low, high, medium.Text(Legend(scale)),
       medium.Font(9));
   if (scale.log()) {
-    text +=
-        fmt::format("set logscale cb\nset cbtics ({})\n", fmt::join(LogLevels(low, high), ", "));
+    text += fmt::format("set logscale cb\nset cblabel offset 0.8\nset cbtics ({})\n",
+                        fmt::join(LogLevels(low, high), ", "));
   } else if (scale.whole() && high - low < kMostTics) {
     text += "set cbtics 1\n";
   }

@@ -1,5 +1,6 @@
 #include "rpc/grpc_server.h"
 
+#include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/impl/server_builder_option.h>
@@ -24,14 +25,17 @@ namespace {
 using std::chrono::milliseconds;
 using namespace std::chrono_literals;
 
-// Linking the reflection library registers it with every server; this takes it out again.
-class NoReflection final : public grpc::ServerBuilderOption {
+// Plugins register with every server of the process; this takes one out again.
+class Without final : public grpc::ServerBuilderOption {
  public:
+  explicit Without(std::string plugin) : plugin_(std::move(plugin)) {}
   void UpdateArguments(grpc::ChannelArguments* /*arguments*/) override {}
   void UpdatePlugins(std::vector<std::unique_ptr<grpc::ServerBuilderPlugin>>* plugins) override {
-    std::erase_if(*plugins,
-                  [](const auto& plugin) { return plugin->name() == "proto_server_reflection"; });
+    std::erase_if(*plugins, [this](const auto& plugin) { return plugin->name() == plugin_; });
   }
+
+ private:
+  const std::string plugin_;
 };
 
 constexpr int kMaxGrpcThreads = 32;
@@ -60,7 +64,9 @@ void Configure(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MAX_PING_STRIKES, 2);
   // No largest age: it would cut every long watch, and there is no balancer to please.
   builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, 300'000);
-  if (!options.reflection) builder->SetOption(std::make_unique<NoReflection>());
+  builder->AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, options.channelz ? 1 : 0);
+  if (!options.reflection) builder->SetOption(std::make_unique<Without>("proto_server_reflection"));
+  if (!options.channelz) builder->SetOption(std::make_unique<Without>("channelz_service"));
 }
 
 // Does what is needed to be destroyed in time: first `urge`, then end the process.
@@ -132,6 +138,7 @@ GrpcServer::~GrpcServer() { Shutdown(1s); }
 std::optional<int> GrpcServer::Start(const std::string& address) {
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  if (options_.channelz) grpc::channelz::experimental::InitChannelzService();
   grpc::ServerBuilder builder;
   builder.RegisterService(&service_);
   builder.RegisterService(&admin_);

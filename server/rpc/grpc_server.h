@@ -28,6 +28,7 @@ struct GrpcServerOptions {
   /// A reader of a stream that takes nothing for so long is dropped.
   std::chrono::milliseconds write_stall{30'000};
   bool reflection = true;  ///< Answer which services and messages there are.
+  bool channelz = false;   ///< Answer which connections there are, and what went over them.
 };
 
 /// The gRPC server: its settings, its services, its end. Plaintext, so for loopback only.

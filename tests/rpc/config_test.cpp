@@ -70,6 +70,7 @@ TEST_F(ConfigTest, DefaultsAreThoseOfTheReadme) {
   EXPECT_EQ(config.rpc.max_message_bytes, 8 << 20);
   EXPECT_EQ(config.rpc.write_stall, std::chrono::seconds(30));
   EXPECT_TRUE(config.rpc.reflection);
+  EXPECT_FALSE(config.rpc.channelz);
 }
 
 TEST_F(ConfigTest, EveryFlagArrives) {
@@ -94,7 +95,8 @@ TEST_F(ConfigTest, EveryFlagArrives) {
                               "json",        "--max-rpc-memory-bytes",
                               "16777216",    "--log-level",
                               "warn",        "--no-reflection",
-                              "--port-file", "/port"});
+                              "--channelz",  "--port-file",
+                              "/port"});
   EXPECT_EQ(config.listen, "[::1]:0");
   EXPECT_EQ(config.data_dir, "/data");
   EXPECT_EQ(config.jobs.workers, 3);
@@ -118,6 +120,7 @@ TEST_F(ConfigTest, EveryFlagArrives) {
   EXPECT_EQ(config.log_format, LogFormat::kJson);
   EXPECT_EQ(config.log_level, spdlog::level::warn);
   EXPECT_FALSE(config.rpc.reflection);
+  EXPECT_TRUE(config.rpc.channelz);
   EXPECT_EQ(config.port_file, "/port");
 }
 
@@ -186,9 +189,10 @@ TEST_F(ConfigTest, AddressOthersCanReachNeedsConsent) {
     const Exit exit = Bad({"--listen", address});
     EXPECT_EQ(exit.code, kExitUsage) << address;
     EXPECT_THAT(exit.text, HasSubstr("--insecure-i-know"));
-    const Config config = Good({"--listen", address, "--insecure-i-know"});
+    const Config config = Good({"--listen", address, "--insecure-i-know", "--channelz"});
     EXPECT_EQ(config.listen, address);
     EXPECT_FALSE(config.rpc.reflection) << "reflection is for loopback";
+    EXPECT_FALSE(config.rpc.channelz) << "and so is channelz";
   }
   for (const char* address : {"127.0.0.1:1", "127.8.9.10:1", "localhost:1", "[::1]:1"}) {
     EXPECT_EQ(Good({"--listen", address}).listen, address);

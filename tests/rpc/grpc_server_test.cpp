@@ -74,6 +74,14 @@ TEST(GrpcServerTest, ReflectionIsASwitch) {
   EXPECT_EQ(CallRaw(closed, method, list_services).bytes, "");
 }
 
+TEST(GrpcServerTest, ChannelzIsASwitchThatIsOff) {
+  const std::string method = "/grpc.channelz.v1.Channelz/GetServers";
+  const TestServer open({.channelz = true});
+  EXPECT_NE(CallRaw(open, method, "").bytes, "");
+  const TestServer closed;
+  EXPECT_EQ(CallRaw(closed, method, "").bytes, "");
+}
+
 TEST(GrpcServerTest, TwoServersCannotShareAPort) {
   TestServer first;
   GrpcServer second(first.jobs(), {}, {});
