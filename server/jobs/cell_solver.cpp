@@ -1,6 +1,7 @@
 #include "jobs/cell_solver.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -28,14 +29,22 @@ class CellObserver final : public Observer {
     std::ranges::move(ChunksOf(scenario_, samples), std::back_inserter(*trajectory_));
   }
   void OnProgress(const Progress& /*progress*/) override { pulse_(); }
-  void OnStep() override { control_.CountStep(); }
+  // In batches: all workers count on the same number.
+  void OnStep() override {
+    if (++steps_ == kBatch) TellSteps();
+  }
+
+  void TellSteps() { control_.CountSteps(std::exchange(steps_, 0)); }
 
  private:
+  static constexpr std::int64_t kBatch = 64;
+
   const Scenario& scenario_;
   RunControl& control_;
   const std::function<void()>& pulse_;
   v1::Job* result_;
   std::vector<v1::FrameChunk>* trajectory_;
+  std::int64_t steps_ = 0;  // Not told yet.
 };
 
 void Fail(const std::string& reason, const std::string& message, v1::SweepCell* cell) {
@@ -88,6 +97,7 @@ bool CellSolver::Run(const Scenario& scenario, RunControl& control,
   v1::Job result;
   CellObserver observer(scenario, control, pulse, &result, &solved->trajectory);
   const Outcome outcome = options_.run(scenario, observer, control.token());
+  observer.TellSteps();
   const Move move = MoveAfter(outcome);
   if (move.to == v1::Job::CANCELLED) return false;
   EncodeOutcome(scenario, outcome, &result);
