@@ -107,10 +107,12 @@ class OversizeTest(ServerTest):
         self.assertLivesOn()
 
     def test_large_metadata_is_refused(self):
-        for size, code in ((7000, grpc.StatusCode.OK),
-                           (9 << 10, grpc.StatusCode.RESOURCE_EXHAUSTED),
-                           (1 << 20, grpc.StatusCode.RESOURCE_EXHAUSTED)):
-            self.assertEqual(self.call(b"", INFO, metadata=[("note", "x" * size)]), code, size)
+        refused = (grpc.StatusCode.RESOURCE_EXHAUSTED,)
+        # What is far past the limit gRPC takes for a broken connection: it answers and hangs up,
+        # and whether the answer is read before the end is a race that no server can decide.
+        cut = (*refused, grpc.StatusCode.UNAVAILABLE)
+        for size, codes in ((7000, (grpc.StatusCode.OK,)), (9 << 10, refused), (1 << 20, cut)):
+            self.assertIn(self.call(b"", INFO, metadata=[("note", "x" * size)]), codes, size)
         self.assertLivesOn()
 
     def test_large_metadata_of_a_client_that_ignores_settings_is_refused(self):
