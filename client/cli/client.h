@@ -51,6 +51,18 @@ class Client {
     return response;
   }
 
+  /// The same, where the request may be wrong in several places. Throws Failure with all of them.
+  template <class Request, class Response>
+  Response CallTellingAll(grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&,
+                                                       Response*),
+                          const Request& request) {
+    try {
+      return Call(method, request);
+    } catch (const CallFailure& failure) {
+      throw failure.AllTold();
+    }
+  }
+
   Stub& stub() { return *stub_; }
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
   const std::string& server() const { return server_; }

@@ -44,12 +44,7 @@ ExitCode ValidateOnServer(const v1::Job& job, const Settings& settings) {
   *request.mutable_job() = job;
   request.set_validate_only(true);
   Client client = settings.Connect();
-  v1::Job checked;
-  try {
-    checked = client.Call(&Client::Stub::CreateJob, request);
-  } catch (const CallFailure& failure) {
-    throw failure.AllTold();
-  }
+  const v1::Job checked = client.CallTellingAll(&Client::Stub::CreateJob, request);
   const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
   fmt::print("contactd at {} would take it\n{}", client.server(),
              RenderEstimate(checked, info.limits(), settings.OutputStyle()));

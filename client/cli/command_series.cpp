@@ -32,15 +32,6 @@ v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
   return request;
 }
 
-// Tells every mistake of the request, where the call alone tells the first.
-v1::Series Get(Client& client, const SeriesArguments& arguments) {
-  try {
-    return client.Call(&Client::Stub::GetSeries, Request(arguments));
-  } catch (const CallFailure& failure) {
-    throw failure.AllTold();
-  }
-}
-
 // Where the motion comes from, in lines that readers of CSV skip.
 std::string Comments(Client& client, const SeriesArguments& arguments) {
   if (!arguments.comments) return "";
@@ -50,7 +41,7 @@ std::string Comments(Client& client, const SeriesArguments& arguments) {
 ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
   settings.RequireOutput({"table", "csv", "json"});
   Client client = settings.Connect();
-  const v1::Series series = Get(client, arguments);
+  const v1::Series series = client.CallTellingAll(&Client::Stub::GetSeries, Request(arguments));
   if (settings.output == "csv") {
     fmt::print("{}{}", Comments(client, arguments), SeriesCsv(series));
   } else if (settings.output == "json") {

@@ -120,11 +120,8 @@ void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& ar
 // Follows a sweep to its end, from its first cell on, and prints it.
 ExitCode Follow(Client& client, const std::string& name, const SweepArguments& arguments,
                 const Settings& settings) {
-  if (const v1::Job job = GetJob(client, name); !job.has_sweep()) {
-    throw Failure(ExitCode::kUsage, fmt::format("{} is no sweep; see contactctl describe", name));
-  } else {
-    CheckNames(job.sweep(), arguments, settings);
-  }
+  v1::Job job = GetSweep(client, name);
+  CheckNames(job.sweep(), arguments, settings);
   WatchOptions options;
   options.name = name;
   options.kinds = {"sweep_cell", "progress"};
@@ -138,7 +135,10 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
     if (submitted) fmt::print(stderr, "{} submitted\n", name);
     CellWatcher watcher(name, settings);
     end = Watch(client, options, watcher);
-    if (end == WatchEnd::kFinished) watcher.OnSnapshot(GetJob(client, name));  // How far it came.
+    if (end == WatchEnd::kFinished) {
+      job = GetJob(client, name);
+      watcher.OnSnapshot(job);  // How far it came.
+    }
     cells = watcher.cells();
   }
   if (end != WatchEnd::kFinished) {
@@ -146,19 +146,9 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
                ? DetachOrCancel(client, end, name, arguments.cancel_on_interrupt, settings)
                : Detach(end, name);
   }
-  const v1::Job job = GetJob(client, name);
   if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
   Print(job, cells, arguments, settings);
   return Outcome(job);
-}
-
-// Tells every rule that the server finds broken.
-v1::Job Create(Client& client, const v1::CreateJobRequest& request) {
-  try {
-    return client.Call(&Client::Stub::CreateJob, request);
-  } catch (const CallFailure& failure) {
-    throw failure.AllTold();
-  }
 }
 
 ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
@@ -179,7 +169,7 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   }
   arguments.settings.Apply(request.mutable_job());
   Client client = settings.Connect();
-  const std::string name = Create(client, request).name();
+  const std::string name = client.CallTellingAll(&Client::Stub::CreateJob, request).name();
   const ExitCode code = Follow(client, name, arguments, settings);
   if (settings.output == "table") {
     fmt::print(stderr, "Next:  contactctl sweep export {} -o csv\n", ShortName(name));

@@ -24,13 +24,6 @@ struct HeatMapArguments {
   HeatMapOptions map;
 };
 
-v1::Job GetSweep(Client& client, const std::string& name) {
-  v1::Job job = GetJob(client, name);
-  if (job.has_sweep()) return job;
-  throw Failure(ExitCode::kUsage,
-                fmt::format("{} is no sweep; see contactctl describe", job.name()));
-}
-
 // Runs the scenario of a cell as a job of its own.
 ExitCode RunCell(Client& client, const v1::Job& sweep, const v1::SweepCell& cell,
                  const Settings& settings) {
@@ -39,12 +32,7 @@ ExitCode RunCell(Client& client, const v1::Job& sweep, const v1::SweepCell& cell
   (*request.mutable_job()->mutable_labels())["sweep"] = ShortName(sweep.name());
   (*request.mutable_job()->mutable_labels())["cell"] = fmt::to_string(cell.index());
   request.set_request_id(RandomRequestId());
-  v1::Job job;
-  try {
-    job = client.Call(&Client::Stub::CreateJob, request);
-  } catch (const CallFailure& failure) {
-    throw failure.AllTold();
-  }
+  v1::Job job = client.CallTellingAll(&Client::Stub::CreateJob, request);
   const WatchEnd end =
       FollowRun(client, job.name(), settings.Deadline(), IterationRows::kFirst, settings);
   if (end != WatchEnd::kFinished) return Detach(end, job.name());
@@ -66,7 +54,7 @@ ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
   const v1::SweepCell& cell = FindCell(job.sweep(), cells, arguments.cell);
   if (arguments.run) return RunCell(client, job, cell, settings);
   if (settings.output == "json") {
-    fmt::print("{}", ToJson(cell));
+    PrintJson(ToJson(cell), settings);
     return ExitCode::kOk;
   }
   fmt::print("{}", RenderCell(job, cell, settings.OutputStyle()));

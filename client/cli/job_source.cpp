@@ -31,6 +31,13 @@ v1::Job GetJob(Client& client, const std::string& job) {
   return client.Call(&Client::Stub::GetJob, request);
 }
 
+v1::Job GetSweep(Client& client, const std::string& job) {
+  v1::Job sweep = GetJob(client, job);
+  if (sweep.has_sweep()) return sweep;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("{} is no sweep; see contactctl describe", sweep.name()));
+}
+
 v1::Job JobSource::Get(const std::string& name) {
   if (std::filesystem::is_regular_file(name)) return ReadJob(name);
   if (!client_) client_.emplace(settings_.Connect());

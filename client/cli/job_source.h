@@ -10,6 +10,9 @@ namespace contact::cli {
 /// A job of the server, by ID or jobs/ID. Throws CallFailure.
 v1::Job GetJob(Client& client, const std::string& job);
 
+/// The same of a sweep. Throws Failure (kUsage) too, if the job is none.
+v1::Job GetSweep(Client& client, const std::string& job);
+
 /// Jobs of the server, and of files with what `describe -o json` printed.
 class JobSource {
  public:

@@ -71,12 +71,7 @@ std::vector<SampleColumn> ThinnedSeries(Client& client, const std::string& job,
   if (selection.from) request.set_start_time_s(*selection.from);
   if (selection.to) request.set_end_time_s(*selection.to);
   request.set_max_points(selection.max_points);
-  v1::Series series;
-  try {
-    series = client.Call(&Client::Stub::GetSeries, request);
-  } catch (const CallFailure& failure) {
-    throw failure.AllTold();
-  }
+  const v1::Series series = client.CallTellingAll(&Client::Stub::GetSeries, request);
   std::vector<SampleColumn> columns;
   for (const v1::FrameChunk::Column& column : series.columns()) {
     std::vector<double> values(column.values().size() / sizeof(double));

@@ -34,7 +34,8 @@ class YamlOutputTest(CliTest):
         self.assertIn('"NaN"', self.same("describe", cut.strip()))  # A text in JSON too.
         for arguments in (("describe", job), ("result", job), ("list",), ("server", "status"),
                           ("series", job, "--points", "50"), ("sweep", "export", sweep),
-                          ("sweep", "watch", sweep), ("describe", sweep), ("model", "list"),
+                          ("sweep", "watch", sweep), ("sweep", "cell", sweep, "5"),
+                          ("describe", sweep), ("model", "list"),
                           ("model", "show", "flores"), ("schema",), ("schema", "sweep"),
                           ("schema", "job"), ("cancel", job)):
             with self.subTest(arguments):
