@@ -258,7 +258,7 @@ void Equations::Prepare() {
 }
 
 void Equations::EvaluateMany(double t, const double* y, double* dy, double pace) const {
-  Evaluate(std::ptrdiff_t{bodies()}, t, y, dy, pace);
+  WithCount<1, 2, 3>(bodies(), [&](auto n) { Evaluate(n, t, y, dy, pace); });
 }
 
 void Equations::AddSupports(const double* y, double* dy, double pace) const {

@@ -194,7 +194,7 @@ class Motion {
   int separating_ = kNone;     // The contact whose predicted separation ends it.
   std::vector<double> event_;  // θ up to which each contact's events in it are dealt with.
   double touch_time_ = kNaN;   // When the latest collision began.
-  Eigen::ArrayXd inside_;      // y at a turn inside the step.
+  Eigen::ArrayXd inside_;      // y at a turn inside the step; in Shift the slopes before it.
   double next_step_ = 0;
   double cruise_ = 0;     // The last step that no separation near has shortened.
   bool resting_ = false;  // Whether a contact rests.

@@ -228,14 +228,12 @@ bool Motion::Land(const Found& found) {
 // Moves the end of the step by a short time: along the tangent, or by the trapezoidal rule.
 void Motion::Shift(double time, bool tangent) {
   step_.h += time;
+  rk_.y1 += time * rk_.slope1;
   if (!tangent) {
-    rk_.y1 += time * rk_.slope1;
     inside_ = rk_.slope1;
     rk_.FinishStep(equations_, step_);
     ++evaluations_;
     rk_.y1 += 0.5 * time * (rk_.slope1 - inside_);
-  } else {
-    rk_.y1 += time * rk_.slope1;
   }
   rk_.FinishStep(equations_, step_);
   ++evaluations_;
