@@ -42,7 +42,7 @@ double ExactCoefficient(double restitution) {
     const double slope = w - alpha / (1 + alpha) * (1 - w) / e;
     const double step = f / slope;
     q -= step;
-    if (std::abs(step) <= 1e-15 * q) break;
+    if (std::abs(step) <= 1e-8 * q) break;  // The next one would be the square of that.
   }
   return -std::expm1(-q) / e;
 }

@@ -30,6 +30,19 @@ Equations::Equations(const Scenario& scenario)
     base.push_back(body.position);
     inverse_mass_.push_back(body.fixed ? 0 : 1 / body.mass);
   }
+  for (const Contact& contact : scenario.contacts) {
+    Sides& sides = sides_.emplace_back();
+    if (contact.left != kNone) {
+      sides.left = contact.left;
+      sides.left_counts = 1;
+      sides.left_inverse = inverse_mass_[At(contact.left)];
+    }
+    if (contact.right != kNone) {
+      sides.right = contact.right;
+      sides.right_counts = 1;
+      sides.right_inverse = inverse_mass_[At(contact.right)];
+    }
+  }
   for (const Load& load : scenario.loads) {
     breakpoints_.push_back(load.begin);
     breakpoints_.push_back(load.end);
@@ -48,9 +61,7 @@ double Equations::SelectLoads(double time) {
 }
 
 double Equations::effective_mass(int contact) const {
-  const Contact& c = scenario_.contacts[At(contact)];
-  return 1 / ((c.left == kNone ? 0 : inverse_mass_[At(c.left)]) +
-              (c.right == kNone ? 0 : inverse_mass_[At(c.right)]));
+  return 1 / (sides(contact).left_inverse + sides(contact).right_inverse);
 }
 
 double Equations::ForcingTime() const {
@@ -87,19 +98,11 @@ double Equations::SupportForce(const Support& s, const double* u, const double* 
 
 ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
   const Contact& c = scenario_.contacts[At(contact)];
-  ActiveContact made{.contact = contact, .column = column, .gap = gap, .mu = mu};
-  if (c.left == kNone) {
-    made.left_counts = 0;
-  } else {
-    made.left = c.left;
-    made.left_inverse = inverse_mass_[At(c.left)];
-  }
-  if (c.right == kNone) {
-    made.right_counts = 0;
-  } else {
-    made.right = c.right;
-    made.right_inverse = inverse_mass_[At(c.right)];
-  }
+  ActiveContact made{sides(contact)};
+  made.contact = contact;
+  made.column = column;
+  made.gap = gap;
+  made.mu = mu;
   if (At(bodies_) <= made.response.size()) {
     made.response[static_cast<std::size_t>(made.left)] -= made.left_inverse;
     made.response[static_cast<std::size_t>(made.right)] += made.right_inverse;
@@ -214,8 +217,7 @@ void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, do
     rate[j] = c.Relative(y + n);
     law[j] = c.Plain(c.Relative(y) - c.gap, rate[j]);
     force[j] = pace * law[j].force;
-    work[c.contact] = force[j] * rate[j];                        // (W1)
-    if (of.recording) dy[of.impulse()] += force[j] * c.outward;  // (B2)
+    work[c.contact] = force[j] * rate[j];  // (W1)
   }
   move(y, force, dy);
   double* to = dy;
@@ -235,11 +237,15 @@ void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, do
     move(y, change, to);
   }
   if (!of.recording) return;
-  for (std::size_t j = 0; j < kCount; ++j) {  // (W3); there are no loads.
+  double* const external = dy + of.external_work(0);
+  double impulse = 0;
+  for (std::size_t j = 0; j < kCount; ++j) {  // There are no loads.
     const ActiveContact& c = contact[j];
     const double net = c.Relative(dy + n) / (c.left_inverse + c.right_inverse);
-    dy[of.external_work(c.contact)] = net * rate[j] + force[j] * rate[j];
+    external[c.contact] = net * rate[j] + force[j] * rate[j];  // (W3)
+    impulse += force[j] * c.outward;                           // (B2)
   }
+  dy[of.impulse()] = impulse;
 }
 
 void Equations::Prepare() {

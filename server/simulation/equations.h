@@ -25,25 +25,34 @@ struct Power {
   }
 };
 
-/// A contact with a running cycle, as the equations of motion see it. A wall is body 0 that
-/// counts nothing.
-struct ActiveContact {
+/// The bodies that a contact joins. A wall is body 0 that counts nothing.
+struct Sides {
+  std::ptrdiff_t left = 0, right = 0;
+  double left_counts = 0, right_counts = 0;    ///< 1; 0 for a wall.
+  double left_inverse = 0, right_inverse = 0;  ///< 1/m [1/kg]; 0 for a wall or a fixed body.
+
+  /// Difference left − right of a per-body quantity.
+  double Relative(const double* of_bodies) const {
+    return left_counts * of_bodies[left] - right_counts * of_bodies[right];
+  }
+  /// True if compression here moves a body against the other one of another contact.
+  bool Pushes(const Sides& other) const {
+    return (right_inverse > 0 && other.left_counts > 0 && other.left == right) ||
+           (left_inverse > 0 && other.right_counts > 0 && other.right == left);
+  }
+};
+
+/// A contact with a running cycle, as the equations of motion see it.
+struct ActiveContact : Sides {
   int contact = 0;     ///< Index in Scenario::contacts.
   int column = kNone;  ///< Sensitivity column of its μ, or kNone.
-  std::ptrdiff_t left = 0, right = 0;
-  double left_counts = 1, right_counts = 1;    ///< 0 for a wall.
-  double left_inverse = 0, right_inverse = 0;  ///< 1/m [1/kg]; 0 for a wall or a fixed body.
-  double gap = 0;                              ///< δ = u_left − u_right − gap [m].
+  double gap = 0;      ///< δ = u_left − u_right − gap [m].
   double stiffness = 0, exponent = 1.5, damping_exponent = 1.5, mu = 0;
   bool clipped = false;  ///< A force below 0 counts as 0.
   bool plain = false;    ///< n = p = 1.5: what most are.
   double outward = 0;  ///< Of F, what is no internal force: 1 or −1 against a wall or fixed body.
   /// Accelerations of the bodies by a force of 1 N, where there are no more than these.
   std::array<double, 3> response = {};
-
-  double Relative(const double* of_bodies) const {
-    return left_counts * of_bodies[left] - right_counts * of_bodies[right];
-  }
 
   /// F = k δⁿ + μ δᵖ δ̇ and its derivatives, (M2). δ⁰ is 1 also where round-off or a stage of the
   /// integrator takes δ past 0.
@@ -113,10 +122,10 @@ class Equations {
     few_ == nullptr ? EvaluateMany(t, y, dy, pace) : few_(*this, y, dy, pace);
   }
 
+  const Sides& sides(int contact) const { return sides_[static_cast<std::size_t>(contact)]; }
   /// Difference left − right of a per-body quantity; a wall counts 0.
   double Relative(int contact, const double* of_bodies) const {
-    const Contact& c = scenario_.contacts[static_cast<std::size_t>(contact)];
-    return (c.left == kNone ? 0 : of_bodies[c.left]) - (c.right == kNone ? 0 : of_bodies[c.right]);
+    return sides(contact).Relative(of_bodies);
   }
 
   double effective_mass(int contact) const;  ///< m_e [kg].
@@ -162,6 +171,7 @@ class Equations {
   const Scenario& scenario_;
   int bodies_, contacts_;             // Counts.
   std::vector<double> inverse_mass_;  // 0 for a fixed body.
+  std::vector<Sides> sides_;          // Of every contact.
   std::vector<Load> acting_;          // The loads selected.
   std::vector<double> breakpoints_;   // Where loads begin and end; sorted.
   void (*few_)(const Equations&, const double*, double*, double) = nullptr;  // The shorter way.

@@ -222,12 +222,14 @@ void Motion::RefreshActive() {
 
 std::pair<DeformationPath::End, DeformationPath::End> Motion::PathEnds(int contact) const {
   const int n = equations_.bodies();
+  const Sides& sides = equations_.sides(contact);
+  const double gap = contacts_[At(contact)].gap;
   const double bend = 2 * step_.h * (1 - step_.warp);  // d²t/dθ²
   const auto end = [&](const auto& y, const auto& slope, double theta) {
-    const double rate = equations_.Relative(contact, y.data() + n);
-    const double acceleration = equations_.Relative(contact, slope.data() + n);
+    const double rate = sides.Relative(y.data() + n);
+    const double acceleration = sides.Relative(slope.data() + n);
     const double dt = step_.h * step_.Rate(theta);
-    return DeformationPath::End{Deformation(contact, y.data()), dt * rate,
+    return DeformationPath::End{sides.Relative(y.data()) - gap, dt * rate,
                                 dt * dt * acceleration + bend * rate};
   };
   return {end(rk_.y0, rk_.slope0, 0), end(rk_.y1, rk_.slope1, 1)};
