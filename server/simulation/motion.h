@@ -140,6 +140,7 @@ class Motion {
 
   bool Busy() const;
   void StartCycles(CycleHost& host, bool resting_only);
+  void StartPushed(int collision, CycleHost& host);
   void StartCycle(int contact, CycleHost& host);
   void AddColumn();
   void SetRestingScale(int contact);
@@ -149,7 +150,8 @@ class Motion {
   void TakeFixedStep(double until);
   double Warp(double h, double parting = std::numeric_limits<double>::infinity()) const;
   double TimeToSeparation(const ActiveContact& active) const;
-  double ErrorNorm(double h) const;
+  template <class Count>
+  double ErrorNorm(Count n, double h) const;
   double Noise(int contact) const;
   Found FindEvent() const;
   Found PassTurns();

@@ -25,8 +25,25 @@ void Motion::StartCycles(CycleHost& host, bool resting_only) {
     if (contact.phase != Phase::kStarting || (resting_only && !contact.settled)) continue;
     StartCycle(c, host);
     any = true;
+    if (contact.cycle.kind == Cycle::Kind::kCollision) StartPushed(c, host);
   }
   if (any) RefreshActive();
+}
+
+// What touches the bodies of a collision at rest begins with it.
+void Motion::StartPushed(int collision, CycleHost& host) {
+  const double* velocities = rk_.y0.data() + equations_.bodies();
+  const double* accelerations = rk_.slope0.data() + equations_.bodies();
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    ContactState& contact = contacts_[At(c)];
+    const Sides& sides = equations_.sides(c);
+    if (contact.phase != Phase::kOpen || !equations_.sides(collision).Pushes(sides)) continue;
+    const bool at_rest = Deformation(c, rk_.y0.data()) == 0 && sides.Relative(velocities) == 0;
+    if (!at_rest || sides.Relative(accelerations) < 0) continue;
+    contact.settled = false;
+    contact.cycle.kind = Cycle::Kind::kNirv;
+    StartCycle(c, host);
+  }
 }
 
 void Motion::StartCycle(int contact, CycleHost& host) {

@@ -70,6 +70,28 @@ TEST(Run, ATouchAtTheEndOfAStepIsACollision) {
   }
 }
 
+// A row of four, hit by its first ball or, mirrored, by its last: two steps are enough to see what
+// begins at once. A load that pulls the second pair apart keeps it from that.
+TEST(Run, WhatTouchesACollidingBodyAtRestBeginsWithIt) {
+  for (const bool mirrored : {false, true}) {
+    for (const bool pulled : {false, true}) {
+      Scenario s = testing::Chain({1, 1, 1, 1}, {1e8, 1e8, 1e8}, {0.8, 0.8, 0.8}, 0, 1e-2);
+      s.bodies[mirrored ? 3 : 0].velocity = mirrored ? -0.2 : 0.2;
+      const int third = mirrored ? 1 : 2;
+      if (pulled) s.loads = {{.body = third, .end = 1e-3, .constant = mirrored ? -1.0 : 1.0}};
+      const Record r = RunAndRecord(s);
+      ASSERT_EQ(r.outcome.end, Outcome::End::kFinished);
+      const auto first = [&r](int contact) {
+        return *std::ranges::find(r.cycles, contact, &Cycle::contact);
+      };
+      EXPECT_EQ(first(mirrored ? 2 : 0).start_time, 0);
+      EXPECT_EQ(first(1).start_time == 0, !pulled) << mirrored;
+      EXPECT_EQ(first(1).kind == Cycle::Kind::kNirv, !pulled) << mirrored;
+      EXPECT_EQ(first(mirrored ? 0 : 2).start_time > 0, !pulled);  // Its neighbour moves later.
+    }
+  }
+}
+
 // Three equal balls without damping: a classical result of the Hertz chain.
 TEST(Run, AnUndampedHertzChainOfThreeEndsWithTheKnownVelocities) {
   const Record r = RunAndRecord(testing::Chain({1, 1, 1}, {1e9, 1e9}, {1, 1}, 1, 0.01));
