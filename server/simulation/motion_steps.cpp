@@ -19,9 +19,35 @@ constexpr double kNear = 0.7;
 constexpr double kApproach = 0.8;
 constexpr double kTrapezoid = 0.1;
 constexpr double kSafety = 0.8;  // Of the next step.
+constexpr double kEarly = 10;  // Tolerances a step may miss by in a pass that is not the last one.
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+template <class Count>
+double LargestOf(Count n, const double* values) {
+  double largest = 0;
+  for (std::ptrdiff_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(values[i]));
+  return largest;
+}
+
+// A length and a speed that belong together.
+struct Motions {
+  double length = 0, speed = 0;
+};
+
+// The square of what both estimates of an error make, e5²/√(e5² + 0.01 e3²), each taken of length
+// and speed together, for either alone passes through 0 at times.
+double Square(const Motions& e5, const Motions& e3, const Motions& scale) {
+  if (!(scale.length > 0 && scale.speed > 0)) return 0;
+  const double per_length = 1 / scale.length, per_speed = 1 / scale.speed;
+  const auto sum = [&](const Motions& e) {
+    const double x = e.length * per_length, v = e.speed * per_speed;
+    return x * x + v * v;
+  };
+  const double five = sum(e5);
+  return five == 0 ? 0 : five * five / (five + 0.01 * sum(e3));
+}
 
 }  // namespace
 
@@ -104,15 +130,17 @@ bool Motion::TakeStep(double until) {
     const double acceleration = rk_.slope0.segment(n, n).abs().maxCoeff();
     next_step_ = speed > 0 ? 0.01 * speed / acceleration : 1e-6;  // Infinite in free flight.
   }
+  const double most = tolerance_ > scenario_.solver.relative_tolerance ? kEarly : 1;
   for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
     step_ = Plan(until);
     rk_.Step(equations_, step_);
     ++steps_;
     evaluations_ += 11;
-    const double error = ErrorNorm(step_.h);
+    double error = 0;
+    WithCount<1, 2, 3>(n, [&](auto count) { error = ErrorNorm(count, step_.h); });
     const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
     const double factor = error > 0 ? kSafety / eighth_root : 6;
-    if (error <= 1) {
+    if (error <= most) {
       rk_.FinishStep(equations_, step_);
       ++evaluations_;
       const double growth = std::clamp(factor, 0.3, rejections > 0 ? 1.0 : 6.0);
@@ -132,58 +160,40 @@ bool Motion::TakeStep(double until) {
 
 // Largest local error, in units of what the tolerance allows: that of each contact relative to
 // the scale of its own cycle, that of each body relative to the largest motion of all.
-double Motion::ErrorNorm(double h) const {
-  const int n = equations_.bodies();
-  if (!rk_.y1.head(2 * n).allFinite()) return kForever;
+template <class Count>
+double Motion::ErrorNorm(Count n, double h) const {
+  rk_.Errors(2 * n, error5_.data(), error3_.data());
+  const double* e5 = error5_.data();
+  const double* e3 = error3_.data();
+  double sum = 0;
+  for (std::ptrdiff_t i = 0; i < 2 * n; ++i) sum += e5[i] + e3[i];
+  if (!std::isfinite(sum)) return kForever;  // And only then y1 is not finite.
+  const double* y = rk_.y1.data();
   double length = 0, speed = 0;
   for (const ActiveContact& active : equations_.active) {
-    const int c = active.contact;
-    const double moved =
-        active.Relative(rk_.y1.data()) - active.gap - contacts_[At(c)].cycle.start_deformation;
-    const double rate = std::abs(active.Relative(rk_.y1.data() + n));
-    length = std::max({length, deformation_scale_[At(c)], std::abs(moved), rate * h});
-    speed = std::max({speed, velocity_scale_[At(c)], rate});
+    const auto c = At(active.contact);
+    const double moved = active.Relative(y) - active.gap - contacts_[c].cycle.start_deformation;
+    const double rate = std::abs(active.Relative(y + n));
+    length = std::max({length, deformation_scale_[c], std::abs(moved), rate * h});
+    speed = std::max({speed, velocity_scale_[c], rate});
   }
   // Bodies are held to the largest motion of all, contacts to that of contacts.
-  const double body_speed = std::max({speed, flight_speed_, rk_.y1.segment(n, n).abs().maxCoeff()});
-  const double body_length =
-      std::max({length, flight_length_, rk_.y1.head(n).abs().maxCoeff(), body_speed * h});
-  auto& e5 = error5_;
-  auto& e3 = error3_;
-  rk_.Errors(2 * n, e5.data(), e3.data());
-  // The square of what both estimates of an error make, e5²/√(e5² + 0.01 e3²), each taken of length
-  // and speed together, for either alone passes through 0 at times. No number: infinite, for no
-  // finite error that follows may hide it.
-  double norm = 0;
-  const auto add = [&](double length5, double length3, double length_scale, double speed5,
-                       double speed3, double speed_scale, bool kink) {
-    if (!(length_scale > 0 && speed_scale > 0)) return;
-    const auto sum = [&](double of_length, double of_speed) {
-      const double x = of_length / length_scale, v = of_speed / speed_scale;
-      return x * x + v * v;
-    };
-    const double five = sum(length5, speed5), three = sum(length3, speed3);
-    if (five == 0) return;
-    const double both = kink ? five : five * five / (five + 0.01 * three);
-    norm = std::max(norm, std::isnan(both) ? kForever : both);
-  };
-  const auto largest = [n](const std::vector<double>& e, int first) {
-    double all = 0;
-    for (int i = first; i < first + n; ++i) all = std::max(all, std::abs(e[At(i)]));
-    return all;
-  };
-  add(largest(e5, 0), largest(e3, 0), body_length, largest(e5, n), largest(e3, n), body_speed,
-      false);
+  const double body_speed = std::max({speed, flight_speed_, LargestOf(n, y + n)});
+  const double body_length = std::max({length, flight_length_, LargestOf(n, y), body_speed * h});
+  double norm = Square({LargestOf(n, e5), LargestOf(n, e5 + n)},
+                       {LargestOf(n, e3), LargestOf(n, e3 + n)}, {body_length, body_speed});
   // What the round-off of velocities makes of lengths in a step is no error of the step.
   const double round_off = 1e-15 * body_speed * h / scenario_.solver.relative_tolerance;
+  const double least_length = std::max(1e-3 * length, round_off), least_speed = 1e-3 * speed;
   for (const ActiveContact& active : equations_.active) {
-    const int c = active.contact;
-    add(active.Relative(e5.data()), active.Relative(e3.data()),
-        std::max({deformation_scale_[At(c)], 1e-3 * length, round_off}),
-        active.Relative(e5.data() + n), active.Relative(e3.data() + n),
-        std::max(velocity_scale_[At(c)], 1e-3 * speed),
-        active.Clips(active.Relative(rk_.y1.data()) - active.gap,
-                     active.Relative(rk_.y1.data() + n)));
+    const auto c = At(active.contact);
+    const Motions five{active.Relative(e5), active.Relative(e5 + n)};
+    const Motions three{active.Relative(e3), active.Relative(e3 + n)};
+    // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
+    const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
+    const Motions scale{std::max(deformation_scale_[c], least_length),
+                        std::max(velocity_scale_[c], least_speed)};
+    norm = std::max(norm, Square(five, kink ? Motions{} : three, scale));
   }
   return h * std::sqrt(norm) / tolerance_;
 }
