@@ -186,10 +186,13 @@ template <class Count>
 }
 
 // The same for a few bodies, all accelerations in registers.
-template <std::ptrdiff_t n, std::size_t kCount>
+template <std::ptrdiff_t n, std::size_t kCount, bool kWalls>
 void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, double pace) {
   const std::ptrdiff_t sensitive = of.tangents();
   const ActiveContact* const contact = of.active.data();
+  const auto relative = [](const Sides& sides, const double* of_bodies) {
+    return kWalls ? sides.Relative(of_bodies) : of_bodies[sides.left] - of_bodies[sides.right];
+  };
   // Stored in pairs, as the integrator loads them: else it had to wait for the stores.
   const auto move = [&](const double* from, const std::array<double, kCount>& force, double* to) {
     const auto slope = [&](std::ptrdiff_t i) {
@@ -214,8 +217,8 @@ void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, do
   std::array<double, kCount> rate, force;
   for (std::size_t j = 0; j < kCount; ++j) {
     const ActiveContact& c = contact[j];
-    rate[j] = c.Relative(y + n);
-    law[j] = c.Plain(c.Relative(y) - c.gap, rate[j]);
+    rate[j] = relative(c, y + n);
+    law[j] = c.Plain(relative(c, y) - c.gap, rate[j]);
     force[j] = pace * law[j].force;
     work[c.contact] = force[j] * rate[j];  // (W1)
   }
@@ -228,8 +231,8 @@ void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, do
     std::array<double, kCount> change;
     for (std::size_t j = 0; j < kCount; ++j) {
       const ActiveContact& c = contact[j];
-      const double rate_s = c.Relative(y + n);
-      double by_mu = law[j].by_deformation * c.Relative(y) + law[j].by_rate * rate_s;
+      const double rate_s = relative(c, y + n);
+      double by_mu = law[j].by_deformation * relative(c, y) + law[j].by_rate * rate_s;
       if (column == c.column) by_mu += law[j].damping;
       change[j] = pace * by_mu;
       work[c.contact] = change[j] * rate[j] + force[j] * rate_s;
@@ -241,7 +244,7 @@ void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, do
   double impulse = 0;
   for (std::size_t j = 0; j < kCount; ++j) {  // There are no loads.
     const ActiveContact& c = contact[j];
-    const double net = c.Relative(dy + n) / (c.left_inverse + c.right_inverse);
+    const double net = relative(c, dy + n) / (c.left_inverse + c.right_inverse);
     external[c.contact] = net * rate[j] + force[j] * rate[j];  // (W3)
     impulse += force[j] * c.outward;                           // (B2)
   }
@@ -253,13 +256,19 @@ void Equations::Prepare() {
   const bool plain =
       std::ranges::all_of(active, [](const ActiveContact& c) { return c.plain && !c.clipped; });
   if (!plain || !acting_.empty() || !scenario_.supports.empty()) return;
+  const bool walls = std::ranges::any_of(
+      active, [](const Sides& s) { return s.left_counts == 0 || s.right_counts == 0; });
+  const auto choose = [&]<std::ptrdiff_t n, std::size_t kCount>() {
+    few_ = walls ? &Equations::EvaluateFew<n, kCount, true>
+                 : &Equations::EvaluateFew<n, kCount, false>;
+  };
   if (active.size() == 1) {
-    if (bodies_ == 1) few_ = &Equations::EvaluateFew<1, 1>;
-    if (bodies_ == 2) few_ = &Equations::EvaluateFew<2, 1>;
-    if (bodies_ == 3) few_ = &Equations::EvaluateFew<3, 1>;
+    if (bodies_ == 1) choose.operator()<1, 1>();
+    if (bodies_ == 2) choose.operator()<2, 1>();
+    if (bodies_ == 3) choose.operator()<3, 1>();
   } else if (active.size() == 2) {
-    if (bodies_ == 2) few_ = &Equations::EvaluateFew<2, 2>;
-    if (bodies_ == 3) few_ = &Equations::EvaluateFew<3, 2>;
+    if (bodies_ == 2) choose.operator()<2, 2>();
+    if (bodies_ == 3) choose.operator()<3, 2>();
   }
 }
 

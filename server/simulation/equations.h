@@ -162,7 +162,7 @@ class Equations {
   template <class Count>
   void Evaluate(Count n, double t, const double* y, double* dy, double pace) const;
   void EvaluateMany(double t, const double* y, double* dy, double pace) const;
-  template <std::ptrdiff_t n, std::size_t kCount>
+  template <std::ptrdiff_t n, std::size_t kCount, bool kWalls>
   static void EvaluateFew(const Equations& of, const double* y, double* dy, double pace);
   void AddRecord(double t, const double* y, double* dy, double pace) const;
   double LoadForce(const Load& load, double t) const;

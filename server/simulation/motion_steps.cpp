@@ -1,6 +1,7 @@
 // The part of Motion that takes one step: its length, its warp, its error, its landing.
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 
 #include "simulation/motion.h"
@@ -24,10 +25,16 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
+// By value, which std::max is not: it makes branches of what is one instruction.
+double Largest(double a, double b) { return a < b ? b : a; }
+double Largest(double a, double b, std::same_as<double> auto... more) {
+  return Largest(Largest(a, b), more...);
+}
+
 template <class Count>
 double LargestOf(Count n, const double* values) {
   double largest = 0;
-  for (std::ptrdiff_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(values[i]));
+  for (std::ptrdiff_t i = 0; i < n; ++i) largest = Largest(largest, std::abs(values[i]));
   return largest;
 }
 
@@ -174,26 +181,26 @@ double Motion::ErrorNorm(Count n, double h) const {
     const auto c = At(active.contact);
     const double moved = active.Relative(y) - active.gap - contacts_[c].cycle.start_deformation;
     const double rate = std::abs(active.Relative(y + n));
-    length = std::max({length, deformation_scale_[c], std::abs(moved), rate * h});
-    speed = std::max({speed, velocity_scale_[c], rate});
+    length = Largest(length, deformation_scale_[c], std::abs(moved), rate * h);
+    speed = Largest(speed, velocity_scale_[c], rate);
   }
   // Bodies are held to the largest motion of all, contacts to that of contacts.
-  const double body_speed = std::max({speed, flight_speed_, LargestOf(n, y + n)});
-  const double body_length = std::max({length, flight_length_, LargestOf(n, y), body_speed * h});
+  const double body_speed = Largest(speed, flight_speed_, LargestOf(n, y + n));
+  const double body_length = Largest(length, flight_length_, LargestOf(n, y), body_speed * h);
   double norm = Square({LargestOf(n, e5), LargestOf(n, e5 + n)},
                        {LargestOf(n, e3), LargestOf(n, e3 + n)}, {body_length, body_speed});
   // What the round-off of velocities makes of lengths in a step is no error of the step.
   const double round_off = 1e-15 * body_speed * h / scenario_.solver.relative_tolerance;
-  const double least_length = std::max(1e-3 * length, round_off), least_speed = 1e-3 * speed;
+  const double least_length = Largest(1e-3 * length, round_off), least_speed = 1e-3 * speed;
   for (const ActiveContact& active : equations_.active) {
     const auto c = At(active.contact);
     const Motions five{active.Relative(e5), active.Relative(e5 + n)};
     const Motions three{active.Relative(e3), active.Relative(e3 + n)};
     // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
     const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
-    const Motions scale{std::max(deformation_scale_[c], least_length),
-                        std::max(velocity_scale_[c], least_speed)};
-    norm = std::max(norm, Square(five, kink ? Motions{} : three, scale));
+    const Motions scale{Largest(deformation_scale_[c], least_length),
+                        Largest(velocity_scale_[c], least_speed)};
+    norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
   }
   return h * std::sqrt(norm) / tolerance_;
 }
