@@ -32,14 +32,14 @@ void Motion::StartCycles(CycleHost& host, bool resting_only) {
 
 // What touches the bodies of a collision at rest begins with it.
 void Motion::StartPushed(int collision, CycleHost& host) {
-  const double* velocities = rk_.y0.data() + equations_.bodies();
-  const double* accelerations = rk_.slope0.data() + equations_.bodies();
+  const int n = equations_.bodies();
   for (int c = 0; c < equations_.contacts(); ++c) {
     ContactState& contact = contacts_[At(c)];
     const Sides& sides = equations_.sides(c);
     if (contact.phase != Phase::kOpen || !equations_.sides(collision).Pushes(sides)) continue;
-    const bool at_rest = Deformation(c, rk_.y0.data()) == 0 && sides.Relative(velocities) == 0;
-    if (!at_rest || sides.Relative(accelerations) < 0) continue;
+    const double* y = rk_.y0.data();  // Which a cycle that starts may move.
+    const bool at_rest = Deformation(c, y) == 0 && sides.Relative(y + n) == 0;
+    if (!at_rest || sides.Relative(rk_.slope0.data() + n) < 0) continue;
     contact.settled = false;
     contact.cycle.kind = Cycle::Kind::kNirv;
     StartCycle(c, host);
