@@ -37,8 +37,8 @@ class FollowingTest(CliTest):
 
     def test_progress_of_a_sweep_is_told_in_lines_too(self):
         said = self.run_it("sweep", "run", CHAIN, "-o", "csv", "--progress", "plain",
-                           "--grid", "bodies[0].velocity_m_per_s=0.1:0.5:400")[1]
-        self.assertRegex(said, r"\d+ of 400 cells, 0 failed, 0 not converged")
+                           "--grid", "bodies[0].velocity_m_per_s=0.1:0.5:10000")[1]
+        self.assertRegex(said, r"\d+ of 10000 cells, 0 failed, 0 not converged")
 
     def test_interrupt_cancels_where_asked_to(self):
         process = subprocess.Popen(self.command("run", SPRING, *LONG, "--cancel-on-interrupt"),
