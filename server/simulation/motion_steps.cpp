@@ -20,7 +20,7 @@ constexpr double kNear = 0.7;
 constexpr double kApproach = 0.8;
 constexpr double kTrapezoid = 0.1;
 constexpr double kSafety = 0.8;  // Of the next step.
-constexpr double kEarly = 10;  // Tolerances a step may miss by in a pass that is not the last one.
+constexpr double kEarly = 10;    // Tolerances a step may miss by in a pass that is not exact.
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -53,7 +53,8 @@ double Square(const Motions& e5, const Motions& e3, const Motions& scale) {
     return x * x + v * v;
   };
   const double five = sum(e5);
-  return five == 0 ? 0 : five * five / (five + 0.01 * sum(e3));
+  const double both = five == 0 ? 0 : five * five / (five + 0.01 * sum(e3));
+  return std::isnan(both) ? kForever : both;  // No finite error that follows may hide it.
 }
 
 }  // namespace

@@ -70,12 +70,14 @@ TEST(Run, ATouchAtTheEndOfAStepIsACollision) {
   }
 }
 
-// A row of four, hit by its first ball or, mirrored, by its last: two steps are enough to see what
-// begins at once. A load that pulls the second pair apart keeps it from that.
+// A row of four, hit by its first ball or, mirrored, by its last. To steps so coarse what is pushed
+// seems at rest for a while. A load that pulls the second pair apart keeps it from beginning at
+// once.
 TEST(Run, WhatTouchesACollidingBodyAtRestBeginsWithIt) {
   for (const bool mirrored : {false, true}) {
     for (const bool pulled : {false, true}) {
       Scenario s = testing::Chain({1, 1, 1, 1}, {1e8, 1e8, 1e8}, {0.8, 0.8, 0.8}, 0, 1e-2);
+      if (!pulled) s.solver.relative_tolerance = 1e-4;
       s.bodies[mirrored ? 3 : 0].velocity = mirrored ? -0.2 : 0.2;
       const int third = mirrored ? 1 : 2;
       if (pulled) s.loads = {{.body = third, .end = 1e-3, .constant = mirrored ? -1.0 : 1.0}};
