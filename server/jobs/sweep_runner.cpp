@@ -16,6 +16,8 @@ constexpr std::chrono::milliseconds kSlice{1000};
 constexpr std::chrono::milliseconds kPulseTime{20};
 constexpr std::chrono::milliseconds kProgressTime{100};
 constexpr std::size_t kPageBytes = 1 << 20;
+// Cells that may be finished while somebody else is at the log, a few milliseconds' worth.
+constexpr std::size_t kMaxFinished = 64;
 
 absl::StatusOr<EventPage> ReadPage(Store& store, const std::string& name, std::uint64_t after) {
   const auto promise = std::make_shared<std::promise<absl::StatusOr<EventPage>>>();
@@ -42,11 +44,11 @@ Move SweepRunner::Run(const v1::Sweep& sweep) {
   std::vector<bool> done(static_cast<std::size_t>(cells));
   if (!ReadDone(&done)) return MoveAfterFault("the cells of an earlier attempt cannot be read");
   {
-    const MutexLock lock(mutex_);
+    const MutexLock lock(log_mutex_);
     progress_.set_cells(cells);
     Publish();
   }
-  const SweepRun::Sink sink{[this](SolvedCell solved) { StoreCell(std::move(solved)); },
+  const SweepRun::Sink sink{[this](SolvedCell solved) { TakeCell(std::move(solved)); },
                             [this] { Pulse(); }};
   const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), options_,
                                               assignment_.control, sink);
@@ -61,7 +63,7 @@ Move SweepRunner::Run(const v1::Sweep& sweep) {
 bool SweepRunner::ReadDone(std::vector<bool>* done) {
   const RunControl::Report report(*assignment_.control);
   if (!report) return false;
-  const MutexLock lock(mutex_);
+  const MutexLock lock(log_mutex_);
   const std::uint64_t last = assignment_.job.last_sequence();
   for (std::uint64_t position = 0; position < last;) {
     const absl::StatusOr<EventPage> page = ReadPage(store_, assignment_.job.name(), position);
@@ -88,13 +90,46 @@ void SweepRunner::Count(v1::Job::State state, v1::Job::Convergence convergence) 
   }
 }
 
+// Who finds somebody at the log leaves the cell to them, if it may: they look again as they go.
+void SweepRunner::TakeCell(SolvedCell solved) {
+  if (PutFinished(std::move(solved))) {
+    const MutexLock lock(log_mutex_);
+    StoreFinished();
+  }
+  while (SomeFinished() && log_mutex_.try_lock()) {
+    StoreFinished();
+    log_mutex_.unlock();
+  }
+}
+
+// True if so much is finished that it has to be in the log before anybody goes on.
+bool SweepRunner::PutFinished(SolvedCell solved) {
+  const bool large = !solved.trajectory.empty();
+  const MutexLock lock(mutex_);
+  finished_.push_back(std::move(solved));
+  return large || finished_.size() >= kMaxFinished;
+}
+
+bool SweepRunner::SomeFinished() {
+  const MutexLock lock(mutex_);
+  return !finished_.empty();
+}
+
+void SweepRunner::StoreFinished() {
+  std::vector<SolvedCell> cells;
+  {
+    const MutexLock lock(mutex_);
+    cells.swap(finished_);
+  }
+  for (SolvedCell& solved : cells) StoreCell(std::move(solved));
+}
+
 // What was kept of the cell stands before it in the log, and nothing between.
 void SweepRunner::StoreCell(SolvedCell solved) {
   const v1::Job::State state = solved.cell.state();
   const v1::Job::Convergence convergence = solved.cell.convergence();
   v1::Event event = EventAt(clock_.Now());
   *event.mutable_sweep_cell() = std::move(solved.cell);
-  const MutexLock lock(mutex_);
   for (v1::FrameChunk& chunk : solved.trajectory) {
     v1::Event frame = EventAt(clock_.Now());
     *frame.mutable_frame_chunk() = std::move(chunk);
@@ -109,8 +144,9 @@ void SweepRunner::StoreCell(SolvedCell solved) {
 }
 
 void SweepRunner::Pulse() {
-  const MutexLock lock(mutex_);
+  if (!log_mutex_.try_lock()) return;
   writer_.Pump();
+  log_mutex_.unlock();
 }
 
 void SweepRunner::Publish() {
@@ -121,7 +157,8 @@ void SweepRunner::Publish() {
 }
 
 Move SweepRunner::Conclude(const std::vector<Violation>& advice) {
-  const MutexLock lock(mutex_);
+  const MutexLock lock(log_mutex_);
+  StoreFinished();
   Publish();
   if (progress_.cells_done() < progress_.cells()) return {v1::Job::CANCELLED, reason::kUserRequest};
   const bool full = progress_.cells_failed() == 0 && progress_.cells_not_converged() == 0;

@@ -11,8 +11,9 @@
 namespace contact {
 
 /// Runs a sweep on the worker that took it, with the help of idle ones. Whoever has computed a cell
-/// hands it to the log, which is written in batches. Cells that an earlier attempt has stored are
-/// not computed again.
+/// puts it beside the others that are finished; one of those who compute at a time hands them to
+/// the log, which is written in batches, and nobody waits for it unless too many are finished.
+/// Cells that an earlier attempt has stored are not computed again.
 class SweepRunner {
  public:
   /// All outlive the runner.
@@ -25,10 +26,14 @@ class SweepRunner {
  private:
   bool ReadDone(std::vector<bool>* done);
   void Count(v1::Job::State state, v1::Job::Convergence convergence)
-      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void StoreCell(SolvedCell solved);
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
+  void TakeCell(SolvedCell solved);
+  bool PutFinished(SolvedCell solved);
+  bool SomeFinished();
+  void StoreFinished() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
+  void StoreCell(SolvedCell solved) ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
   void Pulse();
-  void Publish() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Publish() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
   Move Conclude(const std::vector<Violation>& advice);
 
   Store& store_;
@@ -36,10 +41,13 @@ class SweepRunner {
   const JobManagerOptions& options_;
   const Assignment& assignment_;
 
-  Mutex mutex_;  ///< Held while the writer waits for the disk: then nobody has to run ahead of it.
-  LogWriter& writer_ ABSL_GUARDED_BY(mutex_);
-  v1::Progress progress_ ABSL_GUARDED_BY(mutex_);
-  std::chrono::steady_clock::time_point last_progress_ ABSL_GUARDED_BY(mutex_) = {};
+  Mutex log_mutex_;  ///< Held while the writer waits for the disk.
+  LogWriter& writer_ ABSL_GUARDED_BY(log_mutex_);
+  v1::Progress progress_ ABSL_GUARDED_BY(log_mutex_);
+  std::chrono::steady_clock::time_point last_progress_ ABSL_GUARDED_BY(log_mutex_) = {};
+
+  Mutex mutex_ ABSL_ACQUIRED_AFTER(log_mutex_);               ///< Held for an instant.
+  std::vector<SolvedCell> finished_ ABSL_GUARDED_BY(mutex_);  ///< And not in the log yet.
 };
 
 }  // namespace contact

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <set>
 #include <string>
@@ -136,7 +137,7 @@ class ContactDecoder {
     CheckArity(message, rules);
     std::vector<int> touching;
     for (int i = 0; i < message.between_size(); ++i) {
-      const std::string field = fmt::format("between[{}]", i);
+      const auto field = std::string("between[").append(std::to_string(i)).append("]");
       touching.push_back(names_.Find(message.between(i), field, rules));
     }
     CheckWall(message, rules);
@@ -258,8 +259,9 @@ class ContactDecoder {
     }
     const double deformation =
         left ? wall - (body.position - body.radius) : body.position + body.radius - wall;
-    CheckApart(deformation, std::max({body.radius, std::abs(body.position), std::abs(wall)}),
-               fmt::format("{} and the wall", Quoted(body.name)), rules);
+    if (Overlap(deformation, {body.radius, body.position, wall})) {
+      BreakOverlap(deformation, fmt::format("{} and the wall", Quoted(body.name)), rules);
+    }
     Add(std::move(contact), rules);
   }
 
@@ -289,9 +291,9 @@ class ContactDecoder {
                   "a body cannot touch itself");
       return false;
     }
-    const std::string pair = fmt::format("{} and {}", Quoted(a.name), Quoted(b.name));
     if (a.fixed && b.fixed) {
-      rules.Break("between", pair + " are both fixed",
+      rules.Break("between",
+                  fmt::format("{} and {} are both fixed", Quoted(a.name), Quoted(b.name)),
                   "one side of a contact must be able to move");
     }
     if (a.position > b.position) {
@@ -301,16 +303,21 @@ class ContactDecoder {
                   fmt::format("left body first: [{}, {}]", b.name, a.name));
       return true;
     }
-    CheckApart(a.radius + b.radius - (b.position - a.position),
-               std::max({a.radius, b.radius, std::abs(a.position), std::abs(b.position)}), pair,
-               rules);
+    const double deformation = a.radius + b.radius - (b.position - a.position);
+    if (Overlap(deformation, {a.radius, b.radius, a.position, b.position})) {
+      BreakOverlap(deformation, fmt::format("{} and {}", Quoted(a.name), Quoted(b.name)), rules);
+    }
     return true;
   }
 
   // A deformation of the size of the round-off of its terms is a touch.
-  static void CheckApart(double deformation, double scale, const std::string& who,
-                         const Rules& rules) {
-    if (!(deformation > 1e-12 * scale)) return;
+  static bool Overlap(double deformation, std::initializer_list<double> terms) {
+    double scale = 0;
+    for (const double term : terms) scale = std::max(scale, std::abs(term));
+    return deformation > 1e-12 * scale;
+  }
+
+  static void BreakOverlap(double deformation, const std::string& who, const Rules& rules) {
     rules.Break("between",
                 fmt::format("{} overlap at the start: δ = {} m; must be ≤ 0", who, deformation),
                 "move them apart");

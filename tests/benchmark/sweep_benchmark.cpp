@@ -4,6 +4,9 @@
 
 #include <atomic>
 #include <future>
+#include <memory>
+#include <semaphore>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -66,6 +69,24 @@ v1::CreateJobRequest Study() {
   return request;
 }
 
+// Waits for the end of a job as a client does, that is without asking again and again.
+void AwaitEnd(JobManager& jobs, const std::string& name) {
+  const auto woken = std::make_shared<std::counting_semaphore<>>(0);
+  v1::WatchJobRequest request;
+  request.set_name(name);
+  request.add_kinds("state_changed");
+  Await<Result<JobManager::Watched>> opened;
+  jobs.Watch(
+      request, [woken] { woken->release(); }, opened.callback());
+  const Result<JobManager::Watched> watched = opened.Get();
+  for (;;) {
+    std::vector<LogRecord> records;
+    const LogCursor::Next next = watched.value().cursor->Read(1 << 16, &records);
+    if (next == LogCursor::Next::kEnd) return;
+    if (next == LogCursor::Next::kWait) woken->acquire();
+  }
+}
+
 // Until every cell is on disk.
 void SweepJob(benchmark::State& state) {
   spdlog::set_level(spdlog::level::warn);
@@ -76,13 +97,7 @@ void SweepJob(benchmark::State& state) {
   for (auto _ : state) {
     Await<Result<v1::Job>> created;
     jobs.Create(Study(), created.callback());
-    const std::string name = created.Get().value().name();
-    for (bool ended = false; !ended;) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      Await<Result<v1::Job>> job;
-      jobs.Get(name, job.callback());
-      ended = job.Get().value().state() == v1::Job::SUCCEEDED;
-    }
+    AwaitEnd(jobs, created.Get().value().name());
   }
   jobs.Stop();
   state.SetItemsProcessed(state.iterations() * kCells);

@@ -1,5 +1,7 @@
 #include <atomic>
+#include <future>
 #include <map>
+#include <utility>
 
 #include "jobs_fixture.h"
 
@@ -215,6 +217,40 @@ TEST_F(SweepTest, CancelStopsAllWorkersAndKeepsTheCells) {
   EXPECT_EQ(job.progress().cells_done(), 5);
   EXPECT_EQ(Cells(name).size(), 5U);
   EXPECT_EQ(run_.started(), 8);
+}
+
+// Until it has not changed for so long.
+int AwaitRest(const std::atomic<int>& number, std::chrono::milliseconds rest) {
+  int last = number;
+  for (auto since = std::chrono::steady_clock::now();
+       std::chrono::steady_clock::now() - since < rest; std::this_thread::yield()) {
+    if (std::exchange(last, number) != last) since = std::chrono::steady_clock::now();
+  }
+  return last;
+}
+
+TEST_F(SweepTest, NobodyRunsFarAheadOfTheDisk) {
+  std::promise<void> go;
+  std::promise<void> disk_works;
+  std::atomic<int> computed = 0;
+  JobManagerOptions options{.workers = 3};
+  options.run = [&computed, gone = go.get_future().share()](const auto&...) {
+    ++computed;
+    gone.wait();
+    return Ending(Outcome::End::kNumeric, std::string(60'000, 'x'));
+  };
+  Open(options);
+  const std::string name = Create(Study(50, 20)).value().name();
+  while (computed < 3) std::this_thread::yield();
+  store_->ReadEvents({name, 0, 0, 1}, [works = disk_works.get_future().share()](const auto&) {
+    works.wait();  // On the store's thread.
+  });
+  go.set_value();
+  // One batch that is being written, 2 MiB that wait for it, 64 cells that wait for these.
+  EXPECT_LT(AwaitRest(computed, std::chrono::milliseconds(500)), 120);
+  disk_works.set_value();
+  EXPECT_EQ(Ended(name).progress().cells_failed(), 1000);
+  EXPECT_EQ(Cells(name).size(), 1000U);
 }
 
 TEST_F(SweepTest, CellsAreCountedWhileItRuns) {
