@@ -46,6 +46,7 @@ void EpisodeSolver::Begin(const State& start, int episode, double until) {
   BeginWith(Guesses(start));
   jacobian_.Forget();
   recording_ = false;
+  doubtful_ = false;
   episode_ = episode;
   iterations_ = best_number_ = 0;
   start_time_ = start.time;
@@ -131,7 +132,7 @@ void EpisodeSolver::BeginRecording() {
 // Looks at the pass that has been, and decides on the next.
 void EpisodeSolver::NextPass() {
   if (LookAgain() || TakeInNext()) return;
-  const bool done = Done() && !(careful_ && Revive());
+  const bool done = Done() && !(Doubts() && Revive());
   if (!Exact() && (done || (tolerance_ > fine_ && Merit() < Feigned()))) {
     // The same once more, exactly.
     if (sensitive_) Factorize(LiveUnknowns());

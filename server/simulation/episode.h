@@ -149,6 +149,8 @@ class EpisodeSolver final : public CycleHost {
   bool Done() const;
   /// The residual that the error of this pass may feign.
   double Feigned() const { return (short_ ? 10 : 100) * tolerance_; }
+  /// Whether it is asked of each cycle if it has a solution.
+  bool Doubts() const { return careful_ || doubtful_; }
   bool Exact() const { return tolerance_ <= scenario_.solver.relative_tolerance; }
   void KeepBest();
   void UseBest();
@@ -202,6 +204,7 @@ class EpisodeSolver final : public CycleHost {
   int window_ = 0;               // Cycles in a pass at most.
   bool careful_ = false;         // Cycles are taken into it one by one, until it has
   int whole_window_ = 0;         // so many.
+  bool doubtful_ = false;        // So many corrections of a short row have not solved it.
   int looks_ = 0;                // Passes to come that only measure durations.
   int known_ = 0;                // Cycles with which it begins then.
   std::vector<double> natural_;  // μ that suits the last cycle of each contact; NaN: none yet.

@@ -11,6 +11,7 @@ constexpr double kLeast = 1e-8, kMost = 1e8;  // μ, in units of the first guess
 constexpr double kLedWell = 0.3;              // Ratio of merits after a pass without sensitivities.
 constexpr int kFewColumns = 4;                // They cost less than the pass that they save,
 constexpr double kFar = 0.5;                  // and where the merit is more than this.
+constexpr int kTrusted = 10;                  // Corrections that a short row may take.
 constexpr int kWild = 6, kWildIfWeak = 3;     // Corrections out of bounds before it is given up.
 constexpr double kNoise = 0.03;               // Tolerance, of what the next but one may leave.
 constexpr double kHeldSamples = 4096;         // That a recording may have to take back.
@@ -97,7 +98,8 @@ void EpisodeSolver::Correct() {
       (u.squared > u.restitution_in * u.restitution_in ? u.low : u.high) = u.mu;
     }
   }
-  if (careful_ && sensitive_) Decide();
+  doubtful_ |= short_ && iterations_ >= kTrusted;
+  if (Doubts() && sensitive_) Decide();
   const std::vector<Unknown*> live = LiveUnknowns();
   if (live.empty()) return;
   const double merit = Merit();
@@ -181,7 +183,8 @@ void EpisodeSolver::PlanNextPass() {
   if (full && next <= 0.5 * wanted) return PlanLastPasses(true);
   if (full && after <= wanted) return PlanLastPasses(false);
   const bool led_well = merit_ <= kLedWell * last_merit_;
-  sensitive_ = !full || packing_ || !led_well || merit_ > kFar || columns_ <= kFewColumns;
+  sensitive_ =
+      !full || packing_ || doubtful_ || !led_well || merit_ > kFar || columns_ <= kFewColumns;
   if (!full || (!short_ && next * next <= 10 * wanted)) {
     tolerance_ = fine_;
   } else if (short_) {
