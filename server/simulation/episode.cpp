@@ -294,7 +294,7 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
   const bool weak = IsWeak(state);
   const bool rested = state.settled;
   state.settled = weak;
-  Unknown* u = Find(cycle.contact, cycle.number);
+  Unknown* u = rested ? nullptr : Find(cycle.contact, cycle.number);
   if (u != nullptr) {
     u->ended = true;
     u->end_time = cycle.end_time;
@@ -305,10 +305,12 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
     u->squared = -cycle.work_restitution / cycle.work_compression;
     u->frozen_slope = FrozenSlope(cycle);
     if (u->iterated && std::isfinite(u->squared)) Measure(*u);
-    if (u->iterated) u->natural_mu = natural_[At(cycle.contact)] = NaturalFactor(contact, cycle);
     u->gradient =
         -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
     u->weak = cycle.work_compression <= kWeak * state.largest_work;
+    if (u->iterated && !u->weak) {
+      u->natural_mu = natural_[At(cycle.contact)] = NaturalFactor(contact, cycle);
+    }
     if (weak && u->iterated) {
       u->iterated = false;
       u->status = Cycle::Status::kSettled;

@@ -24,12 +24,14 @@ std::vector<Guess> EpisodeSolver::Guesses(const State& end) const {
   std::vector<Guess> guesses;
   for (const Unknown& u : unknowns_) {
     const bool begun = u.number <= end.contacts[static_cast<std::size_t>(u.contact)].cycles;
-    if (begun || !u.corrected || u.status != Cycle::Status::kNotConverged) continue;
+    const bool infeasible = u.status == Cycle::Status::kInfeasible;
+    const bool sought = infeasible || u.status == Cycle::Status::kNotConverged;
+    if (begun || !u.corrected || !sought) continue;
     guesses.push_back({.contact = u.contact,
                        .number = u.number,
                        .start_time = u.start_time,
                        .mu = u.mu,
-                       .start_mu = u.start_mu,
+                       .start_mu = infeasible && u.mu > 0 ? u.mu : u.start_mu,
                        .settled_mu = u.settled_mu,
                        .length = u.length,
                        .speed = u.speed});
@@ -105,7 +107,7 @@ void EpisodeSolver::StartAfresh() {
 bool EpisodeSolver::GiveUpWorst() {
   if (as_paper_) return false;
   const std::vector<Unknown*> live = LiveUnknowns();
-  if (live.size() < 2) return false;
+  if (live.size() < (careful_ ? 1 : 2)) return false;
   GiveUp(
       **std::ranges::max_element(live, {}, [](const Unknown* u) { return std::abs(u->residual); }));
   return true;
@@ -125,7 +127,8 @@ double EpisodeSolver::SolvedUntil(double until) const {
     any |= u.ended;
     if (u.seen && !u.ended) solved = std::min(solved, u.start_time);
   }
-  return any && Advances(solved) ? Before(solved, until) : until;
+  if (any && Advances(solved)) return Before(solved, until);
+  return crowded_ ? std::min(motion_.time(), until) : until;
 }
 
 }  // namespace contact
