@@ -121,14 +121,15 @@ double EpisodeSolver::Before(double cycle_start, double until) const {
 
 double EpisodeSolver::SolvedUntil(double until) const {
   if (Advances(solved_until_)) return Before(solved_until_, until);
-  double solved = until;
-  bool any = false;
+  // What began with the episode and outlasts the window is cut wherever that ends.
+  double solved = crowded_ ? std::min(motion_.time(), until) : until;
+  bool any = crowded_;
   for (const Unknown& u : unknowns_) {
     any |= u.ended;
-    if (u.seen && !u.ended) solved = std::min(solved, u.start_time);
+    const bool running = u.seen && !u.ended;
+    if (running && (!crowded_ || Advances(u.start_time))) solved = std::min(solved, u.start_time);
   }
-  if (any && Advances(solved)) return Before(solved, until);
-  return crowded_ ? std::min(motion_.time(), until) : until;
+  return any && Advances(solved) ? Before(solved, until) : until;
 }
 
 }  // namespace contact
