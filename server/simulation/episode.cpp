@@ -10,8 +10,8 @@ namespace contact {
 namespace {
 
 constexpr double kForever = 1e300;
-constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
-constexpr std::int64_t kStepsPerPass = 5'000;
+constexpr double kToldMiss = 0.01;                // Of a law's restitution, relative.
+constexpr std::int64_t kStepsPerContact = 1'000;  // In a pass, of 5 to 20 contacts.
 constexpr int kCarefulShare = 10;        // Of max_iterations, where cycles are taken in one by one.
 constexpr int kPatience = 12;            // Corrections without a better pass.
 constexpr double kCoarse = 1e-6;         // Relative tolerance of the first passes, and
@@ -213,7 +213,9 @@ Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& sto
                                   std::int64_t step_limit) {
   ForgetPass();
   motion_.Begin(start, false, tolerance_, window_);
-  const std::int64_t limit = std::min(step_limit, motion_.steps() + kStepsPerPass);
+  const auto contacts = static_cast<std::int64_t>(scenario_.contacts.size());
+  const std::int64_t most = kStepsPerContact * std::clamp<std::int64_t>(contacts, 5, 20);
+  const std::int64_t limit = std::min(step_limit, motion_.steps() + most);
   const Motion::Pause pause = motion_.Advance(kForever, *this, nullptr, stop, limit);
   guessing_ = false;
   // A contact at rest may never end its cycle; what has ended can still be solved.
@@ -295,7 +297,7 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
   const bool weak = IsWeak(state);
   const bool rested = state.settled;
   state.settled = weak;
-  Unknown* u = Find(cycle.contact, cycle.number);
+  Unknown* u = rested ? nullptr : Find(cycle.contact, cycle.number);
   if (u != nullptr) {
     u->ended = true;
     u->end_time = cycle.end_time;
@@ -306,10 +308,12 @@ void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression
     u->squared = -cycle.work_restitution / cycle.work_compression;
     u->frozen_slope = FrozenSlope(cycle);
     if (u->iterated && std::isfinite(u->squared)) Measure(*u);
-    if (u->iterated) u->natural_mu = natural_[At(cycle.contact)] = NaturalFactor(contact, cycle);
     u->gradient =
         -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
     u->weak = cycle.work_compression <= kWeak * state.largest_work;
+    if (u->iterated && !u->weak) {
+      u->natural_mu = natural_[At(cycle.contact)] = NaturalFactor(contact, cycle);
+    }
     if (weak && u->iterated) {
       u->iterated = false;
       u->status = Cycle::Status::kSettled;

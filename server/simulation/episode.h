@@ -129,6 +129,7 @@ class EpisodeSolver final : public CycleHost {
   void BeCareful();
   void Decide();
   bool DecideOn(Unknown& unknown) const;
+  static bool Abandon(Unknown& unknown);
   static void DeclareInfeasible(Unknown& unknown, double mu);
   bool LookAgain();
   static double NaturalFactor(const Contact& contact, const Cycle& cycle);
@@ -163,7 +164,7 @@ class EpisodeSolver final : public CycleHost {
   bool FactorsServe();
   bool LacksColumns();
   void Correct();
-  static void GiveUp(Unknown& unknown);
+  void GiveUp(Unknown& unknown);
   void MoveBy(Unknown& unknown, double relative_step, bool alone);
   void PlanLastPasses(bool converges);
   void PlanNextPass();

@@ -126,6 +126,7 @@ void EpisodeSolver::Correct() {
 
 // A cycle that follows the loads around it, whatever its μ, must not keep the others from theirs.
 void EpisodeSolver::GiveUp(Unknown& u) {
+  if (careful_ && Abandon(u)) return;
   u.iterated = false;
   if (u.weak) u.status = Cycle::Status::kSettled;
   u.mu = u.start_mu;

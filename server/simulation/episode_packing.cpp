@@ -113,6 +113,7 @@ bool EpisodeSolver::MayBeSolved(const Unknown& u) const {
 
 void EpisodeSolver::DeclareInfeasible(Unknown& u, double mu) {
   u.iterated = false;
+  u.corrected = true;
   u.status = Cycle::Status::kInfeasible;
   u.mu = mu;
 }
@@ -172,12 +173,21 @@ bool EpisodeSolver::DecideOn(Unknown& u) const {
   return true;
 }
 
+// Whether a cycle that Newton does not solve beside the others seems to have no solution: it jumps,
+// or too little comes back. The next pass tells whether that is true: see MayBeSolved.
+bool EpisodeSolver::Abandon(Unknown& u) {
+  const bool jumps = u.low > 0 && std::abs(u.high - u.low) <= kJump * u.high;
+  if (u.weak || (!jumps && u.residual < 0)) return false;
+  DeclareInfeasible(u, jumps ? std::min(u.low, u.high) : 0);
+  return true;
+}
+
 void EpisodeSolver::Iterate(Unknown& u) {
   const Contact& contact = scenario_.contacts[static_cast<std::size_t>(u.contact)];
   u.iterated = contact.damping == DampingLaw::kEnergyRestitution && contact.restitution < 1;
   if (u.iterated) u.status = Cycle::Status::kNotConverged;
   u.low = u.high = u.low_residual = u.high_residual = 0;
-  u.shrinks = u.wild = 0;
+  u.shrinks = u.wild = u.corrections = u.decisions = 0;
   u.zero_tried = false;
 }
 

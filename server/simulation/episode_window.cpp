@@ -24,12 +24,14 @@ std::vector<Guess> EpisodeSolver::Guesses(const State& end) const {
   std::vector<Guess> guesses;
   for (const Unknown& u : unknowns_) {
     const bool begun = u.number <= end.contacts[static_cast<std::size_t>(u.contact)].cycles;
-    if (begun || !u.corrected || u.status != Cycle::Status::kNotConverged) continue;
+    const bool infeasible = u.status == Cycle::Status::kInfeasible;
+    const bool sought = infeasible || u.status == Cycle::Status::kNotConverged;
+    if (begun || !u.corrected || !sought) continue;
     guesses.push_back({.contact = u.contact,
                        .number = u.number,
                        .start_time = u.start_time,
                        .mu = u.mu,
-                       .start_mu = u.start_mu,
+                       .start_mu = infeasible && u.mu > 0 ? u.mu : u.start_mu,
                        .settled_mu = u.settled_mu,
                        .length = u.length,
                        .speed = u.speed});
@@ -105,7 +107,7 @@ void EpisodeSolver::StartAfresh() {
 bool EpisodeSolver::GiveUpWorst() {
   if (as_paper_) return false;
   const std::vector<Unknown*> live = LiveUnknowns();
-  if (live.size() < 2) return false;
+  if (live.size() < (careful_ ? 1 : 2)) return false;
   GiveUp(
       **std::ranges::max_element(live, {}, [](const Unknown* u) { return std::abs(u->residual); }));
   return true;
@@ -119,11 +121,13 @@ double EpisodeSolver::Before(double cycle_start, double until) const {
 
 double EpisodeSolver::SolvedUntil(double until) const {
   if (Advances(solved_until_)) return Before(solved_until_, until);
-  double solved = until;
-  bool any = false;
+  // What began with the episode and outlasts the window is cut wherever that ends.
+  double solved = crowded_ ? std::min(motion_.time(), until) : until;
+  bool any = crowded_;
   for (const Unknown& u : unknowns_) {
     any |= u.ended;
-    if (u.seen && !u.ended) solved = std::min(solved, u.start_time);
+    const bool running = u.seen && !u.ended;
+    if (running && (!crowded_ || Advances(u.start_time))) solved = std::min(solved, u.start_time);
   }
   return any && Advances(solved) ? Before(solved, until) : until;
 }

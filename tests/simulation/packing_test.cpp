@@ -133,16 +133,15 @@ TEST_P(EveryCycle, OfAPressedRowIsAnswered) {
 
 INSTANTIATE_TEST_SUITE_P(
     Packing, EveryCycle,
-    ::testing::Values(Case{"Struck3", Struck(3, 0.8)}, Case{"Struck5", Struck(5, 0.9), true},
-                      Case{"StruckSoft5", Struck(5, 0.7)}, Case{"Struck10", Struck(10, 0.8), true},
-                      Case{"StruckSoft10", Struck(10, 0.7), true},
-                      Case{"Column5", Column(5, 0.9, 0.06), true},
-                      Case{"Column10", Column(10, 0.7, 0.06), true},
-                      Case{"Column20", Column(20, 0.7, 0.03), true},
-                      Case{"Pressed3", Pressed(3, 0.9), true}, Case{"Pressed5", Pressed(5, 0.9)},
-                      Case{"PressedSoft5", Pressed(5, 0.7), true}, Case{"Pulsed3", Pulsed(3, 0.9)},
-                      Case{"PulsedSoft3", Pulsed(3, 0.5)},
-                      Case{"PulsedSoft5", Pulsed(5, 0.7), true}),
+    ::testing::Values(
+        Case{"Struck3", Struck(3, 0.8)}, Case{"Struck5", Struck(5, 0.9), true},
+        Case{"StruckSoft5", Struck(5, 0.7)}, Case{"Struck10", Struck(10, 0.8), true},
+        Case{"StruckSoft10", Struck(10, 0.7), true}, Case{"Column5", Column(5, 0.9, 0.06), true},
+        Case{"Column10", Column(10, 0.7, 0.06), true},
+        Case{"Column20", Column(20, 0.7, 0.03), true}, Case{"Pressed3", Pressed(3, 0.9), true},
+        Case{"Pressed5", Pressed(5, 0.9)}, Case{"Pressed7", Pressed(7, 0.9), true},
+        Case{"PressedSoft5", Pressed(5, 0.7), true}, Case{"Pulsed3", Pulsed(3, 0.9)},
+        Case{"PulsedSoft3", Pulsed(3, 0.5)}, Case{"PulsedSoft5", Pulsed(5, 0.7), true}),
     NameOf);
 
 }  // namespace
