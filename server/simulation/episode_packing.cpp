@@ -120,7 +120,7 @@ void EpisodeSolver::DeclareInfeasible(Unknown& u, double mu) {
 
 // Leaves those out of Newton's system that ask for what no μ, or none near, can give.
 void EpisodeSolver::Decide() {
-  bool any = false;
+  bool any = false, left = false;
   for (Unknown& u : unknowns_) {
     u.decided = false;
     if (!Live(u)) continue;
@@ -131,7 +131,11 @@ void EpisodeSolver::Decide() {
       GiveUp(u);
     }
     any |= u.decided || !u.iterated;
+    left |= !u.iterated;
     if (u.decided) u.corrected = true;
+  }
+  if (left && short_) {  // What the brackets were found beside has changed at once.
+    for (Unknown& u : unknowns_) u.low = u.high = u.low_residual = u.high_residual = 0;
   }
   if (any) best_merit_ = merit_ = std::numeric_limits<double>::infinity();
 }
