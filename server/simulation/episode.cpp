@@ -10,8 +10,8 @@ namespace contact {
 namespace {
 
 constexpr double kForever = 1e300;
-constexpr double kToldMiss = 0.01;                // Of a law's restitution, relative.
-constexpr std::int64_t kStepsPerContact = 1'000;  // In a pass, of 5 to 20 contacts.
+constexpr double kToldMiss = 0.01;              // Of a law's restitution, relative.
+constexpr std::int64_t kStepsPerContact = 500;  // In a pass, of 10 to 40 contacts.
 constexpr int kCarefulShare = 10;        // Of max_iterations, where cycles are taken in one by one.
 constexpr int kPatience = 12;            // Corrections without a better pass.
 constexpr double kCoarse = 1e-6;         // Relative tolerance of the first passes, and
@@ -214,7 +214,7 @@ Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& sto
   ForgetPass();
   motion_.Begin(start, false, tolerance_, window_);
   const auto contacts = static_cast<std::int64_t>(scenario_.contacts.size());
-  const std::int64_t most = kStepsPerContact * std::clamp<std::int64_t>(contacts, 5, 20);
+  const std::int64_t most = kStepsPerContact * std::clamp<std::int64_t>(contacts, 10, 40);
   const std::int64_t limit = std::min(step_limit, motion_.steps() + most);
   const Motion::Pause pause = motion_.Advance(kForever, *this, nullptr, stop, limit);
   guessing_ = false;

@@ -8,7 +8,7 @@ namespace {
 
 // A stretch may hold every contact of a row that touches once, and some again; but no more
 // than can be solved together in bounded time and memory.
-constexpr int kMinCyclesInStretch = 16, kSpareCycles = 40, kMaxCyclesInStretch = 96;
+constexpr int kMinCyclesInStretch = 16, kSpareCycles = 60, kMaxCyclesInStretch = 120;
 constexpr int kMaxEventsAtOnce = 1000;
 // What is this many times the error allowed is motion.
 constexpr double kResolved = 100;
