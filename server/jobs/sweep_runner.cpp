@@ -150,9 +150,9 @@ void SweepRunner::Pulse() {
 }
 
 void SweepRunner::Publish() {
-  assignment_.record->Do([this](v1::Job& job) { *job.mutable_progress() = progress_; });
   v1::Event event = EventAt(clock_.Now());
   *event.mutable_progress() = progress_;
+  assignment_.record->Do([&](v1::Job& job) { *job.mutable_progress() = event.progress(); });
   assignment_.log->SetProgress(std::move(event));
 }
 
@@ -161,13 +161,11 @@ Move SweepRunner::Conclude(const std::vector<Violation>& advice) {
   StoreFinished();
   Publish();
   if (progress_.cells_done() < progress_.cells()) return {v1::Job::CANCELLED, reason::kUserRequest};
-  const bool full = progress_.cells_failed() == 0 && progress_.cells_not_converged() == 0;
+  const std::int32_t cells = progress_.cells(), failed = progress_.cells_failed();
+  const bool full = failed == 0 && progress_.cells_not_converged() == 0;
   assignment_.record->Do([&](v1::Job& job) {
     job.set_convergence(full ? v1::Job::FULL : v1::Job::PARTIAL);
-    if (progress_.cells_failed() > 0) {
-      job.add_warnings(
-          fmt::format("{} of {} cells failed", progress_.cells_failed(), progress_.cells()));
-    }
+    if (failed > 0) job.add_warnings(fmt::format("{} of {} cells failed", failed, cells));
     for (const Violation& a : advice) job.add_warnings(Text(a));
   });
   return {v1::Job::SUCCEEDED};
