@@ -1,7 +1,9 @@
 // Rows of balls pressed against a wall, whose contacts hardly ever open.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -143,6 +145,20 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"PressedSoft5", Pressed(5, 0.7), true}, Case{"Pulsed3", Pulsed(3, 0.9)},
         Case{"PulsedSoft3", Pulsed(3, 0.5)}, Case{"PulsedSoft5", Pulsed(5, 0.7), true}),
     NameOf);
+
+// Most cycles of hard rows have no solution of their own, but none is left without an answer.
+TEST(Packing, NoCycleOfAHardRowOfTenIsLeftOpen) {
+  if (!kOptimized) GTEST_SKIP() << "takes minutes in this build";
+  for (const Scenario& s : {Column(10, 0.9, 0.06), Struck(10, 0.9)}) {
+    const Record r = RunAndRecord(s);
+    const auto count = [&](Cycle::Status status) {
+      return std::ranges::count(r.cycles, status, &Cycle::status);
+    };
+    EXPECT_LE(count(Cycle::Status::kNotConverged), 1);  // 30 of 60, before, and 6 of 54.
+    EXPECT_GE(4 * count(Cycle::Status::kConverged), std::ssize(r.cycles));
+    EXPECT_LT(r.outcome.energy_residual, 1e-9);
+  }
+}
 
 }  // namespace
 }  // namespace contact
