@@ -22,7 +22,7 @@ class SweepRun {
  public:
   /// Both are called by the threads that compute, several at a time.
   struct Sink {
-    std::function<void(SolvedCell)> store;  ///< Of each cell, as it is finished.
+    std::function<void(SolvedCell)> store;  ///< Takes each cell, as it is finished.
     std::function<void()> pulse;            ///< Now and then while a cell is computed.
   };
 
@@ -56,7 +56,7 @@ class SweepRun {
   mutable Mutex mutex_;
   std::condition_variable_any released_;
   std::int32_t next_ ABSL_GUARDED_BY(mutex_) = 0;  ///< To be begun; past the last if there is none.
-  int begun_ ABSL_GUARDED_BY(mutex_) = 0;          ///< And not stored yet.
+  int begun_ ABSL_GUARDED_BY(mutex_) = 0;          ///< And not taken by the sink yet.
 };
 
 }  // namespace contact

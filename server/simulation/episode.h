@@ -205,7 +205,7 @@ class EpisodeSolver final : public CycleHost {
   int window_ = 0;               // Cycles in a pass at most.
   bool careful_ = false;         // Cycles are taken into it one by one, until it has
   int whole_window_ = 0;         // so many.
-  bool doubtful_ = false;        // So many corrections of a short row have not solved it.
+  bool doubtful_ = false;        // As many corrections as a short row may take have not solved it.
   int looks_ = 0;                // Passes to come that only measure durations.
   int known_ = 0;                // Cycles with which it begins then.
   std::vector<double> natural_;  // μ that suits the last cycle of each contact; NaN: none yet.

@@ -137,7 +137,7 @@ class ContactDecoder {
     CheckArity(message, rules);
     std::vector<int> touching;
     for (int i = 0; i < message.between_size(); ++i) {
-      const auto field = std::string("between[").append(std::to_string(i)).append("]");
+      const std::string field = fmt::format("between[{}]", i);
       touching.push_back(names_.Find(message.between(i), field, rules));
     }
     CheckWall(message, rules);

@@ -146,7 +146,7 @@ TEST(Episode, NearlyEveryPairOfRestitutionsHasAnAnswer) {
     }
   }
   EXPECT_EQ(runs, 144);
-  EXPECT_LE(left, 3);
+  EXPECT_LE(left, 1);
   EXPECT_LT(steps, 144 * 700);
 }
 
