@@ -202,7 +202,7 @@ CLI::Option* AddTime(CLI::App* app, const std::string& name, double* seconds,
 }
 
 void AddLifecycle(CLI::App* app, Config* config, Switches* switches) {
-  JobManagerOptions& jobs = config->jobs;
+  JobOptions& jobs = config->jobs;
   AddTime(app, "--max-wall-time", &switches->max_wall_time_s,
           "Wall time of one attempt of a job, such as 10m; 0 is any");
   app->add_option("--max-steps", jobs.max_budget.steps,

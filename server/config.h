@@ -32,7 +32,7 @@ struct Config {
   bool fsck = false;  ///< Check the data directory and end.
   LogFormat log_format = LogFormat::kText;
   StoreOptions store;
-  JobManagerOptions jobs;
+  JobOptions jobs;
   GrpcServerOptions rpc;
 };
 

@@ -13,13 +13,13 @@
 #include <string>
 #include <system_error>
 
+#include "base/sources.h"
 #include "config.h"
 #include "jobs/job_manager.h"
-#include "jobs/sources.h"
 #include "log.h"
 #include "rpc/grpc_log.h"
 #include "rpc/grpc_server.h"
-#include "rpc/metrics_server.h"
+#include "rpc/metrics/metrics_server.h"
 #include "storage/fsck.h"
 #include "storage/store.h"
 #include "version.h"

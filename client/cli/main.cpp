@@ -5,11 +5,11 @@
 #include <exception>
 #include <system_error>
 
-#include "cli/commands.h"
-#include "cli/completion.h"
-#include "cli/manual.h"
-#include "cli/resolve.h"
-#include "cli/usage.h"
+#include "cli/help/completion.h"
+#include "cli/help/manual.h"
+#include "cli/help/usage.h"
+#include "cli/settings/resolve.h"
+#include "cli/verbs/commands.h"
 
 namespace contact::cli {
 namespace {

@@ -7,17 +7,18 @@
 #include <future>
 #include <utility>
 
-#include "jobs/delivery_cursor.h"
-#include "jobs/executor.h"
-#include "jobs/foretell.h"
-#include "jobs/job_errors.h"
-#include "jobs/job_feed.h"
-#include "jobs/lifecycle.h"
-#include "jobs/request_rules.h"
-#include "jobs/scheduler.h"
-#include "jobs/series_reader.h"
-#include "jobs/sources.h"
-#include "jobs/tail_cursor.h"
+#include "base/executor.h"
+#include "base/sources.h"
+#include "jobs/job/job_errors.h"
+#include "jobs/job/lifecycle.h"
+#include "jobs/log/delivery_cursor.h"
+#include "jobs/log/job_feed.h"
+#include "jobs/log/tail_cursor.h"
+#include "jobs/predict.h"
+#include "jobs/read/request_rules.h"
+#include "jobs/read/series_reader.h"
+#include "jobs/schedule/retention.h"
+#include "jobs/schedule/scheduler.h"
 #include "storage/job_queries.h"
 #include "storage/store.h"
 #include "wire/scenario_codec.h"
@@ -91,7 +92,7 @@ void SetSpan(std::chrono::milliseconds span, google::protobuf::Duration* duratio
 }  // namespace
 
 struct JobManager::Impl {
-  Impl(Store& the_store, const Clock& the_clock, IdSource& the_ids, JobManagerOptions the_options)
+  Impl(Store& the_store, const Clock& the_clock, IdSource& the_ids, JobOptions the_options)
       : store(the_store),
         clock(the_clock),
         ids(the_ids),
@@ -128,7 +129,7 @@ struct JobManager::Impl {
   Store& store;
   const Clock& clock;
   IdSource& ids;
-  const JobManagerOptions options;
+  const JobOptions options;
   std::atomic<bool> draining = false;
   std::shared_ptr<std::atomic<int>> watchers = std::make_shared<std::atomic<int>>(0);
   JobFeed feed;
@@ -140,7 +141,7 @@ struct JobManager::Impl {
   const EventSource source{store, decoder};
 };
 
-JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options)
+JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptions options)
     : impl_(std::make_unique<Impl>(store, clock, ids, std::move(options))) {
   impl_->retention.Start();
 }
@@ -377,7 +378,7 @@ void JobManager::ReadArtifact(const v1::ReadArtifactRequest& request, std::funct
 }
 
 v1::ServerInfo JobManager::Info() const {
-  const JobManagerOptions& options = impl_->options;
+  const JobOptions& options = impl_->options;
   v1::ServerInfo info;
   info.set_workers(options.workers);
   info.set_queued_jobs(impl_->scheduler.queued());

@@ -8,14 +8,11 @@
 #include <string>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/artifact_reader.h"
-#include "jobs/error.h"
-#include "jobs/job_metrics.h"
-#include "jobs/jobs_cursor.h"
-#include "jobs/log_cursor.h"
-#include "jobs/retention.h"
-#include "jobs/run_control.h"
-#include "simulation/run.h"
+#include "jobs/job/error.h"
+#include "jobs/job/job_options.h"
+#include "jobs/log/jobs_cursor.h"
+#include "jobs/log/log_cursor.h"
+#include "jobs/read/artifact_reader.h"
 
 namespace contact {
 
@@ -23,27 +20,6 @@ class BackupFile;
 class Clock;
 class IdSource;
 class Store;
-
-struct JobManagerOptions {
-  int workers = 1;               ///< Threads that run simulations, ≥ 1.
-  int max_queued_jobs = 10'000;  ///< Past it CreateJob answers QUEUE_FULL.
-  int max_watchers = 10'000;     ///< Past it Watch answers WATCHER_LIMIT.
-  ScenarioLimits scenario_limits = {};
-  RunBudget max_budget = {};  ///< Of a job, and of one that asks for none.
-  int max_attempts = 3;       ///< A job that is running whenever the server dies fails then.
-  std::chrono::milliseconds step_timeout = std::chrono::minutes(1);  ///< See Watchdog; 0: never.
-  std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);  ///< See Watchdog.
-  RetentionLimits retention = {};
-  /// Between the checkpoints of a run, at least; 0: none.
-  std::chrono::milliseconds checkpoint_interval{0};
-  /// Where what becomes of jobs is counted.
-  std::shared_ptr<JobMetrics> metrics = std::make_shared<JobMetrics>();
-  /// What solves a scenario; tests put something else here.
-  std::function<Outcome(const Scenario&, Observer&, std::stop_token)> run = Run;
-  /// The same from a checkpoint on.
-  std::function<Outcome(const Scenario&, const RunState&, Observer&, std::stop_token)> resume =
-      Resume;
-};
 
 /// Owns the life of every job: accepts, queues, runs on worker threads, records, cancels.
 ///
@@ -60,7 +36,7 @@ class JobManager {
 
   /// Takes over what the store holds: jobs that were running when the process ended are queued
   /// again with reason SERVER_RESTARTED. Starts the workers.
-  JobManager(Store& store, const Clock& clock, IdSource& ids, JobManagerOptions options);
+  JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptions options);
   ~JobManager();
 
   void Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned = {});

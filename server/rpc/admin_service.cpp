@@ -4,11 +4,11 @@
 #include <future>
 #include <utility>
 
-#include "jobs/job_errors.h"
-#include "rpc/backup_call.h"
-#include "rpc/status.h"
+#include "base/digest.h"
+#include "jobs/job/job_errors.h"
+#include "rpc/call/status.h"
+#include "rpc/stream/backup_call.h"
 #include "storage/backup.h"
-#include "wire/digest.h"
 
 namespace contact {
 namespace {

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <memory>
 
+#include "base/executor.h"
 #include "contact/v1/admin_service.grpc.pb.h"
-#include "jobs/executor.h"
 #include "jobs/job_manager.h"
 
 namespace contact {

@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "rpc/call_monitor.h"
-#include "rpc/listener.h"
+#include "rpc/metrics/call_monitor.h"
+#include "rpc/net/listener.h"
 
 namespace contact {
 namespace {

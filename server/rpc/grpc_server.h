@@ -11,10 +11,10 @@
 
 #include "jobs/job_manager.h"
 #include "rpc/admin_service.h"
-#include "rpc/call_guard.h"
-#include "rpc/connection_acceptor.h"
+#include "rpc/call/call_guard.h"
 #include "rpc/job_service.h"
-#include "rpc/watch_loop.h"
+#include "rpc/net/connection_acceptor.h"
+#include "rpc/stream/watch_loop.h"
 
 namespace contact {
 

@@ -2,11 +2,11 @@
 
 #include <utility>
 
-#include "rpc/artifact_reactor.h"
-#include "rpc/refused_stream.h"
-#include "rpc/status.h"
-#include "rpc/watch_jobs_reactor.h"
-#include "rpc/watch_reactor.h"
+#include "rpc/call/status.h"
+#include "rpc/stream/artifact_reactor.h"
+#include "rpc/stream/refused_stream.h"
+#include "rpc/stream/watch_jobs_reactor.h"
+#include "rpc/stream/watch_reactor.h"
 
 namespace contact {
 namespace {

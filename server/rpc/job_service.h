@@ -7,8 +7,8 @@
 
 #include "contact/v1/job_service.grpc.pb.h"
 #include "jobs/job_manager.h"
-#include "rpc/call_guard.h"
-#include "rpc/watch_loop.h"
+#include "rpc/call/call_guard.h"
+#include "rpc/stream/watch_loop.h"
 
 namespace contact {
 

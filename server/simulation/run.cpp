@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "simulation/episode.h"
-#include "simulation/recorder.h"
-#include "simulation/run_state.h"
+#include "simulation/episode/episode.h"
+#include "simulation/episode/run_state.h"
+#include "simulation/sampler.h"
 
 namespace contact {
 namespace {
@@ -20,11 +20,11 @@ class Runner {
         stop_(std::move(stop)),
         motion_(scenario),
         solver_(scenario, motion_, observer),
-        recorder_(scenario, motion_, observer) {}
+        sampler_(scenario, motion_, observer) {}
 
   void Start() {
     state_ = InitialState(scenario_);
-    recorder_.RecordStart(state_);
+    sampler_.RecordStart(state_);
     motion_.Begin(state_, true);
     start_energy_ = Energy();
     start_momentum_ = motion_.equations().Momentum(motion_.integrator().y0.data());
@@ -41,7 +41,7 @@ class Runner {
     momentum_scale_ = from.momentum_scale;
     motion_.Restore(from.steps, from.evaluations);
     solver_.Restore(from);
-    recorder_.Restore(from.samples);
+    sampler_.Restore(from.samples);
   }
 
   Outcome Run() {
@@ -60,7 +60,7 @@ class Runner {
       }
     }
     if (outcome_.end == Outcome::End::kFinished) CutCycles();
-    recorder_.Flush();
+    sampler_.Flush();
     Summarize();
     return outcome_;
   }
@@ -78,14 +78,14 @@ class Runner {
     saved.steps = motion_.steps();
     saved.evaluations = motion_.evaluations();
     solver_.Save(&saved);
-    saved.samples = recorder_.pending();
+    saved.samples = sampler_.pending();
     return saved;
   }
 
   Motion::Pause Advance(double until) {
     motion_.Begin(state_, true);
     solver_.BeginRecording();
-    return motion_.Advance(until, solver_, &recorder_, stop_, scenario_.solver.max_steps);
+    return motion_.Advance(until, solver_, &sampler_, stop_, scenario_.solver.max_steps);
   }
 
   void Accept(Motion::Pause pause) {
@@ -98,13 +98,13 @@ class Runner {
     while (true) {
       const Motion::Pause solved = solver_.Solve(state_, stop_, scenario_.solver.max_steps);
       if (solved != Motion::Pause::kQuiet) return Settle(solved);
-      if (solver_.Tentative()) recorder_.Hold();
+      if (solver_.Tentative()) sampler_.Hold();
       const Motion::Pause pause = Advance(solver_.SolvedUntil(scenario_.end_time));
       if (solver_.Accepts(pause)) {
-        recorder_.Release();
+        sampler_.Release();
         return Accept(pause);
       }
-      recorder_.TakeBack();
+      sampler_.TakeBack();
     }
   }
 
@@ -243,7 +243,7 @@ class Runner {
   const std::stop_token stop_;
   Motion motion_;
   EpisodeSolver solver_;
-  Recorder recorder_;
+  Sampler sampler_;
   State state_;
   Outcome outcome_;
   std::int64_t cycles_ = 0;

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "storage/mutex.h"
+#include "base/mutex.h"
 #include "storage/store_metrics.h"
 
 namespace contact {

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "storage/backup.h"
+#include "storage/database_copy.h"
 #include "storage/migration.h"
 #include "storage/schema.h"
 

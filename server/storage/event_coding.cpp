@@ -13,8 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "storage/records.h"
-
 namespace contact {
 namespace {
 
@@ -364,14 +362,6 @@ bool DecodeEvent(Coding coding, const std::string& bytes, v1::Event* event) {
 std::size_t DecodedSize(Coding coding, const std::string& bytes) {
   if (coding == Coding::kPlain) return bytes.size();
   return ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-}
-
-bool StoredEvent::Parse(v1::Event* event) const {
-  return intact && DecodeEvent(coding, bytes, event);
-}
-
-bool StoredEvent::TakePayload(std::string* payload) {
-  return intact && DecodePayload(coding, std::move(bytes), payload);
 }
 
 }  // namespace contact

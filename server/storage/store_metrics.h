@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "storage/histogram.h"
+#include "base/histogram.h"
 
 namespace contact {
 

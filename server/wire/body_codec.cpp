@@ -7,8 +7,8 @@
 #include <numbers>
 #include <unordered_set>
 
+#include "base/spelling.h"
 #include "wire/material_codec.h"
-#include "wire/spelling.h"
 
 namespace contact {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/v1/scenario.pb.h"
-#include "simulation/scenario.h"
+#include "simulation/model/scenario.h"
 #include "wire/rules.h"
 
 namespace contact {

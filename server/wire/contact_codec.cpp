@@ -12,8 +12,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/spelling.h"
 #include "wire/material_codec.h"
-#include "wire/spelling.h"
 
 namespace contact {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "wire/encounter.h"
+#include "simulation/forecast/encounter.h"
 
 namespace contact {
 namespace {

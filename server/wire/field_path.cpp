@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "wire/spelling.h"
+#include "base/spelling.h"
 
 namespace contact {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "contact/v1/scenario.pb.h"
-#include "simulation/damping_law.h"
+#include "simulation/laws/damping_law.h"
 
 namespace contact {
 

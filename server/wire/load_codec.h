@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "contact/v1/scenario.pb.h"
-#include "simulation/scenario.h"
+#include "simulation/model/scenario.h"
 #include "wire/body_codec.h"
 #include "wire/rules.h"
 

@@ -4,8 +4,8 @@
 
 #include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
-#include "simulation/ledger.h"
-#include "simulation/scenario.h"
+#include "simulation/model/ledger.h"
+#include "simulation/model/scenario.h"
 
 namespace contact {
 

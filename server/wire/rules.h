@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "wire/scenario_codec.h"
+#include "wire/violation.h"
 
 namespace contact {
 

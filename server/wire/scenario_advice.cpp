@@ -7,8 +7,8 @@
 #include <iterator>
 #include <set>
 
+#include "simulation/forecast/encounter.h"
 #include "wire/contact_codec.h"
-#include "wire/encounter.h"
 #include "wire/law_catalogue.h"
 #include "wire/sweep_fields.h"
 

@@ -1,20 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "contact/v1/scenario.pb.h"
-#include "simulation/scenario.h"
+#include "simulation/model/scenario.h"
+#include "wire/violation.h"
 
 namespace contact {
-
-/// A rule that a message breaks.
-struct Violation {
-  std::string field;        ///< Path from the scenario, such as `contacts[0].restitution`.
-  std::string description;  ///< Value and rule: `is 1.2; must be in (0, 1]`.
-  std::string hint;         ///< What to do about it; may be empty.
-};
 
 /// What a scenario may hold at most; checked before anything is allocated for it.
 struct ScenarioLimits {

@@ -6,7 +6,7 @@
 
 #include <iterator>
 
-#include "wire/digest.h"
+#include "base/digest.h"
 
 namespace contact {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wire/spelling.h"
+#include "base/spelling.h"
 
 namespace contact {
 namespace {

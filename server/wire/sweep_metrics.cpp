@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/spelling.h"
 #include "wire/field_path.h"
 #include "wire/rules.h"
-#include "wire/spelling.h"
 
 namespace contact {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "contact/v1/job.pb.h"
 #include "contact/v1/scenario.pb.h"
-#include "simulation/scenario.h"
+#include "simulation/model/scenario.h"
 #include "wire/scenario_codec.h"
 
 namespace contact {

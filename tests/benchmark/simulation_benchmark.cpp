@@ -7,7 +7,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 
-#include "simulation/motion.h"
+#include "simulation/motion/motion.h"
 #include "testing/cases.h"
 
 namespace contact {

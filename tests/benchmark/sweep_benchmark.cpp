@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/sources.h"
 #include "jobs/job_manager.h"
-#include "jobs/sources.h"
 #include "storage/store.h"
 #include "testing/await.h"
 #include "testing/cases.h"

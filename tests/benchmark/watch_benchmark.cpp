@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "contact/v1/job_service.pb.h"
-#include "rpc/watch_message.h"
+#include "rpc/stream/watch_message.h"
 
 namespace contact {
 namespace {

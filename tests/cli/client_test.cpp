@@ -1,8 +1,9 @@
-#include "cli/client.h"
+#include "cli/link/client.h"
 
 #include <gmock/gmock.h>
 
 #include "cli/fake_server.h"
+#include "cli/link/job_names.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 

@@ -1,9 +1,9 @@
-#include "cli/live_plot.h"
+#include "cli/text/live_plot.h"
 
 #include <gmock/gmock.h>
 
-#include "cli/dot_canvas.h"
-#include "cli/style.h"
+#include "cli/base/dot_canvas.h"
+#include "cli/base/style.h"
 
 namespace contact::cli {
 namespace {

@@ -1,10 +1,10 @@
-#include "cli/number.h"
+#include "cli/base/number.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "cli/failure.h"
+#include "cli/base/failure.h"
 
 namespace contact::cli {
 namespace {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "cli/failure.h"
-#include "cli/scenario_file.h"
+#include "cli/base/failure.h"
+#include "cli/input/scenario_file.h"
 
 namespace contact::cli {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <limits>
 
-#include "cli/contours.h"
-#include "cli/gnuplot.h"
-#include "cli/heat_scale.h"
-#include "cli/latex.h"
-#include "cli/matlab_names.h"
+#include "cli/base/latex.h"
+#include "cli/export/matlab_names.h"
+#include "cli/figures/contours.h"
+#include "cli/figures/gnuplot.h"
+#include "cli/text/heat_scale.h"
 
 namespace contact::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/progress_signals.h"
+#include "cli/text/progress_signals.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "cli/recording.h"
+#include "cli/link/recording.h"
 
 #include <gmock/gmock.h>
 

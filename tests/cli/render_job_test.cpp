@@ -1,12 +1,13 @@
-#include "cli/render_job.h"
+#include "cli/text/render_job.h"
 
 #include <gmock/gmock.h>
 #include <google/protobuf/text_format.h>
 
 #include <stdexcept>
 
-#include "cli/render_json.h"
-#include "cli/settings.h"
+#include "cli/settings/settings.h"
+#include "cli/text/print_job.h"
+#include "cli/text/render_json.h"
 
 namespace contact::cli {
 namespace {
@@ -113,11 +114,11 @@ TEST(ToJson, LineIsOneLine) {
 }
 
 TEST(Outcome, TellsHowAJobEnded) {
-  EXPECT_EQ(Outcome(FromText("state: SUCCEEDED convergence: FULL")), ExitCode::kOk);
-  EXPECT_EQ(Outcome(FromText("state: SUCCEEDED convergence: PARTIAL")), ExitCode::kNotConverged);
-  EXPECT_EQ(Outcome(FromText("state: FAILED convergence: PARTIAL")), ExitCode::kRunFailed);
-  EXPECT_EQ(Outcome(FromText("state: CANCELLED")), ExitCode::kRunFailed);
-  EXPECT_EQ(Outcome(FromText("state: RUNNING")), ExitCode::kOk);
+  EXPECT_EQ(CodeOf(FromText("state: SUCCEEDED convergence: FULL")), ExitCode::kOk);
+  EXPECT_EQ(CodeOf(FromText("state: SUCCEEDED convergence: PARTIAL")), ExitCode::kNotConverged);
+  EXPECT_EQ(CodeOf(FromText("state: FAILED convergence: PARTIAL")), ExitCode::kRunFailed);
+  EXPECT_EQ(CodeOf(FromText("state: CANCELLED")), ExitCode::kRunFailed);
+  EXPECT_EQ(CodeOf(FromText("state: RUNNING")), ExitCode::kOk);
 }
 
 }  // namespace

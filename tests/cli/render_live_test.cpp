@@ -1,4 +1,4 @@
-#include "cli/render_live.h"
+#include "cli/text/render_live.h"
 
 #include <gmock/gmock.h>
 #include <google/protobuf/text_format.h>

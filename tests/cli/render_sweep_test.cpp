@@ -1,4 +1,4 @@
-#include "cli/render_sweep.h"
+#include "cli/text/render_sweep.h"
 
 #include <gmock/gmock.h>
 

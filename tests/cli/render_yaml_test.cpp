@@ -1,4 +1,4 @@
-#include "cli/render_yaml.h"
+#include "cli/text/render_yaml.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

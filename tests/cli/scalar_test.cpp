@@ -1,4 +1,4 @@
-#include "cli/scalar.h"
+#include "cli/base/scalar.h"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
-#include "cli/scenario_file.h"
+#include "cli/input/scenario_file.h"
 
 #include <gmock/gmock.h>
 #include <google/protobuf/util/message_differencer.h>
 
-#include "cli/failure.h"
-#include "cli/render_json.h"
+#include "cli/base/failure.h"
+#include "cli/text/render_json.h"
 
 namespace contact::cli {
 namespace {

@@ -1,8 +1,8 @@
-#include "cli/table.h"
+#include "cli/base/table.h"
 
 #include <gmock/gmock.h>
 
-#include "cli/failure.h"
+#include "cli/base/failure.h"
 
 namespace contact::cli {
 namespace {

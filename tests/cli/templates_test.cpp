@@ -1,4 +1,4 @@
-#include "cli/templates.h"
+#include "cli/input/templates.h"
 
 #include <gmock/gmock.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <set>
 
-#include "cli/scenario_file.h"
-#include "cli/sweep_file.h"
+#include "cli/input/scenario_file.h"
+#include "cli/input/sweep_file.h"
 
 namespace contact::cli {
 namespace {

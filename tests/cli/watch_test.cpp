@@ -1,4 +1,4 @@
-#include "cli/watch.h"
+#include "cli/link/watch.h"
 
 #include <gmock/gmock.h>
 

@@ -3,8 +3,8 @@
 
 #include <thread>
 
-#include "jobs/lifecycle.h"
-#include "jobs/run_state_codec.h"
+#include "jobs/job/lifecycle.h"
+#include "jobs/run/run_state_codec.h"
 #include "jobs_fixture.h"
 
 namespace contact {
@@ -48,8 +48,8 @@ class CheckpointTest : public JobsTest {
   static constexpr int kNever = -1;
 
   // The real solver; runs that begin anew hang at a boundary.
-  JobManagerOptions Options(int hang_at) {
-    JobManagerOptions options;
+  JobOptions Options(int hang_at) {
+    JobOptions options;
     options.checkpoint_interval = seconds(1);
     options.run = [this, hang_at](const Scenario& scenario, Observer& observer,
                                   const std::stop_token& stop) {
@@ -132,7 +132,7 @@ TEST_F(CheckpointTest, ItGoesWithTheEndOfTheJob) {
 }
 
 TEST_F(CheckpointTest, ThereIsNoneBeforeItsTime) {
-  JobManagerOptions options = Options(30);
+  JobOptions options = Options(30);
   options.checkpoint_interval = seconds(100);
   Open(options);
   const std::string name = Create(Bouncing());

@@ -1,4 +1,4 @@
-#include "jobs/decimation.h"
+#include "jobs/read/decimation.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "jobs/delivery_cursor.h"
+#include "jobs/log/delivery_cursor.h"
 
 #include <gmock/gmock.h>
 

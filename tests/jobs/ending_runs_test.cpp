@@ -1,10 +1,10 @@
-#include "jobs/ending_runs.h"
+#include "jobs/run/ending_runs.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "jobs/log_writer.h"
+#include "jobs/run/log_writer.h"
 #include "storage/store.h"
 #include "testing/temp_directory.h"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <set>
 
-#include "jobs/lifecycle.h"
+#include "jobs/job/lifecycle.h"
 #include "jobs_fixture.h"
 #include "wire/spec_digest.h"
 
@@ -212,7 +212,7 @@ TEST_F(JobsTest, JobsRunFirstComeFirstServed) {
     order.push_back(scenario.end_time);
     return Outcome{};
   });
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   std::string last;
@@ -352,7 +352,7 @@ TEST_F(JobsTest, WorkerTakesTheNextJobWhileTheEndOfTheLastIsStored) {
 
 TEST_F(JobsTest, StopWaitsForTheEndsThatAreBeingStored) {
   std::promise<void> started, go;
-  JobManagerOptions options;
+  JobOptions options;
   options.run = [&](const Scenario&, Observer&, const std::stop_token&) {
     started.set_value();
     go.get_future().wait();  // Does not look at the stop token.
@@ -416,7 +416,7 @@ TEST_F(JobsTest, ThrowingRunFailsItsJobOnly) {
     if (scenario.end_time == 13) throw std::runtime_error("it broke");
     return {};
   });
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   run.Allow(3);
@@ -437,7 +437,7 @@ TEST_F(JobsTest, FailedRunKeepsItsReasonAndWarnings) {
     observer.OnWarning("careful");
     return Ending(Outcome::End::kNumeric, "at t = 1 s");
   });
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   run.Allow();
@@ -455,7 +455,7 @@ TEST_F(JobsTest, LargeSamplesAreCutIntoChunksThatFitMessages) {
     observer.OnSamples({.first = 5, .columns = 7, .values = std::vector<double>(7 * 40'000, 1)});
     return Outcome{};
   });
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   run.Allow();

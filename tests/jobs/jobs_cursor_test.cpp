@@ -1,4 +1,4 @@
-#include "jobs/jobs_cursor.h"
+#include "jobs/log/jobs_cursor.h"
 
 #include "jobs_fixture.h"
 

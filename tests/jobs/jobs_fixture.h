@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/sources.h"
 #include "jobs/job_manager.h"
-#include "jobs/sources.h"
 #include "storage/store.h"
 #include "testing/await.h"
 #include "testing/fake_run.h"
@@ -136,7 +136,7 @@ class JobsTest : public testing::Test {
     std::filesystem::copy(image.path(), directory_.path());
   }
 
-  void Open(JobManagerOptions options = {}, StoreOptions store_options = {}) {
+  void Open(JobOptions options = {}, StoreOptions store_options = {}) {
     manager_.reset();
     store_.reset();
     auto opened = Store::Open(directory_.path(), std::move(store_options));
@@ -144,7 +144,7 @@ class JobsTest : public testing::Test {
     store_ = *std::move(opened);
     manager_ = std::make_unique<JobManager>(*store_, clock_, ids_, std::move(options));
   }
-  JobManagerOptions WithFakeRun(JobManagerOptions options = {}) {
+  JobOptions WithFakeRun(JobOptions options = {}) {
     options.run = [this](const Scenario& scenario, Observer& observer,
                          const std::stop_token& stop) { return run_(scenario, observer, stop); };
     return options;

@@ -1,4 +1,4 @@
-#include "jobs/lifecycle.h"
+#include "jobs/job/lifecycle.h"
 
 #include <gmock/gmock.h>
 

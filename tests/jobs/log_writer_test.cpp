@@ -1,4 +1,4 @@
-#include "jobs/log_writer.h"
+#include "jobs/run/log_writer.h"
 
 #include <thread>
 

@@ -6,7 +6,7 @@
 #include <new>
 #include <set>
 
-#include "jobs/lifecycle.h"
+#include "jobs/job/lifecycle.h"
 #include "jobs_fixture.h"
 
 namespace contact {
@@ -45,7 +45,7 @@ TEST_F(LostRunTest, LargerPriorityRunsFirstAndEqualsInOrder) {
     order.push_back(scenario.end_time);
     return Outcome{};
   });
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   Create(BouncingBall(1));
@@ -72,7 +72,7 @@ TEST_F(LostRunTest, PriorityHoldsAfterACrash) {
     order.push_back(scenario.end_time);
     return Outcome{};
   });
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   run.Allow(3);
@@ -119,7 +119,7 @@ TEST_F(LostRunTest, SpentOutputIsSeenAlsoWhenTheRunIsThrough) {
     observer.OnSamples({.first = 0, .columns = 7, .values = std::vector<double>(7 * 200)});
     return Outcome{};
   });
-  JobManagerOptions options{.max_budget = {.output_bytes = 1000}};
+  JobOptions options{.max_budget = {.output_bytes = 1000}};
   options.run = std::ref(run);
   Open(options);
   run.Allow();
@@ -155,7 +155,7 @@ TEST_F(LostRunTest, HangingRunIsGivenUpAndItsWorkerReplaced) {
   std::promise<void> release;
   const auto released = release.get_future().share();
   std::promise<void> back;
-  JobManagerOptions options{.workers = 1};
+  JobOptions options{.workers = 1};
   options.run = [&](const Scenario& scenario, Observer& observer, const std::stop_token&) {
     if (scenario.end_time != 13) return Outcome{};
     observer.OnWarning("before");
@@ -188,7 +188,7 @@ TEST_F(LostRunTest, HangingRunCanBeCancelled) {
   std::promise<void> release;
   const auto released = release.get_future().share();
   std::promise<void> started, back;
-  JobManagerOptions options;
+  JobOptions options;
   options.run = [&](const Scenario&, Observer&, const std::stop_token&) {
     started.set_value();
     released.wait();
@@ -206,7 +206,7 @@ TEST_F(LostRunTest, HangingRunCanBeCancelled) {
 }
 
 TEST_F(LostRunTest, StalledRunThatHearsKeepsItsResult) {
-  JobManagerOptions options;
+  JobOptions options;
   options.run = [](const Scenario&, Observer& observer, const std::stop_token& stop) {
     std::mutex mutex;
     std::unique_lock lock(mutex);
@@ -225,7 +225,7 @@ TEST_F(LostRunTest, HangingRunDoesNotHoldUpTheEnd) {
   auto release = std::make_shared<std::promise<void>>();
   const auto released = release->get_future().share();
   std::promise<void> started, back;
-  JobManagerOptions options;
+  JobOptions options;
   options.run = [&, released](const Scenario&, Observer&, const std::stop_token&) {
     started.set_value();
     released.wait();
@@ -246,7 +246,7 @@ TEST_F(LostRunTest, HangingRunDoesNotHoldUpTheEnd) {
 }
 
 TEST_F(LostRunTest, RunThatDoesNotFitIntoMemoryFailsItsJobOnly) {
-  JobManagerOptions options{.workers = 2};
+  JobOptions options{.workers = 2};
   options.run = [](const Scenario& scenario, Observer&, const std::stop_token&) -> Outcome {
     if (scenario.end_time == 13) throw std::bad_alloc();
     if (scenario.end_time == 14) throw 42;
@@ -285,7 +285,7 @@ TEST_F(LostRunTest, NeighboursOfADeadlyJobAllSucceed) {
   // The one that ends at 13 brings the server down as soon as it runs.
   std::atomic<int> deadly = 0;
   std::set<std::string> names;
-  JobManagerOptions options{.workers = 2};
+  JobOptions options{.workers = 2};
   FakeRun run([&](const Scenario&, Observer&, const std::stop_token&) { return Outcome{}; });
   options.run = [&](const Scenario& scenario, Observer& observer, const std::stop_token& stop) {
     if (scenario.end_time != 13) return run(scenario, observer, stop);
@@ -334,7 +334,7 @@ TEST_F(LostRunTest, WhatCannotChangeIsNotTriedAgain) {
   using End = Outcome::End;
   for (const End end : {End::kNumeric, End::kBudgetSteps, End::kNotConverged}) {
     std::atomic<int> runs = 0;
-    JobManagerOptions options;
+    JobOptions options;
     options.run = [&](const auto&, auto&, const auto&) {
       ++runs;
       return Ending(end, "no");
@@ -425,7 +425,7 @@ TEST_F(LostRunTest, BudgetOfASweepHoldsForAllItsCells) {
 TEST_F(LostRunTest, HangingCellEndsItsSweepAndFreesBothWorkers) {
   std::promise<void> release;
   const auto released = release.get_future().share();
-  JobManagerOptions options{.workers = 2};
+  JobOptions options{.workers = 2};
   std::atomic<int> back = 0;
   options.run = [&](const Scenario& scenario, Observer&, const std::stop_token&) {
     if (scenario.bodies[0].mass != 7) return Outcome{};

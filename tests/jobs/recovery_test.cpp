@@ -1,7 +1,7 @@
 // What a manager makes of what an earlier one has left.
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "jobs/lifecycle.h"
+#include "jobs/job/lifecycle.h"
 #include "jobs_fixture.h"
 
 namespace contact {
@@ -49,7 +49,7 @@ TEST_F(RecoveryTest, QueueKeepsItsOrder) {
     order.push_back(scenario.end_time);
     return Outcome{};
   });
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   std::string last;
@@ -78,7 +78,7 @@ TEST_F(RecoveryTest, StopPutsRunningJobsBackWithoutCountingTheAttempt) {
 TEST_F(RecoveryTest, WishToCancelSurvivesACrash) {
   std::promise<void> release;
   const auto released = release.get_future().share();
-  JobManagerOptions options;
+  JobOptions options;
   std::promise<void> started;
   options.run = [&](const Scenario&, Observer&, const std::stop_token&) {
     started.set_value();

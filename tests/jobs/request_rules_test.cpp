@@ -1,4 +1,4 @@
-#include "jobs/request_rules.h"
+#include "jobs/read/request_rules.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
-#include "jobs/retention.h"
+#include "jobs/schedule/retention.h"
 
-#include "jobs/job_feed.h"
+#include "jobs/log/job_feed.h"
 #include "jobs_fixture.h"
 
 namespace contact {

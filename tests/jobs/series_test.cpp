@@ -173,7 +173,7 @@ TEST_F(SeriesTest, ReadsWhatARunningJobHasRecorded) {
     }
     return Ending(Outcome::End::kStopped);
   });
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   const std::string name = Create();
@@ -197,7 +197,7 @@ TEST_F(SeriesTest, EarlierAttemptsAreLeftOut) {
     return Ending(Outcome::End::kStopped);
   });
   run.Allow();
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   const std::string name = Create();
@@ -268,7 +268,7 @@ TEST_F(SeriesTest, AnswerStaysBelowWhatAClientTakes) {
     return Outcome{};
   });
   run.Allow();
-  JobManagerOptions options;
+  JobOptions options;
   options.run = std::ref(run);
   Open(options);
   const std::string name = Create();

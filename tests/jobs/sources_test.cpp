@@ -1,4 +1,4 @@
-#include "jobs/sources.h"
+#include "base/sources.h"
 
 #include <gmock/gmock.h>
 

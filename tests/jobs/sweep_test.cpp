@@ -86,7 +86,7 @@ TEST_F(SweepTest, CellEqualsAJobOfItsScenario) {
 }
 
 TEST_F(SweepTest, IdleWorkersHelp) {
-  JobManagerOptions options = WithFakeRun({.workers = 3});
+  JobOptions options = WithFakeRun({.workers = 3});
   Open(options);
   const std::string name = Create(Study(4, 2)).value().name();
   run_.AwaitStarted(3);  // At the same time: none of them is let go.
@@ -95,7 +95,7 @@ TEST_F(SweepTest, IdleWorkersHelp) {
 }
 
 TEST_F(SweepTest, HelpersLeaveForAJobThatWaits) {
-  JobManagerOptions options{.workers = 2};
+  JobOptions options{.workers = 2};
   std::atomic<int> cells = 0;
   options.run = [&](const Scenario& scenario, Observer&, const std::stop_token&) {
     if (scenario.end_time == 3) return Outcome{};
@@ -115,7 +115,7 @@ TEST_F(SweepTest, HelpersLeaveForAJobThatWaits) {
 }
 
 TEST_F(SweepTest, FailuresStayInTheirCells) {
-  JobManagerOptions options{.workers = 2};
+  JobOptions options{.workers = 2};
   options.run = [](const Scenario& scenario, Observer& observer, const std::stop_token& stop) {
     if (scenario.bodies[0].velocity == 0.02) return Ending(Outcome::End::kNumeric, "blew up");
     if (scenario.bodies[0].velocity == 0.03) throw std::runtime_error("broke");
@@ -152,7 +152,7 @@ TEST_F(SweepTest, FailuresStayInTheirCells) {
 
 TEST_F(SweepTest, AfterACrashFinishedCellsAreNotComputedAgain) {
   std::atomic<int> allowed = 7;
-  JobManagerOptions options{.workers = 2};
+  JobOptions options{.workers = 2};
   options.run = [&](const Scenario&, Observer& observer, const std::stop_token& stop) {
     if (--allowed >= 0) return Outcome{};
     while (!stop.stop_requested()) {
@@ -188,7 +188,7 @@ TEST_F(SweepTest, AfterACrashFinishedCellsAreNotComputedAgain) {
 }
 
 TEST_F(SweepTest, ShutdownKeepsFinishedCellsToo) {
-  JobManagerOptions options = WithFakeRun({.workers = 2});
+  JobOptions options = WithFakeRun({.workers = 2});
   Open(options);
   const std::string name = Create(Study(3, 3)).value().name();
   run_.Allow(4);
@@ -203,7 +203,7 @@ TEST_F(SweepTest, ShutdownKeepsFinishedCellsToo) {
 }
 
 TEST_F(SweepTest, CancelStopsAllWorkersAndKeepsTheCells) {
-  JobManagerOptions options = WithFakeRun({.workers = 3});
+  JobOptions options = WithFakeRun({.workers = 3});
   Open(options);
   const std::string name = Create(Study(10, 10)).value().name();
   run_.Allow(5);
@@ -233,7 +233,7 @@ TEST_F(SweepTest, NobodyRunsFarAheadOfTheDisk) {
   std::promise<void> go;
   std::promise<void> disk_works;
   std::atomic<int> computed = 0;
-  JobManagerOptions options{.workers = 3};
+  JobOptions options{.workers = 3};
   options.run = [&computed, gone = go.get_future().share()](const auto&...) {
     ++computed;
     gone.wait();
@@ -279,7 +279,7 @@ TEST_F(SweepTest, RulesAreToldWithTheirPaths) {
 }
 
 TEST_F(SweepTest, CellsAreLimited) {
-  JobManagerOptions options = WithFakeRun();
+  JobOptions options = WithFakeRun();
   options.scenario_limits.max_cells = 6;
   Open(options);
   EXPECT_TRUE(Create(Study(2, 3)).ok());

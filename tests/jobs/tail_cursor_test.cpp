@@ -1,4 +1,4 @@
-#include "jobs/tail_cursor.h"
+#include "jobs/log/tail_cursor.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 #include <thread>
 
-#include "jobs/lifecycle.h"
-#include "jobs/log_writer.h"
+#include "jobs/job/lifecycle.h"
+#include "jobs/run/log_writer.h"
 #include "jobs_fixture.h"
 
 namespace contact {

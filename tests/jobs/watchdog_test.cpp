@@ -1,4 +1,4 @@
-#include "jobs/watchdog.h"
+#include "jobs/schedule/watchdog.h"
 
 #include <gmock/gmock.h>
 

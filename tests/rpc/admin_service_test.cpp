@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/digest.h"
 #include "contact/v1/admin_service.grpc.pb.h"
 #include "rpc/test_server.h"
-#include "wire/digest.h"
 
 namespace contact {
 namespace {

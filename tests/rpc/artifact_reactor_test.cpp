@@ -1,4 +1,4 @@
-#include "rpc/artifact_reactor.h"
+#include "rpc/stream/artifact_reactor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "rpc/call_guard.h"
+#include "rpc/call/call_guard.h"
 
 #include <grpcpp/test/server_context_test_spouse.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "storage/file_descriptor.h"
+#include "base/file_descriptor.h"
 #include "testing/await.h"
 
 namespace contact {

@@ -1,4 +1,4 @@
-#include "rpc/connection_acceptor.h"
+#include "rpc/net/connection_acceptor.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "client_socket.h"
-#include "rpc/listener.h"
-#include "rpc/open_connections.h"
+#include "rpc/net/listener.h"
+#include "rpc/net/open_connections.h"
 #include "test_server.h"
 #include "testing/temp_directory.h"
 

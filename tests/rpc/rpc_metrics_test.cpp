@@ -1,11 +1,11 @@
-#include "rpc/rpc_metrics.h"
+#include "rpc/metrics/rpc_metrics.h"
 
 #include <gmock/gmock.h>
 #include <prometheus/text_serializer.h>
 
 #include <string>
 
-#include "rpc/metrics_page.h"
+#include "rpc/metrics/metrics_page.h"
 #include "test_server.h"
 
 namespace contact {

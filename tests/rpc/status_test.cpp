@@ -1,4 +1,4 @@
-#include "rpc/status.h"
+#include "rpc/call/status.h"
 
 #include <gmock/gmock.h>
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <thread>
 
+#include "base/sources.h"
 #include "contact/v1/job_service.grpc.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 #include "jobs/job_manager.h"
-#include "jobs/sources.h"
 #include "rpc/grpc_server.h"
 #include "storage/store.h"
 #include "testing/await.h"
@@ -23,7 +23,7 @@ namespace contact {
 /// A whole server in this process, on a port and in a folder of its own.
 class TestServer {
  public:
-  explicit TestServer(GrpcServerOptions options = {}, JobManagerOptions jobs = {.workers = 2})
+  explicit TestServer(GrpcServerOptions options = {}, JobOptions jobs = {.workers = 2})
       : store_(Store::Open(folder_.path()).value()),
         jobs_(*store_, SystemClock(), RandomIds(), std::move(jobs)),
         server_(jobs_, options, {}),

@@ -1,4 +1,4 @@
-#include "rpc/watch_jobs_reactor.h"
+#include "rpc/stream/watch_jobs_reactor.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "rpc/watch_message.h"
+#include "rpc/stream/watch_message.h"
 
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/impl/codegen/proto_utils.h>

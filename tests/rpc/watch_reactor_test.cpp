@@ -1,4 +1,4 @@
-#include "rpc/watch_reactor.h"
+#include "rpc/stream/watch_reactor.h"
 
 #include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
@@ -194,7 +194,7 @@ TEST(WatchReactorTest, CancelAtAnyMomentLeavesNothing) {
 }
 
 // A run that waits, then brings so many frame chunks of so many rows, a remark after each.
-JobManagerOptions Filming(FakeRun& run) { return {.workers = 1, .run = std::ref(run)}; }
+JobOptions Filming(FakeRun& run) { return {.workers = 1, .run = std::ref(run)}; }
 FakeRun::Script Frames(int chunks, std::int64_t rows) {
   return [chunks, rows](const Scenario&, Observer& observer, const std::stop_token&) {
     constexpr int kColumns = 9;

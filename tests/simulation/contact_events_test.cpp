@@ -1,4 +1,4 @@
-#include "simulation/contact_events.h"
+#include "simulation/motion/contact_events.h"
 
 #include <gtest/gtest.h>
 

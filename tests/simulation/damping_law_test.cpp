@@ -1,4 +1,4 @@
-#include "simulation/damping_law.h"
+#include "simulation/laws/damping_law.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulation/episode.h"
+#include "simulation/episode/episode.h"
 
 #include <gtest/gtest.h>
 

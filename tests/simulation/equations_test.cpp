@@ -1,4 +1,4 @@
-#include "simulation/equations.h"
+#include "simulation/motion/equations.h"
 
 #include <gtest/gtest.h>
 

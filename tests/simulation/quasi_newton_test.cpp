@@ -1,4 +1,4 @@
-#include "simulation/quasi_newton.h"
+#include "simulation/episode/quasi_newton.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/run_state.h"
+#include "simulation/episode/run_state.h"
 #include "testing/cases.h"
 
 namespace contact {

@@ -1,4 +1,4 @@
-#include "simulation/runge_kutta.h"
+#include "simulation/motion/runge_kutta.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "storage/histogram.h"
+#include "base/histogram.h"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "jobs/sources.h"
+#include "base/sources.h"
 
 namespace contact {
 

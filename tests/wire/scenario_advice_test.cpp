@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "wire/encounter.h"
+#include "simulation/forecast/encounter.h"
 #include "wire/scenario_builder.h"
 
 namespace contact {

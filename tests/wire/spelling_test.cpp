@@ -1,4 +1,4 @@
-#include "wire/spelling.h"
+#include "base/spelling.h"
 
 #include <gmock/gmock.h>
 

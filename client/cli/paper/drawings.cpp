@@ -8,7 +8,7 @@
 #include <iterator>
 #include <utility>
 
-#include "cli/presets.h"
+#include "cli/figures/presets.h"
 
 namespace contact::cli {
 namespace {

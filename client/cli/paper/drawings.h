@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/figure.h"
+#include "cli/figures/figure.h"
 #include "cli/paper/lab.h"
 #include "cli/paper/report.h"
 

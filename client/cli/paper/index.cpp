@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "cli/html.h"
-#include "cli/number.h"
+#include "cli/base/html.h"
+#include "cli/base/number.h"
 
 namespace contact::cli {
 namespace {

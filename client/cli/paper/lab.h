@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/recording.h"
+#include "cli/link/recording.h"
 
 namespace contact::cli {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/csv_metadata.h"
-#include "cli/number.h"
-#include "cli/table.h"
-#include "cli/text_file.h"
+#include "cli/base/number.h"
+#include "cli/base/table.h"
+#include "cli/base/text_file.h"
+#include "cli/export/csv_metadata.h"
 
 namespace contact::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/figure.h"
-#include "cli/style.h"
+#include "cli/base/style.h"
+#include "cli/figures/figure.h"
 
 namespace contact::cli {
 

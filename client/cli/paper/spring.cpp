@@ -3,9 +3,9 @@
 
 #include <utility>
 
+#include "cli/figures/presets.h"
 #include "cli/paper/cases.h"
 #include "cli/paper/items.h"
-#include "cli/presets.h"
 
 namespace contact::cli {
 namespace {

@@ -1,0 +1,36 @@
+#include "cli/base/output_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "cli/base/failure.h"
+
+namespace contact::cli {
+namespace {
+
+[[noreturn]] void Fail(const std::string& path) {
+  throw Failure(ExitCode::kLocal, fmt::format("{}: {}", path.empty() ? "standard output" : path,
+                                              std::generic_category().message(errno)));
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path)
+    : path_(path), file_(path.empty() ? stdout : std::fopen(path.c_str(), "wb")) {
+  if (file_ == nullptr) Fail(path_);
+}
+
+OutputFile::~OutputFile() {
+  if (file_ != nullptr && file_ != stdout) std::fclose(file_);
+}
+
+void OutputFile::Close() {
+  std::FILE* const file = std::exchange(file_, nullptr);
+  const bool broken = std::ferror(file) != 0;
+  if ((file == stdout ? std::fflush(file) : std::fclose(file)) != 0 || broken) Fail(path_);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,47 @@
+#include "cli/base/text_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <system_error>
+
+#include "cli/base/failure.h"
+#include "cli/base/output_file.h"
+
+namespace contact::cli {
+namespace {
+
+// False if the stream cannot be read, as that of a folder. An empty one can.
+bool ReadAll(std::istream& stream, std::string* text) {
+  if (!stream) return false;
+  std::array<char, 1 << 16> block;
+  while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
+    text->append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  return stream.eof() && !stream.bad();
+}
+
+}  // namespace
+
+std::string ReadText(const std::string& path) {
+  std::string text;
+  std::ifstream file;
+  if (path != "-") file.open(path, std::ios::binary);
+  if (!ReadAll(path == "-" ? std::cin : file, &text)) {
+    throw Failure(ExitCode::kLocal,
+                  fmt::format("cannot read {}: {}", path, std::generic_category().message(errno)));
+  }
+  return text;
+}
+
+void WriteText(const std::string& text, const std::string& path) {
+  OutputFile file(path);
+  std::fwrite(text.data(), 1, text.size(), file.get());
+  file.Close();
+}
+
+}  // namespace contact::cli

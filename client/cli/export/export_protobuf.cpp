@@ -1,0 +1,93 @@
+#include "cli/export/export_protobuf.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/io/zero_copy_stream_impl.h>
+#include <google/protobuf/util/delimited_message_util.h>
+
+#include <cstdio>
+
+#include "cli/base/interrupt.h"
+#include "cli/base/output_file.h"
+#include "cli/link/job_names.h"
+#include "cli/link/job_source.h"
+#include "cli/link/watch.h"
+
+namespace contact::cli {
+namespace {
+
+// Writes what it hears, and notes what it is spared.
+class Writer final : public WatchObserver {
+ public:
+  Writer(const std::string& path, const v1::Job& job) : file_(path), stream_(fileno(file_.get())) {
+    Write(job);
+  }
+
+  void OnEvent(const v1::Event& event) override {
+    if (event.has_bookmark()) return;
+    if (event.has_gap()) {
+      has_holes_ = true;
+      return;
+    }
+    Write(event);
+    ++events_;
+  }
+
+  bool has_holes() const { return has_holes_; }
+  std::int64_t events() const { return events_; }
+
+  void Close() {
+    if (!stream_.Flush()) Fail();
+    file_.Close();
+  }
+
+ private:
+  void Write(const google::protobuf::Message& message) {
+    if (!google::protobuf::util::SerializeDelimitedToZeroCopyStream(message, &stream_)) Fail();
+  }
+
+  [[noreturn]] void Fail() const {
+    errno = stream_.GetErrno();
+    throw Failure(ExitCode::kLocal, "the file cannot be written");
+  }
+
+  OutputFile file_;
+  google::protobuf::io::FileOutputStream stream_;
+  std::int64_t events_ = 0;
+  bool has_holes_ = false;
+};
+
+void Follow(Client& client, WatchOptions options, const Settings& settings,
+            WatchObserver& observer) {
+  options.deadline = settings.Deadline();
+  options.stopped = Interrupt::raised;
+  const WatchEnd end = Watch(client, options, observer);
+  if (end == WatchEnd::kFinished) return;
+  const bool interrupted = end == WatchEnd::kStopped;
+  throw Failure(interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout,
+                fmt::format("{}; {} has not ended, or is long",
+                            interrupted ? "interrupted" : "time is up", options.name));
+}
+
+}  // namespace
+
+std::int64_t WriteProtobuf(Client& client, const std::string& job, const Settings& settings,
+                           const std::string& path) {
+  const Interrupt interrupt;
+  WatchOptions options;
+  options.name = JobName(job);
+  options.kinds = {"state_changed"};
+  WatchObserver silence;
+  Follow(client, options, settings, silence);
+  options.kinds.clear();
+  options.overflow = v1::DeliveryOptions::LAG;
+  for (int tries = 0; tries < 2; ++tries) {
+    Writer writer(path, GetJob(client, job));
+    Follow(client, options, settings, writer);
+    writer.Close();
+    if (!writer.has_holes()) return writer.events();
+  }
+  throw Failure(ExitCode::kRunFailed,
+                fmt::format("parts of the trajectory of {} do not come; try again", job));
+}
+
+}  // namespace contact::cli

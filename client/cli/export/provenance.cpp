@@ -1,0 +1,109 @@
+#include "cli/export/provenance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+
+#include "cli/input/no_limits.h"
+#include "cli/text/render_json.h"
+#include "wire/scenario_codec.h"
+
+namespace contact::cli {
+namespace {
+
+std::string Line(const google::protobuf::Message& message) {
+  std::string line = ToJsonLine(message);
+  line.pop_back();
+  return line;
+}
+
+std::string_view Value(const Provenance& provenance, std::string_view name) {
+  const auto found =
+      std::ranges::find(provenance, name, [](const auto& entry) { return entry.first; });
+  return found == provenance.end() ? std::string_view() : found->second;
+}
+
+}  // namespace
+
+v1::Solver SolverInFull(const v1::Scenario& scenario) {
+  const SolverOptions options = DecodeScenario(scenario, kNoLimits).scenario.solver;
+  v1::Solver solver = scenario.solver();
+  solver.set_method(options.fixed_step > 0 ? v1::Solver::RK4 : v1::Solver::ADAPTIVE);
+  if (options.fixed_step > 0) {
+    solver.set_step_s(options.fixed_step);
+  } else {
+    solver.set_relative_tolerance(options.relative_tolerance);
+  }
+  solver.set_restitution_tolerance(options.restitution_tolerance);
+  if (solver.update() == v1::Solver::UPDATE_UNSPECIFIED) {
+    solver.set_update(v1::Solver::NEWTON_COUPLED);
+  }
+  const bool at_force = options.phase_split == PhaseSplit::kPeakForce;
+  solver.set_phase_split(at_force ? v1::Solver::PEAK_FORCE : v1::Solver::PEAK_DEFORMATION);
+  solver.set_max_iterations(options.max_iterations);
+  solver.set_tension(options.clip_tension ? v1::Solver::CLIP : v1::Solver::ALLOW);
+  solver.set_on_not_converged(options.fail_if_not_converged ? v1::Solver::FAIL
+                                                            : v1::Solver::REPORT);
+  solver.set_settled_fraction(options.settled_fraction);
+  solver.set_max_steps(options.max_steps);
+  return solver;
+}
+
+Provenance ProvenanceOf(const v1::Job& job) {
+  return {{"title", job.scenario().title()},
+          {"job", job.name()},
+          {"scenario", ToJson(job.scenario())},
+          {"scenario_sha256", job.spec_sha256()},
+          {"version", job.server_version()},
+          {"revision", job.server_revision()},
+          {"solver", Line(SolverInFull(job.scenario()))},
+          {"convergence", v1::Job::Convergence_Name(job.convergence())}};
+}
+
+Provenance SourceOf(const v1::Job& job) {
+  const v1::Scenario& scenario = job.has_sweep() ? job.sweep().base() : job.scenario();
+  return {{"title", scenario.title()},
+          {"job", job.name()},
+          {"scenario_sha256", job.spec_sha256()},
+          {"version", job.server_version()},
+          {"revision", job.server_revision()}};
+}
+
+std::string Caption(const std::vector<Provenance>& sources) {
+  constexpr std::size_t kMostJobs = 3;
+  constexpr std::size_t kShownDigits = 12;
+  std::vector<std::string> parts;
+  std::set<std::string> servers;
+  for (const Provenance& source : sources) {
+    servers.insert(fmt::format("contactd {} {}", Value(source, "version"),
+                               Value(source, "revision").substr(0, kShownDigits)));
+    const std::string_view digest = Value(source, "scenario_sha256").substr(0, kShownDigits);
+    if (digest.empty() || parts.size() > kMostJobs) continue;
+    const std::string_view job = Value(source, "job");
+    parts.push_back(fmt::format("{} ({})", job.empty() ? "scenario" : job, digest));
+  }
+  if (parts.size() > kMostJobs) {
+    parts.back() = fmt::format("{} more", sources.size() - kMostJobs);
+  }
+  parts.insert(parts.end(), servers.begin(), servers.end());
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string Lines(const std::vector<Provenance>& sources, std::string_view prefix) {
+  std::string text;
+  for (const Provenance& source : sources) {
+    if (!text.empty()) text.append(prefix.substr(0, prefix.find(' '))).append("\n");
+    for (const auto& [name, value] : source) {
+      // A title may be of more lines; in the second it could become a command.
+      std::string line = value;
+      std::ranges::replace_if(
+          line, [](unsigned char c) { return c < 0x20; }, ' ');
+      text += fmt::format("{}{}: {}\n", prefix, name, line);
+    }
+  }
+  return text;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,85 @@
+#include "cli/export/series_selection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "base/spelling.h"
+#include "cli/link/job_names.h"
+
+namespace contact::cli {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "columns are little-endian");
+
+[[noreturn]] void FailUnknown(const std::string& name, const std::vector<SampleColumn>& columns) {
+  std::vector<std::string_view> names;
+  for (const SampleColumn& column : columns) names.push_back(column.name);
+  const std::string_view nearest = Nearest(name, names);
+  throw Failure(ExitCode::kUsage,
+                fmt::format("{} is no channel of this job{}", Quoted(name),
+                            nearest.empty() ? "" : fmt::format(" — did you mean '{}'?", nearest)));
+}
+
+std::vector<SampleColumn> Chosen(const std::vector<std::string>& channels,
+                                 std::vector<SampleColumn>&& columns) {
+  std::vector<SampleColumn> chosen;
+  chosen.push_back(columns.front());  // time
+  for (const std::string& name : channels) {
+    const auto found = std::ranges::find(columns, name, &SampleColumn::name);
+    if (found == columns.end()) FailUnknown(name, columns);
+    if (std::ranges::find(chosen, name, &SampleColumn::name) == chosen.end()) {
+      chosen.push_back(*found);
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
+bool SeriesSelection::empty() const {
+  return channels.empty() && !from && !to && every == 1 && max_points == 0;
+}
+
+void Narrow(const SeriesSelection& selection, std::vector<SampleColumn>* columns) {
+  if (columns->empty()) return;
+  if (!selection.channels.empty()) *columns = Chosen(selection.channels, std::move(*columns));
+  const std::vector<double>& time = columns->front().values;
+  const double low = selection.from.value_or(-std::numeric_limits<double>::infinity());
+  const double high = selection.to.value_or(std::numeric_limits<double>::infinity());
+  const auto begin = static_cast<std::size_t>(std::ranges::lower_bound(time, low) - time.begin());
+  const auto end = static_cast<std::size_t>(std::ranges::upper_bound(time, high) - time.begin());
+  for (SampleColumn& column : *columns) {
+    std::vector<double> kept;
+    for (std::size_t i = begin; i < end; i += static_cast<std::size_t>(selection.every)) {
+      kept.push_back(column.values[i]);
+    }
+    column.values = std::move(kept);
+  }
+}
+
+std::vector<SampleColumn> ThinnedSeries(Client& client, const std::string& job,
+                                        const SeriesSelection& selection) {
+  v1::GetSeriesRequest request;
+  request.set_name(JobName(job));
+  for (const std::string& channel : selection.channels) request.add_channels(channel);
+  if (selection.from) request.set_start_time_s(*selection.from);
+  if (selection.to) request.set_end_time_s(*selection.to);
+  request.set_max_points(selection.max_points);
+  const v1::Series series = client.CallTellingAll(&Client::Stub::GetSeries, request);
+  std::vector<SampleColumn> columns;
+  for (const v1::FrameChunk::Column& column : series.columns()) {
+    std::vector<double> values(column.values().size() / sizeof(double));
+    std::memcpy(values.data(), column.values().data(), values.size() * sizeof(double));
+    columns.push_back({column.name(), column.quantity(), column.unit(), std::move(values)});
+  }
+  return columns;
+}
+
+}  // namespace contact::cli

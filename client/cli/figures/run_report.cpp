@@ -1,0 +1,149 @@
+#include "cli/figures/run_report.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+#include "cli/base/html.h"
+#include "cli/base/number.h"
+#include "cli/export/provenance.h"
+#include "cli/text/render_comparison.h"
+#include "cli/text/render_job.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr int kMostRows = 200;  // Of a table; the rest is for export.
+
+std::string Preformatted(const std::string& text) {
+  return fmt::format("<pre>{}</pre>\n", HtmlText(text));
+}
+
+std::string More(int all, const char* what) {
+  if (all <= kMostRows) return "";
+  return fmt::format("<p>{} more {}; contactctl export has them all.</p>\n", all - kMostRows, what);
+}
+
+std::string Ledger(const v1::Job& job) {
+  std::vector<HtmlRow> rows;
+  for (const v1::Cycle& cycle : job.cycles()) {
+    if (rows.size() == kMostRows) break;
+    const bool missed =
+        cycle.status() == v1::Cycle::NOT_CONVERGED || cycle.status() == v1::Cycle::INFEASIBLE;
+    rows.push_back(
+        {{cycle.contact(), fmt::to_string(cycle.number()), v1::Cycle::Kind_Name(cycle.kind()),
+          v1::Cycle::End_Name(cycle.end()), v1::Cycle::Status_Name(cycle.status()),
+          fmt::to_string(cycle.iterations()), Digits(cycle.mu(), 7), AlphaOrRatio(cycle),
+          Digits(cycle.restitution_in(), 6), Digits(cycle.restitution_out(), 8),
+          Error(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
+          Digits(cycle.peak_force_n(), 7), Digits(cycle.start_time_s(), 7),
+          Digits(cycle.end_time_s(), 7)},
+         missed});
+  }
+  return HtmlTable({"Contact", "#", "Kind", "End", "Status", "n", "μ", "α, or μ/k", "ε in", "ε out",
+                    "Error", "Peak force [N]", "Start [s]", "End [s]"},
+                   rows) +
+         More(job.cycles_size(), "cycles");
+}
+
+std::string Iterations(const std::vector<v1::Iteration>& iterations) {
+  std::vector<HtmlRow> rows;
+  int all = 0;
+  for (const v1::Iteration& pass : iterations) {
+    for (const auto& unknown : pass.unknowns()) {
+      if (++all > kMostRows) continue;
+      rows.push_back(
+          {{fmt::to_string(pass.episode()), fmt::to_string(pass.number()),
+            fmt::format("{} #{}", unknown.contact(), unknown.number()), Digits(unknown.mu(), 9),
+            Digits(unknown.restitution_out(), 8), Error(unknown.residual()),
+            pass.accepted() ? "accepted" : v1::Iteration::Update_Name(unknown.update())}});
+    }
+  }
+  if (rows.empty()) return "<p>Nothing was iterated.</p>\n";
+  return HtmlTable({"Episode", "Pass", "Cycle", "μ", "ε out", "Residual", "Next"}, rows) +
+         More(all, "rows");
+}
+
+std::string Bodies(const v1::Job& job) {
+  std::vector<HtmlRow> rows;
+  for (const v1::FinalBody& body : job.final_bodies()) {
+    if (rows.size() == kMostRows) break;
+    rows.push_back(
+        {{body.name(), Digits(body.position_m(), 10), Digits(body.velocity_m_per_s(), 10)}});
+  }
+  return HtmlTable({"Body", "Final position [m]", "Final velocity [m/s]"}, rows) +
+         More(job.final_bodies_size(), "bodies");
+}
+
+std::string Balances(const v1::RunSummary& summary) {
+  return HtmlTable({"Balance", "Relative residual"},
+                   {{{"Momentum", Error(summary.momentum_residual())}},
+                    {{"Energy", Error(summary.energy_residual())}},
+                    {{"Worst cycle identity", Error(summary.worst_identity_residual())}}}) +
+         fmt::format("<p>{} simulated; {} steps, {} evaluations, {} in {}; {} wall time.</p>\n",
+                     Seconds(summary.time_reached_s()), summary.steps(), summary.evaluations(),
+                     Count(summary.iterations(), "iteration", "iterations"),
+                     Count(summary.episodes(), "episode", "episodes"),
+                     Seconds(summary.wall_time_s()));
+}
+
+std::string Warnings(const v1::Job& job) {
+  std::string list;
+  if (job.has_error()) list += fmt::format("<li>{}</li>", HtmlText(job.error().message()));
+  for (const std::string& warning : job.warnings()) {
+    list += fmt::format("<li>{}</li>", HtmlText(warning));
+  }
+  return list.empty() ? "" : fmt::format("<h3>Warnings</h3>\n<ul>{}</ul>\n", list);
+}
+
+std::string HowToRepeat(const v1::Job& job, const std::string& server) {
+  std::string text = fmt::format(
+      "# while {0} has {1}:\ncontactctl --server {0} run --like {1}\n# anywhere: save the scenario "
+      "below as scenario.json, then\ncontactctl run scenario.json\n\n",
+      server, job.name());
+  std::string scenario;
+  for (const auto& [name, value] : ProvenanceOf(job)) {
+    if (name == "scenario") {
+      scenario = value;
+    } else {
+      text += fmt::format("{}: {}\n", name, value);
+    }
+  }
+  return Preformatted(text) + "<h3>Scenario</h3>\n" + Preformatted(scenario);
+}
+
+std::string Section(const RunPart& run, const std::string& server) {
+  const v1::Job& job = run.recording.job;
+  std::string section =
+      fmt::format("<h2>{}{}</h2>\n<p>{}, convergence {}.</p>\n", HtmlText(job.name()),
+                  job.scenario().title().empty() ? "" : ": " + HtmlText(job.scenario().title()),
+                  v1::Job::State_Name(job.state()), v1::Job::Convergence_Name(job.convergence()));
+  section += Warnings(job) + "<h3>Ledger</h3>\n" + Ledger(job) + Bodies(job);
+  section += "<h3>Balances</h3>\n" + Balances(job.summary());
+  for (const std::string& figure : run.figures) {
+    section += fmt::format("<figure>{}</figure>\n", figure);
+  }
+  section += "<h3>Iteration of μ</h3>\n" + Iterations(run.recording.iterations);
+  return section + "<h3>How to repeat it</h3>\n" + HowToRepeat(job, server);
+}
+
+}  // namespace
+
+std::string ReportPage(const std::vector<RunPart>& runs, const std::string& overlay,
+                       const std::string& server) {
+  std::string body;
+  if (runs.size() > 1) {
+    std::vector<v1::Job> jobs;
+    for (const RunPart& run : runs) jobs.push_back(run.recording.job);
+    body += "<h2>Where they differ</h2>\n" + ComparisonHtml(Compare(jobs, {}));
+    if (!overlay.empty()) body += fmt::format("<figure>{}</figure>\n", overlay);
+  }
+  for (const RunPart& run : runs) body += Section(run, server);
+  const std::string& title = runs.front().recording.job.scenario().title();
+  return HtmlPage(runs.size() > 1 ? fmt::format("Report of {} runs", runs.size())
+                  : title.empty() ? runs.front().recording.job.name()
+                                  : title,
+                  body);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/link/recording.h"
+
+namespace contact::cli {
+
+/// What a report shows of one run.
+struct RunPart {
+  Recording recording;               ///< Its trajectory is not needed.
+  std::vector<std::string> figures;  ///< SVG.
+};
+
+/// A page about one run, or about several and where they differ. Needs nothing but itself.
+/// `overlay` is SVG with several over each other, or empty; `server` is where they were read.
+std::string ReportPage(const std::vector<RunPart>& runs, const std::string& overlay,
+                       const std::string& server);
+
+}  // namespace contact::cli

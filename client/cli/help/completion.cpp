@@ -1,0 +1,187 @@
+#include "cli/help/completion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/help/candidates.h"
+#include "cli/settings/resolve.h"
+
+namespace contact::cli {
+namespace {
+
+bool TakesValue(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
+
+CLI::Option* FindFlag(CLI::App* command, const std::string& name) {
+  for (CLI::App* scope = command; scope != nullptr; scope = scope->get_parent()) {
+    for (CLI::Option* option : scope->get_options()) {
+      if (!option->get_positional() && option->check_name(name)) return option;
+    }
+  }
+  return nullptr;
+}
+
+CLI::App* FindVerb(CLI::App* command, const std::string& name) {
+  for (CLI::App* verb : command->get_subcommands({})) {
+    if (verb->check_name(name)) return verb;
+  }
+  return nullptr;
+}
+
+// Follows the words as the parser would. Values of global flags are kept, for the server.
+Line Follow(CLI::App& app, const std::vector<std::string>& words) {
+  Line line{.command = &app, .positionals = {}, .open = nullptr};
+  const auto give = [&app](CLI::Option* option, const std::string& value) {
+    const auto global = app.get_options();
+    if (std::ranges::find(global, option) != global.end()) option->add_result(value);
+  };
+  for (const std::string& word : words) {
+    if (line.open != nullptr) {
+      give(line.open, word);
+      line.open = nullptr;
+    } else if (word.starts_with("-") && word.size() > 1) {
+      const std::size_t equals = word.find('=');
+      CLI::Option* option = FindFlag(line.command, word.substr(0, equals));
+      if (option == nullptr || !TakesValue(*option)) continue;
+      if (equals == std::string::npos) {
+        line.open = option;
+      } else {
+        give(option, word.substr(equals + 1));
+      }
+    } else if (CLI::App* next = FindVerb(line.command, word); next != nullptr) {
+      line.command = next;
+    } else {
+      line.positionals.push_back(word);
+    }
+  }
+  return line;
+}
+
+std::string FirstSentence(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+Candidates Verbs(const CLI::App& command) {
+  Candidates verbs;
+  for (const CLI::App* verb : command.get_subcommands({})) {
+    if (!verb->get_group().empty()) {
+      verbs.push_back({verb->get_name(), FirstSentence(verb->get_description())});
+    }
+  }
+  return verbs;
+}
+
+Candidates Flags(const CLI::App& command) {
+  Candidates flags;
+  for (const CLI::App* scope = &command; scope != nullptr; scope = scope->get_parent()) {
+    for (const CLI::Option* option : scope->get_options()) {
+      if (option->get_lnames().empty() || option->get_group().empty()) continue;
+      const Candidate flag{"--" + option->get_lnames().front(), option->get_description()};
+      if (std::ranges::find(flags, flag.text, &Candidate::text) == flags.end()) {
+        flags.push_back(flag);
+      }
+    }
+  }
+  return flags;
+}
+
+bool IsList(const CLI::Option& option) { return KindOf(option).ends_with(",…"); }
+
+std::string Directive(const CLI::Option& option) {
+  if (KindOf(option) == "FIELD=VALUE" || IsList(option)) return ":nospace\n";
+  if (KindOf(option) == "DIR") return ":directories\n";
+  if (KindOf(option) != "FILE") return ":none\n";
+  return option.get_positional() ? ":scenarios\n" : ":files\n";
+}
+
+const CLI::Option* Positional(const Line& line) {
+  std::vector<const CLI::Option*> positionals;
+  for (const CLI::Option* option : line.command->get_options()) {
+    if (option->get_positional()) positionals.push_back(option);
+  }
+  const std::size_t given = line.positionals.size();
+  if (given < positionals.size()) return positionals[given];
+  const bool many = !positionals.empty() && positionals.back()->get_items_expected_max() > 1;
+  return many ? positionals.back() : nullptr;
+}
+
+// `prefix` is what the shell takes for part of the word.
+std::string Print(const Candidates& candidates, const std::string& prefix,
+                  const std::string& begin) {
+  std::string text;
+  for (const Candidate& candidate : candidates) {
+    if (!candidate.text.starts_with(begin)) continue;
+    text += fmt::format("{}{}\t{}\n", prefix, candidate.text, FirstSentence(candidate.about));
+  }
+  return text;
+}
+
+// The values of an option; of a list those for its last entry, without what stands before it.
+std::string PrintValues(const CLI::Option& option, const Settings& settings, const Line& line,
+                        const std::string& prefix, const std::string& word) {
+  Candidates values = Values(option, settings, line);
+  const std::size_t entry = IsList(option) ? word.rfind(',') + 1 : 0;
+  const std::string given = fmt::format(",{}", word.substr(0, entry));
+  std::erase_if(values, [&given](const Candidate& value) {
+    return given.find(fmt::format(",{},", value.text)) != std::string::npos;
+  });
+  return Print(values, prefix + word.substr(0, entry), word.substr(entry)) + Directive(option);
+}
+
+// The words as they were before bash split them at `=`.
+std::vector<std::string> Joined(const std::vector<std::string>& words) {
+  std::vector<std::string> joined;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool part = !joined.empty() && (words[i] == "=" || words[i - 1] == "=");
+    if (part) {
+      joined.back() += words[i];
+    } else {
+      joined.push_back(words[i]);
+    }
+  }
+  return joined;
+}
+
+// What a shell that splits at `=` takes for the last word: only what stands after it.
+void CutAfterEquals(Candidates* candidates) {
+  for (Candidate& candidate : *candidates) {
+    candidate.text.erase(0, candidate.text.find('=') + 1);
+  }
+}
+
+}  // namespace
+
+std::string Complete(CLI::App& app, const std::vector<std::string>& split, Settings* settings) try {
+  if (split.empty()) return ":none\n";
+  const std::vector<std::string> words = Joined(split);
+  const bool after_equals = split.back() != words.back();  // All that the shell replaces.
+  Line line = Follow(app, {words.begin(), words.end() - 1});
+  std::string word = words.back();
+  std::string prefix;
+  const std::size_t equals = word.find('=');
+  if (line.open == nullptr && word.starts_with("--") && equals != std::string::npos) {
+    line.open = FindFlag(line.command, word.substr(0, equals));
+    if (!after_equals) prefix = word.substr(0, equals + 1);
+    word.erase(0, equals + 1);
+    if (line.open == nullptr) return ":none\n";
+  }
+  ResolveSettings(app, settings);
+  if (line.open != nullptr && KindOf(*line.open) == "FIELD=VALUE") {
+    Candidates assignments = Assignments(line, word);
+    std::erase_if(assignments, [&](const auto& a) { return !a.text.starts_with(word); });
+    if (after_equals) CutAfterEquals(&assignments);
+    return Print(assignments, prefix, "") + Directive(*line.open);
+  }
+  if (line.open != nullptr) {
+    return PrintValues(*line.open, *settings, line, prefix, word);
+  }
+  if (word.starts_with("-")) return Print(Flags(*line.command), "", word) + ":none\n";
+  const CLI::Option* positional = Positional(line);
+  if (positional == nullptr) {
+    const bool first = line.positionals.empty();
+    return Print(first ? Verbs(*line.command) : Candidates(), "", word) + ":none\n";
+  }
+  return PrintValues(*positional, *settings, line, "", word);
+} catch (const Failure&) {  // Such as an address that is none: nothing to offer.
+  return ":none\n";
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,71 @@
+#include "cli/help/contract/contract.h"
+
+#include <google/protobuf/descriptor.pb.h>
+
+#include <sstream>
+#include <stdexcept>
+
+namespace contact::cli {
+namespace {
+
+constexpr char kPackage[] = "contact.v1.";
+
+// Whether a line of a comment stands for itself, as formulas and lists do.
+bool StandsAlone(const std::string& line) {
+  return line.starts_with(" ") || line.starts_with("* ") || line.starts_with("- ");
+}
+
+std::string Unwrap(const std::string& comment) {
+  std::istringstream lines(comment);
+  std::string text;
+  std::string line;
+  bool open = false;  // The last line of `text` goes on.
+  while (std::getline(lines, line)) {
+    if (line.starts_with(" ")) line.erase(0, 1);
+    const bool alone = StandsAlone(line);
+    if (!text.empty()) text += open && !alone && !line.empty() ? " " : "\n";
+    text += line;
+    open = !alone && !line.empty();
+  }
+  return text.substr(0, text.find_last_not_of(" \n") + 1);
+}
+
+}  // namespace
+
+Contract::Contract() {
+  google::protobuf::FileDescriptorSet files;
+  const std::span<const unsigned char> bytes = ContractBytes();
+  if (!files.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    throw std::logic_error("the contract in this program is damaged");
+  }
+  for (const google::protobuf::FileDescriptorProto& file : files.file()) pool_.BuildFile(file);
+}
+
+const google::protobuf::Descriptor& Contract::Message(const std::string& name) const {
+  const google::protobuf::Descriptor* message = pool_.FindMessageTypeByName(kPackage + name);
+  if (message == nullptr) throw std::logic_error("the contract has no message " + name);
+  return *message;
+}
+
+template <class Element>
+std::string CommentOf(const Element& element) {
+  google::protobuf::SourceLocation location;
+  return element.GetSourceLocation(&location) ? Unwrap(location.leading_comments) : "";
+}
+
+template std::string CommentOf(const google::protobuf::Descriptor& element);
+template std::string CommentOf(const google::protobuf::FieldDescriptor& element);
+template std::string CommentOf(const google::protobuf::OneofDescriptor& element);
+template std::string CommentOf(const google::protobuf::EnumDescriptor& element);
+template std::string CommentOf(const google::protobuf::EnumValueDescriptor& element);
+
+std::string ShortTypeName(const google::protobuf::Descriptor& message) {
+  const std::string& name = message.full_name();
+  return name.starts_with(kPackage) ? name.substr(sizeof(kPackage) - 1) : name;
+}
+
+bool IsUnspecified(const google::protobuf::EnumValueDescriptor& value) {
+  return value.number() == 0 && value.name().ends_with("_UNSPECIFIED");
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,214 @@
+#include "cli/help/contract/json_schema.h"
+
+#include <nlohmann/json.hpp>
+
+#include "cli/base/scalar.h"
+#include "cli/help/contract/field_rules.h"
+
+namespace contact::cli {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::EnumDescriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::OneofDescriptor;
+using nlohmann::ordered_json;
+
+// Whose JSON it is.
+enum class Side {
+  kWritten,  // By a user: ranges and required fields hold.
+  kPrinted,  // By the server: unset fields have their zero, int64 is text, NaN may occur.
+};
+
+ordered_json Enum(const EnumDescriptor& type, Side side) {
+  ordered_json names = ordered_json::array();
+  ordered_json meanings = ordered_json::array();
+  for (int i = 0; i < type.value_count(); ++i) {
+    if (side == Side::kWritten && IsUnspecified(*type.value(i))) continue;
+    names.push_back(type.value(i)->name());
+    meanings.push_back(CommentOf(*type.value(i)));
+  }
+  return {{"type", "string"}, {"enum", names}, {"enumDescriptions", meanings}};
+}
+
+ordered_json Integer64(Side side) {
+  if (side == Side::kWritten) return {{"type", "integer"}};
+  return {{"type", "string"}, {"pattern", "^-?[0-9]+$"}};
+}
+
+ordered_json Double(const std::string& comment, Side side) {
+  ordered_json number = {{"type", "number"}};
+  if (side == Side::kWritten || comment.find("NaN") == std::string::npos) return number;
+  return {{"anyOf", {number, {{"enum", {"NaN", "Infinity", "-Infinity"}}}}}};
+}
+
+// A variable of the file, which may stand for any value.
+ordered_json OrVariable(const ordered_json& schema, Side side) {
+  if (side == Side::kPrinted) return schema;
+  return {{"anyOf", {schema, {{"$ref", "#/definitions/variable"}}}}};
+}
+
+void AddBounds(const FieldRules& rules, ordered_json* schema) {
+  if (rules.low) {
+    (*schema)[rules.low->open ? "exclusiveMinimum" : "minimum"] = rules.low->value;
+  }
+  if (rules.high) {
+    (*schema)[rules.high->open ? "exclusiveMaximum" : "maximum"] = rules.high->value;
+  }
+}
+
+void AddDefault(const FieldDescriptor& field, const std::string& value, ordered_json* schema) {
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
+    if (field.enum_type()->FindValueByName(value) != nullptr) (*schema)["default"] = value;
+  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) {
+    if (const auto flag = ParseBool(value)) (*schema)["default"] = *flag;
+  } else if (const auto number = ParseNumber(value)) {
+    (*schema)["default"] = *number;
+  }
+}
+
+// Exactly one field of `oneof`, or at most one where it is not required.
+ordered_json OneOf(const OneofDescriptor& oneof) {
+  ordered_json choices = ordered_json::array();
+  for (int i = 0; i < oneof.field_count(); ++i) {
+    choices.push_back({{"required", {oneof.field(i)->name()}}});
+  }
+  if (!RulesOf(CommentOf(oneof)).required) {
+    choices.push_back({{"not", {{"anyOf", ordered_json(choices)}}}});
+  }
+  return {{"oneOf", choices}};
+}
+
+// Makes a schema with a definition for each message that it needs.
+class Maker {
+ public:
+  explicit Maker(Side side, bool base_may_be_file) : side_(side), named_base_(base_may_be_file) {}
+
+  // A reference to the definition of `message`, which is made if there is none.
+  ordered_json Message(const Descriptor& message) {
+    const std::string name = ShortTypeName(message);
+    if (message.full_name() == "google.protobuf.Timestamp") {
+      return {{"type", "string"}, {"format", "date-time"}};
+    }
+    if (message.full_name() == "google.protobuf.Any") return {{"type", "object"}};
+    if (!definitions_.contains(name)) {
+      definitions_[name] = nullptr;  // Keeps its place before what it needs.
+      definitions_[name] = Definition(message);
+    }
+    return {{"$ref", "#/definitions/" + name}};
+  }
+
+  const ordered_json& definitions() const { return definitions_; }
+
+ private:
+  ordered_json Definition(const Descriptor& message) {
+    ordered_json properties = ordered_json::object();
+    ordered_json required = ordered_json::array();
+    for (int i = 0; i < message.field_count(); ++i) {
+      const FieldDescriptor& field = *message.field(i);
+      properties[field.name()] = Property(field);
+      const bool needed = side_ == Side::kWritten && RulesOf(CommentOf(field)).required;
+      if (needed) required.push_back(field.name());
+    }
+    ordered_json schema = {{"type", "object"},
+                           {"description", CommentOf(message)},
+                           {"properties", properties},
+                           {"additionalProperties", false}};
+    if (!required.empty()) schema["required"] = required;
+    for (int i = 0; i < message.real_oneof_decl_count(); ++i) {
+      schema["allOf"].push_back(OneOf(*message.oneof_decl(i)));
+    }
+    return schema;
+  }
+
+  ordered_json Property(const FieldDescriptor& field) {
+    const std::string comment = CommentOf(field);
+    const FieldRules rules = side_ == Side::kWritten ? RulesOf(comment) : FieldRules();
+    ordered_json schema = {{"description", comment}};
+    if (field.is_map()) {
+      schema.update({{"type", "object"}, {"additionalProperties", {{"type", "string"}}}});
+    } else if (field.is_repeated()) {
+      schema.update({{"type", "array"}, {"items", Item(field, comment)}});
+      if (rules.required) schema["minItems"] = 1;
+      if (rules.max_entries) schema["maxItems"] = *rules.max_entries;
+    } else if (named_base_ && field.full_name() == "contact.v1.Sweep.base") {
+      schema["anyOf"] = {{{"type", "string"}, {"minLength", 1}}, Single(field, comment)};
+    } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+      schema["allOf"] = {Single(field, comment)};  // Beside $ref a description is not seen.
+    } else {
+      schema.update(Scalar(field, comment, rules));
+      AddDefault(field, rules.default_value, &schema);
+    }
+    return schema;
+  }
+
+  ordered_json Scalar(const FieldDescriptor& field, const std::string& comment,
+                      const FieldRules& rules) {
+    ordered_json schema = Single(field, comment);
+    AddBounds(rules, &schema);
+    const bool text = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING;
+    if (rules.required && text) schema["minLength"] = 1;
+    if (rules.max_characters) schema["maxLength"] = *rules.max_characters;
+    return text ? schema : OrVariable(schema, side_);
+  }
+
+  ordered_json Item(const FieldDescriptor& field, const std::string& comment) {
+    const bool message = field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+    return message ? Single(field, comment) : Scalar(field, comment, FieldRules());
+  }
+
+  ordered_json Single(const FieldDescriptor& field, const std::string& comment) {
+    switch (field.cpp_type()) {
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        return Double(comment, side_);
+      case FieldDescriptor::CPPTYPE_INT32:
+        return {{"type", "integer"}};
+      case FieldDescriptor::CPPTYPE_INT64:
+      case FieldDescriptor::CPPTYPE_UINT64:
+        return Integer64(side_);
+      case FieldDescriptor::CPPTYPE_BOOL:
+        return {{"type", "boolean"}};
+      case FieldDescriptor::CPPTYPE_ENUM:
+        return Enum(*field.enum_type(), side_);
+      case FieldDescriptor::CPPTYPE_MESSAGE:
+        return Message(*field.message_type());
+      default:
+        return {{"type", "string"}};
+    }
+  }
+
+  const Side side_;
+  const bool named_base_;
+  ordered_json definitions_ = ordered_json::object();
+};
+
+// Lets the message `type`, which is the whole file, declare variables.
+void AddVariables(const std::string& type, ordered_json* definitions) {
+  (*definitions)[type]["properties"]["variables"] = {
+      {"description", "Values by name, for ${name} in the file. --var NAME=VALUE gives others."},
+      {"type", "object"},
+      {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}},
+      {"additionalProperties", {{"type", {"number", "string", "boolean"}}}}};
+  (*definitions)["variable"] = {{"description", "The value of a variable of the file."},
+                                {"type", "string"},
+                                {"pattern", "\\$\\{[A-Za-z_][A-Za-z0-9_]*\\}"}};
+}
+
+}  // namespace
+
+std::string JsonSchema(const Contract& contract, const std::string& kind) {
+  const std::string type = kind == "scenario" ? "Scenario" : kind == "sweep" ? "Sweep" : "Job";
+  Maker maker(kind == "job" ? Side::kPrinted : Side::kWritten, kind == "sweep");
+  ordered_json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                         {"title", "contactd " + kind}};
+  schema.update(maker.Message(contract.Message(type)));
+  // Beside $ref, draft-07 ignores every other word, so it has a place of its own.
+  const ordered_json reference = {{"$ref", schema["$ref"]}};
+  schema.erase("$ref");
+  schema["allOf"] = {reference};
+  schema["definitions"] = maker.definitions();
+  if (kind != "job") AddVariables(type, &schema["definitions"]);
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,111 @@
+#include "cli/input/override.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
+#include <span>
+#include <utility>
+
+#include "cli/base/failure.h"
+#include "cli/input/yaml_reader.h"
+#include "wire/field_path.h"
+
+namespace contact::cli {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+// Walks down a path and reads the value at its end, once for every entry that `[*]` stands for.
+class Assignment {
+ public:
+  Assignment(const YAML::Node& value, std::vector<std::string>* overridden)
+      : value_(value), overridden_(overridden) {}
+
+  void Assign(std::span<const PathStep> path, const std::string& walked, Message* message) {
+    const PathStep& step = path.front();
+    const std::string here = walked.empty() ? step.name : walked + "." + step.name;
+    const FieldDescriptor* field = message->GetDescriptor()->FindFieldByName(step.name);
+    if (field == nullptr) {
+      const auto& type = *message->GetDescriptor();
+      return Add(here, "unknown field", FieldHint(type, step.name));
+    }
+    if (step.index) {
+      AssignEntries(path, here, *field, message);
+    } else if (path.size() == 1) {
+      overridden_->push_back(here);
+      Reader().ReadField(value_, here, *field, message);
+    } else if (field->is_repeated()) {
+      Add(here, "is a list", fmt::format("{0}[0], or {0}[*] for every entry", step.name));
+    } else if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) {
+      Add(here, fmt::format("has no field '{}'", path[1].name), "");
+    } else {
+      Assign(path.subspan(1), here, message->GetReflection()->MutableMessage(message, field));
+    }
+  }
+
+  std::vector<Diagnostic> Take() { return std::move(mistakes_); }
+
+ private:
+  void AssignEntries(std::span<const PathStep> path, const std::string& here,
+                     const FieldDescriptor& field, Message* message) {
+    if (!field.is_repeated()) return Add(here, "is no list", "leave the index out");
+    if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE || path.size() == 1) {
+      return Add(here, "cannot be set entry by entry", "set a field of it, or the whole list");
+    }
+    const auto* reflection = message->GetReflection();
+    const int size = reflection->FieldSize(*message, &field);
+    const int index = *path.front().index;
+    if (index >= size) {
+      return Add(fmt::format("{}[{}]", here, index), fmt::format("there are only {}", size), "");
+    }
+    const bool every = index == PathStep::kEvery;
+    for (int i = every ? 0 : index; i < (every ? size : index + 1); ++i) {
+      Assign(path.subspan(1), fmt::format("{}[{}]", here, i),
+             reflection->MutableRepeatedMessage(message, &field, i));
+    }
+  }
+
+  YamlReader Reader() {
+    return YamlReader([this](const YAML::Mark&, const std::string& field, const std::string& what,
+                             const std::string& hint) { Add(field, what, hint); });
+  }
+
+  void Add(std::string field, std::string what, std::string hint) {
+    mistakes_.push_back({.source = {},
+                         .field = std::move(field),
+                         .what = std::move(what),
+                         .hint = std::move(hint)});
+  }
+
+  YAML::Node value_;
+  std::vector<std::string>* overridden_;
+  std::vector<Diagnostic> mistakes_;
+};
+
+YAML::Node ParseValue(const std::string& text, const std::string& assignment) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw Failure(ExitCode::kUsage, fmt::format("--set {}: {}", assignment, error.msg));
+  }
+}
+
+}  // namespace
+
+std::vector<Diagnostic> Override(const std::string& assignment, v1::Scenario* scenario,
+                                 std::vector<std::string>* overridden) {
+  const std::size_t equals = assignment.find('=');
+  const std::vector<PathStep> path = ParsePath(assignment.substr(0, equals));
+  if (equals == std::string::npos || path.empty()) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--set {}: expected FIELD=VALUE, such as contacts[0].restitution=0.7",
+                              assignment));
+  }
+  Assignment walk(ParseValue(assignment.substr(equals + 1), assignment), overridden);
+  walk.Assign(path, "", scenario);
+  return walk.Take();
+}
+
+}  // namespace contact::cli

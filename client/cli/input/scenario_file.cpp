@@ -1,0 +1,132 @@
+#include "cli/input/scenario_file.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "cli/base/scalar.h"
+#include "cli/base/text_file.h"
+#include "cli/input/override.h"
+#include "cli/input/yaml_reader.h"
+#include "wire/field_path.h"
+#include "wire/scenario_advice.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::string_view kOverride = "--set";
+
+// True if `path` is `whole` or lies within it.
+bool Within(std::string_view path, std::string_view whole) {
+  if (!path.starts_with(whole)) return false;
+  return path.size() == whole.size() || path[whole.size()] == '.' || path[whole.size()] == '[';
+}
+
+}  // namespace
+
+ScenarioFile ScenarioFile::Open(const std::string& path, const VariableValues& variables) {
+  return {path == "-" ? "<stdin>" : path, ReadText(path), variables};
+}
+
+ScenarioFile::ScenarioFile(std::string name, const std::string& text,
+                           const VariableValues& variables)
+    : name_(std::move(name)) {
+  try {
+    ReadDocument(text, variables);
+  } catch (const YAML::Exception& error) {
+    AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
+  }
+}
+
+void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& variables) {
+  const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+  if (documents.empty() || documents.front().IsNull()) {
+    return AddAt(YAML::Mark::null_mark(), "", "is empty", "contactctl init writes an example");
+  }
+  root_.reset(documents.front());
+  if (documents.size() > 1) {
+    AddAt(documents[1].Mark(), "", "holds a second document", "a file is one scenario");
+  }
+  const YamlReader::Report report = [this](const YAML::Mark& mark, const std::string& field,
+                                           const std::string& what, const std::string& hint) {
+    AddAt(mark, field, what, hint);
+  };
+  RequireKnown(variables, ResolveVariables(variables, report, &root_));
+  YamlReader(report).ReadMessage(root_, "", &scenario_);
+}
+
+void ScenarioFile::Set(const std::string& assignment) {
+  for (Diagnostic& mistake : Override(assignment, &scenario_, &overridden_)) {
+    mistake.source = kOverride;
+    diagnostics_.push_back(std::move(mistake));
+  }
+}
+
+void ScenarioFile::Check(const ScenarioLimits& limits) {
+  const std::vector<Diagnostic> mistakes = diagnostics_;
+  const DecodedScenario decoded = DecodeScenario(scenario_, limits);
+  for (const Violation& violation : decoded.violations) {
+    if (!MayFollowFrom(mistakes, violation)) Add(violation);
+  }
+  if (!decoded.violations.empty()) return;
+  for (const Violation& advice : Advise(scenario_, decoded.scenario)) {
+    advice_.push_back(Place(advice));
+  }
+}
+
+void ScenarioFile::Add(const Violation& violation) { diagnostics_.push_back(Place(violation)); }
+
+Diagnostic ScenarioFile::Place(const Violation& violation) const {
+  Diagnostic diagnostic{.source = name_,
+                        .field = violation.field,
+                        .what = violation.description,
+                        .hint = violation.hint};
+  const auto overridden = [&violation](const std::string& path) {
+    return Within(violation.field, path);
+  };
+  if (std::ranges::any_of(overridden_, overridden)) {
+    diagnostic.source = kOverride;
+    return diagnostic;
+  }
+  const YAML::Mark mark = FindNode(root_, violation.field).node.Mark();
+  diagnostic.line = mark.line + 1;
+  diagnostic.column = mark.column + 1;
+  return diagnostic;
+}
+
+// A number out of its range is so whatever else is wrong, unless in the same message.
+bool ScenarioFile::MayFollowFrom(const std::vector<Diagnostic>& mistakes,
+                                 const Violation& violation) const {
+  if (mistakes.empty()) return false;
+  const auto beside = [&violation](const Diagnostic& mistake) {
+    const std::string_view message = ParentPath(mistake.field);
+    return mistake.field.empty() || Within(violation.field, mistake.field) ||
+           (!message.empty() && Within(violation.field, message));
+  };
+  if (std::ranges::any_of(mistakes, beside)) return true;
+  const FoundNode found = FindNode(root_, violation.field);
+  return !found.exact || !found.node.IsScalar() || !ParseNumber(found.node.Scalar());
+}
+
+void ScenarioFile::AddAt(const YAML::Mark& mark, std::string field, std::string what,
+                         std::string hint) {
+  diagnostics_.push_back({.source = name_,
+                          .line = mark.line + 1,
+                          .column = mark.column + 1,
+                          .field = std::move(field),
+                          .what = std::move(what),
+                          .hint = std::move(hint)});
+}
+
+std::vector<Diagnostic> ScenarioFile::diagnostics() const {
+  std::vector<Diagnostic> sorted = diagnostics_;
+  std::ranges::stable_sort(sorted, {}, [](const Diagnostic& diagnostic) {
+    return std::tuple(diagnostic.source == kOverride, diagnostic.line, diagnostic.column);
+  });
+  return sorted;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+#include <vector>
+
+#include "cli/input/diagnostic.h"
+#include "cli/input/variables.h"
+#include "contact/v1/scenario.pb.h"
+#include "wire/scenario_codec.h"
+
+namespace contact::cli {
+
+/// A scenario as its author wrote it: a YAML file (of which JSON is a part) and overrides of its
+/// fields. Mistakes are gathered, not thrown.
+class ScenarioFile {
+ public:
+  /// Reads `path`; `-` is the standard input. Throws Failure (kLocal) if there is no such file.
+  static ScenarioFile Open(const std::string& path, const VariableValues& variables = {});
+
+  /// Reads `text`; `name` is what mistakes call it. Throws Failure (kUsage) if it has not one of
+  /// the variables.
+  ScenarioFile(std::string name, const std::string& text, const VariableValues& variables = {});
+
+  /// Overrides a field: `contacts[0].restitution=0.7`. `[*]` is every entry of a list. The value
+  /// is YAML. Throws Failure (kUsage) if this is no assignment.
+  void Set(const std::string& assignment);
+
+  /// Checks the rules of the contract, in the words of the server. Where the file itself has
+  /// mistakes, only what they cannot have caused is added.
+  void Check(const ScenarioLimits& limits = {});
+
+  /// Adds a broken rule at the place where its field is written.
+  void Add(const Violation& violation);
+
+  /// A broken rule, or advice, with the place where its field is written, or would be.
+  Diagnostic Place(const Violation& violation) const;
+
+  const v1::Scenario& scenario() const { return scenario_; }
+
+  /// All mistakes, in order of place.
+  std::vector<Diagnostic> diagnostics() const;
+
+  /// What Check found that is no mistake, but will probably not show what the author wants.
+  const std::vector<Diagnostic>& advice() const { return advice_; }
+
+ private:
+  void ReadDocument(const std::string& text, const VariableValues& variables);
+  void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint);
+  bool MayFollowFrom(const std::vector<Diagnostic>& mistakes, const Violation& violation) const;
+
+  std::string name_;
+  YAML::Node root_;
+  v1::Scenario scenario_;
+  std::vector<std::string> overridden_;  // paths
+  std::vector<Diagnostic> diagnostics_;
+  std::vector<Diagnostic> advice_;
+};
+
+}  // namespace contact::cli

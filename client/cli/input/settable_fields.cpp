@@ -1,0 +1,68 @@
+#include "cli/input/settable_fields.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+
+namespace contact::cli {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+constexpr int kMostEntries = 20;  // Of a list one by one.
+
+std::vector<std::string> Words(const FieldDescriptor& field) {
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) return {"true", "false"};
+  std::vector<std::string> words;
+  if (field.cpp_type() != FieldDescriptor::CPPTYPE_ENUM) return words;
+  for (int i = 1; i < field.enum_type()->value_count(); ++i) {  // 0 is unspecified.
+    words.push_back(field.enum_type()->value(i)->name());
+  }
+  return words;
+}
+
+void AddFields(const Message& message, const std::string& prefix,
+               std::vector<SettableField>* fields);
+
+void AddEntries(const Message& message, const FieldDescriptor& field, const std::string& path,
+                std::vector<SettableField>* fields) {
+  const auto& reflection = *message.GetReflection();
+  const int size = reflection.FieldSize(message, &field);
+  for (int i = 0; i < std::min(size, kMostEntries); ++i) {
+    AddFields(reflection.GetRepeatedMessage(message, &field, i), fmt::format("{}[{}].", path, i),
+              fields);
+  }
+  const Message& typical =
+      size > 0 ? reflection.GetRepeatedMessage(message, &field, 0)
+               : *reflection.GetMessageFactory()->GetPrototype(field.message_type());
+  AddFields(typical, path + "[*].", fields);
+}
+
+void AddFields(const Message& message, const std::string& prefix,
+               std::vector<SettableField>* fields) {
+  const auto& reflection = *message.GetReflection();
+  const auto& type = *message.GetDescriptor();
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor& field = *type.field(i);
+    const std::string path = prefix + field.name();
+    if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) {
+      fields->push_back({path, Words(field)});
+    } else if (field.is_repeated()) {
+      AddEntries(message, field, path, fields);
+    } else if (prefix.empty() || reflection.HasField(message, &field)) {  // solver and output.
+      AddFields(reflection.GetMessage(message, &field), path + ".", fields);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<SettableField> SettableFields(const v1::Scenario& scenario) {
+  std::vector<SettableField> fields;
+  AddFields(scenario, "", &fields);
+  return fields;
+}
+
+}  // namespace contact::cli

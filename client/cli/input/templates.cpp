@@ -1,0 +1,26 @@
+#include "cli/input/templates.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "base/spelling.h"
+#include "cli/base/failure.h"
+
+namespace contact::cli {
+
+const Template& FindTemplate(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const Template& scenario : Templates()) {
+    if (scenario.name == name) return scenario;
+    names.push_back(scenario.name);
+  }
+  const std::string_view nearest = Nearest(name, names);
+  throw Failure(ExitCode::kUsage,
+                fmt::format("there is no template {} — {}", Quoted(name),
+                            nearest.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+                                            : fmt::format("did you mean '{}'?", nearest)));
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,228 @@
+#include "cli/input/yaml_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/spelling.h"
+#include "cli/base/scalar.h"
+#include "wire/field_path.h"
+
+namespace contact::cli {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::EnumDescriptor;
+using google::protobuf::EnumValueDescriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::OneofDescriptor;
+
+std::string Join(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
+// How a value of the wrong type is called.
+std::string Shown(const YAML::Node& node) {
+  if (node.IsMap()) return "a mapping";
+  if (node.IsSequence()) return "a list";
+  if (node.IsNull()) return "nothing";
+  return Quoted(node.Scalar());
+}
+
+std::string EnumName(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) {
+    return c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  });
+  return text;
+}
+
+// The values a user may choose: all but the one that stands for none.
+std::vector<std::string_view> Choices(const EnumDescriptor& type) {
+  std::vector<std::string_view> choices;
+  for (int i = 0; i < type.value_count(); ++i) {
+    if (type.value(i)->number() != 0) choices.push_back(type.value(i)->name());
+  }
+  return choices;
+}
+
+// The field of the same oneof that is set already; null if there is none.
+const FieldDescriptor* Rival(const FieldDescriptor& field, const Message& message) {
+  const OneofDescriptor* oneof = field.real_containing_oneof();
+  if (oneof == nullptr) return nullptr;
+  return message.GetReflection()->GetOneofFieldDescriptor(message, oneof);
+}
+
+// Stores a value in a field that is single or a list.
+template <class Value, class Set, class Add>
+void Store(const FieldDescriptor& field, Message* message, Value value, Set set, Add add) {
+  const auto* reflection = message->GetReflection();
+  if (field.is_repeated()) {
+    (reflection->*add)(message, &field, std::move(value));
+  } else {
+    (reflection->*set)(message, &field, std::move(value));
+  }
+}
+
+YAML::Node Child(const YAML::Node& node, const std::string& name) {
+  if (!node.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
+  for (const auto& entry : node) {
+    if (entry.first.IsScalar() && entry.first.Scalar() == name) return entry.second;
+  }
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+FoundNode Find(const YAML::Node& node, std::span<const PathStep> path) {
+  if (path.empty()) return {node, true};
+  const YAML::Node child = Child(node, path.front().name);
+  if (!child.IsDefined()) return {node, false};
+  if (!path.front().index) return Find(child, path.subspan(1));
+  const auto index = static_cast<std::size_t>(*path.front().index);
+  if (!child.IsSequence() || index >= child.size()) return {child, false};
+  return Find(child[index], path.subspan(1));
+}
+
+}  // namespace
+
+FoundNode FindNode(const YAML::Node& root, const std::string& path) {
+  return Find(root, ParsePath(path));
+}
+
+void YamlReader::ReadMessage(const YAML::Node& node, const std::string& path,
+                             Message* message) const {
+  if (node.IsNull()) return;
+  if (!node.IsMap()) return Refuse(node, path, "a mapping");
+  std::map<std::string, int> lines;
+  for (const auto& entry : node) {
+    if (!entry.first.IsScalar()) {
+      Refuse(entry.first, path, "the name of a field");
+      continue;
+    }
+    const std::string& name = entry.first.Scalar();
+    const auto [first, is_new] = lines.emplace(name, entry.first.Mark().line + 1);
+    if (is_new) {
+      ReadEntry(entry.first, entry.second, path, message);
+    } else {
+      report_(entry.first.Mark(), Join(path, name),
+              fmt::format("is given twice, first in line {}", first->second), "");
+    }
+  }
+}
+
+void YamlReader::ReadEntry(const YAML::Node& key, const YAML::Node& value, const std::string& path,
+                           Message* message) const {
+  const Descriptor& type = *message->GetDescriptor();
+  const FieldDescriptor* field = type.FindFieldByName(key.Scalar());
+  if (field == nullptr) {
+    const std::string name = key.Scalar().size() > 64 ? Quoted(key.Scalar()) : key.Scalar();
+    report_(key.Mark(), Join(path, name), "unknown field", FieldHint(type, key.Scalar()));
+    return;
+  }
+  const FieldDescriptor* rival = Rival(*field, *message);
+  if (rival != nullptr) {
+    report_(key.Mark(), Join(path, field->name()),
+            fmt::format("cannot stand beside {}", rival->name()), "make an entry of each");
+    return;
+  }
+  ReadField(value, Join(path, field->name()), *field, message);
+}
+
+void YamlReader::ReadField(const YAML::Node& node, const std::string& path,
+                           const FieldDescriptor& field, Message* message) const {
+  const auto* reflection = message->GetReflection();
+  if (field.is_repeated()) {
+    reflection->ClearField(message, &field);
+    ReadList(node, path, field, message);
+  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+    reflection->ClearField(message, &field);
+    ReadMessage(node, path, reflection->MutableMessage(message, &field));
+  } else if (!node.IsNull()) {
+    ReadScalar(node, path, field, message);
+  }
+}
+
+void YamlReader::ReadList(const YAML::Node& node, const std::string& path,
+                          const FieldDescriptor& field, Message* message) const {
+  if (node.IsNull()) return;
+  if (!node.IsSequence()) return Refuse(node, path, "a list");
+  int index = 0;
+  for (const auto& item : node) {
+    const std::string item_path = fmt::format("{}[{}]", path, index++);
+    if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+      ReadMessage(item, item_path, message->GetReflection()->AddMessage(message, &field));
+    } else {
+      ReadScalar(item, item_path, field, message);
+    }
+  }
+}
+
+void YamlReader::ReadScalar(const YAML::Node& node, const std::string& path,
+                            const FieldDescriptor& field, Message* message) const {
+  using google::protobuf::Reflection;
+  const std::string text = node.IsScalar() ? node.Scalar() : std::string();
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE: {
+      const auto value = node.IsScalar() ? ParseNumber(text) : std::nullopt;
+      if (!value) {
+        const bool comma = text.find(',') != std::string::npos;
+        return Refuse(node, path, "a number", comma ? "decimals are written with a point" : "");
+      }
+      return Store(field, message, *value, &Reflection::SetDouble, &Reflection::AddDouble);
+    }
+    case FieldDescriptor::CPPTYPE_INT32: {
+      const auto value = node.IsScalar() ? ParseInteger<std::int32_t>(text) : std::nullopt;
+      if (!value) return Refuse(node, path, "a whole number");
+      return Store(field, message, *value, &Reflection::SetInt32, &Reflection::AddInt32);
+    }
+    case FieldDescriptor::CPPTYPE_INT64: {
+      const auto value = node.IsScalar() ? ParseInteger<std::int64_t>(text) : std::nullopt;
+      if (!value) return Refuse(node, path, "a whole number");
+      return Store(field, message, *value, &Reflection::SetInt64, &Reflection::AddInt64);
+    }
+    case FieldDescriptor::CPPTYPE_BOOL: {
+      const auto value = node.IsScalar() ? ParseBool(text) : std::nullopt;
+      if (!value) return Refuse(node, path, "true or false");
+      return Store(field, message, *value, &Reflection::SetBool, &Reflection::AddBool);
+    }
+    case FieldDescriptor::CPPTYPE_STRING:
+      if (!node.IsScalar()) return Refuse(node, path, "a text");
+      if (!IsUtf8(text)) return report_(node.Mark(), path, "is not in UTF-8", "");
+      return Store(field, message, text, &Reflection::SetString, &Reflection::AddString);
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return ReadEnum(node, path, field, message);
+    default:
+      throw std::logic_error("the scenario has no field of this type: " + field.full_name());
+  }
+}
+
+void YamlReader::ReadEnum(const YAML::Node& node, const std::string& path,
+                          const FieldDescriptor& field, Message* message) const {
+  const EnumDescriptor& type = *field.enum_type();
+  const std::vector<std::string_view> choices = Choices(type);
+  const std::string all = fmt::format("one of {}", fmt::join(choices, ", "));
+  if (!node.IsScalar()) return Refuse(node, path, all);
+  const EnumValueDescriptor* value = type.FindValueByName(EnumName(node.Scalar()));
+  if (value != nullptr) {
+    return Store(field, message, value->number(), &google::protobuf::Reflection::SetEnumValue,
+                 &google::protobuf::Reflection::AddEnumValue);
+  }
+  const std::string_view nearest = Nearest(EnumName(node.Scalar()), choices);
+  report_(node.Mark(), path, fmt::format("unknown value {}", Quoted(node.Scalar())),
+          nearest.empty() ? all : fmt::format("did you mean {}? {}", nearest, all));
+}
+
+void YamlReader::Refuse(const YAML::Node& node, const std::string& path,
+                        const std::string& expected, const std::string& hint) const {
+  const bool variable = node.IsScalar() && node.Scalar().find("${") != std::string::npos;
+  report_(node.Mark(), path, fmt::format("expected {}, got {}", expected, Shown(node)),
+          variable ? "give it a value below variables:" : hint);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,163 @@
+#include "cli/link/client.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
+namespace contact::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTries = 3;
+constexpr auto kFirstPause = 100ms;
+constexpr int kMaxAnswerBytes = 256 << 20;  // A ledger has no limit but this.
+
+ExitCode Code(grpc::StatusCode code, const std::string& reason) {
+  switch (code) {
+    case grpc::StatusCode::UNAVAILABLE:
+      return ExitCode::kUnreachable;
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return ExitCode::kTimeout;
+    case grpc::StatusCode::NOT_FOUND:
+      return ExitCode::kNotFound;
+    case grpc::StatusCode::INVALID_ARGUMENT:
+      return reason == "SCENARIO_INVALID" ? ExitCode::kInvalidScenario : ExitCode::kUsage;
+    case grpc::StatusCode::RESOURCE_EXHAUSTED:
+      return ExitCode::kOverload;
+    case grpc::StatusCode::UNAUTHENTICATED:
+    case grpc::StatusCode::PERMISSION_DENIED:
+      return ExitCode::kAuth;
+    default:
+      return ExitCode::kRunFailed;
+  }
+}
+
+google::rpc::Status Details(const grpc::Status& status) {
+  google::rpc::Status details;
+  if (!details.ParseFromString(status.error_details())) details.Clear();
+  return details;
+}
+
+template <class Detail>
+Detail Find(const google::rpc::Status& status) {
+  Detail detail;
+  for (const auto& any : status.details()) {
+    if (any.UnpackTo(&detail)) return detail;
+  }
+  return Detail();
+}
+
+std::string Unreachable(const grpc::Status& status, const std::string& server) {
+  const bool refused = status.error_message().find("Connection refused") != std::string::npos;
+  return fmt::format(
+      "cannot reach contactd at {0} ({1})\n"
+      "  start one here:  contactd --listen {0} --data-dir DIR\n"
+      "  or choose one:   contactctl --server HOST:PORT …, CONTACT_SERVER, contactctl config use "
+      "PROFILE",
+      server, refused ? "connection refused" : status.error_message());
+}
+
+std::string Words(const grpc::Status& status, const std::string& reason,
+                  const std::string& server) {
+  if (status.error_code() == grpc::StatusCode::UNAVAILABLE && reason.empty()) {
+    return Unreachable(status, server);
+  }
+  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) {
+    return fmt::format("{} did not answer in time; --timeout gives it longer", server);
+  }
+  std::string words = status.error_message();
+  if (!reason.empty()) words += fmt::format(" ({})", reason);
+  if (reason == "EVENTS_COMPACTED") {
+    words += "\n  the rest:  contactctl describe JOB, contactctl watch JOB --kinds cycle,iteration";
+  }
+  return words.empty()
+             ? fmt::format("the server failed with code {}", static_cast<int>(status.error_code()))
+             : words;
+}
+
+// The server sends paths from the job and appends the hint; the scenario is the file here.
+Violation FromServer(const google::rpc::BadRequest::FieldViolation& violation) {
+  std::string_view field = violation.field();
+  for (const std::string_view prefix : {"job.", "scenario.", "sweep."}) {
+    if (field.starts_with(prefix)) field.remove_prefix(prefix.size());
+  }
+  return {.field = std::string(field), .description = violation.description(), .hint = {}};
+}
+
+grpc::ChannelArguments Arguments() {
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(kMaxAnswerBytes);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 5000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);  // A proxy for the web does not know contactd.
+  return arguments;
+}
+
+void RequireAddress(const std::string& server) {
+  const std::size_t colon = server.rfind(':');
+  const bool port = colon != std::string::npos && colon > 0 && colon + 1 < server.size() &&
+                    server.find_first_not_of("0123456789", colon + 1) == std::string::npos;
+  if (port || server.starts_with("unix:")) return;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("--server is '{}'; must be HOST:PORT, such as 127.0.0.1:7070", server));
+}
+
+}  // namespace
+
+CallFailure::CallFailure(const grpc::Status& status, const std::string& server)
+    : Failure(Code(status.error_code(), Find<google::rpc::ErrorInfo>(Details(status)).reason()),
+              Words(status, Find<google::rpc::ErrorInfo>(Details(status)).reason(), server)),
+      status_(status.error_code()) {
+  const google::rpc::Status details = Details(status);
+  reason_ = Find<google::rpc::ErrorInfo>(details).reason();
+  const auto request = Find<google::rpc::BadRequest>(details);
+  for (const auto& violation : request.field_violations()) {
+    violations_.push_back(FromServer(violation));
+  }
+}
+
+Failure CallFailure::AllTold() const {
+  std::string text;
+  for (const Violation& violation : violations_) {
+    text +=
+        fmt::format("{}{}: {}", text.empty() ? "" : "\n", violation.field, violation.description);
+  }
+  return {code(), violations_.empty() ? what() : text};
+}
+
+Client::Client(std::string server, std::chrono::milliseconds call_timeout)
+    : server_(std::move(server)), call_timeout_(call_timeout) {
+  RequireAddress(server_);
+  channel_ = grpc::CreateCustomChannel(server_, grpc::InsecureChannelCredentials(), Arguments());
+  stub_ = v1::JobService::NewStub(channel_);
+}
+
+void Client::Try(const std::function<grpc::Status(grpc::ClientContext*)>& call) {
+  grpc::Status status;
+  auto pause = kFirstPause;
+  for (int i = 0; i < kTries; ++i) {
+    if (i > 0) std::this_thread::sleep_for(std::exchange(pause, 2 * pause));
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + call_timeout_);
+    status = call(&context);
+    if (status.ok()) return;
+    if (status.error_code() != grpc::StatusCode::UNAVAILABLE) break;
+  }
+  // A deadline that passed while there was no connection says that there is no server.
+  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED &&
+      channel_->GetState(false) != GRPC_CHANNEL_READY) {
+    status = {grpc::StatusCode::UNAVAILABLE, "no connection in time"};
+  }
+  throw CallFailure(status, server_);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "cli/link/client.h"
+#include "cli/link/reconnection.h"
+#include "contact/v1/job.pb.h"
+
+namespace contact::cli {
+
+struct DownloadOptions {
+  std::string job;  ///< `jobs/ID`.
+  std::string artifact;
+  std::string path;  ///< The file; meanwhile `path`.part.
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  std::function<bool()> stopped = [] { return false; };  ///< Asked about ten times a second.
+  std::function<void(const std::string& why)> lost = [](const std::string&) {};
+  Patience patience = {};
+};
+
+/// Fetches an artifact into a file, across connections. A part that an earlier download has left is
+/// kept, and only the rest fetched; the whole must have the SHA-256 that the server tells, or the
+/// part is thrown away. Throws CallFailure as Watch does, and Failure: kLocal for the file,
+/// kTimeout and kInterrupted, kRunFailed for bytes that are not those of the server.
+v1::Artifact Download(Client& client, const DownloadOptions& options);
+
+}  // namespace contact::cli

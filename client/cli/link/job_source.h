@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/link/client.h"
+#include "cli/settings/settings.h"
+
+namespace contact::cli {
+
+/// A job of the server, by ID or jobs/ID. Throws CallFailure.
+v1::Job GetJob(Client& client, const std::string& job);
+
+/// The same of a sweep. Throws Failure (kUsage) too, if the job is none.
+v1::Job GetSweep(Client& client, const std::string& job);
+
+/// Jobs of the server, and of files with what `describe -o json` printed.
+class JobSource {
+ public:
+  explicit JobSource(const Settings& settings) : settings_(settings) {}
+
+  /// `name` is a file if there is one of that name, else an ID. Throws Failure: kInvalidScenario if
+  /// the file holds no job, or what the server answers.
+  v1::Job Get(const std::string& name);
+
+ private:
+  const Settings& settings_;
+  std::optional<Client> client_;  ///< Once it is needed.
+};
+
+}  // namespace contact::cli

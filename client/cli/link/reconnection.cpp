@@ -1,0 +1,70 @@
+#include "cli/link/reconnection.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace contact::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::milliseconds;
+
+// Ends of a stream after which the same question may be asked again.
+bool MayTryAgain(grpc::StatusCode code) {
+  switch (code) {
+    case grpc::StatusCode::OK:  // Without the final event: a proxy or a dying server.
+    case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::CANCELLED:
+    case grpc::StatusCode::UNKNOWN:
+    case grpc::StatusCode::INTERNAL:
+    case grpc::StatusCode::ABORTED:
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+    case grpc::StatusCode::RESOURCE_EXHAUSTED:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Unreached(const grpc::Status& status) {
+  return status.error_code() == grpc::StatusCode::UNAVAILABLE && status.error_details().empty();
+}
+
+}  // namespace
+
+void Reconnection::Heard() {
+  connected_ = true;
+  lost_since_.reset();
+  pause_ = patience_.first_pause;
+}
+
+Milliseconds Reconnection::Lost(const grpc::Status& status) {
+  const bool overload = status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
+  if (!MayTryAgain(status.error_code()) || (!connected_ && (overload || Unreached(status)))) {
+    throw CallFailure(status, server_);
+  }
+  if (!lost_since_) lost_since_ = Clock::now();
+  if (Clock::now() - *lost_since_ > patience_.give_up_after) {
+    throw CallFailure(
+        status.ok() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "no answer") : status, server_);
+  }
+  // From half the pause to all of it, so that watchers of a restarted server do not come at once.
+  std::uniform_real_distribution<double> jitter(0.5, 1.0);
+  const auto pause = std::chrono::duration_cast<Milliseconds>(pause_ * jitter(random_));
+  pause_ = std::min(2 * pause_, patience_.longest_pause);
+  return pause;
+}
+
+void Rest(Milliseconds pause, const std::function<bool()>& go_on) {
+  const auto until = Clock::now() + pause;
+  while (Clock::now() < until && go_on()) {
+    std::this_thread::sleep_for(std::min<Clock::duration>(
+        kStreamTick, std::max<Clock::duration>(until - Clock::now(), {})));
+  }
+}
+
+std::string WhyLost(const grpc::Status& status) {
+  return status.ok() ? "the stream ended early" : status.error_message();
+}
+
+}  // namespace contact::cli

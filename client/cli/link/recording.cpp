@@ -1,0 +1,121 @@
+#include "cli/link/recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+
+#include "cli/base/interrupt.h"
+#include "cli/link/job_names.h"
+#include "cli/link/job_source.h"
+
+namespace contact::cli {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "columns are little-endian");
+
+void Append(const std::string& bytes, std::vector<double>* values) {
+  const std::size_t count = bytes.size() / sizeof(double);
+  values->resize(values->size() + count);
+  std::memcpy(values->data() + values->size() - count, bytes.data(), count * sizeof(double));
+}
+
+void Replay(Client& client, const std::string& name, const Settings& settings, bool trajectory,
+            Recorder* recorder) {
+  WatchOptions options;
+  options.name = name;
+  options.kinds = {"attempt_started", "iteration", "cycle"};
+  if (trajectory) options.kinds.emplace_back("frame_chunk");
+  options.overflow = v1::DeliveryOptions::LAG;
+  options.deadline = settings.Deadline();
+  options.stopped = Interrupt::raised;
+  const WatchEnd end = Watch(client, options, *recorder);
+  if (end == WatchEnd::kFinished) return;
+  const bool interrupted = end == WatchEnd::kStopped;
+  throw Failure(interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout,
+                fmt::format("{}; {} has not ended, or is long",
+                            interrupted ? "interrupted" : "time is up", name));
+}
+
+}  // namespace
+
+const SampleColumn* Recording::Find(const std::string& name) const {
+  const auto found = std::ranges::find(columns, name, &SampleColumn::name);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+void Recorder::OnEvent(const v1::Event& event) {
+  if (event.has_attempt_started()) {  // What came before is of an earlier attempt.
+    chunks_.clear();
+    iterations_.clear();
+    cycles_.clear();
+  } else if (event.has_iteration()) {
+    const v1::Iteration& iteration = event.iteration();
+    iterations_[{iteration.episode(), iteration.number()}] = iteration;
+  } else if (event.has_cycle()) {
+    cycles_[event.sequence()] = event.cycle();
+  } else if (event.has_frame_chunk()) {
+    chunks_[event.frame_chunk().first_sample()] = event.frame_chunk();
+  }
+}
+
+bool Recorder::has_holes() const {
+  std::int64_t following = 0;
+  for (const auto& [first, chunk] : chunks_) {
+    if (first != following) return true;
+    following += chunk.samples();
+  }
+  return false;
+}
+
+std::vector<SampleColumn> Recorder::Columns() const {
+  std::vector<SampleColumn> columns;
+  for (const auto& [first, chunk] : chunks_) {
+    columns.resize(static_cast<std::size_t>(chunk.columns_size()));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const v1::FrameChunk::Column& column = chunk.columns(static_cast<int>(i));
+      if (first == 0) columns[i] = {column.name(), column.quantity(), column.unit(), {}};
+      Append(column.values(), &columns[i].values);
+    }
+  }
+  return columns;
+}
+
+std::vector<v1::Iteration> Recorder::Iterations() const {
+  std::vector<v1::Iteration> all;
+  all.reserve(iterations_.size());
+  for (const auto& [key, iteration] : iterations_) all.push_back(iteration);
+  return all;
+}
+
+std::vector<v1::Cycle> Recorder::Cycles() const {
+  std::vector<v1::Cycle> all;
+  all.reserve(cycles_.size());
+  for (const auto& [sequence, cycle] : cycles_) all.push_back(cycle);
+  return all;
+}
+
+Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
+                        bool trajectory) {
+  const Interrupt interrupt;
+  Recorder recorder;
+  Replay(client, JobName(job), settings, trajectory, &recorder);
+  if (recorder.has_holes()) Replay(client, JobName(job), settings, trajectory, &recorder);
+  if (recorder.has_holes()) {
+    throw Failure(ExitCode::kRunFailed,
+                  fmt::format("parts of the trajectory of {} do not come; try again", job));
+  }
+  Recording recording{.job = GetJob(client, job),
+                      .columns = recorder.Columns(),
+                      .iterations = recorder.Iterations()};
+  // An answer has not the end of a long ledger.
+  const std::vector<v1::Cycle> cycles = recorder.Cycles();
+  if (static_cast<std::size_t>(recording.job.cycles_size()) < cycles.size()) {
+    recording.job.mutable_cycles()->Assign(cycles.begin(), cycles.end());
+  }
+  return recording;
+}
+
+}  // namespace contact::cli

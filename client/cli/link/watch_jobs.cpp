@@ -1,0 +1,91 @@
+#include "cli/link/watch_jobs.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "cli/link/stream_call.h"
+
+namespace contact::cli {
+namespace {
+
+// One watch over all its connections.
+class JobsWatcher {
+ public:
+  JobsWatcher(Client& client, const JobsWatchOptions& options, JobsObserver& observer)
+      : client_(client),
+        options_(options),
+        observer_(observer),
+        reconnection_(client.server(), options.patience) {}
+
+  WatchEnd Follow() {
+    while (!end_) {
+      const grpc::Status status = Connect();
+      if (end_) break;
+      const std::chrono::milliseconds pause = reconnection_.Lost(status);
+      observer_.OnLost(WhyLost(status), pause);
+      Rest(pause, [this] { return GoOn(); });
+    }
+    return *end_;
+  }
+
+ private:
+  using Call = StreamCall<v1::WatchJobsResponse>;
+
+  grpc::Status Connect() {
+    Call call([this](auto* context, auto* queue, void* tag) {
+      return client_.stub().AsyncWatchJobs(context, options_.request, queue, tag);
+    });
+    unconfirmed_.clear();
+    for (const auto& [name, version] : known_) unconfirmed_.insert(name);
+    v1::WatchJobsResponse message;
+    while (GoOn()) {
+      const Call::Next next = call.Read(kStreamTick, &message);
+      if (next == Call::Next::kEnd) return call.status();
+      if (next == Call::Next::kMessage) Take(message);
+    }
+    return grpc::Status::OK;
+  }
+
+  void Take(const v1::WatchJobsResponse& message) {
+    reconnection_.Heard();
+    for (const v1::Job& job : message.jobs()) {
+      unconfirmed_.erase(job.name());
+      const std::pair version{job.state(), job.attempt()};
+      const auto [known, is_new] = known_.emplace(job.name(), version);
+      if (is_new || std::exchange(known->second, version) != version) observer_.OnJob(job);
+    }
+    for (const std::string& name : message.gone()) Forget(name);
+    if (!message.snapshot_complete()) return;
+    for (const std::string& name : std::exchange(unconfirmed_, {})) Forget(name);
+  }
+
+  void Forget(const std::string& name) {
+    if (known_.erase(name) > 0) observer_.OnGone(name);
+  }
+
+  bool GoOn() {
+    if (options_.stopped()) {
+      end_ = WatchEnd::kStopped;
+    } else if (options_.deadline && std::chrono::steady_clock::now() >= *options_.deadline) {
+      end_ = WatchEnd::kTimedOut;
+    }
+    return !end_;
+  }
+
+  Client& client_;
+  const JobsWatchOptions& options_;
+  JobsObserver& observer_;
+  Reconnection reconnection_;
+  std::optional<WatchEnd> end_;
+  std::map<std::string, std::pair<v1::Job::State, int>> known_;  // State and attempt of each job.
+  std::set<std::string> unconfirmed_;  // Known before this connection, and not in its snapshot yet.
+};
+
+}  // namespace
+
+WatchEnd WatchJobs(Client& client, const JobsWatchOptions& options, JobsObserver& observer) {
+  return JobsWatcher(client, options, observer).Follow();
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,44 @@
+#include "cli/settings/column_choice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/base/failure.h"
+
+namespace contact::cli {
+
+void ColumnChoice::AddTo(CLI::App& command, const std::vector<Table::Column>& known) {
+  CLI::Option* option =
+      command
+          .add_option("--columns", names_,
+                      "Only these columns of the table or csv, in this order, however narrow the "
+                      "terminal")
+          ->type_name("COLUMN,…")
+          ->delimiter(',')
+          ->take_all()
+          ->allow_extra_args(false);
+  if (known.empty()) return;
+  std::vector<std::string> names;
+  for (const Table::Column& column : known) names.push_back(column.Name());
+  const auto accept = [](std::string&) { return std::string(); };  // The table itself looks.
+  option->check(CLI::Validator(accept, fmt::format("{{{}}}", fmt::join(names, ","))));
+}
+
+void ColumnChoice::Check(const std::vector<Table::Column>& columns,
+                         const Settings& settings) const {
+  if (names_.empty()) return;
+  if (settings.output != "table" && settings.output != "csv") {
+    throw Failure(ExitCode::kUsage, "--columns are those of a table or csv; see --output");
+  }
+  Table::RequireColumns(columns, names_);
+}
+
+Style ColumnChoice::OutputStyle(const Settings& settings) const {
+  Style style = settings.OutputStyle();
+  style.columns = names_;
+  return style;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,51 @@
+#include "cli/settings/job_options.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+
+#include "cli/base/failure.h"
+#include "cli/base/number.h"
+#include "cli/base/scalar.h"
+
+namespace contact::cli {
+namespace {
+
+google::protobuf::Duration Span(const std::string& text) {
+  return google::protobuf::util::TimeUtil::MillisecondsToDuration(ParseDuration(text).count());
+}
+
+}  // namespace
+
+void JobOptions::AddTo(CLI::App& command) {
+  command.add_option("--priority", priority_, "From -100 to 100; larger runs first. Default: 0")
+      ->type_name("N");
+  command.add_option("--budget-wall-time", wall_time_, "Stop it after such a time, as 10s or 2h")
+      ->type_name("TIME");
+  command.add_option("--budget-steps", steps_, "Stop it after so many integration steps")
+      ->type_name("N");
+  command
+      .add_option("--budget-output", output_bytes_, "Stop it when it has recorded that, as 10MB")
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES");
+  command.add_option("--ttl", time_to_live_, "Delete it so long after its end, as 1h")
+      ->type_name("TIME");
+}
+
+void JobOptions::Apply(v1::Job* job) const {
+  job->set_priority(priority_);
+  if (!wall_time_.empty()) *job->mutable_budget()->mutable_wall_time() = Span(wall_time_);
+  if (!steps_.empty()) {
+    const auto steps = ParseInteger<std::int64_t>(steps_);
+    if (!steps) {
+      throw Failure(ExitCode::kUsage,
+                    fmt::format("--budget-steps: '{}' is no whole number", steps_));
+    }
+    job->mutable_budget()->set_steps(*steps);
+  }
+  if (output_bytes_ > 0) {
+    job->mutable_budget()->set_output_bytes(static_cast<std::int64_t>(output_bytes_));
+  }
+  if (!time_to_live_.empty()) *job->mutable_time_to_live() = Span(time_to_live_);
+}
+
+}  // namespace contact::cli

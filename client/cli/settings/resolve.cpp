@@ -1,0 +1,102 @@
+#include "cli/settings/resolve.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <set>
+
+#include "cli/settings/config.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr char kProfile[] = "profile";
+
+std::string KeyOf(const CLI::Option& option) {
+  std::string key = option.get_lnames().empty() ? "" : option.get_lnames().front();
+  std::ranges::replace(key, '-', '_');
+  return key;
+}
+
+// Where else but on the command line a value stands.
+std::optional<ConfigValue> Elsewhere(const std::string& key, const std::vector<ConfigFile>& files,
+                                     const std::string& profile) {
+  const std::string variable = VariableOf(key);
+  const char* value = std::getenv(variable.c_str());
+  if (value != nullptr && *value != '\0') return ConfigValue{value, variable};
+  return FindValue(files, key, profile);
+}
+
+void Resolve(CLI::Option* option, const std::vector<ConfigFile>& files, Settings* settings) {
+  const std::string key = KeyOf(*option);
+  if (option->count() > 0) {
+    settings->origins[key] = "--" + option->get_lnames().front();
+    return;
+  }
+  const auto value = Elsewhere(key, files, settings->profile);
+  if (!value) return;
+  try {
+    option->add_result(value->text);
+    option->run_callback();
+    settings->origins[key] = value->origin;
+  } catch (const CLI::Error& error) {
+    option->clear();
+    settings->problems.push_back(
+        {ExitCode::kUsage, fmt::format("{}: {}", value->origin, error.what())});
+  }
+}
+
+void RequireProfile(const std::vector<ConfigFile>& files, Settings* settings) {
+  std::set<std::string> known;
+  for (const ConfigFile& file : files) {
+    for (const auto& [name, section] : file.profiles) known.insert(name);
+  }
+  if (settings->profile.empty() || known.contains(settings->profile)) return;
+  settings->problems.push_back(
+      {ExitCode::kUsage,
+       fmt::format("{}: there is no profile '{}'{}", settings->origins[kProfile], settings->profile,
+                   known.empty() ? "; see contactctl config --help"
+                                 : fmt::format("; there are {}", fmt::join(known, ", ")))});
+}
+
+}  // namespace
+
+std::vector<std::string> ConfigKeys(const CLI::App& app) {
+  std::vector<std::string> keys;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option != app.get_help_ptr() && !KeyOf(*option).empty()) keys.push_back(KeyOf(*option));
+  }
+  return keys;
+}
+
+std::string VariableOf(const std::string& key) {
+  std::string name = "CONTACT_" + key;
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return name;
+}
+
+void ResolveSettings(CLI::App& app, Settings* settings) {
+  const std::vector<std::string> keys = ConfigKeys(app);
+  const std::vector<ConfigFile> files = ReadConfigFiles({keys.begin(), keys.end()});
+  for (const ConfigFile& file : files) {
+    if (!file.mistake.empty()) settings->problems.push_back({ExitCode::kLocal, file.mistake});
+  }
+  Resolve(app.get_option("--profile"), files, settings);  // It decides about the others.
+  RequireProfile(files, settings);
+  for (CLI::Option* option : app.get_options()) {
+    const std::string key = KeyOf(*option);
+    if (option != app.get_help_ptr() && !key.empty() && key != kProfile) {
+      Resolve(option, files, settings);
+    }
+  }
+  settings->wide = settings->output == "wide";
+  if (settings->wide) settings->output = "table";
+  settings->yaml = settings->output == "yaml";
+  if (settings->yaml) settings->output = "json";
+}
+
+}  // namespace contact::cli

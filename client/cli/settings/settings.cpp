@@ -1,0 +1,60 @@
+#include "cli/settings/settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/base/number.h"
+
+namespace contact::cli {
+
+void Settings::RequireOutput(std::initializer_list<std::string_view> formats) const {
+  if (std::ranges::find(formats, output) != formats.end()) return;
+  std::vector<std::string_view> known;
+  for (const std::string_view format : formats) {
+    known.push_back(format);
+    if (format == "json") known.emplace_back("yaml");
+  }
+  const auto origin = origins.find("output");
+  const bool flag = origin == origins.end() || origin->second == "--output";
+  throw Failure(ExitCode::kUsage, fmt::format("{} {}: this command prints {}",
+                                              flag ? "--output" : origin->second + ": output",
+                                              yaml ? "yaml" : output, fmt::join(known, ", ")));
+}
+
+std::chrono::milliseconds Settings::CallTimeout() const {
+  constexpr std::chrono::seconds kCallTimeout{10};
+  return timeout.empty() ? kCallTimeout : ParseDuration(timeout);
+}
+
+std::optional<std::chrono::steady_clock::time_point> Settings::Deadline() const {
+  if (timeout.empty()) return std::nullopt;
+  return std::chrono::steady_clock::now() + ParseDuration(timeout);
+}
+
+ProgressForm Settings::Progress() const {
+  if (progress == "plain") return ProgressForm::kLines;
+  if (progress == "json") return ProgressForm::kJson;
+  const bool bar = progress == "bar" || (progress == "auto" && MessageStyle().terminal);
+  return bar ? ProgressForm::kBar : ProgressForm::kNone;
+}
+
+bool Settings::TaskbarProgress() const { return taskbar_progress && MessageStyle().terminal; }
+
+Style Settings::OutputStyle() const {
+  Style style = StyleOf(STDOUT_FILENO, color);
+  style.wide = wide;
+  if (wide) style.width = 0;
+  return style;
+}
+
+Style Settings::MessageStyle() const {
+  Style style = StyleOf(STDERR_FILENO, color);
+  style.wide = wide;
+  return style;
+}
+
+}  // namespace contact::cli

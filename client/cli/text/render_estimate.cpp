@@ -1,0 +1,80 @@
+#include "cli/text/render_estimate.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "cli/base/number.h"
+#include "cli/base/table.h"
+
+namespace contact::cli {
+namespace {
+
+using google::protobuf::util::TimeUtil;
+
+constexpr std::string_view kNoLimit = "-";
+
+// Two digits are more than an estimate knows.
+std::string About(double value) {
+  if (value >= 1e9) return fmt::format("{:.1e}", value);
+  const double unit = value < 100 ? 1 : std::pow(10, std::floor(std::log10(value)) - 1);
+  return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
+std::string Bytes(double bytes) {
+  constexpr std::array<const char*, 5> kUnits = {"B", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  for (; bytes >= 999.5 && unit + 1 < kUnits.size(); ++unit) bytes /= 1000;
+  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
+}
+
+// The lower of those that are set.
+std::int64_t Least(std::initializer_list<std::int64_t> limits) {
+  std::int64_t least = 0;
+  for (const std::int64_t limit : limits) {
+    if (limit > 0 && (least == 0 || limit < least)) least = limit;
+  }
+  return least;
+}
+
+std::int64_t MaxSteps(const v1::Job& job) {
+  constexpr std::int64_t kDefault = 100'000'000;
+  if (job.has_sweep()) return 0;  // Its cells have it each.
+  return job.scenario().solver().has_max_steps() ? job.scenario().solver().max_steps() : kDefault;
+}
+
+double SecondsOf(const google::protobuf::Duration& duration) {
+  return static_cast<double>(TimeUtil::DurationToMicroseconds(duration)) / 1e6;
+}
+
+}  // namespace
+
+std::string RenderEstimate(const v1::Job& job, const v1::ServerLimits& limits, const Style& style) {
+  if (!job.has_estimate()) return "";
+  const v1::Estimate& estimate = job.estimate();
+  const v1::Budget& most = limits.max_budget();
+  Table table({{"TAKES"}, {"ABOUT", true}, {"AT MOST", true}});
+  const auto add = [&table](const char* what, std::string about, bool limited, std::string limit) {
+    table.Add(
+        {std::string(what), std::move(about), limited ? std::move(limit) : std::string(kNoLimit)});
+  };
+  const std::int64_t steps = Least({job.budget().steps(), most.steps(), MaxSteps(job)});
+  add("steps", About(static_cast<double>(estimate.steps())), steps > 0, fmt::format("{}", steps));
+  add("samples", fmt::format("{}", estimate.samples()), limits.max_samples() > 0,
+      fmt::format("{}", limits.max_samples()));
+  const std::int64_t output = Least({job.budget().output_bytes(), most.output_bytes()});
+  add("output", Bytes(static_cast<double>(estimate.output_bytes())), output > 0,
+      Bytes(static_cast<double>(output)));
+  add("memory", Bytes(static_cast<double>(estimate.memory_bytes())), false, "");
+  const google::protobuf::Duration& wall =
+      job.budget().has_wall_time() ? job.budget().wall_time() : most.wall_time();
+  add("wall time", Seconds(SecondsOf(estimate.wall_time())), SecondsOf(wall) > 0,
+      Seconds(SecondsOf(wall)));
+  return table.Text(style);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,199 @@
+#include "cli/text/render_job.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "cli/base/number.h"
+#include "cli/base/table.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::size_t kMostRows = 40;
+
+// How far it is, in parts that each stay in one line.
+std::vector<std::string> Extent(const v1::Job& job) {
+  const v1::Progress& progress = job.progress();
+  if (job.has_summary()) {
+    return {Seconds(job.summary().time_reached_s()) + " simulated, ",
+            Count(job.cycles_size(), "cycle", "cycles") + ", ",
+            Count(job.summary().iterations(), "iteration", "iterations") + ", ",
+            Seconds(job.summary().wall_time_s()) + " wall"};
+  }
+  if (progress.cells() > 0) {
+    return {fmt::format("{} of {} cells, ", progress.cells_done(), progress.cells()),
+            fmt::format("{} failed, ", progress.cells_failed()),
+            fmt::format("{} not converged", progress.cells_not_converged())};
+  }
+  if (progress.end_time_s() <= 0) return {};
+  return {fmt::format("{} of {} simulated, ", Seconds(progress.time_s()),
+                      Seconds(progress.end_time_s())),
+          Count(progress.cycles(), "cycle", "cycles")};
+}
+
+std::string Title(const v1::Job& job, const Style& style) {
+  const std::string reason =
+      job.state_reason().empty() ? "" : fmt::format(" ({})", job.state_reason());
+  std::vector<std::string> parts = {
+      Paint(job.name(), Tone::kStrong, style) + "  ",
+      Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style) + reason};
+  const std::vector<std::string> extent = Extent(job);
+  if (!extent.empty()) parts.back() += "  ";
+  parts.insert(parts.end(), extent.begin(), extent.end());
+  const std::string& title = job.scenario().title();
+  return fmt::format("{}\n", fmt::join(Fold(parts, style.width), "\n")) +
+         (title.empty() ? "" : Wrap(title + "\n", style));
+}
+
+double InSeconds(const google::protobuf::Duration& span) {
+  return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
+}
+
+// How the job is to be treated, as far as its user has said it.
+std::string Treatment(const v1::Job& job) {
+  std::vector<std::string> parts;
+  if (job.priority() != 0) parts.push_back(fmt::format("priority {}", job.priority()));
+  const v1::Budget& budget = job.budget();
+  if (budget.has_wall_time()) {
+    parts.push_back(fmt::format("budget {} wall", Seconds(InSeconds(budget.wall_time()))));
+  }
+  if (budget.steps() > 0) parts.push_back(fmt::format("budget {} steps", budget.steps()));
+  if (budget.output_bytes() > 0) {
+    parts.push_back(fmt::format("budget {} bytes", budget.output_bytes()));
+  }
+  if (job.has_expire_time()) {
+    parts.push_back(fmt::format("kept until {} UTC", Instant(job.expire_time())));
+  } else if (job.has_time_to_live()) {
+    parts.push_back(fmt::format("kept {} after its end", Seconds(InSeconds(job.time_to_live()))));
+  }
+  return parts.empty() ? "" : fmt::format("{}\n", fmt::join(parts, ", "));
+}
+
+std::string Ledger(const v1::Job& job, const Style& style) {
+  if (job.cycles().empty()) return "";
+  Table table(LedgerColumns());
+  for (const v1::Cycle& cycle : job.cycles()) {
+    table.Add({cycle.contact(),
+               fmt::to_string(cycle.number()),
+               v1::Cycle::Kind_Name(cycle.kind()),
+               v1::Cycle::End_Name(cycle.end()),
+               {v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status())},
+               fmt::to_string(cycle.iterations()),
+               Digits(cycle.mu(), 7),
+               AlphaOrRatio(cycle),
+               Digits(cycle.restitution_in(), 6),
+               Digits(cycle.restitution_out(), 8),
+               Error(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
+               Digits(cycle.start_time_s(), 7),
+               Digits(cycle.end_time_s(), 7),
+               Digits(cycle.peak_force_n(), 7),
+               Digits(cycle.delta_max_m(), 7),
+               Digits(cycle.work_compression_j(), 7),
+               Digits(cycle.work_restitution_j(), 7)});
+  }
+  return fmt::format("\n{}", table.Text(style, kMostRows, "… {} more cycles; -o json prints all"));
+}
+
+std::string Bodies(const v1::Job& job, const Style& style) {
+  if (job.final_bodies().empty()) return "";
+  Table table({{"BODY"}, {"POSITION [m]", true}, {"VELOCITY [m/s]", true}});
+  for (const v1::FinalBody& body : job.final_bodies()) {
+    table.Add({body.name(), Digits(body.position_m(), 10), Digits(body.velocity_m_per_s(), 10)});
+  }
+  Style all = style;
+  all.columns.clear();
+  return fmt::format("\n{}", table.Text(all, kMostRows, "… {} more bodies; -o json prints all"));
+}
+
+std::string Balances(const v1::Job& job, const Style& style) {
+  if (!job.has_summary()) return "";
+  const v1::RunSummary& summary = job.summary();
+  std::string line = "\n";
+  if (job.convergence() != v1::Job::CONVERGENCE_UNSPECIFIED) {
+    const bool full = job.convergence() == v1::Job::FULL;
+    line += fmt::format("convergence {}; ", Paint(v1::Job::Convergence_Name(job.convergence()),
+                                                  full ? Tone::kGood : Tone::kWarning, style));
+  }
+  line += fmt::format("residuals: momentum {}, energy {}, cycle identity {}; {} steps\n",
+                      Error(summary.momentum_residual()), Error(summary.energy_residual()),
+                      Error(summary.worst_identity_residual()), summary.steps());
+  return Wrap(line, style);
+}
+
+}  // namespace
+
+std::vector<Table::Column> LedgerColumns() {
+  return {{"CONTACT"},
+          {"#", true, 0, "number"},
+          {"KIND"},
+          {"END", false, 2},
+          {"STATUS"},
+          {"n", true, 1, "iterations"},
+          {"μ", true, 0, "mu"},
+          {"α, or μ/k", true, 4, "alpha"},
+          {"ε IN", true, 0, "restitution_in"},
+          {"ε OUT", true, 0, "restitution_out"},
+          {"ERROR", true},
+          {"t START [s]", true, 3, "start_time"},
+          {"t END [s]", true, 3, "end_time"},
+          {"PEAK FORCE [N]", true, Table::kOnlyWide},
+          {"δ MAX [m]", true, Table::kOnlyWide, "delta_max"},
+          {"W_c [J]", true, Table::kOnlyWide, "work_compression"},
+          {"W_r [J]", true, Table::kOnlyWide, "work_restitution"}};
+}
+
+std::string RenderJob(const v1::Job& job, const Style& style) {
+  std::string text = Title(job, style) + Wrap(Treatment(job), style);
+  if (job.has_error()) {
+    text += Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
+  }
+  text += Ledger(job, style) + Bodies(job, style) + Balances(job, style);
+  if (job.has_sweep()) {
+    text += fmt::format("cells: contactctl sweep watch {}\n", job.name());
+  }
+  for (const std::string& warning : job.warnings()) {
+    text += Wrap(Paint("warning: ", Tone::kWarning, style) + warning + "\n", style);
+  }
+  return text;
+}
+
+Tone ToneOf(v1::Job::State state) {
+  switch (state) {
+    case v1::Job::SUCCEEDED:
+      return Tone::kGood;
+    case v1::Job::FAILED:
+      return Tone::kBad;
+    case v1::Job::CANCELLED:
+      return Tone::kWarning;
+    default:
+      return Tone::kPlain;
+  }
+}
+
+Tone ToneOf(v1::Cycle::Status status) {
+  switch (status) {
+    case v1::Cycle::CONVERGED:
+      return Tone::kGood;
+    case v1::Cycle::NOT_CONVERGED:
+      return Tone::kBad;
+    case v1::Cycle::INFEASIBLE:
+      return Tone::kWarning;
+    default:
+      return Tone::kPlain;
+  }
+}
+
+std::string AlphaOrRatio(const v1::Cycle& cycle) {
+  return cycle.kind() == v1::Cycle::COLLISION ? Digits(cycle.alpha(), 7)
+                                              : Digits(cycle.mu_over_k_s_per_m(), 5) + " s/m";
+}
+
+double RestitutionError(double restitution_out, double restitution_in) {
+  return std::abs(restitution_out - restitution_in) / restitution_in;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "cli/base/interrupt.h"
+#include "cli/base/number.h"
+#include "cli/export/csv_metadata.h"
+#include "cli/export/provenance.h"
+#include "cli/link/connect.h"
+#include "cli/link/download.h"
+#include "cli/link/job_names.h"
+#include "cli/link/job_source.h"
+#include "cli/text/render_json.h"
+#include "cli/verbs/commands.h"
+
+namespace contact::cli {
+namespace {
+
+struct ArtifactArguments {
+  std::string job;
+  std::string artifact;
+  std::string file;
+};
+
+ExitCode ListArtifacts(const ArtifactArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "jsonl", "name"});
+  Client client = Connect(settings);
+  const v1::Job job = GetJob(client, arguments.job);
+  for (const v1::Artifact& artifact : job.artifacts()) {
+    if (settings.output == "jsonl") {
+      fmt::print("{}", ToJsonLine(artifact));
+    } else {
+      fmt::print("{}\n", artifact.name());
+    }
+  }
+  return ExitCode::kOk;
+}
+
+std::string Hex(const std::string& bytes) {
+  return fmt::format("{:02x}",
+                     fmt::join(std::vector<unsigned char>(bytes.begin(), bytes.end()), ""));
+}
+
+ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table"});
+  Client client = Connect(settings);
+  const std::string path = arguments.file.empty()
+                               ? std::filesystem::path(arguments.artifact).filename().string()
+                               : arguments.file;
+  DownloadOptions options{.job = JobName(arguments.job),
+                          .artifact = arguments.artifact,
+                          .path = path,
+                          .deadline = settings.Deadline(),
+                          .stopped = Interrupt::raised,
+                          .lost = [](const std::string& why) {
+                            fmt::print(stderr, "connection lost ({}); trying again\n", why);
+                          }};
+  const Interrupt interrupt;
+  const v1::Job job = GetJob(client, arguments.job);
+  const v1::Artifact artifact = Download(client, options);
+  Provenance source = SourceOf(job);
+  source.emplace_back("artifact", artifact.name());
+  source.emplace_back("artifact_sha256", Hex(artifact.sha256()));
+  WriteCsvMetadata({}, {source}, path);
+  fmt::print(stderr, "{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddArtifactCommands(CLI::App& app, const Settings& settings, Action* action) {
+  CLI::App* group = app.add_subcommand("artifact", "Files that an ended job leaves: list, get");
+  group->require_subcommand(1);
+  auto arguments = std::make_shared<ArtifactArguments>();
+
+  CLI::App* list = group->add_subcommand("list", "Name the artifacts of a job");
+  list->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  list->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return ListArtifacts(*arguments, settings); };
+  });
+
+  CLI::App* get = group->add_subcommand(
+      "get", "Fetch one, going on where an earlier try has left a part of it");
+  get->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  get->add_option("ARTIFACT", arguments->artifact, "Such as trajectory.csv")->required();
+  get->add_option("-f,--file", arguments->file, "Where to. Default: the last part of its name")
+      ->type_name("FILE");
+  get->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return GetArtifact(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+#include <langinfo.h>
+#include <unistd.h>
+
+#include <array>
+#include <clocale>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/base/table.h"
+#include "cli/link/client.h"
+#include "cli/settings/config.h"
+#include "cli/settings/resolve.h"
+#include "cli/text/print_job.h"
+#include "cli/verbs/commands.h"
+#include "version.h"
+
+namespace contact::cli {
+namespace {
+
+// What was looked at, how it is, and what mends it.
+struct Finding {
+  std::string what;
+  std::string found;
+  std::string fix;  ///< Empty: all is well.
+  ExitCode code = ExitCode::kOk;
+};
+using Findings = std::vector<Finding>;
+
+// MAJOR.MINOR of a version.
+std::string Minor(const std::string& version) { return version.substr(0, version.rfind('.')); }
+
+Finding ClockSkew(const v1::ServerInfo& info) {
+  using google::protobuf::util::TimeUtil;
+  const auto ahead = TimeUtil::DurationToSeconds(info.start_time() - TimeUtil::GetCurrentTime());
+  if (ahead <= 2) return {"clock", "the server's is not ahead", "", ExitCode::kOk};
+  return {"clock", fmt::format("the server started {} s in the future", ahead),
+          "set the clocks of both machines, such as with NTP", ExitCode::kLocal};
+}
+
+// The last finding is of the clock, if there is a server.
+void LookAtServer(const Settings& settings, Findings* findings) {
+  try {
+    Client client(settings.server, std::chrono::seconds(3));
+    const v1::ServerInfo info =
+        client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+    findings->push_back({"server", settings.server + " answers", "", ExitCode::kOk});
+    const bool same = Minor(info.version()) == Minor(kVersion);
+    findings->push_back({"version",
+                         fmt::format("contactctl {}, contactd {}", kVersion, info.version()),
+                         same ? "" : "install the same version on both sides",
+                         same ? ExitCode::kOk : ExitCode::kLocal});
+    findings->push_back(ClockSkew(info));
+  } catch (const Failure& failure) {
+    const std::string text = failure.what();
+    findings->push_back({"server", text.substr(0, text.find('\n')),
+                         "contactctl dev starts one; --server, CONTACT_SERVER or contactctl config "
+                         "set server names another",
+                         failure.code()});
+  }
+}
+
+Finding LookAtGnuplot() {
+  std::array<char, 128> line{};
+  std::FILE* pipe = popen("gnuplot --version 2>/dev/null", "r");
+  const bool read = pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr;
+  if (pipe != nullptr) pclose(pipe);
+  std::string version(line.data());
+  version.erase(version.find_last_not_of('\n') + 1);
+  if (read && version.starts_with("gnuplot 5")) return {"gnuplot", version, "", ExitCode::kOk};
+  return {"gnuplot", read ? version + ", made for 5" : "not found, so plot draws nothing",
+          "apt-get install gnuplot-nox", ExitCode::kLocal};
+}
+
+Finding LookAtTerminal(const Settings& settings) {
+  std::setlocale(LC_CTYPE, "");
+  const bool utf8 = std::string_view(nl_langinfo(CODESET)) == "UTF-8";
+  const Style style = settings.OutputStyle();
+  std::string found = style.terminal ? fmt::format("{} columns", style.width) : "not a terminal";
+  found += style.color ? ", colour" : ", no colour";
+  found += utf8 ? ", UTF-8" : ", not UTF-8";
+  if (!utf8) return {"terminal", found, "export LC_CTYPE=C.UTF-8", ExitCode::kLocal};
+  if (style.terminal && style.width > 0 && style.width < 60) {
+    return {"terminal", found, "make it wider: below 60 columns, tables leave some out",
+            ExitCode::kLocal};
+  }
+  return {"terminal", found, "", ExitCode::kOk};
+}
+
+void LookAtConfig(const CLI::App& app, const Settings& settings, Findings* findings) {
+  const std::vector<std::string> keys = ConfigKeys(app);
+  std::string read;
+  for (const ConfigFile& file : ReadConfigFiles({keys.begin(), keys.end()})) {
+    if (file.mistake.empty()) read += (read.empty() ? "" : ", ") + file.path;
+  }
+  for (const Problem& problem : settings.problems) {
+    findings->push_back({"config", problem.text,
+                         "edit the file, or contactctl config set KEY VALUE", problem.code});
+  }
+  if (settings.problems.empty()) {
+    findings->push_back({"config", read.empty() ? "no files" : read, "", ExitCode::kOk});
+  }
+}
+
+std::string Json(const Findings& findings) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Finding& finding : findings) {
+    json.push_back({{"check", finding.what},
+                    {"ok", finding.fix.empty()},
+                    {"found", finding.found},
+                    {"fix", finding.fix}});
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string Text(const Findings& findings, const Style& style) {
+  std::string text;
+  for (const Finding& finding : findings) {
+    const bool ok = finding.fix.empty();
+    text +=
+        fmt::format("{}  {}  {}\n", Paint(ok ? "ok " : "BAD", ok ? Tone::kGood : Tone::kBad, style),
+                    Pad(finding.what, 8), finding.found);
+    if (!ok) text += fmt::format("     {}  fix: {}\n", Pad("", 8), finding.fix);
+  }
+  return text;
+}
+
+ExitCode Doctor(const CLI::App& app, const Settings& settings) {
+  settings.RequireOutput({"table", "json"});
+  Findings findings;
+  LookAtConfig(app, settings, &findings);
+  LookAtServer(settings, &findings);
+  findings.push_back(LookAtGnuplot());
+  findings.push_back(LookAtTerminal(settings));
+  if (settings.output == "json") {
+    PrintJson(Json(findings), settings);
+  } else {
+    fmt::print("{}", Text(findings, settings.OutputStyle()));
+  }
+  for (const Finding& finding : findings) {
+    if (!finding.fix.empty()) return finding.code;
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddDoctorCommand(CLI::App& app, const Settings& settings, Action* action) {
+  app.add_subcommand("doctor", "Look for what is wrong around here, and say what mends it")
+      ->callback([&app, &settings, action] {
+        *action = [&app, &settings] { return Doctor(app, settings); };
+      });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include "cli/base/number.h"
+#include "cli/base/text_file.h"
+#include "cli/export/provenance.h"
+#include "cli/figures/drawing.h"
+#include "cli/link/connect.h"
+#include "cli/paper/cases.h"
+#include "cli/paper/index.h"
+#include "cli/paper/items.h"
+#include "cli/text/render_json.h"
+#include "cli/verbs/commands.h"
+
+namespace contact::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PaperArguments {
+  std::vector<std::string> items;
+  std::string directory = "paper";
+  std::string format;  ///< Empty: svg if gnuplot is there.
+};
+
+std::vector<std::string> Chosen(const std::vector<std::string>& asked) {
+  const std::vector<std::string>& all = PaperItems();
+  if (asked.empty() || std::find(asked.begin(), asked.end(), "all") != asked.end()) return all;
+  for (const std::string& id : asked) {
+    if (std::find(all.begin(), all.end(), id) == all.end()) {
+      throw Failure(ExitCode::kUsage,
+                    fmt::format("unknown item '{}' — one of {} or all", id, fmt::join(all, ", ")));
+    }
+  }
+  return asked;
+}
+
+// Draws the figures beside their data; returns them as SVG for the page. A drawing that nobody
+// asked for may fail: the note tells it.
+std::map<std::string, std::string> DrawAll(const std::vector<PaperItem>& items,
+                                           const PaperArguments& arguments) {
+  const std::string format = arguments.format.empty() ? "svg" : arguments.format;
+  std::map<std::string, std::string> inlined;
+  try {
+    for (const PaperItem& item : items) {
+      if (!item.figure) continue;
+      const std::string path = fs::path(arguments.directory) / (item.id + "." + EndingOf(format));
+      Draw(*item.figure, format, path);
+      inlined[item.id] = format == "svg" ? InlineSvg(ReadText(path)) : DrawInline(*item.figure);
+    }
+  } catch (const Failure& failure) {
+    if (!arguments.format.empty()) throw;
+    fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
+  }
+  return inlined;
+}
+
+Origin OriginOf(const v1::ServerInfo& info, const PaperArguments& arguments) {
+  const std::string items =
+      arguments.items.empty() ? "all" : fmt::format("{}", fmt::join(arguments.items, " "));
+  return {.server = info.revision().empty()
+                        ? fmt::format("contactd {}", info.version())
+                        : fmt::format("contactd {} ({})", info.version(), info.revision()),
+          .solver = ToJsonLine(SolverInFull(TripleChain(0.8, 0.7))),
+          .command = fmt::format("contactctl paper {} -o {}", items, arguments.directory)};
+}
+
+void MakeFolder(const std::string& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) {
+    throw Failure(ExitCode::kLocal, fmt::format("cannot make {}: {}", directory, error.message()));
+  }
+}
+
+// What shows no single run is at least of this server.
+void WriteAll(const v1::ServerInfo& server, const PaperArguments& arguments,
+              std::vector<PaperItem>* items) {
+  const Provenance here = {{"version", server.version()}, {"revision", server.revision()}};
+  for (PaperItem& item : *items) {
+    if (item.figure && item.figure->sources.empty()) item.figure->sources = {here};
+    Write(item, item.figure ? item.figure->sources : std::vector<Provenance>{here},
+          arguments.directory);
+  }
+}
+
+ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table"});
+  const std::vector<std::string> chosen = Chosen(arguments.items);
+  const auto start = std::chrono::steady_clock::now();
+  MakeFolder(arguments.directory);
+  Client client = Connect(settings);
+  Lab lab(client, settings);
+  std::vector<PaperItem> items = MakePaperItems(chosen, lab);
+  const v1::ServerInfo server =
+      client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  WriteAll(server, arguments, &items);
+  const std::map<std::string, std::string> figures = DrawAll(items, arguments);
+  WriteText(IndexPage(items, figures, OriginOf(server, arguments)),
+            fs::path(arguments.directory) / "index.html");
+  fmt::print("{}", Summary(items, settings.OutputStyle()));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  fmt::print(stderr, "{}, {} drawn, index.html in {}, in {}\n",
+             Count(static_cast<std::int64_t>(items.size()), "item", "items"), figures.size(),
+             arguments.directory, Seconds(took.count()));
+  const bool holds =
+      std::all_of(items.begin(), items.end(), [](const PaperItem& item) { return item.holds(); });
+  return holds ? ExitCode::kOk : ExitCode::kDiffers;
+}
+
+}  // namespace
+
+void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action) {
+  CLI::App* paper = app.add_subcommand(
+      "paper", "Make the paper's figures and tables again, each number beside the published one");
+  auto arguments = std::make_shared<PaperArguments>();
+  paper->add_option("ITEM", arguments->items,
+                    fmt::format("{}, or all (default)", fmt::join(PaperItems(), " ")));
+  paper
+      ->add_option("-o,--directory", arguments->directory,
+                   "Where to write data, tables, figures and index.html")
+      ->type_name("DIR")
+      ->capture_default_str();
+  paper
+      ->add_option("--format", arguments->format,
+                   "Draw the figures as svg, png, pdf or tikz. Default: svg, if gnuplot is there")
+      ->check(CLI::IsMember({"svg", "png", "pdf", "tikz"}))
+      ->type_name("FORMAT");
+  paper->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Paper(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

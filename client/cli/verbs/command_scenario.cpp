@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <system_error>
+
+#include "cli/base/number.h"
+#include "cli/base/table.h"
+#include "cli/base/text_file.h"
+#include "cli/input/checked_scenario.h"
+#include "cli/input/sweep_file.h"
+#include "cli/input/templates.h"
+#include "cli/link/connect.h"
+#include "cli/text/render_estimate.h"
+#include "cli/verbs/commands.h"
+#include "wire/contact_codec.h"
+#include "wire/sweep_codec.h"
+
+namespace contact::cli {
+namespace {
+
+struct ValidateArguments {
+  std::string file;
+  std::vector<std::string> overrides;
+  std::vector<std::string> variables;  ///< --var
+  bool on_server = false;
+};
+
+struct InitArguments {
+  std::string name;
+  std::string file;
+  bool list = false;
+  bool force = false;
+};
+
+// Limits are the server's own, and may be narrower than those that are checked here. What it
+// advises was told already.
+ExitCode ValidateOnServer(const v1::Job& job, const Settings& settings) {
+  v1::CreateJobRequest request;
+  *request.mutable_job() = job;
+  request.set_validate_only(true);
+  Client client = Connect(settings);
+  const v1::Job checked = client.CallTellingAll(&Client::Stub::CreateJob, request);
+  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  fmt::print("contactd at {} would take it\n{}", client.server(),
+             RenderEstimate(checked, info.limits(), settings.OutputStyle()));
+  return ExitCode::kOk;
+}
+
+ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& text,
+                       const Settings& settings) {
+  if (!arguments.overrides.empty()) {
+    throw Failure(ExitCode::kUsage, "--set is for scenarios; a sweep has axes");
+  }
+  const v1::Sweep sweep = ReadSweep(arguments.file, text, ParseVariables(arguments.variables));
+  fmt::print(
+      "{}: valid; {}, {}, {}\n", arguments.file,
+      Count(
+          DecodeSweep(sweep, {.max_cells = std::numeric_limits<std::int32_t>::max()}).axes.cells(),
+          "cell", "cells"),
+      Count(sweep.axes_size(), "axis", "axes"), Count(sweep.metrics_size(), "metric", "metrics"));
+  if (!arguments.on_server) return ExitCode::kOk;
+  v1::Job job;
+  *job.mutable_sweep() = sweep;
+  return ValidateOnServer(job, settings);
+}
+
+ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table"});
+  const std::string text = ReadText(arguments.file);
+  if (IsSweep(text)) return ValidateSweep(arguments, text, settings);
+  ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text,
+                    ParseVariables(arguments.variables));
+  for (const std::string& assignment : arguments.overrides) file.Set(assignment);
+  file.Check();
+  RequireNoMistakes(file);
+  TellAdvice(file);
+  const v1::Scenario& scenario = file.scenario();
+  fmt::print("{}: valid; {}, {}, {}, {}, {}\n", arguments.file,
+             Count(scenario.bodies_size(), "body", "bodies"),
+             Count(CountContacts(scenario), "contact", "contacts"),
+             Count(scenario.supports_size(), "support", "supports"),
+             Count(scenario.loads_size(), "load", "loads"), Seconds(scenario.end_time_s()));
+  if (!arguments.on_server) return ExitCode::kOk;
+  v1::Job job;
+  *job.mutable_scenario() = scenario;
+  return ValidateOnServer(job, settings);
+}
+
+void WriteFile(const std::string& path, std::string_view text, bool force) {
+  if (!force && std::filesystem::exists(path)) {
+    throw Failure(ExitCode::kLocal, path + " exists already; --force replaces it");
+  }
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) {
+    throw Failure(ExitCode::kLocal,
+                  fmt::format("cannot write {}: {}", path, std::generic_category().message(errno)));
+  }
+}
+
+// The scenario that a sweep names, unless there is a file of this name beside it.
+void WriteBase(const Template& sweep, const std::string& path) {
+  for (const Template& scenario : Templates()) {
+    const std::string name = std::string(scenario.name) + ".yaml";
+    if (sweep.text.find("\nbase: " + name) == std::string_view::npos) continue;
+    const std::string base = std::filesystem::path(path).replace_filename(name).string();
+    if (std::filesystem::exists(base)) continue;
+    WriteFile(base, scenario.text, false);
+    fmt::print("{}\n", base);
+  }
+}
+
+ExitCode Init(const InitArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "name"});
+  if (arguments.list || arguments.name.empty()) {
+    Table table({{"TEMPLATE"}, {"SHOWS"}});
+    for (const Template& scenario : Templates()) {
+      table.Add({std::string(scenario.name), std::string(scenario.shows)});
+    }
+    fmt::print("{}", table.Text(settings.OutputStyle()));
+    fmt::print(stderr, "Next:  contactctl init {}\n", Templates().front().name);
+    return ExitCode::kOk;
+  }
+  const Template& scenario = FindTemplate(arguments.name);
+  if (arguments.file == "-") {
+    fmt::print("{}", scenario.text);
+    return ExitCode::kOk;
+  }
+  const std::string path = arguments.file.empty() ? arguments.name + ".yaml" : arguments.file;
+  WriteFile(path, scenario.text, arguments.force);
+  fmt::print("{}\n", path);
+  const bool sweep = IsSweep(std::string(scenario.text));
+  if (sweep) WriteBase(scenario, path);
+  fmt::print(stderr,
+             "Next:  contactctl {} {}\n"
+             "       contactctl schema {}  (beside it, for your editor)\n",
+             sweep ? "sweep run" : "run", path,
+             sweep ? "sweep > contact-sweep.schema.json" : "> contact.schema.json");
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddScenarioCommands(CLI::App& app, const Settings& settings, Action* action) {
+  auto scenario = std::make_shared<ValidateArguments>();
+  CLI::App* validate =
+      app.add_subcommand("validate", "Check a scenario or sweep file, without a server");
+  validate
+      ->add_option("FILE", scenario->file,
+                   "Scenario or sweep in YAML or JSON; - is the standard input")
+      ->required();
+  validate->add_option("--set", scenario->overrides, "Override a field first; repeatable")
+      ->type_name("FIELD=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  AddVariableFlag(*validate, &scenario->variables);
+  validate->add_flag("--on-server", scenario->on_server,
+                     "Ask the server too: whether it would take it, and what that would take");
+  validate->callback([scenario, &settings, action] {
+    *action = [scenario, &settings] { return Validate(*scenario, settings); };
+  });
+
+  auto arguments = std::make_shared<InitArguments>();
+  CLI::App* init = app.add_subcommand("init", "Write an example scenario or sweep to start from");
+  init->add_option("TEMPLATE", arguments->name, "Which; without it they are listed");
+  init->add_option("--file", arguments->file, "Where to; - is the standard output")
+      ->type_name("FILE");
+  init->add_flag("--list", arguments->list, "List the templates");
+  init->add_flag("--force", arguments->force, "Replace a file that exists");
+  init->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Init(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

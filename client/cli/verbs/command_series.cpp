@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "cli/export/provenance.h"
+#include "cli/link/connect.h"
+#include "cli/link/job_names.h"
+#include "cli/link/job_source.h"
+#include "cli/text/print_job.h"
+#include "cli/text/render_series.h"
+#include "cli/verbs/commands.h"
+
+namespace contact::cli {
+namespace {
+
+struct SeriesArguments {
+  std::string job;
+  std::vector<std::string> channels;
+  std::optional<double> from;
+  std::optional<double> to;
+  int points = 0;
+  bool raw = false;
+  bool comments = false;
+};
+
+v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
+  v1::GetSeriesRequest request;
+  request.set_name(JobName(arguments.job));
+  for (const std::string& channel : arguments.channels) request.add_channels(channel);
+  if (arguments.from) request.set_start_time_s(*arguments.from);
+  if (arguments.to) request.set_end_time_s(*arguments.to);
+  request.set_max_points(arguments.points);
+  request.set_decimation(arguments.raw ? v1::GetSeriesRequest::RAW : v1::GetSeriesRequest::MINMAX);
+  return request;
+}
+
+// Where the motion comes from, in lines that readers of CSV skip.
+std::string Comments(Client& client, const SeriesArguments& arguments) {
+  if (!arguments.comments) return "";
+  return Lines({SourceOf(GetJob(client, arguments.job))}, "# ");
+}
+
+ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "csv", "json"});
+  Client client = Connect(settings);
+  const v1::Series series = client.CallTellingAll(&Client::Stub::GetSeries, Request(arguments));
+  if (settings.output == "csv") {
+    fmt::print("{}{}", Comments(client, arguments), SeriesCsv(series));
+  } else if (settings.output == "json") {
+    PrintJson(SeriesJson(series), settings);
+  } else {
+    fmt::print("{}", RenderSeries(series, settings.OutputStyle()));
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action) {
+  auto arguments = std::make_shared<SeriesArguments>();
+  CLI::App* series = app.add_subcommand("series", "Print the recorded motion of a job");
+  series->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  series
+      ->add_option("--channel", arguments->channels,
+                   "Such as B1.velocity or B1-B2.contact_force; repeatable. Default: all")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  series->add_option("--from", arguments->from, "Only from this simulated time on")
+      ->type_name("SECONDS");
+  series->add_option("--to", arguments->to, "Only up to this simulated time")->type_name("SECONDS");
+  series
+      ->add_option("--points", arguments->points,
+                   "At most so many samples, without losing a peak. Default: 1000")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  series->add_flag("--raw", arguments->raw, "Every sample");
+  series->add_flag("--comments", arguments->comments,
+                   "Begin csv with where it comes from, in lines that start with #");
+  series->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Series(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "cli/base/failure.h"
+#include "cli/base/number.h"
+#include "cli/link/backup_file.h"
+#include "cli/link/connect.h"
+#include "cli/link/http_get.h"
+#include "cli/text/print_job.h"
+#include "cli/text/render_json.h"
+#include "cli/verbs/commands.h"
+#include "version.h"
+
+namespace contact::cli {
+namespace {
+
+ExitCode Version() {
+  fmt::print("contactctl {}{}\n", kVersion,
+             *kRevision == '\0' ? "" : fmt::format(" ({})", kRevision));
+  return ExitCode::kOk;
+}
+
+ExitCode Status(const Settings& settings) {
+  settings.RequireOutput({"table", "json"});
+  Client client = Connect(settings);
+  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  if (settings.output == "json") {
+    PrintJson(ToJson(info), settings);
+    return ExitCode::kOk;
+  }
+  const v1::ServerLimits& limits = info.limits();
+  fmt::print(
+      "contactd {}{} at {}\n"
+      "started   {} UTC, instance {}\n"
+      "workers   {}\n"
+      "jobs      {} running, {} queued\n"
+      "limits    {} bodies, {} contacts, {} samples, {} cells, {} bytes a request, {} queued "
+      "jobs, {} watchers\n",
+      info.version(), info.revision().empty() ? "" : fmt::format(" ({})", info.revision()),
+      client.server(), Instant(info.start_time()), info.instance_id(), info.workers(),
+      info.running_jobs(), info.queued_jobs(), limits.max_bodies(), limits.max_contacts(),
+      limits.max_samples(), limits.max_cells(), limits.max_message_bytes(),
+      limits.max_queued_jobs(), limits.max_watchers());
+  return ExitCode::kOk;
+}
+
+ExitCode Backup(const std::string& path, const Settings& settings) {
+  settings.RequireOutput({"table"});
+  Client client = Connect(settings);
+  const std::int64_t bytes = ReceiveBackup(client, path, settings.Deadline());
+  fmt::print("{}  {} bytes, checked\n", path, bytes);
+  return ExitCode::kOk;
+}
+
+// The page as Prometheus reads it.
+ExitCode Metrics(const std::string& address, const Settings& settings) {
+  settings.RequireOutput({"table"});
+  constexpr std::chrono::seconds kTimeout{10};
+  try {
+    fmt::print("{}",
+               HttpGet(address, "/metrics",
+                       settings.timeout.empty() ? kTimeout : ParseDuration(settings.timeout)));
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::kUnreachable) throw;
+    throw Failure(failure.code(), fmt::format("no metrics at {}: a server tells them with contactd "
+                                              "--metrics-listen HOST:PORT, --metrics names that",
+                                              failure.what()));
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddServerCommands(CLI::App& app, const Settings& settings, Action* action) {
+  app.add_subcommand("version", "Show the version of contactctl")->callback([action] {
+    *action = Version;
+  });
+  CLI::App* server = app.add_subcommand("server", "Ask about the server, back it up");
+  server->require_subcommand(1);
+  for (const char* name : {"status", "info"}) {
+    server->add_subcommand(name, "Show version, load and limits of the server")
+        ->callback([&settings, action] { *action = [&settings] { return Status(settings); }; });
+  }
+  CLI::App* backup =
+      server->add_subcommand("backup", "Copy all jobs and events into a file while it goes on");
+  auto path = std::make_shared<std::string>();
+  backup
+      ->add_option("-o,--file", *path,
+                   "Where to write; put as contactd.db into an empty data directory it is the "
+                   "server's start")
+      ->required()
+      ->type_name("FILE");
+  CLI::App* metrics = server->add_subcommand(
+      "metrics", "Print the metrics of a server that was started with --metrics-listen");
+  auto address = std::make_shared<std::string>("127.0.0.1:9464");
+  metrics->add_option("--metrics", *address, "Where the server tells them")
+      ->type_name("HOST:PORT")
+      ->capture_default_str();
+  metrics->callback([address, &settings, action] {
+    *action = [address, &settings] { return Metrics(*address, settings); };
+  });
+  backup->callback([path, &settings, action] {
+    *action = [path, &settings] { return Backup(*path, settings); };
+  });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/figures/heat_map_options.h"
+#include "cli/link/connect.h"
+#include "cli/link/job_names.h"
+#include "cli/link/job_source.h"
+#include "cli/text/print_job.h"
+#include "cli/text/render_json.h"
+#include "cli/verbs/commands.h"
+#include "cli/verbs/follow.h"
+#include "cli/verbs/sweep_cell.h"
+
+namespace contact::cli {
+namespace {
+
+struct CellArguments {
+  std::string job;
+  std::string cell;
+  bool run = false;
+};
+
+struct HeatMapArguments {
+  std::string job;
+  std::string file;
+  HeatMapOptions map;
+};
+
+// Runs the scenario of a cell as a job of its own.
+ExitCode RunCell(Client& client, const v1::Job& sweep, const v1::SweepCell& cell,
+                 const Settings& settings) {
+  v1::CreateJobRequest request;
+  *request.mutable_job()->mutable_scenario() = ScenarioOf(sweep.sweep(), cell);
+  (*request.mutable_job()->mutable_labels())["sweep"] = ShortName(sweep.name());
+  (*request.mutable_job()->mutable_labels())["cell"] = fmt::to_string(cell.index());
+  request.set_request_id(RandomRequestId());
+  v1::Job job = client.CallTellingAll(&Client::Stub::CreateJob, request);
+  const WatchEnd end =
+      FollowRun(client, job.name(), settings.Deadline(), IterationRows::kFirst, settings);
+  if (end != WatchEnd::kFinished) return Detach(end, job.name());
+  job = GetJob(client, job.name());
+  PrintJob(job, settings);
+  if (settings.output == "table") fmt::print(stderr, "{}", NextSteps(job));
+  return CodeOf(job);
+}
+
+ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
+  if (arguments.run) {
+    settings.RequireOutput({"table", "json", "name"});
+  } else {
+    settings.RequireOutput({"table", "json"});
+  }
+  Client client = Connect(settings);
+  const v1::Job job = GetSweep(client, arguments.job);
+  const SweepCells cells = ReadCells(client, job, settings);
+  const v1::SweepCell& cell = FindCell(job.sweep(), cells, arguments.cell);
+  if (arguments.run) return RunCell(client, job, cell, settings);
+  if (settings.output == "json") {
+    PrintJson(ToJson(cell), settings);
+    return ExitCode::kOk;
+  }
+  fmt::print("{}", RenderCell(job, cell, settings.OutputStyle()));
+  fmt::print(stderr, "Next:  contactctl sweep cell {} {} --run\n", ShortName(job.name()),
+             cell.index());
+  return ExitCode::kOk;
+}
+
+ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
+  Client client = Connect(settings);
+  const v1::Job job = GetSweep(client, arguments.job);
+  arguments.map.MetricOf(job.sweep());
+  const SweepCells cells = ReadCells(client, job, settings);
+  if (!arguments.file.empty()) {
+    arguments.map.Draw(job, cells, arguments.file);
+  } else {
+    const std::string text = arguments.map.Text(job.sweep(), cells, settings.OutputStyle());
+    if (text.empty()) {
+      throw Failure(ExitCode::kUsage,
+                    "a heat map is of a grid of two axes that fits into the terminal; -o draws a "
+                    "larger one");
+    }
+    fmt::print("{}", text.substr(1));  // Nothing stands above it.
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddSweepCellCommands(CLI::App& sweep, const Settings& settings, Action* action) {
+  CLI::App* map = sweep.add_subcommand("heatmap", "Show a metric over two axes");
+  auto drawn = std::make_shared<HeatMapArguments>();
+  map->add_option("JOB", drawn->job, "ID or jobs/ID")->required();
+  map->add_option(
+         "-o,-f,--file", drawn->file,
+         "Draw it to this file through gnuplot: .svg, .png, .pdf or .tex. Default: print it")
+      ->type_name("FILE");
+  drawn->map.AddTo(*map);
+  map->callback([drawn, &settings, action] {
+    *action = [drawn, &settings] { return DrawMap(*drawn, settings); };
+  });
+
+  CLI::App* cell = sweep.add_subcommand(
+      "cell", "Show one cell whole: its values, its metrics, why it failed; or run it alone");
+  auto arguments = std::make_shared<CellArguments>();
+  cell->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  cell->add_option("CELL", arguments->cell,
+                   "Its number, or its values, such as contacts[*].restitution=0.7,bodies[0]"
+                   ".velocity_m_per_s=0.2; the last part of a field is enough")
+      ->required();
+  cell->add_flag("--run", arguments->run,
+                 "Run its scenario as a job of its own, which can be plotted");
+  cell->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Cell(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <thread>
+
+#include "cli/base/interrupt.h"
+#include "cli/base/number.h"
+#include "cli/link/connect.h"
+#include "cli/link/job_names.h"
+#include "cli/link/job_source.h"
+#include "cli/text/live_plot.h"
+#include "cli/text/print_job.h"
+#include "cli/text/render_job.h"
+#include "cli/text/render_json.h"
+#include "cli/text/render_live.h"
+#include "cli/verbs/commands.h"
+#include "cli/verbs/follow.h"
+
+namespace contact::cli {
+namespace {
+
+struct WatchArguments {
+  std::string job;
+  std::uint64_t after_sequence = 0;
+  std::vector<std::string> kinds;
+  bool live_only = false;
+  std::string min_frame_interval;
+  std::vector<std::string> plot;
+  std::string replay;
+};
+
+// One event a line, for programs.
+class JsonLines : public WatchObserver {
+ public:
+  void OnEvent(const v1::Event& event) override {
+    fmt::print("{}", ToJsonLine(event));
+    std::fflush(stdout);
+  }
+  void OnLost(const std::string& why, std::chrono::milliseconds) override {
+    fmt::print(stderr, "connection lost ({}); trying again\n", why);
+  }
+};
+
+WatchOptions Options(const std::string& job, const Settings& settings) {
+  WatchOptions options;
+  options.name = JobName(job);
+  options.deadline = settings.Deadline();
+  options.stopped = Interrupt::raised;
+  return options;
+}
+
+std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
+  if (settings.output == "jsonl") return std::make_unique<JsonLines>();
+  return std::make_unique<LiveView>(stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
+                                    LiveView::Options{.job = ShortName(arguments.job),
+                                                      .progress = settings.Progress(),
+                                                      .taskbar = settings.TaskbarProgress()});
+}
+
+// `1e-3x`: simulated seconds in a second.
+double ParseReplay(const std::string& text) {
+  if (text.empty()) return 0;
+  char* end = nullptr;
+  const double speed = std::strtod(text.c_str(), &end);
+  const std::string_view rest = end;
+  if (!std::isfinite(speed) || speed <= 0 || (!rest.empty() && rest != "x")) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--replay {}: must be a speed > 0 such as 1e-3x", text));
+  }
+  return speed;
+}
+
+ExitCode WatchPlot(const WatchArguments& arguments, const Settings& settings) {
+  const double replay = ParseReplay(arguments.replay);
+  if (isatty(STDOUT_FILENO) == 0) {
+    throw Failure(ExitCode::kUsage,
+                  "--plot draws on a terminal; contactctl plot draws files, contactctl series -o "
+                  "csv prints the numbers");
+  }
+  Client client = Connect(settings);
+  WatchOptions options = Options(arguments.job, settings);
+  options.kinds = {"attempt_started", "frame_chunk"};
+  const Interrupt interrupt;
+  std::optional<std::string> mistake;
+  WatchEnd end = WatchEnd::kStopped;
+  {
+    LivePlot plot(stdout, {arguments.plot, replay, TerminalHasUtf8()});
+    options.stopped = [&plot] { return Interrupt::raised() || plot.mistake(); };
+    end = Watch(client, options, plot);
+    plot.OnTick();
+    while (plot.replaying() && !options.stopped()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      plot.OnTick();
+    }
+    mistake = plot.mistake();
+  }
+  if (mistake) throw Failure(ExitCode::kUsage, *mistake);
+  return end == WatchEnd::kFinished ? CodeOf(GetJob(client, arguments.job))
+                                    : Detach(end, options.name);
+}
+
+ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({"table", "jsonl"});
+  if (!arguments.plot.empty()) return WatchPlot(arguments, settings);
+  if (!arguments.replay.empty()) throw Failure(ExitCode::kUsage, "--replay goes with --plot");
+  Client client = Connect(settings);
+  WatchOptions options = Options(arguments.job, settings);
+  options.after_sequence = arguments.after_sequence;
+  options.kinds = arguments.kinds;
+  options.live_only = arguments.live_only;
+  if (!arguments.min_frame_interval.empty()) {
+    options.min_frame_interval = ParseDuration(arguments.min_frame_interval);
+  }
+  if (options.kinds.empty() && settings.output == "table") {
+    options.kinds = {"log_entry", "iteration", "cycle", "attempt_started", "progress"};
+  }
+  const Interrupt interrupt;
+  const auto observer = Observer(arguments, settings);
+  const WatchEnd end = Watch(client, options, *observer);
+  if (end != WatchEnd::kFinished) return Detach(end, options.name);
+  const v1::Job job = GetJob(client, arguments.job);
+  observer->OnSnapshot(job);  // How far it came.
+  return CodeOf(job);
+}
+
+ExitCode Wait(const std::string& job, const Settings& settings) {
+  settings.RequireOutput({"table", "json", "name"});
+  Client client = Connect(settings);
+  WatchOptions options = Options(job, settings);
+  options.kinds = {"state_changed"};
+  const Interrupt interrupt;
+  WatchObserver silence;
+  const WatchEnd end = Watch(client, options, silence);
+  if (end != WatchEnd::kFinished) return Detach(end, options.name);
+  const v1::Job result = GetJob(client, job);
+  if (settings.output == "table") {
+    const std::string state = v1::Job::State_Name(result.state());
+    fmt::print("{}  {}\n", result.name(),
+               Paint(state, ToneOf(result.state()), settings.OutputStyle()));
+  } else {
+    PrintJob(result, settings);
+  }
+  return CodeOf(result);
+}
+
+}  // namespace
+
+void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action) {
+  auto arguments = std::make_shared<WatchArguments>();
+  CLI::App* watch = app.add_subcommand(
+      "watch", "Show what happened to a job from its start, and what happens until its end");
+  watch->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  watch->add_option("--after-sequence", arguments->after_sequence, "Only later events")
+      ->type_name("N");
+  watch->add_option("--kinds", arguments->kinds, "Only these, such as cycle,iteration")
+      ->delimiter(',')
+      ->type_name("KIND,…");
+  watch->add_flag("--live", arguments->live_only, "Only what happens from now on")
+      ->excludes("--after-sequence");
+  watch
+      ->add_option("--min-frame-interval", arguments->min_frame_interval,
+                   "Of frame chunks that follow each other sooner only the newest, and a gap")
+      ->type_name("DURATION");
+  watch
+      ->add_option("--plot", arguments->plot,
+                   "Draw these channels on the terminal, such as B1.velocity,B1-B2.contact_force")
+      ->delimiter(',')
+      ->type_name("NAME,…");
+  watch->add_option("--replay", arguments->replay, "With --plot: simulated seconds in a second")
+      ->type_name("SPEEDx");
+  watch->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return WatchEvents(*arguments, settings); };
+  });
+
+  auto job = std::make_shared<std::string>();
+  CLI::App* wait = app.add_subcommand("wait", "Wait for the end of a job");
+  wait->add_option("JOB", *job, "ID or jobs/ID")->required();
+  wait->callback(
+      [job, &settings, action] { *action = [job, &settings] { return Wait(*job, settings); }; });
+}
+
+}  // namespace contact::cli

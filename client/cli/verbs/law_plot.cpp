@@ -1,0 +1,115 @@
+#include "cli/verbs/law_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/figures/picture_output.h"
+#include "cli/paper/drawings.h"
+#include "cli/verbs/law_study.h"
+
+namespace contact::cli {
+namespace {
+
+struct ModelPlotArguments {
+  std::string what;
+  std::vector<std::string> laws;
+  std::string file;
+};
+
+// The laws named, else all whose curve needs no run.
+std::vector<const LawEntry*> Chosen(const ModelPlotArguments& arguments) {
+  std::vector<const LawEntry*> laws;
+  for (const std::string& name : arguments.laws) laws.push_back(&FindLaw(name));
+  if (!laws.empty()) return laws;
+  for (const LawEntry& law : LawCatalogue()) {
+    if (law.closed_form()) laws.push_back(&law);
+  }
+  return laws;
+}
+
+std::vector<double> Restitutions() {
+  std::vector<double> all;
+  for (int i = 5; i <= 100; ++i) all.push_back(i * 0.01);
+  return all;
+}
+
+std::vector<double> Coefficients(const LawEntry& law) {
+  if (!law.closed_form()) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{} has no α that is a function of ε alone", law.name()));
+  }
+  std::vector<double> all;
+  for (const double e : Restitutions()) all.push_back(law.Coefficient(e));
+  return all;
+}
+
+std::vector<double> Delivered(const LawEntry& law, const Settings& settings) {
+  std::vector<LawPoint> points;
+  for (const double e : Restitutions()) {
+    points.push_back({.law = &law,
+                      .requested = e,
+                      .delivered = law.closed_form() ? law.Delivered(e) : 0,
+                      .method = {}});
+  }
+  Simulate(&points, settings);
+  std::vector<double> all;
+  for (const LawPoint& point : points) all.push_back(point.delivered);
+  return all;
+}
+
+// A row for each restitution, a column for each law.
+Data Curves(const std::vector<const LawEntry*>& laws, bool alpha, const Settings& settings) {
+  Data data{"laws", {"restitution_in"}, {}};
+  for (const double e : Restitutions()) data.rows.push_back({e});
+  for (const LawEntry* law : laws) {
+    const std::vector<double> values = alpha ? Coefficients(*law) : Delivered(*law, settings);
+    for (std::size_t i = 0; i < values.size(); ++i) data.rows[i].push_back(values[i]);
+    data.columns.emplace_back(law->name());
+  }
+  return data;
+}
+
+ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
+  PictureFormat(arguments.file, settings);  // Told before anything is run.
+  const std::vector<const LawEntry*> laws = Chosen(arguments);
+  const bool alpha = arguments.what == "alpha";
+  std::vector<std::string> names;
+  for (const LawEntry* law : laws) names.emplace_back(law->name());
+  Figure figure = DrawColumns(
+      Curves(laws, alpha, settings),
+      alpha ? "hysteresis damping factor coefficient α" : "post-restitution coefficient", names);
+  figure.title = alpha ? "Coefficient α of the damping factor"
+                       : "Restitution that each law delivers; ideal dotted";
+  if (!alpha) AddIdeal(&figure);
+  WritePicture(figure, arguments.what, arguments.file, settings);
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddLawPlotCommand(CLI::App& model, const Settings& settings, Action* action) {
+  CLI::App* plot = model.add_subcommand(
+      "plot",
+      "Draw damping laws over the restitution asked for: -o svg, png, pdf, txt, tikz, gp "
+      "or csv");
+  auto arguments = std::make_shared<ModelPlotArguments>();
+  plot->add_option("WHAT", arguments->what,
+                   "alpha, the coefficient of each law, or restitution, what it gives back")
+      ->check(CLI::IsMember({"alpha", "restitution"}))
+      ->type_name("")
+      ->required();
+  plot->add_option("LAW", arguments->laws,
+                   "Laws to draw, such as hunt-crossley. Default: all with a closed form, for "
+                   "which no server is needed");
+  plot->add_option("-f,--file", arguments->file,
+                   "Where to; without -o its ending tells the format, .tex being tikz. Default: "
+                   "WHAT.svg; txt is printed")
+      ->type_name("FILE");
+  plot->callback([arguments, &settings, action] {
+    *action = [arguments, &settings] { return Plot(*arguments, settings); };
+  });
+}
+
+}  // namespace contact::cli

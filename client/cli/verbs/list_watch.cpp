@@ -1,0 +1,70 @@
+#include "cli/verbs/list_watch.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/base/interrupt.h"
+#include "cli/base/number.h"
+#include "cli/link/connect.h"
+#include "cli/link/job_names.h"
+#include "cli/link/watch_jobs.h"
+#include "cli/text/render_job.h"
+#include "cli/text/render_json.h"
+#include "cli/verbs/follow.h"
+
+namespace contact::cli {
+namespace {
+
+// A line for each job that is new or has changed.
+class JobLines : public JobsObserver {
+ public:
+  explicit JobLines(const Settings& settings) : settings_(settings) {}
+
+  void OnJob(const v1::Job& job) override {
+    if (settings_.output == "jsonl") return Print(ToJsonLine(job));
+    const Style style = settings_.OutputStyle();
+    const std::string state = v1::Job::State_Name(job.state());
+    const auto& time = job.has_end_time()     ? job.end_time()
+                       : job.has_start_time() ? job.start_time()
+                                              : job.create_time();
+    std::string line = fmt::format("{}  {}  {}", Instant(time), ShortName(job.name()),
+                                   Paint(state, ToneOf(job.state()), style));
+    if (!job.state_reason().empty()) line += fmt::format(" ({})", job.state_reason());
+    if (job.convergence() == v1::Job::PARTIAL) line += ", convergence PARTIAL";
+    Print(line + "\n");
+  }
+
+  void OnGone(const std::string& name) override {
+    v1::WatchJobsResponse gone;
+    gone.add_gone(name);
+    Print(settings_.output == "jsonl" ? ToJsonLine(gone) : ShortName(name) + "  gone\n");
+  }
+
+  void OnLost(const std::string& why, std::chrono::milliseconds) override {
+    fmt::print(stderr, "connection lost ({}); trying again\n", why);
+  }
+
+ private:
+  static void Print(const std::string& text) {
+    fmt::print("{}", text);
+    std::fflush(stdout);
+  }
+
+  const Settings& settings_;
+};
+
+}  // namespace
+
+ExitCode ListAndWatch(const v1::WatchJobsRequest& request, const Settings& settings) {
+  settings.RequireOutput({"table", "jsonl"});
+  Client client = Connect(settings);
+  const Interrupt interrupt;
+  JobLines lines(settings);
+  const JobsWatchOptions options{
+      .request = request, .deadline = settings.Deadline(), .stopped = Interrupt::raised};
+  const WatchEnd end = WatchJobs(client, options, lines);
+  return end == WatchEnd::kStopped ? ExitCode::kInterrupted : ExitCode::kTimeout;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,173 @@
+#include "cli/verbs/sweep_cell.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "base/spelling.h"
+#include "cli/base/interrupt.h"
+#include "cli/base/number.h"
+#include "cli/base/scalar.h"
+#include "cli/base/table.h"
+#include "cli/link/watch.h"
+#include "cli/text/render_job.h"
+#include "wire/sweep_fields.h"
+
+namespace contact::cli {
+namespace {
+
+class Collector final : public WatchObserver {
+ public:
+  void OnEvent(const v1::Event& event) override {
+    if (event.has_sweep_cell()) cells[event.sweep_cell().index()] = event.sweep_cell();
+  }
+  SweepCells cells;
+};
+
+struct Choice {
+  int axis = 0;
+  double value = 0;
+};
+
+int AxisOf(const v1::Sweep& sweep, const std::string& field) {
+  std::vector<int> found;
+  std::vector<std::string_view> axes;
+  std::vector<std::string_view> names;  // And their last parts.
+  for (int i = 0; i < sweep.axes_size(); ++i) {
+    const std::string& name = sweep.axes(i).field();
+    if (name == field) return i;
+    if (name.ends_with("." + field)) found.push_back(i);
+    axes.push_back(name);
+    names.push_back(name);
+    names.push_back(std::string_view(name).substr(name.rfind('.') + 1));
+  }
+  if (found.size() == 1) return found.front();
+  const std::string_view nearest = Nearest(field, names);
+  throw Failure(ExitCode::kUsage,
+                fmt::format("{} is no axis of this sweep — {}", Quoted(field),
+                            nearest.empty() ? fmt::format("axes are {}", fmt::join(axes, ", "))
+                                            : fmt::format("did you mean '{}'?", nearest)));
+}
+
+std::vector<Choice> ReadChoices(const v1::Sweep& sweep, const std::string& text) {
+  std::vector<Choice> choices;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    const std::size_t equals = part.find('=');
+    const auto value = ParseNumber(equals == std::string::npos ? part : part.substr(equals + 1));
+    if (equals == std::string::npos || !value) {
+      throw Failure(
+          ExitCode::kUsage,
+          fmt::format("{}: expected the number of a cell, or FIELD=VALUE,… such as {}=0.5",
+                      Quoted(part), sweep.axes(0).field()));
+    }
+    choices.push_back({AxisOf(sweep, part.substr(0, equals)), *value});
+    begin = end + 1;
+  }
+  return choices;
+}
+
+// As tables show values, with six digits.
+bool Near(double a, double b) {
+  return std::abs(a - b) <= 1e-5 * std::max(std::abs(a), std::abs(b));
+}
+
+bool Has(const v1::SweepCell& cell, const std::vector<Choice>& choices) {
+  return std::ranges::all_of(choices, [&cell](const Choice& choice) {
+    return Near(cell.values(choice.axis), choice.value);
+  });
+}
+
+[[noreturn]] void FailNone(const v1::Sweep& sweep, const SweepCells& cells, const Choice& choice) {
+  double nearest = cells.begin()->second.values(choice.axis);
+  for (const auto& [index, cell] : cells) {
+    const double value = cell.values(choice.axis);
+    if (std::abs(value - choice.value) < std::abs(nearest - choice.value)) nearest = value;
+  }
+  throw Failure(ExitCode::kUsage,
+                fmt::format("no cell has {}={}; the nearest value is {}",
+                            sweep.axes(choice.axis).field(), choice.value, nearest));
+}
+
+}  // namespace
+
+SweepCells ReadCells(Client& client, const v1::Job& job, const Settings& settings) {
+  WatchOptions options;
+  options.name = job.name();
+  options.kinds = {"sweep_cell"};
+  options.deadline = settings.Deadline();
+  options.stopped = Interrupt::raised;
+  const Interrupt interrupt;
+  Collector collector;
+  const WatchEnd end = Watch(client, options, collector);
+  if (end == WatchEnd::kFinished) return std::move(collector.cells);
+  const bool interrupted = end == WatchEnd::kStopped;
+  throw Failure(
+      interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout,
+      fmt::format("{}; {} has not ended", interrupted ? "interrupted" : "time is up", job.name()));
+}
+
+const v1::SweepCell& FindCell(const v1::Sweep& sweep, const SweepCells& cells,
+                              const std::string& text) {
+  if (const auto index = ParseInteger<int>(text)) {
+    const auto found = cells.find(*index);
+    if (found != cells.end()) return found->second;
+    throw Failure(
+        ExitCode::kUsage,
+        fmt::format("there is no cell {}; {}", *index,
+                    cells.empty() ? std::string("the sweep has none")
+                                  : fmt::format("the last is {}", cells.rbegin()->first)));
+  }
+  const std::vector<Choice> choices = ReadChoices(sweep, text);
+  std::vector<const v1::SweepCell*> found;
+  for (const auto& [index, cell] : cells) {
+    if (Has(cell, choices)) found.push_back(&cell);
+  }
+  if (found.size() == 1) return *found.front();
+  if (found.size() > 1) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{} cells have {}: {}, {}, …; name more fields", found.size(), text,
+                              found[0]->index(), found[1]->index()));
+  }
+  for (const Choice& choice : choices) {
+    const bool known = std::ranges::any_of(
+        cells, [&choice](const auto& entry) { return Has(entry.second, {choice}); });
+    if (!known && !cells.empty()) FailNone(sweep, cells, choice);
+  }
+  throw Failure(ExitCode::kUsage, fmt::format("no cell has {} together", text));
+}
+
+std::string RenderCell(const v1::Job& job, const v1::SweepCell& cell, const Style& style) {
+  const v1::Sweep& sweep = job.sweep();
+  const bool failed = cell.state() == v1::Job::FAILED;
+  std::string text = fmt::format(
+      "{}  {}{}\n",
+      Paint(fmt::format("{} cell {}", job.name(), cell.index()), Tone::kStrong, style),
+      Paint(v1::Job::State_Name(cell.state()), ToneOf(cell.state()), style),
+      failed ? "" : fmt::format("  convergence {}", v1::Job::Convergence_Name(cell.convergence())));
+  if (failed) {
+    text += Wrap(fmt::format("{}: {}\n", cell.state_reason(), cell.message()), style);
+  }
+  Table values({{"FIELD"}, {"VALUE", true}});
+  for (int i = 0; i < cell.values_size(); ++i) {
+    values.Add({sweep.axes(i).field(), fmt::to_string(cell.values(i))});
+  }
+  Table metrics({{"METRIC"}, {"VALUE", true}});
+  for (int i = 0; i < sweep.metrics_size(); ++i) {
+    metrics.Add({sweep.metrics(i), i < cell.metrics_size() ? Digits(cell.metrics(i), 10) : "-"});
+  }
+  return text + "\n" + values.Text(style) + "\n" + metrics.Text(style);
+}
+
+v1::Scenario ScenarioOf(const v1::Sweep& sweep, const v1::SweepCell& cell) {
+  std::vector<Violation> violations;
+  SweepFields fields(sweep, &violations);
+  std::vector<double> values(cell.values().begin(), cell.values().end());
+  return fields.Set(values);
+}
+
+}  // namespace contact::cli

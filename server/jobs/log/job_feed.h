@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/mutex.h"
+
+namespace contact {
+
+/// Tells those who watch all jobs which of them have changed. Thread-safe.
+class JobFeed {
+ public:
+  /// Past it a reader has lost its place: what it has not looked at may cost no more memory.
+  static constexpr std::size_t kMostChanges = 10'000;
+
+  /// Names of jobs that one reader has not looked at since they changed.
+  class Reader {
+   public:
+    explicit Reader(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+    /// Takes some of the names, `most` at most. If there are none, `wake` is called once there are.
+    std::vector<std::string> Take(std::size_t most);
+    /// True if there were too many names.
+    bool overflown() const;
+
+   private:
+    friend class JobFeed;
+    void Add(const std::string& name);
+
+    const std::function<void()> wake_;
+    mutable Mutex mutex_;
+    std::set<std::string> names_ ABSL_GUARDED_BY(mutex_);
+    bool overflown_ ABSL_GUARDED_BY(mutex_) = false;
+    bool waiting_ ABSL_GUARDED_BY(mutex_) = true;
+  };
+
+  /// Hears of changes from now on, until the reader is destroyed.
+  std::shared_ptr<Reader> Subscribe(std::function<void()> wake);
+
+  /// A job was created, changed its state, or was deleted; and that is stored.
+  void Changed(const std::string& name);
+
+ private:
+  Mutex mutex_;
+  std::vector<std::weak_ptr<Reader>> readers_ ABSL_GUARDED_BY(mutex_);
+};
+
+}  // namespace contact

@@ -1,0 +1,95 @@
+#include "jobs/read/csv_text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+namespace contact {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+
+void Append(double value, std::string* text) {
+  std::array<char, 32> digits{};  // The longest has 24.
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::general, 17);
+  text->append(digits.data(), end.ptr);
+}
+
+// A field's name on the wire ends with its unit.
+std::string ColumnName(const FieldDescriptor& field) {
+  constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
+      {"_m_per_s", "m/s"}, {"_s_per_m", "s/m"}, {"_m", "m"}, {"_s", "s"}, {"_j", "J"}, {"_n", "N"}};
+  const std::string_view name = field.name();
+  for (const auto& [suffix, unit] : kUnits) {
+    if (name.ends_with(suffix)) {
+      return fmt::format("{} [{}]", name.substr(0, name.size() - suffix.size()), unit);
+    }
+  }
+  if (field.name() == "mu") return "mu [N.s/m^(n+1)]";
+  const bool number = field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ||
+                      field.cpp_type() == FieldDescriptor::CPPTYPE_INT32;
+  return number ? fmt::format("{} [1]", name) : std::string(name);
+}
+
+void Append(const v1::Cycle& cycle, const FieldDescriptor& field, std::string* text) {
+  const auto& reflection = *v1::Cycle::GetReflection();
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return Append(reflection.GetDouble(cycle, &field), text);
+    case FieldDescriptor::CPPTYPE_ENUM:
+      *text += reflection.GetEnum(cycle, &field)->name();
+      return;
+    case FieldDescriptor::CPPTYPE_INT32:
+      *text += fmt::format("{}", reflection.GetInt32(cycle, &field));
+      return;
+    default:
+      *text += reflection.GetString(cycle, &field);  // Names of contacts need no quotes.
+  }
+}
+
+}  // namespace
+
+std::string CsvHeader(const v1::FrameChunk& chunk) {
+  std::string text;
+  for (const auto& column : chunk.columns()) {
+    text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name(), column.unit());
+  }
+  return text + '\n';
+}
+
+std::string CsvRows(const v1::FrameChunk& chunk) {
+  std::string text;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(chunk.samples()); ++row) {
+    for (const auto& column : chunk.columns()) {
+      double value;
+      std::memcpy(&value, column.values().data() + row * sizeof value, sizeof value);
+      Append(value, &text);
+      text += ',';
+    }
+    text.back() = '\n';
+  }
+  return text;
+}
+
+std::string CyclesCsv(const v1::Job& job) {
+  const auto& cycle = *v1::Cycle::descriptor();
+  std::string text;
+  for (int i = 0; i < cycle.field_count(); ++i) text += ColumnName(*cycle.field(i)) + ',';
+  text.back() = '\n';
+  for (const v1::Cycle& row : job.cycles()) {
+    for (int i = 0; i < cycle.field_count(); ++i) {
+      Append(row, *cycle.field(i), &text);
+      text += ',';
+    }
+    text.back() = '\n';
+  }
+  return text;
+}
+
+}  // namespace contact

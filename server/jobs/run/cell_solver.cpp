@@ -1,0 +1,113 @@
+#include "jobs/run/cell_solver.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "jobs/job/lifecycle.h"
+#include "jobs/run/run_recorder.h"
+#include "wire/result_codec.h"
+
+namespace contact {
+namespace {
+
+// Keeps of a run what metrics may ask for, and its samples if it records any.
+class CellObserver final : public Observer {
+ public:
+  CellObserver(const Scenario& scenario, RunControl& control, const std::function<void()>& pulse,
+               v1::Job* result, std::vector<v1::FrameChunk>* trajectory)
+      : scenario_(scenario),
+        control_(control),
+        pulse_(pulse),
+        result_(result),
+        trajectory_(trajectory) {}
+
+  void OnCycle(const Cycle& cycle) override { *result_->add_cycles() = Encode(scenario_, cycle); }
+  void OnSamples(const Samples& samples) override {
+    std::ranges::move(ChunksOf(scenario_, samples), std::back_inserter(*trajectory_));
+  }
+  void OnProgress(const Progress& /*progress*/) override { pulse_(); }
+  // In batches: all workers count on the same number.
+  void OnStep() override {
+    if (++steps_ == kBatch) TellSteps();
+  }
+
+  void TellSteps() { control_.CountSteps(std::exchange(steps_, 0)); }
+
+ private:
+  static constexpr std::int64_t kBatch = 64;
+
+  const Scenario& scenario_;
+  RunControl& control_;
+  const std::function<void()>& pulse_;
+  v1::Job* result_;
+  std::vector<v1::FrameChunk>* trajectory_;
+  std::int64_t steps_ = 0;  // Not told yet.
+};
+
+void Fail(const std::string& reason, const std::string& message, v1::SweepCell* cell) {
+  cell->set_state(v1::Job::FAILED);
+  cell->set_state_reason(reason);
+  cell->set_message(message);
+}
+
+}  // namespace
+
+CellSolver::CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan, const JobOptions& options)
+    : sweep_(sweep), plan_(plan), options_(options), fields_(sweep, &none_) {}
+
+std::optional<SolvedCell> CellSolver::Solve(std::int32_t index, RunControl& control,
+                                            const std::function<void()>& pulse) {
+  SolvedCell solved;
+  solved.cell.set_index(index);
+  try {
+    if (!Compute(control, pulse, &solved)) return std::nullopt;
+  } catch (...) {
+    const Move move = MoveAfterException();
+    Fail(move.state_reason, move.message, &solved.cell);
+  }
+  return solved;
+}
+
+bool CellSolver::Keeps(std::int32_t cell) const {
+  return std::ranges::find(sweep_.keep_trajectories(), cell) != sweep_.keep_trajectories().end();
+}
+
+bool CellSolver::Compute(RunControl& control, const std::function<void()>& pulse,
+                         SolvedCell* solved) {
+  v1::SweepCell* const cell = &solved->cell;
+  std::vector<double> values = plan_.axes.Values(cell->index());
+  DecodedScenario decoded = DecodeScenario(fields_.Set(values), options_.scenario_limits);
+  cell->mutable_values()->Add(values.begin(), values.end());
+  if (!decoded.violations.empty()) {
+    const Violation& first = decoded.violations.front();
+    Fail("SCENARIO_INVALID", first.field + ": " + first.description, cell);
+    for (const double metric : plan_.metrics.Of({})) cell->add_metrics(metric);
+    return true;
+  }
+  if (!Keeps(cell->index())) decoded.scenario.sample_interval = 0;  // No trajectory.
+  return Run(decoded.scenario, control, pulse, solved);
+}
+
+bool CellSolver::Run(const Scenario& scenario, RunControl& control,
+                     const std::function<void()>& pulse, SolvedCell* solved) const {
+  v1::Job result;
+  CellObserver observer(scenario, control, pulse, &result, &solved->trajectory);
+  const Outcome outcome = options_.run(scenario, observer, control.token());
+  observer.TellSteps();
+  const Move move = MoveAfter(outcome);
+  if (move.to == v1::Job::CANCELLED) return false;
+  EncodeOutcome(scenario, outcome, &result);
+  if (outcome.end != Outcome::End::kFinished) result.clear_convergence();
+  v1::SweepCell& cell = solved->cell;
+  cell.set_state(move.to);
+  cell.set_state_reason(move.state_reason);
+  cell.set_message(move.message);
+  cell.set_convergence(result.convergence());
+  for (const double metric : plan_.metrics.Of(result)) cell.add_metrics(metric);
+  return true;
+}
+
+}  // namespace contact

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+
+#include "base/sources.h"
+#include "jobs/job/job_options.h"
+#include "jobs/job/lifecycle.h"
+#include "jobs/run/assignment.h"
+#include "jobs/run/log_writer.h"
+#include "storage/store.h"
+
+namespace contact {
+
+class EndingRuns;
+class RunRecorder;
+
+/// Runs one job at a time, from its spec in the store to its result on the way there. Of one worker
+/// thread; may wait for the store.
+class JobRunner {
+ public:
+  JobRunner(Store& store, const Clock& clock, const JobOptions& options, EndingRuns& endings,
+            std::stop_token shutdown)
+      : store_(store),
+        clock_(clock),
+        options_(options),
+        endings_(endings),
+        shutdown_(std::move(shutdown)) {}
+
+  /// `ended` is called on the store's thread once the final state is committed, for which this does
+  /// not wait. It is not called if the job goes back into the queue because the server stops, or
+  /// cannot be stored, or if the run was given up.
+  void Run(Assignment assignment, std::function<void()> ended);
+
+ private:
+  void End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer,
+           std::function<void()> ended);
+  Move Solve(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
+  Move SolveScenario(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
+  Outcome RunScenario(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
+                      LogWriter& writer) const;
+  Outcome RunOrResume(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
+                      LogWriter& writer, RunRecorder& recorder) const;
+
+  Store& store_;
+  const Clock& clock_;
+  const JobOptions options_;  ///< A copy: a thread that hangs may outlive its manager.
+  EndingRuns& endings_;
+  const std::stop_token shutdown_;
+};
+
+}  // namespace contact

@@ -1,0 +1,194 @@
+#include "jobs/run/log_writer.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "storage/store.h"
+
+namespace contact {
+namespace {
+
+using std::chrono::steady_clock;
+
+// A batch goes to the store when it is large enough to be worth a sync of the disk, or old enough
+// for a watcher to notice.
+constexpr std::size_t kBatchBytes = 1 << 16;
+constexpr std::chrono::milliseconds kBatchTime{20};
+// Events that may wait beside the batch that is being written.
+constexpr std::size_t kMaxPendingBytes = 2 << 20;
+constexpr std::chrono::seconds kRetryTime{1};
+// What an event costs in memory beside its content.
+constexpr std::size_t kEventBytes = 128;
+
+}  // namespace
+
+LogWriter::LogWriter(Store& store, Place place, std::shared_ptr<RunControl> run,
+                     std::stop_token shutdown)
+    : store_(store),
+      name_(std::move(place.name)),
+      log_(std::move(place.log)),
+      run_(std::move(run)),
+      shutdown_(std::move(shutdown)),
+      epoch_(place.epoch) {}
+
+void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
+  pending_.take = true;
+  pending_.job = std::move(job);
+  pending_.events = std::move(events);
+  Advance(steady_clock::now());
+}
+
+bool LogWriter::Add(v1::Event event) {
+  const RunControl::Report report(*run_);
+  const std::size_t bytes = event.ByteSizeLong();
+  if (!report || !run_->CountOutput(static_cast<std::int64_t>(bytes))) return false;
+  pending_.bytes += bytes + kEventBytes;
+  pending_.events.push_back(std::move(event));
+  WriteWhatIsDue();
+  return true;
+}
+
+void LogWriter::AddCheckpoint(std::string state) {
+  const RunControl::Report report(*run_);
+  if (!report) return;
+  pending_.bytes += state.size();
+  pending_.checkpoint = Checkpoint{pending_.events.size(), std::move(state)};
+  Advance(steady_clock::now());
+}
+
+void LogWriter::Pump() {
+  if (const RunControl::Report report(*run_); report) WriteWhatIsDue();
+}
+
+void LogWriter::WriteWhatIsDue() {
+  const Time now = steady_clock::now();
+  if (pending_.bytes >= kBatchBytes || now - last_write_ >= kBatchTime) Advance(now);
+  if (pending_.bytes < kMaxPendingBytes) return;
+  if (Settle() == Disk::kLost) pending_ = {};
+  Advance(now);
+}
+
+bool LogWriter::Finish(v1::Job job, v1::Event event, Ended ended) {
+  report_.emplace(*run_);
+  if (!*report_) return false;
+  pending_.job = std::move(job);
+  pending_.events.push_back(std::move(event));
+  pending_.ended = std::move(ended);
+  Encode(&pending_);
+  Disk disk;
+  {
+    const MutexLock lock(mutex_);
+    finishing_ = true;
+    disk = disk_;
+  }
+  if (disk == Disk::kLost) {
+    Lose();
+  } else {
+    Advance(steady_clock::now());
+  }
+  return true;
+}
+
+void LogWriter::Retry() {
+  {
+    const MutexLock lock(mutex_);
+    if (!finishing_) return;
+  }
+  Advance(steady_clock::now());
+}
+
+// Serialises and compresses all that is to be stored and told, which is not for the store's thread.
+void LogWriter::Encode(Batch* batch) const {
+  batch->encoded = Store::Encode({.name = name_,
+                                  .take = batch->take,
+                                  .job = batch->job ? &*batch->job : nullptr,
+                                  .events = batch->events,
+                                  .checkpoint = batch->checkpoint ? &*batch->checkpoint : nullptr});
+  batch->records = ToRecords(std::exchange(batch->events, {}));
+}
+
+// Starts the next batch, or tries the last one again, if it is time. Never waits.
+void LogWriter::Advance(Time now) {
+  if (BeginWriting(now)) Send();
+}
+
+// True if the caller has to send batch_, and nobody else.
+bool LogWriter::BeginWriting(Time now) {
+  const MutexLock lock(mutex_);
+  if (disk_ == Disk::kFull) {
+    if (now - last_write_ < kRetryTime) return false;
+  } else {
+    const bool some = pending_.encoded || !pending_.events.empty() || pending_.checkpoint;
+    if (disk_ != Disk::kIdle || !some) return false;
+    batch_ = std::exchange(pending_, {});
+  }
+  last_write_ = now;
+  disk_ = Disk::kWriting;
+  return true;
+}
+
+void LogWriter::Send() {
+  if (!batch_.encoded) Encode(&batch_);
+  store_.Update(batch_.encoded, epoch_,
+                [self = shared_from_this()](const absl::StatusOr<std::uint64_t>& first) {
+                  self->Written(first);
+                });
+}
+
+// Waits until nothing is being written, or to be tried again.
+LogWriter::Disk LogWriter::Settle() {
+  for (;;) {
+    {
+      const MutexLock lock(mutex_);
+      while (disk_ == Disk::kWriting) changed_.wait(mutex_);
+      if (disk_ != Disk::kFull) return disk_;
+      changed_.wait_for(mutex_, shutdown_, kRetryTime, [] { return false; });
+      if (shutdown_.stop_requested()) return disk_ = Disk::kLost;
+    }
+    Advance(steady_clock::now());
+  }
+}
+
+// On the store's thread.
+void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
+  if (!first.ok()) return Failed(first.status());
+  if (batch_.take) ++epoch_;
+  log_->Append(*first, std::move(batch_.records));
+  batch_.encoded = nullptr;
+  if (batch_.ended) {
+    batch_.ended(&*batch_.job);
+    report_.reset();
+  }
+  if (Become(Disk::kIdle)) Advance(steady_clock::now());
+}
+
+void LogWriter::Failed(const absl::Status& status) {
+  if (!std::exchange(batch_.failed, true)) {
+    spdlog::error("job={} cannot store events: {}", name_, status.ToString());
+  }
+  if (absl::IsResourceExhausted(status)) {
+    Become(Disk::kFull);
+    return;
+  }
+  log_->Fail();
+  run_->Stop();
+  if (Become(Disk::kLost)) Lose();
+}
+
+// The end of the job cannot be stored.
+void LogWriter::Lose() {
+  const Ended& ended = batch_.ended ? batch_.ended : pending_.ended;
+  ended(nullptr);
+  report_.reset();
+}
+
+// True if the worker is gone, so that whoever calls has to see to the rest.
+bool LogWriter::Become(Disk disk) {
+  const MutexLock lock(mutex_);
+  disk_ = disk;
+  changed_.notify_all();
+  return finishing_;
+}
+
+}  // namespace contact

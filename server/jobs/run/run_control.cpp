@@ -1,0 +1,83 @@
+#include "jobs/run/run_control.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace contact {
+namespace {
+
+Move OverBudget(const char* state_reason, const std::string& what) {
+  return {v1::Job::FAILED, state_reason, fmt::format("the budget of {} was spent", what),
+          absl::StatusCode::kResourceExhausted};
+}
+
+}  // namespace
+
+void RunControl::Stop(StopCause cause) {
+  StopCause server = StopCause::kServer;
+  cause_.compare_exchange_strong(server, cause);
+  stop_.request_stop();
+}
+
+void RunControl::CountSteps(std::int64_t steps) {
+  const std::int64_t used = steps_.fetch_add(steps, std::memory_order_relaxed) + steps;
+  if (budget_.steps > 0 && used > budget_.steps) Stop(StopCause::kSteps);
+}
+
+bool RunControl::CountOutput(std::int64_t bytes) {
+  const std::int64_t used = output_bytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
+  if (budget_.output_bytes == 0 || used <= budget_.output_bytes) return true;
+  Stop(StopCause::kOutput);
+  return false;
+}
+
+bool RunControl::reporting() const {
+  const MutexLock lock(mutex_);
+  return reports_ > 0;
+}
+
+bool RunControl::GiveUp() {
+  const MutexLock lock(mutex_);
+  given_up_ = given_up_ || reports_ == 0;
+  return given_up_;
+}
+
+bool RunControl::given_up() const {
+  const MutexLock lock(mutex_);
+  return given_up_;
+}
+
+bool RunControl::Enter() {
+  const MutexLock lock(mutex_);
+  if (!given_up_) ++reports_;
+  return !given_up_;
+}
+
+void RunControl::Leave() {
+  const MutexLock lock(mutex_);
+  --reports_;
+}
+
+Move MoveAfterStop(StopCause cause, const RunBudget& budget) {
+  switch (cause) {
+    case StopCause::kWallTime:
+      return OverBudget(
+          reason::kBudgetWallTime,
+          fmt::format("{} s wall time", static_cast<double>(budget.wall_time.count()) / 1000));
+    case StopCause::kSteps:
+      return OverBudget(reason::kBudgetSteps, fmt::format("{} steps", budget.steps));
+    case StopCause::kOutput:
+      return OverBudget(reason::kBudgetOutput,
+                        fmt::format("{} bytes of output", budget.output_bytes));
+    case StopCause::kStalled:
+      return {v1::Job::FAILED, reason::kStalled, "the run made no step for too long",
+              absl::StatusCode::kDeadlineExceeded};
+    case StopCause::kServer:
+    case StopCause::kUser:
+      break;
+  }
+  return {v1::Job::CANCELLED, reason::kUserRequest};
+}
+
+}  // namespace contact

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/sources.h"
+#include "jobs/log/job_log.h"
+#include "jobs/run/log_writer.h"
+#include "jobs/run/run_control.h"
+#include "jobs/run/run_record.h"
+#include "simulation/run.h"
+
+namespace contact {
+
+/// Samples as chunks that each fit into a message.
+std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples);
+
+/// Thrown through a run that was asked to stop while it takes samples of one step without end.
+struct RunStopped {};
+
+/// Makes events of what a run reports. May throw RunStopped.
+class RunRecorder final : public Observer {
+ public:
+  /// Everything outlives the recorder. `checkpoint_interval`: see JobOptions.
+  RunRecorder(const Scenario& scenario, const Clock& clock, RunControl& control, LogWriter& writer,
+              JobLog& log, RunRecord& record, std::chrono::milliseconds checkpoint_interval)
+      : scenario_(scenario),
+        clock_(clock),
+        control_(control),
+        writer_(writer),
+        log_(log),
+        record_(record),
+        checkpoint_interval_(checkpoint_interval),
+        last_checkpoint_(clock.Elapsed()) {}
+
+  /// Adds an event to the log, and what the ledger has of it to the record: also for events that an
+  /// earlier attempt has recorded.
+  void Keep(v1::Event event);
+
+  void OnIteration(const Iteration& iteration) override;
+  void OnCycle(const Cycle& cycle) override;
+  void OnSamples(const Samples& samples) override;
+  void OnProgress(const Progress& progress) override;
+  void OnWarning(const std::string& warning) override;
+  void OnStep() override;
+  void OnBoundary(const std::function<RunState()>& state) override;
+
+ private:
+  v1::Event Event() const;
+
+  const Scenario& scenario_;
+  const Clock& clock_;
+  RunControl& control_;
+  LogWriter& writer_;
+  JobLog& log_;
+  RunRecord& record_;
+  const std::chrono::milliseconds checkpoint_interval_;
+  std::chrono::steady_clock::time_point last_checkpoint_;
+  std::chrono::steady_clock::time_point last_progress_ = {};
+  int chunks_ = 0;  ///< Since the last step, while the run is asked to stop.
+};
+
+}  // namespace contact

@@ -1,0 +1,97 @@
+#include "jobs/run/run_state_codec.h"
+
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/vector.hpp>
+#include <sstream>
+
+#include "version.h"
+
+namespace contact {
+
+// Every member of each value, in order; cereal finds these functions by their name.
+
+template <class Archive>
+void serialize(Archive& archive, Cycle& c) {
+  archive(c.contact, c.number, c.episode, c.kind, c.end, c.status, c.iterations);
+  archive(c.start_time, c.turn_time, c.end_time);
+  archive(c.start_deformation, c.max_deformation, c.end_deformation);
+  archive(c.approach_velocity, c.separation_velocity, c.mu);
+  archive(c.work_compression, c.work_restitution);
+  archive(c.dissipated_compression, c.dissipated_restitution);
+  archive(c.external_compression, c.external_restitution);
+  archive(c.restitution_in, c.restitution_out);
+  archive(c.peak_force, c.tension_time, c.identity_residual);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ContactState::Peak& p) {
+  archive(p.time, p.deformation, p.velocity, p.work, p.external_work);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ContactState& c) {
+  archive(c.phase, c.gap, c.cycles, c.last_mu, c.largest_work, c.settled);
+  archive(c.work, c.external_work, c.column, c.peak, c.cycle);
+}
+
+template <class Archive>
+void serialize(Archive& archive, State& s) {
+  archive(s.time, s.step, s.positions, s.velocities, s.contacts);
+  archive(s.load_work, s.support_loss, s.contact_loss, s.impulse);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Outcome& o) {
+  archive(o.end, o.message, o.time, o.all_converged, o.positions, o.velocities);
+  archive(o.steps, o.evaluations, o.iterations, o.episodes);
+  archive(o.worst_identity_residual, o.momentum_residual, o.energy_residual, o.kinetic_energy);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Samples& s) {
+  archive(s.first, s.columns, s.values);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Guess& g) {
+  archive(g.contact, g.number, g.start_time, g.mu, g.start_mu, g.settled_mu, g.length, g.speed);
+}
+
+template <class Archive>
+void serialize(Archive& archive, RunState& s) {
+  archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
+  archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
+  archive(s.guesses, s.warned, s.missed, s.samples);
+}
+
+namespace {
+
+std::string Build() { return std::string(kVersion) + ' ' + kRevision; }
+
+}  // namespace
+
+std::string EncodeRunState(const RunState& state) {
+  std::ostringstream bytes;
+  cereal::BinaryOutputArchive archive(bytes);
+  archive(Build(), state);
+  return bytes.str();
+}
+
+std::optional<RunState> DecodeRunState(const std::string& bytes) {
+  if (bytes.empty()) return std::nullopt;
+  try {
+    std::istringstream stream(bytes);
+    cereal::BinaryInputArchive archive(stream);
+    std::string build;
+    archive(build);
+    if (build != Build()) return std::nullopt;
+    RunState state;
+    archive(state);
+    return state;
+  } catch (const cereal::Exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace contact

@@ -1,0 +1,66 @@
+#include "jobs/run/sweep_run.h"
+
+#include <utility>
+
+namespace contact {
+
+SweepRun::SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done,
+                   const JobOptions& options, std::shared_ptr<RunControl> control, Sink sink)
+    : sweep_(std::move(sweep)),
+      plan_(std::move(plan)),
+      done_(std::move(done)),
+      options_(options),
+      control_(std::move(control)),
+      sink_(std::move(sink)) {
+  const MutexLock lock(mutex_);
+  SkipDone();
+}
+
+void SweepRun::SkipDone() {
+  while (next_ < plan_.axes.cells() && done_[static_cast<std::size_t>(next_)]) ++next_;
+}
+
+bool SweepRun::HasWork() const {
+  const MutexLock lock(mutex_);
+  return HasWorkLocked();
+}
+
+bool SweepRun::HasWorkLocked() const { return next_ < plan_.axes.cells() && !control_->stopping(); }
+
+std::optional<std::int32_t> SweepRun::Claim() {
+  const MutexLock lock(mutex_);
+  if (!HasWorkLocked()) return std::nullopt;
+  const std::int32_t cell = next_++;
+  SkipDone();
+  ++begun_;
+  return cell;
+}
+
+void SweepRun::Release() {
+  const MutexLock lock(mutex_);
+  --begun_;
+  released_.notify_all();
+}
+
+bool SweepRun::Work(std::chrono::milliseconds slice) {
+  const auto end = std::chrono::steady_clock::now() + slice;
+  std::optional<std::int32_t> index = Claim();
+  if (!index) return false;
+  CellSolver solver(sweep_, plan_, options_);
+  while (index) {
+    auto cell = solver.Solve(*index, *control_, sink_.pulse);
+    if (cell) sink_.store(*std::move(cell));
+    Release();
+    if (std::chrono::steady_clock::now() >= end) break;
+    index = Claim();
+  }
+  return true;
+}
+
+bool SweepRun::AwaitIdle(std::chrono::milliseconds limit) {
+  const MutexLock lock(mutex_);
+  if (begun_ > 0) released_.wait_for(mutex_, limit);
+  return begun_ == 0;
+}
+
+}  // namespace contact

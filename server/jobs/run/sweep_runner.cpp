@@ -1,0 +1,174 @@
+#include "jobs/run/sweep_runner.h"
+
+#include <fmt/format.h>
+
+#include <future>
+#include <utility>
+#include <vector>
+
+#include "wire/scenario_advice.h"
+
+namespace contact {
+namespace {
+
+constexpr std::chrono::milliseconds kSlice{1000};
+// How often what was handed to the log is written while its owner only waits for helpers.
+constexpr std::chrono::milliseconds kPulseTime{20};
+constexpr std::chrono::milliseconds kProgressTime{100};
+constexpr std::size_t kPageBytes = 1 << 20;
+// Cells that may be finished while somebody else is at the log, a few milliseconds' worth.
+constexpr std::size_t kMaxFinished = 64;
+
+absl::StatusOr<EventPage> ReadPage(Store& store, const std::string& name, std::uint64_t after) {
+  const auto promise = std::make_shared<std::promise<absl::StatusOr<EventPage>>>();
+  store.ReadEvents(
+      {name, after, KindBit(v1::Event::kSweepCell), kPageBytes},
+      [promise](absl::StatusOr<EventPage> page) { promise->set_value(std::move(page)); });
+  return promise->get_future().get();
+}
+
+}  // namespace
+
+SweepRunner::SweepRunner(Store& store, const Clock& clock, const JobOptions& options,
+                         const Assignment& assignment, LogWriter& writer)
+    : store_(store), clock_(clock), options_(options), assignment_(assignment), writer_(writer) {}
+
+Move SweepRunner::Run(const v1::Sweep& sweep) {
+  DecodedSweep plan = DecodeSweep(sweep, options_.scenario_limits);
+  if (!plan.violations.empty()) {
+    const Violation& first = plan.violations.front();
+    return MoveAfterFault("sweep." + first.field + ": " + first.description);
+  }
+  const std::int32_t cells = plan.axes.cells();
+  const std::vector<Violation> advice = AdviseOnTime(sweep, plan);
+  std::vector<bool> done(static_cast<std::size_t>(cells));
+  if (!ReadDone(&done)) return MoveAfterFault("the cells of an earlier attempt cannot be read");
+  {
+    const MutexLock lock(log_mutex_);
+    progress_.set_cells(cells);
+    Publish();
+  }
+  const SweepRun::Sink sink{[this](SolvedCell solved) { TakeCell(std::move(solved)); },
+                            [this] { Pulse(); }};
+  const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), options_,
+                                              assignment_.control, sink);
+  if (const RunControl::Report report(*assignment_.control); report) assignment_.offer(run);
+  while (run->Work(kSlice)) {
+  }
+  while (!run->AwaitIdle(kPulseTime)) Pulse();
+  return Conclude(advice);
+}
+
+// What is stored already. A damaged cell is computed again.
+bool SweepRunner::ReadDone(std::vector<bool>* done) {
+  const RunControl::Report report(*assignment_.control);
+  if (!report) return false;
+  const MutexLock lock(log_mutex_);
+  const std::uint64_t last = assignment_.job.last_sequence();
+  for (std::uint64_t position = 0; position < last;) {
+    const absl::StatusOr<EventPage> page = ReadPage(store_, assignment_.job.name(), position);
+    if (!page.ok()) return false;
+    position = page->position;
+    for (const StoredEvent& stored : page->events) {
+      v1::Event event;
+      if (!stored.Parse(&event)) continue;
+      const auto index = static_cast<std::size_t>(event.sweep_cell().index());
+      if (index >= done->size() || (*done)[index]) continue;
+      (*done)[index] = true;
+      Count(event.sweep_cell().state(), event.sweep_cell().convergence());
+    }
+  }
+  return true;
+}
+
+void SweepRunner::Count(v1::Job::State state, v1::Job::Convergence convergence) {
+  progress_.set_cells_done(progress_.cells_done() + 1);
+  if (state == v1::Job::FAILED) {
+    progress_.set_cells_failed(progress_.cells_failed() + 1);
+  } else if (convergence != v1::Job::FULL) {
+    progress_.set_cells_not_converged(progress_.cells_not_converged() + 1);
+  }
+}
+
+// Who finds somebody at the log leaves the cell to them, if it may: they look again as they go.
+void SweepRunner::TakeCell(SolvedCell solved) {
+  if (PutFinished(std::move(solved))) {
+    const MutexLock lock(log_mutex_);
+    StoreFinished();
+  }
+  while (SomeFinished() && log_mutex_.try_lock()) {
+    StoreFinished();
+    log_mutex_.unlock();
+  }
+}
+
+// True if so much is finished that it has to be in the log before anybody goes on.
+bool SweepRunner::PutFinished(SolvedCell solved) {
+  const bool large = !solved.trajectory.empty();
+  const MutexLock lock(mutex_);
+  finished_.push_back(std::move(solved));
+  return large || finished_.size() >= kMaxFinished;
+}
+
+bool SweepRunner::SomeFinished() {
+  const MutexLock lock(mutex_);
+  return !finished_.empty();
+}
+
+void SweepRunner::StoreFinished() {
+  std::vector<SolvedCell> cells;
+  {
+    const MutexLock lock(mutex_);
+    cells.swap(finished_);
+  }
+  for (SolvedCell& solved : cells) StoreCell(std::move(solved));
+}
+
+// What was kept of the cell stands before it in the log, and nothing between.
+void SweepRunner::StoreCell(SolvedCell solved) {
+  const v1::Job::State state = solved.cell.state();
+  const v1::Job::Convergence convergence = solved.cell.convergence();
+  v1::Event event = EventAt(clock_.Now());
+  *event.mutable_sweep_cell() = std::move(solved.cell);
+  for (v1::FrameChunk& chunk : solved.trajectory) {
+    v1::Event frame = EventAt(clock_.Now());
+    *frame.mutable_frame_chunk() = std::move(chunk);
+    if (!writer_.Add(std::move(frame))) return;
+  }
+  if (!writer_.Add(std::move(event))) return;
+  Count(state, convergence);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_progress_ < kProgressTime) return;
+  last_progress_ = now;
+  Publish();
+}
+
+void SweepRunner::Pulse() {
+  if (!log_mutex_.try_lock()) return;
+  writer_.Pump();
+  log_mutex_.unlock();
+}
+
+void SweepRunner::Publish() {
+  v1::Event event = EventAt(clock_.Now());
+  *event.mutable_progress() = progress_;
+  assignment_.record->Do([&](v1::Job& job) { *job.mutable_progress() = event.progress(); });
+  assignment_.log->SetProgress(std::move(event));
+}
+
+Move SweepRunner::Conclude(const std::vector<Violation>& advice) {
+  const MutexLock lock(log_mutex_);
+  StoreFinished();
+  Publish();
+  if (progress_.cells_done() < progress_.cells()) return {v1::Job::CANCELLED, reason::kUserRequest};
+  const std::int32_t cells = progress_.cells(), failed = progress_.cells_failed();
+  const bool full = failed == 0 && progress_.cells_not_converged() == 0;
+  assignment_.record->Do([&](v1::Job& job) {
+    job.set_convergence(full ? v1::Job::FULL : v1::Job::PARTIAL);
+    if (failed > 0) job.add_warnings(fmt::format("{} of {} cells failed", failed, cells));
+    for (const Violation& a : advice) job.add_warnings(Text(a));
+  });
+  return {v1::Job::SUCCEEDED};
+}
+
+}  // namespace contact

@@ -1,0 +1,186 @@
+#include "jobs/schedule/retention.h"
+
+#include <absl/status/statusor.h>
+#include <google/protobuf/util/time_util.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <future>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+
+#include "base/sources.h"
+#include "jobs/job/lifecycle.h"
+#include "jobs/log/job_feed.h"
+#include "storage/store.h"
+
+namespace contact {
+namespace {
+
+using google::protobuf::util::TimeUtil;
+
+constexpr std::chrono::minutes kPeriod{1};
+constexpr int kPage = 200;
+
+template <class T>
+std::function<void(absl::StatusOr<T>)> Fulfil(std::future<absl::StatusOr<T>>* future) {
+  const auto promise = std::make_shared<std::promise<absl::StatusOr<T>>>();
+  *future = promise->get_future();
+  return [promise](absl::StatusOr<T> value) { promise->set_value(std::move(value)); };
+}
+
+absl::StatusOr<JobPage> ReadPage(Store& store, std::int64_t before) {
+  std::future<absl::StatusOr<JobPage>> page;
+  store.List({.states = {v1::Job::SUCCEEDED, v1::Job::FAILED, v1::Job::CANCELLED},
+              .before = before,
+              .limit = kPage},
+             Fulfil(&page));
+  return page.get();
+}
+
+std::unordered_map<std::string, std::int64_t> ReadBytes(Store& store) {
+  std::future<absl::StatusOr<std::vector<JobSize>>> sizes;
+  store.Sizes(Fulfil(&sizes));
+  std::unordered_map<std::string, std::int64_t> bytes;
+  const absl::StatusOr<std::vector<JobSize>> read = sizes.get();
+  if (!read.ok()) return bytes;
+  for (const JobSize& size : *read) bytes.emplace(size.name, size.bytes);
+  return bytes;
+}
+
+bool Delete(Store& store, const std::string& name) {
+  std::future<absl::StatusOr<bool>> deleted;
+  store.Delete(name, "", Fulfil(&deleted));
+  return deleted.get().ok();  // Else someone was faster.
+}
+
+bool Compact(Store& store, const std::string& name) {
+  std::future<absl::StatusOr<bool>> compacted;
+  store.Compact(name, Fulfil(&compacted));
+  return compacted.get().ok();  // Else it was just deleted.
+}
+
+}  // namespace
+
+std::optional<WallTime> ExpiryOf(const v1::Job& job, const RetentionLimits& limits) {
+  if (!IsFinal(job.state()) || !job.has_end_time()) return std::nullopt;
+  std::chrono::nanoseconds kept(TimeUtil::DurationToNanoseconds(job.time_to_live()));
+  if (kept.count() == 0) kept = limits.age;
+  if (kept.count() == 0) return std::nullopt;
+  const std::chrono::nanoseconds end(TimeUtil::TimestampToNanoseconds(job.end_time()));
+  return WallTime(std::chrono::duration_cast<WallTime::duration>(end + kept));
+}
+
+bool IsToCompact(const v1::Job& job, WallTime now, const RetentionLimits& limits) {
+  if (limits.compact_after.count() == 0 || !IsFinal(job.state())) return false;
+  const std::chrono::nanoseconds end(TimeUtil::TimestampToNanoseconds(job.end_time()));
+  return end + limits.compact_after <= now.time_since_epoch();
+}
+
+void SetExpireTime(const RetentionLimits& limits, v1::Job* job) {
+  const auto expiry = ExpiryOf(*job, limits);
+  if (!expiry) return;
+  *job->mutable_expire_time() = ToTimestamp(*expiry);
+}
+
+std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now,
+                                 const RetentionLimits& limits) {
+  std::int64_t kept = 0;
+  std::vector<std::string> expired;
+  for (const EndedJob& job : jobs) {
+    const bool old = job.expiry && *job.expiry <= now;
+    if (old) expired.push_back(job.name);
+    if (!old) kept += job.bytes;
+  }
+  if (limits.bytes == 0) return expired;
+  for (auto job = jobs.begin(); job != jobs.end() && kept > limits.bytes; ++job) {
+    if (job->expiry && *job->expiry <= now) continue;
+    expired.push_back(job->name);
+    kept -= job->bytes;
+  }
+  return expired;
+}
+
+Retention::Retention(Store& store, const Clock& clock, RetentionLimits limits, JobFeed& feed)
+    : store_(store), clock_(clock), limits_(limits), feed_(feed) {}
+
+Retention::~Retention() { Stop(); }
+
+void Retention::Start() {
+  thread_ = std::thread([this] { Loop(); });
+}
+
+void Retention::Stop() {
+  {
+    const MutexLock lock(mutex_);
+    stopped_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+bool Retention::stopped() const {
+  const MutexLock lock(mutex_);
+  return stopped_;
+}
+
+void Retention::Loop() {
+  while (!stopped()) {
+    if (const int deleted = Sweep(); deleted > 0) spdlog::info("deleted {} expired jobs", deleted);
+    const MutexLock lock(mutex_);
+    if (!stopped_) changed_.wait_for(mutex_, kPeriod);
+  }
+}
+
+int Retention::Sweep() {
+  const std::vector<EndedJob> jobs = ListEnded();
+  const int deleted = Delete(jobs);
+  Compact(jobs);
+  return deleted;
+}
+
+int Retention::Delete(const std::vector<EndedJob>& jobs) {
+  int deleted = 0;
+  for (const std::string& name : Expired(jobs, clock_.Now(), limits_)) {
+    if (stopped()) break;
+    if (!contact::Delete(store_, name)) continue;
+    feed_.Changed(name);
+    ++deleted;
+  }
+  return deleted;
+}
+
+void Retention::Compact(const std::vector<EndedJob>& jobs) {
+  for (const EndedJob& job : jobs) {
+    if (stopped()) break;
+    if (job.to_compact && contact::Compact(store_, job.name)) feed_.Changed(job.name);
+  }
+}
+
+// Oldest end first.
+std::vector<EndedJob> Retention::ListEnded() {
+  std::vector<std::pair<std::int64_t, EndedJob>> found;
+  const auto bytes =
+      limits_.bytes > 0 ? ReadBytes(store_) : std::unordered_map<std::string, std::int64_t>();
+  std::int64_t before = 0;
+  do {
+    const absl::StatusOr<JobPage> page = ReadPage(store_, before);
+    if (!page.ok()) break;
+    for (const StoredJob& stored : page->jobs) {
+      const v1::Job& job = stored.job;
+      const auto size = bytes.find(job.name());
+      found.push_back({TimeUtil::TimestampToNanoseconds(job.end_time()),
+                       {job.name(), ExpiryOf(job, limits_), size == bytes.end() ? 0 : size->second,
+                        !stored.compacted && IsToCompact(job, clock_.Now(), limits_)}});
+    }
+    before = page->next;
+  } while (before > 0 && !stopped());
+  std::ranges::stable_sort(found, {}, [](const auto& entry) { return entry.first; });
+  std::vector<EndedJob> jobs;
+  jobs.reserve(found.size());
+  for (auto& [end, job] : found) jobs.push_back(std::move(job));
+  return jobs;
+}
+
+}  // namespace contact

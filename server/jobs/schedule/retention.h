@@ -1,0 +1,74 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/mutex.h"
+#include "contact/v1/job.pb.h"
+#include "jobs/job/job_options.h"
+
+namespace contact {
+
+class Clock;
+class JobFeed;
+class Store;
+
+using WallTime = std::chrono::system_clock::time_point;
+
+/// When an ended job is too old to be kept; none: never, or it has not ended.
+std::optional<WallTime> ExpiryOf(const v1::Job& job, const RetentionLimits& limits);
+
+/// True if the frame chunks of an ended job are not kept any more.
+bool IsToCompact(const v1::Job& job, WallTime now, const RetentionLimits& limits);
+
+/// Sets `expire_time`.
+void SetExpireTime(const RetentionLimits& limits, v1::Job* job);
+
+struct EndedJob {
+  std::string name;
+  std::optional<WallTime> expiry;
+  std::int64_t bytes = 0;
+  bool to_compact = false;
+};
+/// Names of the jobs that are not kept any more. `jobs`: all that have ended, oldest end first.
+std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now,
+                                 const RetentionLimits& limits);
+
+/// Deletes ended jobs that are not kept any more, and compacts others, once started each minute on
+/// a thread of its own. Reads and deletes little at a time, so that the store serves others in
+/// between.
+class Retention {
+ public:
+  /// All outlive it.
+  Retention(Store& store, const Clock& clock, RetentionLimits limits, JobFeed& feed);
+  ~Retention();
+
+  void Start();
+  /// Deletes and compacts what is due now; waits for it. Returns how many jobs were deleted.
+  int Sweep();
+  /// Ends the thread. Idempotent.
+  void Stop();
+
+ private:
+  void Loop();
+  int Delete(const std::vector<EndedJob>& jobs);
+  void Compact(const std::vector<EndedJob>& jobs);
+  bool stopped() const;
+  std::vector<EndedJob> ListEnded();
+
+  Store& store_;
+  const Clock& clock_;
+  const RetentionLimits limits_;
+  JobFeed& feed_;
+  mutable Mutex mutex_;
+  std::condition_variable_any changed_;
+  bool stopped_ ABSL_GUARDED_BY(mutex_) = false;
+  std::thread thread_;  // Last: it uses all of the above.
+};
+
+}  // namespace contact

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "jobs/log/job_feed.h"
+#include "jobs/run/ending_runs.h"
+#include "jobs/run/job_runner.h"
+#include "jobs/run/sweep_run.h"
+#include "jobs/schedule/job_queue.h"
+#include "jobs/schedule/watchdog.h"
+#include "jobs/schedule/worker_pool.h"
+
+namespace contact {
+
+/// Decides when a job runs: knows the jobs that have not ended, queues them by priority, has the
+/// worker threads and watches over them. A worker without a job helps with a sweep. Thread-safe.
+///
+/// A job that was running each time the server died, and has one attempt left, never runs together
+/// with another such one: so each next death tells which of them is to blame.
+///
+/// Jobs enter and leave it on the store's thread, in the order of their commits; so in a callback
+/// of the store a job is known here just if the store says that it has not ended.
+class Scheduler {
+ public:
+  /// Queues the jobs that an earlier process left unfinished, and starts the workers. Every change
+  /// of a job's state is told to `feed`.
+  Scheduler(Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed);
+  ~Scheduler();
+
+  /// Keeps a place in the queue for a job that is being stored. False: the queue is full.
+  bool Reserve();
+  /// Gives it back, if the job does not come.
+  void Release();
+  /// Fills it with a job that is stored now, all of it, with the first events of its log.
+  void Enqueue(v1::Job job, std::vector<v1::Event> events);
+
+  /// Takes a job from the queue, or asks its worker to stop. `done` is called on the store's
+  /// thread when that is stored, or at once if there is nothing to do. ABORTED, with the payload
+  /// kUidPayload: the job's uid is not `expected_uid`, if that is not empty.
+  void Cancel(const std::string& name, const std::string& expected_uid,
+              std::function<void(const absl::Status&)> done);
+
+  /// The log of a job that has not ended; else null.
+  std::shared_ptr<JobLog> Log(const std::string& name) const;
+  /// What the run of the job has brought so far, if it is running; else null.
+  std::shared_ptr<const RunRecord> Record(const v1::Job& job) const;
+
+  int queued() const;
+  int running() const;
+
+  /// Puts running jobs back into the queue, in the store, and joins the workers. Idempotent.
+  void Stop();
+
+ private:
+  struct Active {
+    v1::Job job;                            ///< Header.
+    std::shared_ptr<const StoredJob> spec;  ///< Of one that waits; null: in the store only.
+    std::uint64_t epoch = 0;
+    std::uint64_t number = 0;  ///< Order of coming.
+    std::shared_ptr<JobLog> log;
+    std::shared_ptr<RunRecord> record = std::make_shared<RunRecord>();
+    std::shared_ptr<RunControl> control;  ///< Once it runs.
+  };
+  struct Running {
+    Watchdog watchdog;
+    bool last_attempt;
+  };
+  using Done = std::function<void(const absl::Status&)>;
+
+  void Recover();
+  void Recover(StoredJob stored);
+  std::shared_ptr<JobLog> NewLog(const std::string& name, std::uint64_t last);
+  void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void KeepSpec(Active* active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  std::shared_ptr<const StoredJob> TakeSpec(Active* active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Queue(const Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool LastAttempt(const v1::Job& job) const;
+  void Work(Worker& worker);
+  /// What a worker does next: a job, or help; neither when it is time to stop.
+  struct Task {
+    std::optional<Assignment> job;
+    std::shared_ptr<SweepRun> sweep;
+  };
+  Task Next(Worker& worker);
+  std::optional<std::string> NextJob() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Offer(std::shared_ptr<SweepRun> sweep);
+  std::shared_ptr<SweepRun> FindSweep() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Remove(const std::string& name);
+  void Withdraw(const Active& active, Done done);
+  void Watch();
+  std::vector<Active> FindLost() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Bury(const Active& active);
+
+  Store& store_;
+  const Clock& clock_;
+  const JobOptions& options_;
+  JobFeed& feed_;
+  std::stop_source shutdown_;
+
+  mutable Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
+  JobQueue queue_ ABSL_GUARDED_BY(mutex_);
+  std::uint64_t numbers_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::map<std::string, Running> running_ ABSL_GUARDED_BY(mutex_);
+  std::vector<std::weak_ptr<SweepRun>> sweeps_ ABSL_GUARDED_BY(mutex_);
+  int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::size_t spec_bytes_ ABSL_GUARDED_BY(mutex_) = 0;  ///< Of the specs in memory.
+  std::condition_variable_any started_;                 ///< A job where none ran, or the end.
+  EndingRuns endings_;
+  // Last: they use all of the above.
+  WorkerPool workers_;
+  std::thread watch_;
+};
+
+}  // namespace contact

@@ -1,0 +1,29 @@
+#include "jobs/schedule/watchdog.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace contact {
+namespace {
+
+// What counts as idle between two looks at most: when the whole process was held up, so was the
+// run.
+constexpr std::chrono::seconds kMostIdle{1};
+
+}  // namespace
+
+bool Watchdog::Look(RunControl& control, Time now, const Patience& patience) {
+  const auto passed = std::min<Time::duration>(now - std::exchange(last_look_, now), kMostIdle);
+  const auto wall_time = control.budget().wall_time;
+  if (wall_time.count() > 0 && now - start_ >= wall_time) control.Stop(StopCause::kWallTime);
+  const std::int64_t signs = control.signs();
+  const bool stopping = control.stopping();
+  const bool alive = signs != std::exchange(signs_, signs) ||
+                     stopping != std::exchange(stopping_, stopping) || control.reporting();
+  idle_ = alive ? std::chrono::nanoseconds(0) : idle_ + passed;
+  if (stopping) return idle_ >= patience.stop;
+  if (patience.step.count() > 0 && idle_ >= patience.step) control.Stop(StopCause::kStalled);
+  return false;
+}
+
+}  // namespace contact

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/mutex.h"
+#include "jobs/run/run_control.h"
+
+namespace contact {
+
+/// A thread that works for one run after the other, and may be given up when it does not come back
+/// from one. Thread-safe.
+class Worker {
+ public:
+  /// Begins to work for a run.
+  void Begin(std::shared_ptr<RunControl> run);
+  /// Has come back. False: it was given up, and must end without touching what is not its own.
+  bool End();
+
+ private:
+  friend class WorkerPool;
+
+  /// Gives it up if it works for this run, which was given up.
+  bool Lose(const RunControl& run);
+  /// Waits for its end. False: it has not come until `limit`, and is given up with its run.
+  bool AwaitFinish(std::chrono::steady_clock::time_point limit);
+  void Finish();
+
+  Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::shared_ptr<RunControl> run_ ABSL_GUARDED_BY(mutex_);  ///< Null: none.
+  bool lost_ ABSL_GUARDED_BY(mutex_) = false;
+  bool finished_ ABSL_GUARDED_BY(mutex_) = false;
+};
+
+/// The workers. One that is given up is replaced; its thread may outlive the pool.
+class WorkerPool {
+ public:
+  using Loop = std::function<void(Worker&)>;
+
+  /// Each thread runs `loop` once.
+  explicit WorkerPool(Loop loop) : loop_(std::move(loop)) {}
+
+  void Start(int threads);
+  /// Gives up the workers of a run that was given up, and starts as many others. Thread-safe.
+  void Replace(const RunControl& run);
+  /// Waits until the loops have returned, and gives up those that take longer than `patience`.
+  /// Not together with the other calls. Idempotent.
+  void Stop(std::chrono::milliseconds patience);
+
+ private:
+  struct Member {
+    std::shared_ptr<Worker> worker;
+    std::thread thread;
+  };
+
+  const Loop loop_;
+  Mutex mutex_;
+  std::vector<Member> members_ ABSL_GUARDED_BY(mutex_);
+};
+
+}  // namespace contact

@@ -1,0 +1,151 @@
+#include "rpc/metrics/metrics_page.h"
+
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace contact {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using Labels = std::vector<ClientMetric::Label>;
+
+// Names of grpc::StatusCode, from 0 on.
+constexpr std::array<const char*, 17> kCodes = {
+    "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+    "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+    "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+    "DATA_LOSS", "UNAUTHENTICATED"};
+
+std::string CodeName(int code) {
+  const auto index = static_cast<std::size_t>(code);
+  return index < kCodes.size() ? kCodes[index] : "UNKNOWN";
+}
+
+// Builds the families one after the other.
+class Page {
+ public:
+  Page& Gauge(const char* name, const char* help) { return Begin(name, help, MetricType::Gauge); }
+  Page& Counter(const char* name, const char* help) {
+    return Begin(name, help, MetricType::Counter);
+  }
+  Page& Distribution(const char* name, const char* help) {
+    return Begin(name, help, MetricType::Histogram);
+  }
+
+  template <class Number>
+  Page& Add(Number value, Labels labels = {}) {
+    ClientMetric& metric = Next(std::move(labels));
+    metric.gauge.value = metric.counter.value = static_cast<double>(value);
+    return *this;
+  }
+
+  Page& Add(const Histogram& histogram, Labels labels = {}) {
+    const Histogram::Snapshot snapshot = histogram.Get();
+    ClientMetric::Histogram& out = Next(std::move(labels)).histogram;
+    for (std::size_t i = 0; i < snapshot.counts.size(); ++i) {
+      out.sample_count += static_cast<std::uint64_t>(snapshot.counts[i]);
+      const bool last = i == snapshot.bounds.size();
+      out.bucket.push_back(
+          {out.sample_count, last ? std::numeric_limits<double>::infinity() : snapshot.bounds[i]});
+    }
+    out.sample_sum = snapshot.sum;
+    return *this;
+  }
+
+  std::vector<MetricFamily> Take() { return std::move(families_); }
+
+ private:
+  Page& Begin(const char* name, const char* help, MetricType type) {
+    families_.push_back({name, help, type, {}});
+    return *this;
+  }
+  ClientMetric& Next(Labels labels) {
+    ClientMetric& metric = families_.back().metric.emplace_back();
+    metric.label = std::move(labels);
+    return metric;
+  }
+
+  std::vector<MetricFamily> families_;
+};
+
+void AddNow(const MetricsSources::Now& now, Page* page) {
+  page->Gauge("contactd_workers", "Threads that run simulations").Add(now.workers);
+  page->Gauge("contactd_jobs", "Jobs that have not ended, by state")
+      .Add(now.queued_jobs, {{"state", "QUEUED"}})
+      .Add(now.running_jobs, {{"state", "RUNNING"}});
+  page->Gauge("contactd_watchers", "Watchers").Add(now.watchers);
+  page->Gauge("contactd_connections", "Connections").Add(now.connections);
+  page->Counter("contactd_connections_refused_total", "Connections past a limit")
+      .Add(now.refused_connections);
+  page->Gauge("contactd_store_bytes", "Size of the database files").Add(now.stored_bytes);
+}
+
+void AddJobs(const JobMetrics& jobs, Page* page) {
+  page->Counter("contactd_job_moves_total", "Jobs that came into a state, by state and reason");
+  for (const auto& [move, count] : jobs.moves()) {
+    page->Add(count, {{"state", v1::Job::State_Name(move.first)}, {"reason", move.second}});
+  }
+  page->Distribution("contactd_job_wait_seconds", "From creation to the first start")
+      .Add(jobs.wait_seconds);
+  page->Distribution("contactd_job_run_seconds", "From the last start to the end")
+      .Add(jobs.run_seconds);
+  page->Distribution("contactd_cycle_iterations", "Iterations of mu in a cycle")
+      .Add(jobs.iterations);
+  page->Counter("contactd_steps_total", "Integration steps of ended jobs").Add(jobs.steps.load());
+}
+
+void AddStore(const StoreMetrics& store, Page* page) {
+  page->Distribution("contactd_store_commit_seconds", "Time of a transaction with its sync")
+      .Add(store.commit_seconds);
+  page->Distribution("contactd_store_commit_operations", "Operations that shared a transaction")
+      .Add(store.commit_operations);
+  page->Counter("contactd_store_failed_commits_total", "Transactions that were undone")
+      .Add(store.failed_commits.load());
+}
+
+void AddCalls(const RpcMetrics& rpc, Page* page) {
+  const auto methods = rpc.methods();
+  page->Gauge("contactd_rpc_open", "Calls that are open");
+  for (const auto& [name, calls] : methods) page->Add(calls.open, {{"method", name}});
+  page->Counter("contactd_rpc_ended_total", "Calls that have ended, by code");
+  for (const auto& [name, calls] : methods) {
+    for (const auto& [code, count] : calls.ended) {
+      page->Add(count, {{"method", name}, {"code", CodeName(code)}});
+    }
+  }
+  page->Distribution("contactd_rpc_seconds", "From the begin of a call to its status");
+  for (const auto& [name, calls] : methods) page->Add(*calls.seconds, {{"method", name}});
+  page->Counter("contactd_rpc_streamed_bytes_total", "Bytes of the messages of streams");
+  for (const auto& [name, calls] : methods) page->Add(calls.streamed_bytes, {{"method", name}});
+  page->Counter("contactd_rpc_refused_total", "Calls refused at once, by reason");
+  for (const auto& [reason, count] : rpc.refused()) page->Add(count, {{"reason", reason}});
+}
+
+void AddStreams(const StreamMetrics& streams, Page* page) {
+  page->Gauge("contactd_streams_slow", "Streams whose reader holds up a write for over a second")
+      .Add(streams.slow.load());
+  page->Counter("contactd_streams_dropped_total", "Streams whose reader took nothing for too long")
+      .Add(streams.dropped.load());
+  page->Counter("contactd_events_conflated_total", "Events left out for slow or sparing readers")
+      .Add(streams.conflated.load());
+  page->Distribution("contactd_stream_reaction_seconds", "Time that a stream's reaction takes")
+      .Add(streams.reaction_seconds);
+}
+
+}  // namespace
+
+std::vector<MetricFamily> MetricsPage::Collect() const {
+  Page page;
+  AddNow(sources_.now(), &page);
+  AddJobs(*sources_.jobs, &page);
+  AddStore(*sources_.store, &page);
+  AddCalls(*sources_.rpc, &page);
+  AddStreams(*sources_.streams, &page);
+  return page.Take();
+}
+
+}  // namespace contact

@@ -1,0 +1,185 @@
+#include "simulation/forecast/encounter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace contact {
+namespace {
+
+// Two sides closer than this part of their coordinates touch.
+constexpr double kTouch = 1e-12;
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+// The forces on a body that follow from where it is and from the time alone.
+struct Forces {
+  double constant = 0;   // Of loads that never end [N].
+  double stiffness = 0;  // Of supports to the ground [N/m],
+  double rest = 0;       // and their force at x = 0 [N].
+  double swinging = 0;   // Amplitudes of sines that never end [N].
+  double right = 0;      // The most that a load which ends pushes to the right [N],
+  double left = 0;       // and to the left,
+  double passing = 0;    // and for how long such loads act in all [s].
+  bool linked = false;   // A support to another body.
+};
+
+void Add(const Load& load, double end_time, Forces* forces) {
+  if (load.begin == 0 && std::isinf(load.end)) {
+    forces->constant += load.constant;
+    forces->swinging += std::abs(load.amplitude);
+    return;
+  }
+  const double duration = std::min(load.end, end_time) - load.begin;
+  if (duration <= 0) return;
+  const double last = load.constant + load.slope * duration;
+  // A half-sine pulse pushes to one side only.
+  const bool half = load.phase == 0 && load.angular_frequency * duration <= std::numbers::pi * 1.01;
+  const double up = half ? std::max(0.0, load.amplitude) : std::abs(load.amplitude);
+  const double down = half ? std::max(0.0, -load.amplitude) : std::abs(load.amplitude);
+  forces->right = std::max(forces->right, std::max(load.constant, last) + up);
+  forces->left = std::max(forces->left, down - std::min(load.constant, last));
+  forces->passing += duration;
+}
+
+std::vector<Forces> ForcesOn(const Scenario& scenario) {
+  std::vector<Forces> forces(scenario.bodies.size());
+  for (const Load& load : scenario.loads) Add(load, scenario.end_time, &forces[At(load.body)]);
+  for (const Support& support : scenario.supports) {
+    Forces& own = forces[At(support.body)];
+    if (support.other == kNone) {
+      own.stiffness += support.stiffness;
+      own.rest += support.stiffness * support.rest_position;
+    } else {
+      own.linked = forces[At(support.other)].linked = true;
+    }
+  }
+  return forces;
+}
+
+// The relative motion of the two sides of a contact before they meet. Toward each other is
+// positive:
+//   acceleration after closing by d = acceleration − stiffening · d.
+struct Approach {
+  double gap = 0;
+  double speed = 0;
+  double acceleration = 0;
+  double stiffening = 0;  // κ = k/m of the support of the only side that moves [1/s²].
+  double inverse_mass = 0;
+  double swinging = 0;  // Accelerations as in Forces.
+  double passing = 0;
+  double passing_time = 0;
+  double touch = 0;  // A gap that counts as none [m].
+  bool known = true;
+};
+
+class Forecast {
+ public:
+  explicit Forecast(const Scenario& scenario) : scenario_(scenario), forces_(ForcesOn(scenario)) {}
+
+  std::optional<Encounter> Of(const Contact& contact) const {
+    const Approach approach = ApproachOf(contact);
+    if (!approach.known) return std::nullopt;
+    Encounter encounter{
+        .swing = approach.stiffening > 0 ? std::numbers::pi / std::sqrt(approach.stiffening) : 0,
+        .driven = approach.swinging > 0};
+    const bool touching = approach.gap <= approach.touch;
+    if (touching && approach.speed == 0) return Pressed(contact, approach, encounter);
+    return Impact(contact, approach, encounter);
+  }
+
+ private:
+  // Adds a side that `sign` (1: from the left, −1: from the right) moves to close the contact.
+  void AddSide(int index, double sign, Approach* approach) const {
+    const Body& body = scenario_.bodies[At(index)];
+    approach->touch =
+        std::max({approach->touch, kTouch * std::abs(body.position), kTouch * body.radius});
+    if (body.fixed) return;
+    const Forces& forces = forces_[At(index)];
+    approach->speed += sign * body.velocity;
+    approach->inverse_mass += 1 / body.mass;
+    approach->acceleration +=
+        sign * (forces.constant + forces.rest - forces.stiffness * body.position) / body.mass;
+    approach->stiffening += forces.stiffness / body.mass;
+    approach->swinging += forces.swinging / body.mass;
+    approach->passing += (sign > 0 ? forces.right : forces.left) / body.mass;
+    approach->passing_time = std::max(approach->passing_time, forces.passing);
+    if (forces.linked) approach->known = false;
+  }
+
+  Approach ApproachOf(const Contact& contact) const {
+    Approach approach{.touch = kTouch * std::abs(contact.wall_position)};
+    const auto edge = [this](int index, double sign) {
+      const Body& body = scenario_.bodies[At(index)];
+      return body.position + sign * body.radius;
+    };
+    const double from = contact.left == kNone ? contact.wall_position : edge(contact.left, 1);
+    const double to = contact.right == kNone ? contact.wall_position : edge(contact.right, -1);
+    approach.gap = std::max(0.0, to - from);
+    if (contact.left != kNone) AddSide(contact.left, 1, &approach);
+    if (contact.right != kNone) AddSide(contact.right, -1, &approach);
+    // What the supports of two sides that move do depends on how far each of them goes.
+    const bool both = Moves(contact.left) && Moves(contact.right);
+    if (both && approach.stiffening > 0) approach.known = false;
+    return approach;
+  }
+
+  bool Moves(int index) const { return index != kNone && !scenario_.bodies[At(index)].fixed; }
+
+  std::optional<Encounter> Pressed(const Contact& contact, const Approach& approach,
+                                   Encounter encounter) const {
+    const double steady = approach.acceleration + approach.swinging;
+    const double most = approach.acceleration + std::max(approach.swinging, approach.passing);
+    if (most <= 0) return std::nullopt;
+    encounter.push = approach.acceleration;
+    encounter.duration = SwingPeriod(1 / approach.inverse_mass, most / approach.inverse_mass,
+                                     contact.stiffness, contact.exponent);
+    encounter.pressed = steady > 0 ? scenario_.end_time : approach.passing_time;
+    return encounter;
+  }
+
+  // By the energy that closing the gap brings. Who moves away must be drawn back.
+  std::optional<Encounter> Impact(const Contact& contact, const Approach& approach,
+                                  Encounter encounter) const {
+    const double w = approach.speed;
+    if (w <= 0 && approach.acceleration <= 0) return std::nullopt;
+    const double squared = w * w + 2 * approach.acceleration * approach.gap -
+                           approach.stiffening * approach.gap * approach.gap;
+    if (!(squared > 0)) return std::nullopt;
+    encounter.speed = std::sqrt(squared);
+    encounter.start = w > 0 ? 2 * approach.gap / (w + encounter.speed)
+                            : (encounter.speed - w) / approach.acceleration;
+    if (!(encounter.start < scenario_.end_time)) return std::nullopt;
+    encounter.push = approach.acceleration - approach.stiffening * approach.gap;
+    encounter.duration = ImpactDuration(1 / approach.inverse_mass, encounter.speed,
+                                        contact.stiffness, contact.exponent);
+    return encounter;
+  }
+
+  const Scenario& scenario_;
+  const std::vector<Forces> forces_;
+};
+
+}  // namespace
+
+double ImpactDuration(double effective_mass, double speed, double stiffness, double exponent) {
+  const double share = 1 / (exponent + 1);
+  const double deformation = MaximumDeformation(effective_mass, speed, stiffness, exponent, 0);
+  return 2 * deformation / speed * std::sqrt(std::numbers::pi) * std::tgamma(1 + share) /
+         std::tgamma(0.5 + share);
+}
+
+double SwingPeriod(double effective_mass, double force, double stiffness, double exponent) {
+  const double deformation = std::pow(force / stiffness, 1 / exponent);
+  return 2 * std::numbers::pi * std::sqrt(effective_mass * deformation / (exponent * force));
+}
+
+std::vector<std::optional<Encounter>> Foresee(const Scenario& scenario) {
+  const Forecast forecast(scenario);
+  std::vector<std::optional<Encounter>> encounters;
+  encounters.reserve(scenario.contacts.size());
+  for (const Contact& contact : scenario.contacts) encounters.push_back(forecast.Of(contact));
+  return encounters;
+}
+
+}  // namespace contact

@@ -1,0 +1,108 @@
+#include "simulation/motion/contact_events.h"
+
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <cstdint>
+
+namespace contact {
+namespace {
+
+constexpr int kPieces = 8;
+// A deformation that so many times its noise begins in a step is no start from rest, which would
+// have begun in the step before: by chance that one ended on the touch.
+constexpr double kFast = 100;
+
+// Root of f between a and b, where it changes sign; a when it already has b's sign there.
+template <class F>
+double Root(F f, double a, double b) {
+  const double fa = f(a), fb = f(b);
+  if (fa == 0 || (fa > 0) == (fb > 0)) return a;
+  if (fb == 0) return b;
+  std::uintmax_t iterations = 100;
+  const auto bracket = boost::math::tools::toms748_solve(
+      f, a, b, fa, fb, boost::math::tools::eps_tolerance<double>(52), iterations);
+  return (bracket.first + bracket.second) / 2;
+}
+
+// First θ after `from` at which f, looked at after every eighth of the rest, is positive;
+// `at_end` is f(1).
+template <class F>
+std::optional<double> FirstPositive(F f, double at_end, double from = 0) {
+  double before = from;
+  for (int i = 1; i <= kPieces; ++i) {
+    const double theta = from + (1 - from) * i / kPieces;
+    if ((i == kPieces ? at_end : f(theta)) > 0) return Root(f, before, i == kPieces ? 1 : theta);
+    before = theta;
+  }
+  return std::nullopt;
+}
+
+std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise) {
+  // What plainly moves apart is not at rest; it may come back in the step.
+  if (std::abs(path.start_value()) <= noise && path.start_slope() >= -noise) {
+    if (path.end_value() <= noise) return std::nullopt;
+    const bool at_rest = path.start_slope() <= kFast * noise;
+    return ContactEvent{at_rest ? EventKind::kRestTouch : EventKind::kTouch, 0};
+  }
+  const bool peaks = path.start_slope() > 0 && path.end_slope() < 0;
+  if (path.end_value() <= noise && !peaks) return std::nullopt;
+  const auto value = [&](double theta) { return path.Value(theta); };
+  if (auto theta = FirstPositive(value, path.end_value())) {
+    return ContactEvent{EventKind::kTouch, *theta};
+  }
+  const auto falling = [&](double theta) { return -path.Slope(theta); };
+  const auto peak = FirstPositive(falling, -path.end_slope());
+  if (!peak || path.Value(*peak) <= noise) return std::nullopt;
+  return ContactEvent{EventKind::kTouch, Root(value, 0, *peak)};
+}
+
+}  // namespace
+
+DeformationPath::DeformationPath(End start, End end)
+    : end_value_(end.value), end_slope_(end.slope) {
+  c_[0] = start.value;
+  c_[1] = start.slope;
+  c_[2] = start.curvature / 2;
+  // What the cubic start leaves to the end, spread over θ³, θ⁴, θ⁵.
+  const double value = end.value - c_[0] - c_[1] - c_[2];
+  const double slope = end.slope - c_[1] - 2 * c_[2];
+  const double curvature = end.curvature - 2 * c_[2];
+  c_[3] = 10 * value - 4 * slope + curvature / 2;
+  c_[4] = -15 * value + 7 * slope - curvature;
+  c_[5] = 6 * value - 3 * slope + curvature / 2;
+}
+
+double DeformationPath::Value(double t) const {
+  return c_[0] + t * (c_[1] + t * (c_[2] + t * (c_[3] + t * (c_[4] + t * c_[5]))));
+}
+
+double DeformationPath::Slope(double t) const {
+  return c_[1] + t * (2 * c_[2] + t * (3 * c_[3] + t * (4 * c_[4] + t * 5 * c_[5])));
+}
+
+std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from,
+                                       double noise) {
+  if (phase == Phase::kOpen) return FirstTouch(path, noise);
+  if (phase == Phase::kStarting) return std::nullopt;
+  const auto rising = [&](double theta) { return path.Slope(theta); };
+  const auto falling = [&](double theta) { return -path.Slope(theta); };
+  if (phase == Phase::kCompression) {
+    const auto turn = FirstPositive(falling, -path.end_slope(), from);
+    if (!turn) return std::nullopt;
+    return ContactEvent{EventKind::kTurn, *turn};
+  }
+  const auto outside = [&](double theta) { return -path.Value(theta); };
+  const auto separation = FirstPositive(outside, -path.end_value(), from);
+  if (separation && phase == Phase::kResting) {
+    return ContactEvent{EventKind::kSeparation, *separation};
+  }
+  if (phase == Phase::kResting) return std::nullopt;
+  const auto rest = FirstPositive(rising, path.end_slope(), from);
+  if (separation && (!rest || *separation <= *rest)) {
+    return ContactEvent{EventKind::kSeparation, *separation};
+  }
+  if (rest) return ContactEvent{EventKind::kNonSeparation, *rest};
+  return std::nullopt;
+}
+
+}  // namespace contact

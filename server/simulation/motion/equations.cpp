@@ -1,0 +1,349 @@
+#include "simulation/motion/equations.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "simulation/motion/rows.h"
+
+namespace contact {
+namespace {
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+ActiveContact::Force ActiveContact::General(double deformation, double rate) const {
+  const Power n(deformation, exponent);
+  Power p = n;
+  if (damping_exponent != exponent) p = Power(deformation, damping_exponent);
+  if (damping_exponent == 0) p.value = 1, p.slope = 0;
+  const double force = stiffness * n.value + mu * p.value * rate;
+  if (clipped && force < 0) return {};
+  return {force, stiffness * n.slope + mu * p.slope * rate, mu * p.value, p.value * rate};
+}
+
+Equations::Equations(const Scenario& scenario)
+    : scenario_(scenario),
+      bodies_(static_cast<int>(scenario.bodies.size())),
+      contacts_(static_cast<int>(scenario.contacts.size())) {
+  for (const Body& body : scenario.bodies) {
+    base.push_back(body.position);
+    inverse_mass_.push_back(body.fixed ? 0 : 1 / body.mass);
+  }
+  for (const Contact& contact : scenario.contacts) {
+    Sides& sides = sides_.emplace_back();
+    if (contact.left != kNone) {
+      sides.left = contact.left;
+      sides.left_counts = 1;
+      sides.left_inverse = inverse_mass_[At(contact.left)];
+    }
+    if (contact.right != kNone) {
+      sides.right = contact.right;
+      sides.right_counts = 1;
+      sides.right_inverse = inverse_mass_[At(contact.right)];
+    }
+  }
+  for (const Load& load : scenario.loads) {
+    breakpoints_.push_back(load.begin);
+    breakpoints_.push_back(load.end);
+  }
+  std::sort(breakpoints_.begin(), breakpoints_.end());
+  SelectLoads(0);
+}
+
+double Equations::SelectLoads(double time) {
+  acting_.clear();
+  for (const Load& load : scenario_.loads) {
+    if (load.begin <= time && time < load.end) acting_.push_back(load);
+  }
+  const auto next = std::upper_bound(breakpoints_.begin(), breakpoints_.end(), time);
+  return next == breakpoints_.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+double Equations::effective_mass(int contact) const {
+  return 1 / (sides(contact).left_inverse + sides(contact).right_inverse);
+}
+
+double Equations::ForcingTime() const {
+  double rate = 0;
+  for (const Load& load : acting_) {
+    if (load.amplitude != 0) rate = std::max(rate, load.angular_frequency);
+  }
+  for (const Support& s : scenario_.supports) {
+    double w = inverse_mass_[At(s.body)];
+    if (s.other != kNone) w += inverse_mass_[At(s.other)];
+    rate = std::max({rate, std::sqrt(s.stiffness * w), s.damping * w});
+  }
+  return rate == 0 ? std::numeric_limits<double>::infinity() : 1 / rate;
+}
+
+double Equations::LoadForce(const Load& load, double t) const {
+  const double since = t - load.begin;
+  double force = load.constant + load.slope * since;
+  if (load.amplitude != 0) {
+    force += load.amplitude * std::sin(load.angular_frequency * since + load.phase);
+  }
+  return force;
+}
+
+double Equations::SupportForce(const Support& s, const double* u, const double* v) const {
+  double x = base[At(s.body)] + u[s.body];
+  double rate = v[s.body];
+  if (s.other != kNone) {
+    x -= base[At(s.other)] + u[s.other];
+    rate -= v[s.other];
+  }
+  return -s.stiffness * (x - s.rest_position) - s.damping * rate;  // (M4)
+}
+
+ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  ActiveContact made{sides(contact)};
+  made.contact = contact;
+  made.column = column;
+  made.gap = gap;
+  made.mu = mu;
+  if (At(bodies_) <= made.response.size()) {
+    made.response[static_cast<std::size_t>(made.left)] -= made.left_inverse;
+    made.response[static_cast<std::size_t>(made.right)] += made.right_inverse;
+  }
+  made.stiffness = c.stiffness;
+  made.exponent = c.exponent;
+  made.damping_exponent = DampingExponent(c.damping, c.exponent);
+  made.clipped = scenario_.solver.clip_tension;
+  made.plain = made.exponent == 1.5 && made.damping_exponent == 1.5;
+  made.outward = (made.right_inverse != 0) - (made.left_inverse != 0);
+  return made;
+}
+
+template <class Count>
+[[gnu::always_inline]] inline void Equations::AddContacts(Count n, const double* y, double* dy,
+                                                          double* works, double pace) const {
+  double* a = dy + n;
+  for (const ActiveContact& c : active) {
+    const double rate = c.Relative(y + n);
+    const double force = pace * c.ForceAt(c.Relative(y) - c.gap, rate);
+    a[c.left] -= force * c.left_inverse;
+    a[c.right] += force * c.right_inverse;
+    works[c.contact] = force * rate;                    // (W1)
+    if (recording) dy[impulse()] += force * c.outward;  // (B2)
+  }
+}
+
+// The same with the variational equations (S1): y' = f(y, μ) differentiated by the μ of each
+// column.
+template <class Count>
+[[gnu::always_inline]] inline void Equations::AddSensitiveContacts(Count n, const double* y,
+                                                                   double* dy, double* works,
+                                                                   double pace) const {
+  const std::ptrdiff_t sensitive = tangents();
+  for (const ActiveContact& contact : active) {
+    const ActiveContact c = contact;  // A copy, which no store to dy can change.
+    const double rate = c.Relative(y + n);
+    const ActiveContact::Force f = c.At(c.Relative(y) - c.gap, rate);
+    const double force = pace * f.force;
+    double* a = dy + n;
+    double* work = works + c.contact;
+    a[c.left] -= force * c.left_inverse;
+    a[c.right] += force * c.right_inverse;
+    *work = force * rate;
+    const double* u = y;
+    for (std::ptrdiff_t column = 0; column < sensitive; ++column) {
+      u += 2 * n;
+      a += 2 * n;
+      work += contacts();
+      const double rate_s = c.Relative(u + n);
+      double force_s = f.by_deformation * c.Relative(u) + f.by_rate * rate_s;
+      if (column == c.column) force_s += f.damping;
+      force_s *= pace;
+      a[c.left] -= force_s * c.left_inverse;
+      a[c.right] += force_s * c.right_inverse;
+      *work = force_s * rate + force * rate_s;
+    }
+  }
+}
+
+template <class Count>
+[[gnu::always_inline]] inline void Equations::Evaluate(Count n, double t, const double* y,
+                                                       double* dy, double pace) const {
+  const std::ptrdiff_t blocks = 1 + tangents();
+  for (std::ptrdiff_t i = 0; i < 2 * n * blocks; i += 2 * n) {  // u̇ = v; to the rest is added.
+    InRows(n, [=](auto rows, std::ptrdiff_t j) {
+      rows(dy + i + j) = pace * rows(y + i + n + j);
+      rows(dy + i + n + j).setZero();
+    });
+  }
+  double* works = dy + 2 * n * blocks;
+  InRows(contacts() * blocks + (recording ? contacts() + 3 : 0),
+         [=](auto rows, std::ptrdiff_t j) { rows(works + j).setZero(); });
+  for (const Load& load : acting_) {
+    dy[n + load.body] += pace * LoadForce(load, t) * inverse_mass_[At(load.body)];
+  }
+  if (!scenario_.supports.empty()) AddSupports(y, dy, pace);
+  if (tangents() > 0) return AddSensitiveContacts(n, y, dy, works, pace);
+  AddContacts(n, y, dy, works, pace);
+  if (recording) AddRecord(t, y, dy, pace);
+}
+
+// The same for a few bodies, all accelerations in registers.
+template <std::ptrdiff_t n, std::size_t kCount, bool kWalls>
+void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, double pace) {
+  const std::ptrdiff_t sensitive = of.tangents();
+  const ActiveContact* const contact = of.active.data();
+  const auto relative = [](const Sides& sides, const double* of_bodies) {
+    return kWalls ? sides.Relative(of_bodies) : of_bodies[sides.left] - of_bodies[sides.right];
+  };
+  // Stored in pairs, as the integrator loads them: else it had to wait for the stores.
+  const auto move = [&](const double* from, const std::array<double, kCount>& force, double* to) {
+    const auto slope = [&](std::ptrdiff_t i) {
+      if (i < n) return pace * from[n + i];
+      double sum = force[0] * contact[0].response[static_cast<std::size_t>(i - n)];
+      for (std::size_t j = 1; j < kCount; ++j) {
+        sum += force[j] * contact[j].response[static_cast<std::size_t>(i - n)];
+      }
+      return sum;
+    };
+    for (std::ptrdiff_t i = 0; i < 2 * n; i += 2) {
+      Rows<2>()(to + i) = Rows<2>::Array(slope(i), slope(i + 1));
+    }
+  };
+  double* work = dy + 2 * n * (1 + sensitive);
+  const std::ptrdiff_t works =
+      of.contacts() * (1 + sensitive) + (of.recording ? of.contacts() + 3 : 0);
+  if (works != kCount) {
+    InRows(works, [=](auto rows, std::ptrdiff_t j) { rows(work + j).setZero(); });
+  }
+  std::array<ActiveContact::Force, kCount> law;
+  std::array<double, kCount> rate, force;
+  for (std::size_t j = 0; j < kCount; ++j) {
+    const ActiveContact& c = contact[j];
+    rate[j] = relative(c, y + n);
+    law[j] = c.Plain(relative(c, y) - c.gap, rate[j]);
+    force[j] = pace * law[j].force;
+    work[c.contact] = force[j] * rate[j];  // (W1)
+  }
+  move(y, force, dy);
+  double* to = dy;
+  for (std::ptrdiff_t column = 0; column < sensitive; ++column) {  // (S1)
+    y += 2 * n;
+    to += 2 * n;
+    work += of.contacts();
+    std::array<double, kCount> change;
+    for (std::size_t j = 0; j < kCount; ++j) {
+      const ActiveContact& c = contact[j];
+      const double rate_s = relative(c, y + n);
+      double by_mu = law[j].by_deformation * relative(c, y) + law[j].by_rate * rate_s;
+      if (column == c.column) by_mu += law[j].damping;
+      change[j] = pace * by_mu;
+      work[c.contact] = change[j] * rate[j] + force[j] * rate_s;
+    }
+    move(y, change, to);
+  }
+  if (!of.recording) return;
+  double* const external = dy + of.external_work(0);
+  double impulse = 0;
+  for (std::size_t j = 0; j < kCount; ++j) {  // There are no loads.
+    const ActiveContact& c = contact[j];
+    const double net = relative(c, dy + n) / (c.left_inverse + c.right_inverse);
+    external[c.contact] = net * rate[j] + force[j] * rate[j];  // (W3)
+    impulse += force[j] * c.outward;                           // (B2)
+  }
+  dy[of.impulse()] = impulse;
+}
+
+void Equations::Prepare() {
+  few_ = nullptr;
+  const bool plain =
+      std::ranges::all_of(active, [](const ActiveContact& c) { return c.plain && !c.clipped; });
+  if (!plain || !acting_.empty() || !scenario_.supports.empty()) return;
+  const bool walls = std::ranges::any_of(
+      active, [](const Sides& s) { return s.left_counts == 0 || s.right_counts == 0; });
+  const auto choose = [&]<std::ptrdiff_t n, std::size_t kCount>() {
+    few_ = walls ? &Equations::EvaluateFew<n, kCount, true>
+                 : &Equations::EvaluateFew<n, kCount, false>;
+  };
+  if (active.size() == 1) {
+    if (bodies_ == 1) choose.operator()<1, 1>();
+    if (bodies_ == 2) choose.operator()<2, 1>();
+    if (bodies_ == 3) choose.operator()<3, 1>();
+  } else if (active.size() == 2) {
+    if (bodies_ == 2) choose.operator()<2, 2>();
+    if (bodies_ == 3) choose.operator()<3, 2>();
+  }
+}
+
+void Equations::EvaluateMany(double t, const double* y, double* dy, double pace) const {
+  WithCount<1, 2, 3>(bodies(), [&](auto n) { Evaluate(n, t, y, dy, pace); });
+}
+
+void Equations::AddSupports(const double* y, double* dy, double pace) const {
+  const int n = bodies();
+  for (const Support& s : scenario_.supports) {
+    const auto add = [&](double force, double* a) {
+      a[s.body] += pace * force * inverse_mass_[At(s.body)];
+      if (s.other != kNone) a[s.other] -= pace * force * inverse_mass_[At(s.other)];
+    };
+    add(SupportForce(s, y, y + n), dy + n);
+    for (int column = 0; column < tangents(); ++column) {  // (S1)
+      const double* u = y + tangent(column);
+      const double* v = u + n;
+      const double length = u[s.body] - (s.other == kNone ? 0 : u[s.other]);
+      const double rate = v[s.body] - (s.other == kNone ? 0 : v[s.other]);
+      add(-s.stiffness * length - s.damping * rate, dy + tangent(column) + n);
+    }
+  }
+}
+
+// Quadratures of the ledger and of the run's balances: (W3), (B1), (B2).
+void Equations::AddRecord(double t, const double* y, double* dy, double pace) const {
+  const int n = bodies();
+  const double* v = y + n;
+  const auto free = [&](int body) { return body != kNone && inverse_mass_[At(body)] != 0; };
+  for (const ActiveContact& c : active) {  // F_e δ̇ = (m_e δ̈ + F) δ̇
+    const double net = c.Relative(dy + n) / (c.left_inverse + c.right_inverse);
+    dy[external_work(c.contact)] = net * c.Relative(v) + dy[work(c.contact)];
+  }
+  for (const Load& load : acting_) {
+    const double force = pace * LoadForce(load, t);
+    dy[load_work()] += force * v[load.body];
+    dy[impulse()] += force * free(load.body);
+  }
+  for (const Support& s : scenario_.supports) {
+    const double rate = v[s.body] - (s.other == kNone ? 0 : v[s.other]);
+    dy[support_loss()] += pace * s.damping * rate * rate;
+    dy[impulse()] += pace * SupportForce(s, y, v) * (free(s.body) - free(s.other));
+  }
+}
+
+double Equations::Energy(const double* y) const {
+  const int n = bodies();
+  double energy = 0;
+  for (int i = 0; i < n; ++i) {
+    if (inverse_mass_[At(i)] != 0) energy += 0.5 * y[n + i] * y[n + i] / inverse_mass_[At(i)];
+  }
+  for (const Support& s : scenario_.supports) {
+    const double x = base[At(s.body)] + y[s.body] -
+                     (s.other == kNone ? 0 : base[At(s.other)] + y[s.other]) - s.rest_position;
+    energy += 0.5 * s.stiffness * x * x;
+  }
+  for (const ActiveContact& c : active) {
+    energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap);
+  }
+  return energy;
+}
+
+double Equations::Momentum(const double* y) const {
+  const int n = bodies();
+  double momentum = 0;
+  for (int i = 0; i < n; ++i) {
+    if (inverse_mass_[At(i)] != 0) momentum += y[n + i] / inverse_mass_[At(i)];
+  }
+  return momentum;
+}
+
+double ElasticEnergy(const Contact& contact, double deformation) {
+  const Power p(deformation, contact.exponent);
+  return contact.stiffness * p.value * std::max(deformation, 0.0) / (contact.exponent + 1);
+}
+
+}  // namespace contact

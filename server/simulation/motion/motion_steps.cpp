@@ -1,0 +1,278 @@
+// The part of Motion that takes one step: its length, its warp, its error, its landing.
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+#include "simulation/motion/motion.h"
+
+namespace contact {
+namespace {
+
+constexpr int kMaxRejections = 60;
+constexpr int kClassicalEvaluations = 4;  // In a step with its end.
+constexpr int kMaxLandings = 8;
+// A step that would go this far towards a separation goes for it,
+constexpr double kReach = 0.85;
+// but only from a deformation this small against the largest of the cycle, at a tolerance of 1,
+constexpr double kNear = 0.7;
+// and else at most so far towards it.
+constexpr double kApproach = 0.8;
+constexpr double kTrapezoid = 0.1;
+constexpr double kSafety = 0.8;  // Of the next step.
+constexpr double kEarly = 10;    // Tolerances a step may miss by in a pass that is not exact.
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+// By value, which std::max is not: it makes branches of what is one instruction.
+double Largest(double a, double b) { return a < b ? b : a; }
+double Largest(double a, double b, std::same_as<double> auto... more) {
+  return Largest(Largest(a, b), more...);
+}
+
+template <class Count>
+double LargestOf(Count n, const double* values) {
+  double largest = 0;
+  for (std::ptrdiff_t i = 0; i < n; ++i) largest = Largest(largest, std::abs(values[i]));
+  return largest;
+}
+
+// A length and a speed that belong together.
+struct Motions {
+  double length = 0, speed = 0;
+};
+
+// The square of what both estimates of an error make, e5²/√(e5² + 0.01 e3²), each taken of length
+// and speed together, for either alone passes through 0 at times.
+double Square(const Motions& e5, const Motions& e3, const Motions& scale) {
+  if (!(scale.length > 0 && scale.speed > 0)) return 0;
+  const double per_length = 1 / scale.length, per_speed = 1 / scale.speed;
+  const auto sum = [&](const Motions& e) {
+    const double x = e.length * per_length, v = e.speed * per_speed;
+    return x * x + v * v;
+  };
+  const double five = sum(e5);
+  const double both = five == 0 ? 0 : five * five / (five + 0.01 * sum(e3));
+  return std::isnan(both) ? kForever : both;  // No finite error that follows may hide it.
+}
+
+}  // namespace
+
+// How a step is warped: evenly in √(t − t_s) after a touch, or in √(t_o − t) before a separation,
+// whichever is nearer, for force grows and fades with a fractional power of these times.
+double Motion::Warp(double h, double parting) const {
+  if (fixed_step_ > 0) return 1;
+  const auto warp = [](double start, double end) {
+    return 2 * std::sqrt(start) / (std::sqrt(start) + std::sqrt(end));
+  };
+  const double since = time_ - touch_time_;
+  const double after = std::isnan(since) ? 1 : warp(since, since + h);
+  const double before = parting < kForever ? warp(parting, std::max(0.0, parting - h)) : 1;
+  return before - 1 > 1 - after ? before : after;
+}
+
+// When a contact in restitution will part; infinite if it seems it will not. By the parabola
+// through δ, δ̇ and the mean δ̈, in which F fades like (1 − θ)^1.5 and all else stays.
+double Motion::TimeToSeparation(const ActiveContact& active) const {
+  constexpr double kFade = 3.0 / 7;  // 1 − 2 ∫(1 − θ)^2.5 dθ
+  const int n = equations_.bodies();
+  const double deformation = active.Relative(rk_.y0.data()) - active.gap;
+  const double speed = -active.Relative(rk_.y0.data() + n);
+  const double force = active.At(deformation, -speed).force;
+  const double bend = active.Relative(rk_.slope0.data() + n) +
+                      kFade * force * (active.left_inverse + active.right_inverse);
+  const double discriminant = speed * speed - 2 * deformation * bend;
+  if (speed <= 0 || deformation <= 0 || discriminant < 0) {
+    return kForever;
+  }
+  return 2 * deformation / (speed + std::sqrt(discriminant));
+}
+
+StepTime Motion::Plan(double until) {
+  const double left = std::min(until, breakpoint_) - time_;
+  double h = std::min({next_step_, left, 0.5 * forcing_time_});
+  if (left - h < 1e-3 * h) h = left;  // Leave no sliver.
+  separating_ = kNone;
+  double parting = kForever;
+  const ActiveContact* first = nullptr;
+  for (const ActiveContact& active : equations_.active) {
+    if (contacts_[At(active.contact)].phase != Phase::kRestitution) continue;
+    const double time = TimeToSeparation(active);
+    if (time < parting) parting = time, first = &active;
+  }
+  if (parting > 2 * h) cruise_ = h;
+  if (parting * kReach <= h && parting <= left) {
+    const double deformation = first->Relative(rk_.y0.data()) - first->gap;
+    const double near = kNear * std::pow(tolerance_, 1.0 / 7);
+    if (deformation <= near * deformation_scale_[At(first->contact)]) {
+      separating_ = first->contact;
+      return {.start = time_, .h = parting, .warp = 2};
+    }
+    h = std::min(h, kApproach * parting);  // Too far off to know when it will part.
+  }
+  return {.start = time_, .h = h, .warp = Warp(h, parting)};
+}
+
+// The classical method's step is what it is.
+void Motion::TakeFixedStep(double until) {
+  const double left = std::min(until, breakpoint_) - time_;
+  const bool last = left < (1 + 1e-6) * fixed_step_;  // Leave no sliver.
+  separating_ = kNone;
+  step_ = {.start = time_, .h = last ? left : fixed_step_};
+  rk_.Step(equations_, step_);
+  rk_.FinishStep(equations_, step_);
+  ++steps_;
+  evaluations_ += kClassicalEvaluations;
+}
+
+bool Motion::TakeStep(double until) {
+  const int n = equations_.bodies();
+  std::fill(event_.begin(), event_.end(), 0.0);
+  if (fixed_step_ > 0) {
+    TakeFixedStep(until);
+    return true;
+  }
+  if (next_step_ == 0) {
+    const double speed = rk_.y0.segment(n, n).abs().maxCoeff();
+    const double acceleration = rk_.slope0.segment(n, n).abs().maxCoeff();
+    next_step_ = speed > 0 ? 0.01 * speed / acceleration : 1e-6;  // Infinite in free flight.
+  }
+  const double most = tolerance_ > scenario_.solver.relative_tolerance ? kEarly : 1;
+  for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
+    step_ = Plan(until);
+    rk_.Step(equations_, step_);
+    ++steps_;
+    evaluations_ += 11;
+    double error = 0;
+    WithCount<1, 2, 3>(n, [&](auto count) { error = ErrorNorm(count, step_.h); });
+    const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
+    const double factor = error > 0 ? kSafety / eighth_root : 6;
+    if (error <= most) {
+      rk_.FinishStep(equations_, step_);
+      ++evaluations_;
+      const double growth = std::clamp(factor, 0.3, rejections > 0 ? 1.0 : 6.0);
+      const double next =
+          separating_ == kNone ? std::max(step_.Next(growth), 0.1 * step_.h) : step_.h * growth;
+      next_step_ = step_.h < next_step_ ? std::max(next, next_step_) : next;
+      return true;
+    }
+    if (separating_ != kNone) {
+      next_step_ = step_.Offset(0.6);  // Not near enough yet.
+    } else {
+      next_step_ = step_.Offset(std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1);
+    }
+  }
+  return false;
+}
+
+// Largest local error, in units of what the tolerance allows: that of each contact relative to
+// the scale of its own cycle, that of each body relative to the largest motion of all.
+template <class Count>
+double Motion::ErrorNorm(Count n, double h) const {
+  rk_.Errors(2 * n, error5_.data(), error3_.data());
+  const double* e5 = error5_.data();
+  const double* e3 = error3_.data();
+  double sum = 0;
+  for (std::ptrdiff_t i = 0; i < 2 * n; ++i) sum += e5[i] + e3[i];
+  if (!std::isfinite(sum)) return kForever;  // And only then y1 is not finite.
+  const double* y = rk_.y1.data();
+  double length = 0, speed = 0;
+  for (const ActiveContact& active : equations_.active) {
+    const auto c = At(active.contact);
+    const double moved = active.Relative(y) - active.gap - contacts_[c].cycle.start_deformation;
+    const double rate = std::abs(active.Relative(y + n));
+    length = Largest(length, deformation_scale_[c], std::abs(moved), rate * h);
+    speed = Largest(speed, velocity_scale_[c], rate);
+  }
+  // Bodies are held to the largest motion of all, contacts to that of contacts.
+  const double body_speed = Largest(speed, flight_speed_, LargestOf(n, y + n));
+  const double body_length = Largest(length, flight_length_, LargestOf(n, y), body_speed * h);
+  double norm = Square({LargestOf(n, e5), LargestOf(n, e5 + n)},
+                       {LargestOf(n, e3), LargestOf(n, e3 + n)}, {body_length, body_speed});
+  // What the round-off of velocities makes of lengths in a step is no error of the step.
+  const double round_off = 1e-15 * body_speed * h / scenario_.solver.relative_tolerance;
+  const double least_length = Largest(1e-3 * length, round_off), least_speed = 1e-3 * speed;
+  for (const ActiveContact& active : equations_.active) {
+    const auto c = At(active.contact);
+    const Motions five{active.Relative(e5), active.Relative(e5 + n)};
+    const Motions three{active.Relative(e3), active.Relative(e3 + n)};
+    // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
+    const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
+    const Motions scale{Largest(deformation_scale_[c], least_length),
+                        Largest(velocity_scale_[c], least_speed)};
+    norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
+  }
+  return h * std::sqrt(norm) / tolerance_;
+}
+
+// Makes the step end on the event: Newton on its length with the true solution, started from the
+// interpolated one, until the event's time is good to round-off. False if a predicted separation is
+// not there after all; the step is then one like others.
+bool Motion::Land(const Found& found) {
+  const bool parting = found.event.kind == EventKind::kSeparation;
+  const StepTime planned = step_;
+  const double left = breakpoint_ - time_;
+  // What the trapezoidal rule leaves is of third order in time.
+  const double nearby = shifts_ ? kTrapezoid * std::cbrt(tolerance_) * (time_ - touch_time_) : 0;
+  const double event = step_.Offset(found.event.theta);
+  if (separating_ == found.contact && step_.h - event <= nearby) {
+    if (found.event.theta < 1) Shift(event - step_.h, false);
+  } else if (found.event.theta < 1) {
+    Repeat(event, parting);
+  }
+  for (int i = 0; i < kMaxLandings; ++i) {
+    const double correction = Correction(found);
+    const double h = step_.h + correction;
+    if (!(h > 0) || h > 2 * planned.h) break;
+    if (h > left) {  // The event is past a load's breakpoint, after which all is different.
+      Repeat(left, false);
+      return false;
+    }
+    // So near that the tangent leads there: its error is of second order.
+    const bool there = std::abs(correction) <= 1e-7 * step_.h;
+    if (there || std::abs(correction) <= nearby) {
+      Shift(correction, there);
+      if (there) return true;
+    } else {
+      Repeat(h, parting);
+    }
+  }
+  if (!parting) return true;  // As near as it gets.
+  Repeat(planned.h, planned.warp == 2);
+  return false;
+}
+
+// Moves the end of the step by a short time: along the tangent, or by the trapezoidal rule.
+void Motion::Shift(double time, bool tangent) {
+  step_.h += time;
+  rk_.y1 += time * rk_.slope1;
+  if (!tangent) {
+    inside_ = rk_.slope1;
+    rk_.FinishStep(equations_, step_);
+    ++evaluations_;
+    rk_.y1 += 0.5 * time * (rk_.slope1 - inside_);
+  }
+  rk_.FinishStep(equations_, step_);
+  ++evaluations_;
+}
+
+void Motion::Repeat(double h, bool parting) {
+  step_ = {.start = time_, .h = h, .warp = parting && fixed_step_ == 0 ? 2 : Warp(h)};
+  rk_.Step(equations_, step_);
+  rk_.FinishStep(equations_, step_);
+  ++steps_;
+  evaluations_ += fixed_step_ > 0 ? kClassicalEvaluations : 12;
+}
+
+// By how much the step must be longer to end on the event, to first order.
+double Motion::Correction(const Found& found) const {
+  const int n = equations_.bodies();
+  const double rate = equations_.Relative(found.contact, rk_.y1.data() + n);
+  if (found.event.kind == EventKind::kNonSeparation) {
+    return -rate / equations_.Relative(found.contact, rk_.slope1.data() + n);
+  }
+  return -Deformation(found.contact, rk_.y1.data()) / rate;
+}
+
+}  // namespace contact

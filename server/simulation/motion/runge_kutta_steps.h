@@ -1,0 +1,181 @@
+// The stages of RungeKutta; included by runge_kutta.h only. Table: see there.
+#pragma once
+
+#include <type_traits>
+
+#include "simulation/motion/rows.h"
+
+namespace contact {
+
+template <class Count, std::size_t N>
+[[gnu::always_inline]] inline void RungeKutta::Combine(Vector& out, Count count, double h,
+                                                       const Term (&terms)[N]) {
+  const std::ptrdiff_t n = size();
+  const double* k = k_.data();
+  const double* y = y0.data();
+  double* to = out.data();
+  InRows(count, [=, &terms](auto rows, std::ptrdiff_t i) {
+    const auto slope = [=](int stage) { return rows(k + stage * n + i); };
+    typename decltype(rows)::Array sum = terms[0].weight * slope(terms[0].slope);
+    for (std::size_t j = 1; j < N; ++j) sum += terms[j].weight * slope(terms[j].slope);
+    rows(to + i) = rows(y + i) + h * sum;
+  });
+}
+
+template <class F>
+void RungeKutta::Evaluate(F&& f, const StepTime& time, double theta, const double* y, int i) {
+  const std::ptrdiff_t n = size();
+  double* slope = k_.data() + i * n;
+  const double rate = time.Rate(theta);
+  if constexpr (std::is_invocable_v<F, double, const double*, double*, double>) {
+    f(time.At(theta), y, slope, rate);
+  } else {
+    f(time.At(theta), y, slope);
+    InRows(n, [=](auto rows, std::ptrdiff_t j) { rows(slope + j) *= rate; });
+  }
+}
+
+template <class F>
+void RungeKutta::Step(F&& f, const StepTime& time) {
+  k_.col(0) = slope0 * time.Rate(0);
+  if (method_ == Method::kClassical) return ClassicalStep(f, time);
+  WithCount<2, 4, 6, 12, 18>(coupled_, [&](auto coupled) { DormandPrinceStep(f, time, coupled); });
+}
+
+template <class F>
+void RungeKutta::ClassicalStep(F&& f, const StepTime& time) {
+  const double h = time.h;
+  Combine(stage_, coupled_, h, {{1.0 / 2, 0}});
+  Evaluate(f, time, 1.0 / 2, stage_.data(), 1);
+  Combine(stage_, coupled_, h, {{1.0 / 2, 1}});
+  Evaluate(f, time, 1.0 / 2, stage_.data(), 2);
+  Combine(stage_, coupled_, h, {{1.0, 2}});
+  Evaluate(f, time, 1.0, stage_.data(), 3);
+  Combine(y1, size(), h, {{1.0 / 6, 0}, {1.0 / 3, 1}, {1.0 / 3, 2}, {1.0 / 6, 3}});
+}
+
+template <class F, class Count>
+void RungeKutta::DormandPrinceStep(F&& f, const StepTime& time, Count coupled) {
+  const double h = time.h;
+  const auto evaluate = [&](int i, double c) { Evaluate(f, time, c, stage_.data(), i); };
+  Combine(stage_, coupled, h, {{5.26001519587677318785587544488e-2, 0}});
+  evaluate(1, 0.526001519587677318785587544488e-01);
+  Combine(stage_, coupled, h,
+          {{1.97250569845378994544595329183e-2, 0}, {5.91751709536136983633785987549e-2, 1}});
+  evaluate(2, 0.789002279381515978178381316732e-01);
+  Combine(stage_, coupled, h,
+          {{2.95875854768068491816892993775e-2, 0}, {8.87627564304205475450678981324e-2, 2}});
+  evaluate(3, 0.118350341907227396726757197510);
+  Combine(stage_, coupled, h,
+          {{2.41365134159266685502369798665e-1, 0},
+           {-8.84549479328286085344864962717e-1, 2},
+           {9.24834003261792003115737966543e-1, 3}});
+  evaluate(4, 0.281649658092772603273242802490);
+  Combine(stage_, coupled, h,
+          {{3.7037037037037037037037037037e-2, 0},
+           {1.70828608729473871279604482173e-1, 3},
+           {1.25467687566822425016691814123e-1, 4}});
+  evaluate(5, 1.0 / 3);
+  Combine(stage_, coupled, h,
+          {{3.7109375e-2, 0},
+           {1.70252211019544039314978060272e-1, 3},
+           {6.02165389804559606850219397283e-2, 4},
+           {-1.7578125e-2, 5}});
+  evaluate(6, 0.25);
+  Combine(stage_, coupled, h,
+          {{3.70920001185047927108779319836e-2, 0},
+           {1.70383925712239993810214054705e-1, 3},
+           {1.07262030446373284651809199168e-1, 4},
+           {-1.53194377486244017527936158236e-2, 5},
+           {8.27378916381402288758473766002e-3, 6}});
+  evaluate(7, 0.307692307692307692307692307692);
+  Combine(stage_, coupled, h,
+          {{6.24110958716075717114429577812e-1, 0},
+           {-3.36089262944694129406857109825, 3},
+           {-8.68219346841726006818189891453e-1, 4},
+           {2.75920996994467083049415600797e1, 5},
+           {2.01540675504778934086186788979e1, 6},
+           {-4.34898841810699588477366255144e1, 7}});
+  evaluate(8, 0.651282051282051282051282051282);
+  Combine(stage_, coupled, h,
+          {{4.77662536438264365890433908527e-1, 0},
+           {-2.48811461997166764192642586468, 3},
+           {-5.90290826836842996371446475743e-1, 4},
+           {2.12300514481811942347288949897e1, 5},
+           {1.52792336328824235832596922938e1, 6},
+           {-3.32882109689848629194453265587e1, 7},
+           {-2.03312017085086261358222928593e-2, 8}});
+  evaluate(9, 0.6);
+  Combine(stage_, coupled, h,
+          {{-9.3714243008598732571704021658e-1, 0},
+           {5.18637242884406370830023853209, 3},
+           {1.09143734899672957818500254654, 4},
+           {-8.14978701074692612513997267357, 5},
+           {-1.85200656599969598641566180701e1, 6},
+           {2.27394870993505042818970056734e1, 7},
+           {2.49360555267965238987089396762, 8},
+           {-3.0467644718982195003823669022, 9}});
+  evaluate(10, 0.857142857142857142857142857142);
+  Combine(stage_, coupled, h,
+          {{2.27331014751653820792359768449, 0},
+           {-1.05344954667372501984066689879e1, 3},
+           {-2.00087205822486249909675718444, 4},
+           {-1.79589318631187989172765950534e1, 5},
+           {2.79488845294199600508499808837e1, 6},
+           {-2.85899827713502369474065508674, 7},
+           {-8.87285693353062954433549289258, 8},
+           {1.23605671757943030647266201528e1, 9},
+           {6.43392746015763530355970484046e-1, 10}});
+  evaluate(11, 1.0);
+  Combine(y1, size(), h,
+          {{5.42937341165687622380535766363e-2, 0},
+           {4.45031289275240888144113950566, 5},
+           {1.89151789931450038304281599044, 6},
+           {-5.8012039600105847814672114227, 7},
+           {3.1116436695781989440891606237e-1, 8},
+           {-1.52160949662516078556178806805e-1, 9},
+           {2.01365400804030348374776537501e-1, 10},
+           {4.47106157277725905176885569043e-2, 11}});
+}
+
+template <class F>
+void RungeKutta::PrepareInterpolation(F&& f, const StepTime& time) {
+  const double h = time.h;
+  k_.col(12) = slope1 * time.Rate(1);
+  PrepareCubic(h);
+  if (method_ == Method::kClassical) return;
+  const auto evaluate = [&](int i, double c) { Evaluate(f, time, c, stage_.data(), i); };
+  Combine(stage_, coupled_, h,
+          {{5.61675022830479523392909219681e-2, 0},
+           {2.53500210216624811088794765333e-1, 6},
+           {-2.46239037470802489917441475441e-1, 7},
+           {-1.24191423263816360469010140626e-1, 8},
+           {1.5329179827876569731206322685e-1, 9},
+           {8.20105229563468988491666602057e-3, 10},
+           {7.56789766054569976138603589584e-3, 11},
+           {-8.298e-3, 12}});
+  evaluate(13, 0.1);
+  Combine(stage_, coupled_, h,
+          {{3.18346481635021405060768473261e-2, 0},
+           {2.83009096723667755288322961402e-2, 5},
+           {5.35419883074385676223797384372e-2, 6},
+           {-5.49237485713909884646569340306e-2, 7},
+           {-1.08347328697249322858509316994e-4, 10},
+           {3.82571090835658412954920192323e-4, 11},
+           {-3.40465008687404560802977114492e-4, 12},
+           {1.41312443674632500278074618366e-1, 13}});
+  evaluate(14, 0.2);
+  Combine(stage_, coupled_, h,
+          {{-4.28896301583791923408573538692e-1, 0},
+           {-4.69762141536116384314449447206, 5},
+           {7.68342119606259904184240953878, 6},
+           {4.06898981839711007970213554331, 7},
+           {3.56727187455281109270669543021e-1, 8},
+           {-1.39902416515901462129418009734e-3, 12},
+           {2.9475147891527723389556272149, 13},
+           {-9.15095847217987001081870187138, 14}});
+  evaluate(15, 0.777777777777777777777777777778);
+  PrepareCoefficients(h);
+}
+
+}  // namespace contact

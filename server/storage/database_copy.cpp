@@ -1,0 +1,55 @@
+#include "storage/database_copy.h"
+
+#include <absl/strings/str_cat.h>
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <system_error>
+
+#include "base/file_descriptor.h"
+
+namespace contact {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Bounds how long one step holds up the commits: 1 MiB.
+constexpr int kPagesAStep = 256;
+
+void Remove(const fs::path& file) {
+  std::error_code missing;
+  fs::remove(file, missing);
+}
+
+}  // namespace
+
+DatabaseCopy::DatabaseCopy(SQLite::Database& from, const fs::path& to) {
+  Remove(to);
+  to_.emplace(to, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  // A copy that is not finished is worth nothing, so nothing of it is kept safe on the way.
+  to_->exec("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF");
+  backup_.emplace(*to_, from);
+}
+
+bool DatabaseCopy::Step() {
+  if (backup_->executeStep(kPagesAStep) != SQLITE_DONE) return true;
+  backup_.reset();
+  to_.reset();
+  return false;
+}
+
+void CopyDatabase(SQLite::Database& from, const fs::path& to) {
+  const fs::path draft = to.string() + ".new";
+  for (DatabaseCopy copy(from, draft); copy.Step();) {
+  }
+  const FileDescriptor file(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
+  const FileDescriptor folder(::open(to.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!file.valid() || ::fsync(file.get()) != 0 || ::rename(draft.c_str(), to.c_str()) != 0 ||
+      !folder.valid() || ::fsync(folder.get()) != 0) {
+    throw SQLite::Exception(absl::StrCat("cannot write ", to.string()), SQLITE_IOERR);
+  }
+}
+
+}  // namespace contact
