@@ -31,12 +31,12 @@ JOB = re.compile(r"jobs/([0-9a-z]{10})\b")
 RUN_ELSEWHERE = {
     "./deploy/run": "deploy/test",
     "./deploy/package": "tests/package/package_test",
-    "$ contactctl dev\n": "tests/cli/dev_test.py",
-    "source <(contactctl completion bash)": "tests/cli/completion_test.py",
+    "$ contactctl dev\n": "tests/cli/verbs/dev_test.py",
+    "source <(contactctl completion bash)": "tests/cli/help/completion_test.py",
     "$ cd client/node": "tests/node/example_test.py",
     "cd client/python && python3 setup.py": "tests/python/package_test.py",
     "for change in client.watch_jobs": "tests/python/client_test.py",
-    "contactctl server backup": "tests/cli/backup_test.py",
+    "contactctl server backup": "tests/cli/verbs/backup_test.py",
     "$ contactd fsck": "tests/system/storage_test.py",
 }
 

@@ -1,0 +1,80 @@
+"""What contactctl says of files that are valid, but will probably not show what is wanted."""
+
+import pathlib
+import re
+import tempfile
+import unittest
+
+from cli_case import CHAIN, CliTest
+
+SWEEP = CHAIN.parent / "table-3-sweep.yaml"
+COARSE = CHAIN.read_text("utf-8").replace("solver: {", "solver: {method: RK4, step_s: 1.0e-4, ")
+
+
+class AdviceTest(CliTest):
+
+    def write(self, name, text):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name) / name
+        path.write_text(text, "utf-8")
+        return path
+
+    def test_coarse_step_is_told_at_its_place_and_is_no_error(self):
+        path = self.write("coarse.yaml", COARSE)
+        line = next(i for i, text in enumerate(COARSE.splitlines(), 1) if "step_s" in text)
+        column = COARSE.splitlines()[line - 1].index("1.0e-4") + 1
+        warning = (f"{path}:{line}:{column}: warning: solver.step_s: gives a contact of B1-B2 16.1 "
+                   "steps; it lasts about 0.0016 s at 0.2 m/s — 8e-06 gives it 200\n")
+        printed, said = self.run_it("validate", path)
+        self.assertEqual(said, warning)
+        self.assertIn("valid; 3 bodies", printed)
+        for command in ("run", "submit"):
+            self.assertIn(warning, self.run_it(command, path, code=None)[1])
+
+    def test_override_is_told_as_such(self):
+        said = self.run_it("validate", CHAIN, "--set", "output.sample_interval_s=1e-3")[1]
+        self.assertTrue(said.startswith("--set: warning: output.sample_interval_s: gives"), said)
+
+    def test_job_keeps_the_advice_that_concerns_its_result(self):
+        name = self.run_it("run", self.write("coarse.yaml", COARSE), "-o", "name", code=None)[0]
+        self.assertIn("solver.step_s: gives a contact of B1-B2 16.1 steps",
+                      self.run_it("describe", name.strip())[0])
+
+    def test_sweep_is_told_at_the_place_in_its_base(self):
+        base = self.write("three-ball-chain.yaml", COARSE)
+        sweep = base.with_name("sweep.yaml")
+        sweep.write_text(SWEEP.read_text("utf-8"), "utf-8")
+        said = self.run_it("validate", sweep)[1]
+        self.assertRegex(said, rf"^{re.escape(str(base))}:\d+:\d+: warning: solver.step_s: gives")
+
+    def test_shipped_scenarios_and_sweeps_need_none(self):
+        for path in sorted(CHAIN.parent.glob("*.yaml")):
+            with self.subTest(path.stem):
+                self.assertEqual(self.run_it("validate", path)[1], "")
+
+
+class EstimateTest(CliTest):
+
+    flags = ("--max-steps", "5000000", "--max-wall-time", "1h")
+
+    def test_server_estimates_beside_its_limits(self):
+        printed = self.run_it("validate", CHAIN, "--on-server")[0]
+        rows = dict(re.split(r"  +", line.strip(), maxsplit=1)
+                    for line in printed.splitlines()[2:] if "  " in line)
+        self.assertEqual(list(rows), ["TAKES", "steps", "samples", "output", "memory", "wall time"])
+        self.assertRegex(rows["steps"], r"^\d+ +5000000$")
+        self.assertRegex(rows["samples"], r"^1001 +\d+$")
+        self.assertRegex(rows["output"], r"^\d+ kB +-$")
+        self.assertRegex(rows["wall time"], r"^[\d.]+ [µm]?s +")
+
+    def test_estimate_of_a_sweep_is_that_of_its_cells(self):
+        steps = []
+        for path in (CHAIN, SWEEP):
+            printed = self.run_it("validate", path, "--on-server")[0]
+            steps.append(float(re.search(r"^steps +(\S+)", printed, re.MULTILINE)[1]))
+        self.assertAlmostEqual(steps[1] / steps[0], 50, delta=3)  # Two digits are shown.
+
+
+if __name__ == "__main__":
+    unittest.main()
