@@ -1,31 +1,22 @@
 #pragma once
 
 #include <chrono>
-#include <string>
 
 namespace contact {
 
-/// Clocks and identifiers, injected so that tests decide both.
+/// The time, injected so that tests decide it. Thread-safe.
 class Clock {
  public:
   virtual ~Clock() = default;
-  /// What time it is. May jump; only for people to read.
+
+  /// The date and time of day. May jump when the system's clock is set; only for people to read.
   virtual std::chrono::system_clock::time_point Now() const = 0;
-  /// For durations: never jumps.
+
+  /// Time since an arbitrary start. Never jumps; for measuring durations and for deadlines.
   virtual std::chrono::steady_clock::time_point Elapsed() const = 0;
 };
 
-class IdSource {
- public:
-  virtual ~IdSource() = default;
-  /// A job id that was never used before: lower-case letters and digits.
-  virtual std::string NextJobId() = 0;
-  /// A UUID.
-  virtual std::string NextUid() = 0;
-};
-
-/// The real ones. Both are thread-safe and live as long as the process.
+/// The clock of the operating system. Lives as long as the process.
 const Clock& SystemClock();
-IdSource& RandomIds();
 
 }  // namespace contact
