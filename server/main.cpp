@@ -13,7 +13,8 @@
 #include <string>
 #include <system_error>
 
-#include "base/sources.h"
+#include "base/clock.h"
+#include "base/ids.h"
 #include "config.h"
 #include "jobs/job_manager.h"
 #include "log.h"
@@ -68,7 +69,7 @@ v1::ServerInfo Identity(const Config& config) {
   v1::ServerInfo identity;
   identity.set_version(kVersion);
   identity.set_revision(kRevision);
-  identity.set_instance_id(RandomIds().NextJobId());
+  identity.set_instance_id(RandomIds().NextId());
   *identity.mutable_start_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
   identity.mutable_limits()->set_max_stored_bytes(config.store.max_bytes);
   return identity;

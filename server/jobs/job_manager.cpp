@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "base/executor.h"
-#include "base/sources.h"
+#include "base/clock.h"
+#include "base/ids.h"
 #include "jobs/job/job_errors.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/log/delivery_cursor.h"
@@ -192,8 +193,8 @@ void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
 
 void JobManager::Impl::Accept(const std::shared_ptr<Creation>& creation) {
   v1::Job& job = *creation->request.mutable_job();
-  job.set_name("jobs/" + ids.NextJobId());
-  job.set_uid(ids.NextUid());
+  job.set_name("jobs/" + ids.NextId());
+  job.set_uid(ids.NextUuid());
   const std::vector<v1::Event> events = {
       Apply({v1::Job::QUEUED, reason::kWaitingForWorker}, clock.Now(), &job)};
   store.Create({job, creation->request.request_id(), events, creation->reserved},

@@ -10,7 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "base/sources.h"
+#include "base/clock.h"
+#include "base/ids.h"
 #include "jobs/job_manager.h"
 #include "storage/store.h"
 #include "testing/await.h"

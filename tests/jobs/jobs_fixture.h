@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/sources.h"
+#include "base/clock.h"
 #include "jobs/job_manager.h"
 #include "storage/store.h"
 #include "testing/await.h"

@@ -8,7 +8,8 @@
 #include <string>
 #include <thread>
 
-#include "base/sources.h"
+#include "base/clock.h"
+#include "base/ids.h"
 #include "contact/v1/job_service.grpc.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"

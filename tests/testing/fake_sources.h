@@ -4,7 +4,8 @@
 #include <chrono>
 #include <string>
 
-#include "base/sources.h"
+#include "base/clock.h"
+#include "base/ids.h"
 
 namespace contact {
 
@@ -30,10 +31,10 @@ class FakeClock final : public Clock {
 class CountingIds final : public IdSource {
  public:
   explicit CountingIds(std::string prefix = "a") : prefix_(std::move(prefix)) {}
-  std::string NextJobId() override { return prefix_ + std::to_string(++count_); }
+  std::string NextId() override { return prefix_ + std::to_string(++count_); }
   /// From here on the names come once more.
   void StartNamesAnew() { count_ = 0; }
-  std::string NextUid() override { return "uid-" + std::to_string(++uids_); }
+  std::string NextUuid() override { return "uid-" + std::to_string(++uids_); }
 
  private:
   const std::string prefix_;

@@ -7,7 +7,7 @@
 #include <memory>
 #include <stop_token>
 
-#include "base/sources.h"
+#include "base/clock.h"
 #include "jobs/job/job_options.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/run/assignment.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/sources.h"
+#include "base/clock.h"
 #include "jobs/log/job_log.h"
 #include "jobs/run/log_writer.h"
 #include "jobs/run/run_control.h"

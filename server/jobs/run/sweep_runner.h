@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/mutex.h"
-#include "base/sources.h"
+#include "base/clock.h"
 #include "jobs/job/job_options.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/log/job_log.h"

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/sources.h"
+#include "base/clock.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/log/job_feed.h"
 #include "storage/store.h"
