@@ -52,8 +52,6 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}))
       ->type_name("HOW")
       ->capture_default_str();
-  app.add_flag("--taskbar-progress", settings->taskbar_progress,
-               "Show it in the task bar too, of terminals that can (OSC 9;4)");
   app.add_option("--timeout", settings->timeout,
                  "Give up after this time. Default: 10s for a call, none for run, watch and wait")
       ->type_name("TIME");

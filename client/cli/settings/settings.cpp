@@ -51,8 +51,6 @@ ProgressForm Settings::Progress() const {
   return bar ? ProgressForm::kBar : ProgressForm::kNone;
 }
 
-bool Settings::TaskbarProgress() const { return taskbar_progress && MessageStyle().terminal; }
-
 Style Settings::OutputStyle() const {
   Style style = StyleOf(STDOUT_FILENO, color);
   style.wide = wide;

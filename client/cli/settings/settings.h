@@ -30,7 +30,6 @@ struct Settings {
   bool yaml = false;  ///< `output` is json, to be written as YAML.
   std::string color = "auto";
   std::string progress = "auto";
-  bool taskbar_progress = false;
   std::string timeout;  ///< Empty: the default of the command.
 
   /// Where each comes from, by its key in config files: a flag, a variable, or `path:line`.
@@ -52,7 +51,6 @@ struct Settings {
   std::optional<std::chrono::steady_clock::time_point> Deadline() const;
 
   ProgressForm Progress() const;
-  bool TaskbarProgress() const;  ///< Of the terminal that messages go to.
   Style OutputStyle() const;     ///< Of the standard output.
   Style MessageStyle() const;    ///< Of the standard error.
 };

@@ -39,9 +39,7 @@ ExitCode TellProblems(const Settings& settings) {
 std::string ValueOf(const CLI::App& app, std::string key) {
   std::ranges::replace(key, '_', '-');
   const CLI::Option* option = app.get_option("--" + key);
-  if (option->count() > 0) return option->results().back();
-  const bool flag = option->get_items_expected_max() == 0;
-  return flag ? "false" : option->get_default_str();
+  return option->count() > 0 ? option->results().back() : option->get_default_str();
 }
 
 std::string OriginOf(const Settings& settings, const std::string& key) {

@@ -48,10 +48,7 @@ struct SweepArguments {
 class CellWatcher final : public WatchObserver {
  public:
   CellWatcher(const std::string& job, const Settings& settings) : form_(settings.Progress()) {
-    const bool json = form_ == ProgressForm::kJson;
-    if (json || settings.TaskbarProgress()) {
-      signals_.emplace(stderr, ShortName(job), json, settings.TaskbarProgress());
-    }
+    if (form_ == ProgressForm::kJson) signals_.emplace(stderr, ShortName(job));
   }
   ~CellWatcher() override { Erase(); }
 
@@ -90,7 +87,7 @@ class CellWatcher final : public WatchObserver {
   }
 
   const ProgressForm form_;
-  std::optional<ProgressSignals> signals_;  ///< Unless nobody wants them.
+  std::optional<ProgressSignals> signals_;  ///< With ProgressForm::kJson.
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SweepCells cells_;
   int told_tenths_ = 0;

@@ -58,10 +58,9 @@ WatchOptions Options(const std::string& job, const Settings& settings) {
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
   if (settings.output == OutputFormat::kJsonLines) return std::make_unique<JsonLines>();
-  return std::make_unique<LiveView>(stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
-                                    LiveView::Options{.job = ShortName(arguments.job),
-                                                      .progress = settings.Progress(),
-                                                      .taskbar = settings.TaskbarProgress()});
+  return std::make_unique<LiveView>(
+      stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
+      LiveView::Options{.job = ShortName(arguments.job), .progress = settings.Progress()});
 }
 
 // `1e-3x`: simulated seconds in a second.

@@ -43,8 +43,7 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
                 {.cycles = false,
                  .most_iterations = rows == IterationRows::kAll ? 0 : kMostIterations,
                  .job = ShortName(name),
-                 .progress = settings.Progress(),
-                 .taskbar = settings.TaskbarProgress()});
+                 .progress = settings.Progress()});
   const WatchEnd end = Watch(client, options, view);
   if (end == WatchEnd::kFinished) view.OnSnapshot(GetJob(client, name));  // How far it came.
   return end;
