@@ -34,15 +34,13 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
   app.add_option("--server", settings->server, "The server")
       ->type_name("HOST:PORT")
       ->capture_default_str();
-  app.add_option(
-         "-o,--output", settings->output,
-         "How to print: table, wide (a table with all columns), json, yaml (what json says), "
-         "name; jsonl (list, watch, export); csv (list, series, sweep, model, export); netcdf, "
-         "mat, protobuf (export); svg, png, pdf, txt, tikz, gp, csv (plot)")
-      ->check(CLI::IsMember({"table", "wide", "json", "yaml", "jsonl", "name", "csv", "netcdf",
-                             "mat", "protobuf", "svg", "png", "pdf", "txt", "tikz", "gp"}))
+  app.add_option_function<std::string>(
+         "-o,--output", [settings](const std::string& name) { settings->SetOutput(name); },
+         fmt::format("How to print: {}. export writes {}; plot draws {}", FormatHelp(kPrinted),
+                     FormatHelp(kData), FormatHelp(kPicture)))
+      ->check(CLI::IsMember(FormatNames(kPrinted | kData | kPicture)))
       ->type_name("FORMAT")
-      ->capture_default_str();
+      ->default_str(std::string(NameOf(OutputFormat::kTable)));
   app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->type_name("WHEN")
@@ -54,8 +52,6 @@ void AddGlobalFlags(CLI::App& app, Settings* settings) {
       ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}))
       ->type_name("HOW")
       ->capture_default_str();
-  app.add_flag("--taskbar-progress", settings->taskbar_progress,
-               "Show it in the task bar too, of terminals that can (OSC 9;4)");
   app.add_option("--timeout", settings->timeout,
                  "Give up after this time. Default: 10s for a call, none for run, watch and wait")
       ->type_name("TIME");

@@ -18,9 +18,11 @@ int Columns(const Settings& settings) {
 }  // namespace
 
 std::string PictureFormat(const std::string& file, const Settings& settings) {
-  if (settings.output == "table") return FormatOf(file);
-  settings.RequireOutput({"svg", "png", "pdf", "txt", "tikz", "gp", "csv"});
-  return settings.output;
+  if (settings.output == OutputFormat::kTable) return FormatOf(file);
+  settings.RequireOutput({OutputFormat::kSvg, OutputFormat::kPng, OutputFormat::kPdf,
+                          OutputFormat::kText, OutputFormat::kTikz, OutputFormat::kGnuplot,
+                          OutputFormat::kCsv});
+  return std::string(NameOf(settings.output));
 }
 
 std::string PicturePath(const std::string& file, const std::string& name,

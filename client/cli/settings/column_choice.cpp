@@ -29,7 +29,7 @@ void ColumnChoice::AddTo(CLI::App& command, const std::vector<Table::Column>& kn
 void ColumnChoice::Check(const std::vector<Table::Column>& columns,
                          const Settings& settings) const {
   if (names_.empty()) return;
-  if (settings.output != "table" && settings.output != "csv") {
+  if (settings.output != OutputFormat::kTable && settings.output != OutputFormat::kCsv) {
     throw Failure(ExitCode::kUsage, "--columns are those of a table or csv; see --output");
   }
   Table::RequireColumns(columns, names_);

@@ -59,8 +59,6 @@ class Reader {
     const std::string origin = fmt::format("{}:{}", file_->path, value.source().begin.line);
     if (const auto text = value.value_exact<std::string>()) {
       (*section)[key] = {*text, origin};
-    } else if (const auto flag = value.value_exact<bool>()) {
-      (*section)[key] = {*flag ? "true" : "false", origin};
     } else if (const auto number = value.value_exact<int64_t>()) {
       (*section)[key] = {fmt::format("{}", *number), origin};
     } else {

@@ -93,10 +93,6 @@ void ResolveSettings(CLI::App& app, Settings* settings) {
       Resolve(option, files, settings);
     }
   }
-  settings->wide = settings->output == "wide";
-  if (settings->wide) settings->output = "table";
-  settings->yaml = settings->output == "yaml";
-  if (settings->yaml) settings->output = "json";
 }
 
 }  // namespace contact::cli

@@ -11,18 +11,27 @@
 
 namespace contact::cli {
 
-void Settings::RequireOutput(std::initializer_list<std::string_view> formats) const {
+void Settings::SetOutput(std::string_view name) {
+  const std::optional<OutputFormat> format = FindFormat(name);
+  if (!format) return;
+  wide = format == OutputFormat::kWide;
+  yaml = format == OutputFormat::kYaml;
+  output = wide ? OutputFormat::kTable : yaml ? OutputFormat::kJson : *format;
+}
+
+void Settings::RequireOutput(std::initializer_list<OutputFormat> formats) const {
   if (std::ranges::find(formats, output) != formats.end()) return;
   std::vector<std::string_view> known;
-  for (const std::string_view format : formats) {
-    known.push_back(format);
-    if (format == "json") known.emplace_back("yaml");
+  for (const OutputFormat format : formats) {
+    known.push_back(NameOf(format));
+    if (format == OutputFormat::kJson) known.push_back(NameOf(OutputFormat::kYaml));
   }
   const auto origin = origins.find("output");
   const bool flag = origin == origins.end() || origin->second == "--output";
-  throw Failure(ExitCode::kUsage, fmt::format("{} {}: this command prints {}",
-                                              flag ? "--output" : origin->second + ": output",
-                                              yaml ? "yaml" : output, fmt::join(known, ", ")));
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("{} {}: this command prints {}", flag ? "--output" : origin->second + ": output",
+                  NameOf(yaml ? OutputFormat::kYaml : output), fmt::join(known, ", ")));
 }
 
 std::chrono::milliseconds Settings::CallTimeout() const {
@@ -41,8 +50,6 @@ ProgressForm Settings::Progress() const {
   const bool bar = progress == "bar" || (progress == "auto" && MessageStyle().terminal);
   return bar ? ProgressForm::kBar : ProgressForm::kNone;
 }
-
-bool Settings::TaskbarProgress() const { return taskbar_progress && MessageStyle().terminal; }
 
 Style Settings::OutputStyle() const {
   Style style = StyleOf(STDOUT_FILENO, color);

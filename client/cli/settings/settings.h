@@ -11,6 +11,7 @@
 
 #include "cli/base/failure.h"
 #include "cli/base/style.h"
+#include "cli/settings/format.h"
 
 namespace contact::cli {
 
@@ -24,12 +25,11 @@ struct Problem {
 struct Settings {
   std::string profile;  ///< Section of the config files; empty: none.
   std::string server = "127.0.0.1:7070";
-  std::string output = "table";
+  OutputFormat output = OutputFormat::kTable;
   bool wide = false;  ///< `output` is a table with all its columns.
   bool yaml = false;  ///< `output` is json, to be written as YAML.
   std::string color = "auto";
   std::string progress = "auto";
-  bool taskbar_progress = false;
   std::string timeout;  ///< Empty: the default of the command.
 
   /// Where each comes from, by its key in config files: a flag, a variable, or `path:line`.
@@ -37,8 +37,12 @@ struct Settings {
   std::map<std::string, std::string> origins;
   std::vector<Problem> problems;
 
-  /// Throws Failure (kUsage) unless `output` is one of these.
-  void RequireOutput(std::initializer_list<std::string_view> formats) const;
+  /// Takes the value of -o: sets `output`, `wide` and `yaml`. Without effect for an unknown name.
+  void SetOutput(std::string_view name);
+
+  /// Throws Failure (kUsage) unless `output` is one of these formats. A command that prints
+  /// kTable or kJson takes `wide` or `yaml`, too.
+  void RequireOutput(std::initializer_list<OutputFormat> formats) const;
 
   /// How long a call may take: `timeout`, or 10 s without.
   std::chrono::milliseconds CallTimeout() const;
@@ -47,7 +51,6 @@ struct Settings {
   std::optional<std::chrono::steady_clock::time_point> Deadline() const;
 
   ProgressForm Progress() const;
-  bool TaskbarProgress() const;  ///< Of the terminal that messages go to.
   Style OutputStyle() const;     ///< Of the standard output.
   Style MessageStyle() const;    ///< Of the standard error.
 };

@@ -14,9 +14,9 @@ void PrintJson(const std::string& json, const Settings& settings) {
 
 void PrintJob(const v1::Job& job, const Settings& settings,
               const std::vector<std::string>& columns) {
-  if (settings.output == "name") {
+  if (settings.output == OutputFormat::kName) {
     fmt::print("{}\n", job.name());
-  } else if (settings.output == "json") {
+  } else if (settings.output == OutputFormat::kJson) {
     PrintJson(ToJson(job), settings);
   } else {
     Style style = settings.OutputStyle();

@@ -1,10 +1,8 @@
 #include "cli/text/progress_signals.h"
 
-#include <fmt/format.h>
 #include <google/protobuf/util/message_differencer.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -14,7 +12,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kInterval = 100ms;
-constexpr char kTaskbarOff[] = "\x1b]9;4;0\x07";
 
 }  // namespace
 
@@ -52,13 +49,11 @@ std::string ProgressJson(const v1::Progress& progress, const std::string& job, d
   return json.dump() + "\n";
 }
 
-ProgressSignals::ProgressSignals(std::FILE* stream, std::string job, bool json, bool taskbar)
-    : stream_(stream), job_(std::move(job)), json_(json), taskbar_(taskbar) {}
+ProgressSignals::ProgressSignals(std::FILE* stream, std::string job)
+    : stream_(stream), job_(std::move(job)) {}
 
 ProgressSignals::~ProgressSignals() {
   if (untold_) Tell(Clock::now());
-  if (taskbar_ && told_) std::fputs(kTaskbarOff, stream_);
-  std::fflush(stream_);
 }
 
 void ProgressSignals::Hear(const v1::Progress& progress, Clock::time_point now) {
@@ -70,11 +65,7 @@ void ProgressSignals::Hear(const v1::Progress& progress, Clock::time_point now) 
 
 void ProgressSignals::Tell(Clock::time_point now) {
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  if (json_) std::fputs(ProgressJson(*untold_, job_, elapsed).c_str(), stream_);
-  if (taskbar_) {
-    const auto percent = std::lround(100 * PartDone(*untold_));
-    std::fputs(fmt::format("\x1b]9;4;1;{}\x07", percent).c_str(), stream_);
-  }
+  std::fputs(ProgressJson(*untold_, job_, elapsed).c_str(), stream_);
   std::fflush(stream_);
   told_ = now;
   untold_.reset();

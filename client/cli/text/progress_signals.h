@@ -15,14 +15,12 @@ double PartDone(const v1::Progress& progress);
 /// How long it may still take, in seconds; none while too little is done to tell.
 std::optional<double> TimeToGo(double part_done, double elapsed_s);
 
-/// Tells programs how far a job is: in lines of JSON, and as the progress (OSC 9;4) that some
-/// terminals show in the task bar. At most ten times a second, but always the last one; what the
-/// task bar shows is taken back at the end.
+/// Tells programs how far a job is, as lines of JSON: at most ten a second, and always the last.
 class ProgressSignals {
  public:
   using Clock = std::chrono::steady_clock;
 
-  ProgressSignals(std::FILE* stream, std::string job, bool json, bool taskbar);
+  ProgressSignals(std::FILE* stream, std::string job);
   ~ProgressSignals();
   ProgressSignals(const ProgressSignals&) = delete;
   ProgressSignals& operator=(const ProgressSignals&) = delete;
@@ -34,8 +32,6 @@ class ProgressSignals {
 
   std::FILE* const stream_;
   const std::string job_;
-  const bool json_;
-  const bool taskbar_;
   const Clock::time_point start_ = Clock::now();
   std::optional<Clock::time_point> told_;
   std::optional<v1::Progress> last_;  // Heard.

@@ -50,10 +50,7 @@ LiveView::LiveView(std::FILE* rows, const Style& rows_style, std::FILE* messages
       messages_(messages),
       messages_style_(messages_style),
       options_(std::move(options)) {
-  const bool json = options_.progress == ProgressForm::kJson;
-  if (json || options_.taskbar) {
-    signals_.emplace(messages_, options_.job, json, options_.taskbar);
-  }
+  if (options_.progress == ProgressForm::kJson) signals_.emplace(messages_, options_.job);
 }
 
 LiveView::~LiveView() { EraseProgress(); }

@@ -21,7 +21,6 @@ class LiveView : public WatchObserver {
     int most_iterations = 0;  ///< Rows of the iteration table; 0: all.
     std::string job;          ///< To say how to see the rest.
     ProgressForm progress = ProgressForm::kNone;
-    bool taskbar = false;  ///< Show progress in the task bar of the terminal too.
   };
 
   /// Events go to `rows`, the line of progress and troubles to `messages`, which may be the same.
@@ -50,7 +49,7 @@ class LiveView : public WatchObserver {
   Options options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<v1::Progress> progress_;
-  std::optional<ProgressSignals> signals_;  ///< Unless nobody wants them.
+  std::optional<ProgressSignals> signals_;  ///< With ProgressForm::kJson.
   std::int64_t iterations_ = 0;
   bool header_shown_ = false;
   bool drawn_ = false;

@@ -26,11 +26,11 @@ struct ArtifactArguments {
 };
 
 ExitCode ListArtifacts(const ArtifactArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "jsonl", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJsonLines, OutputFormat::kName});
   Client client = Connect(settings);
   const v1::Job job = GetJob(client, arguments.job);
   for (const v1::Artifact& artifact : job.artifacts()) {
-    if (settings.output == "jsonl") {
+    if (settings.output == OutputFormat::kJsonLines) {
       fmt::print("{}", ToJsonLine(artifact));
     } else {
       fmt::print("{}\n", artifact.name());
@@ -45,7 +45,7 @@ std::string Hex(const std::string& bytes) {
 }
 
 ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table"});
+  settings.RequireOutput({OutputFormat::kTable});
   Client client = Connect(settings);
   const std::string path = arguments.file.empty()
                                ? std::filesystem::path(arguments.artifact).filename().string()

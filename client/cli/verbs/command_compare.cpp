@@ -25,8 +25,8 @@ struct CompareArguments {
 
 std::string Format(const CompareArguments& arguments, const Settings& settings) {
   if (!arguments.format.empty()) return arguments.format;
-  settings.RequireOutput({"table", "json", "csv"});
-  return settings.yaml ? "yaml" : settings.output;
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kCsv});
+  return settings.yaml ? "yaml" : std::string(NameOf(settings.output));
 }
 
 void DrawRuns(const CompareArguments& arguments, const Settings& settings) {

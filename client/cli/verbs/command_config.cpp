@@ -39,9 +39,7 @@ ExitCode TellProblems(const Settings& settings) {
 std::string ValueOf(const CLI::App& app, std::string key) {
   std::ranges::replace(key, '_', '-');
   const CLI::Option* option = app.get_option("--" + key);
-  if (option->count() > 0) return option->results().back();
-  const bool flag = option->get_items_expected_max() == 0;
-  return flag ? "false" : option->get_default_str();
+  return option->count() > 0 ? option->results().back() : option->get_default_str();
 }
 
 std::string OriginOf(const Settings& settings, const std::string& key) {
@@ -50,7 +48,7 @@ std::string OriginOf(const Settings& settings, const std::string& key) {
 }
 
 ExitCode View(const CLI::App& app, const ConfigArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "json"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   nlohmann::ordered_json json;
   Table table(arguments.show_origin ? std::vector<Table::Column>{{"KEY"}, {"VALUE"}, {"FROM"}}
                                     : std::vector<Table::Column>{{"KEY"}, {"VALUE"}});
@@ -62,7 +60,7 @@ ExitCode View(const CLI::App& app, const ConfigArguments& arguments, const Setti
     table.Add(std::move(row));
     json[key] = {{"value", value}, {"origin", origin}};
   }
-  if (settings.output == "json") {
+  if (settings.output == OutputFormat::kJson) {
     PrintJson(json.dump(2) + "\n", settings);
   } else {
     fmt::print("{}", table.Text(settings.OutputStyle()));
@@ -80,7 +78,7 @@ void RequireKey(const std::string& key, const Keys& keys) {
 }
 
 ExitCode Get(const CLI::App& app, const std::string& key, const Settings& settings) {
-  settings.RequireOutput({"table"});
+  settings.RequireOutput({OutputFormat::kTable});
   RequireKey(key, ConfigKeys(app));
   fmt::print("{}\n", ValueOf(app, key));
   return TellProblems(settings);
@@ -147,17 +145,17 @@ ExitCode Use(const CLI::App& app, const std::string& profile) {
 }
 
 ExitCode ListProfiles(const CLI::App& app, const Settings& settings) {
-  settings.RequireOutput({"table", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
   const Keys keys = ConfigKeys(app);
   const auto files = ReadConfigFiles({keys.begin(), keys.end()});
   Table table({{"PROFILE"}, {"SERVER"}, {"IN USE"}});
   for (const std::string& name : Profiles(keys)) {
-    if (settings.output == "name") fmt::print("{}\n", name);
+    if (settings.output == OutputFormat::kName) fmt::print("{}\n", name);
     const auto server = FindValue(files, "server", name);
     table.Add(
         {name, server ? server->text : "-", std::string(name == settings.profile ? "yes" : "")});
   }
-  if (settings.output == "table") fmt::print("{}", table.Text(settings.OutputStyle()));
+  if (settings.output == OutputFormat::kTable) fmt::print("{}", table.Text(settings.OutputStyle()));
   return TellProblems(settings);
 }
 

@@ -88,12 +88,12 @@ ExitCode WaitForEnd(const LocalServer& server, const sigset_t& signals) {
 }
 
 ExitCode Dev(const DevArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
   const sigset_t signals = BlockSignals();
   const auto start = Clock::now();
   const LocalServer server(arguments.contactd.empty() ? FindContactd() : arguments.contactd);
   if (!arguments.command.empty()) return RunCommand(arguments, server, signals);
-  if (settings.output == "name") {
+  if (settings.output == OutputFormat::kName) {
     fmt::print("{}\n", server.address());
   } else {
     const std::chrono::duration<double> passed = Clock::now() - start;

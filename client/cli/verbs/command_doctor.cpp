@@ -128,13 +128,13 @@ std::string Text(const Findings& findings, const Style& style) {
 }
 
 ExitCode Doctor(const CLI::App& app, const Settings& settings) {
-  settings.RequireOutput({"table", "json"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   Findings findings;
   LookAtConfig(app, settings, &findings);
   LookAtServer(settings, &findings);
   findings.push_back(LookAtGnuplot());
   findings.push_back(LookAtTerminal(settings));
-  if (settings.output == "json") {
+  if (settings.output == OutputFormat::kJson) {
     PrintJson(Json(findings), settings);
   } else {
     fmt::print("{}", Text(findings, settings.OutputStyle()));

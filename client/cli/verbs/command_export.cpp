@@ -28,15 +28,13 @@ struct ExportArguments {
 };
 
 // As -o says, or as the file is called.
-std::string Format(const ExportArguments& arguments, const Settings& settings) {
-  if (settings.output != "table") {
-    settings.RequireOutput({"csv", "jsonl", "netcdf", "mat", "protobuf"});
+OutputFormat Format(const ExportArguments& arguments, const Settings& settings) {
+  if (settings.output != OutputFormat::kTable) {
+    settings.RequireOutput({OutputFormat::kCsv, OutputFormat::kJsonLines, OutputFormat::kNetcdf,
+                            OutputFormat::kMat, OutputFormat::kProtobuf});
     return settings.output;
   }
-  if (arguments.file.ends_with(".nc")) return "netcdf";
-  if (arguments.file.ends_with(".mat")) return "mat";
-  if (arguments.file.ends_with(".pb")) return "protobuf";
-  return arguments.file.ends_with(".jsonl") ? "jsonl" : "csv";
+  return FormatOfFile(arguments.file, kData).value_or(OutputFormat::kCsv);
 }
 
 DataTable Chosen(const std::string& name, Recording&& recording) {
@@ -46,23 +44,24 @@ DataTable Chosen(const std::string& name, Recording&& recording) {
   return SeriesTable(std::move(recording));
 }
 
-void WriteText(const DataTable& table, const Provenance& source, const std::string& format,
+void WriteText(const DataTable& table, const Provenance& source, OutputFormat format,
                const ExportArguments& arguments) {
   OutputFile file(arguments.file);
   if (arguments.comments) fmt::print(file.get(), "{}", Lines({source}, "# "));
-  (format == "jsonl" ? WriteJsonLines : WriteCsv)(table, file.get(), arguments.precision);
+  (format == OutputFormat::kJsonLines ? WriteJsonLines : WriteCsv)(table, file.get(),
+                                                                   arguments.precision);
   file.Close();
   if (!arguments.file.empty()) WriteCsvMetadata(table.columns, {source}, arguments.file);
 }
 
 // All tables in one file.
-std::string WriteAll(Recording&& recording, const std::string& format, const std::string& path) {
+std::string WriteAll(Recording&& recording, OutputFormat format, const std::string& path) {
   const OutputFile writable(path);  // Told in our words, before those of the library.
   const Provenance provenance = ProvenanceOf(recording.job);
   std::vector<DataTable> tables{CyclesTable(recording.job), IterationsTable(recording.iterations),
                                 BodiesTable(recording.job)};
   tables.insert(tables.begin(), SeriesTable(std::move(recording)));
-  (format == "mat" ? WriteMat : WriteNetcdf)(tables, provenance, path);
+  (format == OutputFormat::kMat ? WriteMat : WriteNetcdf)(tables, provenance, path);
   return fmt::format("{}, {}",
                      Count(static_cast<std::int64_t>(tables[0].rows()), "sample", "samples"),
                      Count(static_cast<std::int64_t>(tables[1].rows()), "cycle", "cycles"));
@@ -103,20 +102,22 @@ void AddPart(CLI::App& command, SeriesSelection* part) {
       ->type_name("N");
 }
 
-bool IsText(const std::string& format) { return format == "csv" || format == "jsonl"; }
+bool IsText(OutputFormat format) {
+  return format == OutputFormat::kCsv || format == OutputFormat::kJsonLines;
+}
 
-void RequireUse(const ExportArguments& arguments, const std::string& format) {
+void RequireUse(const ExportArguments& arguments, OutputFormat format) {
   const auto require = [](bool holds, const std::string& what) {
     if (!holds) throw Failure(ExitCode::kUsage, what);
   };
   const bool text = IsText(format);
   require(text || !arguments.file.empty(),
-          fmt::format("{} is no text; give a file with -f", format));
+          fmt::format("{} is no text; give a file with -f", NameOf(format)));
   require(!text || arguments.table == "series" || arguments.part.empty(),
           "channels, time range and thinning are of the series");
-  require(format != "protobuf" || arguments.part.empty(),
+  require(format != OutputFormat::kProtobuf || arguments.part.empty(),
           "protobuf has all that was recorded, no part of it");
-  require(format == "csv" || !arguments.comments, "--comments are of csv");
+  require(format == OutputFormat::kCsv || !arguments.comments, "--comments are of csv");
   require(text || arguments.precision == 0, "--precision is of csv and jsonl");
 }
 
@@ -125,7 +126,7 @@ std::string WriteEvents(const ExportArguments& arguments, const Settings& settin
   return Count(WriteProtobuf(client, arguments.job, settings, arguments.file), "event", "events");
 }
 
-std::string WriteTables(const ExportArguments& arguments, const std::string& format,
+std::string WriteTables(const ExportArguments& arguments, OutputFormat format,
                         const Settings& settings) {
   Recording recording = Read(arguments, settings);
   if (!IsText(format)) return WriteAll(std::move(recording), format, arguments.file);
@@ -136,10 +137,11 @@ std::string WriteTables(const ExportArguments& arguments, const std::string& for
 }
 
 ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
-  const std::string format = Format(arguments, settings);
+  const OutputFormat format = Format(arguments, settings);
   RequireUse(arguments, format);
-  const std::string what = format == "protobuf" ? WriteEvents(arguments, settings)
-                                                : WriteTables(arguments, format, settings);
+  const std::string what = format == OutputFormat::kProtobuf
+                               ? WriteEvents(arguments, settings)
+                               : WriteTables(arguments, format, settings);
   if (!arguments.file.empty()) fmt::print(stderr, "{}  {}\n", arguments.file, what);
   return ExitCode::kOk;
 }

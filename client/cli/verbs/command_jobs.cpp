@@ -119,30 +119,31 @@ Table ListTable(const v1::ListJobsResponse& all) {
 
 ExitCode List(const ListArguments& arguments, const Settings& settings) {
   if (arguments.watch) return ListAndWatch(WatchRequest(arguments), settings);
-  settings.RequireOutput({"table", "json", "jsonl", "csv", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kJsonLines,
+                          OutputFormat::kCsv, OutputFormat::kName});
   arguments.columns.Check(ListColumns(), settings);
   Client client = Connect(settings);
   const v1::ListJobsResponse all = ListAll(client, arguments);
-  if (settings.output == "json") {
+  if (settings.output == OutputFormat::kJson) {
     PrintJson(ToJson(all), settings);
-  } else if (settings.output == "csv") {
+  } else if (settings.output == OutputFormat::kCsv) {
     fmt::print("{}", ListTable(all).Csv(arguments.columns.names()));
-  } else if (settings.output == "table") {
+  } else if (settings.output == OutputFormat::kTable) {
     fmt::print("{}", ListTable(all).Text(arguments.columns.OutputStyle(settings)));
   } else {
-    const bool names = settings.output == "name";
+    const bool names = settings.output == OutputFormat::kName;
     for (const v1::Job& job : all.jobs()) {
       fmt::print("{}", names ? job.name() + "\n" : ToJsonLine(job));
     }
   }
-  if (settings.output == "table" && !all.next_page_token().empty()) {
+  if (settings.output == OutputFormat::kTable && !all.next_page_token().empty()) {
     fmt::print(stderr, "… and more; --limit 0 lists all\n");
   }
   return ExitCode::kOk;
 }
 
 ExitCode Describe(const std::string& job, const ColumnChoice& columns, const Settings& settings) {
-  settings.RequireOutput({"table", "json", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   columns.Check(LedgerColumns(), settings);
   Client client = Connect(settings);
   PrintJob(GetJob(client, job), settings, columns.names());
@@ -150,11 +151,11 @@ ExitCode Describe(const std::string& job, const ColumnChoice& columns, const Set
 }
 
 ExitCode Cancel(const std::string& job, const Settings& settings) {
-  settings.RequireOutput({"table", "json", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   v1::CancelJobRequest request;
   request.set_name(JobName(job));
   const v1::Job answer = Connect(settings).Call(&Client::Stub::CancelJob, request);
-  if (settings.output != "table") {
+  if (settings.output != OutputFormat::kTable) {
     PrintJob(answer, settings);
   } else if (answer.state() == v1::Job::RUNNING) {
     fmt::print("{}  asked to stop\n", answer.name());
@@ -165,11 +166,11 @@ ExitCode Cancel(const std::string& job, const Settings& settings) {
 }
 
 ExitCode Delete(const std::string& job, const Settings& settings) {
-  settings.RequireOutput({"table", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
   v1::DeleteJobRequest request;
   request.set_name(JobName(job));
   Connect(settings).Call(&Client::Stub::DeleteJob, request);
-  fmt::print("{}{}\n", request.name(), settings.output == "table" ? "  deleted" : "");
+  fmt::print("{}{}\n", request.name(), settings.output == OutputFormat::kTable ? "  deleted" : "");
   return ExitCode::kOk;
 }
 

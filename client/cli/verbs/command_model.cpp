@@ -49,9 +49,9 @@ std::string Percent(double miss) { return fmt::format("{:+.2f} %", 100 * miss); 
 std::vector<Table::Column> ListColumns() { return {{"LAW"}, {"FORMULA"}, {"SOURCE", false, 1}}; }
 
 ExitCode List(const ColumnChoice& columns, const Settings& settings) {
-  settings.RequireOutput({"table", "json"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   columns.Check(ListColumns(), settings);
-  if (settings.output == "json") {
+  if (settings.output == OutputFormat::kJson) {
     PrintJson(JsonList(LawCatalogue()), settings);
     return ExitCode::kOk;
   }
@@ -64,9 +64,9 @@ ExitCode List(const ColumnChoice& columns, const Settings& settings) {
 }
 
 ExitCode Show(const std::string& name, const Settings& settings) {
-  settings.RequireOutput({"table", "json"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   const LawEntry& law = FindLaw(name);
-  if (settings.output == "json") {
+  if (settings.output == OutputFormat::kJson) {
     PrintJson(Json(law) + "\n", settings);
     return ExitCode::kOk;
   }
@@ -146,13 +146,14 @@ std::string CompareTable(const std::vector<LawPoint>& points, const CompareArgum
 }
 
 ExitCode Compare(const CompareArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "json", "csv"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kCsv});
   std::vector<LawPoint> points = Points(arguments);
-  arguments.columns.Check(CompareColumns(arguments, settings.output == "csv"), settings);
+  arguments.columns.Check(CompareColumns(arguments, settings.output == OutputFormat::kCsv),
+                          settings);
   Simulate(&points, settings);
-  if (settings.output == "json") {
+  if (settings.output == OutputFormat::kJson) {
     PrintJson(JsonList(points), settings);
-  } else if (settings.output == "csv") {
+  } else if (settings.output == OutputFormat::kCsv) {
     fmt::print("{}", CompareCsv(points, arguments));
   } else {
     fmt::print("{}", CompareTable(points, arguments, arguments.columns.OutputStyle(settings)));

@@ -91,7 +91,7 @@ void WriteAll(const v1::ServerInfo& server, const PaperArguments& arguments,
 }
 
 ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table"});
+  settings.RequireOutput({OutputFormat::kTable});
   const std::vector<std::string> chosen = Chosen(arguments.items);
   const auto start = std::chrono::steady_clock::now();
   MakeFolder(arguments.directory);

@@ -70,7 +70,7 @@ void KeepContactForces(Recording* recording) {
 }
 
 ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table"});
+  settings.RequireOutput({OutputFormat::kTable});
   Client client = Connect(settings);
   bool drawn = true;
   const auto draw = [&drawn](auto make) {

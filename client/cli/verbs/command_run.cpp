@@ -117,11 +117,11 @@ v1::Job Create(Client& client, const RunArguments& arguments) {
 }
 
 ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "json", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
   const v1::Job job = Create(client, arguments);
   PrintJob(job, settings);
-  if (settings.output == "table") {
+  if (settings.output == OutputFormat::kTable) {
     fmt::print(stderr, "Next:  contactctl watch {}\n", ShortName(job.name()));
   }
   return ExitCode::kOk;
@@ -133,7 +133,7 @@ IterationRows RowsOf(const std::string& word) {
 }
 
 ExitCode Run(const RunArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "json", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   arguments.columns.Check(LedgerColumns(), settings);
   const auto deadline = settings.Deadline();
   Client client = Connect(settings);
@@ -145,7 +145,7 @@ ExitCode Run(const RunArguments& arguments, const Settings& settings) {
 
   const v1::Job result = GetJob(client, job.name());
   PrintJob(result, settings, arguments.columns.names());
-  if (settings.output == "table") fmt::print(stderr, "{}", NextSteps(result));
+  if (settings.output == OutputFormat::kTable) fmt::print(stderr, "{}", NextSteps(result));
   return CodeOf(result);
 }
 

@@ -71,7 +71,7 @@ ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& te
 }
 
 ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table"});
+  settings.RequireOutput({OutputFormat::kTable});
   const std::string text = ReadText(arguments.file);
   if (IsSweep(text)) return ValidateSweep(arguments, text, settings);
   ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text,
@@ -118,7 +118,7 @@ void WriteBase(const Template& sweep, const std::string& path) {
 }
 
 ExitCode Init(const InitArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
   if (arguments.list || arguments.name.empty()) {
     Table table({{"TEMPLATE"}, {"SHOWS"}});
     for (const Template& scenario : Templates()) {

@@ -16,7 +16,7 @@ struct SchemaArguments {
 };
 
 ExitCode Schema(const SchemaArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "json"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   const Contract contract;
   if (arguments.markdown) {
     fmt::print("{}", ReferenceInMarkdown(ScenarioReference(contract)));

@@ -42,12 +42,12 @@ std::string Comments(Client& client, const SeriesArguments& arguments) {
 }
 
 ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "csv", "json"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson});
   Client client = Connect(settings);
   const v1::Series series = client.CallTellingAll(&Client::Stub::GetSeries, Request(arguments));
-  if (settings.output == "csv") {
+  if (settings.output == OutputFormat::kCsv) {
     fmt::print("{}{}", Comments(client, arguments), SeriesCsv(series));
-  } else if (settings.output == "json") {
+  } else if (settings.output == OutputFormat::kJson) {
     PrintJson(SeriesJson(series), settings);
   } else {
     fmt::print("{}", RenderSeries(series, settings.OutputStyle()));

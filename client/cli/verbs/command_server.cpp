@@ -24,10 +24,10 @@ ExitCode Version() {
 }
 
 ExitCode Status(const Settings& settings) {
-  settings.RequireOutput({"table", "json"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   Client client = Connect(settings);
   const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
-  if (settings.output == "json") {
+  if (settings.output == OutputFormat::kJson) {
     PrintJson(ToJson(info), settings);
     return ExitCode::kOk;
   }
@@ -48,7 +48,7 @@ ExitCode Status(const Settings& settings) {
 }
 
 ExitCode Backup(const std::string& path, const Settings& settings) {
-  settings.RequireOutput({"table"});
+  settings.RequireOutput({OutputFormat::kTable});
   Client client = Connect(settings);
   const std::int64_t bytes = ReceiveBackup(client, path, settings.Deadline());
   fmt::print("{}  {} bytes, checked\n", path, bytes);
@@ -57,7 +57,7 @@ ExitCode Backup(const std::string& path, const Settings& settings) {
 
 // The page as Prometheus reads it.
 ExitCode Metrics(const std::string& address, const Settings& settings) {
-  settings.RequireOutput({"table"});
+  settings.RequireOutput({OutputFormat::kTable});
   constexpr std::chrono::seconds kTimeout{10};
   try {
     fmt::print("{}",

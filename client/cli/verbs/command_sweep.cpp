@@ -48,10 +48,7 @@ struct SweepArguments {
 class CellWatcher final : public WatchObserver {
  public:
   CellWatcher(const std::string& job, const Settings& settings) : form_(settings.Progress()) {
-    const bool json = form_ == ProgressForm::kJson;
-    if (json || settings.TaskbarProgress()) {
-      signals_.emplace(stderr, ShortName(job), json, settings.TaskbarProgress());
-    }
+    if (form_ == ProgressForm::kJson) signals_.emplace(stderr, ShortName(job));
   }
   ~CellWatcher() override { Erase(); }
 
@@ -90,7 +87,7 @@ class CellWatcher final : public WatchObserver {
   }
 
   const ProgressForm form_;
-  std::optional<ProgressSignals> signals_;  ///< Unless nobody wants them.
+  std::optional<ProgressSignals> signals_;  ///< With ProgressForm::kJson.
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SweepCells cells_;
   int told_tenths_ = 0;
@@ -100,18 +97,19 @@ class CellWatcher final : public WatchObserver {
 // Throws Failure (kUsage) unless the sweep has the metric and the columns that are named.
 void CheckNames(const v1::Sweep& sweep, const SweepArguments& arguments, const Settings& settings) {
   arguments.map.MetricOf(sweep);
-  arguments.columns.Check(settings.output == "csv" ? SweepCsvColumns(sweep) : SweepColumns(sweep),
-                          settings);
+  arguments.columns.Check(
+      settings.output == OutputFormat::kCsv ? SweepCsvColumns(sweep) : SweepColumns(sweep),
+      settings);
 }
 
 void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments,
            const Settings& settings) {
-  if (settings.output == "csv") {
+  if (settings.output == OutputFormat::kCsv) {
     fmt::print("{}{}", arguments.comments ? Lines({SourceOf(job)}, "# ") : "",
                SweepCsv(job.sweep(), cells, arguments.columns.names()));
-  } else if (settings.output == "json") {
+  } else if (settings.output == OutputFormat::kJson) {
     PrintJson(SweepJson(job, cells), settings);
-  } else if (settings.output == "name") {
+  } else if (settings.output == OutputFormat::kName) {
     fmt::print("{}\n", job.name());
   } else {
     const Style style = arguments.columns.OutputStyle(settings);
@@ -134,7 +132,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   WatchEnd end = WatchEnd::kStopped;
   {
     const Interrupt interrupt;
-    const bool submitted = arguments.job.empty() && settings.output == "table";
+    const bool submitted = arguments.job.empty() && settings.output == OutputFormat::kTable;
     if (submitted) fmt::print(stderr, "{} submitted\n", name);
     CellWatcher watcher(name, settings);
     end = Watch(client, options, watcher);
@@ -155,7 +153,8 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
 }
 
 ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "csv", "json", "name"});
+  settings.RequireOutput(
+      {OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson, OutputFormat::kName});
   const DrawnCells drawn{.count = std::max(arguments.random, arguments.latin_hypercube),
                          .latin_hypercube = arguments.latin_hypercube > 0,
                          .seed = arguments.seed};
@@ -174,21 +173,22 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   Client client = Connect(settings);
   const std::string name = client.CallTellingAll(&Client::Stub::CreateJob, request).name();
   const ExitCode code = Follow(client, name, arguments, settings);
-  if (settings.output == "table") {
+  if (settings.output == OutputFormat::kTable) {
     fmt::print(stderr, "Next:  contactctl sweep export {} -o csv\n", ShortName(name));
   }
   return code;
 }
 
 ExitCode Show(const SweepArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "csv", "json", "name"});
+  settings.RequireOutput(
+      {OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
   return Follow(client, JobName(arguments.job), arguments, settings);
 }
 
 // Whatever became of the cells, they were printed.
 ExitCode Export(const SweepArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "csv", "json"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson});
   Client client = Connect(settings);
   const ExitCode code = Follow(client, JobName(arguments.job), arguments, settings);
   return code == ExitCode::kNotConverged || code == ExitCode::kRunFailed ? ExitCode::kOk : code;

@@ -41,22 +41,22 @@ ExitCode RunCell(Client& client, const v1::Job& sweep, const v1::SweepCell& cell
   if (end != WatchEnd::kFinished) return Detach(end, job.name());
   job = GetJob(client, job.name());
   PrintJob(job, settings);
-  if (settings.output == "table") fmt::print(stderr, "{}", NextSteps(job));
+  if (settings.output == OutputFormat::kTable) fmt::print(stderr, "{}", NextSteps(job));
   return CodeOf(job);
 }
 
 ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
   if (arguments.run) {
-    settings.RequireOutput({"table", "json", "name"});
+    settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   } else {
-    settings.RequireOutput({"table", "json"});
+    settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   }
   Client client = Connect(settings);
   const v1::Job job = GetSweep(client, arguments.job);
   const SweepCells cells = ReadCells(client, job, settings);
   const v1::SweepCell& cell = FindCell(job.sweep(), cells, arguments.cell);
   if (arguments.run) return RunCell(client, job, cell, settings);
-  if (settings.output == "json") {
+  if (settings.output == OutputFormat::kJson) {
     PrintJson(ToJson(cell), settings);
     return ExitCode::kOk;
   }

@@ -57,11 +57,10 @@ WatchOptions Options(const std::string& job, const Settings& settings) {
 }
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
-  if (settings.output == "jsonl") return std::make_unique<JsonLines>();
-  return std::make_unique<LiveView>(stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
-                                    LiveView::Options{.job = ShortName(arguments.job),
-                                                      .progress = settings.Progress(),
-                                                      .taskbar = settings.TaskbarProgress()});
+  if (settings.output == OutputFormat::kJsonLines) return std::make_unique<JsonLines>();
+  return std::make_unique<LiveView>(
+      stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
+      LiveView::Options{.job = ShortName(arguments.job), .progress = settings.Progress()});
 }
 
 // `1e-3x`: simulated seconds in a second.
@@ -107,7 +106,7 @@ ExitCode WatchPlot(const WatchArguments& arguments, const Settings& settings) {
 }
 
 ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({"table", "jsonl"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJsonLines});
   if (!arguments.plot.empty()) return WatchPlot(arguments, settings);
   if (!arguments.replay.empty()) throw Failure(ExitCode::kUsage, "--replay goes with --plot");
   Client client = Connect(settings);
@@ -118,7 +117,7 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   if (!arguments.min_frame_interval.empty()) {
     options.min_frame_interval = ParseDuration(arguments.min_frame_interval);
   }
-  if (options.kinds.empty() && settings.output == "table") {
+  if (options.kinds.empty() && settings.output == OutputFormat::kTable) {
     options.kinds = {"log_entry", "iteration", "cycle", "attempt_started", "progress"};
   }
   const Interrupt interrupt;
@@ -131,7 +130,7 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
 }
 
 ExitCode Wait(const std::string& job, const Settings& settings) {
-  settings.RequireOutput({"table", "json", "name"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
   WatchOptions options = Options(job, settings);
   options.kinds = {"state_changed"};
@@ -140,7 +139,7 @@ ExitCode Wait(const std::string& job, const Settings& settings) {
   const WatchEnd end = Watch(client, options, silence);
   if (end != WatchEnd::kFinished) return Detach(end, options.name);
   const v1::Job result = GetJob(client, job);
-  if (settings.output == "table") {
+  if (settings.output == OutputFormat::kTable) {
     const std::string state = v1::Job::State_Name(result.state());
     fmt::print("{}  {}\n", result.name(),
                Paint(state, ToneOf(result.state()), settings.OutputStyle()));

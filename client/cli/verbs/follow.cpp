@@ -33,7 +33,7 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
   options.deadline = deadline;
   options.stopped = Interrupt::raised;
   options.kinds = {"progress"};
-  if (settings.output == "table") {
+  if (settings.output == OutputFormat::kTable) {
     fmt::print(stderr, "{} submitted\n", name);
     options.kinds = {"progress", "log_entry", "attempt_started"};
     if (rows != IterationRows::kNone) options.kinds.emplace_back("iteration");
@@ -43,8 +43,7 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
                 {.cycles = false,
                  .most_iterations = rows == IterationRows::kAll ? 0 : kMostIterations,
                  .job = ShortName(name),
-                 .progress = settings.Progress(),
-                 .taskbar = settings.TaskbarProgress()});
+                 .progress = settings.Progress()});
   const WatchEnd end = Watch(client, options, view);
   if (end == WatchEnd::kFinished) view.OnSnapshot(GetJob(client, name));  // How far it came.
   return end;

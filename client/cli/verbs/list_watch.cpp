@@ -22,7 +22,7 @@ class JobLines : public JobsObserver {
   explicit JobLines(const Settings& settings) : settings_(settings) {}
 
   void OnJob(const v1::Job& job) override {
-    if (settings_.output == "jsonl") return Print(ToJsonLine(job));
+    if (settings_.output == OutputFormat::kJsonLines) return Print(ToJsonLine(job));
     const Style style = settings_.OutputStyle();
     const std::string state = v1::Job::State_Name(job.state());
     const auto& time = job.has_end_time()     ? job.end_time()
@@ -38,7 +38,8 @@ class JobLines : public JobsObserver {
   void OnGone(const std::string& name) override {
     v1::WatchJobsResponse gone;
     gone.add_gone(name);
-    Print(settings_.output == "jsonl" ? ToJsonLine(gone) : ShortName(name) + "  gone\n");
+    Print(settings_.output == OutputFormat::kJsonLines ? ToJsonLine(gone)
+                                                       : ShortName(name) + "  gone\n");
   }
 
   void OnLost(const std::string& why, std::chrono::milliseconds) override {
@@ -57,7 +58,7 @@ class JobLines : public JobsObserver {
 }  // namespace
 
 ExitCode ListAndWatch(const v1::WatchJobsRequest& request, const Settings& settings) {
-  settings.RequireOutput({"table", "jsonl"});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJsonLines});
   Client client = Connect(settings);
   const Interrupt interrupt;
   JobLines lines(settings);

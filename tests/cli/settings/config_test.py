@@ -46,16 +46,6 @@ class ConfigTest(unittest.TestCase):
         self.assertEqual(self.view("server", "--server", "flag:1", **variable),
                          ("flag:1", "--server"))
 
-    def test_flag_without_value_is_false_unless_some_place_says_true(self):
-        self.assertEqual(self.view("taskbar_progress"), ("false", "default"))
-        self.run_it("config", "set", "taskbar_progress", "true")
-        self.assertEqual(self.view("taskbar_progress"), ("true", f"{self.user}:1"))
-        self.assertEqual(self.view("taskbar_progress", CONTACT_TASKBAR_PROGRESS="false"),
-                         ("false", "CONTACT_TASKBAR_PROGRESS"))
-        self.assertEqual(self.view("taskbar_progress", "--taskbar-progress")[1],
-                         "--taskbar-progress")
-        self.run_it("config", "set", "taskbar_progress", "maybe", code=2)
-
     def test_profile_wins_over_what_is_outside_of_it(self):
         self.here.write_text('server = "here:1"\n')
         self.user.write_text('[profile.lab]\nserver = "lab:1"\ntimeout = "3s"\n')

@@ -24,12 +24,12 @@ v1::Progress RunAt(double time_s) {
 
 // What is written while `act` has the signals.
 template <class Act>
-std::string Written(bool json, bool taskbar, Act act) {
+std::string Written(Act act) {
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* stream = open_memstream(&text, &size);
   {
-    ProgressSignals signals(stream, "abc", json, taskbar);
+    ProgressSignals signals(stream, "abc");
     act(signals);
   }
   std::fclose(stream);
@@ -59,7 +59,7 @@ TEST(ProgressSignals, LineTellsASweepInJson) {
 
 TEST(ProgressSignals, AtMostTenLinesASecondAreToldAndTheLastOneAlways) {
   const auto start = ProgressSignals::Clock::now();
-  const std::string text = Written(true, false, [start](ProgressSignals& signals) {
+  const std::string text = Written([start](ProgressSignals& signals) {
     for (int i = 0; i <= 25; ++i) signals.Hear(RunAt(i * 0.1), start + i * 10ms);
   });
   std::vector<double> times;
@@ -71,12 +71,7 @@ TEST(ProgressSignals, AtMostTenLinesASecondAreToldAndTheLastOneAlways) {
 }
 
 TEST(ProgressSignals, NothingIsToldBeforeAnythingIsKnown) {
-  EXPECT_EQ(Written(true, true, [](ProgressSignals& signals) { signals.Hear({}); }), "");
-}
-
-TEST(ProgressSignals, TaskBarIsTakenBackAtTheEnd) {
-  EXPECT_EQ(Written(false, true, [](ProgressSignals& signals) { signals.Hear(RunAt(1)); }),
-            "\x1b]9;4;1;25\x07\x1b]9;4;0\x07");
+  EXPECT_EQ(Written([](ProgressSignals& signals) { signals.Hear({}); }), "");
 }
 
 }  // namespace

@@ -1,16 +1,9 @@
-"""Progress for programs, and in the task bar of terminals."""
+"""Progress for programs."""
 
 import json
-import os
-import pty
-import signal
-import subprocess
 import unittest
 
-from cli_case import CHAIN, LONG, SPRING, CliTest, read_until
-from contactd import PATIENCE_S
-
-TASKBAR_OFF = b"\x1b]9;4;0\x07"
+from cli_case import CHAIN, CliTest
 
 
 class ProgressTest(CliTest):
@@ -39,40 +32,6 @@ class ProgressTest(CliTest):
         printed, said = self.run_it("watch", name, "--progress", "json")
         self.assertIn("SUCCEEDED", printed)
         self.assertEqual(json.loads(said.splitlines()[-1])["done"], 1)
-
-    def on_terminal(self, *arguments, env=None):
-        """A process whose messages go to a terminal, and its other end."""
-        master, slave = pty.openpty()
-        self.addCleanup(os.close, master)
-        process = subprocess.Popen(self.command(*arguments), stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=slave,
-                                   env={**os.environ, "TERM": "xterm", **(env or {})})
-        os.close(slave)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process, master
-
-    def test_task_bar_shows_it_and_is_taken_back(self):
-        process, master = self.on_terminal("run", CHAIN, "--taskbar-progress")
-        seen = read_until(master, TASKBAR_OFF)
-        self.assertIn(b"\x1b]9;4;1;100\x07", seen)
-        self.assertEqual(process.wait(PATIENCE_S), 0)
-
-    def test_task_bar_is_taken_back_on_interrupt(self):
-        process, master = self.on_terminal("run", SPRING, *LONG, "--iterations", "none",
-                                           env={"CONTACT_TASKBAR_PROGRESS": "true"})
-        read_until(master, b"\x1b]9;4;1;")
-        process.send_signal(signal.SIGINT)
-        self.assertIn(TASKBAR_OFF, read_until(master, b"Ctrl-C again"))
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(PATIENCE_S), 130)
-
-    def test_task_bar_is_for_terminals_and_for_who_wants_it(self):
-        said = self.run_it("run", CHAIN, "--taskbar-progress")[1]
-        self.assertNotIn("\x1b]9", said)
-        process, master = self.on_terminal("run", CHAIN)
-        self.assertNotIn(b"\x1b]9", read_until(master, b"Next:"))
-        self.assertEqual(process.wait(PATIENCE_S), 0)
 
 
 if __name__ == "__main__":

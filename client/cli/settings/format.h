@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace contact::cli {
+
+/// The output formats. Each is a row of formats.def, which says all else about it: a new format
+/// needs its row, its writer, a test and a line of the README, and no other change.
+enum class OutputFormat {
+#define FORMAT(enumerator, name, ending, uses, about) enumerator,
+#include "cli/settings/formats.def"
+};
+
+/// What a format is for; a format may have several uses.
+enum FormatUse : unsigned {
+  kPrinted = 1,  ///< Commands print it to the standard output.
+  kData = 2,     ///< `export` writes the numbers of a job in it.
+  kPicture = 4,  ///< `plot` draws in it.
+};
+
+/// One row of the registry.
+struct FormatInfo {
+  OutputFormat format;
+  std::string_view name;    ///< The value of -o.
+  std::string_view ending;  ///< Of file names, with its dot; empty: no file name tells the format.
+  unsigned uses;            ///< Bits of FormatUse.
+  std::string_view about;   ///< For the help; may be empty.
+};
+
+/// All formats, in the order of formats.def.
+const std::vector<FormatInfo>& Formats();
+
+/// The row of a format.
+const FormatInfo& InfoOf(OutputFormat format);
+
+/// The name of a format, such as `netcdf`.
+inline std::string_view NameOf(OutputFormat format) { return InfoOf(format).name; }
+
+/// The format with this name; none if there is no such format.
+std::optional<OutputFormat> FindFormat(std::string_view name);
+
+/// The format that the ending of a file name tells, among those with this use; none if the ending
+/// belongs to no such format.
+std::optional<OutputFormat> FormatOfFile(const std::string& path, FormatUse use);
+
+/// The names of the formats that have one of these uses (bits of FormatUse).
+std::vector<std::string> FormatNames(unsigned uses);
+
+/// The names of the formats with this use and what they are, with commas between, for the help.
+std::string FormatHelp(FormatUse use);
+
+}  // namespace contact::cli
