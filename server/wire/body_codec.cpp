@@ -13,18 +13,12 @@
 namespace contact {
 namespace {
 
-constexpr Range kMass{0, 1e12, "(0, 1e12]"};
-constexpr Range kRadius{0, 1e6, "[0, 1e6]"};
-constexpr Range kDensity{0, 1e9, "(0, 1e9]"};
-constexpr Range kPosition{-1e9, 1e9, "[-1e9, 1e9]"};
-constexpr Range kVelocity{-1e6, 1e6, "[-1e6, 1e6]"};
-
 double SphereMass(double radius, double density) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
 }
 
 double MassFromDensity(const v1::Body& message, const Rules& rules) {
-  rules.Require("density_kg_per_m3", message.density_kg_per_m3(), kDensity);
+  const double density = rules.Read(message, v1::Body::kDensityKgPerM3FieldNumber);
   if (message.has_mass_kg()) {
     rules.Break("density_kg_per_m3", "is given beside mass_kg", "give one of the two");
   }
@@ -33,20 +27,23 @@ double MassFromDensity(const v1::Body& message, const Rules& rules) {
                 "density_kg_per_m3 needs a radius_m > 0");
     return 0;
   }
-  const double mass = SphereMass(message.radius_m(), message.density_kg_per_m3());
-  const bool inputs_right = kDensity.Contains(message.density_kg_per_m3()) &&
-                            kRadius.Contains(message.radius_m()) && !message.has_mass_kg();
-  if (inputs_right && !kMass.Contains(mass)) {
+  const double mass = SphereMass(message.radius_m(), density);
+  const Range& masses = NumberOf<v1::Body>(v1::Body::kMassKgFieldNumber).range;
+  const Range& densities = NumberOf<v1::Body>(v1::Body::kDensityKgPerM3FieldNumber).range;
+  const Range& radii = NumberOf<v1::Body>(v1::Body::kRadiusMFieldNumber).range;
+  const bool inputs_right =
+      densities.Contains(density) && radii.Contains(message.radius_m()) && !message.has_mass_kg();
+  if (inputs_right && !masses.Contains(mass)) {
     rules.Break("density_kg_per_m3",
-                fmt::format("gives a mass of {} kg; must be in {}", mass, kMass.text));
+                fmt::format("gives a mass of {} kg; must be {}", mass, masses.text));
   }
   return mass;
 }
 
 double DecodeMass(const v1::Body& message, const Rules& rules) {
-  if (message.has_mass_kg()) rules.Require("mass_kg", message.mass_kg(), kMass);
+  const double mass = rules.Read(message, v1::Body::kMassKgFieldNumber);
   if (message.has_density_kg_per_m3()) return MassFromDensity(message, rules);
-  if (message.has_mass_kg()) return message.mass_kg();
+  if (message.has_mass_kg()) return mass;
   if (!message.fixed()) {
     rules.Break("mass_kg", "is missing", "give mass_kg, or density_kg_per_m3 and radius_m");
   }
@@ -57,24 +54,24 @@ Body DecodeBody(const v1::Body& message, const Rules& rules) {
   if (message.name().empty()) {
     rules.Break("name", "is missing", "contacts refer to the body by its name");
   } else if (!IsName(message.name())) {
-    rules.Break("name", fmt::format("is {}; must be 1 to 64 letters, digits, '_', '.' or '-'",
-                                    Quoted(message.name())));
+    BreakName(message.name(), rules);
   }
-  const double mass = DecodeMass(message, rules);
-  rules.Require("radius_m", message.radius_m(), kRadius);
-  rules.Require("position_m", message.position_m(), kPosition);
-  rules.Require("velocity_m_per_s", message.velocity_m_per_s(), kVelocity);
-  if (message.has_material()) CheckMaterial(message.material(), "material", rules);
-  if (message.fixed() && message.velocity_m_per_s() != 0) {
+  Body body{.name = message.name(), .fixed = message.fixed()};
+  body.mass = DecodeMass(message, rules);
+  body.radius = rules.Read(message, v1::Body::kRadiusMFieldNumber);
+  body.position = rules.Read(message, v1::Body::kPositionMFieldNumber);
+  body.velocity = rules.Read(message, v1::Body::kVelocityMPerSFieldNumber);
+  if (message.has_material()) CheckMaterial(message.material(), rules.In("material"));
+  if (body.fixed && body.velocity != 0) {
     rules.Break("velocity_m_per_s",
-                fmt::format("is {}; must be 0 for a fixed body", message.velocity_m_per_s()));
+                fmt::format("is {}; must be 0 for a fixed body", body.velocity));
   }
-  return {.name = message.name(),
-          .mass = mass,
-          .radius = message.radius_m(),
-          .position = message.position_m(),
-          .velocity = message.velocity_m_per_s(),
-          .fixed = message.fixed()};
+  return body;
+}
+
+std::size_t LongestName() {
+  static const int longest = RuleOf<v1::Body>(v1::Body::kNameFieldNumber).max_characters();
+  return static_cast<std::size_t>(longest);
 }
 
 }  // namespace
@@ -84,7 +81,12 @@ bool IsName(std::string_view text) {
     return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '_' ||
            c == '.' || c == '-';
   };
-  return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, allowed);
+  return !text.empty() && text.size() <= LongestName() && std::ranges::all_of(text, allowed);
+}
+
+void BreakName(const std::string& name, const Rules& rules) {
+  rules.Break("name", fmt::format("is {}; must be 1 to {} letters, digits, '_', '.' or '-'",
+                                  Quoted(name), LongestName()));
 }
 
 std::vector<Body> DecodeBodies(const v1::Scenario& message, std::vector<Violation>* violations) {

@@ -11,22 +11,29 @@
 
 namespace contact {
 
-/// True for 1 to 64 letters, digits, '_', '.' and '-'.
+/// True for a name of a body or contact: letters, digits, '_', '.' and '-', at least one and at
+/// most as many as the contract allows for Body.name.
 bool IsName(std::string_view text);
 
-/// Checks the bodies and reads them.
+/// Notes that the field `name` of a body or contact is not a name.
+void BreakName(const std::string& name, const Rules& rules);
+
+/// Checks the bodies of a scenario and reads them, in their order. The result has as many entries
+/// as the message, also if some of them break rules.
 std::vector<Body> DecodeBodies(const v1::Scenario& message, std::vector<Violation>* violations);
 
-/// Finds bodies by name.
+/// Finds bodies by name. Of bodies with the same name, finds the first.
 class BodyNames {
  public:
-  /// `bodies` outlives this.
+  /// `bodies` outlives this and keeps its names.
   explicit BodyNames(const std::vector<Body>& bodies);
 
-  /// Index of the body that `field` names; kNone, and a broken rule, if there is none.
+  /// Index of the body called `name`. If there is none, notes that `field` breaks a rule and
+  /// returns kNone.
   int Find(std::string_view name, std::string_view field, const Rules& rules) const;
 
  private:
+  // What to write instead of an unknown name: the nearest one, or all if they are few.
   std::string Hint(std::string_view name) const;
 
   const std::vector<Body>& bodies_;

@@ -18,13 +18,6 @@
 namespace contact {
 namespace {
 
-constexpr Range kStiffness{0, 1e30, "(0, 1e30]"};
-constexpr Range kExponent{1, 5, "[1, 5]"};
-constexpr Range kRestitution{0, 1, "(0, 1]"};
-constexpr Range kMu{0, 1e30, "[0, 1e30]"};
-constexpr Range kReferenceVelocity{0, 1e6, "(0, 1e6]"};
-constexpr Range kPosition{-1e9, 1e9, "[-1e9, 1e9]"};
-
 std::optional<DampingLaw> Law(v1::Contact::Damping damping) {
   switch (damping) {
     case v1::Contact::DAMPING_UNSPECIFIED:
@@ -71,26 +64,27 @@ DampingLaw DecodeDamping(const v1::Contact& message, const Rules& rules) {
   return law.value_or(DampingLaw::kEnergyRestitution);
 }
 
-void CheckRestitution(const v1::Contact& message, const Rules& rules) {
+void DecodeRestitution(const v1::Contact& message, const Rules& rules, Contact* contact) {
   if (message.has_restitution()) {
-    rules.Require("restitution", message.restitution(), kRestitution);
+    contact->restitution = rules.Read(message, v1::Contact::kRestitutionFieldNumber);
   } else if (message.damping() != v1::Contact::MU) {
     rules.Break("restitution", "is missing", "1 is elastic; damping MU with mu needs none");
   }
 }
 
-void CheckMu(const v1::Contact& message, const Rules& rules) {
+double DecodeMu(const v1::Contact& message, const Rules& rules) {
   const bool given = message.damping() == v1::Contact::MU;
-  if (message.has_mu()) rules.Require("mu", message.mu(), kMu);
+  const double mu = rules.Read(message, v1::Contact::kMuFieldNumber);
   if (given && !message.has_mu()) rules.Break("mu", "is missing; damping MU needs it");
   if (!given && message.has_mu()) {
     rules.Break("mu", "is given, but goes only with damping MU", "remove mu, or set damping: MU");
   }
+  return mu;
 }
 
 // Two laws are made for one exponent each.
-void CheckExponent(const v1::Contact& message, double exponent, const Rules& rules) {
-  rules.Require("exponent", exponent, kExponent);
+double DecodeExponent(const v1::Contact& message, const Rules& rules) {
+  const double exponent = rules.Read(message, v1::Contact::kExponentFieldNumber);
   const auto needs = [&](double needed) {
     if (exponent == needed) return;
     rules.Break("exponent",
@@ -100,25 +94,18 @@ void CheckExponent(const v1::Contact& message, double exponent, const Rules& rul
   };
   if (message.damping() == v1::Contact::KELVIN_VOIGT) needs(1);
   if (message.damping() == v1::Contact::HERTZ_QUARTER_POWER) needs(1.5);
+  return exponent;
 }
 
 // Everything about a contact but where it is.
 Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
   Contact contact;
-  contact.stiffness = message.stiffness();
-  if (message.has_exponent()) contact.exponent = message.exponent();
-  if (message.has_restitution()) contact.restitution = message.restitution();
-  contact.mu = message.mu();
-  contact.reference_velocity = message.reference_velocity_m_per_s();
-
-  if (message.has_stiffness()) rules.Require("stiffness", message.stiffness(), kStiffness);
-  CheckExponent(message, contact.exponent, rules);
-  CheckRestitution(message, rules);
+  contact.stiffness = rules.Read(message, v1::Contact::kStiffnessFieldNumber);
+  contact.exponent = DecodeExponent(message, rules);
+  DecodeRestitution(message, rules, &contact);
   contact.damping = DecodeDamping(message, rules);
-  CheckMu(message, rules);
-  if (message.has_reference_velocity_m_per_s()) {
-    rules.Require("reference_velocity_m_per_s", contact.reference_velocity, kReferenceVelocity);
-  }
+  contact.mu = DecodeMu(message, rules);
+  contact.reference_velocity = rules.Read(message, v1::Contact::kReferenceVelocityMPerSFieldNumber);
   return contact;
 }
 
@@ -131,8 +118,7 @@ class ContactDecoder {
 
   void Decode(const v1::Contact& message, const Rules& rules) {
     if (!message.name().empty() && !IsName(message.name())) {
-      rules.Break("name", fmt::format("is {}; must be 1 to 64 letters, digits, '_', '.' or '-'",
-                                      Quoted(message.name())));
+      BreakName(message.name(), rules);
     }
     CheckArity(message, rules);
     std::vector<int> touching;
@@ -140,7 +126,7 @@ class ContactDecoder {
       const std::string field = fmt::format("between[{}]", i);
       touching.push_back(names_.Find(message.between(i), field, rules));
     }
-    CheckWall(message, rules);
+    if (message.has_wall()) CheckWall(message, rules.In("wall"));
     CheckStiffness(message, touching, rules);
     const Contact law = DecodeLaw(message, rules);
     if (message.has_wall()) {
@@ -169,17 +155,16 @@ class ContactDecoder {
   }
 
   static void CheckWall(const v1::Contact& message, const Rules& rules) {
-    if (!message.has_wall()) return;
-    rules.Require("wall.position_m", message.wall().position_m(), kPosition);
+    rules.Read(message.wall(), v1::Wall::kPositionMFieldNumber);
     if (message.wall().side() == v1::Wall::SIDE_UNSPECIFIED) {
-      rules.Break("wall.side", "is missing", "LEFT or RIGHT of the body");
+      rules.Break("side", "is missing", "LEFT or RIGHT of the body");
     } else {
-      rules.RequireAvailable("wall.side", message.wall().side(), {v1::Wall::LEFT, v1::Wall::RIGHT});
+      rules.RequireAvailable("side", message.wall().side(), {v1::Wall::LEFT, v1::Wall::RIGHT});
     }
     if (!message.wall().has_material()) return;
-    CheckMaterial(message.wall().material(), "wall.material", rules);
+    CheckMaterial(message.wall().material(), rules.In("material"));
     if (message.has_stiffness()) {
-      rules.Break("wall.material", "is given beside stiffness", "give one of the two");
+      rules.Break("material", "is given beside stiffness", "give one of the two");
     }
   }
 
@@ -234,10 +219,11 @@ class ContactDecoder {
       curvature += 1 / Message(body).radius_m();
     }
     contact->stiffness = HertzStiffness(compliance, curvature);
-    if (rules.empty() && !kStiffness.Contains(contact->stiffness)) {
-      rules.Break("stiffness", fmt::format("is missing, and follows as {} from the materials; must "
-                                           "be in {}",
-                                           contact->stiffness, kStiffness.text));
+    const Range& range = NumberOf<v1::Contact>(v1::Contact::kStiffnessFieldNumber).range;
+    if (rules.empty() && !range.Contains(contact->stiffness)) {
+      rules.Break("stiffness",
+                  fmt::format("is missing, and follows as {} from the materials; must be {}",
+                              contact->stiffness, range.text));
     }
   }
 

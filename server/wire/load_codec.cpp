@@ -8,21 +8,9 @@
 namespace contact {
 namespace {
 
-constexpr Range kForce{-1e15, 1e15, "[-1e15, 1e15]"};
-constexpr Range kAngularFrequency{0, 1e9, "[0, 1e9]"};
-constexpr Range kPhase{-1e3, 1e3, "[-1e3, 1e3]"};
-constexpr Range kAcceleration{-1e9, 1e9, "[-1e9, 1e9]"};
-constexpr Range kTime{0, 1e6, "[0, 1e6]"};
-constexpr Range kDuration{1e-12, 1e6, "[1e-12, 1e6]"};
-
-constexpr double kStandardGravity = 9.80665;  // m/s²
-constexpr int kMostPoints = 10'000;
-
-double DecodeAcceleration(const v1::Load::Gravity& gravity, const Rules& rules) {
-  const double acceleration =
-      gravity.has_acceleration_m_per_s2() ? gravity.acceleration_m_per_s2() : -kStandardGravity;
-  rules.Require("gravity.acceleration_m_per_s2", acceleration, kAcceleration);
-  return acceleration;
+double DecodeAcceleration(const v1::Load& load, const Rules& rules) {
+  return rules.In("gravity").Read(load.gravity(),
+                                  v1::Load::Gravity::kAccelerationMPerS2FieldNumber);
 }
 
 void AddGravityOfAll(const std::vector<Body>& bodies, double acceleration,
@@ -45,23 +33,22 @@ class LoadDecoder {
     RequireMovable(bodies_, body_, rules_);
     switch (load.kind_case()) {
       case v1::Load::kConstant:
-        rules_.Require("constant.force_n", load.constant().force_n(), kForce);
-        return Add({.body = body_, .constant = load.constant().force_n()});
+        return Add(Read(load.constant(), rules_.In("constant")));
       case v1::Load::kSine:
-        return Add(Read(load.sine()));
+        return Add(Read(load.sine(), rules_.In("sine")));
       case v1::Load::kGravity: {
-        const double acceleration = DecodeAcceleration(load.gravity(), rules_);
+        const double acceleration = DecodeAcceleration(load, rules_);
         const double mass = body_ == kNone ? 0 : bodies_[static_cast<std::size_t>(body_)].mass;
         return Add({.body = body_, .constant = mass * acceleration});
       }
       case v1::Load::kStep:
-        return Add(Read(load.step()));
+        return Add(Read(load.step(), rules_.In("step")));
       case v1::Load::kRectangularPulse:
-        return Add(Read(load.rectangular_pulse()));
+        return Add(Read(load.rectangular_pulse(), rules_.In("rectangular_pulse")));
       case v1::Load::kHalfSinePulse:
-        return Add(Read(load.half_sine_pulse()));
+        return Add(Read(load.half_sine_pulse(), rules_.In("half_sine_pulse")));
       case v1::Load::kTable:
-        return AddTable(load.table());
+        return AddTable(load.table(), rules_.In("table"));
       case v1::Load::KIND_NOT_SET:
         rules_.Break("", "has no kind",
                      "give one of constant, sine, gravity, step, rectangular_pulse, "
@@ -72,70 +59,67 @@ class LoadDecoder {
  private:
   void Add(const Load& load) { loads_->push_back(load); }
 
-  Load Read(const v1::Load::Sine& sine) const {
-    rules_.Require("sine.amplitude_n", sine.amplitude_n(), kForce);
-    rules_.Require("sine.angular_frequency_rad_per_s", sine.angular_frequency_rad_per_s(),
-                   kAngularFrequency);
-    rules_.Require("sine.phase_rad", sine.phase_rad(), kPhase);
+  Load Read(const v1::Load::Constant& constant, const Rules& rules) const {
     return {.body = body_,
-            .amplitude = sine.amplitude_n(),
-            .angular_frequency = sine.angular_frequency_rad_per_s(),
-            .phase = sine.phase_rad()};
+            .constant = rules.Read(constant, v1::Load::Constant::kForceNFieldNumber)};
   }
 
-  Load Read(const v1::Load::Step& step) const {
-    rules_.Require("step.force_n", step.force_n(), kForce);
-    rules_.Require("step.start_time_s", step.start_time_s(), kTime);
-    return {.body = body_, .begin = step.start_time_s(), .constant = step.force_n()};
-  }
-
-  Load Read(const v1::Load::RectangularPulse& pulse) const {
-    rules_.Require("rectangular_pulse.force_n", pulse.force_n(), kForce);
-    rules_.Require("rectangular_pulse.start_time_s", pulse.start_time_s(), kTime);
-    RequireDuration("rectangular_pulse.duration_s", pulse.duration_s());
+  Load Read(const v1::Load::Sine& sine, const Rules& rules) const {
+    using Field = v1::Load::Sine;
     return {.body = body_,
-            .begin = pulse.start_time_s(),
-            .end = pulse.start_time_s() + pulse.duration_s(),
-            .constant = pulse.force_n()};
+            .amplitude = rules.Read(sine, Field::kAmplitudeNFieldNumber),
+            .angular_frequency = rules.Read(sine, Field::kAngularFrequencyRadPerSFieldNumber),
+            .phase = rules.Read(sine, Field::kPhaseRadFieldNumber)};
   }
 
-  Load Read(const v1::Load::HalfSinePulse& pulse) const {
-    rules_.Require("half_sine_pulse.amplitude_n", pulse.amplitude_n(), kForce);
-    rules_.Require("half_sine_pulse.start_time_s", pulse.start_time_s(), kTime);
-    RequireDuration("half_sine_pulse.duration_s", pulse.duration_s());
-    return {.body = body_,
-            .begin = pulse.start_time_s(),
-            .end = pulse.start_time_s() + pulse.duration_s(),
-            .amplitude = pulse.amplitude_n(),
-            .angular_frequency = std::numbers::pi / pulse.duration_s()};
+  Load Read(const v1::Load::Step& step, const Rules& rules) const {
+    Load load{.body = body_};
+    load.constant = rules.Read(step, v1::Load::Step::kForceNFieldNumber);
+    load.begin = rules.Read(step, v1::Load::Step::kStartTimeSFieldNumber);
+    return load;
   }
 
-  void RequireDuration(std::string_view field, double duration) const {
-    if (duration == 0) {
-      rules_.Break(field, fmt::format("is missing; must be in {}", kDuration.text));
-    } else {
-      rules_.Require(field, duration, kDuration);
-    }
+  Load Read(const v1::Load::RectangularPulse& pulse, const Rules& rules) const {
+    Load load{.body = body_};
+    load.constant = rules.Read(pulse, v1::Load::RectangularPulse::kForceNFieldNumber);
+    load.begin = rules.Read(pulse, v1::Load::RectangularPulse::kStartTimeSFieldNumber);
+    load.end = load.begin + rules.Read(pulse, v1::Load::RectangularPulse::kDurationSFieldNumber);
+    return load;
   }
 
-  void AddTable(const v1::Load::Table& table) {
-    if (table.points_size() < 2 || table.points_size() > kMostPoints) {
-      rules_.Break("table.points",
-                   fmt::format("holds {}; must hold 2 to {}", table.points_size(), kMostPoints));
+  Load Read(const v1::Load::HalfSinePulse& pulse, const Rules& rules) const {
+    Load load{.body = body_};
+    load.amplitude = rules.Read(pulse, v1::Load::HalfSinePulse::kAmplitudeNFieldNumber);
+    load.begin = rules.Read(pulse, v1::Load::HalfSinePulse::kStartTimeSFieldNumber);
+    const double duration = rules.Read(pulse, v1::Load::HalfSinePulse::kDurationSFieldNumber);
+    load.end = load.begin + duration;
+    load.angular_frequency = std::numbers::pi / duration;
+    return load;
+  }
+
+  void AddTable(const v1::Load::Table& table, const Rules& rules) {
+    const v1::FieldRule& rule = RuleOf<v1::Load::Table>(v1::Load::Table::kPointsFieldNumber);
+    const int count = table.points_size();
+    if (count < rule.min_entries() || count > rule.max_entries()) {
+      rules.Break("points", fmt::format("holds {}; must hold {} to {}", count, rule.min_entries(),
+                                        rule.max_entries()));
       return;
     }
-    for (int i = 0; i < table.points_size() && !rules_.full(); ++i) {
-      const auto& point = table.points(i);
-      rules_.Require(fmt::format("table.points[{}].time_s", i), point.time_s(), kTime);
-      rules_.Require(fmt::format("table.points[{}].force_n", i), point.force_n(), kForce);
-      if (i > 0) AddPiece(table.points(i - 1), point, i);
+    for (int i = 0; i < count && !rules.full(); ++i) {
+      const v1::Load::Table::Point& point = table.points(i);
+      const Rules here = rules.In("points", i);
+      here.Read(point, v1::Load::Table::Point::kTimeSFieldNumber);
+      here.Read(point, v1::Load::Table::Point::kForceNFieldNumber);
+      if (i > 0) AddPiece(table.points(i - 1), point, here);
     }
   }
 
-  void AddPiece(const v1::Load::Table::Point& from, const v1::Load::Table::Point& to, int index) {
+  // `rules` are for the point `to`.
+  void AddPiece(const v1::Load::Table::Point& from, const v1::Load::Table::Point& to,
+                const Rules& rules) {
     if (to.time_s() <= from.time_s()) {
-      rules_.Break(
-          fmt::format("table.points[{}].time_s", index),
+      rules.Break(
+          "time_s",
           fmt::format("is {}, which is not after the {} before", to.time_s(), from.time_s()),
           "points follow one another in time");
       return;
@@ -172,7 +156,7 @@ std::vector<Load> DecodeLoads(const v1::Scenario& message, const std::vector<Bod
       LoadDecoder(bodies, names, rules, &loads).Decode(load);
       continue;
     }
-    const double acceleration = DecodeAcceleration(load.gravity(), rules);
+    const double acceleration = DecodeAcceleration(load, rules);
     if (std::exchange(gravity_of_all, true)) {
       rules.Break("gravity", "repeats the gravity of every body", "give it once");
     } else {

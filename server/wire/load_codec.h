@@ -9,10 +9,11 @@
 
 namespace contact {
 
-/// Notes that forces do not move `body` if it is fixed; kNone breaks nothing.
+/// Notes that forces do not move the body with this index if it is fixed. kNone breaks no rule.
 void RequireMovable(const std::vector<Body>& bodies, int body, const Rules& rules);
 
-/// Checks the loads and reads them, in pieces that are smooth in time.
+/// Checks the loads of a scenario and reads them, in pieces that are smooth in time: a table gives
+/// one for each interval, the gravity of every body one for each body that moves.
 std::vector<Load> DecodeLoads(const v1::Scenario& message, const std::vector<Body>& bodies,
                               const BodyNames& names, std::vector<Violation>* violations);
 

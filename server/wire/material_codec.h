@@ -5,10 +5,10 @@
 
 namespace contact {
 
-/// Checks a material. `rules` are those of the message that holds it, as the field `path`.
-void CheckMaterial(const v1::Material& material, std::string_view path, const Rules& rules);
+/// Checks the numbers of a material. `rules` are for the material itself.
+void CheckMaterial(const v1::Material& material, const Rules& rules);
 
-/// (1 − ν²)/E of one side of a contact [1/Pa].
+/// (1 − ν²)/E of one side of a contact [1/Pa]. `material` breaks no rule.
 double Compliance(const v1::Material& material);
 
 /// Stiffness of a contact of spheres, or of a sphere and a plane (H1) [N/m^1.5]: 4/3 E* √R* with

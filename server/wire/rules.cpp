@@ -3,15 +3,10 @@
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
-#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace contact {
-
-bool Range::Contains(double value) const {
-  const bool open = text.front() == '(';
-  return std::isfinite(value) && value <= high && (open ? value > low : value >= low);
-}
 
 void Rules::Break(std::string_view field, std::string description, std::string hint) const {
   if (full()) return;
@@ -20,7 +15,23 @@ void Rules::Break(std::string_view field, std::string description, std::string h
 
 void Rules::Require(std::string_view field, double value, const Range& range) const {
   if (full() || range.Contains(value)) return;
-  Break(field, fmt::format("is {}; must be in {}", value, range.text));
+  Break(field, fmt::format("is {}; must be {}", value, range.text));
+}
+
+double Rules::Read(const google::protobuf::Message& message, const NumberField& number,
+                   std::string_view hint) const {
+  const std::optional<double> found = number.Find(message);
+  const double value = found.value_or(number.default_value);
+  if (found ? number.range.Contains(value) : !number.required) return value;
+  const std::string& field = number.descriptor->name();
+  if (!found) {
+    Break(field, "is missing", std::string(hint));
+  } else if (value == 0 && number.required) {
+    Break(field, fmt::format("is missing; must be {}", number.range.text), std::string(hint));
+  } else {
+    Require(field, value, number.range);
+  }
+  return value;
 }
 
 void Rules::BreakChoice(std::string_view field, const google::protobuf::EnumDescriptor& descriptor,
@@ -35,9 +46,9 @@ void Rules::BreakChoice(std::string_view field, const google::protobuf::EnumDesc
 
 std::string Rules::Path(std::string_view field) const {
   if (message_.empty()) return std::string(field);
-  const std::string message =
-      index_ < 0 ? std::string(message_) : fmt::format("{}[{}]", message_, index_);
-  return field.empty() ? message : fmt::format("{}.{}", message, field);
+  std::string path = parent_ == nullptr ? std::string(message_) : parent_->Path(message_);
+  if (index_ >= 0) path += fmt::format("[{}]", index_);
+  return field.empty() ? path : fmt::format("{}.{}", path, field);
 }
 
 }  // namespace contact

@@ -8,39 +8,46 @@
 #include <string_view>
 #include <vector>
 
+#include "wire/field_rule.h"
 #include "wire/violation.h"
 
 namespace contact {
 
-/// The interval that a value must lie in, with the words of the contract: `(0, 1e12]`. Its ends
-/// belong to it unless the text begins with a parenthesis.
-struct Range {
-  double low;
-  double high;
-  std::string_view text;
-
-  /// False for NaN and infinity.
-  bool Contains(double value) const;
-};
-
-/// Checks the fields of one message of a scenario and notes which rules they break. Paths are
-/// only built for broken rules.
+/// Checks the fields of one message of a scenario and notes which rules they break. A path is only
+/// built when a rule is broken.
 class Rules {
  public:
+  /// Violations noted for one scenario or sweep at most; what breaks a rule after that is not
+  /// noted.
   static constexpr std::size_t kMostViolations = 100;
 
   /// For the message at `message[index]`, or at `message` if the index is negative, or for the
-  /// scenario itself. `violations` outlives this.
+  /// whole if `message` is empty. `violations` and the text of `message` outlive this.
   explicit Rules(std::vector<Violation>* violations, std::string_view message = {}, int index = -1)
       : violations_(violations), message_(message), index_(index) {}
 
-  /// Notes that `field` breaks a rule.
+  /// For a message within this one. This and the text of `message` outlive the result.
+  Rules In(std::string_view message, int index = -1) const {
+    Rules rules(violations_, message, index);
+    rules.parent_ = this;
+    return rules;
+  }
+
+  /// Notes that `field` of the message breaks a rule; the message itself if `field` is empty.
   void Break(std::string_view field, std::string description, std::string hint = {}) const;
 
-  /// `field` must lie in the range.
+  /// `value` of `field` must lie in the range.
   void Require(std::string_view field, double value, const Range& range) const;
 
-  /// `field` must have one of the values that this version can do; not to choose is always right.
+  /// The value of the number with this field number, or the default that the contract states while
+  /// it is unset. Notes the rules of the contract that it breaks: it is required but missing, or
+  /// out of its range. `hint`: what to do about a missing one.
+  template <class Message>
+  double Read(const Message& message, int number, std::string_view hint = {}) const {
+    return Read(message, NumberOf<Message>(number), hint);
+  }
+
+  /// `field` must have one of the values that this version can do, or be unset.
   template <class Enum>
   void RequireAvailable(std::string_view field, Enum value,
                         std::initializer_list<Enum> available) const {
@@ -52,15 +59,20 @@ class Rules {
   /// True while no rule of the scenario is broken.
   bool empty() const { return violations_->empty(); }
 
-  /// True when nothing more is noted, so that work on hints can be spared.
+  /// True when nothing more is noted, so that callers need not compose hints.
   bool full() const { return violations_->size() >= kMostViolations; }
 
  private:
+  double Read(const google::protobuf::Message& message, const NumberField& number,
+              std::string_view hint) const;
+  // Notes that `value` is none of this version, or none of the enum at all.
   void BreakChoice(std::string_view field, const google::protobuf::EnumDescriptor& descriptor,
                    int value) const;
+  // The path of a field from the scenario, such as `loads[3].sine.phase_rad`.
   std::string Path(std::string_view field) const;
 
   std::vector<Violation>* violations_;
+  const Rules* parent_ = nullptr;  // Of the message around this one; none around the outermost.
   std::string_view message_;
   int index_;
 };

@@ -12,17 +12,6 @@
 namespace contact {
 namespace {
 
-constexpr Range kCoefficient{0, 1e30, "[0, 1e30]"};
-constexpr Range kPosition{-1e9, 1e9, "[-1e9, 1e9]"};
-constexpr Range kStep{0, 1, "(0, 1]"};
-constexpr Range kRelativeTolerance{1e-13, 1e-3, "[1e-13, 1e-3]"};
-constexpr Range kRestitutionTolerance{1e-12, 0.1, "[1e-12, 0.1]"};
-constexpr Range kMaxIterations{1, 1000, "[1, 1000]"};
-constexpr Range kSettledFraction{0, 0.1, "[0, 0.1]"};
-constexpr Range kMaxSteps{1, 1e12, "[1, 1e12]"};
-constexpr Range kEndTime{0, 1e6, "(0, 1e6]"};
-
-constexpr std::int64_t kLongestTitle = 200;
 constexpr int kDefaultSamples = 1000;
 
 std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vector<Body>& bodies,
@@ -37,19 +26,15 @@ std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vect
     if (other != kNone && other == body) {
       rules.Break("other", "is the body itself", "leave it out for a support to the ground");
     }
-    rules.Require("stiffness_n_per_m", support.stiffness_n_per_m(), kCoefficient);
-    rules.Require("damping_n_s_per_m", support.damping_n_s_per_m(), kCoefficient);
-    rules.Require("rest_position_m", support.rest_position_m(), kPosition);
+    using Field = v1::Support;
     supports.push_back({.body = body,
                         .other = other,
-                        .stiffness = support.stiffness_n_per_m(),
-                        .damping = support.damping_n_s_per_m(),
-                        .rest_position = support.rest_position_m()});
+                        .stiffness = rules.Read(support, Field::kStiffnessNPerMFieldNumber),
+                        .damping = rules.Read(support, Field::kDampingNSPerMFieldNumber),
+                        .rest_position = rules.Read(support, Field::kRestPositionMFieldNumber)});
   }
   return supports;
 }
-
-constexpr double kDefaultStep = 1e-6;  // The paper's [s].
 
 UpdateRule DecodeUpdate(v1::Solver::Update update) {
   switch (update) {
@@ -67,11 +52,10 @@ UpdateRule DecodeUpdate(v1::Solver::Update update) {
 // The method, how μ is corrected, and what a cycle's phases are.
 void DecodeProcess(const v1::Solver& message, const Rules& rules, SolverOptions* options) {
   rules.RequireAvailable("method", message.method(), {v1::Solver::ADAPTIVE, v1::Solver::RK4});
+  const double step = rules.Read(message, v1::Solver::kStepSFieldNumber);
   if (message.method() == v1::Solver::RK4) {
-    options->fixed_step = message.has_step_s() ? message.step_s() : kDefaultStep;
-    rules.Require("step_s", options->fixed_step, kStep);
+    options->fixed_step = step;
   } else if (message.has_step_s()) {
-    rules.Require("step_s", message.step_s(), kStep);
     rules.Break("step_s", "is given, but goes only with method RK4", "remove it");
   }
   rules.RequireAvailable("update", message.update(),
@@ -101,27 +85,23 @@ void RequireSplitSolvable(const Scenario& scenario, const Rules& rules) {
 
 SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
   SolverOptions options;
-  if (message.has_relative_tolerance()) options.relative_tolerance = message.relative_tolerance();
-  if (message.has_restitution_tolerance()) {
-    options.restitution_tolerance = message.restitution_tolerance();
-  }
-  if (message.has_max_iterations()) options.max_iterations = message.max_iterations();
-  if (message.has_settled_fraction()) {
-    options.settled_fraction = options.settled_nirv_fraction = message.settled_fraction();
-  }
-  if (message.has_max_steps()) options.max_steps = message.max_steps();
   options.clip_tension = message.tension() == v1::Solver::CLIP;
   options.fail_if_not_converged = message.on_not_converged() == v1::Solver::FAIL;
 
   DecodeProcess(message, rules, &options);
-  rules.Require("relative_tolerance", options.relative_tolerance, kRelativeTolerance);
-  rules.Require("restitution_tolerance", options.restitution_tolerance, kRestitutionTolerance);
-  rules.Require("max_iterations", options.max_iterations, kMaxIterations);
+  options.relative_tolerance = rules.Read(message, v1::Solver::kRelativeToleranceFieldNumber);
+  options.restitution_tolerance = rules.Read(message, v1::Solver::kRestitutionToleranceFieldNumber);
+  options.max_iterations =
+      static_cast<int>(rules.Read(message, v1::Solver::kMaxIterationsFieldNumber));
   rules.RequireAvailable("tension", message.tension(), {v1::Solver::ALLOW, v1::Solver::CLIP});
   rules.RequireAvailable("on_not_converged", message.on_not_converged(),
                          {v1::Solver::REPORT, v1::Solver::FAIL});
-  rules.Require("settled_fraction", options.settled_fraction, kSettledFraction);
-  rules.Require("max_steps", static_cast<double>(options.max_steps), kMaxSteps);
+  options.settled_fraction = rules.Read(message, v1::Solver::kSettledFractionFieldNumber);
+  if (message.has_settled_fraction()) options.settled_nirv_fraction = options.settled_fraction;
+  // Exact: 2^53 is above the largest number of steps.
+  const double most_steps = rules.Read(message, v1::Solver::kMaxStepsFieldNumber);
+  options.max_steps =
+      message.has_max_steps() ? message.max_steps() : static_cast<std::int64_t>(most_steps);
   return options;
 }
 
@@ -130,11 +110,11 @@ double DecodeSampleInterval(const v1::Scenario& message, const ScenarioLimits& l
   const v1::Output& output = message.output();
   const double end_time = message.end_time_s();
   if (!output.has_sample_interval_s()) return output.ledger_only() ? 0 : end_time / kDefaultSamples;
-  const double interval = output.sample_interval_s();
-  if (!Range{0, 1e308, "(0"}.Contains(interval)) {
-    rules.Break("sample_interval_s", fmt::format("is {}; must be > 0", interval));
-  } else if (kEndTime.Contains(end_time) &&
-             !(end_time / interval + 1 <= static_cast<double>(limits.max_samples))) {
+  const double interval = rules.Read(output, v1::Output::kSampleIntervalSFieldNumber);
+  const Range& times = NumberOf<v1::Scenario>(v1::Scenario::kEndTimeSFieldNumber).range;
+  const Range& intervals = NumberOf<v1::Output>(v1::Output::kSampleIntervalSFieldNumber).range;
+  if (intervals.Contains(interval) && times.Contains(end_time) &&
+      !(end_time / interval + 1 <= static_cast<double>(limits.max_samples))) {
     rules.Break("sample_interval_s",
                 fmt::format("is {}, which makes {:.4g} samples; must make at most {}", interval,
                             end_time / interval + 1, limits.max_samples),
@@ -160,9 +140,9 @@ void CheckCounts(const v1::Scenario& message, const ScenarioLimits& limits,
 void CheckTitle(const std::string& title, const Rules& rules) {
   const auto characters = std::ranges::count_if(
       title, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; });
-  if (characters <= kLongestTitle) return;
-  rules.Break("title",
-              fmt::format("has {} characters; must have at most {}", characters, kLongestTitle));
+  const int longest = RuleOf<v1::Scenario>(v1::Scenario::kTitleFieldNumber).max_characters();
+  if (characters <= longest) return;
+  rules.Break("title", fmt::format("has {} characters; must have at most {}", characters, longest));
 }
 
 }  // namespace
@@ -184,12 +164,7 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   scenario.solver = DecodeSolver(message.solver(), Rules(violations, "solver"));
   RequireSplitSolvable(scenario, Rules(violations, "solver"));
   scenario.sample_interval = DecodeSampleInterval(message, limits, Rules(violations, "output"));
-  scenario.end_time = message.end_time_s();
-  if (message.end_time_s() == 0) {
-    rules.Break("end_time_s", "is missing; must be in (0, 1e6]");
-  } else {
-    rules.Require("end_time_s", message.end_time_s(), kEndTime);
-  }
+  scenario.end_time = rules.Read(message, v1::Scenario::kEndTimeSFieldNumber);
   return decoded;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -14,11 +13,6 @@
 namespace contact {
 namespace {
 
-constexpr int kMaxAxes = 8;
-constexpr Range kFinite{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
-                        "the finite numbers"};
-constexpr Range kPositive{0, std::numeric_limits<double>::max(), "(0, 1.8e308)"};
-
 bool IsDrawn(const v1::Sweep& sweep) {
   return sweep.combination() == v1::Sweep::RANDOM ||
          sweep.combination() == v1::Sweep::LATIN_HYPERCUBE;
@@ -26,7 +20,8 @@ bool IsDrawn(const v1::Sweep& sweep) {
 
 void CheckRange(const std::string& name, const v1::Sweep::Range& range, bool drawn,
                 std::int32_t max_cells, const Rules& rules) {
-  const Range& allowed = name == "log" ? kPositive : kFinite;
+  Range allowed{.text = "in the finite numbers"};
+  if (name == "log") allowed = {.low = 0, .open = true, .text = "in (0, 1.8e308)"};
   rules.Require(name + ".low", range.low(), allowed);
   rules.Require(name + ".high", range.high(), allowed);
   if (range.low() > range.high()) {
@@ -124,8 +119,9 @@ SweepAxes::SweepAxes(const v1::Sweep& sweep, std::int32_t max_cells,
       {v1::Sweep::GRID, v1::Sweep::ZIP, v1::Sweep::RANDOM, v1::Sweep::LATIN_HYPERCUBE});
   CheckDraw(sweep, max_cells, rules);
   if (sweep.axes().empty()) rules.Break("axes", "are missing", "name a field and its values");
-  if (sweep.axes_size() > kMaxAxes) {
-    rules.Break("axes", fmt::format("holds {}; must hold at most {}", sweep.axes_size(), kMaxAxes));
+  const int most = RuleOf<v1::Sweep>(v1::Sweep::kAxesFieldNumber).max_entries();
+  if (sweep.axes_size() > most) {
+    rules.Break("axes", fmt::format("holds {}; must hold at most {}", sweep.axes_size(), most));
     return;
   }
   for (int i = 0; i < sweep.axes_size(); ++i) {

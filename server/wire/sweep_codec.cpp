@@ -11,13 +11,12 @@
 namespace contact {
 namespace {
 
-constexpr int kMaxKept = 100;
-
 void CheckKept(const v1::Sweep& sweep, std::int32_t cells, std::vector<Violation>* violations) {
   const Rules rules(violations);
-  if (sweep.keep_trajectories_size() > kMaxKept) {
+  const int most = RuleOf<v1::Sweep>(v1::Sweep::kKeepTrajectoriesFieldNumber).max_entries();
+  if (sweep.keep_trajectories_size() > most) {
     return rules.Break("keep_trajectories", fmt::format("has {} entries; must have at most {}",
-                                                        sweep.keep_trajectories_size(), kMaxKept));
+                                                        sweep.keep_trajectories_size(), most));
   }
   std::set<std::int32_t> seen;
   for (int i = 0; i < sweep.keep_trajectories_size(); ++i) {

@@ -20,7 +20,6 @@ using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-constexpr int kMaxMetrics = 64;
 constexpr std::array<std::string_view, 4> kRoots{"cycles", "final_bodies", "summary",
                                                  "convergence"};
 
@@ -45,10 +44,11 @@ std::string RootHint() {
 }  // namespace
 
 SweepMetrics::SweepMetrics(const v1::Sweep& sweep, std::vector<Violation>* violations) {
-  if (sweep.metrics_size() > kMaxMetrics) {
+  const int most = RuleOf<v1::Sweep>(v1::Sweep::kMetricsFieldNumber).max_entries();
+  if (sweep.metrics_size() > most) {
     Rules(violations)
         .Break("metrics",
-               fmt::format("holds {}; must hold at most {}", sweep.metrics_size(), kMaxMetrics));
+               fmt::format("holds {}; must hold at most {}", sweep.metrics_size(), most));
     return;
   }
   for (int i = 0; i < sweep.metrics_size(); ++i) {

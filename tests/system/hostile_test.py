@@ -1,17 +1,13 @@
 """Every number of a scenario, made hostile: the rules are those that the contract states."""
 
 import math
-import pathlib
-import re
 import struct
 import unittest
 
 import grpc
-from contact.v1 import job_service_pb2, scenario_pb2
+from contact.v1 import field_rules_pb2, job_service_pb2, scenario_pb2
 from contactd import PATIENCE_S, Job, ServerTest, details_of, three_ball_chain
 from google.protobuf.descriptor import FieldDescriptor
-
-PROTO = pathlib.Path(__file__).parents[2] / "proto/contact/v1/scenario.proto"
 
 DENORMAL = struct.unpack("<d", struct.pack("<Q", 1))[0]
 LARGEST = struct.unpack("<d", struct.pack("<Q", 0x7FEFFFFFFFFFFFFF))[0]
@@ -78,30 +74,19 @@ def numbers(message, path=""):
             yield message, field, here
 
 
-def stated_ranges():
-    """{message.field: test of a value} from the comments of the contract."""
-    ranges, messages, comment = {}, [], ""
-    for line in PROTO.read_text().splitlines():
-        text = line.strip()
-        if text.startswith("//"):
-            comment += " " + text[2:].strip()
-            continue
-        if opened := re.match(r"(?:message|enum|oneof) (\w+) {", text):
-            messages.append(opened[1] if text.startswith("message") else None)
-        elif text == "}":
-            messages.pop()
-        elif declared := re.match(r"(?:optional )?(?:double|int32|int64) (\w+) =", text):
-            stated = re.search(r"Range: ([\[(])([-\d.e]+), ([-\d.e]+)([\])])", comment)
-            if stated:
-                ranges[f"{messages[-1]}.{declared[1]}"] = within(*stated.groups())
-        comment = ""
-    return ranges
+def allows(field, value):
+    """True if the rules of the contract allow the value; every number must be finite."""
+    rule = field.GetOptions().Extensions[field_rules_pb2.rule]
+    low = rule.WhichOneof("low")
+    return (math.isfinite(value) and
+            (low != "min" or value >= rule.min) and
+            (low != "above" or value > rule.above) and
+            (not rule.HasField("max") or value <= rule.max))
 
 
-def within(left, low, high, right):
-    low, high = float(low), float(high)
-    return lambda value: ((low <= value if left == "[" else low < value) and
-                          (value <= high if right == "]" else value < high))
+def has_range(field):
+    rule = field.GetOptions().Extensions[field_rules_pb2.rule]
+    return rule.WhichOneof("low") is not None
 
 
 class HostileValuesTest(ServerTest):
@@ -120,7 +105,7 @@ class HostileValuesTest(ServerTest):
 
     def test_every_number_is_checked_as_the_contract_says(self):
         self.assertEqual(self.violations(everything()), [])
-        ranges = stated_ranges()
+        ranges = {field.full_name for _, field, _ in numbers(everything()) if has_range(field)}
         cases = refused = 0
         for position, (_, field, path) in enumerate(list(numbers(everything()))):
             for value in INTEGERS.get(field.cpp_type, DOUBLES):
@@ -129,8 +114,7 @@ class HostileValuesTest(ServerTest):
                 setattr(message, field.name, value)
                 found = self.violations(scenario)
                 with self.subTest(field=path, value=value):
-                    allowed = ranges.get(f"{message.DESCRIPTOR.name}.{field.name}", math.isfinite)
-                    if not math.isfinite(value) or not allowed(value):
+                    if not allows(field, value):
                         self.assertIn(f"scenario{path}", found)
                     for violation in found:  # Refused for its neighbours, it is a path too.
                         self.assertTrue(violation.startswith("scenario."), violation)

@@ -1,9 +1,12 @@
 #include "cli/help/contract/contract.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.pb.h>
 
 #include <sstream>
 #include <stdexcept>
+
+#include "wire/field_rule.h"
 
 namespace contact::cli {
 namespace {
@@ -28,6 +31,29 @@ std::string Unwrap(const std::string& comment) {
     open = !alone && !line.empty();
   }
   return text.substr(0, text.find_last_not_of(" \n") + 1);
+}
+
+std::string DefaultText(const google::protobuf::FieldDescriptor& field, const v1::FieldRule& rule) {
+  if (rule.has_default_number()) return NumberText(field, rule.default_number());
+  return rule.has_default_name() ? rule.default_name() : rule.default_text();
+}
+
+// The rules of a field as sentences, each after a space.
+std::string RuleText(const google::protobuf::FieldDescriptor& field) {
+  const v1::FieldRule& rule = RuleOf(field);
+  std::string text;
+  const auto add = [&text](const char* word, const std::string& value) {
+    if (!value.empty()) text += fmt::format(" {}{}.", word, value);
+  };
+  add("", rule.required() ? "Required" : "");
+  add("Unit: ", rule.unit());
+  add("Range: ", RangeText(field));
+  add("Default: ", DefaultText(field, rule));
+  if (rule.max_characters() > 0)
+    text += fmt::format(" At most {} characters.", rule.max_characters());
+  if (rule.min_entries() > 0) text += fmt::format(" At least {} entries.", rule.min_entries());
+  if (rule.max_entries() > 0) text += fmt::format(" At most {} entries.", rule.max_entries());
+  return text;
 }
 
 }  // namespace
@@ -58,6 +84,10 @@ template std::string CommentOf(const google::protobuf::FieldDescriptor& element)
 template std::string CommentOf(const google::protobuf::OneofDescriptor& element);
 template std::string CommentOf(const google::protobuf::EnumDescriptor& element);
 template std::string CommentOf(const google::protobuf::EnumValueDescriptor& element);
+
+std::string FieldText(const google::protobuf::FieldDescriptor& field) {
+  return CommentOf(field) + RuleText(field);
+}
 
 std::string ShortTypeName(const google::protobuf::Descriptor& message) {
   const std::string& name = message.full_name();

@@ -1,9 +1,9 @@
 #include "cli/help/contract/json_schema.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/base/scalar.h"
-#include "cli/help/contract/field_rules.h"
+#include "wire/field_rule.h"
 
 namespace contact::cli {
 namespace {
@@ -14,7 +14,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::OneofDescriptor;
 using nlohmann::ordered_json;
 
-// Whose JSON it is.
+// Who writes the JSON.
 enum class Side {
   kWritten,  // By a user: ranges and required fields hold.
   kPrinted,  // By the server: unset fields have their zero, int64 is text, NaN may occur.
@@ -36,9 +36,9 @@ ordered_json Integer64(Side side) {
   return {{"type", "string"}, {"pattern", "^-?[0-9]+$"}};
 }
 
-ordered_json Double(const std::string& comment, Side side) {
+ordered_json Double(const FieldDescriptor& field, Side side) {
   ordered_json number = {{"type", "number"}};
-  if (side == Side::kWritten || comment.find("NaN") == std::string::npos) return number;
+  if (side == Side::kWritten || !RuleOf(field).may_be_nan()) return number;
   return {{"anyOf", {number, {{"enum", {"NaN", "Infinity", "-Infinity"}}}}}};
 }
 
@@ -48,23 +48,27 @@ ordered_json OrVariable(const ordered_json& schema, Side side) {
   return {{"anyOf", {schema, {{"$ref", "#/definitions/variable"}}}}};
 }
 
-void AddBounds(const FieldRules& rules, ordered_json* schema) {
-  if (rules.low) {
-    (*schema)[rules.low->open ? "exclusiveMinimum" : "minimum"] = rules.low->value;
-  }
-  if (rules.high) {
-    (*schema)[rules.high->open ? "exclusiveMaximum" : "maximum"] = rules.high->value;
+void AddBounds(const v1::FieldRule& rule, ordered_json* schema) {
+  if (rule.has_min()) (*schema)["minimum"] = rule.min();
+  if (rule.has_above()) (*schema)["exclusiveMinimum"] = rule.above();
+  if (rule.has_max()) (*schema)["maximum"] = rule.max();
+}
+
+// A default in words is left to the description.
+void AddDefault(const FieldDescriptor& field, const v1::FieldRule& rule, ordered_json* schema) {
+  if (rule.has_default_number()) {
+    (*schema)["default"] = rule.default_number();
+  } else if (rule.has_default_name() && field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) {
+    (*schema)["default"] = rule.default_name() == "true";
+  } else if (rule.has_default_name()) {
+    (*schema)["default"] = rule.default_name();
   }
 }
 
-void AddDefault(const FieldDescriptor& field, const std::string& value, ordered_json* schema) {
-  if (field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
-    if (field.enum_type()->FindValueByName(value) != nullptr) (*schema)["default"] = value;
-  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) {
-    if (const auto flag = ParseBool(value)) (*schema)["default"] = *flag;
-  } else if (const auto number = ParseNumber(value)) {
-    (*schema)["default"] = *number;
-  }
+void AddCounts(const v1::FieldRule& rule, ordered_json* schema) {
+  const int fewest = std::max(rule.min_entries(), rule.required() ? 1 : 0);
+  if (fewest > 0) (*schema)["minItems"] = fewest;
+  if (rule.max_entries() > 0) (*schema)["maxItems"] = rule.max_entries();
 }
 
 // Exactly one field of `oneof`, or at most one where it is not required.
@@ -73,7 +77,7 @@ ordered_json OneOf(const OneofDescriptor& oneof) {
   for (int i = 0; i < oneof.field_count(); ++i) {
     choices.push_back({{"required", {oneof.field(i)->name()}}});
   }
-  if (!RulesOf(CommentOf(oneof)).required) {
+  if (!oneof.options().GetExtension(v1::choice_required)) {
     choices.push_back({{"not", {{"anyOf", ordered_json(choices)}}}});
   }
   return {{"oneOf", choices}};
@@ -107,8 +111,7 @@ class Maker {
     for (int i = 0; i < message.field_count(); ++i) {
       const FieldDescriptor& field = *message.field(i);
       properties[field.name()] = Property(field);
-      const bool needed = side_ == Side::kWritten && RulesOf(CommentOf(field)).required;
-      if (needed) required.push_back(field.name());
+      if (side_ == Side::kWritten && RuleOf(field).required()) required.push_back(field.name());
     }
     ordered_json schema = {{"type", "object"},
                            {"description", CommentOf(message)},
@@ -122,45 +125,42 @@ class Maker {
   }
 
   ordered_json Property(const FieldDescriptor& field) {
-    const std::string comment = CommentOf(field);
-    const FieldRules rules = side_ == Side::kWritten ? RulesOf(comment) : FieldRules();
-    ordered_json schema = {{"description", comment}};
+    const v1::FieldRule rule = side_ == Side::kWritten ? RuleOf(field) : v1::FieldRule();
+    ordered_json schema = {{"description", FieldText(field)}};
     if (field.is_map()) {
       schema.update({{"type", "object"}, {"additionalProperties", {{"type", "string"}}}});
     } else if (field.is_repeated()) {
-      schema.update({{"type", "array"}, {"items", Item(field, comment)}});
-      if (rules.required) schema["minItems"] = 1;
-      if (rules.max_entries) schema["maxItems"] = *rules.max_entries;
+      schema.update({{"type", "array"}, {"items", Item(field)}});
+      AddCounts(rule, &schema);
     } else if (named_base_ && field.full_name() == "contact.v1.Sweep.base") {
-      schema["anyOf"] = {{{"type", "string"}, {"minLength", 1}}, Single(field, comment)};
+      schema["anyOf"] = {{{"type", "string"}, {"minLength", 1}}, Single(field)};
     } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
-      schema["allOf"] = {Single(field, comment)};  // Beside $ref a description is not seen.
+      schema["allOf"] = {Single(field)};  // Beside $ref a description is not seen.
     } else {
-      schema.update(Scalar(field, comment, rules));
-      AddDefault(field, rules.default_value, &schema);
+      schema.update(Scalar(field, rule));
+      AddDefault(field, rule, &schema);
     }
     return schema;
   }
 
-  ordered_json Scalar(const FieldDescriptor& field, const std::string& comment,
-                      const FieldRules& rules) {
-    ordered_json schema = Single(field, comment);
-    AddBounds(rules, &schema);
+  ordered_json Scalar(const FieldDescriptor& field, const v1::FieldRule& rule) {
+    ordered_json schema = Single(field);
+    AddBounds(rule, &schema);
     const bool text = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING;
-    if (rules.required && text) schema["minLength"] = 1;
-    if (rules.max_characters) schema["maxLength"] = *rules.max_characters;
+    if (rule.required() && text) schema["minLength"] = 1;
+    if (rule.max_characters() > 0) schema["maxLength"] = rule.max_characters();
     return text ? schema : OrVariable(schema, side_);
   }
 
-  ordered_json Item(const FieldDescriptor& field, const std::string& comment) {
+  ordered_json Item(const FieldDescriptor& field) {
     const bool message = field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
-    return message ? Single(field, comment) : Scalar(field, comment, FieldRules());
+    return message ? Single(field) : Scalar(field, v1::FieldRule());
   }
 
-  ordered_json Single(const FieldDescriptor& field, const std::string& comment) {
+  ordered_json Single(const FieldDescriptor& field) {
     switch (field.cpp_type()) {
       case FieldDescriptor::CPPTYPE_DOUBLE:
-        return Double(comment, side_);
+        return Double(field, side_);
       case FieldDescriptor::CPPTYPE_INT32:
         return {{"type", "integer"}};
       case FieldDescriptor::CPPTYPE_INT64:

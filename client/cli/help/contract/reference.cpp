@@ -8,6 +8,7 @@
 
 #include "cli/input/scenario_file.h"
 #include "cli/input/templates.h"
+#include "wire/field_rule.h"
 
 namespace contact::cli {
 namespace {
@@ -35,7 +36,7 @@ std::string SingleType(const FieldDescriptor& field) {
 
 Term FieldTerm(const FieldDescriptor& field) {
   const std::string single = SingleType(field);
-  Term term{field.name(), field.is_repeated() ? "list of " + single : single, CommentOf(field), {}};
+  Term term{field.name(), field.is_repeated() ? "list of " + single : single, FieldText(field), {}};
   if (field.cpp_type() != FieldDescriptor::CPPTYPE_ENUM) return term;
   for (int i = 0; i < field.enum_type()->value_count(); ++i) {
     const auto& value = *field.enum_type()->value(i);
@@ -50,7 +51,9 @@ std::string ChoiceText(const google::protobuf::OneofDescriptor& choice) {
   for (int i = 0; i < choice.field_count(); ++i) {
     names.push_back(fmt::format("`{}`", choice.field(i)->name()));
   }
-  return fmt::format("\n\nAt most one of {}. {}", fmt::join(names, ", "), CommentOf(choice));
+  const bool required = choice.options().GetExtension(v1::choice_required);
+  return fmt::format("\n\n{} one of {}. {}", required ? "Exactly" : "At most",
+                     fmt::join(names, ", "), CommentOf(choice));
 }
 
 // A message, then those of its fields that are new.

@@ -7,25 +7,26 @@
 
 namespace contact::cli {
 
-/// Something that has a name in a scenario file, and what the contract says of it.
+/// A name in a scenario file, of a field or of the value of an enum, and what the contract says
+/// about it.
 struct Term {
   std::string name;
-  std::string type;          ///< Of a field; empty for the value of an enum.
-  std::string text;          ///< As CommentOf gives it.
-  std::vector<Term> values;  ///< Of a field that is an enum.
+  std::string type;          ///< Type in words, such as `list of Body`; empty for an enum's value.
+  std::string text;          ///< FieldText of a field, CommentOf of a value.
+  std::vector<Term> values;  ///< Values of a field that is an enum; else empty.
 };
 
 /// A message of the contract.
 struct Chapter {
-  std::string name;  ///< Such as `Load.Sine`.
-  std::string text;
-  std::vector<Term> fields;
+  std::string name;          ///< ShortTypeName, such as `Load.Sine`.
+  std::string text;          ///< Its comment, and the choices between its fields.
+  std::vector<Term> fields;  ///< In the order of the contract.
 };
 
-/// All that a scenario or sweep file may hold, from the whole to its parts.
+/// All messages that a scenario or sweep file may hold, each before the messages in its fields.
 std::vector<Chapter> ScenarioReference(const Contract& contract);
 
-/// The same as a page in Markdown, client/scenarios/README.md.
+/// The chapters as the page client/scenarios/README.md, in Markdown.
 std::string ReferenceInMarkdown(const std::vector<Chapter>& chapters);
 
 }  // namespace contact::cli
