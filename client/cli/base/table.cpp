@@ -186,18 +186,13 @@ std::string Table::Text(const Style& style, std::size_t most, const std::string&
 
 std::string Table::Csv(const std::vector<std::string>& names) const {
   const std::vector<std::size_t> picked = Picked(columns_, names);
-  const auto line = [&picked](const auto& text_of) {
-    std::string text;
-    std::string_view separator;
-    for (const std::size_t i : picked) {
-      text.append(separator).append(CsvText(text_of(i)));
-      separator = ",";
-    }
-    return text + "\n";
-  };
-  std::string text = line([this](std::size_t i) { return columns_[i].Name(); });
+  std::string text;
+  CsvWriter csv(&text);
+  for (const std::size_t i : picked) csv.Add(columns_[i].Name());
+  csv.EndRow();
   for (const auto& row : rows_) {
-    text += line([&row](std::size_t i) { return row[i].text == "-" ? "" : row[i].text; });
+    for (const std::size_t i : picked) csv.Add(row[i].text == "-" ? "" : row[i].text);
+    csv.EndRow();
   }
   return text;
 }

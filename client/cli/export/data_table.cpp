@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <span>
 #include <string_view>
 #include <utility>
+
+#include "wire/column_name.h"
 
 namespace contact::cli {
 namespace {
@@ -13,75 +14,68 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-constexpr char kMuUnit[] = "N s/m^(n+1)";  // n is the exponent of the contact.
-
-// How a field of a message is exported. The contract writes units into names; here they stand
-// beside them.
+// A field of a message as a column. Name and unit come from the field's name in the contract.
 struct Meaning {
   std::string_view field;
-  std::string_view name;
-  std::string_view unit;
   std::string_view description;
+  std::string_view name = {};  // Another name for the column than the field has.
 };
 
 constexpr Meaning kCycle[] = {
-    {"contact", "contact", "", "name of the contact"},
-    {"number", "number", "1", "place of the cycle among those of its contact"},
-    {"kind", "kind", "", "how the cycle began"},
-    {"end", "end", "", "how the cycle ended"},
-    {"status", "status", "", "what became of the restitution asked for"},
-    {"iterations", "iterations", "1", "corrections of mu made for the episode"},
-    {"episode", "episode", "1", "cycles with the same number were solved together"},
-    {"start_time_s", "start_time", "s", "time at which compression began"},
-    {"turn_time_s", "turn_time", "s", "time at which restitution began"},
-    {"end_time_s", "end_time", "s", "time at which the cycle ended"},
-    {"delta_start_m", "delta_start", "m", "deformation at the start"},
-    {"delta_max_m", "delta_max", "m", "largest deformation"},
-    {"delta_end_m", "delta_end", "m", "deformation at the end"},
-    {"approach_velocity_m_per_s", "approach_velocity", "m/s", "deformation velocity at the start"},
-    {"separation_velocity_m_per_s", "separation_velocity", "m/s",
-     "deformation velocity at the end"},
-    {"mu", "mu", kMuUnit, "hysteresis damping factor"},
-    {"mu_over_k_s_per_m", "mu_over_k", "s/m", "hysteresis damping factor over stiffness"},
-    {"alpha", "alpha", "1", "mu times approach velocity over stiffness"},
-    {"work_compression_j", "work_compression", "J", "work of the contact force in compression"},
-    {"work_restitution_j", "work_restitution", "J", "work of the contact force in restitution"},
-    {"dissipated_compression_j", "dissipated_compression", "J", "energy lost in compression"},
-    {"dissipated_restitution_j", "dissipated_restitution", "J", "energy lost in restitution"},
-    {"external_work_compression_j", "external_work_compression", "J",
-     "work of the equivalent external force in compression"},
-    {"external_work_restitution_j", "external_work_restitution", "J",
-     "work of the equivalent external force in restitution"},
-    {"restitution_in", "restitution_in", "1", "energy restitution coefficient asked for"},
-    {"restitution_out", "restitution_out", "1", "energy restitution coefficient of the cycle"},
-    {"peak_force_n", "peak_force", "N", "largest contact force"},
-    {"tension_time_s", "tension_time", "s", "time for which the contact force pulled"},
-    {"identity_residual", "identity_residual", "1", "imbalance of energy over work_compression"},
+    {"contact", "name of the contact"},
+    {"number", "place of the cycle among those of its contact"},
+    {"kind", "how the cycle began"},
+    {"end", "how the cycle ended"},
+    {"status", "what became of the restitution asked for"},
+    {"iterations", "corrections of mu made for the episode"},
+    {"episode", "cycles with the same number were solved together"},
+    {"start_time_s", "time at which compression began"},
+    {"turn_time_s", "time at which restitution began"},
+    {"end_time_s", "time at which the cycle ended"},
+    {"delta_start_m", "deformation at the start"},
+    {"delta_max_m", "largest deformation"},
+    {"delta_end_m", "deformation at the end"},
+    {"approach_velocity_m_per_s", "deformation velocity at the start"},
+    {"separation_velocity_m_per_s", "deformation velocity at the end"},
+    {"mu", "hysteresis damping factor"},
+    {"mu_over_k_s_per_m", "hysteresis damping factor over stiffness"},
+    {"alpha", "mu times approach velocity over stiffness"},
+    {"work_compression_j", "work of the contact force in compression"},
+    {"work_restitution_j", "work of the contact force in restitution"},
+    {"dissipated_compression_j", "energy lost in compression"},
+    {"dissipated_restitution_j", "energy lost in restitution"},
+    {"external_work_compression_j", "work of the equivalent external force in compression"},
+    {"external_work_restitution_j", "work of the equivalent external force in restitution"},
+    {"restitution_in", "energy restitution coefficient asked for"},
+    {"restitution_out", "energy restitution coefficient of the cycle"},
+    {"peak_force_n", "largest contact force"},
+    {"tension_time_s", "time for which the contact force pulled"},
+    {"identity_residual", "imbalance of energy over work_compression"},
 };
 
 constexpr Meaning kIteration[] = {
-    {"episode", "episode", "1", "cycles with the same number were solved together"},
-    {"number", "pass", "1", "corrections made so far"},
-    {"start_time_s", "start_time", "s", "time at which the episode starts"},
-    {"accepted", "accepted", "1", "1 for the pass whose trajectory is the accepted one"},
+    {"episode", "cycles with the same number were solved together"},
+    {"number", "corrections made so far", "pass"},
+    {"start_time_s", "time at which the episode starts"},
+    {"accepted", "1 for the pass whose trajectory is the accepted one"},
 };
 
 constexpr Meaning kUnknown[] = {
-    {"contact", "contact", "", "name of the contact"},
-    {"number", "cycle", "1", "place of the cycle among those of its contact"},
-    {"mu", "mu", kMuUnit, "hysteresis damping factor of this pass"},
-    {"restitution_out", "restitution_out", "1", "energy restitution coefficient that it gave"},
-    {"restitution_in", "restitution_in", "1", "energy restitution coefficient asked for"},
-    {"residual", "residual", "1", "W_r/W_c + restitution_in^2"},
-    {"bracket_low", "bracket_low", kMuUnit, "largest mu known to give too much restitution"},
-    {"bracket_high", "bracket_high", kMuUnit, "smallest mu known to give too little restitution"},
-    {"update", "update", "", "how the next mu is found"},
+    {"contact", "name of the contact"},
+    {"number", "place of the cycle among those of its contact", "cycle"},
+    {"mu", "hysteresis damping factor of this pass"},
+    {"restitution_out", "energy restitution coefficient that it gave"},
+    {"restitution_in", "energy restitution coefficient asked for"},
+    {"residual", "W_r/W_c + restitution_in^2"},
+    {"bracket_low", "largest mu known to give too much restitution"},
+    {"bracket_high", "smallest mu known to give too little restitution"},
+    {"update", "how the next mu is found"},
 };
 
 constexpr Meaning kBody[] = {
-    {"name", "name", "", "name of the body"},
-    {"position_m", "position", "m", "position of the centre at the end of the run"},
-    {"velocity_m_per_s", "velocity", "m/s", "velocity at the end of the run"},
+    {"name", "name of the body"},
+    {"position_m", "position of the centre at the end of the run"},
+    {"velocity_m_per_s", "velocity at the end of the run"},
 };
 
 constexpr std::pair<std::string_view, std::string_view> kQuantities[] = {
@@ -94,12 +88,20 @@ constexpr std::pair<std::string_view, std::string_view> kQuantities[] = {
     {"external_force", "equivalent external force"},
 };
 
-std::vector<DataColumn> Columns(std::span<const Meaning> meanings) {
+const FieldDescriptor& Field(const google::protobuf::Descriptor& type, const Meaning& meaning) {
+  return *type.FindFieldByName(std::string(meaning.field));
+}
+
+// Empty columns for these fields of a type of message.
+std::vector<DataColumn> Columns(const google::protobuf::Descriptor& type,
+                                std::span<const Meaning> meanings) {
   std::vector<DataColumn> columns;
   for (const Meaning& meaning : meanings) {
-    DataColumn column{std::string(meaning.name), std::string(meaning.unit),
-                      std::string(meaning.description), std::vector<double>()};
-    if (meaning.unit.empty()) column.values = std::vector<std::string>();
+    const ColumnName found = ColumnOf(Field(type, meaning));
+    DataColumn column{std::string(meaning.name.empty() ? found.name : meaning.name),
+                      std::string(found.unit), std::string(meaning.description),
+                      std::vector<double>()};
+    if (found.unit.empty()) column.values = std::vector<std::string>();
     columns.push_back(std::move(column));
   }
   return columns;
@@ -129,8 +131,7 @@ std::string Word(const Message& message, const FieldDescriptor& field) {
 // Adds the fields of a message to the columns that begin at `columns`.
 void AddRow(const Message& message, std::span<const Meaning> meanings, DataColumn* columns) {
   for (const Meaning& meaning : meanings) {
-    const FieldDescriptor& field =
-        *message.GetDescriptor()->FindFieldByName(std::string(meaning.field));
+    const FieldDescriptor& field = Field(*message.GetDescriptor(), meaning);
     auto& values = (columns++)->values;
     if (auto* numbers = std::get_if<std::vector<double>>(&values)) {
       numbers->push_back(Number(message, field));
@@ -152,9 +153,7 @@ std::string Description(const SampleColumn& column) {
 
 }  // namespace
 
-std::string DataColumn::Header() const {
-  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
-}
+std::string DataColumn::Header() const { return ColumnHeader(name, unit); }
 
 DataTable SeriesTable(Recording&& recording) {
   DataTable table{"series", "time", {}};
@@ -167,14 +166,15 @@ DataTable SeriesTable(Recording&& recording) {
 }
 
 DataTable CyclesTable(const v1::Job& job) {
-  DataTable table{"cycles", "cycle", Columns(kCycle)};
+  DataTable table{"cycles", "cycle", Columns(*v1::Cycle::descriptor(), kCycle)};
   for (const v1::Cycle& cycle : job.cycles()) AddRow(cycle, kCycle, table.columns.data());
   return table;
 }
 
 DataTable IterationsTable(const std::vector<v1::Iteration>& iterations) {
-  DataTable table{"iterations", "iteration", Columns(kIteration)};
-  for (DataColumn& column : Columns(kUnknown)) table.columns.push_back(std::move(column));
+  DataTable table{"iterations", "iteration", Columns(*v1::Iteration::descriptor(), kIteration)};
+  for (DataColumn& column : Columns(*v1::Iteration::Unknown::descriptor(), kUnknown))
+    table.columns.push_back(std::move(column));
   for (const v1::Iteration& iteration : iterations) {
     for (const v1::Iteration::Unknown& unknown : iteration.unknowns()) {
       AddRow(iteration, kIteration, table.columns.data());
@@ -185,7 +185,7 @@ DataTable IterationsTable(const std::vector<v1::Iteration>& iterations) {
 }
 
 DataTable BodiesTable(const v1::Job& job) {
-  DataTable table{"bodies", "body", Columns(kBody)};
+  DataTable table{"bodies", "body", Columns(*v1::FinalBody::descriptor(), kBody)};
   for (const v1::FinalBody& body : job.final_bodies()) AddRow(body, kBody, table.columns.data());
   return table;
 }

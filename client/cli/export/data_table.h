@@ -12,12 +12,13 @@ namespace contact::cli {
 /// A column of a result: numbers with a unit, or words.
 struct DataColumn {
   std::string name;
-  std::string unit;  ///< SI; `1` for a number without dimension, empty for words.
-  std::string description;
+  std::string unit;         ///< SI; `1` for a number without dimension, empty for words.
+  std::string description;  ///< In words, for formats that have a place for it.
   std::variant<std::vector<double>, std::vector<std::string>> values;
 
-  /// `velocity [m/s]`; the bare name of a column of words.
+  /// The header in text files; see ColumnHeader.
   std::string Header() const;
+  /// Number of values.
   std::size_t size() const {
     return std::visit([](const auto& all) { return all.size(); }, values);
   }
@@ -25,20 +26,21 @@ struct DataColumn {
 
 /// A part of a result as columns of equal length.
 struct DataTable {
-  std::string name;  ///< series, cycles, iterations or bodies.
-  std::string row;   ///< What tells rows apart: `cycle`, or the column `time`.
-  std::vector<DataColumn> columns;
+  std::string name;                 ///< series, cycles, iterations or bodies.
+  std::string row;                  ///< What tells rows apart: `cycle`, or the column `time`.
+  std::vector<DataColumn> columns;  ///< Of equal length.
 
+  /// Number of rows.
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// The trajectory; its columns are moved out of the recording.
+/// The trajectory, a row a sample. The columns are moved out of the recording.
 DataTable SeriesTable(Recording&& recording);
-/// The ledger.
+/// The ledger of a job, a row a cycle.
 DataTable CyclesTable(const v1::Job& job);
 /// A row for each cycle in each pass of each episode.
 DataTable IterationsTable(const std::vector<v1::Iteration>& iterations);
-/// The bodies at the end of the run.
+/// The bodies of a job at the end of the run, a row a body.
 DataTable BodiesTable(const v1::Job& job);
 
 }  // namespace contact::cli

@@ -3,20 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <string_view>
 #include <utility>
 
 #include "base/spelling.h"
+#include "cli/link/columns.h"
 #include "cli/link/job_names.h"
 
 namespace contact::cli {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "columns are little-endian");
 
 [[noreturn]] void FailUnknown(const std::string& name, const std::vector<SampleColumn>& columns) {
   std::vector<std::string_view> names;
@@ -75,9 +72,7 @@ std::vector<SampleColumn> ThinnedSeries(Client& client, const std::string& job,
   const v1::Series series = client.CallTellingAll(&Client::Stub::GetSeries, request);
   std::vector<SampleColumn> columns;
   for (const v1::FrameChunk::Column& column : series.columns()) {
-    std::vector<double> values(column.values().size() / sizeof(double));
-    std::memcpy(values.data(), column.values().data(), values.size() * sizeof(double));
-    columns.push_back({column.name(), column.quantity(), column.unit(), std::move(values)});
+    columns.push_back({column.name(), column.quantity(), column.unit(), Doubles(column.values())});
   }
   return columns;
 }

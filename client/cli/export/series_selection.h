@@ -8,22 +8,24 @@
 
 namespace contact::cli {
 
-/// The part of a trajectory that is wanted. Nothing in it: all.
+/// The part of a trajectory that is wanted; by default all of it.
 struct SeriesSelection {
-  std::vector<std::string> channels;  ///< `time` always comes along.
-  std::optional<double> from;         ///< [s], itself included.
-  std::optional<double> to;           ///< [s], itself included.
-  int every = 1;                      ///< The first of so many samples in the range.
-  int max_points = 0;                 ///< > 0: thinned by the server without losing a peak.
+  std::vector<std::string> channels = {};  ///< Column names; `time` is always there. Empty: all.
+  std::optional<double> from = {};         ///< Start of the time range [s], included.
+  std::optional<double> to = {};           ///< End of the time range [s], included.
+  int every = 1;       ///< Keep one of `every` samples of the range, beginning with its first.
+  int max_points = 0;  ///< > 0: the server thins the range to that without losing a peak.
 
+  /// True if all of the trajectory is selected.
   bool empty() const;
 };
 
-/// Keeps that part of the columns; `every` as well, `max_points` not. Throws Failure (kUsage) for
-/// a channel that there is not.
+/// Keeps the selected channels and samples of the columns, `time` first; ignores `max_points`.
+/// Throws Failure (kUsage) for an unknown channel.
 void Narrow(const SeriesSelection& selection, std::vector<SampleColumn>* columns);
 
-/// That part of what an ended job recorded, thinned to `max_points` by the server.
+/// Fetches the selected channels and time range of an ended job, thinned by the server to
+/// `max_points`; ignores `every`. Throws Failure with all mistakes that the server finds.
 std::vector<SampleColumn> ThinnedSeries(Client& client, const std::string& job,
                                         const SeriesSelection& selection);
 

@@ -7,7 +7,6 @@
 #include "cli/base/output_file.h"
 #include "cli/base/scratch_folder.h"
 #include "cli/base/text_file.h"
-#include "cli/export/csv_metadata.h"
 #include "cli/figures/gnuplot.h"
 #include "cli/figures/picture_source.h"
 
@@ -18,13 +17,6 @@ void Remove(std::string_view part, std::string* text) {
   for (auto at = text->find(part); at != std::string::npos; at = text->find(part, at)) {
     text->erase(at, part.size());
   }
-}
-
-void WritePoints(const Figure& figure, const std::string& path) {
-  OutputFile file(path);
-  WriteCsv(figure, file.get());
-  file.Close();
-  WriteCsvMetadata({}, figure.sources, path);
 }
 
 }  // namespace
@@ -41,7 +33,7 @@ std::string FormatOf(const std::string& path) {
 std::string EndingOf(const std::string& format) { return format == "tikz" ? "tex" : format; }
 
 void Draw(const Figure& figure, std::string_view format, const std::string& path, int columns) {
-  if (format == "csv") return WritePoints(figure, path);
+  if (format == "csv") return WriteText(FigureCsv(figure), path);
   if (format == "gp") {
     const auto picture = std::filesystem::path(path).replace_extension("svg");
     return WriteText(GnuplotScript(figure, Medium("svg"), picture), path);

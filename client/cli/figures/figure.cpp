@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "cli/base/csv.h"
+
 namespace contact::cli {
 namespace {
 
@@ -48,15 +50,19 @@ void Thin(std::size_t points, Figure* figure) {
   }
 }
 
-void WriteCsv(const Figure& figure, std::FILE* file) {
+std::string FigureCsv(const Figure& figure) {
+  std::string text;
+  CsvWriter csv(&text);
   for (const Figure::Panel& panel : figure.panels) {
-    fmt::print(file, "curve,{},{}\n", panel.x_label, panel.y_label);
+    csv.Row({"curve", panel.x_label, panel.y_label});
     for (const Figure::Curve& curve : panel.curves) {
+      const std::string name = fmt::format("{}{}", curve.label, Name(curve.mark));
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
-        fmt::print(file, "{}{},{},{}\n", curve.label, Name(curve.mark), curve.x[i], curve.y[i]);
+        csv.Add(name).Add(curve.x[i]).Add(curve.y[i]).EndRow();
       }
     }
   }
+  return text;
 }
 
 }  // namespace contact::cli

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,7 +62,8 @@ std::string GnuplotScript(Figure figure, const Medium& medium, const std::string
 /// last, the lowest and the highest.
 void Thin(std::size_t points, Figure* figure);
 
-/// Writes the points as CSV: panel, curve, and x and y with what the axes say.
-void WriteCsv(const Figure& figure, std::FILE* file);
+/// The points as CSV: for each panel a header with the labels of its axes, then a row a point:
+/// curve, x, y.
+std::string FigureCsv(const Figure& figure);
 
 }  // namespace contact::cli

@@ -45,7 +45,7 @@ v1::Scenario Converged(const Model& model) {
 // Every model as the paper solves it, and the described one converged, one after the other.
 Data Rows(const std::string& name, const std::vector<std::string>& columns,
           const std::vector<std::string>& headers, const std::vector<Solved>& runs) {
-  Data data{name, {"run", "time_s"}, {}};
+  Data data{name, {"run", "time [s]"}, {}};
   data.columns.insert(data.columns.end(), headers.begin(), headers.end());
   for (std::size_t run = 0; run < runs.size(); ++run) {
     for (std::size_t i = 0; i < runs[run]["time"].size(); ++i) {
@@ -119,7 +119,7 @@ PaperItem Table3(Lab& lab) {
       "to 1e-8",
       {},
       {{"table3",
-        {"velocity_m_per_s", "restitution", "passes_published_process", "passes_converged"},
+        {"velocity [m/s]", "restitution", "passes_published_process", "passes_converged"},
         {}}}};
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const double paper = Passes(solved[2 * i]);
@@ -153,15 +153,15 @@ std::vector<PaperItem> MakeChainFigures(Lab& lab) {
   return {
       item("fig9", "Velocities of the balls", DrawVelocities(runs[2]),
            {"B1.velocity", "B2.velocity", "B3.velocity"},
-           {"velocity_b1_m_per_s", "velocity_b2_m_per_s", "velocity_b3_m_per_s"}),
+           {"velocity_b1 [m/s]", "velocity_b2 [m/s]", "velocity_b3 [m/s]"}),
       item("fig10", "Contact forces", models("force"),
-           {"B1-B2.contact_force", "B2-B3.contact_force"}, {"force_b12_n", "force_b23_n"}),
+           {"B1-B2.contact_force", "B2-B3.contact_force"}, {"force_b12 [N]", "force_b23 [N]"}),
       item("fig11", "Deformation velocities", models("deformation-velocity"),
            {"B1-B2.deformation_velocity", "B2-B3.deformation_velocity"},
-           {"deformation_velocity_b12_m_per_s", "deformation_velocity_b23_m_per_s"}),
+           {"deformation_velocity_b12 [m/s]", "deformation_velocity_b23 [m/s]"}),
       item("fig12", "Hysteresis loops: force against deformation", models("hysteresis"),
            {"B1-B2.deformation", "B1-B2.contact_force", "B2-B3.deformation", "B2-B3.contact_force"},
-           {"deformation_b12_m", "force_b12_n", "deformation_b23_m", "force_b23_n"})};
+           {"deformation_b12 [m]", "force_b12 [N]", "deformation_b23 [m]", "force_b23 [N]"})};
 }
 
 std::vector<PaperItem> MakeChainTables(Lab& lab) {

@@ -54,7 +54,7 @@ PaperItem DeformationVelocity(Lab& lab) {
   scenario.mutable_output()->Clear();
   scenario.mutable_output()->set_sample_interval_s(1e-6);
   const Solved solved = lab.Solve(scenario);
-  Data data{"fig3", {"restitution", "deformation_m", "deformation_velocity_m_per_s"}, {}};
+  Data data{"fig3", {"restitution", "deformation [m]", "deformation_velocity [m/s]"}, {}};
   for (std::size_t c = 0; c < restitutions.size(); ++c) {
     const auto& deformation = solved[fmt::format("{}.deformation", c)];
     const auto& rate = solved[fmt::format("{}.deformation_velocity", c)];

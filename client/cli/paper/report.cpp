@@ -6,29 +6,23 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/base/csv.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/base/text_file.h"
-#include "cli/export/csv_metadata.h"
 
 namespace contact::cli {
 namespace {
 
 std::string Csv(const Data& data) {
-  std::string text = fmt::format("{}\n", fmt::join(data.columns, ","));
-  for (const std::vector<double>& row : data.rows) text += fmt::format("{}\n", fmt::join(row, ","));
+  std::string text;
+  CsvWriter csv(&text);
+  csv.Row(data.columns);
+  for (const std::vector<double>& row : data.rows) {
+    for (const double value : row) csv.Add(value);
+    csv.EndRow();
+  }
   return text;
-}
-
-std::vector<Provenance> Sources(const Data& data, std::vector<Provenance> sources) {
-  if (!data.note.empty()) sources.push_back({{"note", data.note}});
-  return sources;
-}
-
-std::vector<DataColumn> Columns(const Data& data) {
-  std::vector<DataColumn> columns;
-  for (const std::string& name : data.columns) columns.push_back({name, "", "", {}});
-  return columns;
 }
 
 // JSON has no NaN.
@@ -94,13 +88,8 @@ bool PaperItem::holds() const {
 
 std::string Short(double value) { return std::isnan(value) ? "" : fmt::format("{:.5g}", value); }
 
-void Write(const PaperItem& item, const std::vector<Provenance>& sources,
-           const std::filesystem::path& directory) {
-  for (const Data& data : item.data) {
-    const std::string path = directory / (data.name + ".csv");
-    WriteText(Csv(data), path);
-    WriteCsvMetadata(Columns(data), Sources(data, sources), path);
-  }
+void Write(const PaperItem& item, const std::filesystem::path& directory) {
+  for (const Data& data : item.data) WriteText(Csv(data), directory / (data.name + ".csv"));
   if (item.numbers.empty()) return;
   Table table = Numbers();
   AddRows(item, &table);

@@ -46,10 +46,8 @@ struct PaperItem {
   bool holds() const;
 };
 
-/// Writes the item's data as CSV, with what they come from beside it, and its numbers as ID.txt and
-/// ID.json. Throws Failure (kLocal).
-void Write(const PaperItem& item, const std::vector<Provenance>& sources,
-           const std::filesystem::path& directory);
+/// Writes the item's data as CSV and its numbers as ID.txt and ID.json. Throws Failure (kLocal).
+void Write(const PaperItem& item, const std::filesystem::path& directory);
 
 /// Five significant digits; empty for NaN.
 std::string Short(double value);

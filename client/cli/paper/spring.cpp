@@ -58,8 +58,8 @@ std::vector<Comparison> Factors(const std::vector<Solved>& runs) {
 // Where cycles start and end: the paper's marks o and ×.
 Data Marks(const std::string& name, const Solved& run) {
   Data data{name,
-            {"start_time_s", "end_time_s", "deformation_start_m", "deformation_end_m",
-             "mu_over_k_s_per_m"},
+            {"start_time [s]", "end_time [s]", "deformation_start [m]", "deformation_end [m]",
+             "mu_over_k [s/m]"},
             {}};
   for (const v1::Cycle& cycle : run.Cycles(kContact)) {
     data.rows.push_back({cycle.start_time_s(), cycle.end_time_s(), cycle.delta_start_m(),
@@ -88,7 +88,7 @@ void NameCurves(Figure* figure) {
 PaperItem Draw(const std::string& id, const std::string& preset, const std::string& title,
                const Solved& run, const std::vector<std::string>& columns,
                const std::vector<std::string>& headers) {
-  Data data{id, {"time_s"}, {}};
+  Data data{id, {"time [s]"}, {}};
   data.columns.insert(data.columns.end(), headers.begin(), headers.end());
   for (std::size_t i = 0; i < run["time"].size(); ++i) {
     data.rows.push_back({run["time"][i]});
@@ -111,16 +111,16 @@ std::vector<PaperItem> MakeSpringItems(Lab& lab) {
   const Solved& run = runs[0];
   std::vector<PaperItem> items;
   items.push_back(
-      Draw("fig14", "position", "Position of the ball", run, {"ball.position"}, {"position_m"}));
+      Draw("fig14", "position", "Position of the ball", run, {"ball.position"}, {"position [m]"}));
   items.push_back(Draw("fig15", "force", "Contact force and equivalent external force", run,
                        {"ball-wall.contact_force", "ball-wall.external_force"},
-                       {"contact_force_n", "external_force_n"}));
+                       {"contact_force [N]", "external_force [N]"}));
   items.back().numbers = Factors(runs);
   items.push_back(Draw("fig16", "velocity", "Velocity of the ball", run, {"ball.velocity"},
-                       {"velocity_m_per_s"}));
+                       {"velocity [m/s]"}));
   items.push_back(Draw("fig17", "hysteresis", "Hysteresis loops: force against deformation", run,
                        {"ball-wall.deformation", "ball-wall.contact_force"},
-                       {"deformation_m", "contact_force_n"}));
+                       {"deformation [m]", "contact_force [N]"}));
   items.push_back(Table4(runs));
   return items;
 }

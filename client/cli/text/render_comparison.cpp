@@ -30,10 +30,12 @@ std::string Shown(const Value& value, int digits) {
   return word == nullptr ? "-" : *word;
 }
 
-// As many digits as give the same number back.
-std::string Exact(const Value& value) {
-  const auto* number = std::get_if<double>(&value);
-  return number == nullptr ? Shown(value, 0) : fmt::to_string(*number);
+void Add(const Value& value, CsvWriter* csv) {
+  if (const auto* number = std::get_if<double>(&value)) {
+    csv->Add(*number);
+  } else {
+    csv->Add(Shown(value, 0));
+  }
 }
 
 std::string Relative(double deviation) {
@@ -176,25 +178,27 @@ std::string ComparisonJson(const JobComparison& comparison) {
 }
 
 std::string ComparisonCsv(const JobComparison& comparison) {
-  std::string text = "kind,name,unit";
-  for (const std::string& name : comparison.names) text.append(",").append(CsvText(name));
-  for (std::size_t job = 1; job < comparison.names.size(); ++job) {
-    text += fmt::format(",deviation of {}", CsvText(comparison.names[job]));
-  }
-  text += ",verdict\n";
+  const std::size_t jobs = comparison.names.size();
+  std::string text;
+  CsvWriter csv(&text);
+  csv.Add("kind").Add("name").Add("unit");
+  for (const std::string& name : comparison.names) csv.Add(name);
+  for (std::size_t job = 1; job < jobs; ++job) csv.Add("deviation of " + comparison.names[job]);
+  csv.Add("verdict").EndRow();
   for (const auto& parameter : comparison.parameters) {
-    text.append("parameter,").append(CsvText(parameter.path)).append(",");
-    for (const std::string& value : parameter.values) text.append(",").append(CsvText(value));
-    text += std::string(comparison.names.size() - 1, ',') + ",\n";
+    csv.Add("parameter").Add(parameter.path).Add("");
+    for (const std::string& value : parameter.values) csv.Add(value);
+    for (std::size_t job = 0; job < jobs; ++job) csv.Add("");  // No deviations and no verdict.
+    csv.EndRow();
   }
   for (const Result& result : comparison.results) {
-    text += fmt::format("result,{},{}", CsvText(result.name), result.unit);
-    for (const Value& value : result.values) text.append(",").append(Exact(value));
-    for (std::size_t job = 1; job < comparison.names.size(); ++job) {
+    csv.Add("result").Add(result.name).Add(result.unit);
+    for (const Value& value : result.values) Add(value, &csv);
+    for (std::size_t job = 1; job < jobs; ++job) {
       const double deviation = result.Deviation(job);
-      text += std::isnan(deviation) ? std::string(",") : fmt::format(",{}", deviation);
+      std::isnan(deviation) ? csv.Add("") : csv.Add(deviation);
     }
-    text.append(",").append(Verdict(comparison, result).text).append("\n");
+    csv.Add(Verdict(comparison, result).text).EndRow();
   }
   return text;
 }

@@ -10,8 +10,8 @@ namespace contact::cli {
 /// Recorded motion for people: one line a sample, the middle of many left out.
 std::string RenderSeries(const v1::Series& series, const Style& style);
 
-/// The same as CSV: a header with the units in its names, such as `B1.velocity_m_per_s`, and every
-/// sample with all its digits.
+/// Recorded motion as CSV: a header such as `time [s],B1.velocity [m/s]`, and every sample with as
+/// many digits as give the same double back.
 std::string SeriesCsv(const v1::Series& series);
 
 /// The same as one JSON document, its values as numbers.

@@ -3,12 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <vector>
 
 #include "cli/base/interrupt.h"
 #include "cli/base/number.h"
-#include "cli/export/csv_metadata.h"
-#include "cli/export/provenance.h"
 #include "cli/link/connect.h"
 #include "cli/link/download.h"
 #include "cli/link/job_names.h"
@@ -39,11 +36,6 @@ ExitCode ListArtifacts(const ArtifactArguments& arguments, const Settings& setti
   return ExitCode::kOk;
 }
 
-std::string Hex(const std::string& bytes) {
-  return fmt::format("{:02x}",
-                     fmt::join(std::vector<unsigned char>(bytes.begin(), bytes.end()), ""));
-}
-
 ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable});
   Client client = Connect(settings);
@@ -59,12 +51,7 @@ ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& setting
                             fmt::print(stderr, "connection lost ({}); trying again\n", why);
                           }};
   const Interrupt interrupt;
-  const v1::Job job = GetJob(client, arguments.job);
   const v1::Artifact artifact = Download(client, options);
-  Provenance source = SourceOf(job);
-  source.emplace_back("artifact", artifact.name());
-  source.emplace_back("artifact_sha256", Hex(artifact.sha256()));
-  WriteCsvMetadata({}, {source}, path);
   fmt::print(stderr, "{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
   return ExitCode::kOk;
 }

@@ -4,12 +4,12 @@
 
 #include "cli/base/number.h"
 #include "cli/base/output_file.h"
-#include "cli/export/csv_metadata.h"
 #include "cli/export/data_table.h"
+#include "cli/export/export_csv.h"
+#include "cli/export/export_json_lines.h"
 #include "cli/export/export_mat.h"
 #include "cli/export/export_netcdf.h"
 #include "cli/export/export_protobuf.h"
-#include "cli/export/export_text.h"
 #include "cli/export/series_selection.h"
 #include "cli/link/connect.h"
 #include "cli/link/recording.h"
@@ -51,7 +51,6 @@ void WriteText(const DataTable& table, const Provenance& source, OutputFormat fo
   (format == OutputFormat::kJsonLines ? WriteJsonLines : WriteCsv)(table, file.get(),
                                                                    arguments.precision);
   file.Close();
-  if (!arguments.file.empty()) WriteCsvMetadata(table.columns, {source}, arguments.file);
 }
 
 // All tables in one file.

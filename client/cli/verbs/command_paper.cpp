@@ -85,8 +85,7 @@ void WriteAll(const v1::ServerInfo& server, const PaperArguments& arguments,
   const Provenance here = {{"version", server.version()}, {"revision", server.revision()}};
   for (PaperItem& item : *items) {
     if (item.figure && item.figure->sources.empty()) item.figure->sources = {here};
-    Write(item, item.figure ? item.figure->sources : std::vector<Provenance>{here},
-          arguments.directory);
+    Write(item, arguments.directory);
   }
 }
 

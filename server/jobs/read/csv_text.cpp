@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cstddef>
 #include <cstring>
-#include <string_view>
-#include <utility>
+
+#include "wire/column_name.h"
 
 namespace contact {
 namespace {
@@ -19,22 +19,6 @@ void Append(double value, std::string* text) {
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
                                  std::chars_format::general, 17);
   text->append(digits.data(), end.ptr);
-}
-
-// A field's name on the wire ends with its unit.
-std::string ColumnName(const FieldDescriptor& field) {
-  constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
-      {"_m_per_s", "m/s"}, {"_s_per_m", "s/m"}, {"_m", "m"}, {"_s", "s"}, {"_j", "J"}, {"_n", "N"}};
-  const std::string_view name = field.name();
-  for (const auto& [suffix, unit] : kUnits) {
-    if (name.ends_with(suffix)) {
-      return fmt::format("{} [{}]", name.substr(0, name.size() - suffix.size()), unit);
-    }
-  }
-  if (field.name() == "mu") return "mu [N.s/m^(n+1)]";
-  const bool number = field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ||
-                      field.cpp_type() == FieldDescriptor::CPPTYPE_INT32;
-  return number ? fmt::format("{} [1]", name) : std::string(name);
 }
 
 void Append(const v1::Cycle& cycle, const FieldDescriptor& field, std::string* text) {
@@ -58,9 +42,10 @@ void Append(const v1::Cycle& cycle, const FieldDescriptor& field, std::string* t
 std::string CsvHeader(const v1::FrameChunk& chunk) {
   std::string text;
   for (const auto& column : chunk.columns()) {
-    text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name(), column.unit());
+    text += ColumnHeader(column.name(), column.unit()) + ',';
   }
-  return text + '\n';
+  text.back() = '\n';
+  return text;
 }
 
 std::string CsvRows(const v1::FrameChunk& chunk) {
@@ -80,7 +65,10 @@ std::string CsvRows(const v1::FrameChunk& chunk) {
 std::string CyclesCsv(const v1::Job& job) {
   const auto& cycle = *v1::Cycle::descriptor();
   std::string text;
-  for (int i = 0; i < cycle.field_count(); ++i) text += ColumnName(*cycle.field(i)) + ',';
+  for (int i = 0; i < cycle.field_count(); ++i) {
+    const ColumnName column = ColumnOf(*cycle.field(i));
+    text += ColumnHeader(column.name, column.unit) + ',';
+  }
   text.back() = '\n';
   for (const v1::Cycle& row : job.cycles()) {
     for (int i = 0; i < cycle.field_count(); ++i) {

@@ -110,7 +110,7 @@ class ExportFormsTest(CliTest):
         said = subprocess.run(["octave-cli", "--quiet", "--norc", "--eval", script], check=True,
                               capture_output=True, text=True, timeout=PATIENCE_S).stdout.splitlines()
         self.assertEqual([float(line) for line in said[:2]], [c.mu for c in self.job.cycles])
-        self.assertEqual(said[2:5], ["B2-B3", "N s/m^(n+1)", self.name])
+        self.assertEqual(said[2:5], ["B2-B3", "N·s/m^(n+1)", self.name])
         self.assertEqual(said[5], "1001 1")
         self.assertEqual(float(said[6]), float(self.columns()["B3.velocity"][-1]))
 

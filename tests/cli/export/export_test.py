@@ -65,15 +65,18 @@ class ExportTest(CliTest):
                     value = field.enum_type.values_by_number[value].name
                 self.assertEqual(text if isinstance(value, str) else float(text), value)
 
-    def test_file_has_units_and_provenance_beside_it(self):
+    def test_every_csv_of_a_job_names_a_column_alike(self):
         path = self.folder / "cycles.csv"
         self.run_it("export", self.name, "-f", path, "--table", "cycles")
-        metadata = json.loads((self.folder / "cycles.csv-metadata.json").read_text("utf-8"))
-        self.assertEqual(metadata["url"], path.name)
-        self.assertEqual([c["titles"] for c in metadata["tableSchema"]["columns"]],
-                         path.read_text("utf-8").splitlines()[0].split(","))
-        self.assertEqual(metadata["notes"][0]["scenario_sha256"], self.job.spec_sha256)
         self.assertEqual(list(pandas.read_csv(path)["contact"]), ["B1-B2", "B2-B3"])
+        artifact = self.folder / "artifact.csv"
+        self.run_it("artifact", "get", self.name, "cycles.csv", "-f", artifact)
+        self.assertTrue(pandas.read_csv(path).equals(pandas.read_csv(artifact)))
+        self.run_it("artifact", "get", self.name, "trajectory.csv", "-f", artifact)
+        printed = self.run_it("series", self.name, "--raw", "-o", "csv")[0]
+        exported = self.run_it("export", self.name, "-o", "csv")[0]
+        self.assertEqual(printed, exported)
+        self.assertTrue(pandas.read_csv(io.StringIO(printed)).equals(pandas.read_csv(artifact)))
 
     def test_comments_are_skipped_by_readers_of_csv(self):
         plain, _ = self.run_it("export", self.name, "-o", "csv")
@@ -92,7 +95,7 @@ class ExportTest(CliTest):
         rows = [json.loads(line) for line in printed.splitlines()]
         events = self.server.events(self.name, kinds=["iteration"])
         unknowns = [u for e in events for u in e.iteration.unknowns]
-        self.assertEqual([row["mu [N s/m^(n+1)]"] for row in rows], [u.mu for u in unknowns])
+        self.assertEqual([row["mu [N·s/m^(n+1)]"] for row in rows], [u.mu for u in unknowns])
         self.assertEqual([row["accepted [1]"] for row in rows][-1], 1)
 
     def test_netcdf_holds_all_tables_with_units_and_provenance(self):
@@ -132,7 +135,7 @@ class ExportTest(CliTest):
             np.testing.assert_array_equal(velocity.time, recorded["time"])
         with h5py.File(path) as file:
             np.testing.assert_array_equal(file["series/B3.velocity"], recorded["B3.velocity"])
-            self.assertEqual(file["cycles/mu"].attrs["units"], b"N s/m^(n+1)")
+            self.assertEqual(file["cycles/mu"].attrs["units"], "N·s/m^(n+1)".encode())
             self.assertEqual(file.attrs["job"], self.name.encode())
 
     def test_octave_reads_the_same_doubles(self):

@@ -1,7 +1,6 @@
 """contactctl plot: figures of a run, drawn by gnuplot."""
 
 import csv
-import json
 import os
 import re
 import subprocess
@@ -77,17 +76,14 @@ class PlotTest(CliTest):
         keep = self.folder / "new" / "kept"
         self.plot("energy", "e.png", "--keep", keep)
         self.assertEqual({path.name for path in keep.iterdir()},
-                         {"energy.gp", "energy.csv", "energy.csv-metadata.json"})
+                         {"energy.gp", "energy.csv"})
 
     def test_every_picture_tells_where_it_comes_from(self):
         svg = self.plot("force", "a.svg").decode()
         script = self.plot("force", "a.gp").decode()
-        self.plot("force", "a.csv")
-        metadata = json.loads((self.folder / "a.csv-metadata.json").read_text("utf-8"))
         source = {"title": "Triple-ball chain", "job": self.name,
                   "scenario_sha256": self.job.spec_sha256, "version": self.job.server_version,
                   "revision": self.job.server_revision}
-        self.assertEqual((metadata["url"], metadata["notes"]), ("a.csv", [source]))
         described = re.search("<desc>(.*?)</desc>", svg, re.DOTALL)[1].splitlines()
         self.assertEqual(described, [f"{name}: {value}" for name, value in source.items()])
         self.assertEqual(script.splitlines()[:5], [f"# {line}" for line in described])

@@ -38,10 +38,12 @@ TEST(PaperReport, ANumberThatIsMissingDoesNotHold) {
 
 TEST(PaperReport, FilesHoldWhatTheItemHolds) {
   const TempDirectory directory;
-  const PaperItem item{
-      "fig1", "t", {Number(1, 2, 0.5)}, {{"fig1", {"time_s", "force_n"}, {{0, 0.1}, {1, 1e-300}}}}};
-  Write(item, {}, directory.path());
-  EXPECT_EQ(Read(directory.path() / "fig1.csv"), "time_s,force_n\n0,0.1\n1,1e-300\n");
+  const PaperItem item{"fig1",
+                       "t",
+                       {Number(1, 2, 0.5)},
+                       {{"fig1", {"time [s]", "force [N]"}, {{0, 0.1}, {1, 1e-300}}}}};
+  Write(item, directory.path());
+  EXPECT_EQ(Read(directory.path() / "fig1.csv"), "time [s],force [N]\n0,0.1\n1,1e-300\n");
   const auto json = nlohmann::json::parse(Read(directory.path() / "fig1.json"));
   EXPECT_FALSE(json["holds"]);
   EXPECT_EQ(json["numbers"][0]["deviation"], 1.0);

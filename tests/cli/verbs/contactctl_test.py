@@ -25,15 +25,21 @@ class SeriesTest(CliTest):
         super().setUp()
         self.job = self.run_it("run", CHAIN, "-o", "name")[0].strip()
 
+    def test_durations_are_those_of_the_servers_flags(self):
+        name = self.run_it("run", CHAIN, "--ttl", "30d", "-o", "name")[0].strip()
+        self.assertEqual(self.server.get(name).time_to_live.seconds, 30 * 24 * 3600)
+        for text in ("0", "-1s", "1w"):
+            self.run_it("run", CHAIN, f"--ttl={text}", code=2)
+
     def test_csv_holds_the_recorded_motion_with_units_in_its_header(self):
         lines = self.run_it("series", self.job, "--raw", "-o", "csv")[0].splitlines()
         header = lines[0].split(",")
-        self.assertEqual(header[:3], ["time_s", "B1.position_m", "B1.velocity_m_per_s"])
+        self.assertEqual(header[:3], ["time [s]", "B1.position [m]", "B1.velocity [m/s]"])
         self.assertEqual(header[-2:], ["B2-B3.contact_force_n", "B2-B3.external_force_n"])
         self.assertEqual(len(lines), 1 + 1001)
         last = dict(zip(header, map(float, lines[-1].split(","))))
-        self.assertEqual(last["time_s"], 4e-3)
-        self.assertAlmostEqual(last["B3.velocity_m_per_s"], 0.155004951207, delta=1e-8)
+        self.assertEqual(last["time [s]"], 4e-3)
+        self.assertAlmostEqual(last["B3.velocity [m/s]"], 0.155004951207, delta=1e-8)
 
     def test_few_points_keep_the_peak(self):
         def forces(*arguments):

@@ -1,0 +1,37 @@
+#include "wire/column_name.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "wire/field_rule.h"
+
+namespace contact {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+
+// How names in the contract end, and the unit that this means; longer endings first.
+constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
+    {"_m_per_s", "m/s"}, {"_s_per_m", "s/m"}, {"_m", "m"}, {"_s", "s"}, {"_j", "J"}, {"_n", "N"}};
+
+}  // namespace
+
+ColumnName ColumnOf(const FieldDescriptor& field) {
+  const std::string_view name = field.name();
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING ||
+      field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
+    return {name, ""};
+  }
+  if (const std::string& unit = RuleOf(field).unit(); !unit.empty()) return {name, unit};
+  for (const auto& [ending, unit] : kUnits) {
+    if (name.ends_with(ending)) return {name.substr(0, name.size() - ending.size()), unit};
+  }
+  return {name, "1"};
+}
+
+std::string ColumnHeader(std::string_view name, std::string_view unit) {
+  return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
+}
+
+}  // namespace contact
