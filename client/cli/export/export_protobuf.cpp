@@ -10,7 +10,7 @@
 #include "cli/base/output_file.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
-#include "cli/link/watch.h"
+#include "cli/link/watch_to_end.h"
 
 namespace contact::cli {
 namespace {
@@ -56,18 +56,6 @@ class Writer final : public WatchObserver {
   bool has_holes_ = false;
 };
 
-void Follow(Client& client, WatchOptions options, const Settings& settings,
-            WatchObserver& observer) {
-  options.deadline = settings.Deadline();
-  options.stopped = Interrupt::raised;
-  const WatchEnd end = Watch(client, options, observer);
-  if (end == WatchEnd::kFinished) return;
-  const bool interrupted = end == WatchEnd::kStopped;
-  throw Failure(interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout,
-                fmt::format("{}; {} has not ended, or is long",
-                            interrupted ? "interrupted" : "time is up", options.name));
-}
-
 }  // namespace
 
 std::int64_t WriteProtobuf(Client& client, const std::string& job, const Settings& settings,
@@ -77,12 +65,12 @@ std::int64_t WriteProtobuf(Client& client, const std::string& job, const Setting
   options.name = JobName(job);
   options.kinds = {"state_changed"};
   WatchObserver silence;
-  Follow(client, options, settings, silence);
+  WatchToEnd(client, options, settings, silence);
   options.kinds.clear();
   options.overflow = v1::DeliveryOptions::LAG;
   for (int tries = 0; tries < 2; ++tries) {
     Writer writer(path, GetJob(client, job));
-    Follow(client, options, settings, writer);
+    WatchToEnd(client, options, settings, writer);
     writer.Close();
     if (!writer.has_holes()) return writer.events();
   }

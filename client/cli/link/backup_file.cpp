@@ -1,19 +1,16 @@
 #include "cli/link/backup_file.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <system_error>
-#include <utility>
 
 #include "base/digest.h"
+#include "base/replace_file.h"
 #include "cli/base/failure.h"
+#include "cli/base/output_file.h"
 #include "contact/v1/admin_service.grpc.pb.h"
 
 namespace contact::cli {
@@ -21,55 +18,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void FailLocally(const std::string& path) {
-  throw Failure(ExitCode::kLocal,
-                fmt::format("{}: {}", path, std::generic_category().message(errno)));
-}
-
 [[noreturn]] void FailDamaged(const std::string& what) {
   throw Failure(ExitCode::kRunFailed, fmt::format("the backup is damaged: {}", what));
 }
 
-/// A file that takes the place of another once it is complete; before that it leaves no trace.
-class Replacement {
+/// A file beside the one that it will replace. Removed with this object unless it has replaced it.
+class Draft {
  public:
-  explicit Replacement(std::string path)
-      : path_(std::move(path)), draft_(path_ + ".new"), file_(std::fopen(draft_.c_str(), "wb")) {
-    if (file_ == nullptr) FailLocally(draft_);
-  }
-  ~Replacement() {
-    if (file_ != nullptr) std::fclose(file_);
-    std::error_code missing;
-    fs::remove(draft_, missing);
-  }
-  Replacement(const Replacement&) = delete;
-  Replacement& operator=(const Replacement&) = delete;
+  explicit Draft(const std::string& path) : path_(path), name_(path + ".new"), file_(name_) {}
+  ~Draft() { std::remove(name_.c_str()); }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
 
-  const std::string& draft() const { return draft_; }
+  const std::string& name() const { return name_; }
 
   void Write(const std::string& bytes) {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) FailLocally(draft_);
+    std::fwrite(bytes.data(), 1, bytes.size(), file_.get());  // Close tells errors.
   }
 
-  // Puts all of it on disk.
-  void Close() {
-    const bool written = std::fflush(file_) == 0 && ::fsync(::fileno(file_)) == 0;
-    if (std::fclose(std::exchange(file_, nullptr)) != 0 || !written) FailLocally(draft_);
-  }
+  void Close() { file_.Close(); }
 
-  void Rename() {
-    if (std::rename(draft_.c_str(), path_.c_str()) != 0) FailLocally(path_);
-    const fs::path folder = fs::absolute(path_).parent_path();
-    const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const bool synced = fd >= 0 && ::fsync(fd) == 0;
-    if (fd >= 0) ::close(fd);
-    if (!synced) FailLocally(folder);
+  void Replace() {
+    const std::error_code error = MoveIntoPlace(name_, path_);
+    if (error) throw Failure(ExitCode::kLocal, fmt::format("{}: {}", path_, error.message()));
   }
 
  private:
   const std::string path_;
-  const std::string draft_;
-  std::FILE* file_;
+  const std::string name_;
+  OutputFile file_;
 };
 
 /// Checks the chunks as they come.
@@ -118,7 +95,7 @@ void CheckDatabase(const std::string& file) {
 
 std::int64_t ReceiveBackup(Client& client, const std::string& path,
                            std::optional<std::chrono::steady_clock::time_point> deadline) {
-  Replacement file(path);
+  Draft file(path);
   Receiver receiver;
   grpc::ClientContext context;
   if (deadline) {
@@ -135,8 +112,8 @@ std::int64_t ReceiveBackup(Client& client, const std::string& path,
   if (!status.ok()) throw CallFailure(status, client.server());
   const std::int64_t bytes = receiver.Complete();
   file.Close();
-  CheckDatabase(file.draft());
-  file.Rename();
+  CheckDatabase(file.name());
+  file.Replace();
   return bytes;
 }
 

@@ -9,8 +9,10 @@
 
 namespace contact::cli {
 
-/// Asks the server for a copy of its store and writes it to `path`, which is replaced only by a
-/// copy that is whole, checked and on disk. Returns its size in bytes. Throws Failure.
+/// Asks the server for a copy of its store and writes it to `path`. The file there is replaced only
+/// by a copy that is whole, has the server's checksums, passes SQLite's check and is on disk. The
+/// call ends at `deadline`, if there is one. Returns the size in bytes. Throws CallFailure for the
+/// call, Failure for a damaged copy (kRunFailed) and for the file (kLocal).
 std::int64_t ReceiveBackup(Client& client, const std::string& path,
                            std::optional<std::chrono::steady_clock::time_point> deadline);
 

@@ -1,17 +1,15 @@
 #include "cli/link/download.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <array>
-#include <boost/crc.hpp>
 #include <cerrno>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
-#include <memory>
 #include <system_error>
 
+#include "base/digest.h"
+#include "base/replace_file.h"
 #include "cli/link/stream_call.h"
 
 namespace contact::cli {
@@ -22,22 +20,14 @@ namespace {
                 fmt::format("{}: {}", path, std::generic_category().message(errno)));
 }
 
-std::uint32_t Crc32c(const std::string& data) {
-  boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, true, true> crc;
-  crc.process_bytes(data.data(), data.size());
-  return crc.checksum();
-}
-
 // The part that is here already, and what is added to it.
 class PartFile {
  public:
-  explicit PartFile(std::string path)
-      : path_(std::move(path)), digest_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    EVP_DigestInit_ex(digest_.get(), EVP_sha256(), nullptr);
+  explicit PartFile(std::string path) : path_(std::move(path)) {
     std::ifstream left(path_, std::ios::binary);
     std::array<char, 1 << 16> block{};
     while (left.read(block.data(), block.size()), left.gcount() > 0) {
-      Count(block.data(), static_cast<std::size_t>(left.gcount()));
+      Count({block.data(), static_cast<std::size_t>(left.gcount())});
     }
     file_.open(path_, std::ios::binary | std::ios::app);
     if (!file_) FailLocally(path_);
@@ -53,35 +43,30 @@ class PartFile {
 
   void Append(const std::string& data) {
     if (!file_.write(data.data(), static_cast<std::streamsize>(data.size()))) FailLocally(path_);
-    Count(data.data(), data.size());
+    Count(data);
   }
 
   // Gives it its name if it is what the server has, else throws it away.
   void Finish(const v1::Artifact& artifact, const std::string& path) {
     file_.close();
     if (!file_) FailLocally(path_);
-    std::array<unsigned char, EVP_MAX_MD_SIZE> hash{};
-    unsigned int length = 0;
-    EVP_DigestFinal_ex(digest_.get(), hash.data(), &length);
-    if (size_ != artifact.size_bytes() ||
-        artifact.sha256() != std::string(hash.begin(), hash.begin() + length)) {
+    if (size_ != artifact.size_bytes() || artifact.sha256() != digest_.Finish()) {
       std::remove(path_.c_str());
       throw Failure(ExitCode::kRunFailed,
                     fmt::format("{} is not what the server has; it was removed, try again", path_));
     }
-    std::error_code error;
-    std::filesystem::rename(path_, path, error);
-    if (error) throw Failure(ExitCode::kLocal, fmt::format("{}: {}", path, error.message()));
+    if (const std::error_code error = MoveIntoPlace(path_, path))
+      throw Failure(ExitCode::kLocal, fmt::format("{}: {}", path, error.message()));
   }
 
  private:
-  void Count(const char* data, std::size_t size) {
-    EVP_DigestUpdate(digest_.get(), data, size);
-    size_ += static_cast<std::int64_t>(size);
+  void Count(std::string_view data) {
+    digest_.Add(data);
+    size_ += static_cast<std::int64_t>(data.size());
   }
 
   const std::string path_;
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> digest_;
+  Sha256 digest_;
   std::int64_t size_ = 0;
   std::ofstream file_;
 };

@@ -12,12 +12,14 @@
 
 namespace contact::cli {
 
+/// What Download fetches, and for how long it tries.
 struct DownloadOptions {
-  std::string job;  ///< `jobs/ID`.
-  std::string artifact;
-  std::string path;  ///< The file; meanwhile `path`.part.
+  std::string job;       ///< `jobs/ID`.
+  std::string artifact;  ///< Its name, such as `trajectory.csv`.
+  std::string path;      ///< The file; meanwhile `path`.part.
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::function<bool()> stopped = [] { return false; };  ///< Asked about ten times a second.
+  /// Called when the connection is lost, before another attempt.
   std::function<void(const std::string& why)> lost = [](const std::string&) {};
   Patience patience = {};
 };

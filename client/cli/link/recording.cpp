@@ -3,24 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <cstring>
+#include <utility>
 
 #include "cli/base/interrupt.h"
+#include "cli/link/columns.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
+#include "cli/link/watch_to_end.h"
 
 namespace contact::cli {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "columns are little-endian");
-
-void Append(const std::string& bytes, std::vector<double>* values) {
-  const std::size_t count = bytes.size() / sizeof(double);
-  values->resize(values->size() + count);
-  std::memcpy(values->data() + values->size() - count, bytes.data(), count * sizeof(double));
-}
 
 void Replay(Client& client, const std::string& name, const Settings& settings, bool trajectory,
             Recorder* recorder) {
@@ -29,14 +22,7 @@ void Replay(Client& client, const std::string& name, const Settings& settings, b
   options.kinds = {"attempt_started", "iteration", "cycle"};
   if (trajectory) options.kinds.emplace_back("frame_chunk");
   options.overflow = v1::DeliveryOptions::LAG;
-  options.deadline = settings.Deadline();
-  options.stopped = Interrupt::raised;
-  const WatchEnd end = Watch(client, options, *recorder);
-  if (end == WatchEnd::kFinished) return;
-  const bool interrupted = end == WatchEnd::kStopped;
-  throw Failure(interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout,
-                fmt::format("{}; {} has not ended, or is long",
-                            interrupted ? "interrupted" : "time is up", name));
+  WatchToEnd(client, std::move(options), settings, *recorder);
 }
 
 }  // namespace
@@ -77,7 +63,7 @@ std::vector<SampleColumn> Recorder::Columns() const {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const v1::FrameChunk::Column& column = chunk.columns(static_cast<int>(i));
       if (first == 0) columns[i] = {column.name(), column.quantity(), column.unit(), {}};
-      Append(column.values(), &columns[i].values);
+      AppendDoubles(column.values(), &columns[i].values);
     }
   }
   return columns;

@@ -13,17 +13,17 @@ namespace contact::cli {
 
 /// One quantity of the trajectory, at all samples.
 struct SampleColumn {
-  std::string name;  ///< Such as `B1.velocity`, or `time`.
-  std::string quantity;
-  std::string unit;
-  std::vector<double> values;
+  std::string name;            ///< Such as `B1.velocity`, or `time`.
+  std::string quantity;        ///< Such as `velocity`; see FrameChunk.Column.
+  std::string unit;            ///< SI, such as `m/s`.
+  std::vector<double> values;  ///< One a sample; as many in all columns of a recording.
 };
 
 /// What the last attempt of an ended job recorded.
 struct Recording {
-  v1::Job job;
-  std::vector<SampleColumn> columns;  ///< `time` first. Empty if no trajectory was recorded.
-  std::vector<v1::Iteration> iterations;
+  v1::Job job;                            ///< As GetJob returns it, with the whole ledger.
+  std::vector<SampleColumn> columns;      ///< `time` first. Empty if no trajectory was recorded.
+  std::vector<v1::Iteration> iterations;  ///< In order of episode and pass.
 
   /// The column with this name; null if there is none.
   const SampleColumn* Find(const std::string& name) const;
@@ -32,14 +32,15 @@ struct Recording {
 /// Gathers a recording from the events of a watch. An event heard twice changes nothing.
 class Recorder : public WatchObserver {
  public:
+  /// Takes chunks, iterations and cycles; a new attempt drops what came before.
   void OnEvent(const v1::Event& event) override;
 
   /// True if chunks are missing between those that came: a slow watcher is spared some.
   bool has_holes() const;
 
-  std::vector<SampleColumn> Columns() const;
-  std::vector<v1::Iteration> Iterations() const;
-  std::vector<v1::Cycle> Cycles() const;
+  std::vector<SampleColumn> Columns() const;      ///< Of all chunks that came, joined.
+  std::vector<v1::Iteration> Iterations() const;  ///< In order of episode and pass.
+  std::vector<v1::Cycle> Cycles() const;          ///< In order of their events.
 
  private:
   std::map<std::int64_t, v1::FrameChunk> chunks_;            // By first sample.
@@ -47,8 +48,9 @@ class Recorder : public WatchObserver {
   std::map<std::uint64_t, v1::Cycle> cycles_;                // By sequence.
 };
 
-/// Waits for the end of a job and fetches all that it recorded. Throws CallFailure, and Failure
-/// (kTimeout, kInterrupted) when the wait ends first. The trajectory can be left out.
+/// Waits for the end of a job and fetches all that it recorded; without `trajectory` the recording
+/// has no columns. `job` is an ID or jobs/ID. Throws CallFailure, and Failure: kTimeout or
+/// kInterrupted if the wait ends first, kRunFailed if chunks are missing.
 Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
                         bool trajectory = true);
 

@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 
+#include "base/replace_file.h"
 #include "base/spelling.h"
 #include "cli/base/table.h"
 #include "cli/base/text_file.h"
@@ -94,14 +93,10 @@ void Store(const std::string& profile, const std::string& key, const std::string
   const std::string text = WithValue(TextOf(path), profile, key, value);
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
-  const std::filesystem::path draft = path.string() + ".new";
-  std::ofstream file(draft, std::ios::binary);
-  file << text;
-  file.close();
-  if (file) std::filesystem::rename(draft, path, error);
-  if (!file || error) {
-    throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", path.string(),
-                                                std::generic_category().message(errno)));
+  error = ReplaceFile(path, text);
+  if (error) {
+    throw Failure(ExitCode::kLocal,
+                  fmt::format("cannot write {}: {}", path.string(), error.message()));
   }
   fmt::print(stderr, "{}\n", path.string());
 }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cli/link/watch.h"
+#include "cli/settings/settings.h"
+
+namespace contact::cli {
+
+/// Watches a job until it has ended and all its events were heard. The time limit of `settings` and
+/// Ctrl-C, while the caller holds an Interrupt, end the watch early; `options.deadline` and
+/// `options.stopped` are replaced by them. Throws CallFailure as Watch does, and Failure (kTimeout,
+/// kInterrupted) if the watch ends before the job.
+void WatchToEnd(Client& client, WatchOptions options, const Settings& settings,
+                WatchObserver& observer);
+
+}  // namespace contact::cli
