@@ -1,36 +1,14 @@
 #include "cli/figures/gnuplot.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <system_error>
 
 #include "cli/base/failure.h"
 #include "cli/base/latex.h"
+#include "cli/base/process.h"
 
 namespace contact::cli {
-namespace {
-
-// Starts a program without a shell. Throws Failure (kLocal) if there is no such program.
-pid_t Start(std::string program, std::string flag, std::string argument) {
-  std::array<char*, 4> arguments{program.data(), flag.data(), argument.data(), nullptr};
-  pid_t process = 0;
-  const int error =
-      posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments.data(), environ);
-  if (error == 0) return process;
-  if (error == ENOENT) {
-    throw Failure(ExitCode::kLocal,
-                  "gnuplot is not installed: apt-get install gnuplot-nox, or use -o gp or -o csv");
-  }
-  throw Failure(ExitCode::kLocal,
-                fmt::format("{}: {}", program, std::generic_category().message(error)));
-}
-
-}  // namespace
 
 // In single quotes only the quote is special.
 std::string GnuplotString(std::string_view text) {
@@ -81,12 +59,17 @@ std::string Medium::Caption(const std::vector<Provenance>& sources) const {
 }
 
 void RunGnuplot(const std::string& script_path) {
-  const pid_t process = Start("gnuplot", "-d", script_path);  // -d: no settings of the user.
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  try {
+    const int code = WaitForProcess(
+        StartProcess({"gnuplot", "-d", script_path}));  // -d: no settings of the user.
+    if (code != 0) throw Failure(ExitCode::kLocal, "gnuplot failed; what it said stands above");
+  } catch (const std::system_error& error) {
+    throw Failure(
+        ExitCode::kLocal,
+        error.code() == std::errc::no_such_file_or_directory
+            ? "gnuplot is not installed: apt-get install gnuplot-nox, or use -o gp or -o csv"
+            : error.what());
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  throw Failure(ExitCode::kLocal, "gnuplot failed; what it said stands above");
 }
 
 }  // namespace contact::cli

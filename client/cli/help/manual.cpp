@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cstdio>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "cli/base/failure.h"
 #include "cli/base/output_file.h"
+#include "cli/base/process.h"
 #include "cli/help/contract/reference.h"
 
 namespace contact::cli {
@@ -153,18 +153,9 @@ std::string ScenarioPage() {
 }
 
 std::string Help(const std::string& program) {
-  std::FILE* pipe = popen(fmt::format("'{}' --help", program).c_str(), "r");
-  std::string text;
-  std::array<char, 4096> block{};
-  while (pipe != nullptr) {
-    const std::size_t size = std::fread(block.data(), 1, block.size(), pipe);
-    if (size == 0) break;
-    text.append(block.data(), size);
-  }
-  if (pipe == nullptr || pclose(pipe) != 0) {
-    throw Failure(ExitCode::kLocal, program + " --help does not tell its settings");
-  }
-  return text.substr(0, text.find_last_not_of('\n') + 1);
+  const std::optional<std::string> text = OutputOf({program, "--help"});
+  if (!text) throw Failure(ExitCode::kLocal, program + " --help does not tell its settings");
+  return text->substr(0, text->find_last_not_of('\n') + 1);
 }
 
 std::string ServerPage(const std::string& program) {

@@ -2,34 +2,36 @@
 
 #include <sys/types.h>
 
-#include <filesystem>
 #include <string>
+
+#include "cli/base/scratch_folder.h"
 
 namespace contact::cli {
 
 /// A contactd of our own: on a free loopback port, with its data in a temporary folder. It ends
-/// with this object, or with this process, and leaves nothing.
+/// with this object, or with the thread that made it, and leaves nothing.
 class LocalServer {
  public:
-  /// Starts `program` and waits until it listens. Throws Failure (kLocal) if it does not.
+  /// Starts `program`, a path or a name to look for in the PATH, and waits until it listens. Throws
+  /// Failure (kLocal) if it does not.
   explicit LocalServer(const std::string& program);
   ~LocalServer();
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;
 
   const std::string& address() const { return address_; }  ///< HOST:PORT
-  pid_t process() const { return process_; }
+  pid_t process() const { return process_; }               ///< Only this object waits for its end.
 
  private:
-  void End();
-  std::string WaitForGreeting(int output);
+  /// The port that the server has written to `port_file`; empty if it ended before, or is too slow.
+  std::string WaitForPort(const std::string& port_file) const;
 
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
   pid_t process_ = -1;
   std::string address_;
 };
 
-/// The contactd beside this program, else the one in the build or the PATH.
+/// The contactd beside this program, else the one of the same build, else the one in the PATH.
 std::string FindContactd();
 
 }  // namespace contact::cli

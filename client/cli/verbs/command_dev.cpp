@@ -1,15 +1,14 @@
 #include <fmt/format.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>  // Some file of the library must have all of it, or it lacks vtables.
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <memory>
+#include <system_error>
 
+#include "cli/base/process.h"
 #include "cli/link/local_server.h"
 #include "cli/verbs/commands.h"
 
@@ -41,39 +40,23 @@ int Next(const sigset_t& signals) {
 
 bool HasEnded(pid_t process, int* status) { return waitpid(process, status, WNOHANG) == process; }
 
-pid_t Start(const std::vector<std::string>& command, const std::string& address) {
-  std::vector<char*> arguments;
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  setenv("CONTACT_SERVER", address.c_str(), 1);
-  const pid_t parent = getpid();
-  const pid_t process = fork();
-  if (process != 0) return process;
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(1);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  execvp(arguments.front(), arguments.data());
-  constexpr int kNoSuchCommand = 127;  // As a shell says it.
-  _exit(kNoSuchCommand);
-}
-
 // The code of `command`, which the terminal's Ctrl-C reaches by itself; other signals we pass on.
 ExitCode RunCommand(const DevArguments& arguments, const LocalServer& server,
                     const sigset_t& signals) {
-  constexpr int kSignalled = 128;
-  const pid_t process = Start(arguments.command, server.address());
-  int status = 0;
-  while (!HasEnded(process, &status)) {
-    const int signal = Next(signals);
-    if (signal == SIGTERM || signal == SIGHUP) kill(process, signal);
+  setenv("CONTACT_SERVER", server.address().c_str(), 1);
+  try {
+    const pid_t process = StartProcess(arguments.command, {.ends_with_us = true});
+    int status = 0;
+    while (!HasEnded(process, &status)) {
+      const int signal = Next(signals);
+      if (signal == SIGTERM || signal == SIGHUP) kill(process, signal);
+    }
+    return static_cast<ExitCode>(ExitCodeOf(status));
+  } catch (const std::system_error& error) {
+    constexpr int kNoSuchCommand = 127;  // As a shell says it.
+    fmt::print(stderr, "contactctl: cannot run {}\n", error.what());
+    return static_cast<ExitCode>(kNoSuchCommand);
   }
-  if (WIFSIGNALED(status)) return static_cast<ExitCode>(kSignalled + WTERMSIG(status));
-  if (WEXITSTATUS(status) == 127) {
-    fmt::print(stderr, "contactctl: cannot run {}\n", arguments.command.front());
-  }
-  return static_cast<ExitCode>(WEXITSTATUS(status));
 }
 
 ExitCode WaitForEnd(const LocalServer& server, const sigset_t& signals) {

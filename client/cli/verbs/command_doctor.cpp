@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 #include <langinfo.h>
-#include <unistd.h>
 
-#include <array>
 #include <clocale>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/base/process.h"
 #include "cli/base/table.h"
 #include "cli/link/client.h"
 #include "cli/settings/config.h"
@@ -63,14 +61,11 @@ void LookAtServer(const Settings& settings, Findings* findings) {
 }
 
 Finding LookAtGnuplot() {
-  std::array<char, 128> line{};
-  std::FILE* pipe = popen("gnuplot --version 2>/dev/null", "r");
-  const bool read = pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr;
-  if (pipe != nullptr) pclose(pipe);
-  std::string version(line.data());
+  std::string version = OutputOf({"gnuplot", "--version"}, {.silent_errors = true}).value_or("");
   version.erase(version.find_last_not_of('\n') + 1);
-  if (read && version.starts_with("gnuplot 5")) return {"gnuplot", version, "", ExitCode::kOk};
-  return {"gnuplot", read ? version + ", made for 5" : "not found, so plot draws nothing",
+  if (version.starts_with("gnuplot 5")) return {"gnuplot", version, "", ExitCode::kOk};
+  return {"gnuplot",
+          version.empty() ? "not found, so plot draws nothing" : version + ", made for 5",
           "apt-get install gnuplot-nox", ExitCode::kLocal};
 }
 

@@ -62,7 +62,7 @@ class DevTest(LocalTest):
             process.send_signal(how)
             self.assertEqual(process.wait(PATIENCE_S), 0)
             self.assertFalse(runs(child))
-            self.assertEqual(list(self.folder.glob("contactd-dev-*")), [])
+            self.assertEqual(list(self.folder.glob("contactctl-*")), [])
 
     def test_server_dies_with_it(self):
         process, _, child = self.start()
@@ -84,11 +84,11 @@ class DevTest(LocalTest):
         self.run_it("dev", "--contactd", CONTACTD, "--", "sh", "-c", "exit 42", code=42)
         self.run_it("dev", "--contactd", CONTACTD, "--", "sh", "-c", "kill -9 $$", code=137)
         self.run_it("dev", "--contactd", CONTACTD, "--", "no-such-command", code=127)
-        self.assertEqual(list(self.folder.glob("contactd-dev-*")), [])
+        self.assertEqual(list(self.folder.glob("contactctl-*")), [])
 
     def test_no_contactd_is_code_11(self):
         self.assertIn("--contactd", self.run_it("dev", "--contactd", "/no/such", code=11)[1])
-        self.assertEqual(list(self.folder.glob("contactd-dev-*")), [])
+        self.assertEqual(list(self.folder.glob("contactctl-*")), [])
 
 
 class DoctorTest(LocalTest):

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace contact::cli {
+
+/// How StartProcess sets up a program. Its other file descriptors and variables are ours.
+struct ProcessOptions {
+  bool ends_with_us = false;   ///< It receives SIGTERM when the thread that started it ends.
+  bool own_group = false;      ///< The terminal's Ctrl-C does not reach it.
+  bool silent_errors = false;  ///< Its standard error is /dev/null.
+  int output = -1;             ///< The descriptor that is its standard output; -1: ours.
+};
+
+/// Starts a program without a shell; no signal is blocked in it. `command` is the program, a path
+/// or a name to look for in the PATH, and its arguments. The caller waits for its end. Throws
+/// std::system_error with the reason, such as ENOENT, if it cannot be run.
+pid_t StartProcess(const std::vector<std::string>& command, const ProcessOptions& options = {});
+
+/// Waits for the end of a process. Returns its exit code, or 128 + the signal that ended it.
+int WaitForProcess(pid_t process);
+
+/// The exit code for a status of waitpid: that of the process, or 128 + the signal that ended it.
+int ExitCodeOf(int status);
+
+/// What a program writes to its standard output. Nothing if it cannot be run or its exit code is
+/// not 0.
+std::optional<std::string> OutputOf(const std::vector<std::string>& command,
+                                    ProcessOptions options = {});
+
+}  // namespace contact::cli
