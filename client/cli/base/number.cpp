@@ -3,12 +3,11 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <utility>
+#include <optional>
 
+#include "base/duration.h"
 #include "cli/base/failure.h"
-#include "cli/base/scalar.h"
 
 namespace contact::cli {
 
@@ -16,7 +15,9 @@ std::string Digits(double value, int digits) {
   return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
 }
 
-std::string Error(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1e}", value); }
+std::string RelativeError(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.1e}", value);
+}
 
 std::string Seconds(double seconds) {
   if (seconds == 0) return "0 s";
@@ -34,19 +35,11 @@ std::string Instant(const google::protobuf::Timestamp& time) {
   return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(static_cast<std::time_t>(time.seconds())));
 }
 
-std::chrono::milliseconds ParseDuration(const std::string& text) {
-  constexpr std::array<std::pair<std::string_view, double>, 5> kUnits{
-      {{"ms", 1}, {"s", 1e3}, {"m", 6e4}, {"h", 3.6e6}, {"", 1e3}}};
-  constexpr double kLongest = 1e12;  // 30 years
-  for (const auto& [unit, milliseconds] : kUnits) {
-    if (!text.ends_with(unit)) continue;
-    const auto number = ParseNumber(std::string_view(text).substr(0, text.size() - unit.size()));
-    if (!number || !(*number > 0) || *number * milliseconds > kLongest) break;
-    return std::chrono::milliseconds(std::llround(std::ceil(*number * milliseconds)));
-  }
-  throw Failure(
-      ExitCode::kUsage,
-      fmt::format("'{}' is no time; give seconds, or such as 500ms, 10s, 2m or 1h", text));
+std::chrono::milliseconds RequireDuration(const std::string& text) {
+  const std::optional<std::chrono::milliseconds> duration = ParseDuration(text);
+  if (!duration) throw Failure(ExitCode::kUsage, NotADuration(text));
+  if (duration->count() == 0) throw Failure(ExitCode::kUsage, "a duration of 0 is too short");
+  return *duration;
 }
 
 }  // namespace contact::cli

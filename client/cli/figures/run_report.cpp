@@ -35,7 +35,7 @@ std::string Ledger(const v1::Job& job) {
           v1::Cycle::End_Name(cycle.end()), v1::Cycle::Status_Name(cycle.status()),
           fmt::to_string(cycle.iterations()), Digits(cycle.mu(), 7), AlphaOrRatio(cycle),
           Digits(cycle.restitution_in(), 6), Digits(cycle.restitution_out(), 8),
-          Error(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
+          RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
           Digits(cycle.peak_force_n(), 7), Digits(cycle.start_time_s(), 7),
           Digits(cycle.end_time_s(), 7)},
          missed});
@@ -55,7 +55,7 @@ std::string Iterations(const std::vector<v1::Iteration>& iterations) {
       rows.push_back(
           {{fmt::to_string(pass.episode()), fmt::to_string(pass.number()),
             fmt::format("{} #{}", unknown.contact(), unknown.number()), Digits(unknown.mu(), 9),
-            Digits(unknown.restitution_out(), 8), Error(unknown.residual()),
+            Digits(unknown.restitution_out(), 8), RelativeError(unknown.residual()),
             pass.accepted() ? "accepted" : v1::Iteration::Update_Name(unknown.update())}});
     }
   }
@@ -77,9 +77,9 @@ std::string Bodies(const v1::Job& job) {
 
 std::string Balances(const v1::RunSummary& summary) {
   return HtmlTable({"Balance", "Relative residual"},
-                   {{{"Momentum", Error(summary.momentum_residual())}},
-                    {{"Energy", Error(summary.energy_residual())}},
-                    {{"Worst cycle identity", Error(summary.worst_identity_residual())}}}) +
+                   {{{"Momentum", RelativeError(summary.momentum_residual())}},
+                    {{"Energy", RelativeError(summary.energy_residual())}},
+                    {{"Worst cycle identity", RelativeError(summary.worst_identity_residual())}}}) +
          fmt::format("<p>{} simulated; {} steps, {} evaluations, {} in {}; {} wall time.</p>\n",
                      Seconds(summary.time_reached_s()), summary.steps(), summary.evaluations(),
                      Count(summary.iterations(), "iteration", "iterations"),

@@ -11,7 +11,7 @@ namespace contact::cli {
 namespace {
 
 google::protobuf::Duration Span(const std::string& text) {
-  return google::protobuf::util::TimeUtil::MillisecondsToDuration(ParseDuration(text).count());
+  return google::protobuf::util::TimeUtil::MillisecondsToDuration(RequireDuration(text).count());
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void JobOptions::AddTo(CLI::App& command) {
       .add_option("--budget-output", output_bytes_, "Stop it when it has recorded that, as 10MB")
       ->transform(CLI::AsSizeValue(true))
       ->type_name("BYTES");
-  command.add_option("--ttl", time_to_live_, "Delete it so long after its end, as 1h")
+  command.add_option("--ttl", time_to_live_, "Delete it so long after its end, as 12h or 30d")
       ->type_name("TIME");
 }
 

@@ -36,12 +36,12 @@ void Settings::RequireOutput(std::initializer_list<OutputFormat> formats) const 
 
 std::chrono::milliseconds Settings::CallTimeout() const {
   constexpr std::chrono::seconds kCallTimeout{10};
-  return timeout.empty() ? kCallTimeout : ParseDuration(timeout);
+  return timeout.empty() ? kCallTimeout : RequireDuration(timeout);
 }
 
 std::optional<std::chrono::steady_clock::time_point> Settings::Deadline() const {
   if (timeout.empty()) return std::nullopt;
-  return std::chrono::steady_clock::now() + ParseDuration(timeout);
+  return std::chrono::steady_clock::now() + RequireDuration(timeout);
 }
 
 ProgressForm Settings::Progress() const {

@@ -87,7 +87,7 @@ std::string Ledger(const v1::Job& job, const Style& style) {
                AlphaOrRatio(cycle),
                Digits(cycle.restitution_in(), 6),
                Digits(cycle.restitution_out(), 8),
-               Error(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
+               RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
                Digits(cycle.start_time_s(), 7),
                Digits(cycle.end_time_s(), 7),
                Digits(cycle.peak_force_n(), 7),
@@ -119,8 +119,9 @@ std::string Balances(const v1::Job& job, const Style& style) {
                                                   full ? Tone::kGood : Tone::kWarning, style));
   }
   line += fmt::format("residuals: momentum {}, energy {}, cycle identity {}; {} steps\n",
-                      Error(summary.momentum_residual()), Error(summary.energy_residual()),
-                      Error(summary.worst_identity_residual()), summary.steps());
+                      RelativeError(summary.momentum_residual()),
+                      RelativeError(summary.energy_residual()),
+                      RelativeError(summary.worst_identity_residual()), summary.steps());
   return Wrap(line, style);
 }
 

@@ -119,7 +119,7 @@ void LiveView::ShowIteration(const v1::Iteration& iteration) {
     const std::string row =
         Row(fmt::to_string(iteration.episode()), fmt::to_string(iteration.number()),
             unknown.contact(), Digits(unknown.mu(), 9), Digits(unknown.restitution_out(), 8),
-            Error(error), NextStep(iteration, unknown));
+            RelativeError(error), NextStep(iteration, unknown));
     Write(rows_, Paint(WithBracket(row, Bracket(unknown), rows_style_),
                        iteration.accepted() ? Tone::kStrong : Tone::kPlain, rows_style_));
   }

@@ -62,7 +62,7 @@ ExitCode Metrics(const std::string& address, const Settings& settings) {
   try {
     fmt::print("{}",
                HttpGet(address, "/metrics",
-                       settings.timeout.empty() ? kTimeout : ParseDuration(settings.timeout)));
+                       settings.timeout.empty() ? kTimeout : RequireDuration(settings.timeout)));
   } catch (const Failure& failure) {
     if (failure.code() != ExitCode::kUnreachable) throw;
     throw Failure(failure.code(), fmt::format("no metrics at {}: a server tells them with contactd "

@@ -115,7 +115,7 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   options.kinds = arguments.kinds;
   options.live_only = arguments.live_only;
   if (!arguments.min_frame_interval.empty()) {
-    options.min_frame_interval = ParseDuration(arguments.min_frame_interval);
+    options.min_frame_interval = RequireDuration(arguments.min_frame_interval);
   }
   if (options.kinds.empty() && settings.output == OutputFormat::kTable) {
     options.kinds = {"log_entry", "iteration", "cycle", "attempt_started", "progress"};
