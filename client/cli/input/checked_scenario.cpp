@@ -4,18 +4,9 @@
 
 #include <cstdio>
 
-#include "cli/base/failure.h"
-
 namespace contact::cli {
 
-void RequireNoMistakes(const ScenarioFile& file) {
-  const std::vector<Diagnostic> mistakes = file.diagnostics();
-  if (mistakes.empty()) return;
-  std::string text;
-  for (const Diagnostic& mistake : mistakes) text += Format(mistake) + "\n";
-  text += mistakes.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes.size());
-  throw Failure(ExitCode::kInvalidScenario, text);
-}
+void RequireNoMistakes(const ScenarioFile& file) { RequireNone(file.diagnostics()); }
 
 void TellAdvice(const ScenarioFile& file) {
   for (const Diagnostic& advice : file.advice()) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/base/failure.h"
+
 namespace contact::cli {
 
 std::string Format(const Diagnostic& diagnostic, std::string_view kind) {
@@ -12,6 +14,14 @@ std::string Format(const Diagnostic& diagnostic, std::string_view kind) {
   text += ": " + diagnostic.what;
   if (!diagnostic.hint.empty()) text += " — " + diagnostic.hint;
   return text;
+}
+
+void RequireNone(const std::vector<Diagnostic>& mistakes) {
+  if (mistakes.empty()) return;
+  std::string text;
+  for (const Diagnostic& mistake : mistakes) text += Format(mistake) + "\n";
+  text += mistakes.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes.size());
+  throw Failure(ExitCode::kInvalidScenario, text);
 }
 
 }  // namespace contact::cli

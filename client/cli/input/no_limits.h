@@ -7,7 +7,7 @@
 
 namespace contact::cli {
 
-/// How much is too much is for the server to say.
+/// Limits for checks in the client, which leave limits on size to the server.
 inline constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
                                           .max_contacts = std::numeric_limits<std::int32_t>::max(),
                                           .max_samples = std::numeric_limits<std::int64_t>::max(),

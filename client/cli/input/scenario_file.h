@@ -37,6 +37,7 @@ class ScenarioFile {
   /// A broken rule, or advice, with the place where its field is written, or would be.
   Diagnostic Place(const Violation& violation) const;
 
+  /// What was read, with the overrides; incomplete if there are mistakes.
   const v1::Scenario& scenario() const { return scenario_; }
 
   /// All mistakes, in order of place.
@@ -46,8 +47,11 @@ class ScenarioFile {
   const std::vector<Diagnostic>& advice() const { return advice_; }
 
  private:
+  /// Reads the YAML and fills the scenario.
   void ReadDocument(const std::string& text, const VariableValues& variables);
+  /// Adds a mistake at a place of the file.
   void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint);
+  /// True if one of the mistakes may be the reason why the rule is broken.
   bool MayFollowFrom(const std::vector<Diagnostic>& mistakes, const Violation& violation) const;
 
   std::string name_;

@@ -13,9 +13,10 @@ struct Template {
   std::string_view text;
 };
 
+/// All of them, in the order in which they are listed.
 std::span<const Template> Templates();
 
-/// The one of this name. Throws Failure (kUsage) if there is none.
+/// The template with this name. Throws Failure (kUsage) if there is none.
 const Template& FindTemplate(const std::string& name);
 
 }  // namespace contact::cli

@@ -32,7 +32,7 @@ std::vector<std::string_view> NamesOf(const VariableValues& values) {
   return names;
 }
 
-// What there is instead of a name that there is not.
+// Hint for an unknown variable: the nearest name, or all names.
 std::string Instead(const std::string& name, const VariableValues& known) {
   const std::vector<std::string_view> names = NamesOf(known);
   const std::string_view nearest = Nearest(name, names);
@@ -63,7 +63,7 @@ class Resolver {
   }
 
  private:
-  // None if the text names a variable that there is not.
+  // The text with values in it. Nothing if it names an unknown variable, which is reported.
   std::optional<std::string> Text(const YAML::Node& node) {
     std::string_view rest = node.Scalar();
     std::string text;

@@ -8,11 +8,13 @@
 
 namespace contact::cli {
 
-/// The innermost node on the way to a field that the document has.
+/// Where a field stands in a document, or would stand.
 struct FoundNode {
-  YAML::Node node;
-  bool exact;  ///< It is that of the field itself.
+  YAML::Node node;  ///< The innermost node on the way to the field that the document has.
+  bool exact;       ///< True if `node` is the field itself.
 };
+
+/// Finds the field with a path such as `bodies[0].mass_kg` in a document.
 FoundNode FindNode(const YAML::Node& root, const std::string& path);
 
 /// Reads YAML nodes into messages by reflection: keys are field names, enum values their names in
@@ -36,17 +38,22 @@ class YamlReader {
                  google::protobuf::Message* message) const;
 
  private:
+  /// Reads one key of a mapping and its value. Reports an unknown or repeated key.
   void ReadEntry(const YAML::Node& key, const YAML::Node& value, const std::string& path,
                  google::protobuf::Message* message) const;
+  /// Reads a sequence into a repeated field.
   void ReadList(const YAML::Node& node, const std::string& path,
                 const google::protobuf::FieldDescriptor& field,
                 google::protobuf::Message* message) const;
+  /// Reads a number, a flag or a text.
   void ReadScalar(const YAML::Node& node, const std::string& path,
                   const google::protobuf::FieldDescriptor& field,
                   google::protobuf::Message* message) const;
+  /// Reads the word of an enum, or its number.
   void ReadEnum(const YAML::Node& node, const std::string& path,
                 const google::protobuf::FieldDescriptor& field,
                 google::protobuf::Message* message) const;
+  /// Reports that the node is not what was `expected`.
   void Refuse(const YAML::Node& node, const std::string& path, const std::string& expected,
               const std::string& hint = {}) const;
 

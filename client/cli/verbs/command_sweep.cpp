@@ -12,6 +12,7 @@
 #include "cli/export/provenance.h"
 #include "cli/figures/heat_map_options.h"
 #include "cli/input/sweep_file.h"
+#include "cli/input/grid_sweep.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"

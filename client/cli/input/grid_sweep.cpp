@@ -1,0 +1,115 @@
+#include "cli/input/grid_sweep.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "cli/base/failure.h"
+#include "cli/base/scalar.h"
+#include "cli/input/scenario_file.h"
+#include "cli/input/sweep_rules.h"
+#include "wire/field_path.h"
+
+namespace contact::cli {
+namespace {
+
+[[noreturn]] void FailAxis(const std::string& axis, bool drawn) {
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("--grid {}: expected FIELD={} or FIELD=A,B,C", axis,
+                  drawn ? "LOW:HIGH, which --random and --lhs draw from," : "FIRST:LAST:COUNT"));
+}
+
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else if (c != ' ') {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+// Rounded to 15 digits: 0.9 instead of 0.8999999999999999.
+double Rounded(double value) { return ParseNumber(fmt::format("{:.15g}", value)).value_or(value); }
+
+// Adds `count` values in equal steps, which may also fall.
+void AddSteps(double first, double last, int count, v1::Sweep::Axis* axis) {
+  for (int i = 0; i < count; ++i) {
+    axis->add_values(Rounded(std::lerp(first, last, count == 1 ? 0.0 : 1.0 * i / (count - 1))));
+  }
+}
+
+v1::Sweep::Axis ReadAxis(const std::string& text, bool drawn) {
+  constexpr double kMostSteps = 10'000;
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) FailAxis(text, drawn);
+  v1::Sweep::Axis axis;
+  axis.set_field(text.substr(0, equals));
+  const bool range = text.find(':', equals) != std::string::npos;
+  std::vector<double> numbers;
+  for (const std::string& part : Split(text.substr(equals + 1), range ? ':' : ',')) {
+    const std::optional<double> number = range ? ParseNumber(part) : AxisValue(axis.field(), part);
+    if (!number) FailAxis(text, drawn);
+    numbers.push_back(*number);
+  }
+  if (!range) {
+    axis.mutable_values()->Assign(numbers.begin(), numbers.end());
+  } else if (drawn && numbers.size() == 2) {
+    axis.mutable_linear()->set_low(numbers[0]);
+    axis.mutable_linear()->set_high(numbers[1]);
+  } else if (!drawn && numbers.size() == 3 && numbers[2] >= 1 && numbers[2] <= kMostSteps) {
+    AddSteps(numbers[0], numbers[1], static_cast<int>(numbers[2]), &axis);
+  } else {
+    FailAxis(text, drawn);
+  }
+  return axis;
+}
+
+// Where the field of a broken rule was written: in the scenario, or in one of the axes.
+Diagnostic Place(const Violation& violation, const ScenarioFile& base,
+                 const std::vector<std::string>& axes) {
+  constexpr std::string_view kBase = "base.";
+  if (violation.field.starts_with(kBase)) {
+    Violation of_base = violation;
+    of_base.field.erase(0, kBase.size());
+    return base.Place(of_base);
+  }
+  std::string source = "--grid";
+  const std::vector<PathStep> path = ParsePath(violation.field);
+  if (!path.empty() && path.front().name == "axes" && path.front().index) {
+    source += " " + axes.at(static_cast<std::size_t>(*path.front().index));
+  }
+  return {.source = std::move(source),
+          .field = violation.field,
+          .what = violation.description,
+          .hint = violation.hint};
+}
+
+}  // namespace
+
+v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
+                   const std::string& metric, const DrawnCells& drawn,
+                   const VariableValues& variables) {
+  v1::Sweep sweep;
+  for (const std::string& axis : axes) *sweep.add_axes() = ReadAxis(axis, drawn.count > 0);
+  sweep.add_metrics(metric.empty() ? "iterations" : metric);
+  if (drawn.count > 0) {
+    sweep.set_combination(drawn.latin_hypercube ? v1::Sweep::LATIN_HYPERCUBE : v1::Sweep::RANDOM);
+    sweep.set_count(drawn.count);
+    sweep.set_seed(drawn.seed);
+  }
+  const ScenarioFile base = ScenarioFile::Open(scenario, variables);
+  RequireNone(base.diagnostics());
+  *sweep.mutable_base() = base.scenario();
+  RequireNone(
+      CheckSweep(sweep, [&](const Violation& violation) { return Place(violation, base, axes); }));
+  return sweep;
+}
+
+}  // namespace contact::cli

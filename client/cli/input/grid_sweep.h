@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/input/variables.h"
+#include "contact/v1/scenario.pb.h"
+
+namespace contact::cli {
+
+/// Cells with values drawn at random, instead of every combination of the values.
+struct DrawnCells {
+  int count = 0;                 ///< 0: none are drawn.
+  bool latin_hypercube = false;  ///< Every axis is covered evenly.
+  std::int64_t seed = 0;         ///< The same seed gives the same cells.
+};
+
+/// The sweep of a scenario file over some fields. Each axis is `FIELD=FIRST:LAST:COUNT`, in equal
+/// steps, or `FIELD=A,B,C`, and the cells are all combinations; or, if `drawn.count` is not 0, each
+/// is `FIELD=LOW:HIGH` or `FIELD=A,B,C`, and the cells are drawn from them. An empty `metric` is
+/// `iterations`. Prints advice on the standard error. Throws Failure: kUsage for an axis of another
+/// form or an unknown variable, kInvalidScenario with all mistakes, kLocal if there is no file.
+v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
+                   const std::string& metric, const DrawnCells& drawn = {},
+                   const VariableValues& variables = {});
+
+}  // namespace contact::cli
