@@ -6,7 +6,8 @@
 
 namespace contact::cli {
 
-/// A part of a terminal in which dots are set: 2 by 4 in a character of Braille, or one as `*`.
+/// A part of a terminal in which dots are set: 2 by 4 dots in a character of Braille, or one dot a
+/// character, shown as `*`.
 class DotCanvas {
  public:
   /// `columns` and `rows` are of characters, at least 1.
@@ -15,13 +16,15 @@ class DotCanvas {
   int width() const { return width_; }    ///< In dots.
   int height() const { return height_; }  ///< In dots.
 
-  /// Dots from one to another, from (0, 0) at the top left. What lies outside is left out.
+  /// Sets the dots of a straight line with both its ends. (0, 0) is at the top left, y points down;
+  /// dots outside the canvas are ignored.
   void Line(int x0, int y0, int x1, int y1);
 
-  /// The rows of characters, in UTF-8.
+  /// The rows of characters in UTF-8, each as wide as the canvas.
   std::vector<std::string> Rows() const;
 
  private:
+  /// Sets one dot, unless it lies outside.
   void Set(int x, int y);
 
   const int columns_;

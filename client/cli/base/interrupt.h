@@ -2,14 +2,18 @@
 
 namespace contact::cli {
 
-/// While it lives, the first Ctrl-C is only noted; the second ends the process. One at a time.
+/// While an Interrupt lives, the first Ctrl-C only sets raised() and the second one ends the
+/// process. At most one lives at a time.
 class Interrupt {
  public:
+  /// Installs the handler of SIGINT and clears raised().
   Interrupt();
+  /// Gives SIGINT its default effect back.
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
+  /// True after a Ctrl-C since the last Interrupt was made. Safe on any thread.
   static bool raised();
 };
 

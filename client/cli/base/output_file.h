@@ -5,18 +5,20 @@
 
 namespace contact::cli {
 
-/// A file that is written, or the standard output for an empty path. Throws Failure (kLocal) if
-/// it cannot be.
+/// A file that is written, or the standard output if the path is empty. Closed at the latest with
+/// this object.
 class OutputFile {
  public:
+  /// Opens the file and empties it. Throws Failure (kLocal) if that fails.
   explicit OutputFile(const std::string& path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
+  /// The open file, for functions of C; null after Close.
   std::FILE* get() const { return file_; }
 
-  /// Tells whether everything has been written.
+  /// Writes what is buffered and closes the file. Throws Failure (kLocal) if any write failed.
   void Close();
 
  private:

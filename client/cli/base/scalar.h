@@ -11,13 +11,14 @@ namespace contact::cli {
 
 /// Reads values as YAML and JSON write them: the whole text, in no one's locale.
 
-/// A number, `.inf` and `.nan` included; none if it is no number or too large for one.
+/// A number, `.inf` and `.nan` included. Nothing if the text is no number, or one that a double
+/// cannot hold.
 std::optional<double> ParseNumber(std::string_view text);
 
-/// `true` or `false`, in lower, upper or title case.
+/// `true` or `false`, in lower, upper or title case. Nothing for any other text.
 std::optional<bool> ParseBool(std::string_view text);
 
-/// A whole number, also as `1e8`; none if the type cannot hold it.
+/// A whole number, also written as `1e8`. Nothing if the text is none or `Integer` cannot hold it.
 template <class Integer>
 std::optional<Integer> ParseInteger(std::string_view text) {
   Integer value = 0;

@@ -6,20 +6,21 @@
 
 namespace contact::cli {
 
+/// What a text means, which decides on its colour.
 enum class Tone { kPlain, kStrong, kGood, kWarning, kBad, kFaint };
 
-/// How it is told how far a job is.
+/// How progress of a job is shown.
 enum class ProgressForm {
   kNone,
-  kBar,    ///< A line that is drawn anew.
-  kLines,  ///< A line for each tenth.
+  kBar,    ///< One line that is redrawn.
+  kLines,  ///< A line for each tenth of the work.
   kJson,   ///< An object a line, for programs.
 };
 
 /// How to write to a stream.
 struct Style {
-  bool terminal = false;  ///< Someone looks at it live.
-  bool color = false;
+  bool terminal = false;                  ///< The stream is a terminal.
+  bool color = false;                     ///< Texts have colours.
   int width = 0;                          ///< Characters in a line; 0: no limit.
   bool wide = false;                      ///< Tables have all their columns.
   std::vector<std::string> columns = {};  ///< Tables have only these, in this order; empty: all.
@@ -29,9 +30,10 @@ struct Style {
 /// a terminal, unless NO_COLOR is set or TERM is dumb.
 Style StyleOf(int descriptor, const std::string& color);
 
+/// The text in the colour of its tone; the text itself without colour.
 std::string Paint(std::string_view text, Tone tone, const Style& style);
 
-/// Characters of UTF-8 text, each taken as one column wide; what gives it colour has no width.
+/// Width of UTF-8 text in columns: one a character, none for the sequences of Paint.
 int Width(std::string_view text);
 
 /// The text without spaces at its end.
@@ -47,7 +49,7 @@ std::string Wrap(std::string_view text, const Style& style);
 /// `text` followed, or preceded for a negative width, by spaces up to |width| characters.
 std::string Pad(std::string_view text, int width);
 
-/// The first `width` characters.
+/// The first `width` characters of a text without colour.
 std::string Cut(std::string_view text, int width);
 
 /// True if the environment says that the terminal shows UTF-8.

@@ -4,10 +4,12 @@
 
 namespace contact::cli {
 
-/// The content of a file; `-` is the standard input. Throws Failure (kLocal) if it cannot be read.
+/// The whole content of a file, any bytes; `-` is the standard input. Throws Failure (kLocal) if it
+/// cannot be read.
 std::string ReadText(const std::string& path);
 
-/// Writes a file, or the standard output for an empty path. Throws Failure (kLocal) if it cannot.
+/// Replaces the content of a file; an empty path is the standard output. Throws Failure (kLocal) if
+/// it cannot be written.
 void WriteText(const std::string& text, const std::string& path);
 
 }  // namespace contact::cli

@@ -16,13 +16,15 @@ namespace contact::cli {
 /// A call that the server, or the way to it, refused.
 class CallFailure : public Failure {
  public:
+  /// Exit code and message follow from `status` and its error details; `server` is HOST:PORT.
   CallFailure(const grpc::Status& status, const std::string& server);
 
-  grpc::StatusCode status() const { return status_; }
+  grpc::StatusCode status() const { return status_; }    ///< Code of gRPC.
   const std::string& reason() const { return reason_; }  ///< ErrorInfo.reason; may be empty.
   const std::vector<Violation>& violations() const { return violations_; }  ///< Of a request.
 
-  /// The same with every violation in its message, a line each; itself without any.
+  /// A failure with the same exit code whose message has all violations, a line each; without
+  /// violations the message stays.
   Failure AllTold() const;
 
  private:
@@ -40,7 +42,7 @@ class Client {
   /// Connects to HOST:PORT in the background. Throws Failure (kUsage) for any other text.
   Client(std::string server, std::chrono::milliseconds call_timeout);
 
-  /// Makes a unary call. Throws CallFailure.
+  /// Makes a unary call of JobService. Throws CallFailure.
   template <class Request, class Response>
   Response Call(grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                 const Request& request) {
@@ -51,7 +53,8 @@ class Client {
     return response;
   }
 
-  /// The same, where the request may be wrong in several places. Throws Failure with all of them.
+  /// Makes a unary call whose request may break several rules. Throws Failure, with all broken
+  /// rules in its message.
   template <class Request, class Response>
   Response CallTellingAll(grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&,
                                                        Response*),
@@ -63,11 +66,12 @@ class Client {
     }
   }
 
-  Stub& stub() { return *stub_; }
-  const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
-  const std::string& server() const { return server_; }
+  Stub& stub() { return *stub_; }  ///< For streams; Call is better for unary calls.
+  const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }  ///< Never null.
+  const std::string& server() const { return server_; }                       ///< HOST:PORT
 
  private:
+  /// Makes a call until it succeeds, at most three times. Throws CallFailure.
   void Try(const std::function<grpc::Status(grpc::ClientContext*)>& call);
 
   std::string server_;

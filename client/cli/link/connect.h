@@ -5,7 +5,8 @@
 
 namespace contact::cli {
 
-/// A connection to the server of the settings. Throws Failure (kUsage) if its name is no address.
+/// A client of the server that the settings name, with their time limit for calls. Connects in the
+/// background. Throws Failure (kUsage) if the name is no HOST:PORT.
 inline Client Connect(const Settings& settings) {
   return {settings.server, settings.CallTimeout()};
 }

@@ -12,10 +12,11 @@ std::string JobName(const std::string& job);
 /// `ID` for `jobs/ID`.
 std::string ShortName(const std::string& name);
 
-/// A request id that no other call has.
+/// 32 random hexadecimal digits, to be the request_id of one CreateJob call and its retries.
 std::string RandomRequestId();
 
-/// Reads KEY=VALUE texts. Throws Failure (kUsage).
+/// Reads KEY=VALUE texts of --label; the last value of a key counts. Throws Failure (kUsage) for a
+/// text of another form.
 std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts);
 
 }  // namespace contact::cli

@@ -11,12 +11,14 @@ namespace contact::cli {
 /// A job of the server, by ID or jobs/ID. Throws CallFailure.
 v1::Job GetJob(Client& client, const std::string& job);
 
-/// The same of a sweep. Throws Failure (kUsage) too, if the job is none.
+/// A sweep of the server, by ID or jobs/ID. Throws CallFailure, and Failure (kUsage) if the job is
+/// no sweep.
 v1::Job GetSweep(Client& client, const std::string& job);
 
-/// Jobs of the server, and of files with what `describe -o json` printed.
+/// Finds jobs on the server, or in files that hold what `describe -o json` printed.
 class JobSource {
  public:
+  /// Connects when a job of the server is first asked for. `settings` must outlive this object.
   explicit JobSource(const Settings& settings) : settings_(settings) {}
 
   /// `name` is a file if there is one of that name, else an ID. Throws Failure: kInvalidScenario if

@@ -22,18 +22,19 @@ struct Patience {
   std::chrono::milliseconds give_up_after{300'000};  ///< Without any connection.
 };
 
-/// Keeps to a Patience, for one stream over all its connections.
+/// Decides when a stream is opened again, over all its connections.
 class Reconnection {
  public:
+  /// `server` is HOST:PORT, for messages.
   Reconnection(std::string server, const Patience& patience)
       : server_(std::move(server)), patience_(patience), pause_(patience.first_pause) {}
 
-  /// A message came.
+  /// To be called for each message: pauses start from the shortest again.
   void Heard();
 
-  /// The stream ended so, and not as it should. Returns how long to wait; throws CallFailure if
-  /// another try is hopeless: the answer would be the same, the server could never be reached, or
-  /// not for too long.
+  /// To be called when the stream has ended too early, with its status. Returns how long to wait
+  /// before the next attempt. Throws CallFailure if another attempt is hopeless: the answer would
+  /// be the same, the server was never reached, or not for `give_up_after`.
   std::chrono::milliseconds Lost(const grpc::Status& status);
 
  private:
@@ -45,10 +46,10 @@ class Reconnection {
   std::mt19937 random_{std::random_device{}()};
 };
 
-/// Waits, but no longer than `go_on`, which is asked about ten times a second, says.
+/// Waits for `pause`, or until `go_on` returns false; it is called about ten times a second.
 void Rest(std::chrono::milliseconds pause, const std::function<bool()>& go_on);
 
-/// What to tell of a stream that ended so.
+/// Why a stream with this status was lost, in words.
 std::string WhyLost(const grpc::Status& status);
 
 }  // namespace contact::cli

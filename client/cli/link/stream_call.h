@@ -8,7 +8,7 @@
 
 namespace contact::cli {
 
-/// One stream of messages from the server, read with a limit on how long a read waits. Not
+/// One call that streams messages from the server, read with a limit on how long a read waits. Not
 /// thread-safe.
 template <class Message>
 class StreamCall {
@@ -19,11 +19,11 @@ class StreamCall {
     kEnd,      ///< The stream ended; see status().
   };
 
-  /// `start(context, queue, tag)` makes the call, such as Stub::AsyncWatchJob.
+  /// Begins the call with `start(context, queue, tag)`, such as Stub::AsyncWatchJob.
   template <class Start>
   explicit StreamCall(Start start) : stream_(start(&context_, &queue_, nullptr)) {}
 
-  /// Cancels the stream if it has not ended.
+  /// Cancels the call if it has not ended, and waits until gRPC has let go of this object.
   ~StreamCall() {
     context_.TryCancel();
     queue_.Shutdown();
@@ -33,10 +33,14 @@ class StreamCall {
     }
   }
 
+  /// Waits for the next message, at most `limit`. `message` changes only with kMessage.
   Next Read(std::chrono::milliseconds limit, Message* message);
+
+  /// How the stream ended; OK until Read has returned kEnd.
   const grpc::Status& status() const { return status_; }
 
  private:
+  /// The operation of gRPC that has begun and not completed; there is at most one.
   enum class Pending { kStart, kRead, kFinish, kNone };
 
   grpc::ClientContext context_;

@@ -15,7 +15,7 @@
 
 namespace contact::cli {
 
-/// Hears what a watch brings, on the thread that watches.
+/// Receives what a watch brings, on the thread that called Watch.
 class WatchObserver {
  public:
   virtual ~WatchObserver() = default;
@@ -26,23 +26,26 @@ class WatchObserver {
   virtual void OnTick() {}  ///< About ten times a second.
 };
 
+/// Which events Watch asks for, and for how long.
 struct WatchOptions {
-  std::string name;  ///< `jobs/ID`.
-  std::uint64_t after_sequence = 0;
-  std::vector<std::string> kinds;  ///< Empty: all.
+  std::string name;                  ///< `jobs/ID`.
+  std::uint64_t after_sequence = 0;  ///< Only events after this one.
+  std::vector<std::string> kinds;    ///< Empty: all.
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::function<bool()> stopped = [] { return false; };  ///< Asked about ten times a second.
 
+  /// What the server does with frame chunks for which this client is too slow.
   v1::DeliveryOptions::OverflowPolicy overflow = v1::DeliveryOptions::CONFLATE;
   std::chrono::milliseconds min_frame_interval{0};  ///< 0: no frame chunk is left out.
   bool live_only = false;  ///< Begin after the newest event; only with `after_sequence` 0.
-  Patience patience = {};
+  Patience patience = {};  ///< With a server that cannot be reached.
 };
 
+/// Why a watch ended.
 enum class WatchEnd {
-  kFinished,  ///< The job ended, and all was heard.
-  kStopped,
-  kTimedOut,
+  kFinished,  ///< The job ended, and all its events came.
+  kStopped,   ///< `stopped` returned true.
+  kTimedOut,  ///< The deadline passed.
 };
 
 /// Follows the log of a job to its end, across connections: no event is missed or heard twice.

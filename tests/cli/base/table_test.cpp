@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <random>
+#include <sstream>
+
 #include "cli/base/failure.h"
 
 namespace contact::cli {
@@ -103,26 +107,92 @@ TEST(Table, LongTableShowsItsFirstAndLastRows) {
   EXPECT_EQ(table.Text({}, 4, "… {} more"), "N\n1\n2\n… 3 more\n6\n7\n");
 }
 
+// A table of random columns and cells; `random` decides on everything. No word is longer than 20.
+Table RandomTable(std::mt19937& random) {
+  const auto words = [&random](std::size_t most) {
+    std::string text;
+    for (std::size_t count = random() % (most + 1); count > 0; --count) {
+      text += text.empty() ? "" : " ";
+      for (std::size_t size = 1 + random() % 20; size > 0; --size) {
+        text +=
+            random() % 5 == 0 ? "\u03b4" : std::string(1, static_cast<char>('a' + random() % 26));
+      }
+    }
+    return text;
+  };
+  std::vector<Table::Column> columns(1 + random() % 12);
+  for (Table::Column& column : columns) {
+    column = {"x" + words(2), random() % 2 == 0, static_cast<int>(random() % 4) - 1};
+  }
+  Table table(columns);
+  for (std::size_t rows = random() % 6; rows > 0; --rows) {
+    std::vector<Table::Cell> row;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      row.emplace_back(words(3), random() % 2 == 0 ? Tone::kBad : Tone::kPlain);
+    }
+    table.Add(std::move(row));
+  }
+  return table;
+}
+
+TEST(Table, NoRowIsWiderThanTheTerminal) {
+  std::mt19937 random(1);
+  for (int width = 40; width <= 200; ++width) {
+    const Table table = RandomTable(random);
+    for (const bool wide : {false, true}) {
+      const Style style{.color = random() % 2 == 0, .width = width, .wide = wide};
+      std::istringstream lines(table.Text(style));
+      for (std::string line; std::getline(lines, line);) {
+        ASSERT_LE(Width(line), width) << line << "\nin\n" << table.Text(style);
+      }
+    }
+  }
+}
+
+TEST(Table, NoCellIsLostWhereColumnsAreAskedFor) {
+  std::mt19937 random(2);
+  for (int width = 40; width <= 200; width += 10) {
+    Table table({{"A"}, {"B", true, 2}, {"C", false, Table::kOnlyWide}});
+    std::vector<std::string> cells;
+    for (int i = 0; i < 3; ++i) cells.push_back(std::string(1 + random() % 40, 'x') + "|");
+    table.Add({cells[0], cells[1], cells[2]});
+    const std::string text = table.Text({.width = width, .columns = {"c", "a", "b"}});
+    for (const std::string& cell : cells) EXPECT_THAT(text, testing::HasSubstr(cell));
+  }
+}
+
+TEST(Table, CsvHasEveryRowAndColumnHoweverNarrowTheTerminal) {
+  std::mt19937 random(4);
+  for (int i = 0; i < 20; ++i) {
+    const Table table = RandomTable(random);
+    const std::string csv = table.Csv();
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    const auto commas = std::ranges::count(line, ',');
+    while (std::getline(lines, line)) EXPECT_EQ(std::ranges::count(line, ','), commas) << csv;
+  }
+}
+
+TEST(Table, RequiredColumnsMayBeNamedByNameOrHeader) {
+  const std::vector<Table::Column> columns = {{"CREATED (UTC)"}, {"W_c [J]", true, 0, "work"}};
+  EXPECT_NO_THROW(Table::RequireColumns(columns, {"created", "CREATED (UTC)", "WORK", "W_c [J]"}));
+  EXPECT_NO_THROW(Table::RequireColumns(columns, {}));
+  EXPECT_THROW(Table::RequireColumns(columns, {"created", "w_c"}), Failure);
+}
+
+TEST(Table, NoLineEndsWithASpace) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_THAT(RandomTable(random).Text({.width = 60}), testing::Not(testing::HasSubstr(" \n")));
+  }
+}
+
 TEST(Table, CellsHaveTheirToneInColorOnly) {
   Table table({{"STATE"}});
   table.Add({{"FAILED", Tone::kBad}});
   EXPECT_EQ(table.Text({}), "STATE\nFAILED\n");
   EXPECT_EQ(table.Text({.color = true}), "\x1b[2mSTATE \x1b[0m\n\x1b[31mFAILED\x1b[0m\n");
-}
-
-TEST(Style, LinesAreBrokenBetweenWordsWhateverTheirColour) {
-  const Style narrow{.width = 7};
-  EXPECT_EQ(Wrap("one two three\n\nδδδ \x1b[1mδδδ\x1b[0m δδδδδδδδ\n", narrow),
-            "one two\nthree\n\nδδδ \x1b[1mδδδ\x1b[0m\nδδδδδδδδ\n");
-  EXPECT_EQ(Wrap("one two three\n", {}), "one two three\n");
-}
-
-TEST(Style, TextIsCutAndPaddedByCharacters) {
-  EXPECT_EQ(Cut("δδδ", 2), "δδ");
-  EXPECT_EQ(Cut("ab", 5), "ab");
-  EXPECT_EQ(Pad("δ", 3), "δ  ");
-  EXPECT_EQ(Pad("δ", -3), "  δ");
-  EXPECT_EQ(Pad("abc", 2), "abc");
 }
 
 }  // namespace

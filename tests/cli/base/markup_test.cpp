@@ -1,0 +1,50 @@
+#include <gmock/gmock.h>
+
+#include "cli/base/html.h"
+#include "cli/base/latex.h"
+
+namespace contact::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Html, TextCannotBecomeMarkup) {
+  EXPECT_EQ(HtmlText("<b a=\"1\">&</b>"), "&lt;b a=&quot;1&quot;&gt;&amp;&lt;/b&gt;");
+  EXPECT_EQ(HtmlText("\u03b5 = 0.7"), "\u03b5 = 0.7");
+  EXPECT_THAT(HtmlTable({"<h>"}, {{{"<c>"}}}), Not(HasSubstr("<c>")));
+  EXPECT_THAT(HtmlPage("<t>", ""), Not(HasSubstr("<t>")));
+}
+
+TEST(Html, ColumnsOfNumbersStandToTheRight) {
+  EXPECT_EQ(HtmlTable({"name", "value"}, {{{"a", "-1"}}, {{"b", ""}}, {{"c", "0.5"}, true}}),
+            "<table>\n<tr><th>name</th><th class=\"n\">value</th></tr>\n"
+            "<tr><td>a</td><td class=\"n\">-1</td></tr>\n"
+            "<tr><td>b</td><td class=\"n\"></td></tr>\n"
+            "<tr class=\"d\"><td>c</td><td class=\"n\">0.5</td></tr>\n</table>\n");
+}
+
+TEST(Html, APageNeedsNothingFromElsewhere) {
+  const std::string page = HtmlPage("Run", "<p>body</p>\n");
+  EXPECT_THAT(page, HasSubstr("<h1>Run</h1>\n<p>body</p>\n</body>"));
+  for (const char* elsewhere : {"http", "src=", "<script", "<link", "@import"}) {
+    EXPECT_THAT(page, Not(HasSubstr(elsewhere)));
+  }
+}
+
+TEST(Latex, EverySpecialCharacterIsEscaped) {
+  for (const char special : std::string("&%$#_{}")) {
+    EXPECT_EQ(LatexText(std::string(1, special)), std::string("\\") + special);
+  }
+  for (const char* special : {"\\", "^", "~", "<", ">", "|"}) {
+    EXPECT_THAT(LatexText(special), testing::MatchesRegex("\\\\text[a-z]+\\{\\}")) << special;
+  }
+}
+
+TEST(Latex, OtherTextStaysAsItIs) {
+  EXPECT_EQ(LatexText("St\u00f6\u00dfe 0.7 (a-b)"), "St\u00f6\u00dfe 0.7 (a-b)");
+  EXPECT_EQ(LatexText("\u03bc\u00d7\u03b4\u00b2"), "$\\mu$$\\times$$\\delta$$^2$");
+}
+
+}  // namespace
+}  // namespace contact::cli
