@@ -66,17 +66,19 @@ class ExportTest(CliTest):
                 self.assertEqual(text if isinstance(value, str) else float(text), value)
 
     def test_every_csv_of_a_job_names_a_column_alike(self):
-        path = self.folder / "cycles.csv"
+        def read(file):
+            return pandas.read_csv(file, float_precision="round_trip")
+
+        path, artifact = self.folder / "cycles.csv", self.folder / "artifact.csv"
         self.run_it("export", self.name, "-f", path, "--table", "cycles")
-        self.assertEqual(list(pandas.read_csv(path)["contact"]), ["B1-B2", "B2-B3"])
-        artifact = self.folder / "artifact.csv"
+        self.assertEqual(list(read(path)["contact"]), ["B1-B2", "B2-B3"])
         self.run_it("artifact", "get", self.name, "cycles.csv", "-f", artifact)
-        self.assertTrue(pandas.read_csv(path).equals(pandas.read_csv(artifact)))
-        self.run_it("artifact", "get", self.name, "trajectory.csv", "-f", artifact)
+        pandas.testing.assert_frame_equal(read(path), read(artifact), check_exact=True)
         printed = self.run_it("series", self.name, "--raw", "-o", "csv")[0]
-        exported = self.run_it("export", self.name, "-o", "csv")[0]
-        self.assertEqual(printed, exported)
-        self.assertTrue(pandas.read_csv(io.StringIO(printed)).equals(pandas.read_csv(artifact)))
+        self.assertEqual(printed, self.run_it("export", self.name, "-o", "csv")[0])
+        self.run_it("artifact", "get", self.name, "trajectory.csv", "-f", artifact)
+        pandas.testing.assert_frame_equal(read(io.StringIO(printed)), read(artifact),
+                                          check_exact=True)
 
     def test_comments_are_skipped_by_readers_of_csv(self):
         plain, _ = self.run_it("export", self.name, "-o", "csv")
