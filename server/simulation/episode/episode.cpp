@@ -270,6 +270,11 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
   return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
 }
 
+void EpisodeSolver::OnCancel(const ContactState& state) {
+  Unknown* u = Find(state.cycle.contact, state.cycle.number);
+  if (u != nullptr) u->seen = false;
+}
+
 void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
   const auto index = static_cast<std::size_t>(&contact - scenario_.contacts.data());
   if (warned_[index]) return;
