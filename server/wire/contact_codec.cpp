@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -13,55 +12,19 @@
 #include <utility>
 
 #include "base/spelling.h"
+#include "wire/law_catalogue.h"
 #include "wire/material_codec.h"
 
 namespace contact {
 namespace {
 
-std::optional<DampingLaw> Law(v1::Contact::Damping damping) {
-  switch (damping) {
-    case v1::Contact::DAMPING_UNSPECIFIED:
-    case v1::Contact::ENERGY_RESTITUTION:
-      return DampingLaw::kEnergyRestitution;
-    case v1::Contact::EXACT:
-      return DampingLaw::kExact;
-    case v1::Contact::PAPER_EQ23:
-      return DampingLaw::kPaperEq23;
-    case v1::Contact::HUNT_CROSSLEY:
-      return DampingLaw::kHuntCrossley;
-    case v1::Contact::LANKARANI_NIKRAVESH:
-      return DampingLaw::kLankaraniNikravesh;
-    case v1::Contact::FLORES:
-      return DampingLaw::kFlores;
-    case v1::Contact::HU_GUO:
-      return DampingLaw::kHuGuo;
-    case v1::Contact::LEE_WANG:
-      return DampingLaw::kLeeWang;
-    case v1::Contact::HERBERT_MCWHANNELL:
-      return DampingLaw::kHerbertMcWhannell;
-    case v1::Contact::ZHIYING_QISHAO:
-      return DampingLaw::kZhiyingQishao;
-    case v1::Contact::GONTHIER:
-      return DampingLaw::kGonthier;
-    case v1::Contact::CARVALHO_MARTINS:
-      return DampingLaw::kCarvalhoMartins;
-    case v1::Contact::GHARIB_HURMUZLU:
-      return DampingLaw::kGharibHurmuzlu;
-    case v1::Contact::KELVIN_VOIGT:
-      return DampingLaw::kKelvinVoigt;
-    case v1::Contact::HERTZ_QUARTER_POWER:
-      return DampingLaw::kHertzQuarterPower;
-    case v1::Contact::MU:
-      return DampingLaw::kGiven;
-    default:
-      return std::nullopt;
-  }
-}
-
+// A number that the contract does not know is refused.
 DampingLaw DecodeDamping(const v1::Contact& message, const Rules& rules) {
-  const std::optional<DampingLaw> law = Law(message.damping());
-  if (!law) rules.RequireAvailable("damping", message.damping(), {});
-  return law.value_or(DampingLaw::kEnergyRestitution);
+  const v1::Contact::Damping damping = message.damping();
+  if (damping == v1::Contact::DAMPING_UNSPECIFIED) return DampingLaw::kEnergyRestitution;
+  if (v1::Contact::Damping_IsValid(damping)) return static_cast<DampingLaw>(damping);
+  rules.RequireAvailable("damping", damping, {});
+  return DampingLaw::kEnergyRestitution;
 }
 
 void DecodeRestitution(const v1::Contact& message, const Rules& rules, Contact* contact) {
@@ -82,18 +45,15 @@ double DecodeMu(const v1::Contact& message, const Rules& rules) {
   return mu;
 }
 
-// Two laws are made for one exponent each.
-double DecodeExponent(const v1::Contact& message, const Rules& rules) {
+// Some laws are made for one exponent.
+double DecodeExponent(const v1::Contact& message, DampingLaw damping, const Rules& rules) {
   const double exponent = rules.Read(message, v1::Contact::kExponentFieldNumber);
-  const auto needs = [&](double needed) {
-    if (exponent == needed) return;
+  const DampingLawRow& law = RowOf(damping);
+  if (law.contact_exponent != 0 && exponent != law.contact_exponent) {
     rules.Break("exponent",
-                fmt::format("is {}; damping {} needs {}", exponent,
-                            v1::Contact::Damping_Name(message.damping()), needed),
-                fmt::format("set exponent: {}", needed));
-  };
-  if (message.damping() == v1::Contact::KELVIN_VOIGT) needs(1);
-  if (message.damping() == v1::Contact::HERTZ_QUARTER_POWER) needs(1.5);
+                fmt::format("is {}; damping {} needs {}", exponent, law.name, law.contact_exponent),
+                fmt::format("set exponent: {}", law.contact_exponent));
+  }
   return exponent;
 }
 
@@ -101,9 +61,9 @@ double DecodeExponent(const v1::Contact& message, const Rules& rules) {
 Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
   Contact contact;
   contact.stiffness = rules.Read(message, v1::Contact::kStiffnessFieldNumber);
-  contact.exponent = DecodeExponent(message, rules);
-  DecodeRestitution(message, rules, &contact);
   contact.damping = DecodeDamping(message, rules);
+  contact.exponent = DecodeExponent(message, contact.damping, rules);
+  DecodeRestitution(message, rules, &contact);
   contact.mu = DecodeMu(message, rules);
   contact.reference_velocity = rules.Read(message, v1::Contact::kReferenceVelocityMPerSFieldNumber);
   return contact;

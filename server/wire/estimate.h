@@ -5,10 +5,12 @@
 
 namespace contact {
 
-/// What a run will probably take: see Estimate in job.proto. Does not solve anything.
+/// What a run will probably take, as simulation/forecast/run_estimate.h finds it; see Estimate in
+/// job.proto. Counts beyond 9e18 and durations beyond 3e11 s are cut to these.
 v1::Estimate EstimateRun(const Scenario& scenario);
 
-/// The same for all cells of a sweep, as if each were its first.
+/// What a sweep will probably take, as if each cell were like the first. Trajectories count for the
+/// cells that keep theirs.
 v1::Estimate EstimateSweep(const v1::Sweep& sweep, const DecodedSweep& plan);
 
 }  // namespace contact

@@ -1,36 +1,34 @@
 #pragma once
 
-#include <span>
-#include <string_view>
+#include <vector>
 
 #include "contact/v1/scenario.pb.h"
 #include "simulation/laws/damping_law.h"
 
 namespace contact {
 
-/// What is known of a damping law, for people to choose by.
-struct LawEntry {
-  v1::Contact::Damping damping;
-  DampingLaw law;
-  std::string_view formula;
-  std::string_view source;
-  std::string_view range;  ///< For what it was made, and what it needs.
+// The numbers of DampingLaw are those of the contract, and each of these has a row.
+static_assert(v1::Contact::Damping_ARRAYSIZE == kDampingLaws + 1);
+static_assert(v1::Contact::ENERGY_RESTITUTION == static_cast<int>(DampingLaw::kEnergyRestitution));
+static_assert(v1::Contact::MU == static_cast<int>(DampingLaw::kGiven));
 
-  /// The name in scenarios, such as `HUNT_CROSSLEY`.
-  std::string_view name() const;
+/// A damping law as clients list it: a row of the table in simulation/laws.
+using LawEntry = DampingLawRow;
 
-  /// Whether α is a function of ε alone, so that what an isolated collision gives back is known
-  /// in closed form, (L2).
-  bool closed_form() const;
+/// Every law that makes μ from ε, so all but MU, in the order of the contract. The rows live as
+/// long as the program.
+inline const std::vector<LawEntry>& LawCatalogue() {
+  static const std::vector<LawEntry> laws = [] {
+    std::vector<LawEntry> all(DampingLaws().begin(), DampingLaws().end());
+    std::erase_if(all, [](const LawEntry& law) { return law.law == DampingLaw::kGiven; });
+    return all;
+  }();
+  return laws;
+}
 
-  /// α, for ε in (0, 1]. Only with a closed form.
-  double Coefficient(double restitution) const;
-
-  /// What an isolated collision gives back for ε in (0, 1]. Only with a closed form.
-  double Delivered(double restitution) const;
-};
-
-/// Every law but MU, in the order of the contract.
-std::span<const LawEntry> LawCatalogue();
+/// The value of the contract for a law.
+constexpr v1::Contact::Damping DampingOf(DampingLaw law) {
+  return static_cast<v1::Contact::Damping>(law);
+}
 
 }  // namespace contact

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <set>
 
-#include "simulation/forecast/encounter.h"
+#include "simulation/forecast/first_meeting.h"
 #include "wire/contact_codec.h"
 #include "wire/law_catalogue.h"
 #include "wire/sweep_fields.h"
@@ -26,18 +26,18 @@ constexpr double kMiss = 0.01;  // Of the restitution; as in the warnings of a r
 // The contact that is soonest over, of those of which it is known.
 struct Shortest {
   const Contact* contact = nullptr;
-  Encounter encounter;
+  FirstMeeting meeting;
 };
 
 Shortest FindShortest(const Scenario& scenario) {
   Shortest shortest;
-  const auto encounters = Foresee(scenario);
-  for (std::size_t i = 0; i < encounters.size(); ++i) {
-    if (!encounters[i]) continue;
-    if (shortest.contact != nullptr && shortest.encounter.duration <= encounters[i]->duration) {
+  const auto meetings = ForecastFirstMeetings(scenario);
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    if (!meetings[i]) continue;
+    if (shortest.contact != nullptr && shortest.meeting.duration <= meetings[i]->duration) {
       continue;
     }
-    shortest = {&scenario.contacts[i], *encounters[i]};
+    shortest = {&scenario.contacts[i], *meetings[i]};
   }
   return shortest;
 }
@@ -49,12 +49,11 @@ double Rounded(double value) {
 }
 
 std::string Describe(const Shortest& shortest, double interval, const char* what) {
-  const Encounter& encounter = shortest.encounter;
+  const FirstMeeting& meeting = shortest.meeting;
   return fmt::format("gives a contact of {} {:.3g} {}; it lasts about {:.2g} s {}",
-                     shortest.contact->name, encounter.duration / interval, what,
-                     encounter.duration,
-                     encounter.speed > 0 ? fmt::format("at {:.3g} m/s", encounter.speed)
-                                         : std::string("under its load"));
+                     shortest.contact->name, meeting.duration / interval, what, meeting.duration,
+                     meeting.speed > 0 ? fmt::format("at {:.3g} m/s", meeting.speed)
+                                       : std::string("under its load"));
 }
 
 void AdviseOnStep(const Scenario& scenario, const Shortest& shortest,
@@ -72,10 +71,10 @@ void AdviseOnStep(const Scenario& scenario, const Shortest& shortest,
     advice->push_back({"solver.step_s", fmt::format("makes {:.2g} steps", steps),
                        "take method ADAPTIVE, or a longer step"});
   }
-  if (shortest.contact == nullptr || shortest.encounter.duration >= kFewestSteps * step) return;
+  if (shortest.contact == nullptr || shortest.meeting.duration >= kFewestSteps * step) return;
   advice->push_back(
       {"solver.step_s", Describe(shortest, step, "steps"),
-       fmt::format("{:g} gives it {:g}", Rounded(shortest.encounter.duration / kGoodResolution),
+       fmt::format("{:g} gives it {:g}", Rounded(shortest.meeting.duration / kGoodResolution),
                    kGoodResolution)});
 }
 
@@ -83,7 +82,7 @@ void AdviseOnSamples(const Scenario& scenario, const Shortest& shortest,
                      std::vector<Violation>* advice) {
   const double interval = scenario.sample_interval;
   if (interval == 0 || shortest.contact == nullptr) return;
-  const double duration = shortest.encounter.duration;
+  const double duration = shortest.meeting.duration;
   if (duration >= kFewestSamples * interval) return;
   const double good = Rounded(duration / kGoodResolution);
   advice->push_back({"output.sample_interval_s", Describe(shortest, interval, "samples"),
@@ -92,27 +91,24 @@ void AdviseOnSamples(const Scenario& scenario, const Shortest& shortest,
                          : "set output.ledger_only if its cycles are enough"});
 }
 
-const LawEntry* FindLaw(v1::Contact::Damping damping) {
-  const auto laws = LawCatalogue();
-  const auto found = std::ranges::find(laws, damping, &LawEntry::damping);
-  return found == laws.end() ? nullptr : &*found;
-}
-
 // Once for each law, as in a run.
 void AdviseOnNamedLaws(const v1::Scenario& message, std::vector<Violation>* advice) {
   std::set<int> told;
   for (int i = 0; i < message.contacts_size(); ++i) {
     const v1::Contact& contact = message.contacts(i);
     if (contact.restitution() >= kLowRestitution) continue;
-    const LawEntry* law = FindLaw(contact.damping());
-    if (law == nullptr || !law->closed_form()) continue;
+    const bool named = contact.damping() != v1::Contact::DAMPING_UNSPECIFIED &&
+                       v1::Contact::Damping_IsValid(contact.damping());
+    if (!named) continue;
+    const LawEntry& law = RowOf(static_cast<DampingLaw>(contact.damping()));
+    if (!law.closed_form()) continue;
     if (contact.has_reference_velocity_m_per_s()) continue;  // Then it depends on the speed.
-    const double delivered = law->Delivered(contact.restitution());
+    const double delivered = law.Delivered(contact.restitution());
     if (std::abs(delivered - contact.restitution()) <= kMiss * contact.restitution()) continue;
     if (!told.insert(contact.damping()).second) continue;
     advice->push_back({fmt::format("contacts[{}].restitution", i),
                        fmt::format("is {}; with {} an isolated collision has {:.4f}",
-                                   contact.restitution(), law->name(), delivered),
+                                   contact.restitution(), law.name, delivered),
                        "ENERGY_RESTITUTION and EXACT deliver what is asked for"});
   }
 }

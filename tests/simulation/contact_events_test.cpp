@@ -53,6 +53,17 @@ TEST(FirstEvent, ATouchFromRestBeginsAtOnce) {
   EXPECT_EQ(event->theta, 0);
 }
 
+TEST(FirstEvent, ATouchThatPartsFirstBeginsWhereItComesBack) {
+  const double noise = 0.01;
+  const DeformationPath path({0, -0.005, -0.02}, {0.2, 1, 3});
+  ASSERT_LT(path.Value(0.2), 0);
+  const auto back = FirstEvent(Phase::kOpen, path, 0, noise);
+  ASSERT_TRUE(back);
+  EXPECT_GT(back->theta, 0.2);
+  EXPECT_NEAR(path.Value(back->theta), 0, 1e-14);
+  EXPECT_GT(path.Slope(back->theta), 0);
+}
+
 TEST(FirstEvent, RoundOffIsNoTouch) {
   EXPECT_FALSE(FirstEvent(Phase::kOpen, Parabola(-1e-20, 0, 3e-20), 0, 1e-16));
   const auto event = FirstEvent(Phase::kOpen, Parabola(-1e-20, 0, 1e-9), 0, 1e-16);

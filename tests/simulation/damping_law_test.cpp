@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
 
 namespace contact {
 namespace {
@@ -65,6 +69,75 @@ TEST(DampingCoefficient, DeliversWhatIsKnownOfEachLaw) {
                   6e-6)
           << "law " << static_cast<int>(row.law) << ", requested " << requested[i];
     }
+  }
+}
+
+// The lines of a file of the tree that begin with `start`.
+std::vector<std::string> LinesOf(const std::string& path, const std::string& start) {
+  std::ifstream file(std::string(CONTACT_SOURCE_DIR) + "/" + path);
+  EXPECT_TRUE(file.is_open()) << path;
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(start)) lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(DampingLaws, ReadmeHasTheTableOfTheCode) {
+  std::vector<std::string> rows;
+  for (const DampingLawRow& law : DampingLaws()) {
+    rows.push_back("| `" + std::string(law.name) + "` | " + std::string(law.formula) + " | " +
+                   std::string(law.source) + " | " + std::string(law.range) + " |");
+  }
+  EXPECT_EQ(LinesOf("server/simulation/README.md", "| `"), rows);
+}
+
+TEST(DampingLaws, ReferenceOfScenariosHasEachLawWithItsFormula) {
+  for (const DampingLawRow& law : DampingLaws()) {
+    const auto lines =
+        LinesOf("client/scenarios/README.md", "  - `" + std::string(law.name) + "`: ");
+    ASSERT_EQ(lines.size(), 1u) << law.name;
+    if (lines[0].find("α = ") == std::string::npos) continue;
+    EXPECT_NE(lines[0].find(law.formula), std::string::npos) << lines[0];
+  }
+}
+
+TEST(DampingLaws, DampMoreTheLessIsToComeBack) {
+  for (const DampingLawRow& law : DampingLaws()) {
+    if (law.scale == DampingScale::kNone) continue;
+    // α = 1/ε is made for ε near 0 alone.
+    if (law.law != DampingLaw::kGharibHurmuzlu) {
+      EXPECT_EQ(law.alpha(1), 0) << law.name;
+    }
+    for (double e = 0.05; e < 1; e += 0.05) {
+      EXPECT_GT(law.alpha(e), law.alpha(e + 1e-3)) << law.name << " " << e;
+    }
+  }
+}
+
+// Half a period of k δ + c δ̇ leaves e^{−ξπ/√(1−ξ²)} of the speed, with c = 2 ξ √(k m_e).
+TEST(DampingLaws, KelvinVoigtLeavesItsRestitutionAfterHalfAPeriod) {
+  for (const double e : {0.05, 0.5, 0.95}) {
+    const double ratio = RowOf(DampingLaw::kKelvinVoigt).alpha(e) / 2;
+    EXPECT_NEAR(std::exp(-ratio * std::numbers::pi / std::sqrt(1 - ratio * ratio)), e, 1e-14);
+  }
+}
+
+TEST(ElasticEnergy, IsTheWorkOfTheElasticForce) {
+  constexpr int kIntervals = 20000;
+  for (const double n : {1.0, 1.5, 2.2}) {
+    const double k = 3e7, deformation = 2e-4, h = deformation / kIntervals;
+    double work = 0;  // By the midpoint rule.
+    for (int i = 0; i < kIntervals; ++i) work += k * std::pow((i + 0.5) * h, n) * h;
+    EXPECT_NEAR(ElasticEnergy(k, n, deformation) / work, 1, 1e-6) << n;
+    EXPECT_EQ(ElasticEnergy(k, n, -deformation), 0);
+  }
+}
+
+TEST(MaximumDeformation, OfAnElasticCollisionHoldsItsKineticEnergy) {
+  for (const double n : {1.0, 1.5, 2.2}) {
+    const double deformation = MaximumDeformation(0.5, 2, 1e8, n, 0);
+    EXPECT_NEAR(ElasticEnergy(1e8, n, deformation), 0.5 * 0.5 * 2 * 2, 1e-14) << n;
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "simulation/forecast/encounter.h"
+#include "simulation/forecast/first_meeting.h"
 #include "wire/scenario_builder.h"
 
 namespace contact {
@@ -20,8 +20,8 @@ std::vector<std::string> AdviceOn(const v1::Scenario& message) {
   return Lines(Advise(message, decoded.scenario));
 }
 
-std::optional<Encounter> FirstEncounter(const v1::Scenario& message) {
-  return Foresee(DecodeScenario(message).scenario).front();
+std::optional<FirstMeeting> FirstMeetingOf(const v1::Scenario& message) {
+  return ForecastFirstMeetings(DecodeScenario(message).scenario).front();
 }
 
 v1::Scenario FallingBall() {
@@ -41,80 +41,80 @@ v1::Scenario PressedTooth() {
       end_time_s: 0.01)");
 }
 
-TEST(Encounter, DurationOfAnImpactIsThatOfHertz) {
+TEST(FirstMeeting, DurationOfAnImpactIsThatOfHertz) {
   const double mass = 2800 * 4 / 3.0 * M_PI * 1e-6 / 2;
   const double modulus = 48e9 / (1 - 0.04) / 2;
   EXPECT_NEAR(ImpactDuration(mass, 20, 4 / 3.0 * modulus * std::sqrt(0.005), 1.5), 40.33946e-6,
               1e-10);
 }
 
-TEST(Encounter, DurationOfALinearImpactIsHalfAPeriodWhateverTheSpeed) {
+TEST(FirstMeeting, DurationOfALinearImpactIsHalfAPeriodWhateverTheSpeed) {
   for (const double speed : {0.1, 10.0}) {
     EXPECT_NEAR(ImpactDuration(0.5, speed, 2e6, 1), M_PI * std::sqrt(0.5 / 2e6), 1e-12);
   }
 }
 
-TEST(Encounter, SwingAboutALoadOfALinearContactIsItsPeriod) {
+TEST(FirstMeeting, SwingAboutALoadOfALinearContactIsItsPeriod) {
   EXPECT_NEAR(SwingPeriod(0.5, 30, 2e6, 1), 2 * M_PI * std::sqrt(0.5 / 2e6), 1e-12);
 }
 
-TEST(Encounter, OfAFallingBallIsKnown) {
-  const auto encounter = FirstEncounter(FallingBall());
-  ASSERT_TRUE(encounter);
-  EXPECT_NEAR(encounter->speed, std::sqrt(2 * 9.81 * 0.95), 1e-12);
-  EXPECT_NEAR(encounter->start, std::sqrt(2 * 0.95 / 9.81), 1e-12);
+TEST(FirstMeeting, OfAFallingBallIsKnown) {
+  const auto meeting = FirstMeetingOf(FallingBall());
+  ASSERT_TRUE(meeting);
+  EXPECT_NEAR(meeting->speed, std::sqrt(2 * 9.81 * 0.95), 1e-12);
+  EXPECT_NEAR(meeting->start, std::sqrt(2 * 0.95 / 9.81), 1e-12);
 }
 
-TEST(Encounter, OfABallThrownUpIsThatOfItsFall) {
+TEST(FirstMeeting, OfABallThrownUpIsThatOfItsFall) {
   v1::Scenario scenario = FallingBall();
   scenario.mutable_bodies(0)->set_velocity_m_per_s(2);
-  const auto encounter = FirstEncounter(scenario);
-  ASSERT_TRUE(encounter);
-  EXPECT_NEAR(encounter->speed, std::sqrt(4 + 2 * 9.81 * 0.95), 1e-12);
-  EXPECT_NEAR(encounter->start, (encounter->speed + 2) / 9.81, 1e-12);
+  const auto meeting = FirstMeetingOf(scenario);
+  ASSERT_TRUE(meeting);
+  EXPECT_NEAR(meeting->speed, std::sqrt(4 + 2 * 9.81 * 0.95), 1e-12);
+  EXPECT_NEAR(meeting->start, (meeting->speed + 2) / 9.81, 1e-12);
 }
 
-TEST(Encounter, OfABallOnASpringHasTheEnergyOfTheSpring) {
-  const auto encounter = FirstEncounter(FromText(R"(
+TEST(FirstMeeting, OfABallOnASpringHasTheEnergyOfTheSpring) {
+  const auto meeting = FirstMeetingOf(FromText(R"(
       bodies { name: "ball" mass_kg: 0.5 position_m: -0.01 }
       contacts { between: "ball" wall { side: RIGHT } stiffness: 1e8 restitution: 0.8 }
       supports { body: "ball" stiffness_n_per_m: 1e6 }
       end_time_s: 1)"));
-  ASSERT_TRUE(encounter);
-  EXPECT_NEAR(encounter->speed, 0.01 * std::sqrt(1e6 / 0.5), 1e-9);
+  ASSERT_TRUE(meeting);
+  EXPECT_NEAR(meeting->speed, 0.01 * std::sqrt(1e6 / 0.5), 1e-9);
 }
 
-TEST(Encounter, OfBodiesThatOnlyAnotherContactMovesIsNotGuessedAt) {
+TEST(FirstMeeting, OfBodiesThatOnlyAnotherContactMovesIsNotGuessedAt) {
   v1::Scenario row = TwoBalls();
   *row.add_bodies() =
       FromText(R"(bodies { name: "B3" mass_kg: 0.5 radius_m: 0.05 position_m: 0.2 })").bodies(0);
   row.mutable_contacts(0)->add_between("B3");
-  const auto encounters = Foresee(DecodeScenario(row).scenario);
-  ASSERT_EQ(encounters.size(), 2u);
-  EXPECT_TRUE(encounters[0]);
-  EXPECT_FALSE(encounters[1]);
+  const auto meetings = ForecastFirstMeetings(DecodeScenario(row).scenario);
+  ASSERT_EQ(meetings.size(), 2u);
+  EXPECT_TRUE(meetings[0]);
+  EXPECT_FALSE(meetings[1]);
 }
 
-TEST(Encounter, OfAPulseIsOnTheSideToWhichItPushes) {
+TEST(FirstMeeting, OfAPulseIsOnTheSideToWhichItPushes) {
   v1::Scenario scenario = PressedTooth();
   v1::Load::HalfSinePulse& pulse = *scenario.mutable_loads(0)->mutable_half_sine_pulse();
   pulse.set_amplitude_n(800);
   pulse.set_start_time_s(1e-3);
   pulse.set_duration_s(4e-3);
-  const auto encounter = FirstEncounter(scenario);
-  ASSERT_TRUE(encounter);
-  EXPECT_EQ(encounter->speed, 0);
-  EXPECT_NEAR(encounter->pressed, 4e-3, 1e-12);
+  const auto meeting = FirstMeetingOf(scenario);
+  ASSERT_TRUE(meeting);
+  EXPECT_EQ(meeting->speed, 0);
+  EXPECT_NEAR(meeting->pressed, 4e-3, 1e-12);
   pulse.set_amplitude_n(-800);
-  EXPECT_FALSE(FirstEncounter(scenario));
+  EXPECT_FALSE(FirstMeetingOf(scenario));
 }
 
-TEST(Encounter, AfterTheEndIsNone) {
+TEST(FirstMeeting, AfterTheEndIsNone) {
   v1::Scenario scenario = FallingBall();
   scenario.set_end_time_s(0.4);
-  EXPECT_FALSE(FirstEncounter(scenario));
+  EXPECT_FALSE(FirstMeetingOf(scenario));
   scenario.set_end_time_s(0.5);
-  EXPECT_TRUE(FirstEncounter(scenario));
+  EXPECT_TRUE(FirstMeetingOf(scenario));
 }
 
 TEST(ScenarioAdvice, IsNoneForAScenarioThatShowsItsContacts) {

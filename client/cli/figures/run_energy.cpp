@@ -26,13 +26,11 @@ void AddKinetic(const Scenario& scenario, const Recording& recording, Values* en
   }
 }
 
-// ∫ k δⁿ dδ
 void AddContacts(const Scenario& scenario, const Recording& recording, Values* energy) {
   for (const auto& contact : scenario.contacts) {
     const Values& deformation = Column(recording, contact.name + ".deformation");
-    const double power = contact.exponent + 1;
     for (std::size_t i = 0; i < energy->size(); ++i) {
-      (*energy)[i] += contact.stiffness * std::pow(std::max(deformation[i], 0.0), power) / power;
+      (*energy)[i] += ElasticEnergy(contact.stiffness, contact.exponent, deformation[i]);
     }
   }
 }

@@ -112,7 +112,7 @@ Candidates TemplateNames(const Settings&, const Line&) {
 Candidates Laws(const Settings&, const Line&) {
   Candidates laws;
   for (const LawEntry& law : LawCatalogue()) {
-    std::string name(law.name());
+    std::string name(law.name);
     std::ranges::transform(name, name.begin(), [](unsigned char c) {
       return c == '_' ? '-' : static_cast<char>(std::tolower(c));
     });

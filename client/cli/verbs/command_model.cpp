@@ -26,13 +26,13 @@ struct CompareArguments {
 std::string Json(const LawEntry& law) {
   return fmt::format(
       R"({{"law": "{}", "formula": "{}", "source": "{}", "range": "{}", "closed_form": {}}})",
-      law.name(), law.formula, law.source, law.range, law.closed_form());
+      law.name, law.formula, law.source, law.range, law.closed_form());
 }
 
 std::string Json(const LawPoint& point) {
   return fmt::format(
       R"({{"law": "{}", "requested": {}, "delivered": {}, "miss": {}, "method": "{}"}})",
-      point.law->name(), point.requested, point.delivered, point.miss(), point.method);
+      point.law->name, point.requested, point.delivered, point.miss(), point.method);
 }
 
 template <class Items>
@@ -57,7 +57,7 @@ ExitCode List(const ColumnChoice& columns, const Settings& settings) {
   }
   Table table(ListColumns());
   for (const LawEntry& law : LawCatalogue()) {
-    table.Add({std::string(law.name()), std::string(law.formula), std::string(law.source)});
+    table.Add({std::string(law.name), std::string(law.formula), std::string(law.source)});
   }
   fmt::print("{}", table.Text(columns.OutputStyle(settings)));
   return ExitCode::kOk;
@@ -70,10 +70,10 @@ ExitCode Show(const std::string& name, const Settings& settings) {
     PrintJson(Json(law) + "\n", settings);
     return ExitCode::kOk;
   }
-  fmt::print("{}\nformula  {}\nsource   {}\nrange    {}\n", law.name(), law.formula, law.source,
+  fmt::print("{}\nformula  {}\nsource   {}\nrange    {}\n", law.name, law.formula, law.source,
              law.range);
   if (!law.closed_form()) {
-    fmt::print("delivers what a run shows: contactctl model compare {}\n", law.name());
+    fmt::print("delivers what a run shows: contactctl model compare {}\n", law.name);
     return ExitCode::kOk;
   }
   fmt::print("\nIn an isolated collision:\n");
@@ -82,7 +82,7 @@ ExitCode Show(const std::string& name, const Settings& settings) {
     const double delivered = law.Delivered(e);
     const double miss = delivered / e - 1;
     table.Add({Digits(e, 6),
-               Digits(law.Coefficient(e), 8),
+               Digits(law.alpha(e), 8),
                Digits(delivered, 8),
                {Percent(miss), std::abs(miss) > 0.01 ? Tone::kWarning : Tone::kPlain}});
   }
@@ -122,7 +122,7 @@ std::vector<Table::Column> CompareColumns(const CompareArguments& arguments, boo
 std::string CompareCsv(const std::vector<LawPoint>& points, const CompareArguments& arguments) {
   Table table(CompareColumns(arguments, true));
   for (const LawPoint& p : points) {
-    table.Add({std::string(p.law->name()), fmt::to_string(p.requested), fmt::to_string(p.delivered),
+    table.Add({std::string(p.law->name), fmt::to_string(p.requested), fmt::to_string(p.delivered),
                fmt::to_string(p.miss()), std::string(p.method)});
   }
   return table.Csv(arguments.columns.names());
@@ -134,7 +134,7 @@ std::string CompareTable(const std::vector<LawPoint>& points, const CompareArgum
   const std::size_t columns = arguments.restitutions.size();
   Table table(CompareColumns(arguments, false));
   for (std::size_t first = 0; first < points.size(); first += columns) {
-    std::vector<Table::Cell> row = {std::string(points[first].law->name())};
+    std::vector<Table::Cell> row = {std::string(points[first].law->name)};
     for (std::size_t i = first; i < first + columns; ++i) {
       const bool misses = std::abs(points[i].miss()) > 0.01;
       row.emplace_back(fmt::format("{:.5f}", points[i].delivered),

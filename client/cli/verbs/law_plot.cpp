@@ -38,10 +38,10 @@ std::vector<double> Restitutions() {
 std::vector<double> Coefficients(const LawEntry& law) {
   if (!law.closed_form()) {
     throw Failure(ExitCode::kUsage,
-                  fmt::format("{} has no α that is a function of ε alone", law.name()));
+                  fmt::format("{} has no α that is a function of ε alone", law.name));
   }
   std::vector<double> all;
-  for (const double e : Restitutions()) all.push_back(law.Coefficient(e));
+  for (const double e : Restitutions()) all.push_back(law.alpha(e));
   return all;
 }
 
@@ -66,7 +66,7 @@ Data Curves(const std::vector<const LawEntry*>& laws, bool alpha, const Settings
   for (const LawEntry* law : laws) {
     const std::vector<double> values = alpha ? Coefficients(*law) : Delivered(*law, settings);
     for (std::size_t i = 0; i < values.size(); ++i) data.rows[i].push_back(values[i]);
-    data.columns.emplace_back(law->name());
+    data.columns.emplace_back(law->name);
   }
   return data;
 }
@@ -76,7 +76,7 @@ ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
   const std::vector<const LawEntry*> laws = Chosen(arguments);
   const bool alpha = arguments.what == "alpha";
   std::vector<std::string> names;
-  for (const LawEntry* law : laws) names.emplace_back(law->name());
+  for (const LawEntry* law : laws) names.emplace_back(law->name);
   Figure figure = DrawColumns(
       Curves(laws, alpha, settings),
       alpha ? "hysteresis damping factor coefficient α" : "post-restitution coefficient", names);

@@ -58,8 +58,8 @@ const LawEntry& FindLaw(const std::string& text) {
   });
   std::vector<std::string_view> names;
   for (const LawEntry& law : LawCatalogue()) {
-    if (law.name() == name) return law;
-    names.push_back(law.name());
+    if (law.name == name) return law;
+    names.push_back(law.name);
   }
   const std::string_view nearest = Nearest(name, names);
   throw Failure(ExitCode::kUsage,
@@ -81,11 +81,11 @@ v1::Scenario CollisionsOf(const std::vector<LawPoint>& points) {
     contact.add_between(NameOf(i));
     contact.mutable_wall()->set_side(v1::Wall::RIGHT);
     contact.mutable_wall()->set_position_m(kGap * static_cast<double>(i + 1));
-    const bool linear = points[i].law->damping == v1::Contact::KELVIN_VOIGT;
+    const bool linear = points[i].law->contact_exponent == 1;
     contact.set_exponent(linear ? 1 : 1.5);
     contact.set_stiffness(linear ? kLinearStiffness : kHertzStiffness);
     contact.set_restitution(points[i].requested);
-    contact.set_damping(points[i].law->damping);
+    contact.set_damping(DampingOf(points[i].law->law));
   }
   scenario.mutable_output()->set_ledger_only(true);
   scenario.set_end_time_s(kGap * static_cast<double>(points.size() + 1));

@@ -40,7 +40,7 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       motion_(motion),
       observer_(observer),
       warned_(scenario.contacts.size()),
-      missed_(static_cast<std::size_t>(DampingLaw::kGiven)) {}
+      missed_(kDampingLaws) {}
 
 void EpisodeSolver::Begin(const State& start, int episode, double until) {
   BeginWith(Guesses(start));
@@ -270,6 +270,11 @@ CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effec
   return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
 }
 
+void EpisodeSolver::OnCancel(const ContactState& state) {
+  Unknown* u = Find(state.cycle.contact, state.cycle.number);
+  if (u != nullptr) u->seen = false;
+}
+
 void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
   const auto index = static_cast<std::size_t>(&contact - scenario_.contacts.data());
   if (warned_[index]) return;
@@ -280,7 +285,7 @@ void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
 // Says once for each law that it does not deliver what was asked of it.
 void EpisodeSolver::WarnOfMiss(const Contact& contact, const Cycle& cycle) {
   const double miss = cycle.restitution_out / contact.restitution - 1;
-  const auto law = static_cast<std::size_t>(contact.damping);
+  const auto law = static_cast<std::size_t>(contact.damping) - 1;
   if (!(std::abs(miss) > kToldMiss) || missed_[law]) return;
   missed_[law] = true;
   observer_.OnWarning("contact " + contact.name + ", cycle " + std::to_string(cycle.number) +

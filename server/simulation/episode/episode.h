@@ -56,6 +56,7 @@ class EpisodeSolver final : public CycleHost {
   Factor OnStart(const ContactState& state, double effective_mass, double external_force) override;
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
              const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
+  void OnCancel(const ContactState& state) override;
   void OnStep() override { observer_.OnStep(); }
 
   /// What outlives an episode.

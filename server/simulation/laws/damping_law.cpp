@@ -1,125 +1,122 @@
 #include "simulation/laws/damping_law.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace contact {
 namespace {
 
-// Loss(x) = x − ln(1 + x), without cancellation for small x; > −1. (L1) reads
-// Loss(α) = Loss(−αε): the energy that damping leaves to compression, from either side.
-double Loss(double x) {
-  if (std::abs(x) > 0.1) return x - std::log1p(x);
-  double sum = 0, power = x * x;  // x²/2 − x³/3 + x⁴/4 − …
-  for (int i = 2; i < 24; ++i, power *= -x) sum += power / i;
-  return sum;
-}
+constexpr double kOwn = -1;  // p = n.
+constexpr double kAny = 0;   // Any n.
 
-// q + e^{−q} − 1 = Loss(−w) with w = 1 − e^{−q}, without cancellation for small q; q ≥ 0.
-double LossOfLog(double q) {
-  if (q > 0.1) return q + std::expm1(-q);
-  double sum = 0, term = q * q / 2;  // q²/2 − q³/6 + q⁴/24 − …
-  for (int i = 3; i < 16; ++i, term *= -q / (i - 1)) sum += term;
-  return sum;
+// ξ = −ln ε/√(π² + ln² ε): the damping ratio that leaves ε of the speed after half a period, (L7).
+double DampingRatio(double e) { return -std::log(e) / std::hypot(std::numbers::pi, std::log(e)); }
+
+// The code of each α(ε) stands beside its formula.
+using enum DampingLaw;
+using enum DampingScale;
+// clang-format off
+constexpr DampingLawRow kRows[] = {
+    {kEnergyRestitution, "ENERGY_RESTITUTION", kVelocity, ExactCoefficient, kAny, kOwn,
+     "μ iterated until −W_r/W_c = ε²", "the paper's problem, solved by Newton's method (N1 to N4)",
+     "ε in (0, 1]; every cycle, coupled and loaded ones too"},
+    {kExact, "EXACT", kVelocity, ExactCoefficient, kAny, kOwn,
+     "α (1+ε) = ln((1+α)/(1−αε))", "closed form of an isolated collision (L1)",
+     "ε in (0, 1]; exact without other forces"},
+    {kPaperEq23, "PAPER_EQ23", kVelocity,
+     [](double e) { return 1.5 * (1 - e * e) / (e * e + std::pow(e, 0.87)); }, kAny, kOwn,
+     "α = 3(1−ε²)/(2(ε²+ε^0.87))", "the paper, (23)",
+     "ε in (0, 1]; fitted for the whole range"},
+    {kHuntCrossley, "HUNT_CROSSLEY", kVelocity,
+     [](double e) { return 1.5 * (1 - e); }, kAny, kOwn,
+     "α = 3(1−ε)/2", "Hunt and Crossley 1975",
+     "ε in (0, 1]; made for ε near 1"},
+    {kLankaraniNikravesh, "LANKARANI_NIKRAVESH", kVelocity,
+     [](double e) { return 0.75 * (1 - e * e); }, kAny, kOwn,
+     "α = 3(1−ε²)/4", "Lankarani and Nikravesh 1990",
+     "ε in (0, 1]; made for ε near 1"},
+    {kFlores, "FLORES", kVelocity,
+     [](double e) { return 1.6 * (1 - e) / e; }, kAny, kOwn,
+     "α = 8(1−ε)/(5ε)", "Flores et al. 2011",
+     "ε in (0, 1]; made for the whole range"},
+    {kHuGuo, "HU_GUO", kVelocity,
+     [](double e) { return 1.5 * (1 - e) / e; }, kAny, kOwn,
+     "α = 3(1−ε)/(2ε)", "Hu and Guo 2015",
+     "ε in (0, 1]; made for the whole range"},
+    {kLeeWang, "LEE_WANG", kVelocity,
+     [](double e) { return 0.75 * (1 - e); }, kAny, kOwn,
+     "α = 3(1−ε)/4", "Lee and Wang 1983",
+     "ε in (0, 1]; made for ε near 1"},
+    {kHerbertMcWhannell, "HERBERT_MCWHANNELL", kVelocity,
+     [](double e) { return 6 * (1 - e) / ((2 * e - 1) * (2 * e - 1) + 3); }, kAny, kOwn,
+     "α = 6(1−ε)/((2ε−1)²+3)", "Herbert and McWhannell 1977",
+     "ε in (0, 1]; made for ε near 1"},
+    {kZhiyingQishao, "ZHIYING_QISHAO", kVelocity,
+     [](double e) { return 0.75 * (1 - e * e) * std::exp(2 * (1 - e)); }, kAny, kOwn,
+     "α = 3(1−ε²)exp(2(1−ε))/4", "Zhiying and Qishao 2006",
+     "ε in (0, 1]; made for ε above about 0.3"},
+    {kGonthier, "GONTHIER", kVelocity,
+     [](double e) { return (1 - e * e) / e; }, kAny, kOwn,
+     "α = (1−ε²)/ε", "Gonthier et al. 2004, approximate form",
+     "ε in (0, 1]; made for the whole range"},
+    {kCarvalhoMartins, "CARVALHO_MARTINS", kVelocity,
+     [](double e) { return 1.5 * (1 - e) * (11 - e) / (1 + 9 * e); }, kAny, kOwn,
+     "α = 3(1−ε)(11−ε)/(2(1+9ε))", "Carvalho and Martins 2019",
+     "ε in (0, 1]; made for the whole range"},
+    {kGharibHurmuzlu, "GHARIB_HURMUZLU", kVelocity,
+     [](double e) { return 1 / e; }, kAny, kOwn,
+     "α = 1/ε", "Gharib and Hurmuzlu 2012",
+     "ε in (0, 1]; made for ε near 0"},
+    {kKelvinVoigt, "KELVIN_VOIGT", kMass,
+     [](double e) { return 2 * DampingRatio(e); }, 1, 0,
+     "c = 2ξ√(k m_e), ξ = −ln ε/√(π²+ln²ε)", "linear spring and damper (L7)",
+     "ε in (0, 1]; exponent 1; pulls before the bodies part"},
+    {kHertzQuarterPower, "HERTZ_QUARTER_POWER", kMass,
+     [](double e) { return std::sqrt(5.0) * DampingRatio(e); }, 1.5, 0.25,
+     "μ = √5 ξ √(k m_e) with δ^¼, ξ = −ln ε/√(π²+ln²ε)", "Antypov and Elliott 2011 (L8)",
+     "ε in (0, 1]; exponent 1.5; pulls before the bodies part"},
+    {kGiven, "MU", DampingScale::kNone, nullptr, kAny, kOwn,
+     "μ as given", "the scenario", "every cycle"},
+};
+// clang-format on
+
+// Rows are found by the number of their law.
+constexpr bool InOrder() {
+  int number = 0;
+  return std::ranges::all_of(
+      kRows, [&](const DampingLawRow& row) { return static_cast<int>(row.law) == ++number; });
 }
+static_assert(InOrder() && std::size(kRows) == kDampingLaws);
 
 }  // namespace
 
-double ExactCoefficient(double restitution) {
-  assert(restitution > 0);
-  const double e = restitution;
-  if (e == 1) return 0;
-  if (e > 1) return -ExactCoefficient(1 / e) / e;  // The same collision, run backwards.
-  // With q = −ln(1 − αε): Loss(α) = LossOfLog(q), α = (1 − e^{−q})/ε. In q the root is well
-  // conditioned even where αε is 1 to all digits. Start: the paper's (23).
-  const double start = 1.5 * (1 - e * e) / (e * e + std::pow(e, 0.87));
-  double q = e > 0.3 ? -std::log1p(-start * e) : Loss(1 / e) + 1;
-  for (int i = 0; i < 50; ++i) {
-    const double w = -std::expm1(-q);
-    const double alpha = w / e;
-    const double f = LossOfLog(q) - Loss(alpha);
-    const double slope = w - alpha / (1 + alpha) * (1 - w) / e;
-    const double step = f / slope;
-    q -= step;
-    if (std::abs(step) <= 1e-8 * q) break;  // The next one would be the square of that.
-  }
-  return -std::expm1(-q) / e;
+std::span<const DampingLawRow> DampingLaws() { return kRows; }
+
+const DampingLawRow& RowOf(DampingLaw law) {
+  const int index = static_cast<int>(law) - 1;
+  assert(index >= 0 && index < kDampingLaws);
+  return kRows[index];
 }
 
-double DeliveredRestitution(double alpha) {
-  assert(alpha >= 0);
-  if (alpha == 0) return 1;
-  // Newton for LossOfLog(q) = Loss(α) from the right of the root: convex, so it never overshoots.
-  const double loss = Loss(alpha);
-  double q = loss + std::sqrt(2 * loss);
-  for (int i = 0; i < 50; ++i) {
-    const double step = (LossOfLog(q) - loss) / -std::expm1(-q);
-    q -= step;
-    if (std::abs(step) <= 1e-15 * q) break;
-  }
-  return -std::expm1(-q) / alpha;
-}
-
-double MaximumDeformation(double effective_mass, double velocity, double stiffness, double exponent,
-                          double alpha) {
-  const double loss = alpha == 0 ? 0.5 : Loss(alpha) / (alpha * alpha);
-  return std::pow((exponent + 1) * effective_mass * velocity * velocity / stiffness * loss,
-                  1 / (exponent + 1));
-}
-
-bool NeedsNoVelocity(DampingLaw law) {
-  return law == DampingLaw::kKelvinVoigt || law == DampingLaw::kHertzQuarterPower;
-}
+bool NeedsNoVelocity(DampingLaw law) { return RowOf(law).scale == DampingScale::kMass; }
 
 double DampingExponent(DampingLaw law, double exponent) {
-  if (law == DampingLaw::kKelvinVoigt) return 0;
-  return law == DampingLaw::kHertzQuarterPower ? 0.25 : exponent;
+  const double own = RowOf(law).damping_exponent;
+  return own < 0 ? exponent : own;
 }
 
 double DampingFactor(DampingLaw law, double restitution, double stiffness, double effective_mass) {
   assert(NeedsNoVelocity(law));
-  const double ratio = -std::log(restitution) / std::hypot(std::numbers::pi, std::log(restitution));
-  const double factor = law == DampingLaw::kKelvinVoigt ? 2 : std::sqrt(5.0);
-  return factor * ratio * std::sqrt(stiffness * effective_mass);
+  return RowOf(law).alpha(restitution) * std::sqrt(stiffness * effective_mass);
 }
 
 double DampingCoefficient(DampingLaw law, double restitution) {
-  const double e = restitution;
-  assert(e > 0 && e <= 1);
-  switch (law) {
-    case DampingLaw::kEnergyRestitution:
-    case DampingLaw::kExact:
-      return ExactCoefficient(e);
-    case DampingLaw::kPaperEq23:
-      return 1.5 * (1 - e * e) / (e * e + std::pow(e, 0.87));
-    case DampingLaw::kHuntCrossley:
-      return 1.5 * (1 - e);
-    case DampingLaw::kLankaraniNikravesh:
-      return 0.75 * (1 - e * e);
-    case DampingLaw::kFlores:
-      return 1.6 * (1 - e) / e;
-    case DampingLaw::kHuGuo:
-      return 1.5 * (1 - e) / e;
-    case DampingLaw::kLeeWang:
-      return 0.75 * (1 - e);
-    case DampingLaw::kHerbertMcWhannell:
-      return 6 * (1 - e) / ((2 * e - 1) * (2 * e - 1) + 3);
-    case DampingLaw::kZhiyingQishao:
-      return 0.75 * (1 - e * e) * std::exp(2 * (1 - e));
-    case DampingLaw::kGonthier:
-      return (1 - e * e) / e;
-    case DampingLaw::kCarvalhoMartins:
-      return 1.5 * (1 - e) * (11 - e) / (1 + 9 * e);
-    case DampingLaw::kGharibHurmuzlu:
-      return 1 / e;
-    case DampingLaw::kKelvinVoigt:
-    case DampingLaw::kHertzQuarterPower:
-    case DampingLaw::kGiven:
-      break;
-  }
-  assert(false && "the law has no coefficient");
-  return 0;
+  assert(restitution > 0 && restitution <= 1);
+  assert(RowOf(law).scale == DampingScale::kVelocity);
+  return RowOf(law).alpha(restitution);
 }
 
 }  // namespace contact

@@ -1,56 +1,86 @@
 #pragma once
 
+#include <span>
 #include <string_view>
+
+#include "simulation/laws/isolated_collision.h"
 
 namespace contact {
 
-/// How the damping factor μ of a cycle, in F = k δⁿ + μ δᵖ δ̇, is found. Those from kExact to
-/// kGharibHurmuzlu are closed forms α(ε) with p = n and μ = α k / δ̇⁻; kKelvinVoigt and
-/// kHertzQuarterPower need no δ̇⁻. README.md lists formula and source of each.
+/// How the damping factor μ of a cycle, in F = k δⁿ + μ δᵖ δ̇, is found. The numbers are those of
+/// contact.v1.Contact.Damping and never change; checkpoints hold them.
 enum class DampingLaw {
-  kEnergyRestitution,  ///< μ is iterated until ε_out = ε_in.
-  kExact,
-  kPaperEq23,
-  kHuntCrossley,
-  kLankaraniNikravesh,
-  kFlores,
-  kHuGuo,
-  kLeeWang,
-  kHerbertMcWhannell,
-  kZhiyingQishao,
-  kGonthier,
-  kCarvalhoMartins,
-  kGharibHurmuzlu,
-  kKelvinVoigt,        ///< n = 1, p = 0.
-  kHertzQuarterPower,  ///< n = 1.5, p = ¼.
-  kGiven,              ///< μ is a number of the scenario.
+  kEnergyRestitution = 1,  ///< μ is iterated until ε_out = ε_in.
+  kExact = 2,
+  kPaperEq23 = 3,
+  kHuntCrossley = 4,
+  kLankaraniNikravesh = 5,
+  kFlores = 6,
+  kHuGuo = 7,
+  kLeeWang = 8,
+  kHerbertMcWhannell = 9,
+  kZhiyingQishao = 10,
+  kGonthier = 11,
+  kCarvalhoMartins = 12,
+  kGharibHurmuzlu = 13,
+  kKelvinVoigt = 14,
+  kHertzQuarterPower = 15,
+  kGiven = 16,  ///< μ is a number of the scenario.
 };
 
-/// Whether μ follows from ε, k and m_e alone: kKelvinVoigt and kHertzQuarterPower.
+/// How μ follows from the dimensionless α(ε) of a law.
+enum class DampingScale {
+  kVelocity,  ///< μ = α k/δ̇⁻, p = n: (L1) to (L3) tell what α delivers in an isolated collision.
+  kMass,  ///< μ = α √(k m_e): no approach velocity is needed.
+  kNone,  ///< There is no α: μ is given.
+};
+
+/// All that is known of a damping law. A law is added by its number in the contract, its
+/// enumerator, its row in damping_law.cpp, and its row in README.md of simulation/.
+struct DampingLawRow {
+  DampingLaw law;
+  std::string_view name;  ///< As in scenarios, such as `HUNT_CROSSLEY`.
+  DampingScale scale;
+  double (*alpha)(double restitution);  ///< α(ε) [-] for ε in (0, 1]; null for kNone.
+  double contact_exponent;              ///< The n that the law is made for [-]; 0: any.
+  double damping_exponent;              ///< p [-]; negative: p = n.
+  std::string_view formula;             ///< α(ε) or μ(ε) as text.
+  std::string_view source;              ///< Authors and year.
+  std::string_view range;               ///< The ε that it is made for, and what it needs.
+
+  /// Whether what an isolated collision gives back is known without a simulation, by (L2).
+  bool closed_form() const {
+    return law != DampingLaw::kEnergyRestitution && scale == DampingScale::kVelocity;
+  }
+
+  /// The restitution [-] that an isolated collision gives back where ε in (0, 1] is asked for.
+  /// Only with a closed form.
+  double Delivered(double restitution) const { return DeliveredRestitution(alpha(restitution)); }
+};
+
+/// Every law, in the order of its numbers, which begin at 1. The table lives as long as the
+/// program.
+std::span<const DampingLawRow> DampingLaws();
+
+/// How many laws there are; DampingLaws().size() as a constant, for wire/ to hold against the
+/// contract.
+inline constexpr int kDampingLaws = 16;
+
+/// The row of a law.
+const DampingLawRow& RowOf(DampingLaw law);
+
+/// Whether μ follows from ε, k and m_e alone: DampingScale::kMass.
 bool NeedsNoVelocity(DampingLaw law);
 
-/// p of the law for the exponent n.
+/// p [-] of the law for the contact exponent n.
 double DampingExponent(DampingLaw law, double exponent);
 
-/// μ of a law that needs no velocity [N·s/mᵖ⁺¹], for ε in (0, 1]; (L7), (L8).
+/// μ of a law that needs no velocity [N·s/mᵖ⁺¹], for ε in (0, 1], k [N/mⁿ] and m_e [kg]; (L7),
+/// (L8).
 double DampingFactor(DampingLaw law, double restitution, double stiffness, double effective_mass);
 
-/// α(ε) of a law [-], for ε in (0, 1]. For kEnergyRestitution and kExact: (L1).
-/// Not for kGiven and laws that need no velocity, which have no α.
+/// α(ε) of a law [-] whose μ is α k/δ̇⁻, for ε in (0, 1]. That of kEnergyRestitution is (L1), the
+/// first guess of its iteration. Not for laws of another DampingScale.
 double DampingCoefficient(DampingLaw law, double restitution);
-
-/// The α of an isolated collision that has the restitution ε, the root of            (L1)
-///   α (1 + ε) = ln((1 + α)/(1 − α ε)).
-/// For any ε > 0; it is 0 at ε = 1 and negative, above −1, for ε > 1. Any n, k, m, δ̇⁻.
-double ExactCoefficient(double restitution);
-
-/// The restitution that α delivers in an isolated collision, in (0, 1]: the inverse of (L1),
-///   ε = (1 + W₀(−(1 + α) e^{−(1 + α)}))/α, for α ≥ 0.                                (L2)
-double DeliveredRestitution(double alpha);
-
-/// Largest deformation of an isolated collision [m]:                                  (L3)
-///   δ_m = [(n + 1)(m_e v²/k)(α − ln(1 + α))/α²]^{1/(n+1)}.
-double MaximumDeformation(double effective_mass, double velocity, double stiffness, double exponent,
-                          double alpha);
 
 }  // namespace contact

@@ -8,113 +8,136 @@
 
 namespace contact {
 
-/// One compression of one contact and the restitution that follows it. Letters: README.md.
+/// One compression of one contact and the restitution that follows it: a row of the ledger. Letters
+/// and equation numbers are those of README.md. A cycle lasts: start_time < end_time, and unless it
+/// rested its compression does work.
 struct Cycle {
-  enum class Kind { kCollision, kNirv };
-  enum class End { kSeparation, kNonSeparation, kRunEnd };
-  enum class Status { kConverged, kGivenLaw, kInfeasible, kSettled, kNotConverged };
+  /// How the cycle begins.
+  enum class Kind {
+    kCollision,  ///< At δ = 0 with δ̇⁻ > 0.
+    kNirv,       ///< Without initial relative velocity: touching, or still compressed.
+  };
+  /// How the cycle ends.
+  enum class End {
+    kSeparation,     ///< δ falls to 0.
+    kNonSeparation,  ///< δ̇ rises to 0 with δ > 0; the next cycle begins there.
+    kRunEnd,         ///< The run ends while the cycle lasts.
+  };
+  /// What became of the request for its restitution.
+  enum class Status {
+    kConverged,     ///< |ε_out − ε_in| ≤ ξ ε_in.
+    kGivenLaw,      ///< μ follows from a law or is given; nothing is iterated.
+    kInfeasible,    ///< No μ ≥ 0 gives ε_in, README.md (N4), (N8).
+    kSettled,       ///< Its work is too small to iterate, or it is a contact's rest.
+    kNotConverged,  ///< The iteration ended without any of these.
+  };
 
   int contact = 0;  ///< Index in Scenario::contacts.
-  int number = 1;   ///< Place among the cycles of its contact, from 1.
-  int episode = 1;  ///< Cycles of one episode are solved together.
-  Kind kind = Kind::kCollision;
-  End end = End::kRunEnd;
-  Status status = Status::kNotConverged;
-  int iterations = 0;  ///< Corrections of μ made for the episode.
+  int number = 1;   ///< Place among the cycles of its contact, from 1 without gaps.
+  int episode = 1;  ///< Number of its episode, from 1; cycles of an episode are solved together.
+  Kind kind = Kind::kCollision;           ///< How it begins.
+  End end = End::kRunEnd;                 ///< How it ends.
+  Status status = Status::kNotConverged;  ///< What became of ε_in.
+  int iterations = 0;                     ///< Corrections of μ made for the episode, ≥ 0.
 
-  double start_time = 0;              ///< t_s [s].
+  double start_time = 0;              ///< t_s [s], ≥ 0.
   double turn_time = kNaN;            ///< t_m [s]; NaN if the run ended before.
-  double end_time = 0;                ///< t_o [s].
-  double start_deformation = 0;       ///< δ_s [m].
-  double max_deformation = 0;         ///< δ_m [m].
-  double end_deformation = 0;         ///< δ_o [m].
-  double approach_velocity = 0;       ///< δ̇⁻ [m/s], ≥ 0.
-  double separation_velocity = 0;     ///< δ̇⁺ [m/s], ≤ 0.
-  double mu = 0;                      ///< μ [N·s/mⁿ⁺¹].
-  double work_compression = 0;        ///< W_c [J].
-  double work_restitution = 0;        ///< W_r [J], ≤ 0.
-  double dissipated_compression = 0;  ///< D_c [J].
-  double dissipated_restitution = 0;  ///< D_r [J].
-  double external_compression = 0;    ///< E_c, work of F_e [J].
-  double external_restitution = 0;    ///< E_r [J].
-  double restitution_in = kNaN;       ///< ε_in; NaN for a given μ.
-  double restitution_out = kNaN;      ///< ε_out = √(−W_r/W_c).
-  double peak_force = 0;              ///< [N].
-  double tension_time = 0;            ///< Time for which F < 0 [s].
-  double identity_residual = 0;       ///< |(W4)| / W_c.
+  double end_time = 0;                ///< t_o [s], > t_s.
+  double start_deformation = 0;       ///< δ_s [m], ≥ 0; 0 for a collision.
+  double max_deformation = 0;         ///< δ_m [m], ≥ δ_s.
+  double end_deformation = 0;         ///< δ_o [m], ≥ 0; 0 for a separation.
+  double approach_velocity = 0;       ///< δ̇⁻ [m/s], ≥ 0; 0 for kNirv.
+  double separation_velocity = 0;     ///< δ̇⁺ [m/s], ≤ 0; 0 without separation.
+  double mu = 0;                      ///< μ [N·s/mᵖ⁺¹], ≥ 0.
+  double work_compression = 0;        ///< W_c [J], (W1); > 0 unless it rested.
+  double work_restitution = 0;        ///< W_r [J], (W1); ≤ 0 unless the contact pulls.
+  double dissipated_compression = 0;  ///< Dissipated in compression [J], (W2).
+  double dissipated_restitution = 0;  ///< Dissipated in restitution [J], (W2).
+  double external_compression = 0;    ///< Work of F_e in compression [J], (W3).
+  double external_restitution = 0;    ///< Work of F_e in restitution [J], (W3).
+  double restitution_in = kNaN;       ///< ε_in [-], in (0, 1]; NaN for a given μ.
+  double restitution_out = kNaN;      ///< ε_out = √(−W_r/W_c) [-], (W5); NaN if not real.
+  double peak_force = 0;              ///< Largest F [N], ≥ 0.
+  double tension_time = 0;            ///< Time for which F < 0 [s], ≥ 0.
+  double identity_residual = 0;       ///< Miss of (W4), relative to W_c [-], ≥ 0.
 };
 
 /// One pass through an episode with one set of μ.
 struct Iteration {
+  /// How a μ was changed before the pass.
   enum class Update {
-    kNothing,
-    kNewton,
-    kDampedNewton,
-    kBisection,
-    kZero,
-    kPaperNewton,  ///< Paper (29).
-    kPaperRatio,   ///< Paper (31).
-    kBracketing,   ///< Doubling or halving in search of a bracket.
+    kNothing,       ///< It was not.
+    kNewton,        ///< A whole step of Newton, (N2).
+    kDampedNewton,  ///< A shortened step of Newton, (N3).
+    kBisection,     ///< The middle of the bracket, (N3) or paper (27).
+    kZero,          ///< μ = 0 was tried, (N4).
+    kPaperNewton,   ///< Paper (29).
+    kPaperRatio,    ///< Paper (31).
+    kBracketing,    ///< Doubling or halving in search of a bracket.
   };
+  /// One cycle of the episode, as this pass saw it.
   struct Unknown {
-    int contact = 0;
-    int number = 1;  ///< Place among the cycles of its contact.
-    double mu = 0;
-    double restitution_out = kNaN;
-    double restitution_in = kNaN;
-    double residual = kNaN;   ///< f = W_r/W_c + ε_in².
-    double bracket_low = 0;   ///< 0: none yet.
-    double bracket_high = 0;  ///< 0: none yet.
-    Update update = Update::kNothing;
+    int contact = 0;                   ///< Index in Scenario::contacts.
+    int number = 1;                    ///< Place among the cycles of its contact, from 1.
+    double mu = 0;                     ///< μ of the pass [N·s/mᵖ⁺¹], ≥ 0.
+    double restitution_out = kNaN;     ///< ε_out of the pass [-]; NaN if not real or not seen.
+    double restitution_in = kNaN;      ///< ε_in [-], in (0, 1]; NaN for a given μ.
+    double residual = kNaN;            ///< f = W_r/W_c + ε_in² [-], (P2).
+    double bracket_low = 0;            ///< Largest μ known to be too small; 0: none yet.
+    double bracket_high = 0;           ///< Smallest μ known to be too large; 0: none yet.
+    Update update = Update::kNothing;  ///< How μ was changed before the pass.
   };
-  int episode = 1;
-  int number = 0;  ///< Corrections made so far.
-  double start_time = 0;
-  bool accepted = false;
-  std::vector<Unknown> unknowns;
+  int episode = 1;                ///< Number of the episode, from 1.
+  int number = 0;                 ///< Corrections made before the pass, ≥ 0.
+  double start_time = 0;          ///< Start of the episode [s].
+  bool accepted = false;          ///< Whether this pass is the one recorded.
+  std::vector<Unknown> unknowns;  ///< In the order in which the cycles first appeared.
 };
 
 /// Samples of the accepted trajectory in time order, one row a sample:
 ///   t, then x, v of each body, then δ, δ̇, F, F_e of each contact.
 struct Samples {
-  std::int64_t first = 0;  ///< Index of the first row in the trajectory.
-  int columns = 0;         ///< 1 + 2·bodies + 4·contacts.
-  std::vector<double> values;
+  std::int64_t first = 0;      ///< Index of the first row in the trajectory, from 0.
+  int columns = 0;             ///< 1 + 2·bodies + 4·contacts.
+  std::vector<double> values;  ///< Row after row; [s], [m], [m/s], [N].
 
+  /// Number of rows.
   int rows() const { return columns == 0 ? 0 : static_cast<int>(values.size()) / columns; }
 };
 
+/// How far a run is.
 struct Progress {
-  double time = 0;
-  std::int64_t steps = 0;
-  std::int64_t cycles = 0;
-  std::int64_t iterations = 0;
+  double time = 0;              ///< Simulated time that is recorded [s].
+  std::int64_t steps = 0;       ///< Steps tried so far, in all passes.
+  std::int64_t cycles = 0;      ///< Cycles in the ledger so far.
+  std::int64_t iterations = 0;  ///< Corrections of μ so far.
 };
 
 /// How a run ended, and its balances.
 struct Outcome {
+  /// Why a run ended.
   enum class End {
-    kFinished,
+    kFinished,      ///< The end time is reached.
     kStopped,       ///< The stop token asked.
     kNumeric,       ///< A value stopped being finite, or the step vanished.
     kBudgetSteps,   ///< SolverOptions::max_steps.
     kNotConverged,  ///< Only with SolverOptions::fail_if_not_converged.
   };
-  End end = End::kFinished;
-  std::string message;  ///< Where and why, for every end but kFinished.
-  double time = 0;      ///< Simulated time reached [s].
-  bool all_converged = true;
-  std::vector<double> positions;   ///< At the end [m]; the last good ones of a run gone wrong.
-  std::vector<double> velocities;  ///< [m/s].
+  End end = End::kFinished;        ///< Why the run ended.
+  std::string message;             ///< Where and why, for every end but kFinished.
+  double time = 0;                 ///< Simulated time reached [s].
+  bool all_converged = true;       ///< No cycle is kNotConverged or kInfeasible.
+  std::vector<double> positions;   ///< At the end, or the last finite ones [m], for each body.
+  std::vector<double> velocities;  ///< At the end, or the last finite ones [m/s], for each body.
 
-  std::int64_t steps = 0;
-  std::int64_t evaluations = 0;
-  std::int64_t iterations = 0;
-  std::int64_t episodes = 0;
-  double worst_identity_residual = 0;
-  double momentum_residual = 0;
-  double energy_residual = 0;
-  double kinetic_energy = 0;
+  std::int64_t steps = 0;              ///< Steps tried, in all passes.
+  std::int64_t evaluations = 0;        ///< Evaluations of the equations of motion.
+  std::int64_t iterations = 0;         ///< Corrections of μ, in all episodes.
+  std::int64_t episodes = 0;           ///< Episodes recorded.
+  double worst_identity_residual = 0;  ///< Largest Cycle::identity_residual [-].
+  double momentum_residual = 0;        ///< Relative miss of the momentum balance [-], (B2).
+  double energy_residual = 0;          ///< Relative miss of the energy balance [-], (B1).
+  double kinetic_energy = 0;           ///< ½Σmv² at the end [J].
 };
 
 }  // namespace contact

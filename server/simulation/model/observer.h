@@ -9,21 +9,29 @@ namespace contact {
 
 struct RunState;
 
-/// Hears what a run does, in order, on the thread that runs it. What a call takes of time, the
-/// run waits.
+/// Receives what a run reports, in order, on the thread that runs it. The run waits for each call
+/// to return. A call may throw; the exception leaves Run or Resume.
 class Observer {
  public:
   virtual ~Observer() = default;
+  /// A pass of the search for μ has ended.
   virtual void OnIteration(const Iteration&) {}
-  virtual void OnCycle(const Cycle&) {}        ///< Accepted, in order of end time.
-  virtual void OnSamples(const Samples&) {}    ///< At most kSamplesPerChunk rows.
-  virtual void OnProgress(const Progress&) {}  ///< After each episode, and in between.
+  /// A cycle enters the ledger. Cycles come in the order of their end times.
+  virtual void OnCycle(const Cycle&) {}
+  /// The next rows of the recorded trajectory, 1 to kSamplesPerChunk of them.
+  virtual void OnSamples(const Samples&) {}
+  /// Called after each episode and now and then within one.
+  virtual void OnProgress(const Progress&) {}
+  /// A sentence for people, without full stop.
   virtual void OnWarning(const std::string&) {}
-  virtual void OnStep() {}  ///< Before each, rejected iterations' included.
-  /// Between two episodes: Resume could go on from here. `state` makes what it needs.
+  /// A step of the integrator begins, also in passes that are not recorded.
+  virtual void OnStep() {}
+  /// The run is between two episodes. `state` makes what Resume needs to go on from here; it is
+  /// valid during the call.
   virtual void OnBoundary(const std::function<RunState()>& /*state*/) {}
 };
 
+/// The most rows of Samples in one call of OnSamples.
 inline constexpr int kSamplesPerChunk = 256;
 
 }  // namespace contact

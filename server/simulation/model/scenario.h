@@ -15,7 +15,7 @@ inline constexpr int kNone = -1;  ///< "No body": the ground, or a wall.
 
 /// A sphere on the x axis.
 struct Body {
-  std::string name;
+  std::string name;     ///< Unique among bodies.
   double mass = 1;      ///< m [kg], > 0.
   double radius = 0;    ///< R [m], ≥ 0.
   double position = 0;  ///< x at t = 0 [m].
@@ -28,38 +28,38 @@ struct Body {
 ///   wall right   δ = x_i + R_i − b             right = kNone
 ///   wall left    δ = b − (x_j − R_j)           left = kNone
 struct Contact {
-  std::string name;
+  std::string name;          ///< Unique among contacts.
   int left = kNone;          ///< Body pushed to the left, or kNone for a wall there.
   int right = kNone;         ///< Body pushed to the right, or kNone for a wall there.
   double wall_position = 0;  ///< b [m]; only with a wall.
   double stiffness = 0;      ///< k [N/mⁿ], > 0.
   double exponent = 1.5;     ///< n [-], ≥ 1.
   double restitution = 1;    ///< ε_in [-], in (0, 1]. Not used by DampingLaw::kGiven.
-  DampingLaw damping = DampingLaw::kEnergyRestitution;
-  double mu = 0;  ///< μ [N·s/mⁿ⁺¹], ≥ 0. Only for DampingLaw::kGiven.
+  DampingLaw damping = DampingLaw::kEnergyRestitution;  ///< How μ is found.
+  double mu = 0;  ///< μ [N·s/mⁿ⁺¹], ≥ 0. Only used by DampingLaw::kGiven.
   /// Approach velocity from which a named law makes μ [m/s], > 0; 0: that of the cycle.
   double reference_velocity = 0;
 };
 
 /// A linear spring and damper: force on `body` −k (x − x_other − rest) − c (ẋ − ẋ_other).
 struct Support {
-  int body = 0;
-  int other = kNone;         ///< kNone: the ground, x_other = 0.
+  int body = 0;              ///< Index in Scenario::bodies.
+  int other = kNone;         ///< Index in Scenario::bodies; kNone: the ground, x_other = 0.
   double stiffness = 0;      ///< k [N/m], ≥ 0.
   double damping = 0;        ///< c [N·s/m], ≥ 0.
-  double rest_position = 0;  ///< [m].
+  double rest_position = 0;  ///< x − x_other without force [m].
 };
 
 /// A smooth piece of a force on a body that depends on time only: in begin ≤ t < end
 ///   F(t) = constant + slope (t − begin) + amplitude sin(ω (t − begin) + φ),
 /// else 0. Gravity is a constant m a; a table is a piece for each interval.
 struct Load {
-  int body = 0;
-  double begin = 0;                                      ///< [s], ≥ 0.
-  double end = std::numeric_limits<double>::infinity();  ///< [s].
-  double constant = 0;                                   ///< [N].
-  double slope = 0;                                      ///< [N/s].
-  double amplitude = 0;                                  ///< [N].
+  int body = 0;                                          ///< Index in Scenario::bodies.
+  double begin = 0;                                      ///< Begin of the piece [s], ≥ 0.
+  double end = std::numeric_limits<double>::infinity();  ///< End of the piece [s], > begin.
+  double constant = 0;                                   ///< Force at begin, without the sine [N].
+  double slope = 0;                                      ///< Change of that force [N/s].
+  double amplitude = 0;                                  ///< Amplitude of the sine [N].
   double angular_frequency = 0;                          ///< ω [rad/s], ≥ 0.
   double phase = 0;                                      ///< φ [rad].
 };
@@ -78,31 +78,36 @@ enum class PhaseSplit {
   kPeakForce,        ///< The largest F, as in the paper's Table 2. Not with kNewtonCoupled.
 };
 
+/// How a scenario is solved.
 struct SolverOptions {
   double fixed_step = 0;  ///< Step of the classical Runge-Kutta method [s]; 0: error control.
-  UpdateRule update = UpdateRule::kNewtonCoupled;
-  PhaseSplit phase_split = PhaseSplit::kPeakDeformation;
+  UpdateRule update = UpdateRule::kNewtonCoupled;         ///< How μ is corrected.
+  PhaseSplit phase_split = PhaseSplit::kPeakDeformation;  ///< Where compression ends.
   double relative_tolerance = 1e-11;    ///< Local error of a step, relative to the contact's scale.
-  double restitution_tolerance = 1e-8;  ///< ξ [-].
-  int max_iterations = 50;              ///< Corrections of μ in an episode.
-  /// Of the contact's largest W_c; below it a cycle is settled: one that begins with a collision,
+  double restitution_tolerance = 1e-8;  ///< ξ = |ε_out − ε_in|/ε_in that is accepted [-], > 0.
+  int max_iterations = 50;              ///< Most corrections of μ in an episode, ≥ 1.
+  /// A cycle that begins with a collision is settled, so not iterated, if its W_c is at most this
+  /// part of the largest W_c of its contact [-].
   double settled_fraction = 1e-9;
-  double settled_nirv_fraction = 1e-4;  ///< and one without initial relative velocity.
-  std::int64_t max_steps = 100'000'000;
-  bool fail_if_not_converged = false;
-  bool clip_tension = false;  ///< A contact force below 0 counts as 0.
+  /// The same part for a cycle without initial relative velocity [-].
+  double settled_nirv_fraction = 1e-4;
+  std::int64_t max_steps = 100'000'000;  ///< Steps after which a run ends, in all passes.
+  bool fail_if_not_converged = false;    ///< Whether a cycle without ε_in ends the run.
+  bool clip_tension = false;             ///< Whether a contact force below 0 counts as 0.
 };
 
+/// All that a run depends on. Indices in it are valid, and names unique.
 struct Scenario {
-  std::vector<Body> bodies;
-  std::vector<Contact> contacts;
-  std::vector<Support> supports;
-  std::vector<Load> loads;
-  SolverOptions solver;
-  double end_time = 0;         ///< [s], > 0.
-  double sample_interval = 0;  ///< [s], > 0; 0: record no trajectory.
+  std::vector<Body> bodies;       ///< At least one.
+  std::vector<Contact> contacts;  ///< May be none.
+  std::vector<Support> supports;  ///< May be none.
+  std::vector<Load> loads;        ///< May be none.
+  SolverOptions solver;           ///< How it is solved.
+  double end_time = 0;            ///< [s], > 0.
+  double sample_interval = 0;     ///< [s], > 0; 0: record no trajectory.
 };
 
+/// "Not known", for numbers.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace contact

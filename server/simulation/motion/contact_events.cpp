@@ -1,5 +1,6 @@
 #include "simulation/motion/contact_events.h"
 
+#include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
@@ -37,12 +38,25 @@ std::optional<double> FirstPositive(F f, double at_end, double from = 0) {
   return std::nullopt;
 }
 
+// Where touching bodies that are closer at the end of the step begin to close: at once, or, if they
+// part first, where they come back to the deformation at which they began.
+double StartOfClosing(const DeformationPath& path) {
+  const double level = std::max(0.0, path.start_value());
+  const auto above = [&](double theta) { return path.Value(theta) - level; };
+  for (int i = kPieces - 1; i > 0; --i) {
+    const double theta = static_cast<double>(i) / kPieces;
+    if (above(theta) <= 0) return Root(above, theta, static_cast<double>(i + 1) / kPieces);
+  }
+  return 0;
+}
+
 std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise) {
   // What plainly moves apart is not at rest; it may come back in the step.
   if (std::abs(path.start_value()) <= noise && path.start_slope() >= -noise) {
     if (path.end_value() <= noise) return std::nullopt;
-    const bool at_rest = path.start_slope() <= kFast * noise;
-    return ContactEvent{at_rest ? EventKind::kRestTouch : EventKind::kTouch, 0};
+    const double theta = StartOfClosing(path);
+    const bool at_rest = path.Slope(theta) <= kFast * noise;
+    return ContactEvent{at_rest ? EventKind::kRestTouch : EventKind::kTouch, theta};
   }
   const bool peaks = path.start_slope() > 0 && path.end_slope() < 0;
   if (path.end_value() <= noise && !peaks) return std::nullopt;

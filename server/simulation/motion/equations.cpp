@@ -342,8 +342,7 @@ double Equations::Momentum(const double* y) const {
 }
 
 double ElasticEnergy(const Contact& contact, double deformation) {
-  const Power p(deformation, contact.exponent);
-  return contact.stiffness * p.value * std::max(deformation, 0.0) / (contact.exponent + 1);
+  return ElasticEnergy(contact.stiffness, contact.exponent, deformation);
 }
 
 }  // namespace contact

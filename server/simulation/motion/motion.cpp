@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/model/window.h"
+
 namespace contact {
 namespace {
 
-// A stretch may hold every contact of a row that touches once, and some again; but no more
-// than can be solved together in bounded time and memory.
-constexpr int kMinCyclesInStretch = 16, kSpareCycles = 60, kMaxCyclesInStretch = 120;
 constexpr int kMaxEventsAtOnce = 1000;
 // What is this many times the error allowed is motion.
 constexpr double kResolved = 100;
@@ -79,8 +78,7 @@ Motion::Motion(const Scenario& scenario)
       error3_(2 * scenario.bodies.size()),
       tolerance_(scenario.solver.relative_tolerance),
       event_(scenario.contacts.size()),
-      max_cycles_(std::clamp(static_cast<int>(scenario.contacts.size()) + kSpareCycles,
-                             kMinCyclesInStretch, kMaxCyclesInStretch)) {}
+      max_cycles_(MostWindowCycles(scenario.contacts.size())) {}
 
 void Motion::Begin(const State& state, bool recording, double tolerance, int most_cycles) {
   const int n = equations_.bodies();

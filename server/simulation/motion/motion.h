@@ -74,6 +74,9 @@ class CycleHost {
   /// May change status and bookkeeping of `state`. `length` and `speed` are what Factor expects.
   virtual void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
                      const Eigen::ArrayXd& restitution_gradient, double length, double speed) = 0;
+  /// The cycle that OnStart heard of last for this contact has ended without duration or work: it
+  /// counts as none, and the next cycle of the contact has its number.
+  virtual void OnCancel(const ContactState& /*state*/) {}
   /// A step begins.
   virtual void OnStep() {}
 };
@@ -166,6 +169,7 @@ class Motion {
   void Turn(ContactState& state, double time, const Eigen::ArrayXd& y);
   double SplitAtPeakForce(ContactState& state) const;
   void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
+  void CancelCycle(ContactState& state, CycleHost& host);
   void ShiftAtJump(int contact, double sign);
   void ObserveForce(const ActiveContact& active);
   void KeepPeak(int contact, double theta);

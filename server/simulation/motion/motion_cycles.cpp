@@ -16,6 +16,12 @@ constexpr double kRestingScale = 1e-3;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
+// Whether a cycle that ends at `time` is none: it has no duration, or its compression did no work.
+bool DoesNothing(const ContactState& state, double time) {
+  const bool idle = state.phase == Phase::kRestitution && state.cycle.work_compression <= 0;
+  return idle || time == state.cycle.start_time;
+}
+
 }  // namespace
 
 void Motion::StartCycles(CycleHost& host, bool resting_only) {
@@ -149,10 +155,12 @@ void Motion::Apply(const Found& found, CycleHost& host) {
     case EventKind::kTurn:
       return;  // Dealt with inside the step.
     case EventKind::kSeparation:
-      EndCycle(state, Cycle::End::kSeparation, host);
-      return;
     case EventKind::kNonSeparation:
-      EndCycle(state, Cycle::End::kNonSeparation, host);
+      if (DoesNothing(state, time_)) return CancelCycle(state, host);
+      EndCycle(state,
+               found.event.kind == EventKind::kSeparation ? Cycle::End::kSeparation
+                                                          : Cycle::End::kNonSeparation,
+               host);
       return;
   }
 }
@@ -252,6 +260,20 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
   rk_.y0[equations_.work(cycle.contact)] = 0;
   if (equations_.recording) rk_.y0[equations_.external_work(cycle.contact)] = 0;
+  RefreshActive();
+}
+
+// Takes back a cycle that does nothing: a load parts touching bodies as their cycle begins. The
+// next step is shorter, so that it does not see the same again.
+void Motion::CancelCycle(ContactState& state, CycleHost& host) {
+  const int contact = state.cycle.contact;
+  host.OnCancel(state);
+  state.phase = state.cycle.start_deformation > 0 ? Phase::kStarting : Phase::kOpen;
+  --state.cycles;
+  rk_.y0[equations_.work(contact)] = 0;
+  if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
+  if (!state.settled) --cycles_in_stretch_;
+  next_step_ /= 2;
   RefreshActive();
 }
 

@@ -267,6 +267,7 @@ void Motion::Repeat(double h, bool parting) {
 
 // By how much the step must be longer to end on the event, to first order.
 double Motion::Correction(const Found& found) const {
+  if (found.event.kind == EventKind::kRestTouch) return 0;  // Known to within the noise.
   const int n = equations_.bodies();
   const double rate = equations_.Relative(found.contact, rk_.y1.data() + n);
   if (found.event.kind == EventKind::kNonSeparation) {

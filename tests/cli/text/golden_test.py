@@ -4,6 +4,7 @@ With the argument `update` the files are written anew; look at the difference be
 """
 
 import fcntl
+import json
 import os
 import pathlib
 import pty
@@ -95,8 +96,18 @@ class GoldenTest(CliTest):
         job = self.run_it("sweep", "run", TABLE3, "-o", "name")[0].strip()
         self.check("sweep", "sweep", "watch", job)
 
-    def test_model_list(self):
-        self.check("model-list", "model", "list")
+    def test_model_list_shows_every_law_once_within_the_width(self):
+        laws = json.loads(self.run_it("model", "list", "-o", "json")[0])
+        self.assertGreaterEqual(len(laws), 15)
+        for width in (40, 80, 200):
+            printed = re.sub(r"\x1b\[\d*m", "", self.on_terminal(width, "model", "list"))
+            lines = printed.replace("\r", "").splitlines()
+            self.assertLessEqual(max(map(len, lines)), width)
+            words = " ".join(printed.split())
+            for law in laws:
+                with self.subTest(law["law"], width=width):
+                    self.assertEqual(sum(law["law"] in line.split() for line in lines), 1)
+                    self.assertIn(law["formula"], words)
 
 
 if __name__ == "__main__":

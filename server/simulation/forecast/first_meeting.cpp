@@ -1,4 +1,4 @@
-#include "simulation/forecast/encounter.h"
+#include "simulation/forecast/first_meeting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,21 +7,21 @@
 namespace contact {
 namespace {
 
-// Two sides closer than this part of their coordinates touch.
+// Two sides touch if their gap is below this part of their coordinates.
 constexpr double kTouch = 1e-12;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
-// The forces on a body that follow from where it is and from the time alone.
+// The forces on a body that depend on its position and on time alone.
 struct Forces {
-  double constant = 0;   // Of loads that never end [N].
-  double stiffness = 0;  // Of supports to the ground [N/m],
-  double rest = 0;       // and their force at x = 0 [N].
-  double swinging = 0;   // Amplitudes of sines that never end [N].
-  double right = 0;      // The most that a load which ends pushes to the right [N],
-  double left = 0;       // and to the left,
-  double passing = 0;    // and for how long such loads act in all [s].
-  bool linked = false;   // A support to another body.
+  double constant = 0;   // Sum of the constant loads that never end [N].
+  double stiffness = 0;  // Sum of the supports to the ground [N/m].
+  double rest = 0;       // Force of these supports at x = 0 [N].
+  double swinging = 0;   // Sum of the amplitudes of the sines that never end [N].
+  double right = 0;      // Largest push to the right of the loads that end [N].
+  double left = 0;       // Largest push to the left of the loads that end [N].
+  double passing = 0;    // Total duration of the loads that end [s].
+  bool linked = false;   // Whether a support ties it to another body.
 };
 
 void Add(const Load& load, double end_time, Forces* forces) {
@@ -57,35 +57,34 @@ std::vector<Forces> ForcesOn(const Scenario& scenario) {
   return forces;
 }
 
-// The relative motion of the two sides of a contact before they meet. Toward each other is
-// positive:
-//   acceleration after closing by d = acceleration − stiffening · d.
+// The relative motion of the two sides of a contact before they meet, positive toward each other.
+// After closing by d the acceleration is `acceleration` − `stiffening` · d.
 struct Approach {
-  double gap = 0;
-  double speed = 0;
-  double acceleration = 0;
-  double stiffening = 0;  // κ = k/m of the support of the only side that moves [1/s²].
-  double inverse_mass = 0;
-  double swinging = 0;  // Accelerations as in Forces.
-  double passing = 0;
-  double passing_time = 0;
-  double touch = 0;  // A gap that counts as none [m].
-  bool known = true;
+  double gap = 0;           // Distance of the two sides at t = 0 [m], ≥ 0.
+  double speed = 0;         // Closing speed at t = 0 [m/s].
+  double acceleration = 0;  // Closing acceleration at t = 0 [m/s²], without swinging and passing.
+  double stiffening = 0;    // k/m of the support of the only side that moves [1/s²].
+  double inverse_mass = 0;  // 1/m_e [1/kg].
+  double swinging = 0;      // Amplitude of the acceleration by sines that never end [m/s²].
+  double passing = 0;       // Largest closing acceleration by loads that end [m/s²].
+  double passing_time = 0;  // Total duration of the loads that end [s].
+  double touch = 0;         // A gap up to this counts as none [m].
+  bool known = true;        // False where the motion depends on other bodies.
 };
 
 class Forecast {
  public:
   explicit Forecast(const Scenario& scenario) : scenario_(scenario), forces_(ForcesOn(scenario)) {}
 
-  std::optional<Encounter> Of(const Contact& contact) const {
+  std::optional<FirstMeeting> Of(const Contact& contact) const {
     const Approach approach = ApproachOf(contact);
     if (!approach.known) return std::nullopt;
-    Encounter encounter{
+    FirstMeeting meeting{
         .swing = approach.stiffening > 0 ? std::numbers::pi / std::sqrt(approach.stiffening) : 0,
         .driven = approach.swinging > 0};
     const bool touching = approach.gap <= approach.touch;
-    if (touching && approach.speed == 0) return Pressed(contact, approach, encounter);
-    return Impact(contact, approach, encounter);
+    if (touching && approach.speed == 0) return Pressed(contact, approach, meeting);
+    return Impact(contact, approach, meeting);
   }
 
  private:
@@ -126,34 +125,35 @@ class Forecast {
 
   bool Moves(int index) const { return index != kNone && !scenario_.bodies[At(index)].fixed; }
 
-  std::optional<Encounter> Pressed(const Contact& contact, const Approach& approach,
-                                   Encounter encounter) const {
+  std::optional<FirstMeeting> Pressed(const Contact& contact, const Approach& approach,
+                                      FirstMeeting meeting) const {
     const double steady = approach.acceleration + approach.swinging;
     const double most = approach.acceleration + std::max(approach.swinging, approach.passing);
     if (most <= 0) return std::nullopt;
-    encounter.push = approach.acceleration;
-    encounter.duration = SwingPeriod(1 / approach.inverse_mass, most / approach.inverse_mass,
-                                     contact.stiffness, contact.exponent);
-    encounter.pressed = steady > 0 ? scenario_.end_time : approach.passing_time;
-    return encounter;
+    meeting.push = approach.acceleration;
+    meeting.duration = SwingPeriod(1 / approach.inverse_mass, most / approach.inverse_mass,
+                                   contact.stiffness, contact.exponent);
+    meeting.pressed = steady > 0 ? scenario_.end_time : approach.passing_time;
+    return meeting;
   }
 
-  // By the energy that closing the gap brings. Who moves away must be drawn back.
-  std::optional<Encounter> Impact(const Contact& contact, const Approach& approach,
-                                  Encounter encounter) const {
+  // The speed of impact from the energy gained while the gap closes. Sides that move apart meet
+  // only if an acceleration draws them back.
+  std::optional<FirstMeeting> Impact(const Contact& contact, const Approach& approach,
+                                     FirstMeeting meeting) const {
     const double w = approach.speed;
     if (w <= 0 && approach.acceleration <= 0) return std::nullopt;
     const double squared = w * w + 2 * approach.acceleration * approach.gap -
                            approach.stiffening * approach.gap * approach.gap;
     if (!(squared > 0)) return std::nullopt;
-    encounter.speed = std::sqrt(squared);
-    encounter.start = w > 0 ? 2 * approach.gap / (w + encounter.speed)
-                            : (encounter.speed - w) / approach.acceleration;
-    if (!(encounter.start < scenario_.end_time)) return std::nullopt;
-    encounter.push = approach.acceleration - approach.stiffening * approach.gap;
-    encounter.duration = ImpactDuration(1 / approach.inverse_mass, encounter.speed,
-                                        contact.stiffness, contact.exponent);
-    return encounter;
+    meeting.speed = std::sqrt(squared);
+    meeting.start = w > 0 ? 2 * approach.gap / (w + meeting.speed)
+                          : (meeting.speed - w) / approach.acceleration;
+    if (!(meeting.start < scenario_.end_time)) return std::nullopt;
+    meeting.push = approach.acceleration - approach.stiffening * approach.gap;
+    meeting.duration = ImpactDuration(1 / approach.inverse_mass, meeting.speed, contact.stiffness,
+                                      contact.exponent);
+    return meeting;
   }
 
   const Scenario& scenario_;
@@ -174,12 +174,12 @@ double SwingPeriod(double effective_mass, double force, double stiffness, double
   return 2 * std::numbers::pi * std::sqrt(effective_mass * deformation / (exponent * force));
 }
 
-std::vector<std::optional<Encounter>> Foresee(const Scenario& scenario) {
+std::vector<std::optional<FirstMeeting>> ForecastFirstMeetings(const Scenario& scenario) {
   const Forecast forecast(scenario);
-  std::vector<std::optional<Encounter>> encounters;
-  encounters.reserve(scenario.contacts.size());
-  for (const Contact& contact : scenario.contacts) encounters.push_back(forecast.Of(contact));
-  return encounters;
+  std::vector<std::optional<FirstMeeting>> meetings;
+  meetings.reserve(scenario.contacts.size());
+  for (const Contact& contact : scenario.contacts) meetings.push_back(forecast.Of(contact));
+  return meetings;
 }
 
 }  // namespace contact

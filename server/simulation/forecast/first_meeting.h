@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "simulation/model/scenario.h"
+
+namespace contact {
+
+/// Forecast of how the two sides of a contact first meet. It follows from velocities, gaps,
+/// supports to the ground and loads; what other contacts do is not known.
+struct FirstMeeting {
+  double start = 0;     ///< Time of the meeting [s], ≥ 0.
+  double speed = 0;     ///< Speed of the impact [m/s], ≥ 0; 0: they touch at rest under a load.
+  double duration = 0;  ///< Duration of an elastic impact, or of a swing about the load [s], > 0.
+  double push = 0;      ///< Acceleration that closes the contact when they meet [m/s²].
+  double swing = 0;     ///< Half a period of the support that carries them [s]; 0: no support.
+  double pressed = 0;   ///< If speed is 0: for how long a load presses them together [s]; else 0.
+  bool driven = false;  ///< Whether a sine load that never ends acts on one of the two.
+};
+
+/// The forecast for each contact, in the order of Scenario::contacts. Empty where nothing known
+/// brings the two sides together before the end of the run.
+std::vector<std::optional<FirstMeeting>> ForecastFirstMeetings(const Scenario& scenario);
+
+/// Duration of an elastic impact [s], of two sides with m_e [kg] that meet at v [m/s] > 0:  (T1)
+///   T = 2 (δ_m/v) ∫₀¹ dξ/√(1 − ξ^{n+1}) = 2 (δ_m/v) √π Γ(1 + 1/(n+1))/Γ(½ + 1/(n+1)),
+/// with δ_m = [(n+1) m_e v²/(2k)]^{1/(n+1)}. For n = 1.5 it is Hertz's 2.9433 δ_m/v.
+double ImpactDuration(double effective_mass, double speed, double stiffness, double exponent);
+
+/// Period 2π/ω [s] of the small swing about a constant load F [N] > 0:                     (T2)
+///   k δ_eqⁿ = F, ω² = n k δ_eqⁿ⁻¹/m_e.
+double SwingPeriod(double effective_mass, double force, double stiffness, double exponent);
+
+}  // namespace contact

@@ -1,0 +1,210 @@
+#include "simulation/forecast/run_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "simulation/forecast/first_meeting.h"
+#include "simulation/model/observer.h"
+#include "simulation/model/window.h"
+
+namespace contact {
+namespace {
+
+// Steps of a cycle with error control, in a pass at 1e-11 and in one at the 1e-6 that corrections
+// begin with: of an isolated collision and of the scenarios that are shipped.
+constexpr double kExactSteps = 45;
+constexpr double kCoarseSteps = 25;
+// Passes through a cycle: the recording one, and those that look for μ.
+constexpr double kImpactPasses = 3;
+constexpr double kPressedPasses = 4;
+
+// Of a worker in a release build on a core of an AMD EPYC: simulation_benchmark's Row (a ball costs
+// 0.11 µs in a step with error control), Solve and PaperProcess (1.1 and 0.38 µs for a step of
+// three balls); and bouncing-ball.yaml, with its 60 000 samples of seven values, without, and by
+// RK4.
+constexpr double kStepSeconds = 0.5e-6;
+constexpr double kBodySeconds = 0.2e-6;   // A body with a contact, in a step.
+constexpr double kFixedStepShare = 0.45;  // Four evaluations instead of twelve.
+constexpr double kValueSeconds = 0.1e-6;  // Of a sample: interpolated, encoded and stored.
+
+constexpr double kChunkRows = kSamplesPerChunk;  // Samples in an event.
+constexpr double kColumnBytes = 60;    // Name, quantity and unit of a column, in such an event.
+constexpr double kCycleBytes = 300;    // A row of the ledger as an event.
+constexpr double kUnknownBytes = 110;  // A cycle in a row of the iteration.
+constexpr double kLogBytes = 600;      // States, attempt and progress of any job.
+constexpr double kStages = 13;         // Slopes that a step of the integrator holds.
+
+// Cycles until one has but this fraction of the first one's work, of which each leaves ε².
+double CyclesToRest(double restitution, double fraction) {
+  if (restitution >= 1 || fraction <= 0) return std::numeric_limits<double>::infinity();
+  return 1 + std::log(fraction) / (2 * std::log(restitution));
+}
+
+// The number n of impacts that begin by `time` after the first, whose flights fall off as ε^m:
+//   n T + f (1 − ε^n)/(1 − ε) = time.
+double Bounces(double time, double duration, double flight, double restitution) {
+  double low = 0;
+  double high = time / duration;
+  for (int i = 0; i < 60; ++i) {
+    const double n = (low + high) / 2;
+    const double flights =
+        restitution >= 1 ? n * flight : flight * (1 - std::pow(restitution, n)) / (1 - restitution);
+    (n * duration + flights > time ? high : low) = n;
+  }
+  return low;
+}
+
+// Cycles of one contact, and the time that they take in all.
+struct Cycles {
+  double count = 0;
+  double time = 0;
+  double passes = 1;
+};
+
+bool Iterated(const Contact& contact) {
+  return contact.damping == DampingLaw::kEnergyRestitution && contact.restitution < 1;
+}
+
+Cycles CyclesOf(const Scenario& scenario, const Contact& contact, const FirstMeeting& meeting) {
+  const double rest = meeting.driven
+                          ? std::numeric_limits<double>::infinity()
+                          : CyclesToRest(contact.restitution,
+                                         meeting.speed > 0 ? scenario.solver.settled_fraction
+                                                           : scenario.solver.settled_nirv_fraction);
+  Cycles cycles;
+  if (meeting.speed == 0) {
+    cycles.count = meeting.pressed / meeting.duration;
+  } else if (meeting.push > 0) {
+    double flight = 2 * contact.restitution * meeting.speed / meeting.push;
+    if (meeting.swing > 0) flight = std::min(flight, meeting.swing);
+    const double left = scenario.end_time - meeting.start;
+    cycles.count = 1 + Bounces(left, meeting.duration, flight, contact.restitution);
+  } else {
+    cycles.count = 1;
+  }
+  cycles.count = std::max(1.0, std::min(cycles.count, rest));
+  cycles.time = std::min(cycles.count * meeting.duration, scenario.end_time);
+  if (Iterated(contact)) cycles.passes = meeting.speed > 0 ? kImpactPasses : kPressedPasses;
+  return cycles;
+}
+
+// Of all contacts. Those of which nothing is known, such as the inner ones of a row, are taken to
+// be like the others on average; where nothing is known of any there is only free flight.
+std::vector<Cycles> Expect(const Scenario& scenario) {
+  std::vector<Cycles> all;
+  const auto meetings = ForecastFirstMeetings(scenario);
+  double count = 0;
+  double time = 0;
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    if (!meetings[i]) continue;
+    all.push_back(CyclesOf(scenario, scenario.contacts[i], *meetings[i]));
+    count += all.back().count;
+    time += all.back().time;
+  }
+  if (all.empty()) return all;
+  const auto known = static_cast<double>(all.size());
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    if (meetings[i]) continue;
+    all.push_back({.count = count / known,
+                   .time = time / known,
+                   .passes = Iterated(scenario.contacts[i]) ? kImpactPasses : 1});
+  }
+  return all;
+}
+
+// The fastest load or support, of which no step takes more than half a radian [1/s].
+double Rate(const Scenario& scenario) {
+  double rate = 0;
+  for (const Load& load : scenario.loads) {
+    if (load.amplitude != 0) rate = std::max(rate, load.angular_frequency);
+  }
+  for (const Support& support : scenario.supports) {
+    double inverse = 1 / scenario.bodies[static_cast<std::size_t>(support.body)].mass;
+    if (support.other != kNone) {
+      inverse += 1 / scenario.bodies[static_cast<std::size_t>(support.other)].mass;
+    }
+    rate = std::max({rate, std::sqrt(support.stiffness * inverse), support.damping * inverse});
+  }
+  return rate;
+}
+
+//   fixed step      end/step, and for each pass that looks for μ the time in cycles once more;
+//   error control   the steps of each cycle's passes, and those of the time beside.
+double Steps(const Scenario& scenario, const std::vector<Cycles>& cycles) {
+  const double step = scenario.solver.fixed_step;
+  double steps = step > 0 ? scenario.end_time / step : 1 + 2 * scenario.end_time * Rate(scenario);
+  if (step > 0) {
+    double again = 0;  // They overlap in time, and are solved together then.
+    double passes = 1;
+    for (const Cycles& c : cycles) {
+      again += c.time;
+      passes = std::max(passes, c.passes);
+    }
+    return steps + (passes - 1) * std::min(again, scenario.end_time) / step;
+  }
+  for (const Cycles& c : cycles) steps += c.count * (kExactSteps + (c.passes - 1) * kCoarseSteps);
+  return steps;
+}
+
+double Columns(const Scenario& scenario) {
+  return 1 + 2 * static_cast<double>(scenario.bodies.size()) +
+         4 * static_cast<double>(scenario.contacts.size());
+}
+
+double Rows(const Scenario& scenario) {
+  if (scenario.sample_interval == 0) return 0;
+  return 1 + std::floor(scenario.end_time / scenario.sample_interval * (1 + 1e-12));
+}
+
+// What they take as events, headers of chunks included.
+double SampleBytes(const Scenario& scenario) {
+  const double samples = Rows(scenario);
+  return Columns(scenario) *
+         (samples * sizeof(double) + std::ceil(samples / kChunkRows) * kColumnBytes);
+}
+
+double LedgerBytes(const std::vector<Cycles>& cycles) {
+  double bytes = kLogBytes;
+  for (const Cycles& c : cycles) bytes += c.count * (kCycleBytes + c.passes * kUnknownBytes);
+  return bytes;
+}
+
+// The slopes of a step with their sensitivities to each unknown μ, a chunk of samples, the ledger.
+double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles) {
+  double unknowns = 0;
+  double ledger = 0;
+  for (const Cycles& c : cycles) {
+    if (c.passes > 1) unknowns += c.count;
+    ledger += c.count * kCycleBytes;
+  }
+  const double state = 2 * static_cast<double>(scenario.bodies.size()) +
+                       5 * static_cast<double>(scenario.contacts.size());
+  const double columns = std::min<double>(unknowns, MostWindowCycles(scenario.contacts.size()));
+  return sizeof(double) * (kStages * state * (1 + columns) + 2 * kChunkRows * Columns(scenario)) +
+         ledger;
+}
+
+double SolveSeconds(const Scenario& scenario, double steps) {
+  const auto parts = static_cast<double>(scenario.bodies.size() + scenario.contacts.size());
+  const double share = scenario.solver.fixed_step > 0 ? kFixedStepShare : 1;
+  return share * steps * (kStepSeconds + kBodySeconds * parts / 2);
+}
+
+}  // namespace
+
+RunEstimate EstimateRunOf(const Scenario& scenario) {
+  const std::vector<Cycles> cycles = Expect(scenario);
+  RunEstimate estimate;
+  estimate.steps = Steps(scenario, cycles);
+  estimate.samples = Rows(scenario);
+  estimate.sample_bytes = SampleBytes(scenario);
+  estimate.ledger_bytes = LedgerBytes(cycles);
+  estimate.memory_bytes = Memory(scenario, cycles);
+  estimate.sample_seconds = kValueSeconds * estimate.samples * Columns(scenario);
+  estimate.solve_seconds = SolveSeconds(scenario, estimate.steps);
+  return estimate;
+}
+
+}  // namespace contact
