@@ -116,6 +116,17 @@ TEST(AdminServiceTest, BackupDoesNotHoldUpTheShutdown) {
   EXPECT_FALSE(stalled.ReadAll().ok());
 }
 
+TEST(AdminServiceTest, CallsAreRefusedPastTheLimitsOfAllCalls) {
+  TestServer server({.calls = {.max_metadata_bytes = 1024}});
+  const auto stub = v1::AdminService::NewStub(server.Connect());
+  grpc::ClientContext context;
+  context.AddMetadata("long", std::string(1000, 'x'));
+  const auto reader = stub->Backup(&context, v1::BackupRequest());
+  v1::BackupChunk chunk;
+  EXPECT_FALSE(reader->Read(&chunk));
+  EXPECT_EQ(Reason(reader->Finish()), "METADATA_TOO_LARGE");
+}
+
 // Values from RFC 3720, B.4, and FIPS 180-4's example.
 TEST(DigestTest, ChecksumsAreTheOnesNamedInTheContract) {
   EXPECT_EQ(Crc32c(std::string(32, '\0')), 0x8A9136AAU);
