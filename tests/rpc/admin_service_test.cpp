@@ -116,15 +116,14 @@ TEST(AdminServiceTest, BackupDoesNotHoldUpTheShutdown) {
   EXPECT_FALSE(stalled.ReadAll().ok());
 }
 
-TEST(AdminServiceTest, CallsAreRefusedPastTheLimitsOfAllCalls) {
-  TestServer server({.calls = {.max_metadata_bytes = 1024}});
-  const auto stub = v1::AdminService::NewStub(server.Connect());
-  grpc::ClientContext context;
-  context.AddMetadata("long", std::string(1000, 'x'));
-  const auto reader = stub->Backup(&context, v1::BackupRequest());
-  v1::BackupChunk chunk;
-  EXPECT_FALSE(reader->Read(&chunk));
-  EXPECT_EQ(Reason(reader->Finish()), "METADATA_TOO_LARGE");
+TEST(AdminServiceTest, BackupCountsAsAStreamOfItsPeer) {
+  TestServer server({.calls = {.max_watchers_per_peer = 1}});
+  Fill(server);
+  BackupStream first(server);
+  ReadFirst(first);
+  const grpc::Status refused = BackupStream(server).ReadAll();
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(Reason(refused), "WATCHER_LIMIT");
 }
 
 // Values from RFC 3720, B.4, and FIPS 180-4's example.

@@ -4,8 +4,9 @@
 #include <grpcpp/impl/codegen/proto_utils.h>
 #include <gtest/gtest.h>
 
-#include <deque>
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,8 +47,10 @@ class WatchSourceTest : public testing::Test {
   WatchSourceTest() {
     auto cursor = std::make_unique<FakeCursor>();
     cursor_ = cursor.get();
-    JobManager::Watched watched{.cursor = std::move(cursor), .bookmark_interval = 10s};
+    JobManager::Watched watched;
     watched.snapshot.set_name("jobs/a");
+    watched.cursor = std::move(cursor);
+    watched.bookmark_interval = 10s;
     source_ = MakeWatchSource(std::move(watched), "jobs/a", clock_, metrics_);
   }
 
