@@ -29,8 +29,8 @@ def defaults_of_help():
     """{flag: default} of `contactd --help`."""
     text = subprocess.run([os.environ["CONTACTD"], "--help"], check=True, text=True,
                           stdout=subprocess.PIPE).stdout
-    found = re.findall(r"(--[a-z-]+) [^\n]*?\[([\d.e+]+)(s?)\]", text)
-    return {flag: float(value) for flag, value, _ in found}
+    found = re.findall(r"(--[a-z-]+) [^\n]*=([\d.e+]+)s? \(Env", text)
+    return {flag: float(value) for flag, value in found}
 
 
 def sources():
