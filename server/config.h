@@ -22,12 +22,12 @@ enum ExitCode : int {
   kExitHeld = 3,     ///< Another process holds the data directory or the address.
 };
 
-/// What contactd was asked to do, checked.
+/// The settings of contactd, checked.
 struct Config {
   std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
   std::string metrics_listen;             ///< HOST:PORT of the metrics; empty: none.
-  std::filesystem::path data_dir;
-  std::filesystem::path port_file;  ///< Receives the port; empty: none.
+  std::filesystem::path data_dir;         ///< Directory of jobs and results; made if missing.
+  std::filesystem::path port_file;        ///< File to write the port to; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;
   bool fsck = false;  ///< Check the data directory and end.
   LogFormat log_format = LogFormat::kText;
@@ -36,11 +36,10 @@ struct Config {
   GrpcServerOptions rpc;
 };
 
-/// Why there is nothing to do: the code to exit with, and what to print first, on stdout if the
-/// code is 0 and on stderr otherwise.
+/// Why the program ends at once.
 struct Exit {
-  int code;
-  std::string text;
+  int code;          ///< An ExitCode.
+  std::string text;  ///< To print before: on stdout if the code is 0, on stderr otherwise.
 };
 
 /// Reads the flags. Each is also an environment variable (`--data-dir` is CONTACTD_DATA_DIR) and a

@@ -4,15 +4,16 @@
 
 namespace contact {
 
+/// Form of the lines of the log.
 enum class LogFormat {
-  kText,  ///< Time, level, message.
-  kJson,  ///< The same, one object a line.
+  kText,  ///< Time, level and message, separated by spaces.
+  kJson,  ///< A JSON object with `time`, `level` and `message`.
 };
 
-/// Makes the log of the process, which goes to stderr.
+/// Makes the default logger of the process, which writes to stderr. To be called once.
 void SetUpLog(spdlog::level::level_enum level, LogFormat format);
 
-/// Gives a log the format.
+/// Gives a logger the format.
 void SetFormat(LogFormat format, spdlog::logger* log);
 
 }  // namespace contact

@@ -8,13 +8,13 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <system_error>
 
 #include "base/clock.h"
 #include "base/ids.h"
+#include "base/replace_file.h"
 #include "config.h"
 #include "jobs/job_manager.h"
 #include "log.h"
@@ -30,10 +30,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Time for open calls to end. The whole shutdown must stay below 5 s.
+// Time that open calls get to end. The whole shutdown must take less than 5 s.
 constexpr auto kGrace = 2s;
 
-// Blocked in all threads, for WaitFor to take. Must come before the first thread.
+// Blocks the signals that WaitFor waits for. Must be called before the first thread starts, because
+// threads inherit the mask.
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -44,8 +45,8 @@ sigset_t BlockSignals() {
   return signals;
 }
 
-// Frames and messages come and go in buffers of up to a megabyte, on many threads. By default glibc
-// gives each back to the system at once, and gets it anew page by page.
+// Lets glibc keep freed buffers of up to 8 MiB. By default it returns buffers of a megabyte, such
+// as those of frames and messages, to the system at once and faults them in again page by page.
 void KeepBuffers() {
   constexpr int kMostKept = 8 << 20;  // Free bytes, of an arena.
   mallopt(M_TRIM_THRESHOLD, kMostKept);
@@ -59,7 +60,7 @@ int WaitFor(const sigset_t& signals) {
   return signal;
 }
 
-// Once the disk has failed nothing can be promised any more, so nothing goes on.
+// Ends the process: after a failed write the store can no longer acknowledge anything.
 void EndAfterDiskFailure(const absl::Status& status) {
   spdlog::critical("the store failed: {}", std::string(status.message()));
   std::_Exit(kExitInternal);
@@ -75,17 +76,8 @@ v1::ServerInfo Identity(const Config& config) {
   return identity;
 }
 
-// Written beside it and renamed, so that nobody reads half a number.
-bool WritePort(const std::filesystem::path& file, int port) {
-  const std::filesystem::path draft = file.string() + ".new";
-  std::ofstream(draft) << port << '\n';
-  std::error_code error;
-  std::filesystem::rename(draft, file, error);
-  return !error;
-}
-
 bool Announce(const Config& config, int port) {
-  if (!config.port_file.empty() && !WritePort(config.port_file, port)) {
+  if (!config.port_file.empty() && ReplaceFile(config.port_file, fmt::format("{}\n", port))) {
     fmt::print(stderr, "contactd: cannot write --port-file {}\n", config.port_file.string());
     return false;
   }
@@ -97,7 +89,7 @@ bool Announce(const Config& config, int port) {
   return true;
 }
 
-// Says what cannot be done with the data directory, and gives the code for it.
+// Prints why the data directory cannot be used. Returns the exit code.
 int Refuse(const absl::Status& status) {
   fmt::print(stderr, "contactd: {}\n", std::string(status.message()));
   return absl::IsUnavailable(status) ? kExitHeld : kExitUsage;
@@ -112,7 +104,7 @@ int CheckData(const std::filesystem::path& directory) {
   return report->findings == 0 ? kExitOk : kExitDamaged;
 }
 
-// The database with its log; 0 while they cannot be looked at.
+// Size of the database with its write-ahead log; a file that cannot be read counts 0.
 std::int64_t StoredBytes(const std::filesystem::path& data_dir) {
   std::int64_t bytes = 0;
   for (const char* file : {"contactd.db", "contactd.db-wal"}) {
@@ -138,7 +130,7 @@ MetricsSources Sources(const Config& config, const StoreOptions& store, const Jo
   return {now, config.jobs.metrics, store.metrics, server.metrics(), server.stream_metrics()};
 }
 
-// Serves the metrics if they are asked for. False: the address cannot be had.
+// Serves the metrics if --metrics-listen is given. False: the address cannot be had.
 bool ServeMetrics(const Config& config, MetricsSources sources,
                   std::unique_ptr<MetricsServer>* metrics) {
   if (config.metrics_listen.empty()) return true;
@@ -152,7 +144,7 @@ bool ServeMetrics(const Config& config, MetricsSources sources,
   return true;
 }
 
-// Serves until a signal comes, and cleans up.
+// Serves until a signal comes, then shuts down. Returns the exit code.
 int Serve(const Config& config, const sigset_t& signals) {
   StoreOptions options = config.store;
   options.on_failure = EndAfterDiskFailure;

@@ -5,9 +5,10 @@
 
 #include <chrono>
 #include <map>
-#include <mutex>
 #include <string_view>
 #include <utility>
+
+#include "base/mutex.h"
 
 namespace contact {
 namespace {
@@ -50,16 +51,17 @@ spdlog::level::level_enum Level(gpr_log_severity severity) {
     case GPR_LOG_SEVERITY_ERROR:
       break;
   }
-  return spdlog::level::warn;  // What is an error to gRPC is a bad peer to us.
+  return spdlog::level::warn;  // gRPC calls it an error; the cause is a bad peer.
 }
 
-// A place in gRPC's source. Each has its budget, so that a loud one does not drown the others.
+// A place in gRPC's source: file and line. Each has a budget of its own, so that frequent lines of
+// one do not suppress those of the others.
 using Site = std::pair<std::string_view, int>;
 
 LineBudget::Verdict TakeOf(const Site& site) {
-  static std::mutex mutex;
-  static std::map<Site, LineBudget> budgets;
-  const std::lock_guard lock(mutex);
+  static Mutex mutex;
+  static std::map<Site, LineBudget> budgets ABSL_GUARDED_BY(mutex);
+  const MutexLock lock(mutex);
   return budgets[site].Take();
 }
 

@@ -7,17 +7,14 @@
 #include <grpcpp/resource_quota.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <condition_variable>
 #include <cstdlib>
-#include <functional>
-#include <mutex>
-#include <thread>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "rpc/metrics/call_monitor.h"
 #include "rpc/net/listener.h"
+#include "rpc/shutdown_timer.h"
 
 namespace contact {
 namespace {
@@ -38,72 +35,55 @@ class Without final : public grpc::ServerBuilderOption {
   const std::string plugin_;
 };
 
-constexpr int kMaxGrpcThreads = 32;
-
-void Configure(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
+void LimitMemory(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
+  constexpr int kMaxGrpcThreads = 32;
   builder->SetResourceQuota(grpc::ResourceQuota("contactd")
                                 .Resize(static_cast<std::size_t>(options.max_memory_bytes))
                                 .SetMaxThreads(kMaxGrpcThreads));
   builder->SetMaxReceiveMessageSize(options.max_message_bytes);
+  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, options.calls.max_metadata_bytes);
+  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 1000);
   // A few compressed bytes must not become hundreds of megabytes.
   builder->SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
   builder->SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
-  // Two servers on one port would share its connections without a word.
-  builder->AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 1000);
-  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, options.calls.max_metadata_bytes);
+}
+
+// When connections are probed and closed. There is no largest age: it would cut every long watch,
+// and there is no load balancer that needs it.
+void TimeConnections(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
   builder->AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS,
                               static_cast<int>(options.handshake_timeout.count()));
-  // Idle watches are probed. A client of gRPC's synchronous kind answers pings only every 5 s
-  // while it is busy, so 10 s would be near, and 20 s is not.
+  // Idle watches are probed. A busy client with gRPC's synchronous interface answers a ping only
+  // every 5 s, so a timeout of 10 s would be too close, and 20 s is not.
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 10'000);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MAX_PING_STRIKES, 2);
-  // No largest age: it would cut every long watch, and there is no balancer to please.
   builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, 300'000);
+}
+
+// The services beside the contract's.
+void ChoosePlugins(const GrpcServerOptions& options, grpc::ServerBuilder* builder) {
   builder->AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, options.channelz ? 1 : 0);
   if (!options.reflection) builder->SetOption(std::make_unique<Without>("proto_server_reflection"));
   if (!options.channelz) builder->SetOption(std::make_unique<Without>("channelz_service"));
 }
 
-// Does what is needed to be destroyed in time: first `urge`, then end the process.
-class Watchdog {
- public:
-  Watchdog(milliseconds patience, std::function<void()> urge, milliseconds limit)
-      : thread_([this, patience, urge = std::move(urge), limit] { Watch(patience, urge, limit); }) {
-  }
-  ~Watchdog() {
-    {
-      const std::lock_guard lock(mutex_);
-      done_ = true;
-      changed_.notify_one();
-    }
-    thread_.join();
-  }
-  Watchdog(const Watchdog&) = delete;
-  Watchdog& operator=(const Watchdog&) = delete;
+// Counts all calls in `metrics`, and the open streams of each peer in `streams`.
+void Monitor(std::shared_ptr<RpcMetrics> metrics, std::shared_ptr<PeerCounts> streams,
+             grpc::ServerBuilder* builder) {
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> monitors;
+  monitors.push_back(std::make_unique<CallMonitor>(std::move(metrics), std::move(streams)));
+  builder->experimental().SetInterceptorCreators(std::move(monitors));
+}
 
- private:
-  void Watch(milliseconds patience, const std::function<void()>& urge, milliseconds limit) {
-    const auto begin = std::chrono::steady_clock::now();
-    std::unique_lock lock(mutex_);
-    if (changed_.wait_until(lock, begin + patience, [this] { return done_; })) return;
-    urge();
-    if (changed_.wait_until(lock, begin + limit, [this] { return done_; })) return;
-    spdlog::critical("gRPC did not shut down in {} ms; ending the process", limit.count());
-    std::_Exit(1);
-  }
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool done_ = false;
-  std::thread thread_;
-};
-
-constexpr char kUnix[] = "unix:";
+Listener OpenListener(const std::string& address) {
+  constexpr std::string_view kUnix = "unix:";
+  return address.starts_with(kUnix) ? OpenFileListener(address.substr(kUnix.size()))
+                                    : OpenTcpListener(address);
+}
 
 GrpcServerOptions Fitted(GrpcServerOptions options) {
   options.connections = FitToDescriptors(options.connections);
@@ -125,13 +105,14 @@ v1::ServerInfo WithLimits(v1::ServerInfo identity, const GrpcServerOptions& opti
 
 }  // namespace
 
-GrpcServer::GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity)
+GrpcServer::GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity,
+                       const Clock& clock)
     : options_(Fitted(options)),
-      watches_(std::make_shared<WatchLoop>(std::clamp(options.write_stall / 4, 10ms, 500ms))),
-      guard_(options_.calls, streams_, metrics_),
-      service_(jobs, watches_, guard_, WithLimits(std::move(identity), options_),
-               options.write_stall),
-      admin_(jobs, options.write_stall) {}
+      loop_(std::make_shared<StreamLoop>(clock, options.write_stall)),
+      guard_(options_.calls, streams_, metrics_, clock),
+      calls_(guard_, loop_),
+      jobs_(jobs, calls_, WithLimits(std::move(identity), options_)),
+      admin_(jobs, calls_) {}
 
 GrpcServer::~GrpcServer() { Shutdown(1s); }
 
@@ -140,16 +121,13 @@ std::optional<int> GrpcServer::Start(const std::string& address) {
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   if (options_.channelz) grpc::channelz::experimental::InitChannelzService();
   grpc::ServerBuilder builder;
-  builder.RegisterService(&service_);
+  builder.RegisterService(&jobs_);
   builder.RegisterService(&admin_);
-  Configure(options_, &builder);
-  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> monitors;
-  monitors.push_back(std::make_unique<CallMonitor>(metrics_, streams_));
-  builder.experimental().SetInterceptorCreators(std::move(monitors));
-  const auto port =
-      Listen(address.starts_with(kUnix) ? OpenFileListener(address.substr(sizeof(kUnix) - 1))
-                                        : OpenTcpListener(address),
-             builder);
+  LimitMemory(options_, &builder);
+  TimeConnections(options_, &builder);
+  ChoosePlugins(options_, &builder);
+  Monitor(metrics_, streams_, &builder);
+  const auto port = Listen(OpenListener(address), builder);
   if (!port) return std::nullopt;
   server_->GetHealthCheckService()->SetServingStatus("contact.v1.JobService", true);
   return port;
@@ -176,7 +154,7 @@ std::optional<int> GrpcServer::Listen(Listener listener, grpc::ServerBuilder& bu
 
 void GrpcServer::Drain() {
   if (server_) server_->GetHealthCheckService()->SetServingStatus(false);
-  watches_->Drain();
+  loop_->Drain();
 }
 
 void GrpcServer::Shutdown(milliseconds grace) {
@@ -186,12 +164,16 @@ void GrpcServer::Shutdown(milliseconds grace) {
     const auto cut = [this] {
       if (acceptor_) acceptor_->Cut();
     };
-    const Watchdog watchdog(grace + 500ms, cut, grace + 2s);
+    const auto give_up = [] {
+      spdlog::critical("gRPC did not shut down in time; ending the process");
+      std::_Exit(1);
+    };
+    const ShutdownTimer timer(grace + 500ms, cut, grace + 2s, give_up);
     server_->Shutdown(std::chrono::system_clock::now() + grace);
     server_.reset();
   }
   acceptor_.reset();
-  watches_->Stop();
+  loop_->Stop();
 }
 
 }  // namespace contact

@@ -9,23 +9,27 @@
 #include <optional>
 #include <string>
 
+#include "base/clock.h"
 #include "jobs/job_manager.h"
 #include "rpc/admin_service.h"
 #include "rpc/call/call_guard.h"
+#include "rpc/call_starter.h"
 #include "rpc/job_service.h"
 #include "rpc/net/connection_acceptor.h"
-#include "rpc/stream/watch_loop.h"
+#include "rpc/stream/stream_loop.h"
 
 namespace contact {
 
+/// Settings of the gRPC server.
 struct GrpcServerOptions {
   int max_message_bytes = 8 << 20;   ///< Of one request.
   int max_memory_bytes = 512 << 20;  ///< Of all connections and messages; past it gRPC cuts some.
   ConnectionLimits connections = {};
   CallLimits calls = {};
-  /// A connection that has not begun to speak HTTP/2 by then is closed.
+  /// A connection that has not begun to speak HTTP/2 after this time is closed.
   std::chrono::milliseconds handshake_timeout{5'000};
-  /// A reader of a stream that takes nothing for so long is dropped.
+  /// A reader of a stream that takes nothing for this time is dropped; also the limit of
+  /// `connections.stall`, which it replaces.
   std::chrono::milliseconds write_stall{30'000};
   bool reflection = true;  ///< Answer which services and messages there are.
   bool channelz = false;   ///< Answer which connections there are, and what went over them.
@@ -34,8 +38,9 @@ struct GrpcServerOptions {
 /// The gRPC server: its settings, its services, its end. Plaintext, so for loopback only.
 class GrpcServer {
  public:
-  /// `identity`: see JobService.
-  GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity);
+  /// `identity`: see JobService. The manager and the clock outlive the server.
+  GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity,
+             const Clock& clock = SystemClock());
 
   /// Shuts down if that has not been done.
   ~GrpcServer();
@@ -48,33 +53,35 @@ class GrpcServer {
   /// socket file that its owner and group may use; its port is 0.
   std::optional<int> Start(const std::string& address);
 
-  /// Health turns NOT_SERVING; watches, also those to come, end with SERVER_DRAINING.
+  /// Health turns NOT_SERVING; streams, also those that begin later, end with SERVER_DRAINING.
   void Drain();
 
-  /// Drains, gives open calls `grace` to end and cancels the rest. Should gRPC not let go even
-  /// then, the process ends with code 1, so that whoever supervises it can start it again.
+  /// Drains, gives open calls `grace` to end and cancels the rest. If gRPC does not shut down
+  /// within 2 s more, the process ends with code 1, so that its supervisor can start it again.
   void Shutdown(std::chrono::milliseconds grace);
 
-  /// WatchJob calls that are open.
-  std::size_t watchers() const { return watches_->watchers(); }
+  /// Number of streams that are open.
+  std::size_t watchers() const { return loop_->streams(); }
 
-  /// Connections that are open, and those that were past a limit.
+  /// Numbers of connections that are open, and of those refused since the start.
   std::size_t connections() const { return acceptor_ ? acceptor_->open() : 0; }
   std::int64_t refused_connections() const { return acceptor_ ? acceptor_->refused() : 0; }
 
-  /// What calls have come to.
+  /// Counters of calls and of streams.
   std::shared_ptr<const RpcMetrics> metrics() const { return metrics_; }
-  std::shared_ptr<const StreamMetrics> stream_metrics() const { return watches_->metrics(); }
+  std::shared_ptr<const StreamMetrics> stream_metrics() const { return loop_->metrics(); }
 
  private:
+  /// Starts gRPC and the acceptor of the listener's connections. Returns the port.
   std::optional<int> Listen(Listener listener, grpc::ServerBuilder& builder);
 
   const GrpcServerOptions options_;
-  const std::shared_ptr<WatchLoop> watches_;
+  const std::shared_ptr<StreamLoop> loop_;
   const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
   const std::shared_ptr<RpcMetrics> metrics_ = std::make_shared<RpcMetrics>();
   CallGuard guard_;
-  JobService service_;
+  CallStarter calls_;
+  JobService jobs_;
   AdminService admin_;
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<ConnectionAcceptor> acceptor_;  // Hands connections to server_.

@@ -2,32 +2,27 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <chrono>
-#include <memory>
+#include <utility>
 
 #include "contact/v1/job_service.grpc.pb.h"
 #include "jobs/job_manager.h"
-#include "rpc/call/call_guard.h"
-#include "rpc/stream/watch_loop.h"
+#include "rpc/call_starter.h"
 
 namespace contact {
 
-/// The calls of the contract, each handed to the JobManager. No handler waits for anything: gRPC
-/// runs all of them on a few threads.
+/// The calls of the contract's JobService, each handed to the JobManager. Handlers never wait,
+/// because gRPC runs all of them on a few threads.
 ///
-/// WatchJob works on bytes, so that an event is serialised once for all who watch.
+/// WatchJob sends serialised bytes, so that an event is serialised once for all watchers.
 class JobService final
     : public v1::JobService::WithRawCallbackMethod_WatchJob<v1::JobService::CallbackService> {
  public:
-  /// `identity` is what GetServerInfo answers, but for the numbers that the manager knows.
-  JobService(JobManager& jobs, std::shared_ptr<WatchLoop> watches, CallGuard& guard,
-             v1::ServerInfo identity, std::chrono::milliseconds write_stall);
+  /// `identity` is the answer of GetServerInfo without the numbers that the manager knows. The
+  /// manager and `calls` outlive the service.
+  JobService(JobManager& jobs, CallStarter& calls, v1::ServerInfo identity)
+      : jobs_(jobs), calls_(calls), identity_(std::move(identity)) {}
 
  private:
-  template <class T, class Response, class Run>
-  grpc::ServerUnaryReactor* Serve(grpc::CallbackServerContext* context, Response* response,
-                                  Run run);
-
   grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context,
                                       const v1::CreateJobRequest* request,
                                       v1::Job* response) override;
@@ -56,10 +51,8 @@ class JobService final
                                           v1::ServerInfo* response) override;
 
   JobManager& jobs_;
-  const std::shared_ptr<WatchLoop> watches_;
-  CallGuard& guard_;
+  CallStarter& calls_;
   const v1::ServerInfo identity_;
-  const std::chrono::milliseconds write_stall_;
 };
 
 }  // namespace contact

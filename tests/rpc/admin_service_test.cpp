@@ -116,6 +116,16 @@ TEST(AdminServiceTest, BackupDoesNotHoldUpTheShutdown) {
   EXPECT_FALSE(stalled.ReadAll().ok());
 }
 
+TEST(AdminServiceTest, BackupCountsAsAStreamOfItsPeer) {
+  TestServer server({.calls = {.max_watchers_per_peer = 1}});
+  Fill(server);
+  BackupStream first(server);
+  ReadFirst(first);
+  const grpc::Status refused = BackupStream(server).ReadAll();
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(Reason(refused), "WATCHER_LIMIT");
+}
+
 // Values from RFC 3720, B.4, and FIPS 180-4's example.
 TEST(DigestTest, ChecksumsAreTheOnesNamedInTheContract) {
   EXPECT_EQ(Crc32c(std::string(32, '\0')), 0x8A9136AAU);

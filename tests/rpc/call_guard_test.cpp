@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "test_server.h"
+#include "testing/fake_sources.h"
 
 namespace contact {
 namespace {
@@ -72,18 +73,35 @@ TEST(PeerTest, CountsUntilTheLeaseGoes) {
 }
 
 TEST(CallGuardTest, MetadataUpToTheLimitIsTaken) {
-  const CallGuard guard({.max_metadata_bytes = 1024}, std::make_shared<PeerCounts>(),
-                        std::make_shared<RpcMetrics>());
+  CallGuard guard({.max_metadata_bytes = 1024}, std::make_shared<PeerCounts>(),
+                  std::make_shared<RpcMetrics>(), SystemClock());
   const std::string room(1024 - 2 * (32 + 2), 'x');  // Two entries with names of two bytes.
   for (const auto& [extra, taken] : {std::pair{"", true}, std::pair{"x", false}}) {
     grpc::ServerContext context;
     grpc::testing::ServerContextTestSpouse spouse(&context);
     spouse.AddClientMetadata("k1", room);
     spouse.AddClientMetadata("k2", extra);
-    const auto refusal = guard.Check(context);
+    const auto refusal = guard.Check(context, CallKind::kUnary);
     EXPECT_EQ(!refusal, taken) << extra;
     EXPECT_EQ(refusal.value_or(Error{}).reason, taken ? "" : "METADATA_TOO_LARGE");
   }
+}
+
+TEST(CallGuardTest, CreatesArePacedByTheClockAndOtherCallsAreNot) {
+  FakeClock clock;
+  const auto metrics = std::make_shared<RpcMetrics>();
+  CallGuard guard({.max_creates_per_second = 1, .max_create_burst = 1},
+                  std::make_shared<PeerCounts>(), metrics, clock);
+  grpc::ServerContext context;
+  const auto reason = [&](CallKind kind) {
+    return guard.Check(context, kind).value_or(Error{}).reason;
+  };
+  EXPECT_EQ(reason(CallKind::kCreateJob), "");
+  EXPECT_EQ(reason(CallKind::kCreateJob), "RATE_LIMITED");
+  EXPECT_EQ(reason(CallKind::kUnary), "");
+  clock.Advance(1s);
+  EXPECT_EQ(reason(CallKind::kCreateJob), "");
+  EXPECT_EQ(metrics->refused()["RATE_LIMITED"], 1);
 }
 
 // What the details of a status say.

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -63,12 +64,11 @@ TEST_F(ConfigTest, FsckIsAskedForByItsNameAndTakesTheSameFlags) {
   EXPECT_EQ(Bad({"fsk"}).code, 2);
 }
 
-TEST_F(ConfigTest, DefaultsAreThoseOfTheReadme) {
+TEST_F(ConfigTest, DefaultsServeThisMachineOnly) {
   const Config config = Good({});
   EXPECT_EQ(config.listen, "127.0.0.1:7070");
   EXPECT_GE(config.jobs.workers, 1);
-  EXPECT_EQ(config.rpc.max_message_bytes, 8 << 20);
-  EXPECT_EQ(config.rpc.write_stall, std::chrono::seconds(30));
+  EXPECT_EQ(config.jobs.checkpoint_interval, std::chrono::seconds(1));
   EXPECT_TRUE(config.rpc.reflection);
   EXPECT_FALSE(config.rpc.channelz);
 }
@@ -124,6 +124,26 @@ TEST_F(ConfigTest, EveryFlagArrives) {
   EXPECT_EQ(config.port_file, "/port");
 }
 
+TEST_F(ConfigTest, DurationsTakeEveryUnitAndAreRoundedUp) {
+  const Config config = Good({"--retain-for", "30d", "--compact-after", "1.5h", "--step-timeout",
+                              "90", "--max-wall-time", "10m", "--checkpoint-interval", "250ms"});
+  EXPECT_EQ(config.jobs.retention.age, std::chrono::days(30));
+  EXPECT_EQ(config.jobs.retention.compact_after, std::chrono::minutes(90));
+  EXPECT_EQ(config.jobs.step_timeout, std::chrono::seconds(90));
+  EXPECT_EQ(config.jobs.max_budget.wall_time, std::chrono::minutes(10));
+  EXPECT_EQ(config.jobs.checkpoint_interval, std::chrono::milliseconds(250));
+  EXPECT_EQ(Good({"--retain-for", "1ms"}).jobs.retention.age, std::chrono::seconds(1));
+}
+
+TEST_F(ConfigTest, BudgetsAndRetentionArrive) {
+  const Config config = Good({"--max-steps", "17", "--max-output-bytes", "2KiB", "--max-attempts",
+                              "4", "--retain-bytes", "1GB"});
+  EXPECT_EQ(config.jobs.max_budget.steps, 17);
+  EXPECT_EQ(config.jobs.max_budget.output_bytes, 2048);
+  EXPECT_EQ(config.jobs.max_attempts, 4);
+  EXPECT_EQ(config.jobs.retention.bytes, 1'000'000'000);
+}
+
 TEST_F(ConfigTest, FlagBeatsVariableBeatsFile) {
   const std::string file = File("workers = 2\nmax-bodies = 20\nmax-contacts = 200\n");
   Set("CONTACTD_CONFIG", file);
@@ -175,6 +195,9 @@ TEST_F(ConfigTest, BadValuesAreUsageErrorsThatNameTheFlag) {
       {"--metrics-listen", "9464"},
       {"--metrics-listen", "0.0.0.0:9464"},
       {"--max-stored-bytes", "-1"},
+      {"--retain-for", "soon"},
+      {"--compact-after", "-1s"},
+      {"--step-timeout", "1y"},
   };
   for (const auto& [flag, value] : cases) {
     const Exit exit = Bad({flag, value});

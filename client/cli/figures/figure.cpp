@@ -21,8 +21,8 @@ void AddOutline(const Figure::Curve& curve, std::size_t begin, std::size_t end,
   const auto [low, high] = std::minmax_element(y + first, y + last);
   std::array<std::ptrdiff_t, 4> kept{first, low - y, high - y, last - 1};
   std::ranges::sort(kept);
-  const auto same = std::ranges::unique(kept);
-  for (auto i = kept.begin(); i != same.begin(); ++i) {
+  const auto same = std::unique(kept.begin(), kept.end());
+  for (auto i = kept.begin(); i != same; ++i) {
     thinned->x.push_back(curve.x[static_cast<std::size_t>(*i)]);
     thinned->y.push_back(curve.y[static_cast<std::size_t>(*i)]);
   }

@@ -137,7 +137,7 @@ class Results {
 
 }  // namespace
 
-bool JobComparison::Result::Holds(std::size_t job, const Tolerance& tolerance) const {
+bool JobComparison::Result::Holds(std::size_t job, const Tolerance& allowed) const {
   const Value& base = values.front();
   const Value& value = values[job];
   const auto* a = std::get_if<double>(&base);
@@ -145,7 +145,7 @@ bool JobComparison::Result::Holds(std::size_t job, const Tolerance& tolerance) c
   if (!judged || a == nullptr || b == nullptr) return !judged || base == value;
   if (std::isnan(*a) || std::isnan(*b)) return std::isnan(*a) && std::isnan(*b);
   return *a == *b ||
-         std::abs(*b - *a) <= std::max(tolerance.absolute, tolerance.relative * std::abs(*a));
+         std::abs(*b - *a) <= std::max(allowed.absolute, allowed.relative * std::abs(*a));
 }
 
 double JobComparison::Result::Deviation(std::size_t job) const {

@@ -33,7 +33,7 @@ struct JobComparison {
     bool judged = true;  ///< False for what a run cost.
 
     /// True unless a judged value of this job is out of tolerance.
-    bool Holds(std::size_t job, const Tolerance& tolerance) const;
+    bool Holds(std::size_t job, const Tolerance& allowed) const;
     /// Relative to the baseline, absolute where that is 0; NaN unless both are numbers.
     double Deviation(std::size_t job) const;
   };

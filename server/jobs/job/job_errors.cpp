@@ -46,6 +46,13 @@ Error SlowWatcher(const std::string& what) {
           .retry_after = kRetryAfter};
 }
 
+Error Unreadable(const std::string& what) {
+  return {.code = absl::StatusCode::kUnavailable,
+          .reason = "STORE_FAILED",
+          .message = fmt::format("{} could not be read from the store; watch again", what),
+          .retry_after = kRetryAfter};
+}
+
 Error UidMismatch(const std::string& name, const std::string& uid) {
   return {.code = absl::StatusCode::kFailedPrecondition,
           .reason = "UID_MISMATCH",

@@ -18,6 +18,8 @@ Error QueueFull(int max_queued_jobs);
 Error WatcherLimit(int max_watchers);
 /// The watcher of `what` fell behind.
 Error SlowWatcher(const std::string& what);
+/// The store could not read `what` for a stream, which therefore ends.
+Error Unreadable(const std::string& what);
 /// The job of that name is not the one expected, but this one.
 Error UidMismatch(const std::string& name, const std::string& uid);
 /// Frame chunks before `oldest_sequence` were asked for, and have been dropped.

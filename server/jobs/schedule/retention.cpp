@@ -1,5 +1,7 @@
 #include "jobs/schedule/retention.h"
 
+#include <pthread.h>
+
 #include <absl/status/statusor.h>
 #include <google/protobuf/util/time_util.h>
 #include <spdlog/spdlog.h>
@@ -108,7 +110,10 @@ Retention::Retention(Store& store, const Clock& clock, RetentionLimits limits, J
 Retention::~Retention() { Stop(); }
 
 void Retention::Start() {
-  thread_ = std::thread([this] { Loop(); });
+  thread_ = std::thread([this] {
+    pthread_setname_np(pthread_self(), "retention");
+    Loop();
+  });
 }
 
 void Retention::Stop() {

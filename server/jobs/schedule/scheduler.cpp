@@ -1,5 +1,7 @@
 #include "jobs/schedule/scheduler.h"
 
+#include <pthread.h>
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -42,7 +44,10 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options
       workers_([this](Worker& worker) { Work(worker); }) {
   Recover();
   workers_.Start(options_.workers);
-  watch_ = std::thread([this] { Watch(); });
+  watch_ = std::thread([this] {
+    pthread_setname_np(pthread_self(), "watchdog");
+    Watch();
+  });
 }
 
 Scheduler::~Scheduler() { Stop(); }

@@ -8,11 +8,11 @@
 namespace contact {
 namespace {
 
-using std::chrono::steady_clock;
 using std::chrono::system_clock;
 
+// Deadline of a call that has none.
 constexpr std::chrono::seconds kDefaultDeadline{30};
-// As HTTP/2 counts a header.
+// Size that HTTP/2 adds to each header (RFC 9113, 6.5.2).
 constexpr std::size_t kEntryBytes = 32;
 
 std::size_t MetadataBytes(const grpc::ServerContextBase& context) {
@@ -26,13 +26,27 @@ std::size_t MetadataBytes(const grpc::ServerContextBase& context) {
 }  // namespace
 
 CallGuard::CallGuard(CallLimits limits, std::shared_ptr<const PeerCounts> streams,
-                     std::shared_ptr<RpcMetrics> metrics)
+                     std::shared_ptr<RpcMetrics> metrics, const Clock& clock)
     : limits_(limits),
+      clock_(clock),
       streams_(std::move(streams)),
       metrics_(std::move(metrics)),
       creates_(limits.max_creates_per_second, limits.max_create_burst) {}
 
-std::optional<Error> CallGuard::Check(const grpc::ServerContextBase& context) const {
+std::optional<Error> CallGuard::Check(const grpc::ServerContextBase& context, CallKind kind) {
+  if (auto refusal = CheckMetadata(context)) return refusal;
+  switch (kind) {
+    case CallKind::kUnary:
+      return std::nullopt;
+    case CallKind::kCreateJob:
+      return CheckRate(PeerOf(context.peer()));
+    case CallKind::kStream:
+      return CheckStreams(PeerOf(context.peer()));
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> CallGuard::CheckMetadata(const grpc::ServerContextBase& context) const {
   const std::size_t bytes = MetadataBytes(context);
   if (bytes <= static_cast<std::size_t>(limits_.max_metadata_bytes)) return std::nullopt;
   return Refuse(
@@ -41,8 +55,8 @@ std::optional<Error> CallGuard::Check(const grpc::ServerContextBase& context) co
       std::chrono::milliseconds(0));
 }
 
-std::optional<Error> CallGuard::CheckCreate(const grpc::CallbackServerContext& context) {
-  const auto wait = creates_.Take(PeerOf(context.peer()), steady_clock::now());
+std::optional<Error> CallGuard::CheckRate(const std::string& peer) {
+  const auto wait = creates_.Take(peer, clock_.Elapsed());
   if (wait.count() == 0) return std::nullopt;
   return Refuse("RATE_LIMITED",
                 fmt::format("more than {:g} CreateJob calls a second from this address",
@@ -50,9 +64,8 @@ std::optional<Error> CallGuard::CheckCreate(const grpc::CallbackServerContext& c
                 wait);
 }
 
-std::optional<Error> CallGuard::CheckStream(const grpc::CallbackServerContext& context) const {
-  if (auto refusal = Check(context)) return refusal;
-  if (streams_->Of(PeerOf(context.peer())) <= limits_.max_watchers_per_peer) return std::nullopt;
+std::optional<Error> CallGuard::CheckStreams(const std::string& peer) const {
+  if (streams_->Of(peer) <= limits_.max_watchers_per_peer) return std::nullopt;
   return Refuse(
       "WATCHER_LIMIT",
       fmt::format("there are {} watchers from this address already", limits_.max_watchers_per_peer),

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "base/clock.h"
 #include "jobs/job/error.h"
 #include "rpc/call/rate_limit.h"
 #include "rpc/metrics/rpc_metrics.h"
@@ -15,43 +16,55 @@
 
 namespace contact {
 
-/// What a server takes of calls. A peer is an address of the network.
+/// Limits of calls. A peer is one address of the network.
 struct CallLimits {
-  int max_metadata_bytes = 8192;         ///< Names, values and 32 for each, in one call.
-  double max_creates_per_second = 1000;  ///< CreateJob calls of a peer. 0: any number.
-  int max_create_burst = 10'000;         ///< Of these, at once.
-  int max_watchers_per_peer = 10'000;    ///< Streams that a peer has open.
+  int max_metadata_bytes = 8192;         ///< Of one call: names, values, and 32 for each entry.
+  double max_creates_per_second = 1000;  ///< CreateJob calls of a peer, on average. 0: any number.
+  int max_create_burst = 10'000;         ///< CreateJob calls of a peer at once, after a rest.
+  int max_watchers_per_peer = 10'000;    ///< Streams that a peer may have open.
 };
 
-/// Says no to calls before anything is done for them. Thread-safe.
+/// What the limits tell apart.
+enum class CallKind {
+  kUnary,      ///< A unary call other than CreateJob.
+  kCreateJob,  ///< A CreateJob call.
+  kStream,     ///< A call that streams.
+};
+
+/// Refuses calls before anything is done for them. Thread-safe.
 class CallGuard {
  public:
-  /// `streams` counts the streams that are open, including the one in question.
+  /// `streams` counts the streams that are open, including the one in question. `clock` outlives
+  /// the guard.
   CallGuard(CallLimits limits, std::shared_ptr<const PeerCounts> streams,
-            std::shared_ptr<RpcMetrics> metrics);
+            std::shared_ptr<RpcMetrics> metrics, const Clock& clock);
 
-  /// Why a call is refused whatever it asks for. gRPC has such a limit too, but a client that does
-  /// not confirm the server's settings gets around it.
-  std::optional<Error> Check(const grpc::ServerContextBase& context) const;
-
-  /// Why this CreateJob is refused, beside that.
-  std::optional<Error> CheckCreate(const grpc::CallbackServerContext& context);
-
-  /// Why this stream is refused.
-  std::optional<Error> CheckStream(const grpc::CallbackServerContext& context) const;
+  /// The error with which the call is refused before its request is looked at; nothing if it is
+  /// not: METADATA_TOO_LARGE for every call, RATE_LIMITED for kCreateJob, WATCHER_LIMIT for
+  /// kStream. Takes a CreateJob's token from the bucket of its peer. Counts refusals.
+  std::optional<Error> Check(const grpc::ServerContextBase& context, CallKind kind);
 
  private:
+  /// gRPC limits metadata too, but a client that does not confirm the server's HTTP/2 settings
+  /// gets around that.
+  std::optional<Error> CheckMetadata(const grpc::ServerContextBase& context) const;
+  std::optional<Error> CheckRate(const std::string& peer);
+  std::optional<Error> CheckStreams(const std::string& peer) const;
+  /// The error RESOURCE_EXHAUSTED with this reason, counted. `retry_after` 0: asking again is no
+  /// use.
   Error Refuse(const char* reason, std::string message,
                std::chrono::milliseconds retry_after) const;
 
   const CallLimits limits_;
+  const Clock& clock_;
   const std::shared_ptr<const PeerCounts> streams_;
   const std::shared_ptr<RpcMetrics> metrics_;
   RateLimit creates_;
 };
 
-/// Tells whether nobody waits for the answer any more: the caller has left or its deadline has
-/// passed. A call without deadline has 30 s. May be asked until the call is finished.
+/// A function that is true once nobody waits for the answer any more: the caller has left or its
+/// deadline has passed. A call without deadline has one of 30 s. The function may be called until
+/// the call is finished.
 std::function<bool()> Abandonment(const grpc::CallbackServerContext& context);
 
 }  // namespace contact

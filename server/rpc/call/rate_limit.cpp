@@ -29,7 +29,7 @@ double RateLimit::TokensAt(const Bucket& bucket, Time now) const {
   return std::min<double>(burst_, bucket.tokens + std::max(0.0, since.count()) * per_second_);
 }
 
-// Whoever has not called for long costs no memory; looking is paid for by the calls in between.
+// Forgets idle peers. Doubling the threshold makes the cost of a search constant for each call.
 void RateLimit::ForgetFull(Time now) {
   std::erase_if(buckets_, [&](const auto& entry) { return TokensAt(entry.second, now) >= burst_; });
   forget_at_ = std::max<std::size_t>(1024, 2 * buckets_.size());

@@ -9,34 +9,37 @@
 
 namespace contact {
 
-/// Lets each peer do something so often on average, and so many times at once: a bucket of tokens
-/// for each. Thread-safe.
+/// Limits how often each peer may do something: a token bucket for each. Thread-safe.
 class RateLimit {
  public:
+  /// Of one monotonic clock.
   using Time = std::chrono::steady_clock::time_point;
 
-  /// `per_second` 0: any number. `burst` ≥ 1.
+  /// A bucket gains `per_second` tokens and holds at most `burst` (>= 1). `per_second` 0: no limit.
   RateLimit(double per_second, int burst) : per_second_(per_second), burst_(burst) {}
 
-  /// Takes a token of the peer and returns 0; or, if there is none, how long until there is.
+  /// Takes a token of the peer and returns 0; without a token, returns how long it takes until
+  /// there is one, rounded up.
   std::chrono::milliseconds Take(const std::string& peer, Time now);
 
-  /// Peers whose bucket is not full, as of some calls before.
+  /// Number of buckets that are kept. Full ones are forgotten now and then.
   std::size_t peers() const;
 
  private:
   struct Bucket {
-    double tokens;
+    double tokens;  ///< At the time `at`.
     Time at;
   };
+  /// Tokens of the bucket at `now`, at most burst_.
   double TokensAt(const Bucket& bucket, Time now) const;
+  /// Forgets the buckets that are full at `now`.
   void ForgetFull(Time now) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const double per_second_;
   const int burst_;
   mutable Mutex mutex_;
-  std::map<std::string, Bucket> buckets_ ABSL_GUARDED_BY(mutex_);  ///< None: it is full.
-  std::size_t forget_at_ ABSL_GUARDED_BY(mutex_) = 1024;
+  std::map<std::string, Bucket> buckets_ ABSL_GUARDED_BY(mutex_);  ///< By peer; missing: full.
+  std::size_t forget_at_ ABSL_GUARDED_BY(mutex_) = 1024;  ///< Number of buckets for ForgetFull.
 };
 
 }  // namespace contact

@@ -13,7 +13,7 @@ using grpc::experimental::InterceptorBatchMethods;
 using grpc::experimental::ServerRpcInfo;
 using std::chrono::steady_clock;
 
-// Lives as long as its call.
+// Interceptor of one call; lives as long as the call.
 class Call final : public grpc::experimental::Interceptor {
  public:
   Call(const ServerRpcInfo& info, std::shared_ptr<RpcMetrics> metrics, PeerCounts::Lease stream)
@@ -41,14 +41,13 @@ class Call final : public grpc::experimental::Interceptor {
   const std::shared_ptr<RpcMetrics> metrics_;
   const PeerCounts::Lease stream_;  // Null for a call that is no stream.
   const steady_clock::time_point begin_ = steady_clock::now();
-  int code_ = grpc::StatusCode::CANCELLED;  // Of a call that ends without a word.
+  int code_ = grpc::StatusCode::CANCELLED;  // For calls that end without a status.
 };
 
 }  // namespace
 
 grpc::experimental::Interceptor* CallMonitor::CreateServerInterceptor(ServerRpcInfo* info) {
   const bool stream = info->type() == ServerRpcInfo::Type::SERVER_STREAMING;
-  // gRPC deletes it.
   return new Call(*info, metrics_,
                   stream ? streams_->Enter(PeerOf(info->server_context()->peer())) : nullptr);
 }

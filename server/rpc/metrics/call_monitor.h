@@ -10,13 +10,15 @@
 
 namespace contact {
 
-/// Sees every call of the server from its begin to its end. Thread-safe.
+/// Makes gRPC's interceptor of each call, which counts the call from its start to its end.
+/// Thread-safe.
 class CallMonitor final : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
-  /// Counts calls in `metrics`, and streams in `streams` while they are open.
+  /// Calls are counted in `metrics`, and streams in `streams` while they are open.
   CallMonitor(std::shared_ptr<RpcMetrics> metrics, std::shared_ptr<PeerCounts> streams)
       : metrics_(std::move(metrics)), streams_(std::move(streams)) {}
 
+  /// The interceptor of one call. gRPC owns and deletes it.
   grpc::experimental::Interceptor* CreateServerInterceptor(
       grpc::experimental::ServerRpcInfo* info) override;
 

@@ -25,7 +25,8 @@ std::string CodeName(int code) {
   return index < kCodes.size() ? kCodes[index] : "UNKNOWN";
 }
 
-// Builds the families one after the other.
+// Builds the families one after the other: Gauge, Counter or Distribution begins a family, and Add
+// gives it one more set of labels.
 class Page {
  public:
   Page& Gauge(const char* name, const char* help) { return Begin(name, help, MetricType::Gauge); }
@@ -77,8 +78,8 @@ void AddNow(const MetricsSources::Now& now, Page* page) {
   page->Gauge("contactd_jobs", "Jobs that have not ended, by state")
       .Add(now.queued_jobs, {{"state", "QUEUED"}})
       .Add(now.running_jobs, {{"state", "RUNNING"}});
-  page->Gauge("contactd_watchers", "Watchers").Add(now.watchers);
-  page->Gauge("contactd_connections", "Connections").Add(now.connections);
+  page->Gauge("contactd_watchers", "Streams that are open").Add(now.watchers);
+  page->Gauge("contactd_connections", "Connections that are open").Add(now.connections);
   page->Counter("contactd_connections_refused_total", "Connections past a limit")
       .Add(now.refused_connections);
   page->Gauge("contactd_store_bytes", "Size of the database files").Add(now.stored_bytes);
@@ -107,20 +108,31 @@ void AddStore(const StoreMetrics& store, Page* page) {
       .Add(store.failed_commits.load());
 }
 
+// One family with a number for each method.
+template <class Value>
+void AddByMethod(const std::map<std::string, RpcMetrics::Method>& methods, Value value,
+                 Page* page) {
+  for (const auto& [name, calls] : methods) page->Add(value(calls), {{"method", name}});
+}
+
 void AddCalls(const RpcMetrics& rpc, Page* page) {
+  using Method = RpcMetrics::Method;
   const auto methods = rpc.methods();
   page->Gauge("contactd_rpc_open", "Calls that are open");
-  for (const auto& [name, calls] : methods) page->Add(calls.open, {{"method", name}});
+  AddByMethod(
+      methods, [](const Method& calls) { return calls.open; }, page);
   page->Counter("contactd_rpc_ended_total", "Calls that have ended, by code");
   for (const auto& [name, calls] : methods) {
     for (const auto& [code, count] : calls.ended) {
       page->Add(count, {{"method", name}, {"code", CodeName(code)}});
     }
   }
-  page->Distribution("contactd_rpc_seconds", "From the begin of a call to its status");
-  for (const auto& [name, calls] : methods) page->Add(*calls.seconds, {{"method", name}});
+  page->Distribution("contactd_rpc_seconds", "From the start of a call to its status");
+  AddByMethod(
+      methods, [](const Method& calls) -> auto& { return *calls.seconds; }, page);
   page->Counter("contactd_rpc_streamed_bytes_total", "Bytes of the messages of streams");
-  for (const auto& [name, calls] : methods) page->Add(calls.streamed_bytes, {{"method", name}});
+  AddByMethod(
+      methods, [](const Method& calls) { return calls.streamed_bytes; }, page);
   page->Counter("contactd_rpc_refused_total", "Calls refused at once, by reason");
   for (const auto& [reason, count] : rpc.refused()) page->Add(count, {{"reason", reason}});
 }
@@ -130,7 +142,8 @@ void AddStreams(const StreamMetrics& streams, Page* page) {
       .Add(streams.slow.load());
   page->Counter("contactd_streams_dropped_total", "Streams whose reader took nothing for too long")
       .Add(streams.dropped.load());
-  page->Counter("contactd_events_conflated_total", "Events left out for slow or sparing readers")
+  page->Counter("contactd_events_conflated_total",
+                "Events left out for readers that are slow or want few")
       .Add(streams.conflated.load());
   page->Distribution("contactd_stream_reaction_seconds", "Time that a stream's reaction takes")
       .Add(streams.reaction_seconds);

@@ -18,28 +18,29 @@ namespace contact {
 
 /// Where the numbers of the metrics come from.
 struct MetricsSources {
-  /// What is so at the moment of asking.
+  /// The numbers that are counted nowhere and are taken when they are asked for.
   struct Now {
-    int workers = 0;
-    int queued_jobs = 0;
-    int running_jobs = 0;
-    std::size_t watchers = 0;
-    std::size_t connections = 0;
-    std::int64_t refused_connections = 0;  ///< Since the start.
-    std::int64_t stored_bytes = 0;
+    int workers = 0;                       ///< Threads that run simulations.
+    int queued_jobs = 0;                   ///< Jobs in state QUEUED.
+    int running_jobs = 0;                  ///< Jobs in state RUNNING.
+    std::size_t watchers = 0;              ///< Streams that are open.
+    std::size_t connections = 0;           ///< Connections that are open.
+    std::int64_t refused_connections = 0;  ///< Connections past a limit, since the start.
+    std::int64_t stored_bytes = 0;         ///< Size of the database files.
   };
-  std::function<Now()> now;
+  std::function<Now()> now;  ///< Thread-safe.
   std::shared_ptr<const JobMetrics> jobs;
   std::shared_ptr<const StoreMetrics> store;
   std::shared_ptr<const RpcMetrics> rpc;
   std::shared_ptr<const StreamMetrics> streams;
 };
 
-/// Tells Prometheus what the server counts; server/README.md lists it. Thread-safe.
+/// The metrics of the server in Prometheus's form; server/README.md lists them. Thread-safe.
 class MetricsPage final : public prometheus::Collectable {
  public:
   explicit MetricsPage(MetricsSources sources) : sources_(std::move(sources)) {}
 
+  /// All metrics as they are now.
   std::vector<prometheus::MetricFamily> Collect() const override;
 
  private:

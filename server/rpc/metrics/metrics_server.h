@@ -11,16 +11,20 @@ class Exposer;
 
 namespace contact {
 
-/// Serves the metrics page over HTTP, under `/metrics`.
+/// Serves the metrics page over HTTP under `/metrics`, on threads of its own, until it is
+/// destroyed.
 class MetricsServer {
  public:
-  /// `address`: HOST:PORT, port 0 being any free one. Null if it cannot be had.
+  /// Listens on `address`, which is HOST:PORT with port 0 for any free one. Null if the address
+  /// cannot be had.
   static std::unique_ptr<MetricsServer> Open(const std::string& address, MetricsSources sources);
   ~MetricsServer();
 
+  /// The port that it listens on.
   int port() const;
 
  private:
+  /// Throws if the address cannot be had.
   MetricsServer(const std::string& address, MetricsSources sources);
 
   const std::shared_ptr<MetricsPage> page_;

@@ -10,25 +10,30 @@
 
 namespace contact {
 
-/// What the calls of a server have come to, by method, such as `/contact.v1.JobService/GetJob`.
-/// Thread-safe.
+/// Counters of a server's calls by method, which is a name such as
+/// `/contact.v1.JobService/GetJob`. Thread-safe.
 class RpcMetrics {
  public:
+  /// A call has started.
   void Began(const std::string& method);
-  /// `code` as in grpc::StatusCode.
+  /// A call has ended after `seconds` with `code`, a grpc::StatusCode.
   void Ended(const std::string& method, int code, double seconds);
-  /// A stream has sent a message.
+  /// A stream has sent a message of `bytes` bytes.
   void Streamed(const std::string& method, std::int64_t bytes);
-  /// A call was refused before anything was done for it; reason as in ErrorInfo.
+  /// A call was refused before anything was done for it. `reason` is that of its ErrorInfo.
   void Refused(const std::string& reason);
 
+  /// Counters of one method.
   struct Method {
-    std::int64_t open = 0;
-    std::map<int, std::int64_t> ended;  ///< By code.
-    std::int64_t streamed_bytes = 0;
+    std::int64_t open = 0;              ///< Calls that have not ended.
+    std::map<int, std::int64_t> ended;  ///< Calls that have ended, by code.
+    std::int64_t streamed_bytes = 0;    ///< Bytes of the messages that were sent.
+    /// Durations of ended calls.
     std::shared_ptr<Histogram> seconds = std::make_shared<Histogram>(DecadeBounds(-4, 2));
   };
+  /// The methods that were called so far, by name.
   std::map<std::string, Method> methods() const;
+  /// Numbers of refused calls, by reason.
   std::map<std::string, std::int64_t> refused() const;
 
  private:

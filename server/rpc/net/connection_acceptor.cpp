@@ -23,13 +23,15 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// For the store, gRPC's pollers, the log and the metrics.
+// File descriptors kept for the store, gRPC's pollers, the log and the metrics.
 constexpr rlim_t kOtherDescriptors = 100;
-// Between two looks for closed connections while there are too many.
-constexpr milliseconds kSweepTime{10};
+// Time between two searches for closed connections while there are too many.
+constexpr milliseconds kForgetInterval{10};
+// Time to wait after the process has run out of descriptors.
 constexpr milliseconds kDescriptorWait{50};
 
-std::string PeerOf(const sockaddr_storage& address) {
+// The network address of a connection without its port; `unix` for one of a socket file.
+std::string AddressOf(const sockaddr_storage& address) {
   if (address.ss_family == AF_UNIX) return "unix";
   std::array<char, INET6_ADDRSTRLEN> text = {};
   const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
@@ -40,8 +42,8 @@ std::string PeerOf(const sockaddr_storage& address) {
   return text.data();
 }
 
-// What gRPC's own listener would have set; and a limit where gRPC has none: behind a write that
-// does not end, its pings are not sent.
+// Sets TCP_NODELAY, as gRPC's own listener does, and a limit on the time that sent bytes may stay
+// unacknowledged: gRPC has none, because it sends no pings while a write is under way.
 void Prepare(int fd, milliseconds stall) {
   const int on = 1;
   setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
@@ -53,20 +55,26 @@ bool IsShortage(int error) {
   return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
 }
 
-}  // namespace
-
-ConnectionLimits FitToDescriptors(ConnectionLimits wanted) {
+// Raises the soft limit on descriptors to `needed`, at most to the hard limit. Returns the limit.
+rlim_t RaiseDescriptors(rlim_t needed) {
   rlimit files = {};
-  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return wanted;
-  const rlim_t needed = static_cast<rlim_t>(wanted.in_all) + kOtherDescriptors;
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return needed;
   if (files.rlim_cur < needed) {
     files.rlim_cur = std::min(needed, files.rlim_max);
     setrlimit(RLIMIT_NOFILE, &files);
   }
-  if (files.rlim_cur >= needed) return wanted;
-  const rlim_t others = std::min(kOtherDescriptors, files.rlim_cur / 2);
-  const int in_all = static_cast<int>(files.rlim_cur - others);
-  spdlog::warn("only {} file descriptors: {} connections instead of {}", files.rlim_cur, in_all,
+  return files.rlim_cur;
+}
+
+}  // namespace
+
+ConnectionLimits FitToDescriptors(ConnectionLimits wanted) {
+  const rlim_t needed = static_cast<rlim_t>(wanted.in_all) + kOtherDescriptors;
+  const rlim_t have = RaiseDescriptors(needed);
+  if (have >= needed) return wanted;
+  const rlim_t others = std::min(kOtherDescriptors, have / 2);
+  const int in_all = static_cast<int>(have - others);
+  spdlog::warn("only {} file descriptors: {} connections instead of {}", have, in_all,
                wanted.in_all);
   wanted.in_all = in_all;
   wanted.per_peer = std::min(wanted.per_peer, in_all);
@@ -98,7 +106,7 @@ void ConnectionAcceptor::Cut() {
 
 std::size_t ConnectionAcceptor::open() const {
   const MutexLock lock(mutex_);
-  connections_.Sweep();
+  connections_.ForgetClosed();
   return connections_.size();
 }
 
@@ -110,25 +118,25 @@ void ConnectionAcceptor::Loop() {
     const int ready = poll(waiting.data(), waiting.size(), PollTime());
     if (waiting.front().revents != 0) return;
     CutStalled();
-    if (ready <= 0) continue;
-    for (std::size_t i = 1; i < waiting.size(); ++i) {
-      if (waiting[i].revents == 0) continue;
-      const bool shortage = !Accept(waiting[i].fd);
-      if (shortage && !out_of_descriptors_) spdlog::error("no file descriptor for a connection");
-      out_of_descriptors_ = shortage;
-      if (shortage && StoppedWithin(kDescriptorWait)) return;
+    for (std::size_t i = 1; ready > 0 && i < waiting.size(); ++i) {
+      if (waiting[i].revents != 0 && !AcceptOrWait(waiting[i].fd)) return;
     }
   }
 }
 
-// How long to wait for a connection before the others are looked at.
+bool ConnectionAcceptor::AcceptOrWait(int listener) {
+  const bool shortage = !Accept(listener);
+  if (shortage && !out_of_descriptors_) spdlog::error("no file descriptor for a connection");
+  out_of_descriptors_ = shortage;
+  return !shortage || !StoppedWithin(kDescriptorWait);
+}
+
 int ConnectionAcceptor::PollTime() const {
   constexpr milliseconds::rep kLooks = 8;  // In the time of a stall.
   if (listener_.file.empty()) return -1;
   return static_cast<int>(std::max<milliseconds::rep>(1, limits_.stall.count() / kLooks));
 }
 
-// The system cuts stalled connections of the network, but none of a file.
 void ConnectionAcceptor::CutStalled() {
   const auto now = steady_clock::now();
   const MutexLock lock(mutex_);
@@ -137,14 +145,13 @@ void ConnectionAcceptor::CutStalled() {
   looked_ = now;
 }
 
-// False: there is no descriptor; the connection stays in the system's queue.
 bool ConnectionAcceptor::Accept(int listener) {
   sockaddr_storage address = {};
   socklen_t size = sizeof(address);
   FileDescriptor connection(accept4(listener, reinterpret_cast<sockaddr*>(&address), &size,
                                     SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!connection.valid()) return !IsShortage(errno);
-  if (Admit(connection.get(), PeerOf(address))) {
+  if (Admit(connection.get(), AddressOf(address))) {
     Prepare(connection.get(), limits_.stall);
     hand_over_(listener, connection.Release());
   } else {
@@ -155,9 +162,9 @@ bool ConnectionAcceptor::Accept(int listener) {
 
 bool ConnectionAcceptor::Admit(int fd, const std::string& peer) {
   const MutexLock lock(mutex_);
-  if (Full(peer) && steady_clock::now() - swept_ >= kSweepTime) {
-    connections_.Sweep();
-    swept_ = steady_clock::now();
+  if (Full(peer) && steady_clock::now() - forgot_ >= kForgetInterval) {
+    connections_.ForgetClosed();
+    forgot_ = steady_clock::now();
   }
   if (Full(peer)) return false;
   connections_.Add(fd, peer);

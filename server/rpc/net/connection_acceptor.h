@@ -15,61 +15,75 @@
 
 namespace contact {
 
+/// Limits of connections.
 struct ConnectionLimits {
-  int in_all = 4096;
-  int per_peer = 4096;  ///< Of one address of the network.
-  /// A peer whose system takes nothing of what is sent for so long is cut.
+  int in_all = 4096;    ///< Connections that are open.
+  int per_peer = 4096;  ///< Of these, from one address of the network.
+  /// A connection whose peer's system takes none of the sent bytes for this time is cut.
   std::chrono::milliseconds stall{30'000};
 };
 
-/// As many connections as the process has file descriptors for, some kept for all else; the soft
-/// limit on descriptors is raised for them as far as the hard one allows.
+/// Raises the process's soft limit on file descriptors as far as `wanted` needs and the hard limit
+/// allows, and returns `wanted`, reduced to what the descriptors suffice for, with some kept for
+/// the store and the log. Logs a warning if it reduces.
 ConnectionLimits FitToDescriptors(ConnectionLimits wanted);
 
-/// Accepts connections on a thread of its own and hands them to gRPC. Those past a limit are
-/// closed at once. gRPC's own listener would accept nothing ever again once descriptors had run
-/// out; this one waits until there are some.
+/// Accepts connections on a thread of its own and hands them to gRPC. Those past a limit are closed
+/// at once. gRPC 1.51's own listener would never accept again once descriptors had run out; this
+/// one waits until there are some. Thread-safe but for Close.
 class ConnectionAcceptor {
  public:
-  /// Takes a connection over, with its descriptor.
+  /// Takes over the connection `fd`, accepted by the socket `listener`. Called on the acceptor's
+  /// thread.
   using HandOver = std::function<void(int listener, int fd)>;
 
+  /// Starts to accept.
   ConnectionAcceptor(Listener listener, ConnectionLimits limits, HandOver hand_over);
   ~ConnectionAcceptor();
   ConnectionAcceptor(const ConnectionAcceptor&) = delete;
   ConnectionAcceptor& operator=(const ConnectionAcceptor&) = delete;
 
-  /// Stops listening. Idempotent; by one thread.
+  /// Stops listening and removes the socket file. Idempotent; to be called by one thread.
   void Close();
-  /// Cuts the connections that are open. gRPC closes none with a write under way, and the write to
-  /// a peer that reads nothing never ends.
+
+  /// Cuts the connections that are open. gRPC closes none with a write under way, and a write to a
+  /// peer that reads nothing never ends.
   void Cut();
 
-  /// Connections that are open now.
+  /// Number of connections that are open now.
   std::size_t open() const;
-  /// Connections that were closed at once.
+  /// Number of connections that were closed at once, since the start.
   std::int64_t refused() const { return refused_; }
 
  private:
+  /// Body of the thread.
   void Loop();
+  /// Time in ms that poll waits before stalled connections are searched; -1: any time.
   int PollTime() const;
+  /// Cuts stalled connections of a socket file. Those of the network are cut by the system.
   void CutStalled();
+  /// Accepts a connection; waits a moment if there is no descriptor for it. False: stopped.
+  bool AcceptOrWait(int listener);
+  /// Accepts a connection, or refuses it. False if there is no descriptor for it: it then stays in
+  /// the system's queue.
   bool Accept(int listener);
+  /// Adds the connection to connections_. False: there are too many.
   bool Admit(int fd, const std::string& peer);
   bool Full(const std::string& peer) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Waits for `time`. True: Close was called.
   bool StoppedWithin(std::chrono::milliseconds time) const;
 
   Listener listener_;
   const ConnectionLimits limits_;
   const HandOver hand_over_;
-  const FileDescriptor stop_;        ///< An eventfd; readable: stop.
-  bool out_of_descriptors_ = false;  // Of the thread.
+  const FileDescriptor stop_;        ///< An eventfd; readable once Close was called.
+  bool out_of_descriptors_ = false;  ///< Read and written by the thread only.
   std::atomic<std::int64_t> refused_ = 0;
 
   mutable Mutex mutex_;
   mutable OpenConnections connections_ ABSL_GUARDED_BY(mutex_);
-  std::chrono::steady_clock::time_point swept_ ABSL_GUARDED_BY(mutex_);
-  std::chrono::steady_clock::time_point looked_ ABSL_GUARDED_BY(mutex_);
+  std::chrono::steady_clock::time_point forgot_ ABSL_GUARDED_BY(mutex_);  ///< Last ForgetClosed.
+  std::chrono::steady_clock::time_point looked_ ABSL_GUARDED_BY(mutex_);  ///< Last CutStalled.
   std::thread thread_;  // Last: it uses all of the above.
 };
 

@@ -53,7 +53,7 @@ int PortOf(int socket) {
 FileDescriptor Listen(const addrinfo& info, int port) {
   FileDescriptor socket(::socket(info.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket.valid()) return socket;
-  // A restart need not wait for the connections of before. Two listeners it does not allow.
+  // Without it a restart waits for connections in TIME_WAIT. It does not allow two listeners.
   const int on = 1;
   setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
   sockaddr_storage address = {};
@@ -66,10 +66,10 @@ FileDescriptor Listen(const addrinfo& info, int port) {
   return socket;
 }
 
-// This machine may lack IPv6, and `localhost` still stand for an address of it.
+// `localhost` may have an IPv6 address on a machine without IPv6.
 bool MayMiss(int error) { return error == EADDRNOTAVAIL || error == EAFNOSUPPORT; }
 
-// None if the path is too long.
+// Nothing if the path is empty or too long.
 std::optional<sockaddr_un> FileAddress(const std::string& path) {
   sockaddr_un address = {};
   address.sun_family = AF_UNIX;
@@ -88,7 +88,7 @@ bool IsServed(const sockaddr_un& address) {
          errno == EAGAIN;
 }
 
-// What a server that was killed has left; nothing else.
+// Removes the socket file that a killed server has left, and no other kind of file.
 void RemoveSocket(const std::string& path) {
   struct stat status = {};
   if (lstat(path.c_str(), &status) == 0 && S_ISSOCK(status.st_mode)) unlink(path.c_str());

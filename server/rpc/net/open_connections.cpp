@@ -18,13 +18,13 @@ ino_t InodeOf(int fd) {
 
 void OpenConnections::Add(int fd, const std::string& peer) {
   if (const auto before = sockets_.find(fd); before != sockets_.end()) {
-    Leave(before->second.peer);  // Closed, and its number given anew.
+    Leave(before->second.peer);  // gRPC closed it, and the system reused the descriptor.
   }
   sockets_.insert_or_assign(fd, Socket{.inode = InodeOf(fd), .peer = peer});
   ++peers_[peer];
 }
 
-void OpenConnections::Sweep() {
+void OpenConnections::ForgetClosed() {
   std::erase_if(sockets_, [this](const auto& socket) {
     if (InodeOf(socket.first) == socket.second.inode) return false;
     Leave(socket.second.peer);
@@ -33,12 +33,12 @@ void OpenConnections::Sweep() {
 }
 
 void OpenConnections::Cut() {
-  Sweep();
+  ForgetClosed();
   for (const auto& [fd, socket] : sockets_) shutdown(fd, SHUT_RDWR);
 }
 
 void OpenConnections::CutStalled(Time now, std::chrono::milliseconds stall) {
-  Sweep();
+  ForgetClosed();
   for (auto& [fd, socket] : sockets_) {
     int waiting = 0;
     ioctl(fd, SIOCOUTQ, &waiting);

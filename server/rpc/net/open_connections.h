@@ -9,37 +9,44 @@
 
 namespace contact {
 
-/// The connections that gRPC has and their peers. gRPC closes them without a word, so the book is
-/// put right by asking the system: a socket is still the same if its descriptor has its inode.
-/// Not thread-safe.
+/// The connections that gRPC has, by descriptor, with their peers. gRPC closes connections without
+/// telling, so stale entries are found by comparing each descriptor's inode with the one that it
+/// had when it was added. Not thread-safe.
 class OpenConnections {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
+  /// Adds the connection `fd` of `peer`. An entry of the same descriptor is stale and is replaced.
   void Add(int fd, const std::string& peer);
-  /// Forgets those that are closed.
-  void Sweep();
-  /// Ends those that are left, as if their peers had left; gRPC will close them.
+
+  /// Forgets the connections that gRPC has closed. Costs one system call for each entry.
+  void ForgetClosed();
+
+  /// Shuts down the connections that are open, as if their peers had left; gRPC then closes them.
   void Cut();
-  /// The same for those whose peers have taken nothing of what waits for them since `stall`, as far
-  /// as earlier calls have seen it. To be called several times in that time.
+
+  /// Shuts down the connections whose peers have taken none of the bytes that wait for them for
+  /// `stall`, as far as earlier calls have seen it. To be called several times within `stall`.
   void CutStalled(Time now, std::chrono::milliseconds stall);
 
+  /// Number of entries, with those that gRPC has closed since ForgetClosed.
   std::size_t size() const { return sockets_.size(); }
-  /// Of one peer.
+  /// Number of entries of one peer, likewise.
   std::size_t CountOf(const std::string& peer) const;
 
  private:
   struct Socket {
-    ino_t inode;
-    std::string peer;
-    int waiting = 0;  ///< Bytes that its peer had not taken,
-    Time since = {};  ///< so many since then.
+    ino_t inode;       ///< Of the descriptor, when it was added.
+    std::string peer;  ///< As in peers_.
+    int waiting = 0;   ///< Bytes in the system's send queue when it was last looked at.
+    Time since = {};   ///< When `waiting` was first seen with this value.
   };
+
+  /// Takes one connection from the peer's count.
   void Leave(const std::string& peer);
 
-  std::map<int, Socket> sockets_;  ///< By descriptor.
-  std::map<std::string, std::size_t> peers_;
+  std::map<int, Socket> sockets_;             ///< By descriptor.
+  std::map<std::string, std::size_t> peers_;  ///< Number of connections by peer; never 0.
 };
 
 }  // namespace contact

@@ -4,124 +4,174 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "base/mutex.h"
+#include "jobs/job/job_errors.h"
 #include "rpc/call/status.h"
-#include "rpc/stream/watch_loop.h"
+#include "rpc/stream/stream_loop.h"
+#include "rpc/stream/stream_source.h"
 
 namespace contact {
 
-/// Statuses with which any stream may end.
-grpc::Status StreamDraining();
-grpc::Status StreamUnreadable(const std::string& what);
-
-/// One call that streams `Message`s, at most one of them under way.
+/// One call that streams the messages of a source, at most one of them under way.
 ///
-/// Source, gRPC and clock all enter through Step, which under the one mutex makes the change and,
-/// if no operation is under way, chooses the next one; it is started after the mutex is released.
-/// So there is never a second write, never a Finish beside a write, and exactly one Finish.
+/// Source, gRPC and clock change the state under the one mutex and then call Advance, which, if no
+/// operation is under way, chooses the next one under the mutex and starts it after the mutex is
+/// released. So there is never a second write, never a Finish beside a write, and exactly one
+/// Finish.
 template <class Message>
-class StreamReactor : public grpc::ServerWriteReactor<Message>, public Stream {
+class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Stream {
  public:
-  /// Looks whether there is something to send.
-  void Poke() final {
-    Step([] {});
-  }
+  using Source = std::unique_ptr<StreamSource<Message>>;
+  /// Takes the source of the stream, or the error with which the stream ends. Thread-safe; to be
+  /// called once, at any time.
+  using Opened = std::function<void(Result<Source>)>;
+  /// Asks the stream to look at its source soon. Thread-safe, short, also after the stream's end.
+  using Wake = std::function<void()>;
 
-  /// Ends the stream with SERVER_DRAINING, after the write under way.
-  void Drain() final {
-    Step([this] { EndWith(StreamDraining()); });
-  }
+  /// Starts the call, which owns itself until gRPC is done with it. `open(wake, opened)` is called
+  /// once, at once; what it starts calls `opened`. `label` names in the log what is read.
+  template <class Open>
+  static StreamReactor* Start(const std::shared_ptr<StreamLoop>& loop,
+                              grpc::CallbackServerContext* context, std::string label, Open open);
 
-  /// Ends the call if its write takes longer than `write_stall`; pokes it if it asks for that.
-  /// True if a write takes longer than a second.
+  /// A call that ends at once with this error.
+  static StreamReactor* Refuse(const std::shared_ptr<StreamLoop>& loop,
+                               grpc::CallbackServerContext* context, const Error& error);
+
+  void Poke() final { Advance(); }
+  void Drain() final { End(ToGrpc(Draining())); }
   bool Tick(std::chrono::steady_clock::time_point now) final;
-
- protected:
-  /// `job` is what is read of, for the log.
-  StreamReactor(std::string job, grpc::CallbackServerContext* context,
-                std::chrono::milliseconds write_stall, std::shared_ptr<StreamMetrics> metrics)
-      : job_(std::move(job)),
-        write_stall_(write_stall),
-        metrics_(std::move(metrics)),
-        context_(context) {}
-
-  /// From here on the reactor owns itself, until gRPC is done with it.
-  void Own(std::shared_ptr<StreamReactor> self) { self_ = std::move(self); }
-
-  /// Makes a change of what the derived class guards by the mutex, and starts what follows from it.
-  template <class Change>
-  void Step(Change change);
-
-  // The rest is called under the mutex.
-
-  /// Puts the next message into `out`, which is empty. False: there is none, now or, after
-  /// EndWith, ever.
-  virtual bool Next(Message* out) = 0;
-  /// True if time alone may bring something to send to a stream without a write under way.
-  virtual bool IsDue(std::chrono::steady_clock::time_point now) const = 0;
-
-  /// Ends the stream with this status, unless it has another one.
-  void EndWith(const grpc::Status& status) {
-    if (!end_) end_ = status;
-  }
-  std::chrono::steady_clock::time_point last_write() const { return last_write_; }
-  StreamMetrics& metrics() { return *metrics_; }
 
  private:
   enum class State { kIdle, kWriting, kFinishing, kDone };
 
-  State Choose();
-  void Drop(std::chrono::steady_clock::time_point now);
-  std::shared_ptr<StreamReactor> Self() {
-    const std::lock_guard lock(mutex_);
-    return self_;
-  }
+  StreamReactor(std::string label, grpc::CallbackServerContext* context,
+                std::shared_ptr<StreamLoop> loop)
+      : label_(std::move(label)),
+        loop_(std::move(loop)),
+        context_(context),
+        last_write_(loop_->clock().Elapsed()) {}
 
-  void OnWriteDone(bool ok) final {
-    Step([this, ok] {
-      state_ = State::kIdle;
-      if (!ok) EndWith(grpc::Status::CANCELLED);
-    });
-  }
-  void OnCancel() final {
-    Step([this] { EndWith(grpc::Status::CANCELLED); });
-  }
-  void OnDone() final {
-    std::shared_ptr<StreamReactor> last;  // Goes after the lock.
-    const std::lock_guard lock(mutex_);
-    state_ = State::kDone;
-    last = std::move(self_);
-  }
+  /// A reactor that owns itself.
+  static std::shared_ptr<StreamReactor> Make(const std::shared_ptr<StreamLoop>& loop,
+                                             grpc::CallbackServerContext* context,
+                                             std::string label);
+  /// Takes the source, or ends the stream with the error.
+  void SetSource(Result<Source> source);
+  /// Ends the stream with this status, unless it ends already with another one.
+  void End(const grpc::Status& status);
+  /// Starts the next operation if none is under way.
+  void Advance();
+  /// The next operation: a write of `out_`, Finish with `end_`, or none.
+  State Choose() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Cancels the call of a reader that stalls.
+  void Drop(std::chrono::steady_clock::time_point now) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
-  const std::string job_;
-  const std::chrono::milliseconds write_stall_;
-  const std::shared_ptr<StreamMetrics> metrics_;
+  void OnWriteDone(bool ok) final;
+  void OnCancel() final { End(grpc::Status::CANCELLED); }
+  void OnDone() final;
 
-  std::mutex mutex_;                            // Guards everything below.
-  grpc::CallbackServerContext* const context_;  // Valid until kDone.
-  State state_ = State::kIdle;
-  std::optional<grpc::Status> end_;  // Finish with it when idle.
-  Message out_;                      // Belongs to gRPC while kWriting.
-  std::chrono::steady_clock::time_point last_write_ = std::chrono::steady_clock::now();
-  std::shared_ptr<StreamReactor> self_;  // Until kDone.
+  const std::string label_;
+  const std::shared_ptr<StreamLoop> loop_;
+  grpc::CallbackServerContext* const context_;  ///< Valid until kDone.
+
+  Mutex mutex_;
+  State state_ ABSL_GUARDED_BY(mutex_) = State::kIdle;
+  Source source_ ABSL_GUARDED_BY(mutex_);  ///< Null until opened, and from kFinishing on.
+  std::optional<grpc::Status> end_ ABSL_GUARDED_BY(mutex_);  ///< To finish with when idle.
+  std::chrono::steady_clock::time_point last_write_ ABSL_GUARDED_BY(mutex_);  ///< Start of it.
+  std::shared_ptr<StreamReactor> self_ ABSL_GUARDED_BY(mutex_);  ///< Null from kDone on.
+  Message out_;  ///< Guarded by mutex_ but while kWriting, when gRPC reads it.
 };
+
+template <class Message>
+template <class Open>
+StreamReactor<Message>* StreamReactor<Message>::Start(const std::shared_ptr<StreamLoop>& loop,
+                                                      grpc::CallbackServerContext* context,
+                                                      std::string label, Open open) {
+  const auto self = Make(loop, context, std::move(label));
+  loop->Add(self);
+  const std::weak_ptr<StreamReactor> weak = self;
+  open([weak, loop] { loop->Wake(weak); },
+       [weak](Result<Source> source) {
+         if (const auto reactor = weak.lock()) reactor->SetSource(std::move(source));
+       });
+  return self.get();  // Alive: gRPC calls OnDone only after it has been given the reactor.
+}
+
+template <class Message>
+StreamReactor<Message>* StreamReactor<Message>::Refuse(const std::shared_ptr<StreamLoop>& loop,
+                                                       grpc::CallbackServerContext* context,
+                                                       const Error& error) {
+  const auto self = Make(loop, context, "");
+  self->End(ToGrpc(error));
+  return self.get();
+}
+
+template <class Message>
+std::shared_ptr<StreamReactor<Message>> StreamReactor<Message>::Make(
+    const std::shared_ptr<StreamLoop>& loop, grpc::CallbackServerContext* context,
+    std::string label) {
+  std::shared_ptr<StreamReactor> self(new StreamReactor(std::move(label), context, loop));
+  const MutexLock lock(self->mutex_);
+  self->self_ = self;
+  return self;
+}
+
+template <class Message>
+void StreamReactor<Message>::SetSource(Result<Source> source) {
+  if (!source.ok()) return End(ToGrpc(source.error()));
+  {
+    const MutexLock lock(mutex_);
+    source_ = std::move(source.value());
+  }
+  Advance();
+}
+
+template <class Message>
+void StreamReactor<Message>::End(const grpc::Status& status) {
+  {
+    const MutexLock lock(mutex_);
+    if (!end_) end_ = status;
+  }
+  Advance();
+}
+
+template <class Message>
+void StreamReactor<Message>::OnWriteDone(bool ok) {
+  {
+    const MutexLock lock(mutex_);
+    state_ = State::kIdle;
+    if (!ok && !end_) end_ = grpc::Status::CANCELLED;
+  }
+  Advance();
+}
+
+template <class Message>
+void StreamReactor<Message>::OnDone() {
+  std::shared_ptr<StreamReactor> last;  // Goes after the lock.
+  const MutexLock lock(mutex_);
+  state_ = State::kDone;
+  last = std::move(self_);
+}
 
 template <class Message>
 bool StreamReactor<Message>::Tick(std::chrono::steady_clock::time_point now) {
   bool slow = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (state_ == State::kWriting) {
       const auto waits = now - last_write_;
       slow = waits > std::chrono::seconds(1);
-      if (waits > write_stall_) Drop(now);
+      if (waits > loop_->write_stall()) Drop(now);
     }
-    if (state_ != State::kIdle || !IsDue(now)) return slow;
+    if (state_ != State::kIdle || !source_ || !source_->IsDue(now)) return slow;
   }
   Poke();
   return slow;
@@ -129,39 +179,43 @@ bool StreamReactor<Message>::Tick(std::chrono::steady_clock::time_point now) {
 
 template <class Message>
 void StreamReactor<Message>::Drop(std::chrono::steady_clock::time_point now) {
-  spdlog::warn("job={} a reader took nothing for {} ms and is dropped", job_, write_stall_.count());
-  ++metrics_->dropped;
+  spdlog::warn("{} a reader took nothing for {} ms and is dropped", label_,
+               loop_->write_stall().count());
+  ++loop_->metrics()->dropped;
   context_->TryCancel();
   last_write_ = now;
 }
 
 template <class Message>
-template <class Change>
-void StreamReactor<Message>::Step(Change change) {
-  const auto keep = Self();
-  if (!keep) return;
+void StreamReactor<Message>::Advance() {
   const auto begin = std::chrono::steady_clock::now();
-  State next;
+  State next = State::kIdle;
   grpc::Status end;
+  Source read;  // Goes before the client learns of the end, and outside of the lock.
   {
-    const std::lock_guard lock(mutex_);
-    change();
+    const MutexLock lock(mutex_);
     if (state_ != State::kIdle) return;  // OnWriteDone comes back here.
     state_ = next = Choose();
-    if (next == State::kWriting) last_write_ = std::chrono::steady_clock::now();
-    if (next == State::kFinishing) end = *end_;
+    if (next == State::kWriting) last_write_ = loop_->clock().Elapsed();
+    if (next == State::kFinishing) {
+      end = *end_;
+      read = std::move(source_);
+    }
   }
+  read.reset();
   if (next == State::kWriting) this->StartWrite(&out_);
   if (next == State::kFinishing) this->Finish(end);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  metrics_->reaction_seconds.Count(took.count());
+  loop_->metrics()->reaction_seconds.Count(took.count());
 }
 
 template <class Message>
 typename StreamReactor<Message>::State StreamReactor<Message>::Choose() {
-  if (!end_) {
+  if (!end_ && source_) {
     out_.Clear();
-    if (Next(&out_)) return State::kWriting;
+    StreamStep step = source_->Read(&out_);
+    end_ = std::move(step.end);
+    if (step.has_message) return State::kWriting;
   }
   return end_ ? State::kFinishing : State::kIdle;
 }

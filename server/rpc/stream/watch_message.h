@@ -12,20 +12,24 @@
 
 namespace contact {
 
-/// Composes a serialised WatchJobResponse of events that are serialised already. Small ones are
-/// copied; the bytes of large ones are shared with the log and with whoever else watches.
+/// Composes a serialised WatchJobResponse of events that are serialised already. Small events are
+/// copied; the bytes of large ones are shared with the log and with other watchers.
 class WatchMessage {
  public:
+  /// Adds the snapshot field.
   void SetSnapshot(const v1::Job& job);
+  /// Adds an event, with the record's sequence unless that is 0.
   void Add(const LogRecord& record);
 
+  /// The message; afterwards this is empty.
   grpc::ByteBuffer Take();
 
  private:
+  /// Makes a slice of text_.
   void Flush();
 
-  std::string text_;  ///< Not in a slice yet.
-  std::vector<grpc::Slice> slices_;
+  std::string text_;                 ///< Bytes that are not in a slice yet.
+  std::vector<grpc::Slice> slices_;  ///< The message up to text_.
 };
 
 }  // namespace contact

@@ -1,5 +1,3 @@
-#include "rpc/stream/watch_reactor.h"
-
 #include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
 
@@ -11,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "rpc/stream/watch_source.h"
 #include "test_server.h"
 #include "testing/fake_run.h"
 
@@ -78,7 +77,7 @@ void Occupy(TestServer& server, int workers) {
   }
 }
 
-TEST(WatchReactorTest, FirstMessageIsTheSnapshotAndComesAtOnce) {
+TEST(WatchStreamTest, FirstMessageIsTheSnapshotAndComesAtOnce) {
   TestServer server({}, {.workers = 1});
   Occupy(server, 1);
   const std::string name = server.Create(Collision());
@@ -90,7 +89,7 @@ TEST(WatchReactorTest, FirstMessageIsTheSnapshotAndComesAtOnce) {
   watch.Cancel();
 }
 
-TEST(WatchReactorTest, EndsWithOkAfterTheFinalState) {
+TEST(WatchStreamTest, EndsWithOkAfterTheFinalState) {
   TestServer server;
   Watch watch(server.stub(), server.Create(Collision()));
   EXPECT_TRUE(watch.End().ok());
@@ -103,7 +102,7 @@ TEST(WatchReactorTest, EndsWithOkAfterTheFinalState) {
   }
 }
 
-TEST(WatchReactorTest, GoesOnAfterAnySequence) {
+TEST(WatchStreamTest, GoesOnAfterAnySequence) {
   TestServer server;
   const std::string name = server.Create(Collision());
   Watch all(server.stub(), name);
@@ -115,7 +114,7 @@ TEST(WatchReactorTest, GoesOnAfterAnySequence) {
   EXPECT_EQ(rest.events().front().sequence(), last);
 }
 
-TEST(WatchReactorTest, UnknownJobIsNotFound) {
+TEST(WatchStreamTest, UnknownJobIsNotFound) {
   TestServer server;
   const grpc::Status status = Watch(server.stub(), "jobs/none").End();
   EXPECT_EQ(status.error_code(), grpc::NOT_FOUND);
@@ -123,7 +122,7 @@ TEST(WatchReactorTest, UnknownJobIsNotFound) {
   EXPECT_TRUE(Eventually([&] { return server.grpc().watchers() == 0; }));
 }
 
-TEST(WatchReactorTest, IdleWatchGetsBookmarksToResumeFrom) {
+TEST(WatchStreamTest, IdleWatchGetsBookmarksToResumeFrom) {
   TestServer server({}, {.workers = 1});
   Occupy(server, 1);
   Watch watch(server.stub(), server.Create(Collision()), 1);
@@ -139,7 +138,7 @@ TEST(WatchReactorTest, IdleWatchGetsBookmarksToResumeFrom) {
   watch.Cancel();
 }
 
-TEST(WatchReactorTest, BookmarkIntervalOutOfRangeIsRefused) {
+TEST(WatchStreamTest, BookmarkIntervalOutOfRangeIsRefused) {
   TestServer server;
   const std::string name = server.Create(Collision());
   for (const int interval : {-1, 3601}) {
@@ -149,7 +148,7 @@ TEST(WatchReactorTest, BookmarkIntervalOutOfRangeIsRefused) {
   }
 }
 
-TEST(WatchReactorTest, StalledWatcherIsDroppedAndOthersAreNot) {
+TEST(WatchStreamTest, StalledWatcherIsDroppedAndOthersAreNot) {
   TestServer server({.write_stall = milliseconds(1500)});
   const std::string name = server.Create(Endless());
   const auto stalled_stub = v1::JobService::NewStub(server.Connect());
@@ -165,7 +164,7 @@ TEST(WatchReactorTest, StalledWatcherIsDroppedAndOthersAreNot) {
   lively.Cancel();
 }
 
-TEST(WatchReactorTest, DrainEndsWatchesAndThoseToCome) {
+TEST(WatchStreamTest, DrainEndsWatchesAndThoseToCome) {
   TestServer server({}, {.workers = 1});
   Occupy(server, 1);
   const std::string name = server.Create(Collision());
@@ -181,7 +180,7 @@ TEST(WatchReactorTest, DrainEndsWatchesAndThoseToCome) {
   }
 }
 
-TEST(WatchReactorTest, CancelAtAnyMomentLeavesNothing) {
+TEST(WatchStreamTest, CancelAtAnyMomentLeavesNothing) {
   TestServer server;
   const std::string name = server.Create(Endless());
   for (int i = 0; i < 200; ++i) {
@@ -225,7 +224,7 @@ void ExpectWhole(const std::vector<v1::Event>& events, int remarks, std::uint64_
   EXPECT_EQ(events.back().state_changed().state(), v1::Job::SUCCEEDED);
 }
 
-TEST(WatchReactorTest, FrameIntervalLeavesOutFramesAndNamesThem) {
+TEST(WatchStreamTest, FrameIntervalLeavesOutFramesAndNamesThem) {
   FakeRun run(Frames(50, 10));
   TestServer server({}, Filming(run));
   const std::string name = server.Create(Collision());
@@ -244,7 +243,7 @@ TEST(WatchReactorTest, FrameIntervalLeavesOutFramesAndNamesThem) {
   EXPECT_EQ(none, 0U);
 }
 
-TEST(WatchReactorTest, IdleWatchGetsTheNewestFrameWhenItIsTime) {
+TEST(WatchStreamTest, IdleWatchGetsTheNewestFrameWhenItIsTime) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token& stop) {
     for (std::int64_t i = 0; i < 5; ++i) observer.OnSamples({i, 9, std::vector<double>(9)});
     while (!stop.stop_requested()) observer.OnProgress({});
@@ -290,7 +289,7 @@ grpc::Status WatchLate(v1::DeliveryOptions::OverflowPolicy overflow,
   return status;
 }
 
-TEST(WatchReactorTest, SlowWatcherIsSparedFramesAndNothingElse) {
+TEST(WatchStreamTest, SlowWatcherIsSparedFramesAndNothingElse) {
   std::vector<v1::Event> events;
   EXPECT_TRUE(WatchLate(v1::DeliveryOptions::CONFLATE, &events).ok());
   std::uint64_t left_out = 0;
@@ -298,14 +297,14 @@ TEST(WatchReactorTest, SlowWatcherIsSparedFramesAndNothingElse) {
   EXPECT_GT(left_out, 0U);
 }
 
-TEST(WatchReactorTest, SlowWatcherIsDisconnectedIfItWants) {
+TEST(WatchStreamTest, SlowWatcherIsDisconnectedIfItWants) {
   std::vector<v1::Event> events;
   const grpc::Status status = WatchLate(v1::DeliveryOptions::DISCONNECT, &events);
   EXPECT_EQ(status.error_code(), grpc::RESOURCE_EXHAUSTED);
   EXPECT_EQ(Reason(status), "SLOW_WATCHER");
 }
 
-TEST(WatchReactorTest, SlowWatcherGetsEverythingIfItWants) {
+TEST(WatchStreamTest, SlowWatcherGetsEverythingIfItWants) {
   std::vector<v1::Event> events;
   EXPECT_TRUE(WatchLate(v1::DeliveryOptions::LAG, &events).ok());
   std::uint64_t left_out = 0;
@@ -313,7 +312,7 @@ TEST(WatchReactorTest, SlowWatcherGetsEverythingIfItWants) {
   EXPECT_EQ(left_out, 0U);
 }
 
-TEST(WatchReactorTest, LiveOnlyBeginsAfterTheSnapshot) {
+TEST(WatchStreamTest, LiveOnlyBeginsAfterTheSnapshot) {
   FakeRun run(Frames(1, 1));
   TestServer server({}, Filming(run));
   const std::string name = server.Create(Collision());
@@ -333,7 +332,7 @@ TEST(WatchReactorTest, LiveOnlyBeginsAfterTheSnapshot) {
   EXPECT_TRUE(late.events().empty());
 }
 
-TEST(WatchReactorTest, ProgressDoesNotKeepBookmarksBack) {
+TEST(WatchStreamTest, ProgressDoesNotKeepBookmarksBack) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token& stop) {
     while (!stop.stop_requested()) observer.OnProgress({});
     return Ending(Outcome::End::kStopped);
@@ -354,7 +353,7 @@ TEST(WatchReactorTest, ProgressDoesNotKeepBookmarksBack) {
   watch.Cancel();
 }
 
-TEST(WatchReactorTest, RequestThatIsNoneIsRefused) {
+TEST(WatchStreamTest, RequestThatIsNoneIsRefused) {
   TestServer server;
   grpc::GenericStub stub(server.Connect());
   grpc::ClientContext context;
@@ -411,7 +410,7 @@ void WatchAtRandom(Storm& storm, unsigned seed) {
   }
 }
 
-TEST(WatchReactorTest, StormOfWatchersLeavesNothingAndShutsDownAtOnce) {
+TEST(WatchStreamTest, StormOfWatchersLeavesNothingAndShutsDownAtOnce) {
   TestServer server({.write_stall = milliseconds(20)});
   Storm storm{server, server.Create(Endless())};
   std::vector<std::jthread> clients;

@@ -1,10 +1,9 @@
-#include "rpc/stream/watch_jobs_reactor.h"
-
 #include <gmock/gmock.h>
 
 #include <string>
 #include <vector>
 
+#include "rpc/stream/job_sources.h"
 #include "test_server.h"
 
 namespace contact {
@@ -34,7 +33,7 @@ class JobsWatch {
   std::unique_ptr<grpc::ClientReader<v1::WatchJobsResponse>> reader_;
 };
 
-TEST(WatchJobsReactorTest, TellsWhatThereIsAndThenEveryJobToItsEnd) {
+TEST(JobsStreamTest, TellsWhatThereIsAndThenEveryJobToItsEnd) {
   TestServer server;
   const std::string before = server.Create(Collision());
   JobsWatch watch(server);
@@ -53,7 +52,7 @@ TEST(WatchJobsReactorTest, TellsWhatThereIsAndThenEveryJobToItsEnd) {
   }
 }
 
-TEST(WatchJobsReactorTest, IdleWatchGetsEmptyMessages) {
+TEST(JobsStreamTest, IdleWatchGetsEmptyMessages) {
   TestServer server;
   v1::WatchJobsRequest request;
   request.mutable_bookmark_interval()->set_seconds(1);
@@ -65,7 +64,7 @@ TEST(WatchJobsReactorTest, IdleWatchGetsEmptyMessages) {
   EXPECT_TRUE(message.snapshot_complete());
 }
 
-TEST(WatchJobsReactorTest, BadFilterIsRefused) {
+TEST(JobsStreamTest, BadFilterIsRefused) {
   TestServer server;
   v1::WatchJobsRequest request;
   request.add_states(static_cast<v1::Job::State>(77));
@@ -74,7 +73,7 @@ TEST(WatchJobsReactorTest, BadFilterIsRefused) {
   EXPECT_EQ(Reason(status), "FIELD_INVALID");
 }
 
-TEST(WatchJobsReactorTest, CountsAsAWatcherAndEndsWithTheServer) {
+TEST(JobsStreamTest, CountsAsAWatcherAndEndsWithTheServer) {
   TestServer server({}, {.workers = 1, .max_watchers = 1});
   JobsWatch watch(server);
   v1::WatchJobsResponse message;

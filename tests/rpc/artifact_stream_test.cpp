@@ -1,9 +1,8 @@
-#include "rpc/stream/artifact_reactor.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "rpc/stream/job_sources.h"
 #include "test_server.h"
 
 namespace contact {
@@ -29,7 +28,7 @@ grpc::Status ReadArtifact(TestServer& server, const std::string& job, const std:
   return reader->Finish();
 }
 
-TEST(ArtifactReactorTest, TrajectoryComesInChunksAndEndsWithItsSize) {
+TEST(ArtifactStreamTest, TrajectoryComesInChunksAndEndsWithItsSize) {
   TestServer server;
   v1::Scenario scenario = Collision();
   scenario.mutable_output()->set_sample_interval_s(1e-6);
@@ -51,7 +50,7 @@ TEST(ArtifactReactorTest, TrajectoryComesInChunksAndEndsWithItsSize) {
   EXPECT_EQ(again.sha256(), artifact.sha256());
 }
 
-TEST(ArtifactReactorTest, ErrorsAreThoseOfTheContract) {
+TEST(ArtifactStreamTest, ErrorsAreThoseOfTheContract) {
   TestServer server;
   std::string data;
   v1::Artifact artifact;

@@ -1,0 +1,176 @@
+#include "flags.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "base/duration.h"
+
+namespace contact {
+namespace {
+
+const std::map<std::string, spdlog::level::level_enum> kLogLevels{
+    {"debug", spdlog::level::debug}, {"info", spdlog::level::info}, {"warn", spdlog::level::warn},
+    {"error", spdlog::level::err},   {"off", spdlog::level::off},
+};
+
+const std::map<std::string, LogFormat> kLogFormats{{"text", LogFormat::kText},
+                                                   {"json", LogFormat::kJson}};
+
+// What the server is, apart from limits.
+void AddBasics(CLI::App* app, Config* config) {
+  app->add_option("--listen", config->listen,
+                  "HOST:PORT, port 0 being any free one; or unix:PATH, a socket file")
+      ->capture_default_str();
+  app->add_option("--data-dir", config->data_dir, "Directory of jobs and results; made if missing")
+      ->capture_default_str();
+  app->add_option("--workers", config->jobs.workers, "Simulations that run at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app->add_option("--port-file", config->port_file, "File to write the port to");
+  app->add_option("--metrics-listen", config->metrics_listen,
+                  "HOST:PORT that tells metrics to Prometheus, such as 127.0.0.1:9464");
+}
+
+void AddLog(CLI::App* app, Config* config) {
+  app->add_option("--log-level", config->log_level, "debug, info, warn, error or off")
+      ->transform(CLI::CheckedTransformer(kLogLevels))
+      ->default_str("info");
+  app->add_option("--log-format", config->log_format, "text, or json: an object a line")
+      ->transform(CLI::CheckedTransformer(kLogFormats))
+      ->default_str("text");
+}
+
+// What clients may see, and from where.
+void AddExposure(CLI::App* app, Switches* switches) {
+  app->add_flag("--no-reflection", switches->no_reflection,
+                "Do not tell clients which services there are");
+  app->add_flag("--channelz", switches->channelz,
+                "Tell clients of this host which connections there are, for debugging");
+  app->add_flag("--insecure-i-know", switches->insecure,
+                "Listen without encryption and passwords on an address that others can reach");
+}
+
+// A number in [low, high]; its default is the value that is there.
+template <class Number>
+void AddNumber(CLI::App* app, const char* name, Number* value, Number low, Number high,
+               const char* description) {
+  app->add_option(name, *value, description)->check(CLI::Range(low, high))->capture_default_str();
+}
+
+// Limits of what one request may hold.
+void AddRequestLimits(CLI::App* app, Config* config) {
+  ScenarioLimits& scenario = config->jobs.scenario_limits;
+  AddNumber(app, "--max-message-bytes", &config->rpc.max_message_bytes, 64 << 10, 256 << 20,
+            "Bytes in one request");
+  AddNumber(app, "--max-metadata-bytes", &config->rpc.calls.max_metadata_bytes, 1024, 64 << 10,
+            "Bytes of metadata in one call");
+  AddNumber(app, "--max-bodies", &scenario.max_bodies, 1, 1'000'000, "Bodies in a scenario");
+  AddNumber(app, "--max-contacts", &scenario.max_contacts, 1, 1'000'000, "Contacts in a scenario");
+  AddNumber<std::int64_t>(app, "--max-samples", &scenario.max_samples, 1, 1'000'000'000,
+                          "Samples in a recorded trajectory");
+  AddNumber(app, "--max-cells", &scenario.max_cells, 1, 1'000'000, "Cells of a sweep");
+}
+
+// Limits of what one peer may do, and all of them together.
+void AddPeerLimits(CLI::App* app, Config* config, Switches* switches) {
+  CallLimits& calls = config->rpc.calls;
+  AddNumber(app, "--max-queued-jobs", &config->jobs.max_queued_jobs, 1, 1'000'000,
+            "Jobs that wait for a worker");
+  AddNumber(app, "--max-creates-per-second", &calls.max_creates_per_second, 0.0, 1e6,
+            "CreateJob calls of one address, on average; 0: any number");
+  AddNumber(app, "--max-create-burst", &calls.max_create_burst, 1, 1'000'000,
+            "CreateJob calls of one address at once");
+  AddNumber(app, "--max-watchers", &config->jobs.max_watchers, 1, 100'000,
+            "Watchers of all jobs together");
+  AddNumber(app, "--max-watchers-per-peer", &calls.max_watchers_per_peer, 1, 100'000,
+            "Streams of one address of the network");
+  AddNumber(app, "--max-connections", &config->rpc.connections.in_all, 1, 100'000,
+            "Connections in all");
+  AddNumber(app, "--max-connections-per-peer", &config->rpc.connections.per_peer, 1, 100'000,
+            "Connections of one address of the network");
+  AddNumber(app, "--write-stall-seconds", &switches->write_stall_s, 0.01, 3600.0,
+            "A reader of a stream that takes nothing for this time is dropped");
+}
+
+// Limits of memory and disk.
+void AddSpaceLimits(CLI::App* app, Config* config) {
+  AddNumber(app, "--max-rpc-memory-bytes", &config->rpc.max_memory_bytes, 16 << 20, 2047 << 20,
+            "Bytes that connections and messages under way may take");
+  AddNumber(app, "--max-stored-bytes", &config->store.max_bytes, std::int64_t{0},
+            std::int64_t{1} << 50, "Bytes of the database; 0: what the disk has");
+}
+
+// A duration such as `10s`, `5m`, `12h`, `30d`; its default is the value that is there. Rounded up
+// to the unit of `value`.
+template <class Duration>
+void AddTime(CLI::App* app, const std::string& name, Duration* value,
+             const std::string& description) {
+  const auto set = [name, value](const std::string& text) {
+    const auto time = ParseDuration(text);
+    if (!time) throw CLI::ValidationError(name, NotADuration(text));
+    *value = std::chrono::ceil<Duration>(*time);
+  };
+  const std::chrono::duration<double> seconds = *value;
+  app->add_option_function<std::string>(name, set, description)
+      ->type_name("TIME")
+      ->default_str(fmt::format("{:g}s", seconds.count()));
+}
+
+// A size such as `2GB`; its default is the value that is there.
+void AddSize(CLI::App* app, const char* name, std::int64_t* value, const char* description) {
+  app->add_option(name, *value, description)
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES")
+      ->capture_default_str();
+}
+
+// What one job may use.
+void AddBudgets(CLI::App* app, JobOptions* jobs) {
+  AddTime(app, "--max-wall-time", &jobs->max_budget.wall_time,
+          "Wall time of one attempt of a job, such as 10m; 0 is any");
+  AddNumber(app, "--max-steps", &jobs->max_budget.steps, std::int64_t{0},
+            std::numeric_limits<std::int64_t>::max(),
+            "Integration steps of a job, all its cells together; 0 is any");
+  AddSize(app, "--max-output-bytes", &jobs->max_budget.output_bytes,
+          "Bytes that a job may record, such as 2GB; 0 is any");
+  AddTime(app, "--step-timeout", &jobs->step_timeout,
+          "A run that makes no step for this time is ended; 0 is never");
+  AddNumber(app, "--max-attempts", &jobs->max_attempts, 1, 1000,
+            "A job that was running at this many crashes of the server is set aside");
+  AddTime(app, "--checkpoint-interval", &jobs->checkpoint_interval,
+          "How often a long run stores where it can continue after a crash; 0 is never");
+}
+
+// How long ended jobs are kept.
+void AddRetention(CLI::App* app, RetentionLimits* retention) {
+  AddSize(app, "--retain-bytes", &retention->bytes,
+          "Ended jobs are deleted, in the order of their ends, while they take more than this, "
+          "such as 20GB; 0 is any");
+  AddTime(app, "--retain-for", &retention->age,
+          "Ended jobs are deleted after this time, such as 30d, unless they have one of their own; "
+          "0 is never");
+  AddTime(app, "--compact-after", &retention->compact_after,
+          "The trajectories of ended jobs are dropped after this time, such as 7d, and their "
+          "results kept; 0 is never");
+}
+
+}  // namespace
+
+void AddFlags(CLI::App* app, Config* config, Switches* switches) {
+  AddBasics(app, config);
+  AddLog(app, config);
+  AddExposure(app, switches);
+  AddRequestLimits(app, config);
+  AddPeerLimits(app, config, switches);
+  AddSpaceLimits(app, config);
+  AddBudgets(app, &config->jobs);
+  AddRetention(app, &config->jobs.retention);
+}
+
+}  // namespace contact

@@ -1,0 +1,100 @@
+"""The names and numbers in server/README.md are those of the server."""
+
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SERVER = ROOT / "server"
+README = (SERVER / "README.md").read_text("utf-8")
+UNITS = {"": 1, "s": 1, "MiB": 2**20, "ms": 1e-3}
+
+
+def rows(title):
+    """The cells of each row of the tables in a section."""
+    section = README.split(f"\n## {title}\n", 1)[1].split("\n## ", 1)[0]
+    lines = [line for line in section.splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+
+
+def number(text):
+    """What a cell such as `8 MiB`, `20,000` or `0: any` begins with, in seconds or bytes."""
+    digits, unit = re.match(r"([\d.,]+)\s*([A-Za-z]*)", text).groups()
+    return float(digits.replace(",", "")) * UNITS.get(unit, 1)
+
+
+def defaults_of_help():
+    """{flag: default} of `contactd --help`."""
+    text = subprocess.run([os.environ["CONTACTD"], "--help"], check=True, text=True,
+                          stdout=subprocess.PIPE).stdout
+    found = re.findall(r"(--[a-z-]+) [^\n]*=([\d.e+]+)s? \(Env", text)
+    return {flag: float(value) for flag, value in found}
+
+
+def sources():
+    return [path.read_text("utf-8") for ending in ("*.h", "*.cpp")
+            for path in SERVER.rglob(ending)]
+
+
+class ReadmeTest(unittest.TestCase):
+
+    def test_defaults_of_flags_are_those_of_the_help(self):
+        told = {flag: number(row[row.index(f"`{flag}`") + 1])
+                for title in ("Settings", "Limits") for row in rows(title)
+                for flag in re.findall(r"`(--[a-z-]+)`", " ".join(row[:2]))
+                if f"`{flag}`" in row}
+        self.assertGreater(len(told), 20)
+        defaults = defaults_of_help()
+        self.assertEqual(told, {flag: defaults.get(flag) for flag in told})
+
+    def test_every_limit_of_the_help_has_its_row(self):
+        limits = {flag for flag in defaults_of_help()
+                  if re.match("--(max|retain|compact|write|step|checkpoint)-", flag)}
+        self.assertGreater(len(limits), 20)
+        self.assertEqual({flag for flag in limits if f"`{flag}`" not in README}, set())
+
+    def test_limits_without_a_flag_are_those_of_the_code(self):
+        told = {row[0]: number(row[2]) for row in rows("Limits") if row[1] == "–"}
+        server = (SERVER / "rpc/grpc_server.h").read_text("utf-8")
+        guard = (SERVER / "rpc/call/call_guard.cpp").read_text("utf-8")
+        handshake = re.search(r"handshake_timeout\{([\d']+)\}", server).group(1)
+        deadline = re.search(r"seconds kDefaultDeadline\{(\d+)\}", guard).group(1)
+        self.assertEqual(told, {
+            "time until a connection begins HTTP/2": float(handshake.replace("'", "")) / 1000,
+            "time in the queue of a unary call without deadline": float(deadline)})
+
+    def test_threads_are_those_of_the_code(self):
+        named = re.compile(r'(?:setname_np\(pthread_self\(\), |Executor \w+\{)"([^"]+)"')
+        in_code = {name for text in sources() for name in named.findall(text)}
+        told = {name for row in rows("Threads") for name in re.findall(r"^`([^`]+)`$", row[0])}
+        self.assertEqual(told, in_code)
+        self.assertEqual({name for name in in_code if len(name) > 15}, set(), "Linux cuts names")
+
+    def test_every_thread_has_a_name(self):
+        starts = re.compile(r"std::j?thread\w*(?: \w+)?\(\[|thread_\(\[")
+        for path in SERVER.rglob("*.cpp"):
+            text = path.read_text("utf-8")
+            if starts.search(text):
+                self.assertIn("pthread_setname_np", text, path.name)
+
+    def test_metrics_are_those_of_the_page(self):
+        page = (SERVER / "rpc/metrics/metrics_page.cpp").read_text("utf-8")
+        told = {name for row in rows("Metrics")[1:]
+                for name in re.findall(r"`([a-z_]+)(?:\{[a-z,]+\})?`", row[0])}
+        self.assertEqual(told, set(re.findall(r'"contactd_(\w+)"', page)))
+
+    def test_rooms_are_those_of_the_layering(self):
+        text = (ROOT / "tests/layering_test.py").read_text("utf-8")
+        order = dict(re.findall(r'"(server[/a-z]*)": \[([^\]]*)\]', text))
+        names = lambda folder: re.findall(r'"(\w+)"', order.get(folder, ""))
+        told = {row[0].strip("`/"): re.findall(r"`(\w+)`", row[2]) for row in rows("Rooms")
+                if row[0].endswith("/`")}
+        self.assertEqual(list(told), names("server"))
+        for room, inner in told.items():
+            self.assertEqual(inner, names(f"server/{room}"), room)
+
+
+if __name__ == "__main__":
+    unittest.main()
