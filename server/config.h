@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <string>
-#include <variant>
 
 #include "jobs/job_manager.h"
 #include "log.h"
@@ -35,15 +34,5 @@ struct Config {
   JobOptions jobs;
   GrpcServerOptions rpc;
 };
-
-/// Why the program ends at once.
-struct Exit {
-  int code;          ///< An ExitCode.
-  std::string text;  ///< To print before: on stdout if the code is 0, on stderr otherwise.
-};
-
-/// Reads the flags. Each is also an environment variable (`--data-dir` is CONTACTD_DATA_DIR) and a
-/// key of the file named by `--config`; a flag beats the variable, and that beats the file.
-std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv);
 
 }  // namespace contact
