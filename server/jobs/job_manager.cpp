@@ -7,8 +7,8 @@
 #include <future>
 #include <utility>
 
-#include "base/executor.h"
 #include "base/clock.h"
+#include "base/executor.h"
 #include "base/ids.h"
 #include "jobs/job/job_errors.h"
 #include "jobs/job/lifecycle.h"
@@ -22,8 +22,8 @@
 #include "jobs/schedule/scheduler.h"
 #include "storage/job_queries.h"
 #include "storage/store.h"
-#include "wire/scenario_codec.h"
-#include "wire/sweep_codec.h"
+#include "wire/scenario/scenario_codec.h"
+#include "wire/sweep/sweep_codec.h"
 
 namespace contact {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "contact/v1/job.pb.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact {
 

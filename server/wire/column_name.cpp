@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "wire/field_rule.h"
+#include "wire/rules/field_rule.h"
 
 namespace contact {
 namespace {

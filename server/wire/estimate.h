@@ -1,7 +1,7 @@
 #pragma once
 
 #include "contact/v1/job.pb.h"
-#include "wire/sweep_codec.h"
+#include "wire/sweep/sweep_codec.h"
 
 namespace contact {
 

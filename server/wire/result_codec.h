@@ -9,18 +9,23 @@
 
 namespace contact {
 
-/// Writes what a run reports as messages of the contract. Names come from the scenario.
+/// Encode writes what a run reports as a message of the contract. `scenario` is the one that runs;
+/// names of bodies and contacts come from it.
 
+/// A row of the ledger.
 v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle);
+/// A pass through an episode.
 v1::Iteration Encode(const Scenario& scenario, const Iteration& iteration);
+/// Consecutive samples, column by column: the columns of Channels with values.
 v1::FrameChunk Encode(const Scenario& scenario, const Samples& samples);
+/// The progress of a run; the counts of cells stay 0.
 v1::Progress Encode(const Scenario& scenario, const Progress& progress);
 
 /// The columns of the scenario's frame chunks, without values: `time`, then those of each body and
 /// of each contact.
 std::vector<v1::FrameChunk::Column> Channels(const Scenario& scenario);
 
-/// Fills convergence, final_bodies and summary (but for wall_time_s) of a job.
+/// Fills convergence, final_bodies and summary of a job, except for summary.wall_time_s.
 void EncodeOutcome(const Scenario& scenario, const Outcome& outcome, v1::Job* job);
 
 }  // namespace contact

@@ -8,22 +8,22 @@
 #include <set>
 
 #include "simulation/forecast/first_meeting.h"
-#include "wire/contact_codec.h"
-#include "wire/law_catalogue.h"
-#include "wire/sweep_fields.h"
+#include "wire/scenario/contact_codec.h"
+#include "wire/scenario/law_catalogue.h"
+#include "wire/sweep/sweep_fields.h"
 
 namespace contact {
 namespace {
 
 constexpr double kGoodResolution = 200;  // Steps, or samples, in a contact.
-constexpr double kFewestSteps = 200;
-constexpr double kFewestSamples = 20;
-constexpr double kManySteps = 1e9;
-constexpr double kManySamples = 1e6;  // That nobody is told to record.
-constexpr double kLowRestitution = 0.3;
-constexpr double kMiss = 0.01;  // Of the restitution; as in the warnings of a run.
+constexpr double kFewestSteps = 200;     // Steps in a contact, below which there is advice.
+constexpr double kFewestSamples = 20;    // Samples in a contact, below which there is advice.
+constexpr double kManySteps = 1e9;       // Steps of a run, above which there is advice.
+constexpr double kManySamples = 1e6;     // Most samples that advice asks for.
+constexpr double kLowRestitution = 0.3;  // Restitution below which laws and updates may fail.
+constexpr double kMiss = 0.01;           // Relative error of the restitution that a run warns of.
 
-// The contact that is soonest over, of those of which it is known.
+// The contact of shortest duration, among those whose duration is known.
 struct Shortest {
   const Contact* contact = nullptr;
   FirstMeeting meeting;
@@ -42,7 +42,7 @@ Shortest FindShortest(const Scenario& scenario) {
   return shortest;
 }
 
-// Down to one digit.
+// Rounded down to one significant digit.
 double Rounded(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
   return std::floor(value / power * (1 + 1e-12)) * power;
@@ -91,7 +91,7 @@ void AdviseOnSamples(const Scenario& scenario, const Shortest& shortest,
                          : "set output.ledger_only if its cycles are enough"});
 }
 
-// Once for each law, as in a run.
+// Advises once for each law, as the warnings of a run do.
 void AdviseOnNamedLaws(const v1::Scenario& message, std::vector<Violation>* advice) {
   std::set<int> told;
   for (int i = 0; i < message.contacts_size(); ++i) {
@@ -119,7 +119,8 @@ bool IsIteratedLow(const v1::Contact& contact) {
   return iterated && contact.restitution() < kLowRestitution;
 }
 
-// It corrects every μ on its own, from the start (23), which low restitution makes a poor one.
+// The paper's process corrects every μ on its own. It starts from (23), which is a poor
+// approximation for low restitution.
 void AdviseOnPaperProcess(const v1::Scenario& message, std::vector<Violation>* advice) {
   const v1::Solver::Update update = message.solver().update();
   if (update == v1::Solver::UPDATE_UNSPECIFIED || update == v1::Solver::NEWTON_COUPLED) return;
@@ -131,7 +132,7 @@ void AdviseOnPaperProcess(const v1::Scenario& message, std::vector<Violation>* a
                      "NEWTON_COUPLED does"});
 }
 
-// With paths from the sweep, and without what its axes decide.
+// Advice on the base with paths from the sweep, without the fields that axes set.
 std::vector<Violation> OfBase(const v1::Sweep& sweep, std::vector<Violation> advice) {
   std::vector<Violation> broken;
   const SweepFields fields(sweep, &broken);

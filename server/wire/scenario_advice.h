@@ -4,30 +4,33 @@
 #include <vector>
 
 #include "contact/v1/scenario.pb.h"
-#include "wire/sweep_codec.h"
+#include "wire/sweep/sweep_codec.h"
 
 namespace contact {
 
-/// What about a scenario that breaks no rule will probably not show what its author wants. In the
-/// form of violations, so that it is told at the same places. The one place where it is found:
-/// server and command line both call it.
+/// Advice names settings of a scenario that break no rule but will probably not show what its
+/// author wants. It has the form of violations, so that it can be shown at the same places. Server
+/// and command line both call these functions.
 
-/// Of time: steps and samples that are too few for a contact, steps that are too many.
+/// Advice on times: too few steps or samples in a contact, too many steps in the run.
 std::vector<Violation> AdviseOnTime(const Scenario& scenario);
 
-/// Of laws and corrections that do not deliver the low restitution asked for. A run tells itself of
-/// cycles that miss, so that a result needs this not.
+/// Advice on laws and updates that do not deliver a low restitution. A run already warns about
+/// cycles that miss their restitution, so results do not repeat this advice.
 std::vector<Violation> AdviseOnLaws(const v1::Scenario& message);
 
-/// Both; `scenario` is what `message` was decoded to.
+/// All advice on a scenario. `scenario` is what `message` was decoded to, without violations.
 std::vector<Violation> Advise(const v1::Scenario& message, const Scenario& scenario);
 
-/// The same for the base of a sweep, by its first cell: but for fields that axes set, and for
-/// samples if it keeps no trajectory.
+/// Advice on times for the base of a sweep, judged by the first cell of `plan`; paths begin at the
+/// sweep. Leaves out fields that axes set, and samples if no trajectory is kept.
 std::vector<Violation> AdviseOnTime(const v1::Sweep& sweep, const DecodedSweep& plan);
+
+/// All advice on a sweep, with the same omissions. `plan` is what `sweep` was decoded to, without
+/// violations.
 std::vector<Violation> Advise(const v1::Sweep& sweep, const DecodedSweep& plan);
 
-/// `field: description — hint`.
+/// The advice as one line: `field: description — hint`.
 std::string Text(const Violation& advice);
 
 }  // namespace contact

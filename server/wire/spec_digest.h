@@ -6,7 +6,8 @@
 
 namespace contact {
 
-/// The `spec_sha256` of a job with this spec, as job.proto defines it. Empty without a spec.
+/// The `spec_sha256` of a job with this spec, as job.proto defines it: 64 hexadecimal digits. Empty
+/// without a spec.
 std::string SpecSha256(const v1::Job& job);
 
 }  // namespace contact

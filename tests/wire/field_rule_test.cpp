@@ -1,4 +1,4 @@
-#include "wire/field_rule.h"
+#include "wire/rules/field_rule.h"
 
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "contact/v1/job_service.pb.h"
-#include "wire/rules.h"
+#include "wire/rules/rules.h"
 #include "wire/scenario_builder.h"
 
 namespace contact {
@@ -237,7 +237,7 @@ TEST(NumberField, WholeNumbersAreRead) {
 }
 
 TEST(NumberField, EachNumberOfAMessageIsFoundByItsFieldNumber) {
-  const NumberFields fields(*v1::Solver::descriptor());
+  const NumberFields fields(v1::Solver::default_instance());
   for (int i = 0; i < v1::Solver::descriptor()->field_count(); ++i) {
     const FieldDescriptor* field = v1::Solver::descriptor()->field(i);
     if (field->enum_type() != nullptr) continue;

@@ -1,4 +1,4 @@
-#include "wire/law_catalogue.h"
+#include "wire/scenario/law_catalogue.h"
 
 #include <gtest/gtest.h>
 

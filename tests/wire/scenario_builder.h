@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact/v1/scenario.pb.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact {
 

@@ -1,4 +1,4 @@
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 #include <gmock/gmock.h>
 

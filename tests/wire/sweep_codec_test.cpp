@@ -1,4 +1,4 @@
-#include "wire/sweep_codec.h"
+#include "wire/sweep/sweep_codec.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "wire/sweep_fields.h"
+#include "wire/sweep/sweep_fields.h"
 
 namespace contact {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "cli/input/no_limits.h"
 #include "cli/text/render_json.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact::cli {
 namespace {

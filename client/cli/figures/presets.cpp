@@ -14,7 +14,7 @@
 #include "cli/base/number.h"
 #include "cli/figures/run_energy.h"
 #include "cli/input/no_limits.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/link/recording.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact::cli {
 

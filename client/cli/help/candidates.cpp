@@ -18,7 +18,7 @@
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "contact/v1/event.pb.h"
-#include "wire/law_catalogue.h"
+#include "wire/scenario/law_catalogue.h"
 
 namespace contact::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "cli/base/scalar.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
-#include "wire/field_path.h"
+#include "wire/rules/field_path.h"
 
 namespace contact::cli {
 namespace {

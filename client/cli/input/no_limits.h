@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact::cli {
 

@@ -9,7 +9,7 @@
 
 #include "cli/base/failure.h"
 #include "cli/input/yaml_reader.h"
-#include "wire/field_path.h"
+#include "wire/rules/field_path.h"
 
 namespace contact::cli {
 namespace {

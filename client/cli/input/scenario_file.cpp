@@ -11,7 +11,7 @@
 #include "cli/base/text_file.h"
 #include "cli/input/override.h"
 #include "cli/input/yaml_reader.h"
-#include "wire/field_path.h"
+#include "wire/rules/field_path.h"
 #include "wire/scenario_advice.h"
 
 namespace contact::cli {

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "cli/base/scalar.h"
-#include "wire/field_path.h"
+#include "wire/rules/field_path.h"
 #include "wire/scenario_advice.h"
-#include "wire/sweep_codec.h"
+#include "wire/sweep/sweep_codec.h"
 
 namespace contact::cli {
 namespace {

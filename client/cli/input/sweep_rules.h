@@ -7,7 +7,7 @@
 
 #include "cli/input/diagnostic.h"
 #include "contact/v1/scenario.pb.h"
-#include "wire/violation.h"
+#include "wire/rules/violation.h"
 
 namespace contact::cli {
 

@@ -13,7 +13,7 @@
 
 #include "base/spelling.h"
 #include "cli/base/scalar.h"
-#include "wire/field_path.h"
+#include "wire/rules/field_path.h"
 
 namespace contact::cli {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "cli/base/failure.h"
 #include "contact/v1/job_service.grpc.pb.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact::cli {
 

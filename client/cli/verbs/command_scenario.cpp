@@ -18,8 +18,8 @@
 #include "cli/link/connect.h"
 #include "cli/text/render_estimate.h"
 #include "cli/verbs/commands.h"
-#include "wire/contact_codec.h"
-#include "wire/sweep_codec.h"
+#include "wire/scenario/contact_codec.h"
+#include "wire/sweep/sweep_codec.h"
 
 namespace contact::cli {
 namespace {

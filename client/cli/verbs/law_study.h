@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/settings/settings.h"
-#include "wire/law_catalogue.h"
+#include "wire/scenario/law_catalogue.h"
 
 namespace contact::cli {
 

@@ -14,7 +14,7 @@
 #include "cli/base/table.h"
 #include "cli/link/watch.h"
 #include "cli/text/render_job.h"
-#include "wire/sweep_fields.h"
+#include "wire/sweep/sweep_fields.h"
 
 namespace contact::cli {
 namespace {

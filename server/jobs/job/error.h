@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "wire/violation.h"
+#include "wire/rules/violation.h"
 
 namespace contact {
 

@@ -9,7 +9,7 @@
 #include "jobs/job/budget.h"
 #include "jobs/job/job_metrics.h"
 #include "simulation/run.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact {
 

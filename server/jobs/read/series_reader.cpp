@@ -7,7 +7,7 @@
 #include "base/executor.h"
 #include "jobs/job/job_errors.h"
 #include "wire/result_codec.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact {
 namespace {

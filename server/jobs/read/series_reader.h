@@ -10,7 +10,7 @@
 #include "jobs/read/decimation.h"
 #include "jobs/read/request_rules.h"
 #include "storage/store.h"
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact {
 

@@ -8,8 +8,8 @@
 #include "contact/v1/event.pb.h"
 #include "jobs/job/job_options.h"
 #include "jobs/run/run_control.h"
-#include "wire/sweep_codec.h"
-#include "wire/sweep_fields.h"
+#include "wire/sweep/sweep_codec.h"
+#include "wire/sweep/sweep_fields.h"
 
 namespace contact {
 

@@ -15,8 +15,8 @@
 #include "jobs/run/sweep_runner.h"
 #include "version.h"
 #include "wire/result_codec.h"
+#include "wire/scenario/scenario_codec.h"
 #include "wire/scenario_advice.h"
-#include "wire/scenario_codec.h"
 #include "wire/spec_digest.h"
 
 namespace contact {

@@ -13,7 +13,7 @@
 #include "jobs/job/job_options.h"
 #include "jobs/run/cell_solver.h"
 #include "jobs/run/run_control.h"
-#include "wire/sweep_codec.h"
+#include "wire/sweep/sweep_codec.h"
 
 namespace contact {
 

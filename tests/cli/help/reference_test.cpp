@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "contact/v1/scenario.pb.h"
-#include "wire/field_rule.h"
+#include "wire/rules/field_rule.h"
 
 namespace contact::cli {
 namespace {

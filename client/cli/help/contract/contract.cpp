@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "wire/field_rule.h"
+#include "wire/rules/field_rule.h"
 
 namespace contact::cli {
 namespace {

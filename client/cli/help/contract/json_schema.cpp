@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "wire/field_rule.h"
+#include "wire/rules/field_rule.h"
 
 namespace contact::cli {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "cli/input/scenario_file.h"
 #include "cli/input/templates.h"
-#include "wire/field_rule.h"
+#include "wire/rules/field_rule.h"
 
 namespace contact::cli {
 namespace {

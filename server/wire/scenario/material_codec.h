@@ -1,7 +1,7 @@
 #pragma once
 
 #include "contact/v1/scenario.pb.h"
-#include "wire/rules.h"
+#include "wire/rules/rules.h"
 
 namespace contact {
 

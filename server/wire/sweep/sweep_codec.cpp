@@ -1,12 +1,12 @@
-#include "wire/sweep_codec.h"
+#include "wire/sweep/sweep_codec.h"
 
 #include <fmt/format.h>
 
 #include <set>
 #include <utility>
 
-#include "wire/rules.h"
-#include "wire/sweep_fields.h"
+#include "wire/rules/rules.h"
+#include "wire/sweep/sweep_fields.h"
 
 namespace contact {
 namespace {

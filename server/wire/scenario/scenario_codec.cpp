@@ -1,13 +1,13 @@
-#include "wire/scenario_codec.h"
+#include "wire/scenario/scenario_codec.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "wire/body_codec.h"
-#include "wire/contact_codec.h"
-#include "wire/load_codec.h"
-#include "wire/rules.h"
+#include "wire/rules/rules.h"
+#include "wire/scenario/body_codec.h"
+#include "wire/scenario/contact_codec.h"
+#include "wire/scenario/load_codec.h"
 
 namespace contact {
 namespace {

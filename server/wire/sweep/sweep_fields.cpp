@@ -1,4 +1,4 @@
-#include "wire/sweep_fields.h"
+#include "wire/sweep/sweep_fields.h"
 
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>

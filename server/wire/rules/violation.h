@@ -4,7 +4,7 @@
 
 namespace contact {
 
-/// A rule that a message breaks.
+/// A rule of the contract that a message breaks.
 struct Violation {
   std::string field;        ///< Path from the scenario, such as `contacts[0].restitution`.
   std::string description;  ///< Value and rule: `is 1.2; must be in (0, 1]`.

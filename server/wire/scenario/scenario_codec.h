@@ -5,7 +5,7 @@
 
 #include "contact/v1/scenario.pb.h"
 #include "simulation/model/scenario.h"
-#include "wire/violation.h"
+#include "wire/rules/violation.h"
 
 namespace contact {
 

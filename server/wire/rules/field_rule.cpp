@@ -1,4 +1,4 @@
-#include "wire/field_rule.h"
+#include "wire/rules/field_rule.h"
 
 #include <fmt/format.h>
 
@@ -93,9 +93,8 @@ Range RangeOf(const FieldDescriptor& field) {
 }
 
 std::optional<double> NumberField::Find(const google::protobuf::Message& message) const {
-  const auto* reflection = message.GetReflection();
-  if (descriptor->has_presence() && !reflection->HasField(message, descriptor)) return std::nullopt;
-  switch (descriptor->cpp_type()) {
+  if (has_presence && !reflection->HasField(message, descriptor)) return std::nullopt;
+  switch (type) {
     case FieldDescriptor::CPPTYPE_INT32:
       return reflection->GetInt32(message, descriptor);
     case FieldDescriptor::CPPTYPE_INT64:
@@ -105,7 +104,8 @@ std::optional<double> NumberField::Find(const google::protobuf::Message& message
   }
 }
 
-NumberFields::NumberFields(const google::protobuf::Descriptor& type) {
+NumberFields::NumberFields(const google::protobuf::Message& prototype) {
+  const google::protobuf::Descriptor& type = *prototype.GetDescriptor();
   for (int i = 0; i < type.field_count(); ++i) {
     const FieldDescriptor& field = *type.field(i);
     if (!IsNumber(field)) continue;
@@ -113,6 +113,9 @@ NumberFields::NumberFields(const google::protobuf::Descriptor& type) {
     if (fields_.size() <= number) fields_.resize(number + 1);
     const v1::FieldRule& rule = RuleOf(field);
     fields_[number] = {.descriptor = &field,
+                       .reflection = prototype.GetReflection(),
+                       .type = field.cpp_type(),
+                       .has_presence = field.has_presence(),
                        .range = RangeOf(field),
                        .default_value = rule.default_number(),
                        .required = rule.required()};

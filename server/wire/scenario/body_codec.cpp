@@ -1,4 +1,4 @@
-#include "wire/body_codec.h"
+#include "wire/scenario/body_codec.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <unordered_set>
 
 #include "base/spelling.h"
-#include "wire/material_codec.h"
+#include "wire/scenario/material_codec.h"
 
 namespace contact {
 namespace {

@@ -9,23 +9,26 @@
 
 namespace contact {
 
-/// One step of a path such as `contacts[0].restitution` or `final_bodies[B1].position_m`.
+/// One step of a path to a field, such as `contacts[0].restitution` or
+/// `final_bodies[B1].position_m`.
 struct PathStep {
   static constexpr int kEvery = -1;  ///< Index of `[*]`.
 
-  std::string name;
-  std::optional<int> index = {};
-  std::string key = {};  ///< What stands in the brackets if it is no index; or empty.
+  std::string name;               ///< Name of the field.
+  std::optional<int> index = {};  ///< Index in brackets, ≥ 0 or kEvery; none without brackets.
+  std::string key = {};           ///< Text in brackets that is not an index; else empty.
 };
 
-/// Reads a path; empty if it is none. Keys are only read if they may stand there.
+/// The steps of a path; empty if `text` is not a path. `keys`: brackets may hold a key instead of
+/// an index.
 std::vector<PathStep> ParsePath(std::string_view text, bool keys = false);
 
 /// The path of the message that holds the field: `contacts[0]` for `contacts[0].restitution`,
 /// empty for a field of the scenario itself.
 std::string_view ParentPath(std::string_view path);
 
-/// Hint for a field that `message` does not have.
+/// Hint for a field called `name`, which `message` does not have: the field with the nearest name,
+/// or all fields.
 std::string FieldHint(const google::protobuf::Descriptor& message, const std::string& name);
 
 }  // namespace contact

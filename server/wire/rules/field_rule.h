@@ -44,9 +44,13 @@ struct Range {
 /// The range that the contract states for a field; every finite number if it states none.
 Range RangeOf(const google::protobuf::FieldDescriptor& field);
 
-/// A field that holds a number, with all that is needed to read and check it.
+/// A field that holds a number, with all that is needed to read and check it. What descriptor and
+/// message know themselves is kept here for speed.
 struct NumberField {
   const google::protobuf::FieldDescriptor* descriptor = nullptr;
+  const google::protobuf::Reflection* reflection = nullptr;  ///< That of the message type.
+  google::protobuf::FieldDescriptor::CppType type = {};
+  bool has_presence = false;  ///< A message distinguishes unset from 0.
   Range range;
   double default_value = 0;  ///< 0 if the contract states none.
   bool required = false;
@@ -59,7 +63,8 @@ struct NumberField {
 class NumberFields {
  public:
   /// Reads the rules of all fields, which takes some microseconds: done once for each type.
-  explicit NumberFields(const google::protobuf::Descriptor& type);
+  /// `prototype` is any message of the type.
+  explicit NumberFields(const google::protobuf::Message& prototype);
 
   /// The field with this number, which exists and holds a double or an integer.
   const NumberField& operator[](int number) const;
@@ -71,7 +76,7 @@ class NumberFields {
 /// The number in `Message` with this field number. Safe to call from any thread.
 template <class Message>
 const NumberField& NumberOf(int number) {
-  static const NumberFields fields(*Message::descriptor());
+  static const NumberFields fields(Message::default_instance());
   return fields[number];
 }
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "wire/field_rule.h"
-#include "wire/violation.h"
+#include "wire/rules/field_rule.h"
+#include "wire/rules/violation.h"
 
 namespace contact {
 

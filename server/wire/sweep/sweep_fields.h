@@ -9,20 +9,21 @@
 #include <vector>
 
 #include "contact/v1/scenario.pb.h"
-#include "wire/field_path.h"
-#include "wire/rules.h"
-#include "wire/scenario_codec.h"
+#include "wire/rules/field_path.h"
+#include "wire/rules/rules.h"
+#include "wire/scenario/scenario_codec.h"
 
 namespace contact {
 
-/// A scenario of its own, and the fields in it that the axes of a sweep set.
+/// A copy of the base of a sweep, and the fields in it that the axes set. For use by one thread.
 class SweepFields {
  public:
-  /// Notes the axes whose field cannot be set.
+  /// Finds the fields. Notes the axes whose field does not exist, is no number, or has another
+  /// axis.
   SweepFields(const v1::Sweep& sweep, std::vector<Violation>* violations);
 
-  /// The base with one value for each axis. Where a field is a whole number, `values` becomes what
-  /// it was rounded to. Good until the next call.
+  /// The base with one value for each axis. Rounds the values of whole numbers, also in `values`.
+  /// The result is valid until the next call.
   const v1::Scenario& Set(std::span<double> values);
 
   /// True if an axis sets the field at this path.
@@ -30,22 +31,27 @@ class SweepFields {
 
  private:
   using Message = google::protobuf::Message;
+  // A field to set.
   struct Target {
     Message* message;
     const google::protobuf::FieldDescriptor* field;
   };
 
+  // Follows the rest of a path from `message` on and adds the fields at its end. `walked` is the
+  // path up to there.
   void Find(std::span<const PathStep> path, const std::string& walked, Message* message,
             const Rules& rules);
+  // Find for a step with an index: goes on in that entry, or in every one.
   void FindEntries(std::span<const PathStep> path, const std::string& here,
                    const google::protobuf::FieldDescriptor& field, Message* message,
                    const Rules& rules);
+  // Adds a field to the axis read last, if the field is a number without an axis.
   void AddTarget(const std::string& here, const google::protobuf::FieldDescriptor& field,
                  Message* message, const Rules& rules);
 
-  std::unique_ptr<v1::Scenario> scenario_;    // Stays where it is: targets_ point into it.
-  std::vector<std::vector<Target>> targets_;  ///< Of each axis.
-  std::set<std::string> paths_;
+  std::unique_ptr<v1::Scenario> scenario_;    // On the heap, since targets_ point into it.
+  std::vector<std::vector<Target>> targets_;  // The fields of each axis.
+  std::set<std::string> paths_;               // The paths of all fields in targets_.
 };
 
 }  // namespace contact

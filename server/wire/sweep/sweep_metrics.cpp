@@ -1,4 +1,4 @@
-#include "wire/sweep_metrics.h"
+#include "wire/sweep/sweep_metrics.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "wire/field_path.h"
-#include "wire/rules.h"
+#include "wire/rules/field_path.h"
+#include "wire/rules/rules.h"
 
 namespace contact {
 namespace {

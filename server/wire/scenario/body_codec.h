@@ -7,7 +7,7 @@
 
 #include "contact/v1/scenario.pb.h"
 #include "simulation/model/scenario.h"
-#include "wire/rules.h"
+#include "wire/rules/rules.h"
 
 namespace contact {
 

@@ -1,4 +1,4 @@
-#include "wire/material_codec.h"
+#include "wire/scenario/material_codec.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "wire/rules.h"
+#include "wire/rules/rules.h"
 
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>

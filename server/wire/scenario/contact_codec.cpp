@@ -1,4 +1,4 @@
-#include "wire/contact_codec.h"
+#include "wire/scenario/contact_codec.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "wire/law_catalogue.h"
-#include "wire/material_codec.h"
+#include "wire/scenario/law_catalogue.h"
+#include "wire/scenario/material_codec.h"
 
 namespace contact {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "contact/v1/scenario.pb.h"
 #include "simulation/model/scenario.h"
-#include "wire/body_codec.h"
-#include "wire/rules.h"
+#include "wire/rules/rules.h"
+#include "wire/scenario/body_codec.h"
 
 namespace contact {
 

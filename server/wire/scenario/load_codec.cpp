@@ -1,4 +1,4 @@
-#include "wire/load_codec.h"
+#include "wire/scenario/load_codec.h"
 
 #include <fmt/format.h>
 

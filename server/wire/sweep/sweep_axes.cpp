@@ -1,4 +1,4 @@
-#include "wire/sweep_axes.h"
+#include "wire/sweep/sweep_axes.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "wire/rules.h"
+#include "wire/rules/rules.h"
 
 namespace contact {
 namespace {

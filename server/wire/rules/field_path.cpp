@@ -1,4 +1,4 @@
-#include "wire/field_path.h"
+#include "wire/rules/field_path.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
