@@ -8,7 +8,7 @@
 #include <string>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "jobs/job/job_options.h"
 #include "jobs/log/jobs_cursor.h"
 #include "jobs/log/log_cursor.h"

@@ -6,6 +6,6 @@
 namespace contact {
 
 /// Adds to a valid job what the answer to `validate_only` has besides: estimate and advice.
-void Foretell(const ScenarioLimits& limits, v1::Job* job);
+void Predict(const ScenarioLimits& limits, v1::Job* job);
 
 }  // namespace contact

@@ -31,6 +31,8 @@ struct JobOptions {
   int max_attempts = 3;       ///< A job that is running whenever the server dies fails then.
   std::chrono::milliseconds step_timeout = std::chrono::minutes(1);  ///< See Watchdog; 0: never.
   std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);  ///< See Watchdog.
+  /// Real time between two looks at the running jobs, see Watchdog.
+  std::chrono::milliseconds look_interval{50};
   RetentionLimits retention = {};
   /// Between the checkpoints of a run, at least; 0: none.
   std::chrono::milliseconds checkpoint_interval{0};

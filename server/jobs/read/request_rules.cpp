@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 
 namespace contact {
 namespace {
@@ -101,14 +101,6 @@ void CheckBudget(const v1::Budget& budget, const RunBudget& most,
 }
 
 bool IsPrintable(char c) { return c >= ' ' && c <= '~'; }
-
-Error FieldInvalid(std::vector<Violation> violations) {
-  Error error{absl::StatusCode::kInvalidArgument, "FIELD_INVALID"};
-  const Violation& first = violations.front();
-  error.message = first.field + ": " + first.description;
-  error.violations = std::move(violations);
-  return error;
-}
 
 // The set of kinds, state_changed among them; all if there are none.
 std::uint32_t KindSet(const v1::WatchJobRequest& request, std::vector<Violation>* violations) {
@@ -259,7 +251,7 @@ Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
   }
   CheckLabels(request.labels(), &violations);
   query.labels.assign(request.labels().begin(), request.labels().end());
-  if (!violations.empty()) return FieldInvalid(std::move(violations));
+  if (!violations.empty()) return Invalid(std::move(violations));
   return query;
 }
 
@@ -284,7 +276,7 @@ Result<WatchRules> ToRules(const v1::WatchJobRequest& request) {
     violations.push_back(
         {"live_only", "goes only with after_sequence 0", "to resume, leave it out"});
   }
-  if (!violations.empty()) return FieldInvalid(std::move(violations));
+  if (!violations.empty()) return Invalid(std::move(violations));
   return rules;
 }
 
@@ -296,7 +288,7 @@ Result<JobsRules> ToRules(const v1::WatchJobsRequest& request) {
   if (!filter.ok()) return filter.error();
   std::vector<Violation> violations;
   JobsRules rules{std::move(filter.value()), BookmarkInterval(request, &violations)};
-  if (!violations.empty()) return FieldInvalid(std::move(violations));
+  if (!violations.empty()) return Invalid(std::move(violations));
   return rules;
 }
 
@@ -321,7 +313,7 @@ Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request, const C
                                       request.max_points(), least, selection.columns.size() - 1),
                           "ask for more points, or fewer channels"});
   }
-  if (!violations.empty()) return FieldInvalid(std::move(violations));
+  if (!violations.empty()) return Invalid(std::move(violations));
   if (least > most) return SeriesTooLarge(most);
   const std::size_t points = selection.raw ? most : std::max(least, kDefaultPoints);
   selection.max_rows = std::min(

@@ -8,7 +8,7 @@
 
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job/budget.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "jobs/log/delivery_cursor.h"
 #include "storage/records.h"
 

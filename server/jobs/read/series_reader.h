@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "jobs/read/decimation.h"
 #include "jobs/read/request_rules.h"
 #include "storage/store.h"

@@ -50,7 +50,7 @@ class Retention {
 
   void Start();
   /// Deletes and compacts what is due now; waits for it. Returns how many jobs were deleted.
-  int Sweep();
+  int Purge();
   /// Ends the thread. Idempotent.
   void Stop();
 

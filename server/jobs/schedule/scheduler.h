@@ -101,7 +101,8 @@ class Scheduler {
   void Withdraw(const Active& active, Done done);
   void Watch();
   std::vector<Active> FindLost() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void Bury(const Active& active);
+  /// Ends a job whose run was given up, and takes it away from its worker in the store too.
+  void FailLostRun(const Active& active);
 
   Store& store_;
   const Clock& clock_;

@@ -26,9 +26,10 @@ class Worker {
   friend class WorkerPool;
 
   /// Gives it up if it works for this run, which was given up.
-  bool Lose(const RunControl& run);
-  /// Waits for its end. False: it has not come until `limit`, and is given up with its run.
-  bool AwaitFinish(std::chrono::steady_clock::time_point limit);
+  bool Abandon(const RunControl& run);
+  /// Waits for its end, and takes the time that takes from `patience`. Once that is used up it
+  /// gives the run up, as soon as the run does not report, and returns false.
+  bool AwaitFinish(std::chrono::milliseconds* patience);
   void Finish();
 
   Mutex mutex_;
