@@ -218,7 +218,8 @@ void JobManager::Impl::Complete(StoredJob* stored) const {
 }
 
 void JobManager::Impl::Answer(StoredJob stored, Callback<v1::Job> done) {
-  // Asked for here: on the store's thread it is there just if the job has not ended.
+  // Asked for here, because on the store's thread the record exists exactly while the job has not
+  // ended.
   const auto record = scheduler.Record(stored.job);
   const auto whole = std::make_shared<StoredJob>(std::move(stored));
   const auto answer = [this, record, whole, done = std::move(done)] {

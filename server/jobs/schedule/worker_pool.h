@@ -19,7 +19,8 @@ class Worker {
  public:
   /// Begins to work for a run.
   void Begin(std::shared_ptr<RunControl> run);
-  /// Has come back. False: it was given up, and must end without touching what is not its own.
+  /// Ends the work for a run. False: the worker was given up meanwhile; its thread must return
+  /// without touching anything but its own variables, because the pool may be gone.
   bool End();
 
  private:
@@ -47,6 +48,7 @@ class WorkerPool {
   /// Each thread runs `loop` once.
   explicit WorkerPool(Loop loop) : loop_(std::move(loop)) {}
 
+  /// Starts so many workers more.
   void Start(int threads);
   /// Gives up the workers of a run that was given up, and starts as many others. Thread-safe.
   void Replace(const RunControl& run);
