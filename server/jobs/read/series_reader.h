@@ -8,7 +8,7 @@
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job/errors.h"
 #include "jobs/read/decimation.h"
-#include "jobs/read/request_rules.h"
+#include "jobs/read/series_rules.h"
 #include "storage/store.h"
 #include "wire/scenario_codec.h"
 
