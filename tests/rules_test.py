@@ -12,18 +12,16 @@ OWN_CLOCK = {
     "server/base/clock.cpp": "is the clock",
     "server/rpc/grpc_server.cpp": "gRPC takes the deadline of its shutdown as system time",
     "server/rpc/grpc_log.cpp": "gRPC logs before there is a server to inject a clock into",
+    "server/rpc/shutdown_timer.cpp": "waits on a condition until a real instant",
     "server/rpc/call/call_guard.cpp": "deadlines of calls are gRPC's, in system time",
     "server/rpc/metrics/call_monitor.cpp": "gRPC makes the interceptors of calls itself",
     "server/rpc/net/connection_acceptor.cpp": "limits what real sockets do in real time",
-    "server/rpc/stream/backup_call.cpp": "waits for real sockets",
+    "server/rpc/stream/stream_loop.cpp": "waits on a condition until a real instant",
     "server/rpc/stream/stream_reactor.h": "waits for real sockets",
-    "server/rpc/stream/watch_jobs_reactor.cpp": "compares with the last write of StreamReactor",
-    "server/rpc/stream/watch_loop.cpp": "waits on a condition until a real instant",
-    "server/rpc/stream/watch_reactor.cpp": "compares with the last write of StreamReactor",
 }
 # Tests that may sleep, and why.
 SLEEPS = {
-    "tests/rpc/watch_reactor_test.cpp": "plays clients that stall on real sockets",
+    "tests/rpc/watch_stream_test.cpp": "plays clients that stall on real sockets",
     "tests/rpc/test_server.h": "polls what gRPC tells nobody",
 }
 # Programs that measure or load a server from outside: no unit tests.

@@ -7,6 +7,7 @@
 #include "rpc/stream/backup_source.h"
 
 namespace contact {
+
 grpc::ServerWriteReactor<v1::BackupChunk>* AdminService::Backup(
     grpc::CallbackServerContext* context, const v1::BackupRequest* /*request*/) {
   return calls_.Stream<v1::BackupChunk>(context, "backup:", [this](auto wake, auto opened) {
