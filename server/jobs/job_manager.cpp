@@ -10,14 +10,16 @@
 #include "base/clock.h"
 #include "base/executor.h"
 #include "base/ids.h"
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/log/delivery_cursor.h"
 #include "jobs/log/job_feed.h"
 #include "jobs/log/tail_cursor.h"
 #include "jobs/predict.h"
-#include "jobs/read/request_rules.h"
+#include "jobs/read/create_rules.h"
+#include "jobs/read/list_rules.h"
 #include "jobs/read/series_reader.h"
+#include "jobs/read/watch_rules.h"
 #include "jobs/schedule/retention.h"
 #include "jobs/schedule/scheduler.h"
 #include "storage/job_queries.h"
@@ -27,16 +29,6 @@
 
 namespace contact {
 namespace {
-
-Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec) {
-  Error error{.code = absl::StatusCode::kInvalidArgument,
-              .reason = of_spec.empty() ? "FIELD_INVALID" : "SCENARIO_INVALID"};
-  error.violations = std::move(of_request);
-  error.violations.insert(error.violations.end(), of_spec.begin(), of_spec.end());
-  const Violation& first = error.violations.front();
-  error.message = first.field + ": " + first.description;
-  return error;
-}
 
 // The rules that the scenario or sweep breaks, with paths from the job.
 std::vector<Violation> CheckSpec(const v1::Job& job, const ScenarioLimits& limits) {
@@ -150,7 +142,7 @@ JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptio
 JobManager::~JobManager() { Stop(); }
 
 void JobManager::Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned) {
-  if (impl_->draining) return done(Draining());
+  if (impl_->draining) return done(MakeError(Reason::kServerDraining));
   const bool reserved = !request.validate_only() && impl_->scheduler.Reserve();
   // A full queue still answers a request that was accepted before.
   if (!reserved && !request.validate_only() && request.request_id().empty()) {
@@ -159,7 +151,7 @@ void JobManager::Create(v1::CreateJobRequest request, Callback<v1::Job> done, Ab
   const auto creation = std::make_shared<Impl::Creation>(
       Impl::Creation{std::move(request), std::move(done), std::move(abandoned), reserved});
   if (!impl_->executor.Post([impl = impl_.get(), creation] { impl->Check(creation); })) {
-    impl_->Refuse(*creation, Draining());
+    impl_->Refuse(*creation, MakeError(Reason::kServerDraining));
   }
 }
 
@@ -169,7 +161,8 @@ void JobManager::Impl::Refuse(const Creation& creation, Error error) {
 }
 
 void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
-  if (creation->abandoned && creation->abandoned()) return Refuse(*creation, TooLate());
+  if (creation->abandoned && creation->abandoned())
+    return Refuse(*creation, MakeError(Reason::kDeadlineExceeded));
   const v1::CreateJobRequest& request = creation->request;
   std::vector<Violation> of_request = CheckCreate(request, options.max_budget);
   std::vector<Violation> of_spec;
@@ -184,7 +177,7 @@ void JobManager::Impl::Check(const std::shared_ptr<Creation>& creation) {
   *job.mutable_labels() = request.job().labels();
   CopySettings(request.job(), &job);
   if (request.validate_only()) {
-    Foretell(options.scenario_limits, &job);
+    Predict(options.scenario_limits, &job);
     return creation->done(std::move(job));
   }
   *creation->request.mutable_job() = std::move(job);
@@ -227,7 +220,8 @@ void JobManager::Impl::Complete(StoredJob* stored) const {
 }
 
 void JobManager::Impl::Answer(StoredJob stored, Callback<v1::Job> done) {
-  // Asked for here: on the store's thread it is there just if the job has not ended.
+  // Asked for here, because on the store's thread the record exists exactly while the job has not
+  // ended.
   const auto record = scheduler.Record(stored.job);
   const auto whole = std::make_shared<StoredJob>(std::move(stored));
   const auto answer = [this, record, whole, done = std::move(done)] {
@@ -303,7 +297,8 @@ void JobManager::Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFil
   impl_->store.Backup(std::move(stop),
                       [done = std::move(done)](absl::StatusOr<std::unique_ptr<BackupFile>> file) {
                         // Nobody asks any more, or the store is being closed.
-                        if (absl::IsCancelled(file.status())) return done(Draining());
+                        if (absl::IsCancelled(file.status()))
+                          return done(MakeError(Reason::kServerDraining));
                         if (!file.ok()) return done(ToError(file.status(), ""));
                         done(std::shared_ptr<BackupFile>(*std::move(file)));
                       });

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "jobs/job/job_options.h"
 #include "jobs/log/jobs_cursor.h"
 #include "jobs/log/log_cursor.h"
@@ -30,8 +30,9 @@ class JobManager {
  public:
   template <class T>
   using Callback = std::function<void(Result<T>)>;
-  /// Tells that nobody waits for the answer any more, so that what is not begun need not be. Asked
-  /// until the callback is called; none: somebody always waits.
+  /// Answers true once nobody waits for the answer of a call any more, so that work on it that has
+  /// not begun is left out. May be asked until the call's callback is called. Empty: somebody
+  /// always waits.
   using Abandoned = std::function<bool()>;
 
   /// Takes over what the store holds: jobs that were running when the process ended are queued
@@ -39,13 +40,20 @@ class JobManager {
   JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptions options);
   ~JobManager();
 
+  /// Checks and stores a job; `done` gets it in state QUEUED. A request with a `request_id` that
+  /// was used before gets the job of that request.
   void Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned = {});
+  /// The job with ledger and artifacts; of a running job, what its run has brought so far.
   void Get(const std::string& name, Callback<v1::Job> done);
+  /// A page of job headers, newest first.
   void List(const v1::ListJobsRequest& request, Callback<v1::ListJobsResponse> done);
+  /// Takes the job from the queue or asks its run to stop; `done` gets the job as it is then. No
+  /// error if the job has ended.
   void Cancel(const v1::CancelJobRequest& request, Callback<v1::Job> done);
+  /// Deletes a job that has ended, with its log.
   void Delete(const v1::DeleteJobRequest& request, Callback<bool> done);
 
-  /// Recorded motion, thinned.
+  /// The recorded trajectory of a job, decimated to what the request allows.
   void Series(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
               Abandoned abandoned = {});
 
@@ -65,11 +73,12 @@ class JobManager {
   /// Copies the store into a file of its own, while everything goes on. `stop` gives it up.
   void Backup(std::stop_token stop, Callback<std::shared_ptr<BackupFile>> done);
 
-  /// The same for all jobs of a filter.
+  /// A cursor over the headers of all jobs that match a filter, and over their changes.
   struct WatchedJobs {
     std::unique_ptr<JobsCursor> cursor;
     std::chrono::milliseconds bookmark_interval{0};
   };
+  /// Opens such a cursor. `wake` as above.
   Result<WatchedJobs> Watch(const v1::WatchJobsRequest& request, std::function<void()> wake);
 
   /// Opens an artifact of an ended job. `wake` as above.

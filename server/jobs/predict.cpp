@@ -14,7 +14,7 @@ void AddWarnings(const std::vector<Violation>& advice, v1::Job* job) {
 
 }  // namespace
 
-void Foretell(const ScenarioLimits& limits, v1::Job* job) {
+void Predict(const ScenarioLimits& limits, v1::Job* job) {
   if (job->has_sweep()) {
     const DecodedSweep plan = DecodeSweep(job->sweep(), limits);
     *job->mutable_estimate() = EstimateSweep(job->sweep(), plan);

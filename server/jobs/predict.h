@@ -5,7 +5,8 @@
 
 namespace contact {
 
-/// Adds to a valid job what the answer to `validate_only` has besides: estimate and advice.
-void Foretell(const ScenarioLimits& limits, v1::Job* job);
+/// Adds to a valid job what only the answer to a `validate_only` request has: the estimate of the
+/// run and advice on the scenario or sweep.
+void Predict(const ScenarioLimits& limits, v1::Job* job);
 
 }  // namespace contact

@@ -1,27 +1,17 @@
 #include "rpc/admin_service.h"
 
-#include <chrono>
 #include <memory>
 #include <utility>
 
+#include "jobs/job/errors.h"
 #include "rpc/stream/backup_source.h"
 
 namespace contact {
-namespace {
-
-Error BackupRunning() {
-  return {.code = absl::StatusCode::kResourceExhausted,
-          .reason = "BACKUP_RUNNING",
-          .message = "another backup is being made",
-          .retry_after = std::chrono::seconds{1}};
-}
-
-}  // namespace
 
 grpc::ServerWriteReactor<v1::BackupChunk>* AdminService::Backup(
     grpc::CallbackServerContext* context, const v1::BackupRequest* /*request*/) {
   return calls_.Stream<v1::BackupChunk>(context, "backup:", [this](auto wake, auto opened) {
-    if (busy_.exchange(true)) return opened(BackupRunning());
+    if (busy_.exchange(true)) return opened(MakeError(Reason::kBackupRunning));
     const std::shared_ptr<const void> busy(this, [this](const void*) { busy_ = false; });
     const auto reader = std::make_shared<BackupReader>(executor_, wake, busy);
     opened(reader->MakeSource());

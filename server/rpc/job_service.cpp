@@ -6,18 +6,14 @@
 #include <string>
 #include <utility>
 
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "rpc/stream/job_sources.h"
 #include "rpc/stream/watch_source.h"
 
 namespace contact {
 namespace {
 
-Error NoRequest() {
-  return {.code = absl::StatusCode::kInvalidArgument,
-          .reason = "FIELD_INVALID",
-          .message = "the request is no WatchJobRequest"};
-}
+Error NoRequest() { return MakeError(Reason::kFieldInvalid, "the request is no WatchJobRequest"); }
 
 }  // namespace
 

@@ -20,7 +20,7 @@ class Runner {
         stop_(std::move(stop)),
         motion_(scenario),
         solver_(scenario, motion_, observer),
-        sampler_(scenario, motion_, observer) {}
+        sampler_(scenario, motion_, observer, stop_) {}
 
   void Start() {
     state_ = InitialState(scenario_);
@@ -114,7 +114,7 @@ class Runner {
       outcome_.end = end;
       outcome_.message = what + " at t = " + std::to_string(motion_.time()) + " s";
     };
-    switch (pause) {
+    switch (sampler_.cut_short() ? Motion::Pause::kStopped : pause) {
       case Motion::Pause::kTimeUp:
       case Motion::Pause::kCycleStarts:
       case Motion::Pause::kQuiet:

@@ -11,7 +11,8 @@ namespace contact {
 struct RunState;
 
 /// Solves a scenario from 0 to its end time. A pure function: same scenario, same calls of the
-/// observer and same outcome, to the byte. `stop` is looked at in every step.
+/// observer and same outcome, to the byte. `stop` is looked at in every step, and
+/// once in kSamplesPerChunk samples.
 Outcome Run(const Scenario& scenario, Observer& observer, std::stop_token stop = {});
 
 /// Goes on from a boundary of an earlier run of the same scenario by the same program: calls the

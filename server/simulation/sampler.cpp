@@ -6,8 +6,8 @@
 
 namespace contact {
 
-Sampler::Sampler(const Scenario& scenario, Motion& motion, Observer& observer)
-    : scenario_(scenario), motion_(motion), observer_(observer) {
+Sampler::Sampler(const Scenario& scenario, Motion& motion, Observer& observer, std::stop_token stop)
+    : scenario_(scenario), motion_(motion), observer_(observer), stop_(std::move(stop)) {
   samples_.columns =
       static_cast<int>(1 + 2 * scenario.bodies.size() + 4 * scenario.contacts.size());
 }
@@ -26,6 +26,11 @@ void Sampler::OnStep(const StepTime& step) {
     // The last sample is the end of the run, though the multiple of the interval may miss it.
     const double late = step.At(1) + 1e-9 * scenario_.sample_interval;
     if (sample_time > late || sample_time > scenario_.end_time * (1 + 1e-12)) return;
+    // A step may have millions of samples. Looked at once a chunk.
+    if (samples_.rows() == 0 && stop_.stop_requested()) {
+      cut_short_ = true;
+      return;
+    }
     if (!prepared) motion_.PrepareInterpolation();
     prepared = true;
     motion_.integrator().Interpolate(std::clamp(step.Theta(sample_time), 0.0, 1.0), &y_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "simulation/model/observer.h"
@@ -11,9 +12,14 @@ namespace contact {
 /// Samples the accepted trajectory at equal intervals, from the integrator's dense output.
 class Sampler final : public StepListener {
  public:
-  Sampler(const Scenario& scenario, Motion& motion, Observer& observer);
+  /// All outlive the sampler. Once `stop` is requested it hands out no further chunk of samples of
+  /// a step, however many there are.
+  Sampler(const Scenario& scenario, Motion& motion, Observer& observer, std::stop_token stop);
 
   void OnStep(const StepTime& step) override;
+
+  /// True if samples are missing because the run was asked to stop.
+  bool cut_short() const { return cut_short_; }
 
   /// Records the state at time 0 and later hands out what is left.
   void RecordStart(const State& state);
@@ -35,6 +41,8 @@ class Sampler final : public StepListener {
   const Scenario& scenario_;
   Motion& motion_;
   Observer& observer_;
+  const std::stop_token stop_;
+  bool cut_short_ = false;
   std::int64_t next_ = 0;  // Index of the next sample.
   Samples samples_;
   bool holding_ = false;

@@ -21,11 +21,12 @@ constexpr std::chrono::seconds kIdle{1};
 
 CommitThread::CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
                            std::function<void(const absl::Status&)> on_failure,
-                           std::shared_ptr<StoreMetrics> metrics)
+                           std::shared_ptr<StoreMetrics> metrics, const Clock& clock)
     : database_(std::move(database)),
       tidy_(std::move(tidy)),
       on_failure_(std::move(on_failure)),
       metrics_(std::move(metrics)),
+      clock_(clock),
       thread_([this] { Loop(); }) {}
 
 CommitThread::~CommitThread() {
@@ -99,7 +100,7 @@ std::optional<CommitThread::Batch> CommitThread::NextBatch() {
 }
 
 void CommitThread::Commit(Batch& batch) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = clock_.Elapsed();
   const absl::Status status = Try([&] {
     for (const Operation& operation : batch) operation.run(*database_);
   });
@@ -122,7 +123,7 @@ void CommitThread::Count(std::chrono::steady_clock::time_point begin, std::size_
     ++metrics_->failed_commits;
     return;
   }
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  const std::chrono::duration<double> time = clock_.Elapsed() - begin;
   metrics_->commit_seconds.Count(time.count());
   metrics_->commit_operations.Count(static_cast<double>(operations));
 }

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/mutex.h"
 #include "storage/store_metrics.h"
 
@@ -46,7 +47,7 @@ class CommitThread {
   /// fails in a way that leaves open what it holds. From then on no operation runs.
   CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
                std::function<void(const absl::Status&)> on_failure,
-               std::shared_ptr<StoreMetrics> metrics);
+               std::shared_ptr<StoreMetrics> metrics, const Clock& clock);
   /// Commits what was posted, then joins.
   ~CommitThread();
 
@@ -75,6 +76,7 @@ class CommitThread {
   const std::function<bool(Database&)> tidy_;
   const std::function<void(const absl::Status&)> on_failure_;
   const std::shared_ptr<StoreMetrics> metrics_;
+  const Clock& clock_;
   bool untidy_ = true;        // Of the thread: `tidy_` may have something to do.
   absl::Status failure_;      // Of the thread.
   std::optional<Task> task_;  // Of the thread: the one under way.

@@ -9,15 +9,17 @@
 #include <system_error>
 #include <utility>
 
+#include "base/replace_file.h"
+
 namespace contact {
 namespace {
 
 namespace fs = std::filesystem;
 
-absl::Status Failed(const std::string& what, const fs::path& path) {
-  return absl::FailedPreconditionError(absl::StrCat("cannot ", what, " ", path.string(), ": ",
-                                                    std::generic_category().message(errno),
-                                                    kGiveAccess));
+absl::Status Failed(const std::string& what, const fs::path& path,
+                    std::error_code error = {errno, std::generic_category()}) {
+  return absl::FailedPreconditionError(
+      absl::StrCat("cannot ", what, " ", path.string(), ": ", error.message(), kGiveAccess));
 }
 
 bool WriteAll(int fd, const std::string& text) {
@@ -89,18 +91,8 @@ bool DataDirectory::initialised() const { return fs::exists(path_ / "initialised
 
 absl::Status DataDirectory::MarkInitialised() const {
   const fs::path file = path_ / "initialised";
-  const fs::path draft = path_ / "initialised.new";
-  {
-    const FileDescriptor out(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
-    if (!out.valid() || !WriteAll(out.get(), "contactd.db belongs here\n") ||
-        ::fsync(out.get()) != 0) {
-      return Failed("write", draft);
-    }
-  }
-  if (::rename(draft.c_str(), file.c_str()) != 0) return Failed("write", file);
-  const FileDescriptor folder(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder.valid() || ::fsync(folder.get()) != 0) return Failed("sync", path_);
-  return absl::OkStatus();
+  const std::error_code error = ReplaceFile(file, "contactd.db belongs here\n", 0600);
+  return error ? Failed("write", file, error) : absl::OkStatus();
 }
 
 }  // namespace contact

@@ -1,14 +1,11 @@
 #include "storage/database_copy.h"
 
 #include <absl/strings/str_cat.h>
-#include <fcntl.h>
 #include <sqlite3.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <system_error>
 
-#include "base/file_descriptor.h"
+#include "base/replace_file.h"
 
 namespace contact {
 namespace {
@@ -44,10 +41,7 @@ void CopyDatabase(SQLite::Database& from, const fs::path& to) {
   const fs::path draft = to.string() + ".new";
   for (DatabaseCopy copy(from, draft); copy.Step();) {
   }
-  const FileDescriptor file(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
-  const FileDescriptor folder(::open(to.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!file.valid() || ::fsync(file.get()) != 0 || ::rename(draft.c_str(), to.c_str()) != 0 ||
-      !folder.valid() || ::fsync(folder.get()) != 0) {
+  if (MoveIntoPlace(draft, to)) {
     throw SQLite::Exception(absl::StrCat("cannot write ", to.string()), SQLITE_IOERR);
   }
 }

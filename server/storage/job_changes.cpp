@@ -102,7 +102,7 @@ absl::StatusOr<std::int64_t> FindEnded(Database& database, const std::string& na
 }
 
 // Some events of a job that was removed. False: there is none.
-bool SweepRemoved(Database& database) {
+bool PurgeRemoved(Database& database) {
   Query removed(database, "SELECT job FROM removed LIMIT 1");
   if (!removed.Next()) return false;
   const std::int64_t job = removed.Integer(0);
@@ -115,7 +115,7 @@ bool SweepRemoved(Database& database) {
 }
 
 // Some frame chunks of a job that is being compacted, from its position on. False: there is none.
-bool SweepCompacting(Database& database) {
+bool PurgeCompacted(Database& database) {
   Query compacting(database,
                    "SELECT job, position, oldest_sequence FROM compacting, jobs WHERE job=number"
                    " LIMIT 1");
@@ -210,6 +210,6 @@ absl::Status Compact(Database& database, const std::string& name) {
   return absl::OkStatus();
 }
 
-bool Sweep(Database& database) { return SweepRemoved(database) || SweepCompacting(database); }
+bool Purge(Database& database) { return PurgeRemoved(database) || PurgeCompacted(database); }
 
 }  // namespace contact

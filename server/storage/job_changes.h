@@ -53,6 +53,6 @@ absl::Status Remove(Database& database, const std::string& name, const std::stri
 absl::Status Compact(Database& database, const std::string& name);
 
 /// Removes some of the events that have vanished from sight. False: there are none.
-bool Sweep(Database& database);
+bool Purge(Database& database);
 
 }  // namespace contact

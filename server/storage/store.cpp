@@ -28,8 +28,8 @@ absl::StatusOr<std::unique_ptr<Store>> Store::Open(const std::filesystem::path& 
 }
 
 Store::Store(std::unique_ptr<Database> database, StoreOptions options)
-    : thread_(std::move(database), Sweep, std::move(options.on_failure),
-              std::move(options.metrics)) {}
+    : thread_(std::move(database), Purge, std::move(options.on_failure), std::move(options.metrics),
+              *options.clock) {}
 
 Store::~Store() = default;
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/clock.h"
 #include "storage/backup.h"
 #include "storage/commit_thread.h"
 #include "storage/records.h"
@@ -29,6 +30,8 @@ struct StoreOptions {
   std::function<void(const absl::Status&)> on_failure = {};
   /// Where the store counts what it does.
   std::shared_ptr<StoreMetrics> metrics = std::make_shared<StoreMetrics>();
+  /// Measures how long commits take. Outlives the store.
+  const Clock* clock = &SystemClock();
 };
 
 /// What survives a restart: jobs and their event logs, in one SQLite database.

@@ -6,6 +6,7 @@
 
 #include "jobs/run/log_writer.h"
 #include "storage/store.h"
+#include "testing/fake_sources.h"
 #include "testing/temp_directory.h"
 
 namespace contact {
@@ -14,12 +15,13 @@ namespace {
 class EndingRunsTest : public testing::Test {
  protected:
   std::shared_ptr<LogWriter> Writer() {
-    return std::make_shared<LogWriter>(*store_, LogWriter::Place{"jobs/a", 0, nullptr},
+    return std::make_shared<LogWriter>(*store_, clock_, LogWriter::Place{"jobs/a", 0, nullptr},
                                        std::make_shared<RunControl>(), std::stop_token());
   }
 
   TempDirectory directory_;
   std::unique_ptr<Store> store_ = *Store::Open(directory_.path());
+  FakeClock clock_;
   EndingRuns endings_;
 };
 

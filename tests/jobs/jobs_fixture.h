@@ -219,7 +219,7 @@ class JobsTest : public testing::Test {
   }
 
   TempDirectory directory_;
-  FakeClock clock_;
+  FakeClock clock_{std::chrono::milliseconds(1)};
   CountingIds ids_;
   FakeRun run_;
   std::unique_ptr<Store> store_;

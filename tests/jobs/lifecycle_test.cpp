@@ -23,7 +23,8 @@ TEST(Lifecycle, OnlyTheMovesOfTheContractAreLegal) {
   for (int from = v1::Job::State_MIN; from <= v1::Job::State_MAX; ++from) {
     for (int to = v1::Job::State_MIN; to <= v1::Job::State_MAX; ++to) {
       const auto pair = std::pair(static_cast<State>(from), static_cast<State>(to));
-      EXPECT_EQ(MayMove(pair.first, pair.second), legal.contains(pair)) << from << " to " << to;
+      EXPECT_EQ(IsTransition(pair.first, pair.second), legal.contains(pair))
+          << from << " to " << to;
     }
   }
 }
@@ -32,7 +33,7 @@ TEST(Lifecycle, FinalStatesAreThoseThatNothingLeaves) {
   for (int from = v1::Job::QUEUED; from <= v1::Job::State_MAX; ++from) {
     bool leaves = false;
     for (int to = v1::Job::State_MIN; to <= v1::Job::State_MAX; ++to) {
-      leaves = leaves || MayMove(static_cast<State>(from), static_cast<State>(to));
+      leaves = leaves || IsTransition(static_cast<State>(from), static_cast<State>(to));
     }
     EXPECT_EQ(IsFinal(static_cast<State>(from)), !leaves) << from;
   }
@@ -40,7 +41,7 @@ TEST(Lifecycle, FinalStatesAreThoseThatNothingLeaves) {
 
 TEST(Lifecycle, OutcomeDecidesStateAndReason) {
   using End = Outcome::End;
-  const auto after = [](End end) { return MoveAfter(Ending(end, "here")); };
+  const auto after = [](End end) { return TransitionAfter(Ending(end, "here")); };
   EXPECT_EQ(after(End::kFinished).to, v1::Job::SUCCEEDED);
   EXPECT_EQ(after(End::kFinished).state_reason, "");
   EXPECT_EQ(after(End::kStopped).to, v1::Job::CANCELLED);
@@ -52,7 +53,7 @@ TEST(Lifecycle, OutcomeDecidesStateAndReason) {
     EXPECT_EQ(after(end).state_reason, reason);
     EXPECT_EQ(after(end).message, "here");
   }
-  EXPECT_EQ(MoveAfterFault("what").state_reason, "INTERNAL");
+  EXPECT_EQ(TransitionAfterFault("what").state_reason, "INTERNAL");
 }
 
 TEST(Lifecycle, MoveStampsTheTimesOfTheJob) {
@@ -74,7 +75,7 @@ TEST(Lifecycle, EventTellsWhatTheJobTells) {
   v1::Job job;
   job.set_state(v1::Job::RUNNING);
   job.set_convergence(v1::Job::PARTIAL);
-  const v1::Event event = Apply(MoveAfterFault("it broke"), kNow, &job);
+  const v1::Event event = Apply(TransitionAfterFault("it broke"), kNow, &job);
   EXPECT_EQ(event.state_changed().state(), v1::Job::FAILED);
   EXPECT_EQ(event.state_changed().state_reason(), job.state_reason());
   EXPECT_EQ(event.state_changed().message(), "it broke");

@@ -24,8 +24,8 @@ class LogWriterTest : public testing::Test {
     ASSERT_TRUE(created.Get().ok());
   }
   std::shared_ptr<LogWriter> Writer() {
-    auto writer = std::make_shared<LogWriter>(*store_, LogWriter::Place{"jobs/a", 0, log_}, run_,
-                                              shutdown_.get_token());
+    auto writer = std::make_shared<LogWriter>(*store_, clock_, LogWriter::Place{"jobs/a", 0, log_},
+                                              run_, shutdown_.get_token());
     writer->Take(Job(v1::Job::RUNNING), {v1::Event()});
     return writer;
   }
@@ -34,10 +34,11 @@ class LogWriterTest : public testing::Test {
     writer.Finish(Job(state), v1::Event(),
                   [told = ended.callback()](const v1::Job* job) { told(job != nullptr); });
   }
-  static bool Finished(LogWriter& writer, v1::Job::State state) {
+  bool Finished(LogWriter& writer, v1::Job::State state) {
     Await<bool> ended;
     Finish(writer, state, ended);
     while (!ended.ready()) {
+      clock_.Advance(std::chrono::seconds(1));
       writer.Retry();
       std::this_thread::yield();
     }
@@ -90,12 +91,14 @@ class LogWriterTest : public testing::Test {
     for (;;) {
       StoredJob stored = ToRun();
       if (stored.job.last_sequence() >= sequence) return stored;
-      writer.Pump();
+      clock_.Advance(std::chrono::seconds(1));
+      writer.WriteIfDue();
     }
   }
 
   TempDirectory directory_;
   std::unique_ptr<Store> store_;
+  FakeClock clock_;
   std::shared_ptr<JobLog> log_ = std::make_shared<JobLog>(1, false);
   std::shared_ptr<RunControl> run_ = std::make_shared<RunControl>();
   std::stop_source shutdown_;
@@ -173,6 +176,7 @@ TEST_F(LogWriterTest, EndThatFindsNoSpaceIsStoredLater) {
   EXPECT_FALSE(ended.ready());
   MakeSpace();
   while (!ended.ready()) {
+    clock_.Advance(std::chrono::seconds(1));
     writer->Retry();
     std::this_thread::yield();
   }
@@ -186,7 +190,7 @@ TEST_F(LogWriterTest, CheckpointStandsAfterTheEventsBeforeIt) {
   for (int i = 0; i < 3; ++i) writer->Add(Big());
   writer->AddCheckpoint("here");
   writer->Add(Big());
-  writer->Pump();
+  writer->WriteIfDue();
   const StoredJob stored = StoredAfter(6, *writer);
   EXPECT_EQ(stored.checkpoint, "here");
   EXPECT_EQ(stored.checkpoint_sequence, 5U);

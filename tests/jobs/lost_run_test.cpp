@@ -27,15 +27,18 @@ v1::CreateJobRequest WithPriority(std::int32_t priority, double end_time_s) {
 
 class LostRunTest : public JobsTest {
  protected:
-  // Moves the clocks until the job has ended.
+  // Moves the clock until the job has ended. A watchdog counts one second a look at most.
   v1::Job EndedInTime(const std::string& name) {
-    for (int i = 0; i < 10'000; ++i) {
+    for (;;) {
       const v1::Job job = Get(name).value();
       if (IsFinal(job.state())) return job;
       clock_.Advance(milliseconds(500));
-      std::this_thread::sleep_for(milliseconds(10));  // The watchdog's looks are real.
+      std::this_thread::yield();
     }
-    throw std::runtime_error("the job does not end");
+  }
+  static JobOptions LookOften(JobOptions options = {}) {
+    options.look_interval = milliseconds(1);
+    return options;
   }
 };
 
@@ -127,7 +130,7 @@ TEST_F(LostRunTest, SpentOutputIsSeenAlsoWhenTheRunIsThrough) {
 }
 
 TEST_F(LostRunTest, SpentWallTimeEndsARealRun) {
-  Open({.max_budget = {.wall_time = seconds(100)}});
+  Open(LookOften({.max_budget = {.wall_time = seconds(100)}}));
   v1::CreateJobRequest request = RequestFor(BouncingBall());
   request.mutable_job()->mutable_budget()->mutable_wall_time()->set_seconds(10);
   const v1::Job job = EndedInTime(Create(request).value().name());
@@ -139,12 +142,12 @@ TEST_F(LostRunTest, SpentWallTimeEndsARealRun) {
 }
 
 TEST_F(LostRunTest, JumpOfTheClockSpendsNothing) {
-  Open(WithFakeRun({.max_budget = {.wall_time = seconds(100)}}));
+  Open(WithFakeRun(LookOften({.max_budget = {.wall_time = seconds(100)}})));
   const std::string name = Create();
   run_.AwaitStarted(1);
   for (const auto jump : {std::chrono::hours(-1), std::chrono::hours(24 * 3653)}) {
     clock_.Jump(jump);
-    std::this_thread::sleep_for(milliseconds(120));
+    clock_.AwaitReadings(3);  // The watchdog's: nobody else asks.
     EXPECT_EQ(Get(name).value().state(), v1::Job::RUNNING);
   }
   run_.Allow();
@@ -165,7 +168,7 @@ TEST_F(LostRunTest, HangingRunIsGivenUpAndItsWorkerReplaced) {
     back.set_value();
     return Outcome{};
   };
-  Open(options);
+  Open(LookOften(options));
   const std::string bad = Create(BouncingBall(13));
   const std::string next = Create();
   const v1::Job job = EndedInTime(bad);
@@ -195,7 +198,7 @@ TEST_F(LostRunTest, HangingRunCanBeCancelled) {
     back.set_value();
     return Outcome{};
   };
-  Open(options);
+  Open(LookOften(options));
   const std::string name = Create();
   started.get_future().wait();
   ASSERT_TRUE(Cancel(name).ok());
@@ -214,7 +217,7 @@ TEST_F(LostRunTest, StalledRunThatHearsKeepsItsResult) {
     observer.OnWarning("it was hard");
     return Ending(Outcome::End::kStopped);
   };
-  Open(options);
+  Open(LookOften(options));
   const v1::Job job = EndedInTime(Create());
   EXPECT_EQ(job.state_reason(), "STALLED");
   EXPECT_THAT(job.warnings(), ElementsAre("it was hard", testing::HasSubstr("sample_interval_s")));
@@ -298,16 +301,18 @@ TEST_F(LostRunTest, NeighboursOfADeadlyJobAllSucceed) {
   };
   Open(options);
   for (int i = 0; i < 4; ++i) names.insert(Create(BouncingBall(1)));
+  const std::set<std::string> first = names;
   const std::string bad = Create(BouncingBall(13));
   for (int i = 0; i < 16; ++i) names.insert(Create(BouncingBall(1)));
   for (int crash = 0; crash < 3; ++crash) {
-    if (crash == 0) run.Allow(4);  // So that it comes to the bad one.
+    if (crash == 0) {
+      run.Allow(4);  // So that it comes to the bad one.
+      for (const std::string& name : first) Ended(name);
+    }
     v1::ListJobsRequest running;
     running.add_states(v1::Job::RUNNING);
     // The deadly one, and beside it one that the crash puts under suspicion too.
-    while (deadly == crash || List(running).value().jobs_size() < 2) {
-      std::this_thread::sleep_for(milliseconds(10));
-    }
+    while (deadly == crash || List(running).value().jobs_size() < 2) std::this_thread::yield();
     Crash();
     Open(options);
   }
@@ -394,9 +399,13 @@ TEST_F(LostRunTest, CancelTakesEffectAtOnceWhateverTheRunDoes) {
     const auto created = Create(request);
     ASSERT_TRUE(created.ok()) << what << ": " << created.error().message;
     const std::string name = created.value().name();
-    while (Get(name).value().state() != v1::Job::RUNNING) std::this_thread::yield();
-    std::this_thread::sleep_for(milliseconds(200));  // Into the run.
-    ASSERT_EQ(Get(name).value().state(), v1::Job::RUNNING) << what << " is too short";
+    // Into the run: it has told progress, or recorded more than that it has begun.
+    v1::Job job;
+    for (job = Get(name).value(); !job.has_progress() && job.last_sequence() <= 3;
+         job = Get(name).value()) {
+      std::this_thread::yield();
+    }
+    ASSERT_EQ(job.state(), v1::Job::RUNNING) << what << " is too short";
     const auto begin = std::chrono::steady_clock::now();
     ASSERT_TRUE(Cancel(name).ok());
     EXPECT_EQ(Ended(name).state(), v1::Job::CANCELLED) << what;
@@ -433,7 +442,7 @@ TEST_F(LostRunTest, HangingCellEndsItsSweepAndFreesBothWorkers) {
     ++back;
     return Outcome{};
   };
-  Open(options);
+  Open(LookOften(options));
   const std::string name = Create(LongRuns().at("sweep with helpers")).value().name();
   const v1::Job job = EndedInTime(name);
   EXPECT_EQ(job.state_reason(), "STALLED");

@@ -1,6 +1,9 @@
-#include "jobs/read/request_rules.h"
-
 #include <gmock/gmock.h>
+
+#include "jobs/read/create_rules.h"
+#include "jobs/read/list_rules.h"
+#include "jobs/read/series_rules.h"
+#include "jobs/read/watch_rules.h"
 
 namespace contact {
 namespace {

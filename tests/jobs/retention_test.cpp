@@ -77,14 +77,14 @@ TEST_F(RetentionTest, EndedJobsGoByTheirAgeOnly) {
   Retention retention(*store_, clock_, {.age = hours(1)}, feed_);
   const auto reader = feed_.Subscribe([] {});
   clock_.Advance(seconds(59));
-  EXPECT_EQ(retention.Sweep(), 0);
+  EXPECT_EQ(retention.Purge(), 0);
   clock_.Advance(seconds(1));
-  EXPECT_EQ(retention.Sweep(), 1);
+  EXPECT_EQ(retention.Purge(), 1);
   EXPECT_FALSE(Get(brief).ok());
   EXPECT_THAT(reader->Take(10), ElementsAre(brief)) << "who watches all jobs hears of it";
   EXPECT_TRUE(Get(usual).ok());
   clock_.Advance(hours(100));
-  EXPECT_EQ(retention.Sweep(), 2);
+  EXPECT_EQ(retention.Purge(), 2);
   EXPECT_FALSE(Get(lasting).ok());
   EXPECT_EQ(Get(running).value().state(), v1::Job::RUNNING);
 }
@@ -94,7 +94,7 @@ TEST_F(RetentionTest, NothingGoesUnlessSomeoneSaysSo) {
   const std::string name = EndedJobName();
   EXPECT_FALSE(Get(name).value().has_expire_time());
   clock_.Advance(hours(24 * 365 * 10));
-  EXPECT_EQ(Retention(*store_, clock_, {}, feed_).Sweep(), 0);
+  EXPECT_EQ(Retention(*store_, clock_, {}, feed_).Purge(), 0);
   EXPECT_TRUE(Get(name).ok());
 }
 
@@ -108,8 +108,8 @@ TEST_F(RetentionTest, FirstToEndGoWhenTheirBytesAreTooMany) {
   const std::vector<JobSize> stored = sizes.Get().value();
   ASSERT_EQ(stored.size(), 2u);
   const std::int64_t both = stored[0].bytes + stored[1].bytes;
-  EXPECT_EQ(Retention(*store_, clock_, {.bytes = both}, feed_).Sweep(), 0);
-  EXPECT_EQ(Retention(*store_, clock_, {.bytes = both - 1}, feed_).Sweep(), 1);
+  EXPECT_EQ(Retention(*store_, clock_, {.bytes = both}, feed_).Purge(), 0);
+  EXPECT_EQ(Retention(*store_, clock_, {.bytes = both - 1}, feed_).Purge(), 1);
   EXPECT_FALSE(Get(first).ok());
   EXPECT_TRUE(Get(second).ok());
 }
@@ -122,7 +122,7 @@ TEST_F(RetentionTest, ManyJobsGoPageByPage) {
     std::this_thread::yield();
   }
   clock_.Advance(seconds(2));
-  EXPECT_EQ(Retention(*store_, clock_, {.age = seconds(1)}, feed_).Sweep(), 450);
+  EXPECT_EQ(Retention(*store_, clock_, {.age = seconds(1)}, feed_).Purge(), 450);
   EXPECT_EQ(List({}).value().jobs_size(), 0);
 }
 
@@ -134,10 +134,10 @@ TEST_F(RetentionTest, TrajectoriesGoAndResultsStay) {
   ASSERT_GT(chunks, 1U);
   const auto events = Log(name, 0, {"cycle", "iteration"});
   Retention retention(*store_, clock_, {.compact_after = hours(1)}, feed_);
-  retention.Sweep();
+  retention.Purge();
   EXPECT_EQ(Get(name).value().oldest_sequence(), 1U) << "too soon";
   clock_.Advance(hours(1));
-  retention.Sweep();
+  retention.Purge();
   const v1::Job compacted = Get(name).value();
   EXPECT_EQ(compacted.oldest_sequence(), job.last_sequence());
   EXPECT_EQ(compacted.cycles_size(), job.cycles_size());

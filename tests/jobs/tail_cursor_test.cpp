@@ -47,8 +47,8 @@ class TailCursorTest : public testing::Test {
     store_->Create({job_, "", events}, created.callback());
     ASSERT_TRUE(created.Get().ok());
     log_ = std::make_shared<JobLog>(1, false);
-    writer_ = std::make_shared<LogWriter>(*store_, LogWriter::Place{name_, 0, log_}, run_,
-                                          std::stop_token());
+    writer_ = std::make_shared<LogWriter>(*store_, SystemClock(), LogWriter::Place{name_, 0, log_},
+                                          run_, std::stop_token());
     writer_->Take(job_, {Changed(v1::Job::RUNNING)});
   }
 

@@ -15,9 +15,11 @@ namespace contact {
 
 /// How much the server keeps of jobs that have ended.
 struct RetentionLimits {
-  std::chrono::seconds age{0};  ///< Since the end, of jobs that do not say so themselves; 0: any.
-  std::int64_t bytes = 0;       ///< Of all ended jobs together; 0: any.
-  /// Since the end, until the frame chunks of a job are dropped; 0: they are kept as long as it.
+  /// Time from the end of a job to its deletion, for jobs without a time to live; 0: no limit.
+  std::chrono::seconds age{0};
+  /// Bytes that all ended jobs together may take; 0: no limit.
+  std::int64_t bytes = 0;
+  /// Time from the end of a job until its frame chunks are dropped; 0: they stay with the job.
   std::chrono::seconds compact_after{0};
 };
 
@@ -27,18 +29,20 @@ struct JobOptions {
   int max_queued_jobs = 10'000;  ///< Past it CreateJob answers QUEUE_FULL.
   int max_watchers = 10'000;     ///< Past it Watch answers WATCHER_LIMIT.
   ScenarioLimits scenario_limits = {};
-  RunBudget max_budget = {};  ///< Of a job, and of one that asks for none.
+  RunBudget max_budget = {};  ///< Largest budget of a job; also that of a job that asks for none.
   int max_attempts = 3;       ///< A job that is running whenever the server dies fails then.
   std::chrono::milliseconds step_timeout = std::chrono::minutes(1);  ///< See Watchdog; 0: never.
   std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);  ///< See Watchdog.
+  /// Real time between two looks at the running jobs, see Watchdog.
+  std::chrono::milliseconds look_interval{50};
   RetentionLimits retention = {};
-  /// Between the checkpoints of a run, at least; 0: none.
+  /// Least time between two checkpoints of a run; 0: no checkpoints.
   std::chrono::milliseconds checkpoint_interval{0};
-  /// Where what becomes of jobs is counted.
+  /// Counters of job transitions. Never null.
   std::shared_ptr<JobMetrics> metrics = std::make_shared<JobMetrics>();
-  /// What solves a scenario; tests put something else here.
+  /// Solves a scenario; tests replace it.
   std::function<Outcome(const Scenario&, Observer&, std::stop_token)> run = Run;
-  /// The same from a checkpoint on.
+  /// Resumes the solution of a scenario from a checkpoint; tests replace it.
   std::function<Outcome(const Scenario&, const RunState&, Observer&, std::stop_token)> resume =
       Resume;
 };

@@ -20,7 +20,7 @@ void StampTime(v1::Job::State from, const google::protobuf::Timestamp& now, v1::
 
 }  // namespace
 
-Move MoveAfter(const Outcome& outcome) {
+Transition TransitionAfter(const Outcome& outcome) {
   switch (outcome.end) {
     case Outcome::End::kFinished:
       return {v1::Job::SUCCEEDED};
@@ -34,43 +34,45 @@ Move MoveAfter(const Outcome& outcome) {
     case Outcome::End::kNotConverged:
       return {v1::Job::FAILED, reason::kNotConverged, outcome.message, absl::StatusCode::kAborted};
   }
-  return MoveAfterFault("unknown outcome");
+  return TransitionAfterFault("unknown outcome");
 }
 
-Move MoveAfterFault(const std::string& what) {
+Transition TransitionAfterFault(const std::string& what) {
   return {v1::Job::FAILED, reason::kInternal, what, absl::StatusCode::kInternal};
 }
 
-Move MoveAfterException() {
+Transition TransitionAfterException() {
   try {
     throw;
   } catch (const std::exception& error) {
-    return MoveAfterFault(
+    return TransitionAfterFault(
         fmt::format("{}: {}", boost::core::demangle(typeid(error).name()), error.what()));
   } catch (...) {
-    return MoveAfterFault("unknown exception");
+    return TransitionAfterFault("unknown exception");
   }
 }
 
-v1::Event Apply(const Move& move, std::chrono::system_clock::time_point now, v1::Job* job) {
+v1::Event Apply(const Transition& transition, std::chrono::system_clock::time_point now,
+                v1::Job* job) {
   const v1::Job::State from = job->state();
-  assert(MayMove(from, move.to));
-  job->set_state(move.to);
-  job->set_state_reason(move.state_reason);
+  assert(IsTransition(from, transition.to));
+  job->set_state(transition.to);
+  job->set_state_reason(transition.state_reason);
   v1::Event event = EventAt(now);
   StampTime(from, event.event_time(), job);
-  if (move.to == v1::Job::FAILED) {
-    job->mutable_error()->set_code(static_cast<int>(move.code));
-    job->mutable_error()->set_message(move.message);
+  if (transition.to == v1::Job::FAILED) {
+    job->mutable_error()->set_code(static_cast<int>(transition.code));
+    job->mutable_error()->set_message(transition.message);
   }
   v1::StateChanged& changed = *event.mutable_state_changed();
-  changed.set_state(move.to);
-  changed.set_state_reason(move.state_reason);
-  changed.set_message(move.message);
+  changed.set_state(transition.to);
+  changed.set_state_reason(transition.state_reason);
+  changed.set_message(transition.message);
   changed.set_convergence(job->convergence());
-  spdlog::info("job={} state={} attempt={}{}{}{}{}", job->name(), v1::Job::State_Name(move.to),
-               job->attempt(), move.state_reason.empty() ? "" : " reason=", move.state_reason,
-               move.message.empty() ? "" : " message=", move.message);
+  spdlog::info("job={} state={} attempt={}{}{}{}{}", job->name(),
+               v1::Job::State_Name(transition.to), job->attempt(),
+               transition.state_reason.empty() ? "" : " reason=", transition.state_reason,
+               transition.message.empty() ? "" : " message=", transition.message);
   return event;
 }
 

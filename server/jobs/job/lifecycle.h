@@ -13,8 +13,8 @@
 
 namespace contact {
 
-/// The moves that the life of a job consists of: [from][to], in the order of Job.State.
-inline constexpr std::array<std::array<bool, 6>, 6> kMayMove = {{
+/// The transitions that a job may make: [from][to], in the order of Job.State.
+inline constexpr std::array<std::array<bool, 6>, 6> kTransitions = {{
     // UNSPECIFIED, QUEUED, RUNNING, SUCCEEDED, FAILED, CANCELLED
     {false, true, false, false, false, false},  // Not stored yet: it is accepted.
     {false, false, true, false, false, true},   // QUEUED: a worker takes it, or it is cancelled.
@@ -24,15 +24,18 @@ inline constexpr std::array<std::array<bool, 6>, 6> kMayMove = {{
     {},                                         // CANCELLED
 }};
 
-constexpr bool MayMove(v1::Job::State from, v1::Job::State to) {
-  return kMayMove[static_cast<std::size_t>(from)][static_cast<std::size_t>(to)];
+/// True if a job may go from one state to the other.
+constexpr bool IsTransition(v1::Job::State from, v1::Job::State to) {
+  return kTransitions[static_cast<std::size_t>(from)][static_cast<std::size_t>(to)];
 }
 
+/// True if a job in this state has ended: no transition leaves the state.
 constexpr bool IsFinal(v1::Job::State state) {
   return state == v1::Job::SUCCEEDED || state == v1::Job::FAILED || state == v1::Job::CANCELLED;
 }
 
-/// Why a job is in its state; see Job.state_reason.
+/// The values of Job.state_reason: why a job is in its state. Reasons of failed calls are in
+/// errors.h.
 namespace reason {
 inline constexpr char kWaitingForWorker[] = "WAITING_FOR_WORKER";
 inline constexpr char kServerRestarted[] = "SERVER_RESTARTED";
@@ -47,27 +50,32 @@ inline constexpr char kCrashed[] = "CRASHED";
 inline constexpr char kInternal[] = "INTERNAL";
 }  // namespace reason
 
-/// A state to go to, and why.
-struct Move {
+/// The state that a job enters next, and why.
+struct Transition {
   v1::Job::State to;
   std::string state_reason = {};
   std::string message = {};                       ///< For people; may be empty.
   absl::StatusCode code = absl::StatusCode::kOk;  ///< Of Job.error, for FAILED.
 };
 
-/// What becomes of a job whose run ended so. A stopped one was stopped by its user.
-Move MoveAfter(const Outcome& outcome);
-/// What becomes of a job whose run could not be made at all.
-Move MoveAfterFault(const std::string& what);
-/// What becomes of a job whose run threw what is being caught: a fault, with class and message.
-Move MoveAfterException();
+/// The transition of a job whose run has ended. A run that was stopped counts as cancelled by the
+/// user.
+Transition TransitionAfter(const Outcome& outcome);
+/// The transition of a job that could not be run at all; `what` says why, for people.
+Transition TransitionAfterFault(const std::string& what);
+/// The transition of a job whose run threw an exception. To be called from within the handler that
+/// caught it; class and text of the exception become the message.
+Transition TransitionAfterException();
 
-/// Moves a job, stamps its times, writes one line to the log and returns the event that tells it.
-v1::Event Apply(const Move& move, std::chrono::system_clock::time_point now, v1::Job* job);
+/// Puts the job into its next state at the time `now`: sets its times, writes one line to the log,
+/// and returns the state_changed event. The transition must be one of kTransitions.
+v1::Event Apply(const Transition& transition, std::chrono::system_clock::time_point now,
+                v1::Job* job);
 
+/// The time as the contract has it, to the nanosecond.
 google::protobuf::Timestamp ToTimestamp(std::chrono::system_clock::time_point time);
 
-/// An event of this time, still without payload.
+/// An event with this time and without payload.
 v1::Event EventAt(std::chrono::system_clock::time_point now);
 
 }  // namespace contact

@@ -7,7 +7,7 @@
 
 #include "base/digest.h"
 #include "base/executor.h"
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "jobs/read/csv_text.h"
 
 namespace contact {
@@ -47,7 +47,7 @@ void ArtifactMaker::Post(std::function<void(ArtifactMaker&)> work) {
   const bool posted = executor_.Post([weak = weak_from_this(), work = std::move(work)] {
     if (const auto self = weak.lock()) work(*self);
   });
-  if (!posted) Fail(Draining());
+  if (!posted) Fail(MakeError(Reason::kServerDraining));
 }
 
 void ArtifactMaker::ReadPage(std::uint32_t kinds, void (ArtifactMaker::*take)(const Page&)) {

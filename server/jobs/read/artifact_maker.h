@@ -10,7 +10,7 @@
 #include "base/digest.h"
 #include "base/mutex.h"
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "jobs/read/artifact_plan.h"
 #include "storage/store.h"
 
@@ -25,20 +25,21 @@ class ArtifactMaker : public std::enable_shared_from_this<ArtifactMaker> {
  public:
   ArtifactMaker(Store& store, Executor& executor, ArtifactPlan plan, std::function<void()> wake);
 
-  /// What has been made.
+  /// Chunks that wait for the reader, and the state of the making.
   struct Made {
     std::deque<v1::ReadArtifactResponse> chunks;  ///< The last one has the artifact.
     bool working = false;
     std::optional<Error> error;
   };
-  /// Gives access to it under its lock.
+  /// Calls `access` with the Made, under its lock.
   template <class Access>
   void Do(Access access) {
     const MutexLock lock(mutex_);
     access(made_);
   }
 
-  /// Begins to make the next chunks, then calls `wake`. Not while it is working.
+  /// Starts to make the next chunks and calls `wake` when some are there. Not to be called while
+  /// Made::working is true.
   void Continue();
 
  private:
@@ -60,13 +61,14 @@ class ArtifactMaker : public std::enable_shared_from_this<ArtifactMaker> {
   ArtifactPlan plan_;  // Its result is merged once, on the executor.
   const std::function<void()> wake_;
 
-  // Of whoever works.
-  bool looked_ = false;         ///< Knows where the samples are:
-  std::uint64_t position_ = 0;  ///< after this sequence,
-  std::uint64_t end_ = 0;       ///< and up to this.
-  std::uint64_t boundary_ = 0;  ///< Last event seen that ends what another attempt or cell left.
-  std::uint64_t begin_ = 0;
-  std::int64_t size_ = 0;  ///< Bytes made, those before the offset included.
+  // Owned by the executor task that is running.
+  bool looked_ = false;         ///< True once position_ and end_ enclose the samples.
+  std::uint64_t position_ = 0;  ///< Sequence of the last event that was read.
+  std::uint64_t end_ = 0;       ///< Sequence of the last event with samples of the artifact.
+  std::uint64_t boundary_ =
+      0;                     ///< Last event seen that ends the samples of another attempt or cell.
+  std::uint64_t begin_ = 0;  ///< The samples of the artifact come after this sequence.
+  std::int64_t size_ = 0;    ///< Bytes made, including those before the requested offset.
   Sha256 digest_;
 
   Mutex mutex_;

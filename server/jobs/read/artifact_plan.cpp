@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "jobs/job/lifecycle.h"
 
 namespace contact {

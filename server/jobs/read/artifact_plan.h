@@ -4,7 +4,7 @@
 #include <string>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "storage/records.h"
 
 namespace contact {

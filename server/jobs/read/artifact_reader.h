@@ -7,7 +7,7 @@
 #include <string>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "jobs/read/artifact_plan.h"
 #include "storage/store.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/executor.h"
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "wire/result_codec.h"
 #include "wire/scenario/scenario_codec.h"
 
@@ -103,7 +103,7 @@ void SeriesReader::Read(Store& store, Executor& executor, const ScenarioLimits& 
   store.Read(request.name(), JobPart::kSpec, [self](absl::StatusOr<StoredJob> stored) {
     const auto shared = std::make_shared<absl::StatusOr<StoredJob>>(std::move(stored));
     if (!self->executor_.Post([self, shared] { self->Open(*shared); }))
-      self->caller_.done(Draining());
+      self->caller_.done(MakeError(Reason::kServerDraining));
   });
 }
 
@@ -133,7 +133,7 @@ void SeriesReader::ReadEvents(EventQuery query, void (SeriesReader::*take)(const
   store_.ReadEvents(std::move(query), [self = shared_from_this(), take](Page page) {
     const auto shared = std::make_shared<const Page>(std::move(page));
     const bool posted = self->executor_.Post([self, take, shared] { ((*self).*take)(*shared); });
-    if (!posted) self->caller_.done(Draining());
+    if (!posted) self->caller_.done(MakeError(Reason::kServerDraining));
   });
 }
 
@@ -194,7 +194,8 @@ void SeriesReader::ReadPage() {
 }
 
 void SeriesReader::Take(const Page& page) {
-  if (caller_.abandoned && caller_.abandoned()) return caller_.done(TooLate());
+  if (caller_.abandoned && caller_.abandoned())
+    return caller_.done(MakeError(Reason::kDeadlineExceeded));
   if (!page.ok()) return caller_.done(ToError(page.status(), request_.name()));
   if (page->oldest > 1) return caller_.done(EventsCompacted(request_.name(), page->oldest));
   for (const StoredEvent& event : page->events) {

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "jobs/read/decimation.h"
-#include "jobs/read/request_rules.h"
+#include "jobs/read/series_rules.h"
 #include "storage/store.h"
 #include "wire/scenario/scenario_codec.h"
 
@@ -25,11 +25,11 @@ class SeriesBuilder {
   void Restart();
   /// True if the chunk is one of this trajectory.
   bool Fits(const v1::FrameChunk& chunk) const;
-  /// False: it is not.
+  /// Adds the samples of a chunk that lie in the time range. False if the chunk does not fit.
   bool Add(const v1::FrameChunk& chunk);
   /// True if the time range ends before the chunk.
   bool IsPast(const v1::FrameChunk& chunk) const;
-  /// SERIES_TOO_LARGE.
+  /// The series of all chunks added; SERIES_TOO_LARGE if it has more samples than may be answered.
   Result<v1::Series> Finish() const;
 
  private:
@@ -82,13 +82,14 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
   const Caller caller_;
   std::optional<SeriesBuilder> builder_;
   std::uint64_t position_ = 0;
-  std::uint64_t last_ = 0;  ///< What comes after it while we read is left to the next call.
+  std::uint64_t last_ = 0;  ///< Last sequence when the reading began; later events are left out.
   bool past_end_ = false;   ///< A chunk began after the time range.
 
-  double start_time_ = 0;    ///< Of the time range, where it begins:
-  std::uint64_t low_ = 0;    ///< after this,
-  std::uint64_t high_ = 0;   ///< and chunks after this are not before it.
-  std::uint64_t probe_ = 0;  ///< Between the two.
+  // Bisection of the log for the first chunk of the time range.
+  double start_time_ = 0;    ///< [s] Start of the time range.
+  std::uint64_t low_ = 0;    ///< Chunks up to this sequence end before start_time_.
+  std::uint64_t high_ = 0;   ///< Chunks after this sequence end at start_time_ or later.
+  std::uint64_t probe_ = 0;  ///< The sequence that is being probed, between low_ and high_.
 };
 
 }  // namespace contact

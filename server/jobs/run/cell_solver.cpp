@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "jobs/job/errors.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/run/run_recorder.h"
 #include "wire/result_codec.h"
@@ -16,11 +17,11 @@ namespace {
 // Keeps of a run what metrics may ask for, and its samples if it records any.
 class CellObserver final : public Observer {
  public:
-  CellObserver(const Scenario& scenario, RunControl& control, const std::function<void()>& pulse,
+  CellObserver(const Scenario& scenario, RunControl& control, const std::function<void()>& write,
                v1::Job* result, std::vector<v1::FrameChunk>* trajectory)
       : scenario_(scenario),
         control_(control),
-        pulse_(pulse),
+        write_(write),
         result_(result),
         trajectory_(trajectory) {}
 
@@ -28,7 +29,7 @@ class CellObserver final : public Observer {
   void OnSamples(const Samples& samples) override {
     std::ranges::move(ChunksOf(scenario_, samples), std::back_inserter(*trajectory_));
   }
-  void OnProgress(const Progress& /*progress*/) override { pulse_(); }
+  void OnProgress(const Progress& /*progress*/) override { write_(); }
   // In batches: all workers count on the same number.
   void OnStep() override {
     if (++steps_ == kBatch) TellSteps();
@@ -41,7 +42,7 @@ class CellObserver final : public Observer {
 
   const Scenario& scenario_;
   RunControl& control_;
-  const std::function<void()>& pulse_;
+  const std::function<void()>& write_;
   v1::Job* result_;
   std::vector<v1::FrameChunk>* trajectory_;
   std::int64_t steps_ = 0;  // Not told yet.
@@ -59,14 +60,14 @@ CellSolver::CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan, const J
     : sweep_(sweep), plan_(plan), options_(options), fields_(sweep, &none_) {}
 
 std::optional<SolvedCell> CellSolver::Solve(std::int32_t index, RunControl& control,
-                                            const std::function<void()>& pulse) {
+                                            const std::function<void()>& write) {
   SolvedCell solved;
   solved.cell.set_index(index);
   try {
-    if (!Compute(control, pulse, &solved)) return std::nullopt;
+    if (!Compute(control, write, &solved)) return std::nullopt;
   } catch (...) {
-    const Move move = MoveAfterException();
-    Fail(move.state_reason, move.message, &solved.cell);
+    const Transition transition = TransitionAfterException();
+    Fail(transition.state_reason, transition.message, &solved.cell);
   }
   return solved;
 }
@@ -75,7 +76,7 @@ bool CellSolver::Keeps(std::int32_t cell) const {
   return std::ranges::find(sweep_.keep_trajectories(), cell) != sweep_.keep_trajectories().end();
 }
 
-bool CellSolver::Compute(RunControl& control, const std::function<void()>& pulse,
+bool CellSolver::Compute(RunControl& control, const std::function<void()>& write,
                          SolvedCell* solved) {
   v1::SweepCell* const cell = &solved->cell;
   std::vector<double> values = plan_.axes.Values(cell->index());
@@ -83,28 +84,28 @@ bool CellSolver::Compute(RunControl& control, const std::function<void()>& pulse
   cell->mutable_values()->Add(values.begin(), values.end());
   if (!decoded.violations.empty()) {
     const Violation& first = decoded.violations.front();
-    Fail("SCENARIO_INVALID", first.field + ": " + first.description, cell);
+    Fail(InfoOf(Reason::kScenarioInvalid).name, first.field + ": " + first.description, cell);
     for (const double metric : plan_.metrics.Of({})) cell->add_metrics(metric);
     return true;
   }
   if (!Keeps(cell->index())) decoded.scenario.sample_interval = 0;  // No trajectory.
-  return Run(decoded.scenario, control, pulse, solved);
+  return Run(decoded.scenario, control, write, solved);
 }
 
 bool CellSolver::Run(const Scenario& scenario, RunControl& control,
-                     const std::function<void()>& pulse, SolvedCell* solved) const {
+                     const std::function<void()>& write, SolvedCell* solved) const {
   v1::Job result;
-  CellObserver observer(scenario, control, pulse, &result, &solved->trajectory);
+  CellObserver observer(scenario, control, write, &result, &solved->trajectory);
   const Outcome outcome = options_.run(scenario, observer, control.token());
   observer.TellSteps();
-  const Move move = MoveAfter(outcome);
-  if (move.to == v1::Job::CANCELLED) return false;
+  const Transition transition = TransitionAfter(outcome);
+  if (transition.to == v1::Job::CANCELLED) return false;
   EncodeOutcome(scenario, outcome, &result);
   if (outcome.end != Outcome::End::kFinished) result.clear_convergence();
   v1::SweepCell& cell = solved->cell;
-  cell.set_state(move.to);
-  cell.set_state_reason(move.state_reason);
-  cell.set_message(move.message);
+  cell.set_state(transition.to);
+  cell.set_state_reason(transition.state_reason);
+  cell.set_message(transition.message);
   cell.set_convergence(result.convergence());
   for (const double metric : plan_.metrics.Of(result)) cell.add_metrics(metric);
   return true;

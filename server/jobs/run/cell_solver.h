@@ -13,28 +13,31 @@
 
 namespace contact {
 
-/// What a cell gave.
+/// A computed cell of a sweep.
 struct SolvedCell {
-  v1::SweepCell cell;
-  std::vector<v1::FrameChunk> trajectory;  ///< If it is to be kept.
+  v1::SweepCell cell;                      ///< Values, state and metrics.
+  std::vector<v1::FrameChunk> trajectory;  ///< Empty unless the sweep keeps the cell's trajectory.
 };
 
-/// Computes cells of a sweep, one at a time. Has a copy of the base scenario; of one thread.
+/// Computes cells of a sweep, one at a time. Holds a copy of the base scenario. Not thread-safe:
+/// each thread that computes has a solver of its own.
 class CellSolver {
  public:
-  /// All outlive the solver.
+  /// Sweep, plan and options outlive the solver.
   CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan, const JobOptions& options);
 
-  /// The cell with this number; none if it was stopped. `pulse` is called now and then meanwhile.
-  /// A pure function of the sweep and the number.
+  /// Computes the cell with this number: a pure function of the sweep and the number. Counts its
+  /// steps on `control`, and calls `write` now and then meanwhile. Nothing if the run was stopped.
   std::optional<SolvedCell> Solve(std::int32_t index, RunControl& control,
-                                  const std::function<void()>& pulse);
+                                  const std::function<void()>& write);
 
  private:
-  // False if the run was stopped.
-  bool Compute(RunControl& control, const std::function<void()>& pulse, SolvedCell* solved);
-  bool Run(const Scenario& scenario, RunControl& control, const std::function<void()>& pulse,
+  /// Fills `solved`, whose index is set. False if the run was stopped.
+  bool Compute(RunControl& control, const std::function<void()>& write, SolvedCell* solved);
+  /// Solves the scenario of a cell and takes over its result. False if the run was stopped.
+  bool Run(const Scenario& scenario, RunControl& control, const std::function<void()>& write,
            SolvedCell* solved) const;
+  /// True if the sweep keeps the trajectory of the cell.
   bool Keeps(std::int32_t cell) const;
 
   const v1::Sweep& sweep_;

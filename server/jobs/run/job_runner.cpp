@@ -38,7 +38,7 @@ std::future<Spec> ReadSpec(Store& store, const Assignment& assignment) {
   return promise->get_future();
 }
 
-Spec Await(std::future<Spec> spec, RunControl& control) {
+Spec AwaitSpec(std::future<Spec> spec, RunControl& control) {
   const RunControl::Report report(control);
   return spec.get();
 }
@@ -50,13 +50,13 @@ v1::Event AttemptStarted(const Clock& clock, const v1::Job& job) {
 }
 
 // True if the run has not come to an end of its own.
-bool Stopped(const Move& move, StopCause cause) {
-  return move.to == v1::Job::CANCELLED ||
-         (move.to == v1::Job::SUCCEEDED && cause == StopCause::kOutput);
+bool Stopped(const Transition& transition, StopCause cause) {
+  return transition.to == v1::Job::CANCELLED ||
+         (transition.to == v1::Job::SUCCEEDED && cause == StopCause::kOutput);
 }
 
 // The server stops: another start of it will run the job again, as the same attempt.
-Move BackToQueue(const Assignment& assignment, v1::Job* job) {
+Transition BackToQueue(const Assignment& assignment, v1::Job* job) {
   assignment.record->Take();
   job->set_attempt(job->attempt() - 1);
   return {v1::Job::QUEUED, reason::kServerRestarted};
@@ -70,27 +70,27 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
   // Asked for before the job is taken, so that it does not wait for that commit.
   auto reading = ReadSpec(store_, assignment);
   const auto writer = std::make_shared<LogWriter>(
-      store_, LogWriter::Place{job.name(), assignment.epoch, assignment.log}, assignment.control,
-      shutdown_);
+      store_, clock_, LogWriter::Place{job.name(), assignment.epoch, assignment.log},
+      assignment.control, shutdown_);
   writer->Take(job, {assignment.event, AttemptStarted(clock_, job)});
 
-  const Spec spec = Await(std::move(reading), control);
-  Move move = spec.ok() ? Solve(**spec, assignment, *writer)
-                        : MoveAfterFault(std::string(spec.status().message()));
+  const Spec spec = AwaitSpec(std::move(reading), control);
+  Transition transition = spec.ok() ? Solve(**spec, assignment, *writer)
+                                    : TransitionAfterFault(std::string(spec.status().message()));
   const RunControl::Report report(control);
   if (!report) return;
-  const bool stopped = Stopped(move, control.cause());
+  const bool stopped = Stopped(transition, control.cause());
   if (stopped && control.cause() == StopCause::kServer) {
-    move = BackToQueue(assignment, &job);
+    transition = BackToQueue(assignment, &job);
     ended = nullptr;
   } else {
-    if (stopped) move = MoveAfterStop(control.cause(), control.budget());
+    if (stopped) transition = TransitionAfterStop(control.cause(), control.budget());
     job.MergeFrom(assignment.record->Get(true));
     job.set_server_version(kVersion);
     job.set_server_revision(kRevision);
     if (spec.ok()) job.set_spec_sha256(SpecSha256((*spec)->job));
   }
-  v1::Event last = Apply(move, clock_.Now(), &job);
+  v1::Event last = Apply(transition, clock_.Now(), &job);
   End(std::move(job), std::move(last), writer, std::move(ended));
 }
 
@@ -110,18 +110,18 @@ void JobRunner::End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writ
   endings_.AwaitRoom(shutdown_);
 }
 
-Move JobRunner::Solve(const StoredJob& spec, const Assignment& assignment,
-                      LogWriter& writer) const {
+Transition JobRunner::Solve(const StoredJob& spec, const Assignment& assignment,
+                            LogWriter& writer) const {
   try {
     if (!spec.job.has_sweep()) return SolveScenario(spec, assignment, writer);
     return SweepRunner(store_, clock_, options_, assignment, writer).Run(spec.job.sweep());
   } catch (...) {
-    return MoveAfterException();
+    return TransitionAfterException();
   }
 }
 
-Move JobRunner::SolveScenario(const StoredJob& spec, const Assignment& assignment,
-                              LogWriter& writer) const {
+Transition JobRunner::SolveScenario(const StoredJob& spec, const Assignment& assignment,
+                                    LogWriter& writer) const {
   DecodedScenario decoded = DecodeScenario(spec.job.scenario(), options_.scenario_limits);
   if (decoded.violations.empty()) {
     const std::vector<Violation> advice = AdviseOnTime(decoded.scenario);
@@ -132,25 +132,19 @@ Move JobRunner::SolveScenario(const StoredJob& spec, const Assignment& assignmen
     assignment.record->Do([&advice](v1::Job& job) {
       for (const Violation& a : advice) job.add_warnings(Text(a));
     });
-    return MoveAfter(outcome);
+    return TransitionAfter(outcome);
   }
   const Violation& first = decoded.violations.front();
-  return MoveAfterFault("scenario." + first.field + ": " + first.description);
+  return TransitionAfterFault("scenario." + first.field + ": " + first.description);
 }
 
 Outcome JobRunner::RunScenario(const Scenario& scenario, const StoredJob& spec,
                                const Assignment& assignment, LogWriter& writer) const {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = clock_.Elapsed();
   RunRecorder recorder(scenario, clock_, *assignment.control, writer, *assignment.log,
                        *assignment.record, options_.checkpoint_interval);
-  Outcome outcome;
-  try {
-    outcome = RunOrResume(scenario, spec, assignment, writer, recorder);
-  } catch (const RunStopped&) {
-    outcome.end = Outcome::End::kStopped;
-    return outcome;
-  }
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  const Outcome outcome = RunOrResume(scenario, spec, assignment, writer, recorder);
+  const std::chrono::duration<double> wall = clock_.Elapsed() - start;
   assignment.record->Do([&](v1::Job& job) {
     EncodeOutcome(scenario, outcome, &job);
     job.mutable_summary()->set_wall_time_s(wall.count());

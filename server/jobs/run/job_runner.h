@@ -39,8 +39,9 @@ class JobRunner {
  private:
   void End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer,
            std::function<void()> ended);
-  Move Solve(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
-  Move SolveScenario(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
+  Transition Solve(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
+  Transition SolveScenario(const StoredJob& spec, const Assignment& assignment,
+                           LogWriter& writer) const;
   Outcome RunScenario(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
                       LogWriter& writer) const;
   Outcome RunOrResume(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,

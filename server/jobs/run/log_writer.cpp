@@ -4,12 +4,11 @@
 
 #include <utility>
 
+#include "base/clock.h"
 #include "storage/store.h"
 
 namespace contact {
 namespace {
-
-using std::chrono::steady_clock;
 
 // A batch goes to the store when it is large enough to be worth a sync of the disk, or old enough
 // for a watcher to notice.
@@ -18,14 +17,17 @@ constexpr std::chrono::milliseconds kBatchTime{20};
 // Events that may wait beside the batch that is being written.
 constexpr std::size_t kMaxPendingBytes = 2 << 20;
 constexpr std::chrono::seconds kRetryTime{1};
+// How often a worker that waits for space looks whether it is time to try again.
+constexpr std::chrono::milliseconds kLookTime{20};
 // What an event costs in memory beside its content.
 constexpr std::size_t kEventBytes = 128;
 
 }  // namespace
 
-LogWriter::LogWriter(Store& store, Place place, std::shared_ptr<RunControl> run,
+LogWriter::LogWriter(Store& store, const Clock& clock, Place place, std::shared_ptr<RunControl> run,
                      std::stop_token shutdown)
     : store_(store),
+      clock_(clock),
       name_(std::move(place.name)),
       log_(std::move(place.log)),
       run_(std::move(run)),
@@ -36,7 +38,7 @@ void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
   pending_.take = true;
   pending_.job = std::move(job);
   pending_.events = std::move(events);
-  Advance(steady_clock::now());
+  Advance(clock_.Elapsed());
 }
 
 bool LogWriter::Add(v1::Event event) {
@@ -45,7 +47,7 @@ bool LogWriter::Add(v1::Event event) {
   if (!report || !run_->CountOutput(static_cast<std::int64_t>(bytes))) return false;
   pending_.bytes += bytes + kEventBytes;
   pending_.events.push_back(std::move(event));
-  WriteWhatIsDue();
+  WriteDueBatch();
   return true;
 }
 
@@ -54,18 +56,18 @@ void LogWriter::AddCheckpoint(std::string state) {
   if (!report) return;
   pending_.bytes += state.size();
   pending_.checkpoint = Checkpoint{pending_.events.size(), std::move(state)};
-  Advance(steady_clock::now());
+  Advance(clock_.Elapsed());
 }
 
-void LogWriter::Pump() {
-  if (const RunControl::Report report(*run_); report) WriteWhatIsDue();
+void LogWriter::WriteIfDue() {
+  if (const RunControl::Report report(*run_); report) WriteDueBatch();
 }
 
-void LogWriter::WriteWhatIsDue() {
-  const Time now = steady_clock::now();
+void LogWriter::WriteDueBatch() {
+  const Time now = clock_.Elapsed();
   if (pending_.bytes >= kBatchBytes || now - last_write_ >= kBatchTime) Advance(now);
   if (pending_.bytes < kMaxPendingBytes) return;
-  if (Settle() == Disk::kLost) pending_ = {};
+  if (AwaitIdle() == Disk::kLost) pending_ = {};
   Advance(now);
 }
 
@@ -83,9 +85,9 @@ bool LogWriter::Finish(v1::Job job, v1::Event event, Ended ended) {
     disk = disk_;
   }
   if (disk == Disk::kLost) {
-    Lose();
+    GiveUpStoring();
   } else {
-    Advance(steady_clock::now());
+    Advance(clock_.Elapsed());
   }
   return true;
 }
@@ -95,10 +97,9 @@ void LogWriter::Retry() {
     const MutexLock lock(mutex_);
     if (!finishing_) return;
   }
-  Advance(steady_clock::now());
+  Advance(clock_.Elapsed());
 }
 
-// Serialises and compresses all that is to be stored and told, which is not for the store's thread.
 void LogWriter::Encode(Batch* batch) const {
   batch->encoded = Store::Encode({.name = name_,
                                   .take = batch->take,
@@ -108,12 +109,10 @@ void LogWriter::Encode(Batch* batch) const {
   batch->records = ToRecords(std::exchange(batch->events, {}));
 }
 
-// Starts the next batch, or tries the last one again, if it is time. Never waits.
 void LogWriter::Advance(Time now) {
   if (BeginWriting(now)) Send();
 }
 
-// True if the caller has to send batch_, and nobody else.
 bool LogWriter::BeginWriting(Time now) {
   const MutexLock lock(mutex_);
   if (disk_ == Disk::kFull) {
@@ -136,21 +135,19 @@ void LogWriter::Send() {
                 });
 }
 
-// Waits until nothing is being written, or to be tried again.
-LogWriter::Disk LogWriter::Settle() {
+LogWriter::Disk LogWriter::AwaitIdle() {
   for (;;) {
     {
       const MutexLock lock(mutex_);
       while (disk_ == Disk::kWriting) changed_.wait(mutex_);
       if (disk_ != Disk::kFull) return disk_;
-      changed_.wait_for(mutex_, shutdown_, kRetryTime, [] { return false; });
+      changed_.wait_for(mutex_, shutdown_, kLookTime, [] { return false; });
       if (shutdown_.stop_requested()) return disk_ = Disk::kLost;
     }
-    Advance(steady_clock::now());
+    Advance(clock_.Elapsed());
   }
 }
 
-// On the store's thread.
 void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
   if (!first.ok()) return Failed(first.status());
   if (batch_.take) ++epoch_;
@@ -160,7 +157,7 @@ void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
     batch_.ended(&*batch_.job);
     report_.reset();
   }
-  if (Become(Disk::kIdle)) Advance(steady_clock::now());
+  if (SetDisk(Disk::kIdle)) Advance(clock_.Elapsed());
 }
 
 void LogWriter::Failed(const absl::Status& status) {
@@ -168,23 +165,21 @@ void LogWriter::Failed(const absl::Status& status) {
     spdlog::error("job={} cannot store events: {}", name_, status.ToString());
   }
   if (absl::IsResourceExhausted(status)) {
-    Become(Disk::kFull);
+    SetDisk(Disk::kFull);
     return;
   }
   log_->Fail();
   run_->Stop();
-  if (Become(Disk::kLost)) Lose();
+  if (SetDisk(Disk::kLost)) GiveUpStoring();
 }
 
-// The end of the job cannot be stored.
-void LogWriter::Lose() {
+void LogWriter::GiveUpStoring() {
   const Ended& ended = batch_.ended ? batch_.ended : pending_.ended;
   ended(nullptr);
   report_.reset();
 }
 
-// True if the worker is gone, so that whoever calls has to see to the rest.
-bool LogWriter::Become(Disk disk) {
+bool LogWriter::SetDisk(Disk disk) {
   const MutexLock lock(mutex_);
   disk_ = disk;
   changed_.notify_all();

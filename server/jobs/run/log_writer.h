@@ -22,6 +22,7 @@
 
 namespace contact {
 
+class Clock;
 class Store;
 struct JobChange;
 
@@ -34,14 +35,17 @@ struct JobChange;
 /// the worker is free, and the writer goes on by itself on the store's thread.
 class LogWriter : public std::enable_shared_from_this<LogWriter> {
  public:
+  /// The log that the writer appends to.
   struct Place {
     std::string name;
-    std::uint64_t epoch;  ///< That the job has now; the writer takes it from there.
+    std::uint64_t epoch;  ///< The stored epoch of the job before this writer takes it.
     std::shared_ptr<JobLog> log;
   };
-  /// To be made shared. Stops `run` when nothing can be stored any more; once that is given up,
-  /// nothing is stored any more. Gives up waiting for space when `shutdown` is requested.
-  LogWriter(Store& store, Place place, std::shared_ptr<RunControl> run, std::stop_token shutdown);
+  /// Must be owned by a shared_ptr. Store and clock outlive the writer. The writer stops `run` when
+  /// nothing can be stored any more, and stores nothing once the run was given up. It stops waiting
+  /// for space when `shutdown` is requested.
+  LogWriter(Store& store, const Clock& clock, Place place, std::shared_ptr<RunControl> run,
+            std::stop_token shutdown);
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
@@ -50,15 +54,17 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
 
   /// False: it was not taken, because the run has spent its budget or was given up.
   bool Add(v1::Event event);
-  /// Stores where the run may go on, together with what was added before, and soon.
+  /// Stores a state from which the run can be resumed, together with the events added before it.
+  /// Starts to write at once if no batch is being written.
   void AddCheckpoint(std::string state);
-  /// Writes what has waited long enough. To be called now and then.
-  void Pump();
+  /// Starts to write the pending events if they are old enough. To be called now and then while the
+  /// run adds no events.
+  void WriteIfDue();
 
-  /// What was not handed to the store yet takes so many bytes of memory, about.
+  /// Bytes of memory, about, of the events that were not handed to the store yet.
   std::size_t pending_bytes() const { return pending_.bytes; }
 
-  /// Whether what was handed to the store found no space, and is to be tried again.
+  /// True while a batch found no space in the store and is to be tried again.
   bool out_of_space() const {
     const MutexLock lock(mutex_);
     return disk_ == Disk::kFull;
@@ -76,54 +82,63 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
 
  private:
   enum class Disk {
-    kIdle,
+    kIdle,     ///< Nothing is being written.
     kWriting,  ///< batch_ belongs to the store's thread.
     kFull,     ///< batch_ is to be tried again.
     kLost,     ///< Nothing can be stored any more.
   };
+  /// What one operation of the store writes.
   struct Batch {
-    std::vector<v1::Event> events;  ///< Until they are encoded.
-    std::size_t bytes = 0;
-    bool take = false;
-    bool failed = false;  ///< Once at least.
+    std::vector<v1::Event> events;  ///< Empty once the batch is encoded.
+    std::size_t bytes = 0;          ///< Memory, about.
+    bool take = false;              ///< Raises the epoch of the job.
+    bool failed = false;            ///< A write of it has failed before.
     std::optional<v1::Job> job;
     std::optional<Checkpoint> checkpoint;
     Ended ended;
-    std::shared_ptr<const JobChange> encoded;  ///< All of it, once it is complete.
-    std::vector<LogRecord> records;            ///< The events then, for the log.
+    std::shared_ptr<const JobChange> encoded;  ///< Null until the batch is complete.
+    std::vector<LogRecord> records;            ///< The encoded events, for the log in memory.
   };
   using Time = std::chrono::steady_clock::time_point;
 
-  void WriteWhatIsDue();
+  /// Starts to write the pending events if they are many or old, and waits if they are too many.
+  void WriteDueBatch();
+  /// Serialises and compresses a complete batch. Costly, so not for the store's thread.
   void Encode(Batch* batch) const;
+  /// Starts to write the next batch, or the last one again, if it is time. Never waits.
   void Advance(Time now);
+  /// Puts what is to be written next into batch_. True: the caller, and nobody else, must Send it.
   bool BeginWriting(Time now);
-  void Send();
-  Disk Settle();
-  void Written(const absl::StatusOr<std::uint64_t>& first);
-  void Failed(const absl::Status& status);
-  void Lose();
-  bool Become(Disk disk);
+  void Send();  ///< Hands batch_ to the store.
+  /// Waits until no batch is being written or to be tried again: kIdle, or kLost.
+  Disk AwaitIdle();
+  void Written(const absl::StatusOr<std::uint64_t>& first);  ///< On the store's thread.
+  void Failed(const absl::Status& status);                   ///< On the store's thread.
+  /// Tells the caller of Finish that the end of the job cannot be stored.
+  void GiveUpStoring();
+  /// True if the worker has called Finish, so that whoever calls this must go on writing.
+  bool SetDisk(Disk disk);
 
   Store& store_;
+  const Clock& clock_;
   const std::string name_;
   const std::shared_ptr<JobLog> log_;
   const std::shared_ptr<RunControl> run_;
   const std::stop_token shutdown_;
 
-  // Of the worker's thread up to Finish, then guarded by mutex_.
+  // Used by the worker's thread up to Finish, and after it by whoever got true from BeginWriting.
   Batch pending_;
   Time last_write_ = {};
-  std::optional<RunControl::Report> report_;  ///< Since Finish.
+  std::optional<RunControl::Report> report_;  ///< Set by Finish, held until the end is stored.
 
-  // Of the store's thread while kWriting, else as above.
+  // Used by the store's thread while disk_ is kWriting, else as above.
   Batch batch_;
   std::uint64_t epoch_;
 
   mutable Mutex mutex_;
   std::condition_variable_any changed_;
   Disk disk_ ABSL_GUARDED_BY(mutex_) = Disk::kIdle;
-  bool finishing_ ABSL_GUARDED_BY(mutex_) = false;  ///< The worker is gone.
+  bool finishing_ ABSL_GUARDED_BY(mutex_) = false;  ///< Finish was called.
 };
 
 }  // namespace contact

@@ -1,10 +1,9 @@
 #include "jobs/run/replay.h"
 
-#include <future>
-#include <memory>
 #include <optional>
 #include <utility>
 
+#include "base/future.h"
 #include "jobs/run/run_control.h"
 #include "jobs/run/run_recorder.h"
 #include "storage/store.h"
@@ -16,11 +15,8 @@ constexpr std::size_t kPageBytes = 1 << 20;
 
 absl::StatusOr<EventPage> ReadPage(Store& store, EventQuery query, RunControl& control) {
   const RunControl::Report report(control);
-  const auto promise = std::make_shared<std::promise<absl::StatusOr<EventPage>>>();
-  store.ReadEvents(std::move(query), [promise](absl::StatusOr<EventPage> page) {
-    promise->set_value(std::move(page));
-  });
-  return promise->get_future().get();
+  return Await<absl::StatusOr<EventPage>>(
+      [&](auto done) { store.ReadEvents(std::move(query), std::move(done)); });
 }
 
 // Calls `take` with each event after `begin` and up to `end`, until it answers false.

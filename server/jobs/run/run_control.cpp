@@ -7,7 +7,7 @@
 namespace contact {
 namespace {
 
-Move OverBudget(const char* state_reason, const std::string& what) {
+Transition OverBudget(const char* state_reason, const std::string& what) {
   return {v1::Job::FAILED, state_reason, fmt::format("the budget of {} was spent", what),
           absl::StatusCode::kResourceExhausted};
 }
@@ -59,7 +59,7 @@ void RunControl::Leave() {
   --reports_;
 }
 
-Move MoveAfterStop(StopCause cause, const RunBudget& budget) {
+Transition TransitionAfterStop(StopCause cause, const RunBudget& budget) {
   switch (cause) {
     case StopCause::kWallTime:
       return OverBudget(

@@ -76,7 +76,7 @@ class RunControl {
   bool given_up_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
-/// What becomes of a job whose run was stopped for this cause, not kServer.
-Move MoveAfterStop(StopCause cause, const RunBudget& budget);
+/// The transition of a job whose run was stopped for this cause, which is not kServer.
+Transition TransitionAfterStop(StopCause cause, const RunBudget& budget);
 
 }  // namespace contact

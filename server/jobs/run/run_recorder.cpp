@@ -13,12 +13,9 @@ namespace {
 // Values in one frame chunk, so that the frames of a large scenario fit into a message: 1 MiB.
 constexpr std::ptrdiff_t kMaxChunkValues = 128 * 1024;
 constexpr std::chrono::milliseconds kProgressTime{100};
-// A larger one would hold up the commits of others. Most of it are samples that wait for their
-// chunk to be full, so the next one may be smaller.
+// A larger checkpoint is not stored, because it would delay the commits of other jobs. Most of a
+// checkpoint is samples of an unfinished chunk, so the next one may be smaller.
 constexpr std::size_t kMaxCheckpointBytes = 4 << 20;
-// Calls of OnSamples that a run makes before it looks whether it is to stop, unless its step is
-// huge.
-constexpr int kMostChunks = 8;
 
 }  // namespace
 
@@ -59,7 +56,6 @@ std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& sa
 }
 
 void RunRecorder::OnSamples(const Samples& samples) {
-  if (control_.stopping() && ++chunks_ > kMostChunks) throw RunStopped();
   for (v1::FrameChunk& chunk : ChunksOf(scenario_, samples)) {
     v1::Event event = Event();
     *event.mutable_frame_chunk() = std::move(chunk);
@@ -70,8 +66,8 @@ void RunRecorder::OnSamples(const Samples& samples) {
 void RunRecorder::OnProgress(const Progress& progress) {
   const v1::Progress message = Encode(scenario_, progress);
   record_.Do([&](v1::Job& job) { *job.mutable_progress() = message; });
-  writer_.Pump();
-  const auto now = std::chrono::steady_clock::now();
+  writer_.WriteIfDue();
+  const auto now = clock_.Elapsed();
   if (now - last_progress_ < kProgressTime) return;
   last_progress_ = now;
   v1::Event event = Event();
@@ -86,10 +82,7 @@ void RunRecorder::OnWarning(const std::string& warning) {
   Keep(std::move(event));
 }
 
-void RunRecorder::OnStep() {
-  chunks_ = 0;
-  control_.CountStep();
-}
+void RunRecorder::OnStep() { control_.CountStep(); }
 
 void RunRecorder::OnBoundary(const std::function<RunState()>& state) {
   const auto now = clock_.Elapsed();

@@ -17,10 +17,8 @@ namespace contact {
 /// Samples as chunks that each fit into a message.
 std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples);
 
-/// Thrown through a run that was asked to stop while it takes samples of one step without end.
-struct RunStopped {};
-
-/// Makes events of what a run reports. May throw RunStopped.
+/// Makes events of what a run reports, and hands them to the log writer. Used by the worker's
+/// thread.
 class RunRecorder final : public Observer {
  public:
   /// Everything outlives the recorder. `checkpoint_interval`: see JobOptions.
@@ -59,7 +57,6 @@ class RunRecorder final : public Observer {
   const std::chrono::milliseconds checkpoint_interval_;
   std::chrono::steady_clock::time_point last_checkpoint_;
   std::chrono::steady_clock::time_point last_progress_ = {};
-  int chunks_ = 0;  ///< Since the last step, while the run is asked to stop.
 };
 
 }  // namespace contact

@@ -4,11 +4,12 @@
 
 namespace contact {
 
-SweepRun::SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done,
+SweepRun::SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done, const Clock& clock,
                    const JobOptions& options, std::shared_ptr<RunControl> control, Sink sink)
     : sweep_(std::move(sweep)),
       plan_(std::move(plan)),
       done_(std::move(done)),
+      clock_(clock),
       options_(options),
       control_(std::move(control)),
       sink_(std::move(sink)) {
@@ -43,15 +44,15 @@ void SweepRun::Release() {
 }
 
 bool SweepRun::Work(std::chrono::milliseconds slice) {
-  const auto end = std::chrono::steady_clock::now() + slice;
+  const auto end = clock_.Elapsed() + slice;
   std::optional<std::int32_t> index = Claim();
   if (!index) return false;
   CellSolver solver(sweep_, plan_, options_);
   while (index) {
-    auto cell = solver.Solve(*index, *control_, sink_.pulse);
+    auto cell = solver.Solve(*index, *control_, sink_.write);
     if (cell) sink_.store(*std::move(cell));
     Release();
-    if (std::chrono::steady_clock::now() >= end) break;
+    if (clock_.Elapsed() >= end) break;
     index = Claim();
   }
   return true;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/mutex.h"
 #include "contact/v1/scenario.pb.h"
 #include "jobs/job/job_options.h"
@@ -20,43 +21,50 @@ namespace contact {
 /// A sweep while it runs: hands its cells out to the threads that compute them. Thread-safe.
 class SweepRun {
  public:
-  /// Both are called by the threads that compute, several at a time.
+  /// Receives what the computing threads produce. Both functions are called by several threads at
+  /// a time.
   struct Sink {
-    std::function<void(SolvedCell)> store;  ///< Takes each cell, as it is finished.
-    std::function<void()> pulse;            ///< Now and then while a cell is computed.
+    std::function<void(SolvedCell)> store;  ///< Takes each cell as soon as it is computed.
+    std::function<void()> write;            ///< Called now and then while a cell is computed.
   };
 
-  /// Cells for which `done` is true have been computed before. `options` outlives the run, the sink
-  /// what was begun.
-  SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done, const JobOptions& options,
-           std::shared_ptr<RunControl> control, Sink sink);
+  /// Cells for which `done` is true have been computed before. Clock and options outlive the run.
+  /// The sink must stay valid until every call of Work that has begun a cell has returned.
+  SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done, const Clock& clock,
+           const JobOptions& options, std::shared_ptr<RunControl> control, Sink sink);
 
   const std::shared_ptr<RunControl>& control() const { return control_; }
 
   /// True while there is a cell that nobody has begun.
   bool HasWork() const;
-  /// Computes cells for about so long, one at least. False: there was none.
+  /// Computes cells until `slice` has passed, at least one. False: there was none left.
   bool Work(std::chrono::milliseconds slice);
-  /// Waits until nobody computes a cell, for so long at most. False: somebody does.
+  /// Waits until no thread computes a cell, at most for `limit` of real time. False: one still
+  /// does.
   bool AwaitIdle(std::chrono::milliseconds limit);
 
  private:
+  /// The cell that the calling thread is to compute; none if there is none left.
   std::optional<std::int32_t> Claim();
-  void Release();
+  void Release();  ///< The sink has the claimed cell.
+  /// Moves next_ past the cells that were computed before.
   void SkipDone() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool HasWorkLocked() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const v1::Sweep sweep_;
   const DecodedSweep plan_;
   const std::vector<bool> done_;
+  const Clock& clock_;
   const JobOptions& options_;
   const std::shared_ptr<RunControl> control_;
   const Sink sink_;
 
   mutable Mutex mutex_;
   std::condition_variable_any released_;
-  std::int32_t next_ ABSL_GUARDED_BY(mutex_) = 0;  ///< To be begun; past the last if there is none.
-  int begun_ ABSL_GUARDED_BY(mutex_) = 0;          ///< And not taken by the sink yet.
+  std::int32_t next_ ABSL_GUARDED_BY(mutex_) =
+      0;  ///< The next cell to begin, or the number of cells.
+  int begun_ ABSL_GUARDED_BY(mutex_) =
+      0;  ///< Cells that were begun and that the sink has not taken.
 };
 
 }  // namespace contact

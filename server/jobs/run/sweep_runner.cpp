@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <future>
 #include <utility>
 #include <vector>
 
+#include "base/future.h"
 #include "wire/scenario_advice.h"
 
 namespace contact {
@@ -13,18 +13,16 @@ namespace {
 
 constexpr std::chrono::milliseconds kSlice{1000};
 // How often what was handed to the log is written while its owner only waits for helpers.
-constexpr std::chrono::milliseconds kPulseTime{20};
+constexpr std::chrono::milliseconds kWriteTime{20};
 constexpr std::chrono::milliseconds kProgressTime{100};
 constexpr std::size_t kPageBytes = 1 << 20;
 // Cells that may be finished while somebody else is at the log, a few milliseconds' worth.
 constexpr std::size_t kMaxFinished = 64;
 
 absl::StatusOr<EventPage> ReadPage(Store& store, const std::string& name, std::uint64_t after) {
-  const auto promise = std::make_shared<std::promise<absl::StatusOr<EventPage>>>();
-  store.ReadEvents(
-      {name, after, KindBit(v1::Event::kSweepCell), kPageBytes},
-      [promise](absl::StatusOr<EventPage> page) { promise->set_value(std::move(page)); });
-  return promise->get_future().get();
+  return Await<absl::StatusOr<EventPage>>([&](auto done) {
+    store.ReadEvents({name, after, KindBit(v1::Event::kSweepCell), kPageBytes}, std::move(done));
+  });
 }
 
 }  // namespace
@@ -33,29 +31,30 @@ SweepRunner::SweepRunner(Store& store, const Clock& clock, const JobOptions& opt
                          const Assignment& assignment, LogWriter& writer)
     : store_(store), clock_(clock), options_(options), assignment_(assignment), writer_(writer) {}
 
-Move SweepRunner::Run(const v1::Sweep& sweep) {
+Transition SweepRunner::Run(const v1::Sweep& sweep) {
   DecodedSweep plan = DecodeSweep(sweep, options_.scenario_limits);
   if (!plan.violations.empty()) {
     const Violation& first = plan.violations.front();
-    return MoveAfterFault("sweep." + first.field + ": " + first.description);
+    return TransitionAfterFault("sweep." + first.field + ": " + first.description);
   }
   const std::int32_t cells = plan.axes.cells();
   const std::vector<Violation> advice = AdviseOnTime(sweep, plan);
   std::vector<bool> done(static_cast<std::size_t>(cells));
-  if (!ReadDone(&done)) return MoveAfterFault("the cells of an earlier attempt cannot be read");
+  if (!ReadDone(&done))
+    return TransitionAfterFault("the cells of an earlier attempt cannot be read");
   {
     const MutexLock lock(log_mutex_);
     progress_.set_cells(cells);
     Publish();
   }
   const SweepRun::Sink sink{[this](SolvedCell solved) { TakeCell(std::move(solved)); },
-                            [this] { Pulse(); }};
-  const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), options_,
-                                              assignment_.control, sink);
+                            [this] { WriteIfDue(); }};
+  const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), clock_,
+                                              options_, assignment_.control, sink);
   if (const RunControl::Report report(*assignment_.control); report) assignment_.offer(run);
   while (run->Work(kSlice)) {
   }
-  while (!run->AwaitIdle(kPulseTime)) Pulse();
+  while (!run->AwaitIdle(kWriteTime)) WriteIfDue();
   return Conclude(advice);
 }
 
@@ -90,7 +89,8 @@ void SweepRunner::Count(v1::Job::State state, v1::Job::Convergence convergence) 
   }
 }
 
-// Who finds somebody at the log leaves the cell to them, if it may: they look again as they go.
+// If another thread holds the log, the cell stays in finished_: the holder stores what is there
+// before it releases the log.
 void SweepRunner::TakeCell(SolvedCell solved) {
   if (PutFinished(std::move(solved))) {
     const MutexLock lock(log_mutex_);
@@ -137,15 +137,15 @@ void SweepRunner::StoreCell(SolvedCell solved) {
   }
   if (!writer_.Add(std::move(event))) return;
   Count(state, convergence);
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = clock_.Elapsed();
   if (now - last_progress_ < kProgressTime) return;
   last_progress_ = now;
   Publish();
 }
 
-void SweepRunner::Pulse() {
+void SweepRunner::WriteIfDue() {
   if (!log_mutex_.try_lock()) return;
-  writer_.Pump();
+  writer_.WriteIfDue();
   log_mutex_.unlock();
 }
 
@@ -156,7 +156,7 @@ void SweepRunner::Publish() {
   assignment_.log->SetProgress(std::move(event));
 }
 
-Move SweepRunner::Conclude(const std::vector<Violation>& advice) {
+Transition SweepRunner::Conclude(const std::vector<Violation>& advice) {
   const MutexLock lock(log_mutex_);
   StoreFinished();
   Publish();

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "base/mutex.h"
 #include "base/clock.h"
+#include "base/mutex.h"
 #include "jobs/job/job_options.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/log/job_log.h"
@@ -28,7 +28,7 @@ class SweepRunner {
               const Assignment& assignment, LogWriter& writer);
 
   /// The end of the job. What it amounts to is in the record of the assignment.
-  Move Run(const v1::Sweep& sweep);
+  Transition Run(const v1::Sweep& sweep);
 
  private:
   bool ReadDone(std::vector<bool>* done);
@@ -39,9 +39,10 @@ class SweepRunner {
   bool SomeFinished();
   void StoreFinished() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
   void StoreCell(SolvedCell solved) ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
-  void Pulse();
+  /// Writes what was handed to the log, unless another thread is at it.
+  void WriteIfDue();
   void Publish() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
-  Move Conclude(const std::vector<Violation>& advice);
+  Transition Conclude(const std::vector<Violation>& advice);
 
   Store& store_;
   const Clock& clock_;

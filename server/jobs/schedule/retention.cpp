@@ -4,15 +4,15 @@
 
 #include <absl/status/statusor.h>
 #include <google/protobuf/util/time_util.h>
+#include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <future>
-#include <memory>
 #include <unordered_map>
 #include <utility>
 
 #include "base/clock.h"
+#include "base/future.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/log/job_feed.h"
 #include "storage/store.h"
@@ -25,42 +25,34 @@ using google::protobuf::util::TimeUtil;
 constexpr std::chrono::minutes kPeriod{1};
 constexpr int kPage = 200;
 
-template <class T>
-std::function<void(absl::StatusOr<T>)> Fulfil(std::future<absl::StatusOr<T>>* future) {
-  const auto promise = std::make_shared<std::promise<absl::StatusOr<T>>>();
-  *future = promise->get_future();
-  return [promise](absl::StatusOr<T> value) { promise->set_value(std::move(value)); };
-}
-
 absl::StatusOr<JobPage> ReadPage(Store& store, std::int64_t before) {
-  std::future<absl::StatusOr<JobPage>> page;
-  store.List({.states = {v1::Job::SUCCEEDED, v1::Job::FAILED, v1::Job::CANCELLED},
-              .before = before,
-              .limit = kPage},
-             Fulfil(&page));
-  return page.get();
+  return Await<absl::StatusOr<JobPage>>([&](auto done) {
+    store.List({.states = {v1::Job::SUCCEEDED, v1::Job::FAILED, v1::Job::CANCELLED},
+                .before = before,
+                .limit = kPage},
+               std::move(done));
+  });
 }
 
 std::unordered_map<std::string, std::int64_t> ReadBytes(Store& store) {
-  std::future<absl::StatusOr<std::vector<JobSize>>> sizes;
-  store.Sizes(Fulfil(&sizes));
   std::unordered_map<std::string, std::int64_t> bytes;
-  const absl::StatusOr<std::vector<JobSize>> read = sizes.get();
+  const auto read =
+      Await<absl::StatusOr<std::vector<JobSize>>>([&](auto done) { store.Sizes(std::move(done)); });
   if (!read.ok()) return bytes;
   for (const JobSize& size : *read) bytes.emplace(size.name, size.bytes);
   return bytes;
 }
 
 bool Delete(Store& store, const std::string& name) {
-  std::future<absl::StatusOr<bool>> deleted;
-  store.Delete(name, "", Fulfil(&deleted));
-  return deleted.get().ok();  // Else someone was faster.
+  const auto deleted =
+      Await<absl::StatusOr<bool>>([&](auto done) { store.Delete(name, "", std::move(done)); });
+  return deleted.ok();  // An error: another call has deleted it before.
 }
 
 bool Compact(Store& store, const std::string& name) {
-  std::future<absl::StatusOr<bool>> compacted;
-  store.Compact(name, Fulfil(&compacted));
-  return compacted.get().ok();  // Else it was just deleted.
+  const auto compacted =
+      Await<absl::StatusOr<bool>>([&](auto done) { store.Compact(name, std::move(done)); });
+  return compacted.ok();  // An error: it was deleted meanwhile.
 }
 
 }  // namespace
@@ -132,13 +124,13 @@ bool Retention::stopped() const {
 
 void Retention::Loop() {
   while (!stopped()) {
-    if (const int deleted = Sweep(); deleted > 0) spdlog::info("deleted {} expired jobs", deleted);
+    if (const int deleted = Purge(); deleted > 0) spdlog::info("deleted {} expired jobs", deleted);
     const MutexLock lock(mutex_);
     if (!stopped_) changed_.wait_for(mutex_, kPeriod);
   }
 }
 
-int Retention::Sweep() {
+int Retention::Purge() {
   const std::vector<EndedJob> jobs = ListEnded();
   const int deleted = Delete(jobs);
   Compact(jobs);

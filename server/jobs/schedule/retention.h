@@ -29,6 +29,7 @@ bool IsToCompact(const v1::Job& job, WallTime now, const RetentionLimits& limits
 /// Sets `expire_time`.
 void SetExpireTime(const RetentionLimits& limits, v1::Job* job);
 
+/// What decides how long an ended job is kept.
 struct EndedJob {
   std::string name;
   std::optional<WallTime> expiry;
@@ -48,17 +49,18 @@ class Retention {
   Retention(Store& store, const Clock& clock, RetentionLimits limits, JobFeed& feed);
   ~Retention();
 
-  void Start();
+  void Start();  ///< Starts the thread. Once only.
   /// Deletes and compacts what is due now; waits for it. Returns how many jobs were deleted.
-  int Sweep();
+  int Purge();
   /// Ends the thread. Idempotent.
   void Stop();
 
  private:
-  void Loop();
+  void Loop();  ///< The thread: purges each minute until Stop.
   int Delete(const std::vector<EndedJob>& jobs);
   void Compact(const std::vector<EndedJob>& jobs);
   bool stopped() const;
+  /// All ended jobs, oldest end first; fewer if the store fails.
   std::vector<EndedJob> ListEnded();
 
   Store& store_;

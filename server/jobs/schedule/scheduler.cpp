@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include <fmt/format.h>
+#include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -18,14 +19,12 @@ namespace {
 
 // After so long a helper looks whether a job has come that needs a worker.
 constexpr std::chrono::milliseconds kHelpTime{10};
-// How often the runs are looked at.
-constexpr std::chrono::milliseconds kLookTime{50};
 // Specs of waiting jobs that are kept in memory, so that their workers need not wait for the store.
 constexpr std::size_t kMostSpecBytes = 16 << 20;
 // What the runs have to end in when the server does.
 constexpr std::chrono::seconds kEndTime{2};
 
-Move MoveAfterCrash(const StoredJob& stored, int max_attempts) {
+Transition TransitionAfterCrash(const StoredJob& stored, int max_attempts) {
   if (stored.cancel_requested) return {v1::Job::CANCELLED, reason::kUserRequest};
   if (stored.job.attempt() < max_attempts) return {v1::Job::QUEUED, reason::kServerRestarted};
   return {v1::Job::FAILED, reason::kCrashed,
@@ -72,13 +71,13 @@ void Scheduler::Recover() {
 // A job that was running has lost its worker.
 void Scheduler::Recover(StoredJob stored) {
   if (!stored.intact) spdlog::error("job={} fails its checksum in the store", stored.job.name());
-  const Move move = MoveAfterCrash(stored, options_.max_attempts);
+  const Transition transition = TransitionAfterCrash(stored, options_.max_attempts);
   Active active;
   active.log = NewLog(stored.job.name(), stored.job.last_sequence());
   active.epoch = stored.epoch;
   v1::Job& job = active.job = std::move(stored.job);
   if (job.state() == v1::Job::RUNNING) {
-    const std::vector<v1::Event> events = {Apply(move, clock_.Now(), &job)};
+    const std::vector<v1::Event> events = {Apply(transition, clock_.Now(), &job)};
     options_.metrics->Moved(v1::Job::RUNNING, job);
     store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
                   [log = active.log, events](const absl::StatusOr<std::uint64_t>& first) {
@@ -303,11 +302,11 @@ void Scheduler::Watch() {
       if (running_.empty()) {
         started_.wait(mutex_);
       } else {
-        started_.wait_for(mutex_, kLookTime);
+        started_.wait_for(mutex_, options_.look_interval);
       }
       lost = FindLost();
     }
-    for (const Active& active : lost) Bury(active);
+    for (const Active& active : lost) FailLostRun(active);
     endings_.Retry();
   }
 }
@@ -328,15 +327,16 @@ std::vector<Scheduler::Active> Scheduler::FindLost() {
 }
 
 // Ends a job whose run was given up, and takes it away from its worker in the store too.
-void Scheduler::Bury(const Active& active) {
+void Scheduler::FailLostRun(const Active& active) {
   store_.Read(
       active.job.name(), JobPart::kHeader, [this, active](absl::StatusOr<StoredJob> stored) {
         if (!stored.ok() || IsFinal(stored->job.state())) return;
         v1::Job job = active.job;
         job.MergeFrom(active.record->Get(true));
         job.set_server_version(kVersion);
-        const Move move = MoveAfterStop(active.control->cause(), active.control->budget());
-        const std::vector<v1::Event> events = {Apply(move, clock_.Now(), &job)};
+        const Transition transition =
+            TransitionAfterStop(active.control->cause(), active.control->budget());
+        const std::vector<v1::Event> events = {Apply(transition, clock_.Now(), &job)};
         store_.Update({.name = job.name(),
                        .epoch = stored->epoch,
                        .take = true,

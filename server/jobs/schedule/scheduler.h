@@ -56,52 +56,67 @@ class Scheduler {
   /// What the run of the job has brought so far, if it is running; else null.
   std::shared_ptr<const RunRecord> Record(const v1::Job& job) const;
 
-  int queued() const;
-  int running() const;
+  int queued() const;   ///< Jobs that wait for a worker.
+  int running() const;  ///< Jobs that a worker runs, or whose end is being stored.
 
   /// Puts running jobs back into the queue, in the store, and joins the workers. Idempotent.
   void Stop();
 
  private:
+  /// A job that has not ended.
   struct Active {
     v1::Job job;                            ///< Header.
-    std::shared_ptr<const StoredJob> spec;  ///< Of one that waits; null: in the store only.
+    std::shared_ptr<const StoredJob> spec;  ///< The spec of a waiting job; null: read it later.
     std::uint64_t epoch = 0;
-    std::uint64_t number = 0;  ///< Order of coming.
+    std::uint64_t number = 0;  ///< Counts the jobs in the order in which they came.
     std::shared_ptr<JobLog> log;
     std::shared_ptr<RunRecord> record = std::make_shared<RunRecord>();
-    std::shared_ptr<RunControl> control;  ///< Once it runs.
+    std::shared_ptr<RunControl> control;  ///< Null until a worker has the job.
   };
+  /// A job that a worker runs.
   struct Running {
     Watchdog watchdog;
-    bool last_attempt;
+    bool last_attempt;  ///< See the class comment.
   };
   using Done = std::function<void(const absl::Status&)>;
 
+  /// Queues the unfinished jobs of the store, or ends them; waits until that is done.
   void Recover();
+  /// Decides about one of them. On the store's thread.
   void Recover(StoredJob stored);
+  /// A log in memory whose changes of state are told to feed_.
   std::shared_ptr<JobLog> NewLog(const std::string& name, std::uint64_t last);
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Takes the spec out of the job, and keeps it in memory if there is room.
   void KeepSpec(Active* active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Gives the kept spec away; null if there is none.
   std::shared_ptr<const StoredJob> TakeSpec(Active* active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Queue(const Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// True if the job was running when the server died, and may be run only once more.
   bool LastAttempt(const v1::Job& job) const;
-  void Work(Worker& worker);
+  void Work(Worker& worker);  ///< The loop of a worker thread.
   /// What a worker does next: a job, or help; neither when it is time to stop.
   struct Task {
     std::optional<Assignment> job;
     std::shared_ptr<SweepRun> sweep;
   };
-  Task Next(Worker& worker);
+  Task Next(Worker& worker);  ///< Waits for a task.
   std::optional<std::string> NextJob() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Hands a queued job to the calling worker: it is RUNNING from here on.
   Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Lets idle workers help with a sweep.
   void Offer(std::shared_ptr<SweepRun> sweep);
+  /// The oldest sweep that has a cell to compute; null if there is none.
   std::shared_ptr<SweepRun> FindSweep() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Forgets a job that has ended.
   void Remove(const std::string& name);
+  /// Stores the end of a cancelled job that was taken from the queue.
   void Withdraw(const Active& active, Done done);
-  void Watch();
+  void Watch();  ///< The watchdog thread: looks at the running jobs until Stop.
+  /// Looks at all running jobs; gives up those that do not react, and replaces their workers.
   std::vector<Active> FindLost() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void Bury(const Active& active);
+  /// Ends a job whose run was given up, and takes it away from its worker in the store too.
+  void FailLostRun(const Active& active);
 
   Store& store_;
   const Clock& clock_;
@@ -110,7 +125,7 @@ class Scheduler {
   std::stop_source shutdown_;
 
   mutable Mutex mutex_;
-  std::condition_variable_any changed_;
+  std::condition_variable_any changed_;  ///< The queue or the sweeps have changed, or the end.
   std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
   JobQueue queue_ ABSL_GUARDED_BY(mutex_);
   std::uint64_t numbers_ ABSL_GUARDED_BY(mutex_) = 0;

@@ -34,7 +34,7 @@ bool Worker::End() {
   return !lost_;
 }
 
-bool Worker::Lose(const RunControl& run) {
+bool Worker::Abandon(const RunControl& run) {
   const MutexLock lock(mutex_);
   if (lost_ || run_.get() != &run) return false;
   return lost_ = true;
@@ -46,13 +46,13 @@ void Worker::Finish() {
   changed_.notify_all();
 }
 
-bool Worker::AwaitFinish(std::chrono::steady_clock::time_point limit) {
+bool Worker::AwaitFinish(std::chrono::milliseconds* patience) {
   const MutexLock lock(mutex_);
   while (!finished_) {
-    const bool late = std::chrono::steady_clock::now() >= limit;
+    const bool late = patience->count() <= 0;
     if (late && !lost_ && run_ && run_->GiveUp()) lost_ = true;
     if (late && lost_) return false;
-    changed_.wait_for(mutex_, kLookTime);
+    if (changed_.wait_for(mutex_, kLookTime) == std::cv_status::timeout) *patience -= kLookTime;
   }
   return true;
 }
@@ -74,21 +74,20 @@ void WorkerPool::Replace(const RunControl& run) {
   int lost = 0;
   {
     const MutexLock lock(mutex_);
-    for (const Member& member : members_) lost += member.worker->Lose(run) ? 1 : 0;
+    for (const Member& member : members_) lost += member.worker->Abandon(run) ? 1 : 0;
   }
   if (lost > 0) spdlog::warn("{} worker threads hang in a run; others take their place", lost);
   Start(lost);
 }
 
 void WorkerPool::Stop(std::chrono::milliseconds patience) {
-  const auto limit = std::chrono::steady_clock::now() + patience;
   std::vector<Member> members;
   {
     const MutexLock lock(mutex_);
     members.swap(members_);
   }
   for (Member& member : members) {
-    if (member.worker->AwaitFinish(limit)) {
+    if (member.worker->AwaitFinish(&patience)) {
       member.thread.join();
     } else {
       spdlog::warn("a worker thread hangs in a run; it is left behind");

@@ -19,16 +19,18 @@ class Worker {
  public:
   /// Begins to work for a run.
   void Begin(std::shared_ptr<RunControl> run);
-  /// Has come back. False: it was given up, and must end without touching what is not its own.
+  /// Ends the work for a run. False: the worker was given up meanwhile; its thread must return
+  /// without touching anything but its own variables, because the pool may be gone.
   bool End();
 
  private:
   friend class WorkerPool;
 
   /// Gives it up if it works for this run, which was given up.
-  bool Lose(const RunControl& run);
-  /// Waits for its end. False: it has not come until `limit`, and is given up with its run.
-  bool AwaitFinish(std::chrono::steady_clock::time_point limit);
+  bool Abandon(const RunControl& run);
+  /// Waits for its end, and takes the time that takes from `patience`. Once that is used up it
+  /// gives the run up, as soon as the run does not report, and returns false.
+  bool AwaitFinish(std::chrono::milliseconds* patience);
   void Finish();
 
   Mutex mutex_;
@@ -46,6 +48,7 @@ class WorkerPool {
   /// Each thread runs `loop` once.
   explicit WorkerPool(Loop loop) : loop_(std::move(loop)) {}
 
+  /// Starts so many workers more.
   void Start(int threads);
   /// Gives up the workers of a run that was given up, and starts as many others. Thread-safe.
   void Replace(const RunControl& run);

@@ -49,36 +49,31 @@ std::optional<Error> CallGuard::Check(const grpc::ServerContextBase& context, Ca
 std::optional<Error> CallGuard::CheckMetadata(const grpc::ServerContextBase& context) const {
   const std::size_t bytes = MetadataBytes(context);
   if (bytes <= static_cast<std::size_t>(limits_.max_metadata_bytes)) return std::nullopt;
-  return Refuse(
-      "METADATA_TOO_LARGE",
-      fmt::format("{} bytes of metadata; at most {} are taken", bytes, limits_.max_metadata_bytes),
-      std::chrono::milliseconds(0));
+  return Refuse(Reason::kMetadataTooLarge, fmt::format("{} bytes of metadata; at most {} are taken",
+                                                       bytes, limits_.max_metadata_bytes));
 }
 
 std::optional<Error> CallGuard::CheckRate(const std::string& peer) {
   const auto wait = creates_.Take(peer, clock_.Elapsed());
   if (wait.count() == 0) return std::nullopt;
-  return Refuse("RATE_LIMITED",
-                fmt::format("more than {:g} CreateJob calls a second from this address",
-                            limits_.max_creates_per_second),
-                wait);
+  Error error = Refuse(Reason::kRateLimited,
+                       fmt::format("more than {:g} CreateJob calls a second from this address",
+                                   limits_.max_creates_per_second));
+  error.retry_after = wait;
+  return error;
 }
 
 std::optional<Error> CallGuard::CheckStreams(const std::string& peer) const {
   if (streams_->Of(peer) <= limits_.max_watchers_per_peer) return std::nullopt;
-  return Refuse(
-      "WATCHER_LIMIT",
-      fmt::format("there are {} watchers from this address already", limits_.max_watchers_per_peer),
-      std::chrono::seconds(1));
+  return Refuse(Reason::kWatcherLimit,
+                fmt::format("there are {} watchers from this address already",
+                            limits_.max_watchers_per_peer));
 }
 
-Error CallGuard::Refuse(const char* reason, std::string message,
-                        std::chrono::milliseconds retry_after) const {
-  metrics_->Refused(reason);
-  return {.code = absl::StatusCode::kResourceExhausted,
-          .reason = reason,
-          .message = std::move(message),
-          .retry_after = retry_after};
+Error CallGuard::Refuse(Reason reason, std::string message) const {
+  Error error = MakeError(reason, std::move(message));
+  metrics_->Refused(error.reason);
+  return error;
 }
 
 std::function<bool()> Abandonment(const grpc::CallbackServerContext& context) {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/clock.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "rpc/call/rate_limit.h"
 #include "rpc/metrics/rpc_metrics.h"
 #include "rpc/net/peer.h"
@@ -50,10 +50,8 @@ class CallGuard {
   std::optional<Error> CheckMetadata(const grpc::ServerContextBase& context) const;
   std::optional<Error> CheckRate(const std::string& peer);
   std::optional<Error> CheckStreams(const std::string& peer) const;
-  /// The error RESOURCE_EXHAUSTED with this reason, counted. `retry_after` 0: asking again is no
-  /// use.
-  Error Refuse(const char* reason, std::string message,
-               std::chrono::milliseconds retry_after) const;
+  /// An error of this reason, which is counted.
+  Error Refuse(Reason reason, std::string message) const;
 
   const CallLimits limits_;
   const Clock& clock_;

@@ -2,7 +2,7 @@
 
 #include <grpcpp/support/status.h>
 
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 
 namespace contact {
 

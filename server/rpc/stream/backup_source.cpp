@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "rpc/call/status.h"
 
 namespace contact {

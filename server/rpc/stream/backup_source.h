@@ -10,7 +10,7 @@
 #include "base/executor.h"
 #include "base/mutex.h"
 #include "contact/v1/admin_service.pb.h"
-#include "jobs/job/error.h"
+#include "jobs/job/errors.h"
 #include "rpc/stream/stream_source.h"
 #include "storage/backup.h"
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "rpc/call/status.h"
 
 namespace contact {

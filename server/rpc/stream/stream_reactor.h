@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/mutex.h"
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "rpc/call/status.h"
 #include "rpc/stream/stream_loop.h"
 #include "rpc/stream/stream_source.h"
@@ -45,7 +45,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
                                grpc::CallbackServerContext* context, const Error& error);
 
   void Poke() final { Advance(); }
-  void Drain() final { End(ToGrpc(Draining())); }
+  void Drain() final { End(ToGrpc(MakeError(Reason::kServerDraining))); }
   bool Tick(std::chrono::steady_clock::time_point now) final;
 
  private:

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/job/job_errors.h"
+#include "jobs/job/errors.h"
 #include "rpc/call/status.h"
 #include "rpc/stream/watch_message.h"
 
@@ -18,13 +18,6 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr std::size_t kMaxBatchBytes = std::size_t{256} * 1024;
-
-Error Deleted(const std::string& name) {
-  return {.code = absl::StatusCode::kNotFound,
-          .reason = "JOB_NOT_FOUND",
-          .message = name + " was deleted",
-          .metadata = {{"name", name}}};
-}
 
 // Number of events that a gap stands for; 0 for every other record.
 std::int64_t LeftOut(const LogRecord& record) {

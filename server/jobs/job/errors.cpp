@@ -1,0 +1,194 @@
+#include "jobs/job/errors.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "storage/records.h"
+
+namespace contact {
+namespace {
+
+using enum absl::StatusCode;
+
+constexpr std::chrono::milliseconds kSoon{1000};
+constexpr std::chrono::milliseconds kNever{0};
+
+constexpr std::array kReasons = std::to_array<ReasonInfo>({
+    {Reason::kFieldInvalid, "FIELD_INVALID", kInvalidArgument, kNever, ""},
+    {Reason::kScenarioInvalid, "SCENARIO_INVALID", kInvalidArgument, kNever, ""},
+    {Reason::kRequestIdReused, "REQUEST_ID_REUSED", kAlreadyExists, kNever, ""},
+    {Reason::kJobNotFound, "JOB_NOT_FOUND", kNotFound, kNever, ""},
+    {Reason::kArtifactNotFound, "ARTIFACT_NOT_FOUND", kNotFound, kNever, ""},
+    {Reason::kInvalidState, "INVALID_STATE", kFailedPrecondition, kNever, ""},
+    {Reason::kUidMismatch, "UID_MISMATCH", kFailedPrecondition, kNever, ""},
+    {Reason::kNoTrajectory, "NO_TRAJECTORY", kFailedPrecondition, kNever, ""},
+    {Reason::kOffsetOutOfRange, "OFFSET_OUT_OF_RANGE", kOutOfRange, kNever, ""},
+    {Reason::kSeriesTooLarge, "SERIES_TOO_LARGE", kOutOfRange, kNever, ""},
+    {Reason::kEventsCompacted, "EVENTS_COMPACTED", kOutOfRange, kNever, ""},
+    {Reason::kQueueFull, "QUEUE_FULL", kResourceExhausted, kSoon, ""},
+    {Reason::kWatcherLimit, "WATCHER_LIMIT", kResourceExhausted, kSoon, ""},
+    {Reason::kSlowWatcher, "SLOW_WATCHER", kResourceExhausted, kSoon, ""},
+    {Reason::kRateLimited, "RATE_LIMITED", kResourceExhausted, kSoon, ""},
+    {Reason::kMetadataTooLarge, "METADATA_TOO_LARGE", kResourceExhausted, kNever, ""},
+    {Reason::kBackupRunning, "BACKUP_RUNNING", kResourceExhausted, kSoon,
+     "another backup is being made"},
+    {Reason::kStoreFull, "STORE_FULL", kResourceExhausted, kSoon, ""},
+    {Reason::kStoreFailed, "STORE_FAILED", kUnavailable, kNever, ""},
+    {Reason::kDataLoss, "DATA_LOSS", kDataLoss, kNever, ""},
+    {Reason::kServerDraining, "SERVER_DRAINING", kUnavailable, kSoon,
+     "the server is shutting down"},
+    {Reason::kDeadlineExceeded, "DEADLINE_EXCEEDED", kDeadlineExceeded, kNever,
+     "the deadline of the call passed before its turn came"},
+});
+
+constexpr bool StandInOrder(std::span<const ReasonInfo> rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].reason != static_cast<Reason>(i)) return false;
+  }
+  return true;
+}
+static_assert(StandInOrder(kReasons));
+
+Error MakeJobError(Reason reason, std::string message, const std::string& name) {
+  Error error = MakeError(reason, std::move(message));
+  error.metadata["name"] = name;
+  return error;
+}
+
+// Why an operation of the store failed.
+Reason ReasonOf(absl::StatusCode code) {
+  switch (code) {
+    case kNotFound:
+      return Reason::kJobNotFound;
+    case kAlreadyExists:
+      return Reason::kRequestIdReused;
+    case kFailedPrecondition:
+      return Reason::kInvalidState;
+    case kResourceExhausted:
+      return Reason::kStoreFull;
+    case kDataLoss:
+      return Reason::kDataLoss;
+    default:
+      return Reason::kStoreFailed;
+  }
+}
+
+bool IsOfTheDisk(Reason reason) {
+  return reason == Reason::kStoreFull || reason == Reason::kDataLoss ||
+         reason == Reason::kStoreFailed;
+}
+
+}  // namespace
+
+std::span<const ReasonInfo> Reasons() { return kReasons; }
+
+const ReasonInfo& InfoOf(Reason reason) { return kReasons.at(static_cast<std::size_t>(reason)); }
+
+Error MakeError(Reason reason, std::string message) {
+  const ReasonInfo& info = InfoOf(reason);
+  return {.code = info.code,
+          .reason = info.name,
+          .message = message.empty() ? info.message : std::move(message),
+          .retry_after = info.retry_after};
+}
+
+Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec) {
+  Error error = MakeError(of_spec.empty() ? Reason::kFieldInvalid : Reason::kScenarioInvalid);
+  error.violations = std::move(of_request);
+  error.violations.insert(error.violations.end(), of_spec.begin(), of_spec.end());
+  const Violation& first = error.violations.front();
+  error.message = first.field + ": " + first.description;
+  return error;
+}
+
+Error QueueFull(int max_queued_jobs) {
+  return MakeError(Reason::kQueueFull, fmt::format("{} jobs are waiting already", max_queued_jobs));
+}
+
+Error WatcherLimit(int max_watchers) {
+  return MakeError(Reason::kWatcherLimit,
+                   fmt::format("there are {} watchers already", max_watchers));
+}
+
+Error SlowWatcher(const std::string& what) {
+  return MakeError(Reason::kSlowWatcher,
+                   fmt::format("the watcher of {} fell behind; watch again, or take less", what));
+}
+
+Error Unreadable(const std::string& what) {
+  Error error =
+      MakeError(Reason::kStoreFailed, what + " could not be read from the store; watch again");
+  error.retry_after = kSoon;
+  return error;
+}
+
+Error UidMismatch(const std::string& name, const std::string& uid) {
+  Error error = MakeJobError(Reason::kUidMismatch,
+                             fmt::format("{} is another job than the one expected", name), name);
+  error.metadata["uid"] = uid;
+  return error;
+}
+
+Error EventsCompacted(const std::string& name, std::uint64_t oldest_sequence) {
+  Error error = MakeJobError(Reason::kEventsCompacted,
+                             fmt::format("the trajectory of {} was dropped some time after its "
+                                         "end, as the server is set; ledger, result and other "
+                                         "events are there",
+                                         name),
+                             name);
+  error.metadata["oldest_sequence"] = fmt::format("{}", oldest_sequence);
+  return error;
+}
+
+Error NotEnded(const std::string& name) {
+  return MakeJobError(Reason::kInvalidState, fmt::format("{} has not ended", name), name);
+}
+
+Error Deleted(const std::string& name) {
+  return MakeJobError(Reason::kJobNotFound, name + " was deleted", name);
+}
+
+Error NoArtifact(const std::string& name, const std::string& artifact) {
+  return MakeJobError(Reason::kArtifactNotFound,
+                      fmt::format("{} has no artifact '{}'", name, artifact.substr(0, 64)), name);
+}
+
+Error OffsetOutOfRange(std::int64_t offset, std::int64_t size) {
+  Error error =
+      MakeError(Reason::kOffsetOutOfRange,
+                fmt::format("offset is {}; must be in [0, the size of the artifact]", offset));
+  if (size >= 0) error.metadata["size_bytes"] = fmt::format("{}", size);
+  return error;
+}
+
+Error NoTrajectory(const std::string& name) {
+  return MakeJobError(Reason::kNoTrajectory, name + " records no trajectory", name);
+}
+
+Error SeriesTooLarge(std::size_t most) {
+  return MakeError(Reason::kSeriesTooLarge,
+                   fmt::format("there are more than the {} samples that may be answered; ask for "
+                               "fewer channels, a shorter time range, or MINMAX",
+                               most));
+}
+
+Error Damaged(const std::string& name) {
+  return ToError(absl::DataLossError(name + " fails its checksum in the store"), name);
+}
+
+Error ToError(const absl::Status& status, const std::string& name) {
+  if (const auto uid = status.GetPayload(kUidPayload)) return UidMismatch(name, std::string(*uid));
+  const Reason reason = ReasonOf(status.code());
+  Error error = MakeError(reason, std::string(status.message()));
+  if (!name.empty()) error.metadata["name"] = name;
+  if (IsOfTheDisk(reason)) {
+    spdlog::error("job={} reason={} message={}", name, error.reason, error.message);
+  }
+  return error;
+}
+
+}  // namespace contact

@@ -1,0 +1,57 @@
+#include "jobs/read/list_rules.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <set>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "jobs/read/label_rules.h"
+
+namespace contact {
+namespace {
+
+constexpr int kDefaultPageSize = 50;
+constexpr int kMaxPageSize = 1000;
+
+// The number that PageToken has written; negative if it did not write this.
+std::int64_t NumberOf(const std::string& token) {
+  std::int64_t number = 0;
+  const char* const end = token.data() + token.size();
+  const auto [rest, error] = std::from_chars(token.data(), end, number);
+  return error == std::errc() && rest == end && PageToken(number) == token ? number : -1;
+}
+
+}  // namespace
+
+Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
+  std::vector<Violation> violations;
+  JobQuery query;
+  query.limit = request.page_size() == 0 ? kDefaultPageSize : request.page_size();
+  if (query.limit < 0 || query.limit > kMaxPageSize) {
+    violations.push_back(
+        {"page_size", fmt::format("is {}; must be in [0, {}]", request.page_size(), kMaxPageSize),
+         ""});
+  }
+  if (!request.page_token().empty()) query.before = NumberOf(request.page_token());
+  if (query.before < 0) {
+    violations.push_back({"page_token", "is none that this server gave", "start without a token"});
+  }
+  const std::set<int> states(request.states().begin(), request.states().end());
+  query.states.assign(states.begin(), states.end());
+  for (const int state : states) {
+    if (v1::Job::State_IsValid(state) && state != v1::Job::STATE_UNSPECIFIED) continue;
+    violations.push_back({"states", fmt::format("{} is no state", state), ""});
+    break;  // There may be millions.
+  }
+  CheckLabels(request.labels(), &violations);
+  query.labels.assign(request.labels().begin(), request.labels().end());
+  if (!violations.empty()) return Invalid(std::move(violations));
+  return query;
+}
+
+std::string PageToken(std::int64_t number) { return number > 0 ? fmt::format("{}", number) : ""; }
+
+}  // namespace contact

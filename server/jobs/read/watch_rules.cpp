@@ -1,0 +1,95 @@
+#include "jobs/read/watch_rules.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "jobs/read/list_rules.h"
+
+namespace contact {
+namespace {
+
+constexpr std::chrono::milliseconds kDefaultBookmarkInterval{10'000};
+
+// The set of kinds, state_changed among them; all if there are none.
+std::uint32_t KindSet(const v1::WatchJobRequest& request, std::vector<Violation>* violations) {
+  if (request.kinds().empty()) return ~0U;
+  std::uint32_t set = KindBit(v1::Event::kStateChanged);
+  const auto& payload = *v1::Event::descriptor()->FindOneofByName("payload");
+  for (const std::string& kind : request.kinds()) {
+    const auto* field = v1::Event::descriptor()->FindFieldByName(kind);
+    if (field != nullptr && field->containing_oneof() == &payload) {
+      set |= 1U << field->number();
+      continue;
+    }
+    violations->push_back({"kinds", fmt::format("'{}' is no kind of event", kind.substr(0, 64)),
+                           "name a field of Event.payload, such as cycle"});
+    break;  // There may be millions.
+  }
+  return set;
+}
+
+// The lengths that an interval may have: from `least_s` to an hour.
+struct IntervalRange {
+  std::int64_t least_s;
+  const char* text;
+};
+std::chrono::milliseconds Interval(const std::string& field,
+                                   const google::protobuf::Duration& interval,
+                                   const IntervalRange& range, std::vector<Violation>* violations) {
+  constexpr std::int64_t kMostNanos = 999'999'999;
+  if (interval.seconds() < range.least_s || interval.nanos() < 0 || interval.nanos() > kMostNanos ||
+      interval.seconds() > 3600 || (interval.seconds() == 3600 && interval.nanos() > 0)) {
+    violations->push_back({field, fmt::format("must be in {}", range.text), ""});
+    return {};
+  }
+  return std::chrono::milliseconds{interval.seconds() * 1000 + interval.nanos() / 1'000'000};
+}
+
+template <class Request>
+std::chrono::milliseconds BookmarkInterval(const Request& request,
+                                           std::vector<Violation>* violations) {
+  if (!request.has_bookmark_interval()) return kDefaultBookmarkInterval;
+  return Interval("bookmark_interval", request.bookmark_interval(), {1, "[1 s, 1 h]"}, violations);
+}
+
+}  // namespace
+
+Result<WatchRules> ToRules(const v1::WatchJobRequest& request) {
+  std::vector<Violation> violations;
+  WatchRules rules;
+  rules.kinds = KindSet(request, &violations);
+  rules.bookmark_interval = BookmarkInterval(request, &violations);
+  const v1::DeliveryOptions& delivery = request.delivery();
+  if (delivery.has_min_frame_interval()) {
+    rules.delivery.min_frame_interval = Interval(
+        "delivery.min_frame_interval", delivery.min_frame_interval(), {0, "[0, 1 h]"}, &violations);
+  }
+  if (!v1::DeliveryOptions::OverflowPolicy_IsValid(delivery.overflow())) {
+    violations.push_back({"delivery.overflow", "is neither CONFLATE nor DISCONNECT nor LAG", ""});
+  } else if (delivery.overflow() != v1::DeliveryOptions::OVERFLOW_POLICY_UNSPECIFIED) {
+    rules.delivery.overflow = delivery.overflow();
+  }
+  if (request.live_only() && request.after_sequence() > 0) {
+    violations.push_back(
+        {"live_only", "goes only with after_sequence 0", "to resume, leave it out"});
+  }
+  if (!violations.empty()) return Invalid(std::move(violations));
+  return rules;
+}
+
+Result<JobsRules> ToRules(const v1::WatchJobsRequest& request) {
+  v1::ListJobsRequest list;
+  *list.mutable_states() = request.states();
+  *list.mutable_labels() = request.labels();
+  Result<JobQuery> filter = ToQuery(list);
+  if (!filter.ok()) return filter.error();
+  std::vector<Violation> violations;
+  JobsRules rules{std::move(filter.value()), BookmarkInterval(request, &violations)};
+  if (!violations.empty()) return Invalid(std::move(violations));
+  return rules;
+}
+
+}  // namespace contact
