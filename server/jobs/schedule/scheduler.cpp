@@ -1,8 +1,7 @@
 #include "jobs/schedule/scheduler.h"
 
-#include <pthread.h>
-
 #include <fmt/format.h>
+#include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
