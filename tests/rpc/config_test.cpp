@@ -1,5 +1,3 @@
-#include "read_config.h"
-
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -9,6 +7,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "read_config.h"
 
 namespace contact {
 namespace {

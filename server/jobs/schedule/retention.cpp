@@ -1,7 +1,5 @@
 #include "jobs/schedule/retention.h"
 
-#include <pthread.h>
-
 #include <absl/status/statusor.h>
 #include <google/protobuf/util/time_util.h>
 #include <pthread.h>

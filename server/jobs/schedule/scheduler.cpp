@@ -1,7 +1,5 @@
 #include "jobs/schedule/scheduler.h"
 
-#include <pthread.h>
-
 #include <fmt/format.h>
 #include <pthread.h>
 #include <spdlog/spdlog.h>
