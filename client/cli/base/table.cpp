@@ -157,7 +157,9 @@ std::string Table::Block(const Layout& layout, std::size_t row, const Style& sty
   for (const std::size_t i : layout.shown) {
     const Cell& cell = rows_[row][i];
     const std::string words = Paint(cell.text, cell.tone, style) + "\n";
-    if (label + kGap + Width(cell.text) <= style.width) {
+    if (cell.text.empty()) {
+      text += Paint(columns_[i].header, Tone::kFaint, style) + "\n";
+    } else if (label + kGap + Width(cell.text) <= style.width) {
       text.append(Paint(Pad(columns_[i].header, label), Tone::kFaint, style));
       text.append(kGap, ' ').append(words);
     } else {

@@ -21,7 +21,7 @@ int Dots(const DotCanvas& canvas) {
 TEST(DotCanvas, ALineJoinsItsEndsWithoutGaps) {
   DotCanvas canvas(5, 3, false);
   canvas.Line(0, 0, 4, 2);
-  EXPECT_THAT(canvas.Rows(), ElementsAre("*    ", " *** ", "    *"));
+  EXPECT_THAT(canvas.Rows(), ElementsAre("*    ", " **  ", "   **"));
 }
 
 TEST(DotCanvas, ALineIsTheSameInBothDirectionsUpToItsSteps) {

@@ -60,7 +60,7 @@ TEST(Style, ColourHasNoWidth) {
 TEST(Style, PartsShareALineWhereTheyFit) {
   EXPECT_THAT(Fold({"ab ", "cd ", "ef"}, 5), testing::ElementsAre("ab cd", "ef"));
   EXPECT_THAT(Fold({"abcdefgh", "i"}, 5), testing::ElementsAre("abcdefgh", "i"));
-  EXPECT_THAT(Fold({"ab ", "cd"}, 0), testing::ElementsAre("ab", "cd"));
+  EXPECT_THAT(Fold({"ab ", "cd"}, 0), testing::ElementsAre("ab cd"));
 }
 
 // Sets a variable of the environment for a scope.
