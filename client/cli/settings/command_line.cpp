@@ -139,13 +139,15 @@ CLI::Option* AddDestination(CommandLine& line, CLI::App& command, const std::str
                             std::string* path, const std::string& about) {
   const std::string name = names.substr(names.rfind(',') + 1);
   // Added before the flag, so that the parser runs the flag after it, with the value handed on.
-  CLI::Option* alias = command.add_option_function<std::string>(
-      "-o",
-      [&command, name](const std::string& value) { command.get_option(name)->add_result(value); });
-  alias->group("")->check([&command, name](const std::string& value) {
-    if (!FindFormat(value)) return std::string();
-    return fmt::format("{} prints no {}; {} says where to write", command.get_name(), value, name);
-  });
+  CLI::Option* alias =
+      command.add_option_function<std::string>("-o", [&command, name](const std::string& value) {
+        if (FindFormat(value)) {
+          throw CLI::ValidationError("-o", fmt::format("{} prints no {}; {} says where to write",
+                                                       command.get_name(), value, name));
+        }
+        command.get_option(name)->add_result(value);
+      });
+  alias->group("");
   line.SetKind(alias, ValueKind::kFile);
   return line.SetKind(command.add_option(names, *path, about), ValueKind::kFile);
 }
