@@ -49,7 +49,7 @@ TEST(CollisionsOfTest, EachPointIsABallAndAWallOfItsOwn) {
   ASSERT_EQ(scenario.contacts_size(), 3);
   for (int i = 0; i < 3; ++i) {
     const v1::Contact& contact = scenario.contacts(i);
-    EXPECT_EQ(contact.damping(), points[static_cast<std::size_t>(i)].law->damping);
+    EXPECT_EQ(contact.damping(), DampingOf(points[static_cast<std::size_t>(i)].law->law));
     EXPECT_EQ(contact.between_size(), 1);
     EXPECT_EQ(contact.between(0), scenario.bodies(i).name());
     EXPECT_DOUBLE_EQ(contact.restitution(), 0.7);
