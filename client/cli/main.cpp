@@ -1,15 +1,16 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "cli/help/completion.h"
 #include "cli/help/manual.h"
 #include "cli/help/usage.h"
 #include "cli/settings/resolve.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -30,108 +31,56 @@ constexpr char kCodes[] =
     R"(Exit codes: 0 ok, 1 run failed, 2 usage, 3 invalid scenario, 4 unreachable, 5 timeout,
 6 not found, 7 not converged, 8 differs, 9 not allowed, 10 overload, 11 local file, 130 interrupted.)";
 
-void AddGlobalFlags(CLI::App& app, Settings* settings) {
-  app.add_option("--server", settings->server, "The server")
-      ->type_name("HOST:PORT")
-      ->capture_default_str();
-  app.add_option_function<std::string>(
-         "-o,--output", [settings](const std::string& name) { settings->SetOutput(name); },
-         fmt::format("How to print: {}. export writes {}; plot draws {}", FormatHelp(kPrinted),
-                     FormatHelp(kData), FormatHelp(kPicture)))
-      ->check(CLI::IsMember(FormatNames(kPrinted | kData | kPicture)))
-      ->type_name("FORMAT")
-      ->default_str(std::string(NameOf(OutputFormat::kTable)));
-  app.add_option("--color", settings->color, "auto, always or never; NO_COLOR is heeded")
-      ->check(CLI::IsMember({"auto", "always", "never"}))
-      ->type_name("WHEN")
-      ->capture_default_str();
-  app.add_option("--progress", settings->progress,
-                 "How to tell how far a job is: bar, plain (a line for each tenth), json (an "
-                 "object a line, "
-                 "for programs) or none; auto is a bar on a terminal")
-      ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}))
-      ->type_name("HOW")
-      ->capture_default_str();
-  app.add_option("--timeout", settings->timeout,
-                 "Give up after this time. Default: 10s for a call, none for run, watch and wait")
-      ->type_name("TIME");
-  app.add_option("--profile", settings->profile, "Use the values of this section of config files")
-      ->type_name("PROFILE");
-}
-
-// A config file that is wrong must not keep its owner from finding out.
-bool NeedsSettings(const CLI::App& app) {
-  const std::string& command = app.get_subcommands().front()->get_name();
-  return command != "config" && command != "version" && command != "schema" &&
-         command != "completion" && command != "doctor" && command != "help";
-}
-
-void AddCommands(CLI::App& app, const Settings& settings, Action* action) {
-  AddRunCommands(app, settings, action);
-  AddWatchCommands(app, settings, action);
-  AddJobCommands(app, settings, action);
-  AddArtifactCommands(app, settings, action);
-  AddExportCommand(app, settings, action);
-  AddPlotCommand(app, settings, action);
-  AddCompareCommand(app, settings, action);
-  AddReportCommand(app, settings, action);
-  AddScenarioCommands(app, settings, action);
-  AddSchemaCommand(app, settings, action);
-  AddSeriesCommands(app, settings, action);
-  AddSweepCommands(app, settings, action);
-  AddServerCommands(app, settings, action);
-  AddPaperCommand(app, settings, action);
-  AddModelCommands(app, settings, action);
-  AddConfigCommands(app, settings, action);
-  AddCompletionCommand(app, action);
-  AddDevCommand(app, settings, action);
-  AddDoctorCommand(app, settings, action);
-  AddHelpCommand(app, action);
-}
-
 int Tell(const Failure& failure) {
   const bool list = failure.code() == ExitCode::kInvalidScenario;
   fmt::print(stderr, "{}{}\n", list ? "" : "contactctl: ", failure.what());
   return static_cast<int>(failure.code());
 }
 
-int Main(int argc, char** argv) {
-  Settings settings;
-  Action action;
-  CLI::App app(kTour, "contactctl");
-  app.footer(kCodes);
-  app.fallthrough();
-  app.require_subcommand(0, 1);  // So `schema sweep` is an argument, not the command sweep.
-  AddGlobalFlags(app, &settings);
-  AddCommands(app, settings, &action);
-  if (argc > 1 && std::string_view(argv[1]) == "__complete") {
-    fmt::print("{}", Complete(app, {argv + 2, argv + argc}, &settings));
-    return 0;
+// What completion scripts and the build ask: __complete WORD… and __man FOLDER CONTACTD. True if
+// that was it.
+bool Serve(CommandLine& line, const std::vector<std::string>& words) {
+  const std::string first = words.empty() ? "" : words.front();
+  if (first == "__complete") {
+    fmt::print("{}", Complete(line, {words.begin() + 1, words.end()}));
+    return true;
   }
-  if (argc == 4 && std::string_view(argv[1]) == "__man") {
-    WriteManual(app, argv[2], argv[3]);
-    return 0;
-  }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    throw Failure(ExitCode::kUsage, UsageMessage(app, error));
-  }
-  if (!action) {
+  if (first != "__man" || words.size() != 3) return false;
+  WriteManual(line, words[1], words[2]);
+  return true;
+}
+
+ExitCode Act(CommandLine& line) {
+  if (!line.action()) {
     fmt::print("{}\n", kTour);
-    return 0;
+    return ExitCode::kOk;
   }
-  ResolveSettings(app, &settings);
-  if (!settings.problems.empty() && NeedsSettings(app)) {
+  Settings& settings = line.settings();
+  ResolveSettings(line.app(), &settings);
+  if (!settings.problems.empty() && NeedsSettings(line.app())) {
     throw Failure(settings.problems.front().code, settings.problems.front().text);
   }
-  const ExitCode code = action();
+  const ExitCode code = line.action()();
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw Failure(ExitCode::kLocal, "cannot write to the standard output");
   }
-  return static_cast<int>(code);
+  return code;
+}
+
+int Main(int argc, char** argv) {
+  CommandLine line(kTour);
+  line.app().footer(kCodes);
+  AddGlobalFlags(line);
+  AddVerbs(line);
+  if (Serve(line, {argv + 1, argv + argc})) return 0;
+  try {
+    line.app().parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return line.app().exit(help);
+  } catch (const CLI::ParseError& error) {
+    throw Failure(ExitCode::kUsage, UsageMessage(line.app(), error));
+  }
+  return static_cast<int>(Act(line));
 }
 
 }  // namespace

@@ -52,6 +52,16 @@ std::string_view Nearest(std::string_view name, const std::vector<std::string_vi
   return nearest;
 }
 
+std::string DidYouMean(std::string_view name, const std::vector<std::string_view>& candidates,
+                       const std::string& otherwise) {
+  const std::string_view nearest = Nearest(name, candidates);
+  return nearest.empty() ? otherwise : fmt::format("did you mean '{}'?", nearest);
+}
+
+std::string WithHint(const std::string& message, const std::string& hint) {
+  return hint.empty() ? message : message + " — " + hint;
+}
+
 std::string Quoted(std::string_view text) {
   const bool cut = text.size() > kLongest;
   std::size_t size = std::min(text.size(), kLongest);

@@ -11,6 +11,13 @@ namespace contact {
 /// least 2, at most half.
 std::string_view Nearest(std::string_view name, const std::vector<std::string_view>& candidates);
 
+/// `did you mean 'x'?` with the candidate nearest to `name`, or `otherwise` if none is near.
+std::string DidYouMean(std::string_view name, const std::vector<std::string_view>& candidates,
+                       const std::string& otherwise = "");
+
+/// `message — hint`; the message alone if there is no hint.
+std::string WithHint(const std::string& message, const std::string& hint);
+
 /// Text of a user in quotes, cut to 64 bytes and without control characters, to be shown.
 std::string Quoted(std::string_view text);
 

@@ -35,6 +35,18 @@ TEST(Spelling, VeryLongNamesHaveNoNeighbours) {
   EXPECT_EQ(Nearest(std::string(1'000'000, 'a'), {std::string(64, 'a')}), "");
 }
 
+TEST(Spelling, HintNamesTheNearestOneElseWhatIsSaidOtherwise) {
+  EXPECT_EQ(DidYouMean("sever", {"server", "output"}), "did you mean 'server'?");
+  EXPECT_EQ(DidYouMean("sever", {"server"}, "see --help"), "did you mean 'server'?");
+  EXPECT_EQ(DidYouMean("colour", {"server"}, "see --help"), "see --help");
+  EXPECT_EQ(DidYouMean("colour", {"server"}), "");
+}
+
+TEST(Spelling, HintFollowsTheMessageAfterADash) {
+  EXPECT_EQ(WithHint("unknown key", "see --help"), "unknown key — see --help");
+  EXPECT_EQ(WithHint("unknown key", ""), "unknown key");
+}
+
 TEST(Spelling, QuotedTextHasNoControlCharactersAndALimit) {
   EXPECT_EQ(Quoted("ball"), "'ball'");
   EXPECT_EQ(Quoted("a\x1b[31m\n"), "'a?[31m?'");

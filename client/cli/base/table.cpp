@@ -41,11 +41,10 @@ std::size_t Find(const std::vector<Table::Column>& columns, const std::string& n
     known.push_back(columns[i].Name());
     if (SameLetters(name, known.back()) || name == columns[i].header) return i;
   }
-  const std::string_view nearest = Nearest(name, {known.begin(), known.end()});
+  const std::string hint = DidYouMean(name, {known.begin(), known.end()});
   throw Failure(ExitCode::kUsage,
                 fmt::format("--columns: there is no column {}{} — there are {}", Quoted(name),
-                            nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest),
-                            fmt::join(known, ", ")));
+                            hint.empty() ? "" : ", " + hint, fmt::join(known, ", ")));
 }
 
 // Those of these names, in their order; all without names.

@@ -18,10 +18,9 @@ namespace {
 [[noreturn]] void FailUnknown(const std::string& name, const std::vector<SampleColumn>& columns) {
   std::vector<std::string_view> names;
   for (const SampleColumn& column : columns) names.push_back(column.name);
-  const std::string_view nearest = Nearest(name, names);
-  throw Failure(ExitCode::kUsage,
-                fmt::format("{} is no channel of this job{}", Quoted(name),
-                            nearest.empty() ? "" : fmt::format(" — did you mean '{}'?", nearest)));
+  throw Failure(
+      ExitCode::kUsage,
+      WithHint(fmt::format("{} is no channel of this job", Quoted(name)), DidYouMean(name, names)));
 }
 
 std::vector<SampleColumn> Chosen(const std::vector<std::string>& channels,

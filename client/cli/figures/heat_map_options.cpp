@@ -13,13 +13,13 @@
 
 namespace contact::cli {
 
-void HeatMapOptions::AddTo(CLI::App& command) {
-  command.add_option("--metric", metric_, "Of the heat map. Default: the first")
-      ->type_name("METRIC");
-  command
-      .add_option("--scale", scale_,
-                  "Of the colours of the heat map: linear or log, which has none for values <= 0")
-      ->check(CLI::IsMember({"linear", "log"}))
+void HeatMapOptions::AddTo(CommandLine& line, CLI::App& command) {
+  line.SetKind(command.add_option("--metric", metric_, "Of the heat map. Default: the first"),
+               ValueKind::kMetric);
+  line.SetWords(command.add_option("--scale", scale_,
+                                   "Of the colours of the heat map: linear or log, which has none "
+                                   "for values <= 0"),
+                {"linear", "log"})
       ->type_name("SCALE")
       ->capture_default_str();
   command.add_flag("--contour", contours_,

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 
 #include "cli/base/style.h"
+#include "cli/settings/command_line.h"
 #include "cli/text/render_sweep.h"
 
 namespace contact::cli {
@@ -11,7 +11,8 @@ namespace contact::cli {
 /// The flags of commands that show a heat map: which metric, and how.
 class HeatMapOptions {
  public:
-  void AddTo(CLI::App& command);
+  /// Adds the flags. This object must outlive the parsing.
+  void AddTo(CommandLine& line, CLI::App& command);
 
   const std::string& metric() const { return metric_; }  ///< Empty: the first.
 

@@ -23,18 +23,9 @@
 namespace contact::cli {
 namespace {
 
-// The words that a validator allows, which it tells in braces.
-Candidates Allowed(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t begin = type.find('{');
-  const std::size_t end = type.find('}', begin);
+Candidates Words(const CommandLine& line, const CLI::Option& option) {
   Candidates words;
-  if (begin == std::string::npos || end == std::string::npos) return words;
-  for (std::size_t at = begin + 1; at < end;) {
-    const std::size_t stop = std::min(type.find(',', at), end);
-    words.push_back({type.substr(at, stop - at), ""});
-    at = stop + 1;
-  }
+  for (const std::string& word : line.WordsOf(option)) words.push_back({word, ""});
   return words;
 }
 
@@ -53,7 +44,7 @@ std::optional<Response> Ask(const Settings& settings,
   return response;
 }
 
-Candidates Jobs(const Settings& settings, const Line&) {
+Candidates Jobs(const Settings& settings, const TypedWords&) {
   v1::ListJobsRequest request;
   request.set_page_size(100);
   Candidates jobs;
@@ -67,11 +58,11 @@ Candidates Jobs(const Settings& settings, const Line&) {
   return jobs;
 }
 
-Candidates Channels(const Settings& settings, const Line& line) {
+Candidates Channels(const Settings& settings, const TypedWords& typed) {
   Candidates channels;
-  if (line.positionals.empty()) return channels;
+  if (typed.positionals.empty()) return channels;
   v1::GetSeriesRequest request;
-  request.set_name(JobName(line.positionals.front()));
+  request.set_name(JobName(typed.positionals.front()));
   const auto answer = Ask(settings, &Client::Stub::GetSeries, request);
   if (!answer) return channels;
   for (const auto& column : answer->columns()) {
@@ -80,36 +71,36 @@ Candidates Channels(const Settings& settings, const Line& line) {
   return channels;
 }
 
-std::optional<v1::Job> JobOf(const Settings& settings, const Line& line) {
-  if (line.positionals.empty()) return std::nullopt;
+std::optional<v1::Job> JobOf(const Settings& settings, const TypedWords& typed) {
+  if (typed.positionals.empty()) return std::nullopt;
   v1::GetJobRequest request;
-  request.set_name(JobName(line.positionals.front()));
+  request.set_name(JobName(typed.positionals.front()));
   return Ask(settings, &Client::Stub::GetJob, request);
 }
 
-Candidates Artifacts(const Settings& settings, const Line& line) {
+Candidates Artifacts(const Settings& settings, const TypedWords& typed) {
   Candidates artifacts;
-  const auto job = JobOf(settings, line);
+  const auto job = JobOf(settings, typed);
   if (!job) return artifacts;
   for (const v1::Artifact& artifact : job->artifacts()) artifacts.push_back({artifact.name(), ""});
   return artifacts;
 }
 
-Candidates Metrics(const Settings& settings, const Line& line) {
+Candidates Metrics(const Settings& settings, const TypedWords& typed) {
   Candidates metrics;
-  const auto job = JobOf(settings, line);
+  const auto job = JobOf(settings, typed);
   if (!job) return metrics;
   for (const std::string& metric : job->sweep().metrics()) metrics.push_back({metric, ""});
   return metrics;
 }
 
-Candidates TemplateNames(const Settings&, const Line&) {
+Candidates TemplateNames(const Settings&, const TypedWords&) {
   Candidates names;
   for (const Template& scenario : Templates()) names.push_back({std::string(scenario.name), ""});
   return names;
 }
 
-Candidates Laws(const Settings&, const Line&) {
+Candidates Laws(const Settings&, const TypedWords&) {
   Candidates laws;
   for (const LawEntry& law : LawCatalogue()) {
     std::string name(law.name);
@@ -121,51 +112,51 @@ Candidates Laws(const Settings&, const Line&) {
   return laws;
 }
 
-Candidates States(const Settings&, const Line&) {
+Candidates States(const Settings&, const TypedWords&) {
   Candidates states;
   const auto& type = *v1::Job::State_descriptor();
   for (int i = 1; i < type.value_count(); ++i) states.push_back({type.value(i)->name(), ""});
   return states;
 }
 
-Candidates EventKinds(const Settings&, const Line&) {
+Candidates EventKinds(const Settings&, const TypedWords&) {
   Candidates kinds;
   const auto& payload = *v1::Event::descriptor()->FindOneofByName("payload");
   for (int i = 0; i < payload.field_count(); ++i) kinds.push_back({payload.field(i)->name(), ""});
   return kinds;
 }
 
-Candidates Items(const Settings&, const Line&) {
+Candidates Items(const Settings&, const TypedWords&) {
   Candidates items = {{"all", ""}};
   for (const std::string& item : PaperItems()) items.push_back({item, ""});
   return items;
 }
 
-const CLI::App& RootOf(const Line& line) {
-  const CLI::App* root = line.command;
+const CLI::App& RootOf(const TypedWords& typed) {
+  const CLI::App* root = typed.command;
   while (root->get_parent() != nullptr) root = root->get_parent();
   return *root;
 }
 
 // What `help` takes.
-Candidates Commands(const Settings&, const Line& line) {
+Candidates Commands(const Settings&, const TypedWords& typed) {
   Candidates commands = {{"tutorial", "the way through all of them"}};
-  for (const CLI::App* command : RootOf(line).get_subcommands({})) {
+  for (const CLI::App* command : RootOf(typed).get_subcommands({})) {
     commands.push_back({command->get_name(), command->get_description()});
   }
   return commands;
 }
 
-Candidates ConfigKeyNames(const Settings&, const Line& line) {
+Candidates ConfigKeyNames(const Settings&, const TypedWords& typed) {
   Candidates keys;
-  for (const std::string& key : ConfigKeys(RootOf(line))) keys.push_back({key, VariableOf(key)});
+  for (const std::string& key : ConfigKeys(RootOf(typed))) keys.push_back({key, VariableOf(key)});
   return keys;
 }
 
 // Profiles are sections of files, whatever else these hold.
-Candidates ProfileNames(const Settings& settings, const Line& line) {
+Candidates ProfileNames(const Settings& settings, const TypedWords& typed) {
   std::vector<std::string> keys;
-  for (const Candidate& key : ConfigKeyNames(settings, line)) keys.push_back(key.text);
+  for (const Candidate& key : ConfigKeyNames(settings, typed)) keys.push_back(key.text);
   Candidates profiles;
   for (const ConfigFile& file : ReadConfigFiles({keys.begin(), keys.end()})) {
     for (const auto& [name, section] : file.profiles) profiles.push_back({name, file.path});
@@ -175,10 +166,10 @@ Candidates ProfileNames(const Settings& settings, const Line& line) {
 
 }  // namespace
 
-Candidates Assignments(const Line& line, const std::string& word) {
+Candidates Assignments(const TypedWords& typed, const std::string& word) {
   v1::Scenario scenario;
-  if (!line.positionals.empty() && std::filesystem::is_regular_file(line.positionals.front())) {
-    scenario = ScenarioFile::Open(line.positionals.front()).scenario();
+  if (!typed.positionals.empty() && std::filesystem::is_regular_file(typed.positionals.front())) {
+    scenario = ScenarioFile::Open(typed.positionals.front()).scenario();
   }
   const std::string path = word.substr(0, word.find('='));
   Candidates assignments;
@@ -190,23 +181,22 @@ Candidates Assignments(const Line& line, const std::string& word) {
   return assignments;
 }
 
-std::string KindOf(const CLI::Option& option) {
-  const std::string type = option.get_type_name().substr(0, option.get_type_name().find(':'));
-  return option.get_positional() ? option.get_name() : type;
-}
-
-Candidates Values(const CLI::Option& option, const Settings& settings, const Line& line) {
-  using Source = Candidates (*)(const Settings&, const Line&);
-  static const std::map<std::string, Source> kSources = {
-      {"JOB", Jobs},           {"NAME", Channels},
-      {"NAME,…", Channels},    {"TEMPLATE", TemplateNames},
-      {"LAW", Laws},           {"STATE", States},
-      {"KIND,…", EventKinds},  {"KEY", ConfigKeyNames},
-      {"ITEM", Items},         {"PROFILE", ProfileNames},
-      {"ARTIFACT", Artifacts}, {"METRIC", Metrics},
-      {"COMMAND", Commands}};
-  const auto source = kSources.find(KindOf(option));
-  return source == kSources.end() ? Allowed(option) : source->second(settings, line);
+Candidates Values(const CommandLine& line, const CLI::Option& option, const TypedWords& typed) {
+  using Source = Candidates (*)(const Settings&, const TypedWords&);
+  static const std::map<ValueKind, Source> kSources = {{ValueKind::kJob, Jobs},
+                                                       {ValueKind::kChannel, Channels},
+                                                       {ValueKind::kArtifact, Artifacts},
+                                                       {ValueKind::kMetric, Metrics},
+                                                       {ValueKind::kState, States},
+                                                       {ValueKind::kEventKind, EventKinds},
+                                                       {ValueKind::kTemplate, TemplateNames},
+                                                       {ValueKind::kLaw, Laws},
+                                                       {ValueKind::kPaperItem, Items},
+                                                       {ValueKind::kConfigKey, ConfigKeyNames},
+                                                       {ValueKind::kProfile, ProfileNames},
+                                                       {ValueKind::kCommand, Commands}};
+  const auto source = kSources.find(line.KindOf(option));
+  return source == kSources.end() ? Words(line, option) : source->second(line.settings(), typed);
 }
 
 }  // namespace contact::cli

@@ -1,34 +1,32 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
-#include "cli/settings/settings.h"
+#include "cli/settings/command_line.h"
 
 namespace contact::cli {
 
 /// What a shell may offer for a word.
 struct Candidate {
-  std::string text;
-  std::string about;
+  std::string text;   ///< The word.
+  std::string about;  ///< What it is; may be empty.
 };
 using Candidates = std::vector<Candidate>;
 
-/// A command line up to the word that is completed.
-struct Line {
-  CLI::App* command = nullptr;
-  std::vector<std::string> positionals;
-  CLI::Option* open = nullptr;  ///< The flag whose value comes next.
+/// The words that stand before the one that is completed. Its pointers are into the parser.
+struct TypedWords {
+  CLI::App* command = nullptr;           ///< The innermost command that they name.
+  std::vector<std::string> positionals;  ///< Words that are neither commands, flags nor values.
+  CLI::Option* open = nullptr;           ///< The flag whose value comes next; null: none.
 };
 
-/// What stands for the value of an option in its help, such as JOB or FILE.
-std::string KindOf(const CLI::Option& option);
+/// The values that `option` may have after these words, by its kind. Asks the server for those of
+/// a job. Empty if they cannot be told.
+Candidates Values(const CommandLine& line, const CLI::Option& option, const TypedWords& typed);
 
-/// The values that an option may have here, as far as they can be told.
-Candidates Values(const CLI::Option& option, const Settings& settings, const Line& line);
-
-/// The fields of the scenario that the line names, or of any; with `=`, the words of one of them.
-Candidates Assignments(const Line& line, const std::string& word);
+/// The fields that --set may name in the scenario file among the words, or in any scenario if there
+/// is no file that can be read. After `=` in `word` the words that the field may be set to.
+Candidates Assignments(const TypedWords& typed, const std::string& word);
 
 }  // namespace contact::cli

@@ -29,32 +29,32 @@ CLI::App* FindVerb(CLI::App* command, const std::string& name) {
 }
 
 // Follows the words as the parser would. Values of global flags are kept, for the server.
-Line Follow(CLI::App& app, const std::vector<std::string>& words) {
-  Line line{.command = &app, .positionals = {}, .open = nullptr};
+TypedWords Follow(CLI::App& app, const std::vector<std::string>& words) {
+  TypedWords typed{.command = &app, .positionals = {}, .open = nullptr};
   const auto give = [&app](CLI::Option* option, const std::string& value) {
     const auto global = app.get_options();
     if (std::ranges::find(global, option) != global.end()) option->add_result(value);
   };
   for (const std::string& word : words) {
-    if (line.open != nullptr) {
-      give(line.open, word);
-      line.open = nullptr;
+    if (typed.open != nullptr) {
+      give(typed.open, word);
+      typed.open = nullptr;
     } else if (word.starts_with("-") && word.size() > 1) {
       const std::size_t equals = word.find('=');
-      CLI::Option* option = FindFlag(line.command, word.substr(0, equals));
+      CLI::Option* option = FindFlag(typed.command, word.substr(0, equals));
       if (option == nullptr || !TakesValue(*option)) continue;
       if (equals == std::string::npos) {
-        line.open = option;
+        typed.open = option;
       } else {
         give(option, word.substr(equals + 1));
       }
-    } else if (CLI::App* next = FindVerb(line.command, word); next != nullptr) {
-      line.command = next;
+    } else if (CLI::App* next = FindVerb(typed.command, word); next != nullptr) {
+      typed.command = next;
     } else {
-      line.positionals.push_back(word);
+      typed.positionals.push_back(word);
     }
   }
-  return line;
+  return typed;
 }
 
 std::string FirstSentence(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -83,21 +83,28 @@ Candidates Flags(const CLI::App& command) {
   return flags;
 }
 
-bool IsList(const CLI::Option& option) { return KindOf(option).ends_with(",…"); }
-
-std::string Directive(const CLI::Option& option) {
-  if (KindOf(option) == "FIELD=VALUE" || IsList(option)) return ":nospace\n";
-  if (KindOf(option) == "DIR") return ":directories\n";
-  if (KindOf(option) != "FILE") return ":none\n";
-  return option.get_positional() ? ":scenarios\n" : ":files\n";
+std::string Directive(const CommandLine& line, const CLI::Option& option) {
+  if (IsList(option)) return ":nospace\n";
+  switch (line.KindOf(option)) {
+    case ValueKind::kAssignment:
+      return ":nospace\n";
+    case ValueKind::kDirectory:
+      return ":directories\n";
+    case ValueKind::kScenarioFile:
+      return ":scenarios\n";
+    case ValueKind::kFile:
+      return ":files\n";
+    default:
+      return ":none\n";
+  }
 }
 
-const CLI::Option* Positional(const Line& line) {
+const CLI::Option* Positional(const TypedWords& typed) {
   std::vector<const CLI::Option*> positionals;
-  for (const CLI::Option* option : line.command->get_options()) {
+  for (const CLI::Option* option : typed.command->get_options()) {
     if (option->get_positional()) positionals.push_back(option);
   }
-  const std::size_t given = line.positionals.size();
+  const std::size_t given = typed.positionals.size();
   if (given < positionals.size()) return positionals[given];
   const bool many = !positionals.empty() && positionals.back()->get_items_expected_max() > 1;
   return many ? positionals.back() : nullptr;
@@ -115,15 +122,16 @@ std::string Print(const Candidates& candidates, const std::string& prefix,
 }
 
 // The values of an option; of a list those for its last entry, without what stands before it.
-std::string PrintValues(const CLI::Option& option, const Settings& settings, const Line& line,
+std::string PrintValues(const CommandLine& line, const CLI::Option& option, const TypedWords& typed,
                         const std::string& prefix, const std::string& word) {
-  Candidates values = Values(option, settings, line);
+  Candidates values = Values(line, option, typed);
   const std::size_t entry = IsList(option) ? word.rfind(',') + 1 : 0;
   const std::string given = fmt::format(",{}", word.substr(0, entry));
   std::erase_if(values, [&given](const Candidate& value) {
     return given.find(fmt::format(",{},", value.text)) != std::string::npos;
   });
-  return Print(values, prefix + word.substr(0, entry), word.substr(entry)) + Directive(option);
+  return Print(values, prefix + word.substr(0, entry), word.substr(entry)) +
+         Directive(line, option);
 }
 
 // The words as they were before bash split them at `=`.
@@ -140,46 +148,51 @@ std::vector<std::string> Joined(const std::vector<std::string>& words) {
   return joined;
 }
 
-// What a shell that splits at `=` takes for the last word: only what stands after it.
-void CutAfterEquals(Candidates* candidates) {
-  for (Candidate& candidate : *candidates) {
-    candidate.text.erase(0, candidate.text.find('=') + 1);
+// FIELD=VALUE, or only VALUE for a shell that splits words at `=` and replaces what follows it.
+std::string PrintAssignments(const TypedWords& typed, const std::string& word,
+                             const std::string& prefix, bool after_equals) {
+  Candidates assignments = Assignments(typed, word);
+  std::erase_if(assignments, [&word](const auto& a) { return !a.text.starts_with(word); });
+  for (Candidate& candidate : assignments) {
+    if (after_equals) candidate.text.erase(0, candidate.text.find('=') + 1);
   }
+  return Print(assignments, prefix, "");
+}
+
+// What may follow the words if it is neither a flag nor the value of one.
+std::string PrintNext(const CommandLine& line, const TypedWords& typed, const std::string& word) {
+  if (const CLI::Option* positional = Positional(typed)) {
+    return PrintValues(line, *positional, typed, "", word);
+  }
+  const Candidates verbs = typed.positionals.empty() ? Verbs(*typed.command) : Candidates();
+  return Print(verbs, "", word) + ":none\n";
 }
 
 }  // namespace
 
-std::string Complete(CLI::App& app, const std::vector<std::string>& split, Settings* settings) try {
+std::string Complete(CommandLine& line, const std::vector<std::string>& split) try {
   if (split.empty()) return ":none\n";
   const std::vector<std::string> words = Joined(split);
   const bool after_equals = split.back() != words.back();  // All that the shell replaces.
-  Line line = Follow(app, {words.begin(), words.end() - 1});
+  TypedWords typed = Follow(line.app(), {words.begin(), words.end() - 1});
   std::string word = words.back();
   std::string prefix;
   const std::size_t equals = word.find('=');
-  if (line.open == nullptr && word.starts_with("--") && equals != std::string::npos) {
-    line.open = FindFlag(line.command, word.substr(0, equals));
+  if (typed.open == nullptr && word.starts_with("--") && equals != std::string::npos) {
+    typed.open = FindFlag(typed.command, word.substr(0, equals));
     if (!after_equals) prefix = word.substr(0, equals + 1);
     word.erase(0, equals + 1);
-    if (line.open == nullptr) return ":none\n";
+    if (typed.open == nullptr) return ":none\n";
   }
-  ResolveSettings(app, settings);
-  if (line.open != nullptr && KindOf(*line.open) == "FIELD=VALUE") {
-    Candidates assignments = Assignments(line, word);
-    std::erase_if(assignments, [&](const auto& a) { return !a.text.starts_with(word); });
-    if (after_equals) CutAfterEquals(&assignments);
-    return Print(assignments, prefix, "") + Directive(*line.open);
+  ResolveSettings(line.app(), &line.settings());
+  if (typed.open == nullptr && word.starts_with("-")) {
+    return Print(Flags(*typed.command), "", word) + ":none\n";
   }
-  if (line.open != nullptr) {
-    return PrintValues(*line.open, *settings, line, prefix, word);
+  if (typed.open == nullptr) return PrintNext(line, typed, word);
+  if (line.KindOf(*typed.open) != ValueKind::kAssignment) {
+    return PrintValues(line, *typed.open, typed, prefix, word);
   }
-  if (word.starts_with("-")) return Print(Flags(*line.command), "", word) + ":none\n";
-  const CLI::Option* positional = Positional(line);
-  if (positional == nullptr) {
-    const bool first = line.positionals.empty();
-    return Print(first ? Verbs(*line.command) : Candidates(), "", word) + ":none\n";
-  }
-  return PrintValues(*positional, *settings, line, "", word);
+  return PrintAssignments(typed, word, prefix, after_equals) + Directive(line, *typed.open);
 } catch (const Failure&) {  // Such as an address that is none: nothing to offer.
   return ":none\n";
 }

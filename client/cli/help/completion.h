@@ -1,23 +1,30 @@
 #pragma once
 
-#include <CLI/App.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "cli/settings/settings.h"
+#include "cli/settings/command_line.h"
 
 namespace contact::cli {
 
-/// What a shell may offer for the last of `words`, those after the program's name: a line each,
-/// the candidate and, after a tab, what it is. The last line begins with ':' and says what else:
-/// `:files`, `:scenarios` (YAML and JSON files), `:directories`, `:nospace` (the candidate goes on)
-/// or `:none`.
+/// What a shell may offer for the last of `words`, which are those after the name of the program.
+/// One line a candidate: the candidate, a tab, and what it is. The last line begins with ':' and is
+/// a rule for the shell: `:files`, `:scenarios` (YAML and JSON files) and `:directories` ask it to
+/// offer files too, `:nospace` says that the candidate goes on, `:none` says nothing.
 ///
-/// Names of jobs and channels come from the server that the settings and words name; it has
-/// 300 ms. Without it there are none.
-std::string Complete(CLI::App& app, const std::vector<std::string>& words, Settings* settings);
+/// Names of jobs and channels come from the server that settings and words name. It has 300 ms to
+/// answer; without an answer there are none. Never throws Failure.
+std::string Complete(CommandLine& line, const std::vector<std::string>& words);
 
-/// The script that teaches `shell`, one of bash, zsh and fish, to ask this program.
-std::string CompletionScript(const std::string& shell);
+/// A script that teaches a shell to ask this program, from the folder shells.
+struct ShellScript {
+  std::string_view shell;  ///< Its name, such as `bash`.
+  std::string_view text;   ///< The script.
+};
+
+/// The scripts of all shells that are known.
+std::span<const ShellScript> ShellScripts();
 
 }  // namespace contact::cli

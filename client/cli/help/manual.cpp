@@ -1,6 +1,7 @@
 #include "cli/help/manual.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <optional>
 #include <sstream>
@@ -65,7 +66,7 @@ std::string Usage(const CLI::App& command, const std::string& name) {
   return usage;
 }
 
-std::string OptionText(const CLI::Option& option) {
+std::string OptionText(const CommandLine& line, const CLI::Option& option) {
   std::string type = option.get_type_name();
   type = type.substr(0, type.find(':'));
   std::string text = fmt::format(
@@ -74,31 +75,30 @@ std::string OptionText(const CLI::Option& option) {
     text += " " + Inline(type);
   }
   text += "\n\t" + Inline(option.get_description());
-  const std::string all = option.get_type_name();
-  if (const std::size_t brace = all.find('{'); brace != std::string::npos) {
-    text += "\n\n\tOne of: " + Inline(all.substr(brace + 1, all.find('}') - brace - 1));
+  if (const auto& words = line.WordsOf(option); !words.empty()) {
+    text += "\n\n\tOne of: " + Inline(fmt::format("{}", fmt::join(words, ",")));
   }
   const std::string standard = option.get_default_str();
   if (!standard.empty()) text += "\n\n\tDefault: " + Inline(standard);
   return text + "\n\n";
 }
 
-std::string Options(const CLI::App& command) {
+std::string Options(const CommandLine& line, const CLI::App& command) {
   std::string text;
   for (const bool positional : {true, false}) {
     for (const CLI::Option* option : command.get_options()) {
-      if (option->get_positional() == positional) text += OptionText(*option);
+      if (option->get_positional() == positional) text += OptionText(line, *option);
     }
   }
   return text;
 }
 
-std::string Subcommands(const CLI::App& command, const std::string& name) {
+std::string Subcommands(const CommandLine& line, const CLI::App& command, const std::string& name) {
   std::string text;
   for (const CLI::App* sub : command.get_subcommands({})) {
     text += fmt::format("## {} {}\n\n{}\n\n{}\n\n{}", name, sub->get_name(),
                         Usage(*sub, name + " " + sub->get_name()), Inline(sub->get_description()),
-                        Options(*sub));
+                        Options(line, *sub));
   }
   return text.empty() ? "" : "# COMMANDS\n\n" + text;
 }
@@ -107,17 +107,18 @@ std::string Head(const std::string& name, int section, const std::string& about)
   return fmt::format("{0}({1})\n\n# NAME\n\n{0} - {2}\n\n", name, section, Inline(about));
 }
 
-std::string VerbPage(const CLI::App& command) {
+std::string VerbPage(const CommandLine& line, const CLI::App& command) {
   const std::string name = "contactctl " + command.get_name();
   std::string page = Head("contactctl-" + command.get_name(), 1, command.get_description());
   page += fmt::format("# SYNOPSIS\n\n{}\n\n# DESCRIPTION\n\n{}.\n\n{}\n", Usage(command, name),
                       Inline(command.get_description()), Paragraphs(command.get_footer()));
-  page += "# OPTIONS\n\nThe options of *contactctl*(1), and:\n\n" + Options(command);
-  page += Subcommands(command, name);
+  page += "# OPTIONS\n\nThe options of *contactctl*(1), and:\n\n" + Options(line, command);
+  page += Subcommands(line, command, name);
   return page + "# SEE ALSO\n\n*contactctl*(1), *contact-scenario*(5), *contactd*(8)\n";
 }
 
-std::string MainPage(const CLI::App& app) {
+std::string MainPage(const CommandLine& line) {
+  const CLI::App& app = line.app();
   std::string page = Head("contactctl", 1, "simulate contacts on a contactd server");
   page += "# SYNOPSIS\n\n*contactctl* [options] COMMAND ...\n\n# DESCRIPTION\n\n" +
           Block(app.get_description()) + "\n# COMMANDS\n\n";
@@ -125,7 +126,7 @@ std::string MainPage(const CLI::App& app) {
     page += fmt::format("*contactctl-{}*(1)\n\t{}\n\n", Inline(command->get_name()),
                         Inline(command->get_description()));
   }
-  page += "# OPTIONS\n\n" + Options(app);
+  page += "# OPTIONS\n\n" + Options(line, app);
   page += "# ENVIRONMENT AND FILES\n\n" + Paragraphs(app.get_subcommand("config")->get_footer());
   page += "\n# EXIT STATUS\n\n" + Paragraphs(app.get_footer());
   return page + "\n# SEE ALSO\n\n*contact-scenario*(5), *contactd*(8)\n";
@@ -177,10 +178,10 @@ void Write(const std::string& folder, const std::string& page, const std::string
 
 }  // namespace
 
-void WriteManual(CLI::App& app, const std::string& folder, const std::string& contactd) {
-  Write(folder, "contactctl.1", MainPage(app));
-  for (const CLI::App* command : app.get_subcommands({})) {
-    Write(folder, fmt::format("contactctl-{}.1", command->get_name()), VerbPage(*command));
+void WriteManual(const CommandLine& line, const std::string& folder, const std::string& contactd) {
+  Write(folder, "contactctl.1", MainPage(line));
+  for (const CLI::App* command : line.app().get_subcommands({})) {
+    Write(folder, fmt::format("contactctl-{}.1", command->get_name()), VerbPage(line, *command));
   }
   Write(folder, "contact-scenario.5", ScenarioPage());
   Write(folder, "contactd.8", ServerPage(contactd));

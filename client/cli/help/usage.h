@@ -1,18 +1,19 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <CLI/Error.hpp>
 #include <string>
+#include <vector>
 
-#include "cli/settings/settings.h"
+#include "cli/settings/command_line.h"
 
 namespace contact::cli {
 
-/// What is wrong with a command line, in the words of CLI11, or better ones where a command, a flag
-/// or a value is misspelt; and where to read more.
-std::string UsageMessage(CLI::App& app, const CLI::ParseError& error);
+/// What is wrong with a command line, and where to read more. An unknown command or flag comes with
+/// the nearest one; all else is in the words of the parser.
+std::string UsageMessage(const CLI::App& app, const CLI::ParseError& error);
 
-/// Adds `help`, which shows the same as --help, or a tutorial.
-void AddHelpCommand(CLI::App& app, Action* action);
+/// The help of the command with these names, such as `sweep run`; of the program if there are none.
+/// Throws Failure (kUsage) if there is no such command.
+std::string HelpOf(CLI::App& app, const std::vector<std::string>& names);
 
 }  // namespace contact::cli

@@ -16,11 +16,10 @@ const Template& FindTemplate(const std::string& name) {
     if (scenario.name == name) return scenario;
     names.push_back(scenario.name);
   }
-  const std::string_view nearest = Nearest(name, names);
-  throw Failure(ExitCode::kUsage,
-                fmt::format("there is no template {} — {}", Quoted(name),
-                            nearest.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
-                                            : fmt::format("did you mean '{}'?", nearest)));
+  throw Failure(
+      ExitCode::kUsage,
+      WithHint(fmt::format("there is no template {}", Quoted(name)),
+               DidYouMean(name, names, fmt::format("there are {}", fmt::join(names, ", ")))));
 }
 
 }  // namespace contact::cli

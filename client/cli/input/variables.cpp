@@ -35,9 +35,9 @@ std::vector<std::string_view> NamesOf(const VariableValues& values) {
 // Hint for an unknown variable: the nearest name, or all names.
 std::string Instead(const std::string& name, const VariableValues& known) {
   const std::vector<std::string_view> names = NamesOf(known);
-  const std::string_view nearest = Nearest(name, names);
-  if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
-  return names.empty() ? "the file has none" : fmt::format("there are {}", fmt::join(names, ", "));
+  return DidYouMean(
+      name, names,
+      names.empty() ? "the file has none" : fmt::format("there are {}", fmt::join(names, ", ")));
 }
 
 // Puts values into all scalars of a document, each once however many aliases it has.

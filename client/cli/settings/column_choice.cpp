@@ -1,15 +1,13 @@
 #include "cli/settings/column_choice.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <CLI/CLI.hpp>
 
 #include "cli/base/failure.h"
 
 namespace contact::cli {
 
-void ColumnChoice::AddTo(CLI::App& command, const std::vector<Table::Column>& known) {
+void ColumnChoice::AddTo(CommandLine& line, CLI::App& command,
+                         const std::vector<Table::Column>& known) {
   CLI::Option* option =
       command
           .add_option("--columns", names_,
@@ -19,11 +17,9 @@ void ColumnChoice::AddTo(CLI::App& command, const std::vector<Table::Column>& kn
           ->delimiter(',')
           ->take_all()
           ->allow_extra_args(false);
-  if (known.empty()) return;
   std::vector<std::string> names;
   for (const Table::Column& column : known) names.push_back(column.Name());
-  const auto accept = [](std::string&) { return std::string(); };  // The table itself looks.
-  option->check(CLI::Validator(accept, fmt::format("{{{}}}", fmt::join(names, ","))));
+  if (!names.empty()) line.SuggestWords(option, names);
 }
 
 void ColumnChoice::Check(const std::vector<Table::Column>& columns,

@@ -1,24 +1,25 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/base/table.h"
-#include "cli/settings/settings.h"
+#include "cli/settings/command_line.h"
 
 namespace contact::cli {
 
-/// The flag --columns of commands that print a table.
+/// The flag --columns of a command that prints a table.
 class ColumnChoice {
  public:
-  /// `known` are the columns that the table always has, for help and completion.
-  void AddTo(CLI::App& command, const std::vector<Table::Column>& known = {});
+  /// Adds the flag. Help and completion show `known`, the columns that the table always has. This
+  /// object must outlive the parsing.
+  void AddTo(CommandLine& line, CLI::App& command, const std::vector<Table::Column>& known = {});
 
-  /// Throws Failure (kUsage) unless these columns have those that were asked for, and the output
-  /// is a table or csv.
+  /// Throws Failure (kUsage) if a chosen column is not among `columns`, or if columns are chosen
+  /// and the output is neither a table nor csv.
   void Check(const std::vector<Table::Column>& columns, const Settings& settings) const;
 
+  /// The chosen columns, in the order asked for; empty: all.
   const std::vector<std::string>& names() const { return names_; }
 
   /// How to write the table to the standard output.

@@ -51,10 +51,8 @@ class Reader {
 
   void ReadValue(const std::string& key, const toml::node& value, ConfigSection* section) {
     if (std::ranges::find(keys_, key) == keys_.end()) {
-      const std::string_view nearest = Nearest(key, keys_);
-      return Refuse(
-          value, fmt::format("unknown key {}{}", Quoted(key),
-                             nearest.empty() ? "" : fmt::format(" — did you mean '{}'?", nearest)));
+      return Refuse(value,
+                    WithHint(fmt::format("unknown key {}", Quoted(key)), DidYouMean(key, keys_)));
     }
     const std::string origin = fmt::format("{}:{}", file_->path, value.source().begin.line);
     if (const auto text = value.value_exact<std::string>()) {
@@ -94,6 +92,27 @@ std::string Trimmed(const std::string& line) {
   const std::size_t begin = line.find_first_not_of(" \t\r");
   if (begin == std::string::npos) return "";
   return line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
+}
+
+using Lines = std::vector<std::string>;
+
+Lines LinesOf(const std::string& text) {
+  Lines lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// The line after the header of the section of `profile`, which is added at the end if missing.
+Lines::iterator BeginOf(const std::string& profile, Lines* lines) {
+  const std::string header = fmt::format("[profile.{}]", profile);
+  auto begin = std::ranges::find(*lines, header, Trimmed);
+  if (begin == lines->end()) {
+    if (!lines->empty()) lines->emplace_back();
+    lines->push_back(header);
+    begin = lines->end() - 1;
+  }
+  return begin + 1;
 }
 
 std::string Joined(const std::vector<std::string>& lines) {
@@ -157,32 +176,17 @@ std::optional<ConfigValue> FindValue(const std::vector<ConfigFile>& files, const
 
 std::string WithValue(const std::string& text, const std::string& profile, const std::string& key,
                       const std::string& value) {
-  const std::string header = fmt::format("[profile.{}]", profile);
+  std::vector<std::string> lines = LinesOf(text);
   const std::string name = key == kProfile ? kUse : key;
-  const std::string setting =
-      fmt::format("{} = {}", name,
-                  value.find('\'') == std::string::npos ? fmt::format("'{}'", value)
-                                                        : fmt::format("\"{}\"", value));
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-
-  auto begin = lines.begin();
-  if (!profile.empty()) {
-    begin = std::ranges::find(lines, header, Trimmed);
-    if (begin == lines.end()) {
-      if (!lines.empty()) lines.emplace_back();
-      lines.push_back(header);
-      begin = lines.end() - 1;
-    }
-    ++begin;
-  }
+  const char quote = value.find('\'') == std::string::npos ? '\'' : '"';
+  const std::string setting = fmt::format("{} = {}{}{}", name, quote, value, quote);
+  const auto begin = profile.empty() ? lines.begin() : BeginOf(profile, &lines);
   const auto end = std::find_if(begin, lines.end(), IsSection);
   const auto old = std::ranges::find(begin, end, name, KeyOf);
   if (old != end) {
     *old = setting;
   } else {
-    auto last = end;  // After what the section has, before the blank lines.
+    auto last = end;  // After the values of the section, before the blank lines.
     while (last != begin && Trimmed(*(last - 1)).empty()) --last;
     lines.insert(last, setting);
   }

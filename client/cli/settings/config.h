@@ -10,11 +10,11 @@ namespace contact::cli {
 
 /// A value in a config file.
 struct ConfigValue {
-  std::string text;
+  std::string text;    ///< The value as a flag would have it.
   std::string origin;  ///< `path:line`.
 };
 
-/// Values by key, such as `server`; that of `use_profile` is `profile`.
+/// Values by key, such as `server`. The value of `use_profile` has the key `profile`.
 using ConfigSection = std::map<std::string, ConfigValue>;
 
 /// A config file in TOML:
@@ -23,31 +23,32 @@ using ConfigSection = std::map<std::string, ConfigValue>;
 ///   [profile.lab]
 ///   server = "lab.example:7070"
 struct ConfigFile {
-  std::string path;
-  ConfigSection values;
-  std::map<std::string, ConfigSection> profiles;
+  std::string path;                               ///< As messages name the file.
+  ConfigSection values;                           ///< Values outside of profiles.
+  std::map<std::string, ConfigSection> profiles;  ///< Values of each profile.
   std::string mistake;  ///< Where and why it cannot be read; empty if it can.
 };
 
-/// Reads `text`, whose keys must be among `keys`. `path` is what mistakes call it.
+/// Reads a config file with the content `text`. A key that is not among `keys` is a mistake of the
+/// file, as is a value that is no text or whole number. Messages call the file `path`.
 ConfigFile ReadConfig(const std::string& path, const std::string& text,
                       const std::vector<std::string_view>& keys);
 
-/// The files that there are among ./contact.toml, config.toml of the user and of the system. What
-/// an earlier one says wins.
+/// Reads those of ./contact.toml, UserConfigPath() and /etc/contact/config.toml that exist. A value
+/// in an earlier file wins over one in a later file.
 std::vector<ConfigFile> ReadConfigFiles(const std::vector<std::string_view>& keys);
 
 /// $XDG_CONFIG_HOME/contact/config.toml, or the same in ~/.config; empty without a home.
 std::string UserConfigPath();
 
-/// The value of `key`, first in the sections of `profile`, then outside of profiles. None for an
-/// empty `profile` in the former.
+/// The value of `key` in the first file that has it: in the sections of `profile`, else outside of
+/// profiles. An empty `profile` has no sections.
 std::optional<ConfigValue> FindValue(const std::vector<ConfigFile>& files, const std::string& key,
                                      const std::string& profile);
 
-/// `text` with `key = "value"` in the section of `profile`, or before all sections if that is
-/// empty; all else, comments too, is as it was. Throws Failure (kLocal) where that cannot be done
-/// line by line.
+/// The content `text` of a config file, changed to have `key = 'value'` in the section of
+/// `profile`, or before all sections if `profile` is empty. All other lines stay, comments too.
+/// Throws Failure (kLocal) if that cannot be done line by line.
 std::string WithValue(const std::string& text, const std::string& profile, const std::string& key,
                       const std::string& value);
 

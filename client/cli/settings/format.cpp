@@ -1,6 +1,7 @@
 #include "cli/settings/format.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -51,6 +52,14 @@ std::string FormatHelp(FormatUse use) {
     if (!info.about.empty()) help += fmt::format(" ({})", info.about);
   }
   return help;
+}
+
+std::string FormatEndings(FormatUse use) {
+  std::vector<std::string_view> endings;
+  for (const FormatInfo& info : Formats()) {
+    if ((info.uses & use) != 0 && !info.ending.empty()) endings.push_back(info.ending);
+  }
+  return fmt::format("{}", fmt::join(endings, ", "));
 }
 
 }  // namespace contact::cli

@@ -52,4 +52,7 @@ std::vector<std::string> FormatNames(unsigned uses);
 /// The names of the formats with this use and what they are, with commas between, for the help.
 std::string FormatHelp(FormatUse use);
 
+/// The endings of the files of this use, with commas between, for the help.
+std::string FormatEndings(FormatUse use);
+
 }  // namespace contact::cli

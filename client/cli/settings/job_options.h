@@ -8,19 +8,22 @@
 
 namespace contact::cli {
 
-/// The flags of commands that make a job which say how it is to be treated.
+/// The flags for priority, budget and time to live, of commands that make a job.
 class JobOptions {
  public:
+  /// Adds the flags. This object must outlive the parsing.
   void AddTo(CLI::App& command);
-  /// Throws Failure (kUsage) for a text that is no time or number.
+
+  /// Sets the fields of `job` whose flags were given. Throws Failure (kUsage) for a text that is no
+  /// time or number.
   void Apply(v1::Job* job) const;
 
  private:
-  std::int32_t priority_ = 0;
-  std::string wall_time_;
-  std::string steps_;
-  std::uint64_t output_bytes_ = 0;
-  std::string time_to_live_;
+  std::int32_t priority_ = 0;       // From -100 to 100; the server checks it.
+  std::string wall_time_;           // A duration such as `10s`; empty: no budget.
+  std::string steps_;               // A number such as `1e6`; empty: no budget.
+  std::uint64_t output_bytes_ = 0;  // 0: no budget.
+  std::string time_to_live_;        // A duration; empty: the default of the server.
 };
 
 }  // namespace contact::cli

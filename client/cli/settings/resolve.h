@@ -9,12 +9,13 @@ namespace contact::cli {
 /// The keys of config files: the global flags of `app`, with '_' for '-', such as `server`.
 std::vector<std::string> ConfigKeys(const CLI::App& app);
 
-/// The environment variable of a key, such as CONTACT_SERVER.
+/// The environment variable of a key, such as CONTACT_SERVER for `server`.
 std::string VariableOf(const std::string& key);
 
-/// Fills the global flags that the command line left out: from the environment, else from config
-/// files, first those of the profile. Keeps in `settings` where each value comes from, and what
-/// was wrong.
+/// Fills the global flags of the parsed `app` that the command line leaves out: from the
+/// environment, else from the profile in config files, else from outside of profiles. Keeps in
+/// `settings` the origin of each value and what is wrong with variables and files. `settings` must
+/// be what the flags of `app` write to.
 void ResolveSettings(CLI::App& app, Settings* settings);
 
 }  // namespace contact::cli

@@ -26,6 +26,16 @@ void Settings::RequireOutput(std::initializer_list<OutputFormat> formats) const 
     known.push_back(NameOf(format));
     if (format == OutputFormat::kJson) known.push_back(NameOf(OutputFormat::kYaml));
   }
+  RefuseOutput(known);
+}
+
+void Settings::RequireUse(FormatUse use) const {
+  if ((InfoOf(output).uses & use) != 0) return;
+  const std::vector<std::string> names = FormatNames(use);
+  RefuseOutput({names.begin(), names.end()});
+}
+
+void Settings::RefuseOutput(const std::vector<std::string_view>& known) const {
   const auto origin = origins.find("output");
   const bool flag = origin == origins.end() || origin->second == "--output";
   throw Failure(

@@ -15,27 +15,27 @@
 
 namespace contact::cli {
 
-/// What is wrong with a setting that does not stand on the command line.
+/// What is wrong with a setting from a variable or a config file.
 struct Problem {
-  ExitCode code;
-  std::string text;
+  ExitCode code;     ///< With which a command that needs the settings ends.
+  std::string text;  ///< With the variable, or file and line.
 };
 
-/// The flags that every command has.
+/// The values of the flags that every command has, and where they come from.
 struct Settings {
-  std::string profile;  ///< Section of the config files; empty: none.
-  std::string server = "127.0.0.1:7070";
-  OutputFormat output = OutputFormat::kTable;
-  bool wide = false;  ///< `output` is a table with all its columns.
-  bool yaml = false;  ///< `output` is json, to be written as YAML.
-  std::string color = "auto";
-  std::string progress = "auto";
-  std::string timeout;  ///< Empty: the default of the command.
+  std::string profile;                         ///< Section of the config files; empty: none.
+  std::string server = "127.0.0.1:7070";       ///< HOST:PORT.
+  OutputFormat output = OutputFormat::kTable;  ///< Never kWide or kYaml: see the next two.
+  bool wide = false;                           ///< With kTable: print all columns.
+  bool yaml = false;                           ///< With kJson: print it as YAML.
+  std::string color = "auto";                  ///< auto, always or never.
+  std::string progress = "auto";               ///< auto, bar, plain, json or none.
+  std::string timeout;  ///< A duration such as `10s`; empty: the default of the command.
 
-  /// Where each comes from, by its key in config files: a flag, a variable, or `path:line`.
-  /// Without an entry it is the default.
+  /// The origin of each value by its key in config files: a flag, a variable, or `path:line`. A
+  /// value without an entry is the default.
   std::map<std::string, std::string> origins;
-  std::vector<Problem> problems;
+  std::vector<Problem> problems;  ///< Of variables and config files.
 
   /// Takes the value of -o: sets `output`, `wide` and `yaml`. Without effect for an unknown name.
   void SetOutput(std::string_view name);
@@ -44,18 +44,31 @@ struct Settings {
   /// kTable or kJson takes `wide` or `yaml`, too.
   void RequireOutput(std::initializer_list<OutputFormat> formats) const;
 
-  /// How long a call may take: `timeout`, or 10 s without.
+  /// Throws Failure (kUsage) unless `output` is a format with this use.
+  void RequireUse(FormatUse use) const;
+
+  /// How long a call may take: `timeout`, else 10 s. Throws Failure (kUsage) if it is no duration.
   std::chrono::milliseconds CallTimeout() const;
 
-  /// When a command that follows a job gives up; none without `timeout`.
+  /// When a command that follows a job gives up, `timeout` from now; none without `timeout`. Throws
+  /// Failure (kUsage) if it is no duration.
   std::optional<std::chrono::steady_clock::time_point> Deadline() const;
 
+  /// How to tell on the standard error how far a job is.
   ProgressForm Progress() const;
-  Style OutputStyle() const;     ///< Of the standard output.
-  Style MessageStyle() const;    ///< Of the standard error.
+
+  /// How to write to the standard output.
+  Style OutputStyle() const;
+
+  /// How to write to the standard error.
+  Style MessageStyle() const;
+
+ private:
+  /// Throws what RequireOutput throws, with the names of the formats that would do.
+  [[noreturn]] void RefuseOutput(const std::vector<std::string_view>& known) const;
 };
 
-/// What the command line asks for.
+/// What the command line asks for: runs the command and returns the exit code. May throw Failure.
 using Action = std::function<ExitCode()>;
 
 }  // namespace contact::cli

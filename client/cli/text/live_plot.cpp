@@ -104,9 +104,8 @@ void LivePlot::OnEvent(const v1::Event& event) {
   for (const auto& column : event.frame_chunk().columns()) names.push_back(column.name());
   for (const std::string& channel : options_.channels) {
     if (std::ranges::find(names, channel) != names.end()) continue;
-    const std::string_view nearest = Nearest(channel, names);
-    mistake_ = fmt::format("{} is no channel of this job{}", Quoted(channel),
-                           nearest.empty() ? "" : fmt::format(" — did you mean '{}'?", nearest));
+    mistake_ = WithHint(fmt::format("{} is no channel of this job", Quoted(channel)),
+                        DidYouMean(channel, names));
   }
 }
 

@@ -11,7 +11,7 @@
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -58,26 +58,23 @@ ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& setting
 
 }  // namespace
 
-void AddArtifactCommands(CLI::App& app, const Settings& settings, Action* action) {
-  CLI::App* group = app.add_subcommand("artifact", "Files that an ended job leaves: list, get");
-  group->require_subcommand(1);
+void AddArtifact(CommandLine& line, CLI::App& group) {
+  group.require_subcommand(1);
   auto arguments = std::make_shared<ArtifactArguments>();
+  CLI::App* list = group.add_subcommand("list", "Name the artifacts of a job");
+  AddJob(line, *list, &arguments->job);
+  line.SetAction(*list, arguments, ListArtifacts);
 
-  CLI::App* list = group->add_subcommand("list", "Name the artifacts of a job");
-  list->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
-  list->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return ListArtifacts(*arguments, settings); };
-  });
-
-  CLI::App* get = group->add_subcommand(
-      "get", "Fetch one, going on where an earlier try has left a part of it");
-  get->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
-  get->add_option("ARTIFACT", arguments->artifact, "Such as trajectory.csv")->required();
-  get->add_option("-f,--file", arguments->file, "Where to. Default: the last part of its name")
-      ->type_name("FILE");
-  get->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return GetArtifact(*arguments, settings); };
-  });
+  CLI::App* get =
+      group.add_subcommand("get", "Fetch one, going on where an earlier try has left a part of it");
+  AddJob(line, *get, &arguments->job);
+  line.SetKind(get->add_option("ARTIFACT", arguments->artifact, "Such as trajectory.csv"),
+               ValueKind::kArtifact)
+      ->required();
+  line.SetKind(
+      get->add_option("-f,--file", arguments->file, "Where to. Default: the last part of its name"),
+      ValueKind::kFile);
+  line.SetAction(*get, arguments, GetArtifact);
 }
 
 }  // namespace contact::cli

@@ -8,9 +8,9 @@
 #include "cli/figures/overlay.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_source.h"
+#include "cli/text/print_job.h"
 #include "cli/text/render_comparison.h"
-#include "cli/text/render_yaml.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -23,10 +23,12 @@ struct CompareArguments {
   std::vector<std::string> channels;
 };
 
-std::string Format(const CompareArguments& arguments, const Settings& settings) {
-  if (!arguments.format.empty()) return arguments.format;
-  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kCsv});
-  return settings.yaml ? "yaml" : std::string(NameOf(settings.output));
+// --format is an older flag for the format, which wins over -o.
+Settings WithFormat(const CompareArguments& arguments, Settings settings) {
+  if (!arguments.format.empty()) settings.SetOutput(arguments.format);
+  settings.RequireOutput(
+      {OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kCsv, OutputFormat::kLatex});
+  return settings;
 }
 
 void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
@@ -42,70 +44,77 @@ void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
   fmt::print(stderr, "{}\n", arguments.plot);
 }
 
-ExitCode CompareJobs(const CompareArguments& arguments, const Settings& settings) {
-  const std::string format = Format(arguments, settings);
-  std::vector<v1::Job> jobs;
+// The runs of these jobs or files. Throws Failure (kUsage) if one is a sweep.
+std::vector<v1::Job> ReadRuns(const std::vector<std::string>& names, const Settings& settings) {
+  std::vector<v1::Job> runs;
   JobSource source(settings);
-  for (const std::string& job : arguments.jobs) {
-    jobs.push_back(source.Get(job));
-    if (jobs.back().has_sweep()) {
-      throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job));
+  for (const std::string& name : names) {
+    runs.push_back(source.Get(name));
+    if (runs.back().has_sweep()) {
+      throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", name));
     }
   }
-  if (!arguments.plot.empty()) DrawRuns(arguments, settings);
-  const JobComparison comparison = Compare(jobs, arguments.tolerance);
-  if (format == "yaml") {
-    fmt::print("{}", YamlOfJson(ComparisonJson(comparison)));
-  } else if (format == "json") {
-    fmt::print("{}", ComparisonJson(comparison));
-  } else if (format == "csv") {
-    fmt::print("{}", ComparisonCsv(comparison));
-  } else if (format == "latex") {
-    fmt::print("{}", ComparisonLatex(comparison));
-  } else {
-    fmt::print("{}", RenderComparison(comparison, settings.OutputStyle()));
+  return runs;
+}
+
+void Print(const JobComparison& comparison, const Settings& settings) {
+  switch (settings.output) {
+    case OutputFormat::kJson:
+      return PrintJson(ComparisonJson(comparison), settings);
+    case OutputFormat::kCsv:
+      return fmt::print("{}", ComparisonCsv(comparison));
+    case OutputFormat::kLatex:
+      return fmt::print("{}", ComparisonLatex(comparison));
+    default:
+      return fmt::print("{}", RenderComparison(comparison, settings.OutputStyle()));
   }
+}
+
+ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) {
+  const Settings settings = WithFormat(arguments, global);
+  const std::vector<v1::Job> runs = ReadRuns(arguments.jobs, settings);
+  if (!arguments.plot.empty()) DrawRuns(arguments, settings);
+  const JobComparison comparison = Compare(runs, arguments.tolerance);
+  Print(comparison, settings);
   return comparison.Holds() ? ExitCode::kOk : ExitCode::kDiffers;
+}
+
+void AddTolerance(CLI::App& command, Tolerance* tolerance) {
+  command.add_option("--abs", tolerance->absolute, "Deviation that does not matter")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      .add_option("--rel", tolerance->relative,
+                  "The same relative to the baseline; the larger one counts")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
 }
 
 }  // namespace
 
-void AddCompareCommand(CLI::App& app, const Settings& settings, Action* action) {
+void AddCompare(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command = app.add_subcommand(
-      "compare", "Show where runs differ: parameters, then results; exit code 8 if these do");
-  command
-      ->add_option("JOB", arguments->jobs,
-                   "Two or more: IDs, or files with what describe -o json printed; the first is "
-                   "the baseline")
+  line.SetKind(command.add_option("JOB", arguments->jobs,
+                                  "Two or more: IDs, or files with what describe -o json printed; "
+                                  "the first is the baseline"),
+               ValueKind::kJob)
       ->required()
       ->expected(2, 1000);
-  command->add_option("--abs", arguments->tolerance.absolute, "Deviation that does not matter")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--rel", arguments->tolerance.relative,
-                   "The same relative to the baseline; the larger one counts")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--format", arguments->format, "table, json, yaml, csv or latex, instead of -o")
-      ->check(CLI::IsMember({"table", "json", "yaml", "csv", "latex"}))
+  AddTolerance(command, &arguments->tolerance);
+  line.SetWords(command.add_option("--format", arguments->format, "The same as -o"),
+                {"table", "json", "yaml", "csv", "latex"})
       ->type_name("FORMAT");
-  command
-      ->add_option(
-          "--plot", arguments->plot,
-          "Draw the runs over each other to this file too: .svg, .png, .pdf, .txt, .tex, .gp "
-          "or .csv")
-      ->type_name("FILE");
-  command
-      ->add_option("--channels", arguments->channels,
-                   "What --plot draws, such as B1.velocity. Default: the contact forces")
-      ->delimiter(',')
-      ->type_name("NAME,…");
-  command->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return CompareJobs(*arguments, settings); };
-  });
+  line.SetKind(command.add_option("--plot", arguments->plot,
+                                  "Draw the runs over each other to this file too: .svg, .png, "
+                                  ".pdf, .txt, .tex, .gp or .csv"),
+               ValueKind::kFile);
+  line.SetKind(command
+                   .add_option("--channels", arguments->channels,
+                               "What --plot draws, such as B1.velocity. Default: the contact "
+                               "forces")
+                   ->delimiter(','),
+               ValueKind::kChannel);
+  line.SetAction(command, arguments, CompareJobs);
 }
 
 }  // namespace contact::cli

@@ -1,25 +1,22 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/help/completion.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 
-void AddCompletionCommand(CLI::App& app, Action* action) {
+void AddCompletion(CommandLine& line, CLI::App& command) {
+  std::vector<std::string> shells;
+  for (const ShellScript& script : ShellScripts()) shells.emplace_back(script.shell);
   auto shell = std::make_shared<std::string>();
-  CLI::App* completion =
-      app.add_subcommand("completion", "Print what teaches a shell to complete contactctl's words");
-  completion->add_option("SHELL", *shell, "Which")
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
-      ->type_name("")
-      ->required();
-  completion->callback([shell, action] {
-    *action = [shell] {
-      fmt::print("{}", CompletionScript(*shell));
-      return ExitCode::kOk;
-    };
+  line.SetWords(command.add_option("SHELL", *shell, "Which"), shells)->type_name("")->required();
+  line.SetAction(command, [shell] {
+    const auto script = std::ranges::find(ShellScripts(), *shell, &ShellScript::shell);
+    fmt::print("{}", script->text);
+    return ExitCode::kOk;
   });
 }
 

@@ -14,7 +14,7 @@
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -69,11 +69,10 @@ ExitCode View(const CLI::App& app, const ConfigArguments& arguments, const Setti
 
 void RequireKey(const std::string& key, const Keys& keys) {
   if (std::ranges::find(keys, key) != keys.end()) return;
-  const std::string_view nearest = Nearest(key, {keys.begin(), keys.end()});
   throw Failure(ExitCode::kUsage,
-                fmt::format("unknown key {} — {}", Quoted(key),
-                            nearest.empty() ? fmt::format("there are {}", fmt::join(keys, ", "))
-                                            : fmt::format("did you mean '{}'?", nearest)));
+                WithHint(fmt::format("unknown key {}", Quoted(key)),
+                         DidYouMean(key, {keys.begin(), keys.end()},
+                                    fmt::format("there are {}", fmt::join(keys, ", ")))));
 }
 
 ExitCode Get(const CLI::App& app, const std::string& key, const Settings& settings) {
@@ -160,43 +159,41 @@ CONTACT_SERVER and server = "HOST:PORT". The first of these wins: the flag, the 
 ./contact.toml, ~/.config/contact/config.toml, /etc/contact/config.toml. A section [profile.lab] has
 the values of a profile, which --profile lab, CONTACT_PROFILE=lab or use_profile = "lab" chooses.)";
 
+void AddKey(CommandLine& line, CLI::App& command, std::string* key) {
+  line.SetKind(command.add_option("KEY", *key, "Such as server"), ValueKind::kConfigKey)
+      ->required();
+}
+
 }  // namespace
 
-void AddConfigCommands(CLI::App& app, const Settings& settings, Action* action) {
+void AddConfig(CommandLine& line, CLI::App& config) {
   auto arguments = std::make_shared<ConfigArguments>();
-  CLI::App* config = app.add_subcommand("config", "Show and change the settings of contactctl");
-  config->footer(kAbout);
-  config->require_subcommand(1);
-  CLI::App* view = config->add_subcommand("view", "Show all settings as they are now");
+  CLI::App& app = line.app();
+  const Settings& settings = line.settings();
+  config.footer(kAbout);
+  config.require_subcommand(1);
+  CLI::App* view = config.add_subcommand("view", "Show all settings as they are now");
   view->add_flag("--show-origin", arguments->show_origin, "Show where each comes from");
-  view->callback([&app, arguments, &settings, action] {
-    *action = [&app, arguments, &settings] { return View(app, *arguments, settings); };
-  });
+  line.SetAction(*view, [&app, arguments, &settings] { return View(app, *arguments, settings); });
 
-  CLI::App* get = config->add_subcommand("get", "Print one setting");
-  get->add_option("KEY", arguments->key, "Such as server")->required();
-  get->callback([&app, arguments, &settings, action] {
-    *action = [&app, arguments, &settings] { return Get(app, arguments->key, settings); };
-  });
+  CLI::App* get = config.add_subcommand("get", "Print one setting");
+  AddKey(line, *get, &arguments->key);
+  line.SetAction(*get, [&app, arguments, &settings] { return Get(app, arguments->key, settings); });
 
-  CLI::App* set = config->add_subcommand(
+  CLI::App* set = config.add_subcommand(
       "set", "Change a setting in the user's file; with --profile, one of that profile");
-  set->add_option("KEY", arguments->key, "Such as server")->required();
+  AddKey(line, *set, &arguments->key);
   set->add_option("VALUE", arguments->value, "What it shall be")->required();
-  set->callback([&app, arguments, &settings, action] {
-    *action = [&app, arguments, &settings] { return Set(app, *arguments, settings); };
-  });
+  line.SetAction(*set, [&app, arguments, &settings] { return Set(app, *arguments, settings); });
 
-  CLI::App* list = config->add_subcommand("list", "List the profiles");
-  list->callback([&app, &settings, action] {
-    *action = [&app, &settings] { return ListProfiles(app, settings); };
-  });
+  CLI::App* list = config.add_subcommand("list", "List the profiles");
+  line.SetAction(*list, [&app, &settings] { return ListProfiles(app, settings); });
 
-  CLI::App* use = config->add_subcommand("use", "Choose a profile from now on");
-  use->add_option("PROFILE", arguments->value, "Its name; '' chooses none")->required();
-  use->callback([&app, arguments, action] {
-    *action = [&app, arguments] { return Use(app, arguments->value); };
-  });
+  CLI::App* use = config.add_subcommand("use", "Choose a profile from now on");
+  line.SetKind(use->add_option("PROFILE", arguments->value, "Its name; '' chooses none"),
+               ValueKind::kProfile)
+      ->required();
+  line.SetAction(*use, [&app, arguments] { return Use(app, arguments->value); });
 }
 
 }  // namespace contact::cli

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
-#include <CLI/CLI.hpp>  // Some file of the library must have all of it, or it lacks vtables.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -10,7 +9,7 @@
 
 #include "cli/base/process.h"
 #include "cli/link/local_server.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -92,18 +91,15 @@ ExitCode Dev(const DevArguments& arguments, const Settings& settings) {
 
 }  // namespace
 
-void AddDevCommand(CLI::App& app, const Settings& settings, Action* action) {
+void AddDev(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<DevArguments>();
-  CLI::App* dev = app.add_subcommand(
-      "dev", "Start a private server to try things; dev -- CMD… runs one command with it");
-  dev->add_option("--contactd", arguments->contactd,
-                  "The server's program. Default: beside contactctl, else in the PATH")
-      ->type_name("FILE");
-  dev->add_option("CMD", arguments->command,
-                  "Command, after --; finds the server in CONTACT_SERVER, and its code is ours");
-  dev->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Dev(*arguments, settings); };
-  });
+  line.SetKind(command.add_option("--contactd", arguments->contactd,
+                                  "The server's program. Default: beside contactctl, else in the "
+                                  "PATH"),
+               ValueKind::kFile);
+  command.add_option("CMD", arguments->command,
+                     "Command, after --; finds the server in CONTACT_SERVER, and its code is ours");
+  line.SetAction(command, arguments, Dev);
 }
 
 }  // namespace contact::cli

@@ -12,7 +12,7 @@
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 #include "version.h"
 
 namespace contact::cli {
@@ -142,11 +142,8 @@ ExitCode Doctor(const CLI::App& app, const Settings& settings) {
 
 }  // namespace
 
-void AddDoctorCommand(CLI::App& app, const Settings& settings, Action* action) {
-  app.add_subcommand("doctor", "Look for what is wrong around here, and say what mends it")
-      ->callback([&app, &settings, action] {
-        *action = [&app, &settings] { return Doctor(app, settings); };
-      });
+void AddDoctor(CommandLine& line, CLI::App& command) {
+  line.SetAction(command, [&line] { return Doctor(line.app(), line.settings()); });
 }
 
 }  // namespace contact::cli

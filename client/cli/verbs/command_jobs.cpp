@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>  // All of it: a program without main.cpp may link this file.
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -17,8 +16,8 @@
 #include "cli/text/print_job.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/commands.h"
 #include "cli/verbs/list_watch.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -31,17 +30,22 @@ struct ListArguments {
   ColumnChoice columns;
 };
 
+struct DescribeArguments {
+  std::string job;
+  ColumnChoice columns;
+};
+
 v1::Job::State ParseState(std::string text) {
   std::ranges::transform(text, text.begin(),
                          [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
   if (v1::Job::State_Parse(text, &state) && state != v1::Job::STATE_UNSPECIFIED) return state;
-  const std::string_view nearest =
-      Nearest(text, {"QUEUED", "RUNNING", "SUCCEEDED", "FAILED", "CANCELLED"});
-  throw Failure(ExitCode::kUsage,
-                fmt::format("--state {}: one of QUEUED, RUNNING, SUCCEEDED, FAILED, CANCELLED{}",
-                            Quoted(text),
-                            nearest.empty() ? "" : fmt::format(" — did you mean {}?", nearest)));
+  std::vector<std::string_view> states;
+  const auto& type = *v1::Job::State_descriptor();
+  for (int i = 1; i < type.value_count(); ++i) states.push_back(type.value(i)->name());
+  throw Failure(ExitCode::kUsage, WithHint(fmt::format("--state {}: one of {}", Quoted(text),
+                                                       fmt::join(states, ", ")),
+                                           DidYouMean(text, states)));
 }
 
 // All pages, up to the limit.
@@ -117,36 +121,40 @@ Table ListTable(const v1::ListJobsResponse& all) {
   return table;
 }
 
+void PrintList(const v1::ListJobsResponse& all, const ColumnChoice& columns,
+               const Settings& settings) {
+  switch (settings.output) {
+    case OutputFormat::kJson:
+      return PrintJson(ToJson(all), settings);
+    case OutputFormat::kCsv:
+      return fmt::print("{}", ListTable(all).Csv(columns.names()));
+    case OutputFormat::kTable:
+      fmt::print("{}", ListTable(all).Text(columns.OutputStyle(settings)));
+      if (!all.next_page_token().empty()) fmt::print(stderr, "… and more; --limit 0 lists all\n");
+      return;
+    default:
+      for (const v1::Job& job : all.jobs()) {
+        const bool name = settings.output == OutputFormat::kName;
+        fmt::print("{}", name ? job.name() + "\n" : ToJsonLine(job));
+      }
+  }
+}
+
 ExitCode List(const ListArguments& arguments, const Settings& settings) {
   if (arguments.watch) return ListAndWatch(WatchRequest(arguments), settings);
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kJsonLines,
                           OutputFormat::kCsv, OutputFormat::kName});
   arguments.columns.Check(ListColumns(), settings);
   Client client = Connect(settings);
-  const v1::ListJobsResponse all = ListAll(client, arguments);
-  if (settings.output == OutputFormat::kJson) {
-    PrintJson(ToJson(all), settings);
-  } else if (settings.output == OutputFormat::kCsv) {
-    fmt::print("{}", ListTable(all).Csv(arguments.columns.names()));
-  } else if (settings.output == OutputFormat::kTable) {
-    fmt::print("{}", ListTable(all).Text(arguments.columns.OutputStyle(settings)));
-  } else {
-    const bool names = settings.output == OutputFormat::kName;
-    for (const v1::Job& job : all.jobs()) {
-      fmt::print("{}", names ? job.name() + "\n" : ToJsonLine(job));
-    }
-  }
-  if (settings.output == OutputFormat::kTable && !all.next_page_token().empty()) {
-    fmt::print(stderr, "… and more; --limit 0 lists all\n");
-  }
+  PrintList(ListAll(client, arguments), arguments.columns, settings);
   return ExitCode::kOk;
 }
 
-ExitCode Describe(const std::string& job, const ColumnChoice& columns, const Settings& settings) {
+ExitCode Describe(const DescribeArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
-  columns.Check(LedgerColumns(), settings);
+  arguments.columns.Check(LedgerColumns(), settings);
   Client client = Connect(settings);
-  PrintJob(GetJob(client, job), settings, columns.names());
+  PrintJob(GetJob(client, arguments.job), settings, arguments.columns.names());
   return ExitCode::kOk;
 }
 
@@ -174,59 +182,50 @@ ExitCode Delete(const std::string& job, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-// A command whose one argument is a job.
-CLI::App* AddJobCommand(CLI::App& app, const std::string& name, const std::string& description,
-                        ExitCode (*act)(const std::string&, const Settings&),
-                        const Settings& settings, Action* action) {
-  auto job = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand(name, description);
-  command->add_option("JOB", *job, "ID or jobs/ID")->required();
-  command->callback([job, act, &settings, action] {
-    *action = [job, act, &settings] { return act(*job, settings); };
-  });
-  return command;
+void AddFilter(CommandLine& line, CLI::App& list, ListArguments* arguments) {
+  line.SetKind(list.add_option("--state", arguments->states, "Only jobs in this state; repeatable"),
+               ValueKind::kState)
+      ->take_all()
+      ->allow_extra_args(false);
+  list.add_option("--label", arguments->labels, "Only jobs with this label; repeatable")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
 }
 
-void AddDescribeCommand(CLI::App& app, const Settings& settings, Action* action) {
+// A command whose one argument is a job.
+void AddJobAction(CommandLine& line, CLI::App& command,
+                  ExitCode (*act)(const std::string&, const Settings&)) {
   auto job = std::make_shared<std::string>();
-  auto columns = std::make_shared<ColumnChoice>();
-  CLI::App* describe =
-      app.add_subcommand("describe", "Show a job with its ledger (also: result)")->alias("result");
-  describe->add_option("JOB", *job, "ID or jobs/ID")->required();
-  columns->AddTo(*describe, LedgerColumns());
-  describe->callback([job, columns, &settings, action] {
-    *action = [job, columns, &settings] { return Describe(*job, *columns, settings); };
-  });
+  AddJob(line, command, job.get());
+  line.SetAction(command, job, act);
 }
 
 }  // namespace
 
-void AddJobCommands(CLI::App& app, const Settings& settings, Action* action) {
+void AddList(CommandLine& line, CLI::App& list) {
   auto arguments = std::make_shared<ListArguments>();
-  CLI::App* list = app.add_subcommand("list", "List jobs, newest first");
-  list->add_option("--state", arguments->states, "Only jobs in this state; repeatable")
-      ->take_all()
-      ->allow_extra_args(false)
-      ->type_name("STATE");
-  list->add_option("--label", arguments->labels, "Only jobs with this label; repeatable")
-      ->take_all()
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
-  list->add_option("--limit", arguments->limit, "At most so many; 0 is all")
+  AddFilter(line, list, arguments.get());
+  list.add_option("--limit", arguments->limit, "At most so many; 0 is all")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N")
       ->capture_default_str();
-  list->add_flag("--watch", arguments->watch,
-                 "All of them, and then a line for each change; -o jsonl for programs");
-  arguments->columns.AddTo(*list, ListColumns());
-  list->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return List(*arguments, settings); };
-  });
-
-  AddDescribeCommand(app, settings, action);
-  AddJobCommand(app, "cancel", "Ask a job to stop; what it recorded is kept", Cancel, settings,
-                action);
-  AddJobCommand(app, "delete", "Remove an ended job and its events", Delete, settings, action);
+  list.add_flag("--watch", arguments->watch,
+                "All of them, and then a line for each change; -o jsonl for programs");
+  arguments->columns.AddTo(line, list, ListColumns());
+  line.SetAction(list, arguments, List);
 }
+
+void AddDescribe(CommandLine& line, CLI::App& describe) {
+  auto arguments = std::make_shared<DescribeArguments>();
+  describe.alias("result");
+  AddJob(line, describe, &arguments->job);
+  arguments->columns.AddTo(line, describe, LedgerColumns());
+  line.SetAction(describe, arguments, Describe);
+}
+
+void AddCancel(CommandLine& line, CLI::App& cancel) { AddJobAction(line, cancel, Cancel); }
+
+void AddDelete(CommandLine& line, CLI::App& command) { AddJobAction(line, command, Delete); }
 
 }  // namespace contact::cli

@@ -16,7 +16,7 @@
 #include "cli/paper/index.h"
 #include "cli/paper/items.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -68,7 +68,7 @@ Origin OriginOf(const v1::ServerInfo& info, const PaperArguments& arguments) {
                         ? fmt::format("contactd {}", info.version())
                         : fmt::format("contactd {} ({})", info.version(), info.revision()),
           .solver = ToJsonLine(SolverInFull(TripleChain(0.8, 0.7))),
-          .command = fmt::format("contactctl paper {} -o {}", items, arguments.directory)};
+          .command = fmt::format("contactctl paper {} -d {}", items, arguments.directory)};
 }
 
 void MakeFolder(const std::string& directory) {
@@ -115,25 +115,19 @@ ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
 
 }  // namespace
 
-void AddPaperCommand(CLI::App& app, const Settings& settings, Action* action) {
-  CLI::App* paper = app.add_subcommand(
-      "paper", "Make the paper's figures and tables again, each number beside the published one");
+void AddPaper(CommandLine& line, CLI::App& paper) {
   auto arguments = std::make_shared<PaperArguments>();
-  paper->add_option("ITEM", arguments->items,
-                    fmt::format("{}, or all (default)", fmt::join(PaperItems(), " ")));
-  paper
-      ->add_option("-o,--directory", arguments->directory,
-                   "Where to write data, tables, figures and index.html")
-      ->type_name("DIR")
-      ->capture_default_str();
-  paper
-      ->add_option("--format", arguments->format,
-                   "Draw the figures as svg, png, pdf or tikz. Default: svg, if gnuplot is there")
-      ->check(CLI::IsMember({"svg", "png", "pdf", "tikz"}))
+  line.SetKind(paper.add_option("ITEM", arguments->items,
+                                fmt::format("{}, or all (default)", fmt::join(PaperItems(), " "))),
+               ValueKind::kPaperItem);
+  CLI::Option* directory = AddDestination(line, paper, "-d,--directory", &arguments->directory,
+                                          "Where to write data, tables, figures and index.html");
+  line.SetKind(directory, ValueKind::kDirectory)->capture_default_str();
+  line.SetWords(paper.add_option("--format", arguments->format,
+                                 "How to draw the figures. Default: svg, if gnuplot is there"),
+                {"svg", "png", "pdf", "tikz"})
       ->type_name("FORMAT");
-  paper->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Paper(*arguments, settings); };
-  });
+  line.SetAction(paper, arguments, Paper);
 }
 
 }  // namespace contact::cli

@@ -9,7 +9,7 @@
 #include "cli/figures/picture_output.h"
 #include "cli/figures/presets.h"
 #include "cli/link/connect.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -51,27 +51,20 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
 
 }  // namespace
 
-void AddPlotCommand(CLI::App& app, const Settings& settings, Action* action) {
+void AddPlot(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command = app.add_subcommand(
-      "plot", "Draw a job that has ended, through gnuplot: -o svg, png, pdf, txt, tikz, gp or csv");
-  command->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
-  command->add_option("PRESET", arguments->preset, "What to draw")
-      ->check(CLI::IsMember(PresetNames()))
+  AddJob(line, command, &arguments->job);
+  line.SetWords(command.add_option("PRESET", arguments->preset, "What to draw"), PresetNames())
       ->type_name("")
       ->required();
-  command
-      ->add_option("-f,--file", arguments->file,
-                   "Where to; without -o its ending tells the format, .tex being tikz. Default: "
-                   "PRESET.svg; txt is printed")
-      ->type_name("FILE");
-  command
-      ->add_option("--keep", arguments->keep,
-                   "Keep gnuplot's script and the data as CSV in this folder")
-      ->type_name("DIR");
-  command->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Plot(*arguments, settings); };
-  });
+  line.SetKind(command.add_option("-f,--file", arguments->file,
+                                  "Where to; without -o its ending tells the format, .tex being "
+                                  "tikz. Default: PRESET.svg; txt is printed"),
+               ValueKind::kFile);
+  line.SetKind(command.add_option("--keep", arguments->keep,
+                                  "Keep gnuplot's script and the data as CSV in this folder"),
+               ValueKind::kDirectory);
+  line.SetAction(command, arguments, Plot);
 }
 
 }  // namespace contact::cli

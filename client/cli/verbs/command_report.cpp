@@ -10,7 +10,7 @@
 #include "cli/figures/presets.h"
 #include "cli/figures/run_report.h"
 #include "cli/link/connect.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -69,30 +69,45 @@ void KeepContactForces(Recording* recording) {
   });
 }
 
-ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({OutputFormat::kTable});
-  Client client = Connect(settings);
-  bool drawn = true;
-  const auto draw = [&drawn](auto make) {
-    if (!drawn) return;
+// Draws until a drawing fails, such as without gnuplot; then says so once and draws no more.
+class Drawer {
+ public:
+  template <class Make>
+  void Draw(Make make) {
+    if (failed_) return;
     try {
       make();
-    } catch (const Failure& failure) {  // Such as that gnuplot is not installed.
-      drawn = false;
+    } catch (const Failure& failure) {
+      failed_ = true;
       fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
     }
-  };
-  std::vector<RunPart> runs(arguments.jobs.size());
+  }
+
+ private:
+  bool failed_ = false;
+};
+
+// The runs with their figures, and the figure of all of them together.
+std::string MakePage(Client& client, const std::vector<std::string>& jobs,
+                     const Settings& settings) {
+  Drawer drawer;
+  std::vector<RunPart> runs(jobs.size());
   std::vector<Recording> recordings;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    recordings.push_back(Read(client, arguments.jobs[i], settings));
-    draw([&] { runs[i].figures = DrawAll(recordings[i]); });
+    recordings.push_back(Read(client, jobs[i], settings));
+    drawer.Draw([&] { runs[i].figures = DrawAll(recordings[i]); });
     KeepContactForces(&recordings[i]);
   }
   std::string overlay;
-  draw([&] { overlay = DrawTogether(recordings); });
+  drawer.Draw([&] { overlay = DrawTogether(recordings); });
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].recording = std::move(recordings[i]);
-  const std::string page = ReportPage(runs, overlay, client.server());
+  return ReportPage(runs, overlay, client.server());
+}
+
+ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable});
+  Client client = Connect(settings);
+  const std::string page = MakePage(client, arguments.jobs, settings);
   WriteText(page, arguments.file);
   fmt::print(stderr, "{}  {} kB, opens offline\n", arguments.file, (page.size() + 999) / 1000);
   return ExitCode::kOk;
@@ -100,18 +115,14 @@ ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
 
 }  // namespace
 
-void AddReportCommand(CLI::App& app, const Settings& settings, Action* action) {
+void AddReport(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<ReportArguments>();
-  CLI::App* command = app.add_subcommand(
-      "report", "Write one page about ended runs: ledgers, figures, balances, how to repeat them");
-  command->add_option("JOB", arguments->jobs, "One or more IDs; the first is the baseline")
+  line.SetKind(
+          command.add_option("JOB", arguments->jobs, "One or more IDs; the first is the baseline"),
+          ValueKind::kJob)
       ->required();
-  command->add_option("-o,--file", arguments->file, "Where to")
-      ->type_name("FILE")
-      ->capture_default_str();
-  command->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Report(*arguments, settings); };
-  });
+  AddDestination(line, command, "-f,--file", &arguments->file, "Where to")->capture_default_str();
+  line.SetAction(command, arguments, Report);
 }
 
 }  // namespace contact::cli

@@ -16,8 +16,8 @@
 #include "cli/text/print_job.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/commands.h"
 #include "cli/verbs/follow.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -149,24 +149,30 @@ ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   return CodeOf(result);
 }
 
-std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
-  auto arguments = std::make_shared<RunArguments>();
-  command.add_option("FILE", arguments->file, "Scenario in YAML or JSON; - is the standard input");
-  command
-      .add_option("--like", arguments->like,
-                  "Repeat this job instead of a file; on the same server bit for bit")
-      ->type_name("JOB");
-  command
-      .add_option("-t,--template", arguments->from_template,
-                  "Take a scenario that init would write, instead of a file")
-      ->type_name("TEMPLATE");
-  command
-      .add_option("--set", arguments->overrides,
-                  "Override a field, such as contacts[0].restitution=0.7; repeatable")
-      ->type_name("FIELD=VALUE")
+// Which scenario `run` and `submit` take, and what of it they change.
+void AddScenario(CommandLine& line, CLI::App& command, RunArguments* arguments) {
+  line.SetKind(command.add_option("FILE", arguments->file,
+                                  "Scenario in YAML or JSON; - is the standard input"),
+               ValueKind::kScenarioFile);
+  line.SetKind(command.add_option("--like", arguments->like,
+                                  "Repeat this job instead of a file; on the same server bit for "
+                                  "bit"),
+               ValueKind::kJob);
+  line.SetKind(command.add_option("-t,--template", arguments->from_template,
+                                  "Take a scenario that init would write, instead of a file"),
+               ValueKind::kTemplate);
+  line.SetKind(command.add_option("--set", arguments->overrides,
+                                  "Override a field, such as contacts[0].restitution=0.7; "
+                                  "repeatable"),
+               ValueKind::kAssignment)
       ->take_all()
       ->allow_extra_args(false);
   AddVariableFlag(command, &arguments->variables);
+}
+
+std::shared_ptr<RunArguments> AddArguments(CommandLine& line, CLI::App& command) {
+  auto arguments = std::make_shared<RunArguments>();
+  AddScenario(line, command, arguments.get());
   command
       .add_option("--label", arguments->labels, "Label of the job, to find it again; repeatable")
       ->type_name("KEY=VALUE")
@@ -181,30 +187,27 @@ std::shared_ptr<RunArguments> AddArguments(CLI::App& command) {
 }
 
 // How `run` follows what it submitted.
-void AddFollowing(CLI::App& run, RunArguments* arguments) {
-  run.add_option("--iterations", arguments->rows,
-                 "Rows of the μ-iteration to show: the first 60, all or none")
-      ->check(CLI::IsMember({"first", "all", "none"}))
+void AddFollowing(CommandLine& line, CLI::App& run, RunArguments* arguments) {
+  line.SetWords(run.add_option("--iterations", arguments->rows,
+                               "Rows of the μ-iteration to show: the first 60, all or none"),
+                {"first", "all", "none"})
       ->type_name("ROWS")
       ->capture_default_str();
   run.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
                "A first Ctrl-C cancels the job instead of leaving it to the server");
-  arguments->columns.AddTo(run, LedgerColumns());
+  arguments->columns.AddTo(line, run, LedgerColumns());
 }
 
 }  // namespace
 
-void AddRunCommands(CLI::App& app, const Settings& settings, Action* action) {
-  CLI::App* run = app.add_subcommand("run", "Submit a scenario, watch it, show its result");
-  auto arguments = AddArguments(*run);
-  AddFollowing(*run, arguments.get());
-  run->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Run(*arguments, settings); };
-  });
-  CLI::App* submit = app.add_subcommand("submit", "Submit a scenario and leave");
-  submit->callback([arguments = AddArguments(*submit), &settings, action] {
-    *action = [arguments, &settings] { return Submit(*arguments, settings); };
-  });
+void AddRun(CommandLine& line, CLI::App& command) {
+  const auto arguments = AddArguments(line, command);
+  AddFollowing(line, command, arguments.get());
+  line.SetAction(command, arguments, Run);
+}
+
+void AddSubmit(CommandLine& line, CLI::App& command) {
+  line.SetAction(command, AddArguments(line, command), Submit);
 }
 
 }  // namespace contact::cli

@@ -17,7 +17,7 @@
 #include "cli/input/templates.h"
 #include "cli/link/connect.h"
 #include "cli/text/render_estimate.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 #include "wire/scenario/contact_codec.h"
 #include "wire/sweep/sweep_codec.h"
 
@@ -117,24 +117,17 @@ void WriteBase(const Template& sweep, const std::string& path) {
   }
 }
 
-ExitCode Init(const InitArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
-  if (arguments.list || arguments.name.empty()) {
-    Table table({{"TEMPLATE"}, {"SHOWS"}});
-    for (const Template& scenario : Templates()) {
-      table.Add({std::string(scenario.name), std::string(scenario.shows)});
-    }
-    fmt::print("{}", table.Text(settings.OutputStyle()));
-    fmt::print(stderr, "Next:  contactctl init {}\n", Templates().front().name);
-    return ExitCode::kOk;
+void ListTemplates(const Settings& settings) {
+  Table table({{"TEMPLATE"}, {"SHOWS"}});
+  for (const Template& scenario : Templates()) {
+    table.Add({std::string(scenario.name), std::string(scenario.shows)});
   }
-  const Template& scenario = FindTemplate(arguments.name);
-  if (arguments.file == "-") {
-    fmt::print("{}", scenario.text);
-    return ExitCode::kOk;
-  }
-  const std::string path = arguments.file.empty() ? arguments.name + ".yaml" : arguments.file;
-  WriteFile(path, scenario.text, arguments.force);
+  fmt::print("{}", table.Text(settings.OutputStyle()));
+  fmt::print(stderr, "Next:  contactctl init {}\n", Templates().front().name);
+}
+
+void WriteTemplate(const Template& scenario, const std::string& path, bool force) {
+  WriteFile(path, scenario.text, force);
   fmt::print("{}\n", path);
   const bool sweep = IsSweep(std::string(scenario.text));
   if (sweep) WriteBase(scenario, path);
@@ -143,40 +136,52 @@ ExitCode Init(const InitArguments& arguments, const Settings& settings) {
              "       contactctl schema {}  (beside it, for your editor)\n",
              sweep ? "sweep run" : "run", path,
              sweep ? "sweep > contact-sweep.schema.json" : "> contact.schema.json");
+}
+
+ExitCode Init(const InitArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
+  if (arguments.list || arguments.name.empty()) {
+    ListTemplates(settings);
+    return ExitCode::kOk;
+  }
+  const Template& scenario = FindTemplate(arguments.name);
+  if (arguments.file == "-") {
+    fmt::print("{}", scenario.text);
+    return ExitCode::kOk;
+  }
+  WriteTemplate(scenario, arguments.file.empty() ? arguments.name + ".yaml" : arguments.file,
+                arguments.force);
   return ExitCode::kOk;
 }
 
 }  // namespace
 
-void AddScenarioCommands(CLI::App& app, const Settings& settings, Action* action) {
-  auto scenario = std::make_shared<ValidateArguments>();
-  CLI::App* validate =
-      app.add_subcommand("validate", "Check a scenario or sweep file, without a server");
-  validate
-      ->add_option("FILE", scenario->file,
-                   "Scenario or sweep in YAML or JSON; - is the standard input")
+void AddValidate(CommandLine& line, CLI::App& command) {
+  auto arguments = std::make_shared<ValidateArguments>();
+  line.SetKind(command.add_option("FILE", arguments->file,
+                                  "Scenario or sweep in YAML or JSON; - is the standard input"),
+               ValueKind::kScenarioFile)
       ->required();
-  validate->add_option("--set", scenario->overrides, "Override a field first; repeatable")
-      ->type_name("FIELD=VALUE")
+  line.SetKind(
+          command.add_option("--set", arguments->overrides, "Override a field first; repeatable"),
+          ValueKind::kAssignment)
       ->take_all()
       ->allow_extra_args(false);
-  AddVariableFlag(*validate, &scenario->variables);
-  validate->add_flag("--on-server", scenario->on_server,
-                     "Ask the server too: whether it would take it, and what that would take");
-  validate->callback([scenario, &settings, action] {
-    *action = [scenario, &settings] { return Validate(*scenario, settings); };
-  });
+  AddVariableFlag(command, &arguments->variables);
+  command.add_flag("--on-server", arguments->on_server,
+                   "Ask the server too: whether it would take it, and what that would take");
+  line.SetAction(command, arguments, Validate);
+}
 
+void AddInit(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<InitArguments>();
-  CLI::App* init = app.add_subcommand("init", "Write an example scenario or sweep to start from");
-  init->add_option("TEMPLATE", arguments->name, "Which; without it they are listed");
-  init->add_option("--file", arguments->file, "Where to; - is the standard output")
-      ->type_name("FILE");
-  init->add_flag("--list", arguments->list, "List the templates");
-  init->add_flag("--force", arguments->force, "Replace a file that exists");
-  init->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Init(*arguments, settings); };
-  });
+  line.SetKind(command.add_option("TEMPLATE", arguments->name, "Which; without it they are listed"),
+               ValueKind::kTemplate);
+  line.SetKind(command.add_option("--file", arguments->file, "Where to; - is the standard output"),
+               ValueKind::kFile);
+  command.add_flag("--list", arguments->list, "List the templates");
+  command.add_flag("--force", arguments->force, "Replace a file that exists");
+  line.SetAction(command, arguments, Init);
 }
 
 }  // namespace contact::cli

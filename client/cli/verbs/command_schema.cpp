@@ -5,7 +5,7 @@
 #include "cli/help/contract/json_schema.h"
 #include "cli/help/contract/reference.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -28,19 +28,16 @@ ExitCode Schema(const SchemaArguments& arguments, const Settings& settings) {
 
 }  // namespace
 
-void AddSchemaCommand(CLI::App& app, const Settings& settings, Action* action) {
+void AddSchema(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<SchemaArguments>();
-  CLI::App* schema =
-      app.add_subcommand("schema", "Print the JSON Schema of a scenario file, for editors");
-  schema->add_option("KIND", arguments->kind, "What of: a file, or what -o json prints")
-      ->check(CLI::IsMember({"scenario", "sweep", "job"}))
+  line.SetWords(
+          command.add_option("KIND", arguments->kind, "What of: a file, or what -o json prints"),
+          {"scenario", "sweep", "job"})
       ->type_name("")
       ->capture_default_str();
-  schema->add_flag("--markdown", arguments->markdown,
+  command.add_flag("--markdown", arguments->markdown,
                    "Print the reference of scenario and sweep files as a page instead");
-  schema->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Schema(*arguments, settings); };
-  });
+  line.SetAction(command, arguments, Schema);
 }
 
 }  // namespace contact::cli

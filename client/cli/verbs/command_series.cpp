@@ -9,7 +9,7 @@
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_series.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -57,30 +57,27 @@ ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
 
 }  // namespace
 
-void AddSeriesCommands(CLI::App& app, const Settings& settings, Action* action) {
+void AddSeries(CommandLine& line, CLI::App& series) {
   auto arguments = std::make_shared<SeriesArguments>();
-  CLI::App* series = app.add_subcommand("series", "Print the recorded motion of a job");
-  series->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
-  series
-      ->add_option("--channel", arguments->channels,
-                   "Such as B1.velocity or B1-B2.contact_force; repeatable. Default: all")
+  AddJob(line, series, &arguments->job);
+  line.SetKind(series.add_option("--channel", arguments->channels,
+                                 "Such as B1.velocity or B1-B2.contact_force; repeatable. "
+                                 "Default: all"),
+               ValueKind::kChannel)
       ->take_all()
-      ->allow_extra_args(false)
-      ->type_name("NAME");
-  series->add_option("--from", arguments->from, "Only from this simulated time on")
+      ->allow_extra_args(false);
+  series.add_option("--from", arguments->from, "Only from this simulated time on")
       ->type_name("SECONDS");
-  series->add_option("--to", arguments->to, "Only up to this simulated time")->type_name("SECONDS");
+  series.add_option("--to", arguments->to, "Only up to this simulated time")->type_name("SECONDS");
   series
-      ->add_option("--points", arguments->points,
-                   "At most so many samples, without losing a peak. Default: 1000")
+      .add_option("--points", arguments->points,
+                  "At most so many samples, without losing a peak. Default: 1000")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
-  series->add_flag("--raw", arguments->raw, "Every sample");
-  series->add_flag("--comments", arguments->comments,
-                   "Begin csv with where it comes from, in lines that start with #");
-  series->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Series(*arguments, settings); };
-  });
+  series.add_flag("--raw", arguments->raw, "Every sample");
+  series.add_flag("--comments", arguments->comments,
+                  "Begin csv with where it comes from, in lines that start with #");
+  line.SetAction(series, arguments, Series);
 }
 
 }  // namespace contact::cli

@@ -11,7 +11,7 @@
 #include "cli/link/http_get.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/commands.h"
+#include "cli/verbs/verbs.h"
 #include "version.h"
 
 namespace contact::cli {
@@ -74,37 +74,30 @@ ExitCode Metrics(const std::string& address, const Settings& settings) {
 
 }  // namespace
 
-void AddServerCommands(CLI::App& app, const Settings& settings, Action* action) {
-  app.add_subcommand("version", "Show the version of contactctl")->callback([action] {
-    *action = Version;
-  });
-  CLI::App* server = app.add_subcommand("server", "Ask about the server, back it up");
-  server->require_subcommand(1);
+void AddVersion(CommandLine& line, CLI::App& command) { line.SetAction(command, Version); }
+
+void AddServer(CommandLine& line, CLI::App& server) {
+  server.require_subcommand(1);
   for (const char* name : {"status", "info"}) {
-    server->add_subcommand(name, "Show version, load and limits of the server")
-        ->callback([&settings, action] { *action = [&settings] { return Status(settings); }; });
+    line.SetAction(*server.add_subcommand(name, "Show version, load and limits of the server"),
+                   Status);
   }
   CLI::App* backup =
-      server->add_subcommand("backup", "Copy all jobs and events into a file while it goes on");
+      server.add_subcommand("backup", "Copy all jobs and events into a file while it goes on");
   auto path = std::make_shared<std::string>();
-  backup
-      ->add_option("-o,--file", *path,
-                   "Where to write; put as contactd.db into an empty data directory it is the "
-                   "server's start")
-      ->required()
-      ->type_name("FILE");
-  CLI::App* metrics = server->add_subcommand(
+  AddDestination(line, *backup, "-f,--file", path.get(),
+                 "Where to write; put as contactd.db into an empty data directory it is the "
+                 "server's start")
+      ->required();
+  line.SetAction(*backup, path, Backup);
+
+  CLI::App* metrics = server.add_subcommand(
       "metrics", "Print the metrics of a server that was started with --metrics-listen");
   auto address = std::make_shared<std::string>("127.0.0.1:9464");
   metrics->add_option("--metrics", *address, "Where the server tells them")
       ->type_name("HOST:PORT")
       ->capture_default_str();
-  metrics->callback([address, &settings, action] {
-    *action = [address, &settings] { return Metrics(*address, settings); };
-  });
-  backup->callback([path, &settings, action] {
-    *action = [path, &settings] { return Backup(*path, settings); };
-  });
+  line.SetAction(*metrics, address, Metrics);
 }
 
 }  // namespace contact::cli

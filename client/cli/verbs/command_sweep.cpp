@@ -11,8 +11,8 @@
 #include "cli/base/interrupt.h"
 #include "cli/export/provenance.h"
 #include "cli/figures/heat_map_options.h"
-#include "cli/input/sweep_file.h"
 #include "cli/input/grid_sweep.h"
+#include "cli/input/sweep_file.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
@@ -22,8 +22,8 @@
 #include "cli/text/print_job.h"
 #include "cli/text/render_live.h"
 #include "cli/text/render_sweep.h"
-#include "cli/verbs/commands.h"
 #include "cli/verbs/follow.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -119,58 +119,73 @@ void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& ar
   }
 }
 
-// Follows a sweep to its end, from its first cell on, and prints it.
-ExitCode Follow(Client& client, const std::string& name, const SweepArguments& arguments,
-                const Settings& settings) {
-  v1::Job job = GetSweep(client, name);
-  CheckNames(job.sweep(), arguments, settings);
+// Gathers the cells of a sweep until it ends or the wait does. At the end `job` is the ended one.
+WatchEnd Gather(Client& client, v1::Job* job, const Settings& settings, SweepCells* cells) {
   WatchOptions options;
-  options.name = name;
+  options.name = job->name();
   options.kinds = {"sweep_cell", "progress"};
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
+  CellWatcher watcher(job->name(), settings);
+  const WatchEnd end = Watch(client, options, watcher);
+  if (end == WatchEnd::kFinished) {
+    *job = GetJob(client, job->name());
+    watcher.OnSnapshot(*job);  // The last progress is always told.
+  }
+  *cells = watcher.cells();
+  return end;
+}
+
+// Follows a sweep to its end, from its first cell on, and prints it.
+ExitCode Follow(Client& client, const std::string& name, const SweepArguments& arguments,
+                const Settings& settings) {
+  const bool submitted = arguments.job.empty();
+  v1::Job job = GetSweep(client, name);
+  CheckNames(job.sweep(), arguments, settings);
   SweepCells cells;
   WatchEnd end = WatchEnd::kStopped;
   {
     const Interrupt interrupt;
-    const bool submitted = arguments.job.empty() && settings.output == OutputFormat::kTable;
-    if (submitted) fmt::print(stderr, "{} submitted\n", name);
-    CellWatcher watcher(name, settings);
-    end = Watch(client, options, watcher);
-    if (end == WatchEnd::kFinished) {
-      job = GetJob(client, name);
-      watcher.OnSnapshot(job);  // How far it came.
+    if (submitted && settings.output == OutputFormat::kTable) {
+      fmt::print(stderr, "{} submitted\n", name);
     }
-    cells = watcher.cells();
+    end = Gather(client, &job, settings, &cells);
   }
   if (end != WatchEnd::kFinished) {
-    return arguments.job.empty()
-               ? DetachOrCancel(client, end, name, arguments.cancel_on_interrupt, settings)
-               : Detach(end, name);
+    return submitted ? DetachOrCancel(client, end, name, arguments.cancel_on_interrupt, settings)
+                     : Detach(end, name);
   }
   if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
   Print(job, cells, arguments, settings);
   return CodeOf(job);
 }
 
-ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
-  settings.RequireOutput(
-      {OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson, OutputFormat::kName});
+// The sweep of the file, or the scenario of the file with the axes of --grid.
+v1::Sweep Open(const SweepArguments& arguments) {
+  const VariableValues variables = ParseVariables(arguments.variables);
+  if (arguments.grid.empty()) return OpenSweep(arguments.file, variables);
   const DrawnCells drawn{.count = std::max(arguments.random, arguments.latin_hypercube),
                          .latin_hypercube = arguments.latin_hypercube > 0,
                          .seed = arguments.seed};
-  const VariableValues variables = ParseVariables(arguments.variables);
+  return MakeGrid(arguments.file, arguments.grid, arguments.map.metric(), drawn, variables);
+}
+
+v1::CreateJobRequest Request(const SweepArguments& arguments) {
   v1::CreateJobRequest request;
-  *request.mutable_job()->mutable_sweep() =
-      arguments.grid.empty()
-          ? OpenSweep(arguments.file, variables)
-          : MakeGrid(arguments.file, arguments.grid, arguments.map.metric(), drawn, variables);
-  CheckNames(request.job().sweep(), arguments, settings);
+  *request.mutable_job()->mutable_sweep() = Open(arguments);
   request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }
   arguments.settings.Apply(request.mutable_job());
+  return request;
+}
+
+ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
+  settings.RequireOutput(
+      {OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson, OutputFormat::kName});
+  const v1::CreateJobRequest request = Request(arguments);
+  CheckNames(request.job().sweep(), arguments, settings);
   Client client = Connect(settings);
   const std::string name = client.CallTellingAll(&Client::Stub::CreateJob, request).name();
   const ExitCode code = Follow(client, name, arguments, settings);
@@ -195,82 +210,88 @@ ExitCode Export(const SweepArguments& arguments, const Settings& settings) {
   return code == ExitCode::kNotConverged || code == ExitCode::kRunFailed ? ExitCode::kOk : code;
 }
 
-CLI::App* AddSweepCommand(CLI::App& sweep, const std::string& name, const std::string& description,
-                          const std::shared_ptr<SweepArguments>& arguments,
-                          ExitCode (*act)(const SweepArguments&, const Settings&),
-                          const Settings& settings, Action* action) {
-  CLI::App* command = sweep.add_subcommand(name, description);
-  arguments->map.AddTo(*command);
-  command
-      ->add_option("--heatmap", arguments->heat_map,
-                   "Draw it to this file too, through gnuplot: .svg, .png, .pdf or .tex")
-      ->type_name("FILE");
-  arguments->columns.AddTo(*command);
-  command->add_flag("--comments", arguments->comments,
-                    "Begin csv with where it comes from, in lines that start with #");
-  command->callback([arguments, act, &settings, action] {
-    *action = [arguments, act, &settings] { return act(*arguments, settings); };
-  });
-  return command;
+// What the commands that print the cells of a sweep have in common.
+void AddShowing(CommandLine& line, CLI::App& command,
+                const std::shared_ptr<SweepArguments>& arguments,
+                ExitCode (*act)(const SweepArguments&, const Settings&)) {
+  arguments->map.AddTo(line, command);
+  line.SetKind(command.add_option("--heatmap", arguments->heat_map,
+                                  "Draw it to this file too, through gnuplot: .svg, .png, .pdf or "
+                                  ".tex"),
+               ValueKind::kFile);
+  arguments->columns.AddTo(line, command);
+  command.add_flag("--comments", arguments->comments,
+                   "Begin csv with where it comes from, in lines that start with #");
+  line.SetAction(command, arguments, act);
 }
 
-}  // namespace
-
-void AddSweepCommands(CLI::App& app, const Settings& settings, Action* action) {
-  CLI::App* sweep = app.add_subcommand("sweep", "Solve a scenario for many values of its fields");
-  sweep->require_subcommand(1);
-  auto arguments = std::make_shared<SweepArguments>();
-  CLI::App* run = AddSweepCommand(*sweep, "run", "Submit a sweep, watch it, show its cells",
-                                  arguments, Run, settings, action);
-  run->add_option("FILE", arguments->file,
-                  "Sweep in YAML or JSON; - is the standard input. With --grid a scenario")
-      ->required();
-  AddVariableFlag(*run, &arguments->variables);
+// Axes on the command line, instead of a sweep file.
+void AddAxes(CLI::App& run, SweepArguments* arguments) {
   CLI::Option* grid =
-      run->add_option(
-             "--grid", arguments->grid,
-             "Every value of this field with every one of the others, such as "
-             "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is then "
-             "what is computed, iterations unless given")
+      run.add_option("--grid", arguments->grid,
+                     "Every value of this field with every one of the others, such as "
+                     "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is "
+                     "then what is computed, iterations unless given")
           ->type_name("FIELD=VALUES")
           ->take_all()
           ->allow_extra_args(false);
   CLI::Option* random =
-      run->add_option(
-             "--random", arguments->random,
-             "So many cells with values drawn by chance, each axis of --grid as FIELD=LOW:HIGH "
-             "or FIELD=A,B,C")
+      run.add_option("--random", arguments->random,
+                     "So many cells with values drawn by chance, each axis of --grid as "
+                     "FIELD=LOW:HIGH or FIELD=A,B,C")
           ->type_name("CELLS")
           ->check(CLI::Range(1, 1'000'000))
           ->needs(grid);
-  run->add_option("--lhs", arguments->latin_hypercube,
-                  "The same as a Latin hypercube, which covers every axis evenly")
+  run.add_option("--lhs", arguments->latin_hypercube,
+                 "The same as a Latin hypercube, which covers every axis evenly")
       ->type_name("CELLS")
       ->check(CLI::Range(1, 1'000'000))
       ->needs(grid)
       ->excludes(random);
-  run->add_option("--seed", arguments->seed,
-                  "Of the drawn values: the same seed, the same cells (default 0)")
+  run.add_option("--seed", arguments->seed,
+                 "Of the drawn values: the same seed, the same cells (default 0)")
       ->needs(grid);
-  run->add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
-                "A first Ctrl-C cancels the sweep instead of leaving it to the server");
-  run->add_option("--label", arguments->labels, "Label of the job; repeatable")
+}
+
+void AddSubmission(CommandLine& line, CLI::App& run, SweepArguments* arguments) {
+  line.SetKind(run.add_option("FILE", arguments->file,
+                              "Sweep in YAML or JSON; - is the standard input. With --grid a "
+                              "scenario"),
+               ValueKind::kScenarioFile)
+      ->required();
+  AddVariableFlag(run, &arguments->variables);
+  AddAxes(run, arguments);
+  run.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
+               "A first Ctrl-C cancels the sweep instead of leaving it to the server");
+  run.add_option("--label", arguments->labels, "Label of the job; repeatable")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->allow_extra_args(false);
-  run->add_option("--request-id", arguments->request_id,
-                  "The same id and sweep make one job, however often submitted")
+  run.add_option("--request-id", arguments->request_id,
+                 "The same id and sweep make one job, however often submitted")
       ->type_name("ID");
-  arguments->settings.AddTo(*run);
-  AddSweepCommand(*sweep, "watch", "Follow a sweep to its end, show its cells", arguments, Show,
-                  settings, action)
-      ->add_option("JOB", arguments->job, "ID or jobs/ID")
-      ->required();
-  AddSweepCommand(*sweep, "export", "Print the cells of a sweep, with -o csv or json all of them",
-                  arguments, Export, settings, action)
-      ->add_option("JOB", arguments->job, "ID or jobs/ID")
-      ->required();
-  AddSweepCellCommands(*sweep, settings, action);
+  arguments->settings.AddTo(run);
+}
+
+}  // namespace
+
+void AddSweep(CommandLine& line, CLI::App& sweep) {
+  sweep.require_subcommand(1);
+  auto arguments = std::make_shared<SweepArguments>();
+  CLI::App* run = sweep.add_subcommand("run", "Submit a sweep, watch it, show its cells");
+  AddShowing(line, *run, arguments, Run);
+  AddSubmission(line, *run, arguments.get());
+
+  CLI::App* watch = sweep.add_subcommand("watch", "Follow a sweep to its end, show its cells");
+  AddShowing(line, *watch, arguments, Show);
+  AddJob(line, *watch, &arguments->job);
+
+  CLI::App* cells =
+      sweep.add_subcommand("export", "Print the cells of a sweep, with -o csv or json all of them");
+  AddShowing(line, *cells, arguments, Export);
+  AddJob(line, *cells, &arguments->job);
+
+  AddSweepCell(line, sweep);
 }
 
 }  // namespace contact::cli

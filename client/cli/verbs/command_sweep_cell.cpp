@@ -8,9 +8,9 @@
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/commands.h"
 #include "cli/verbs/follow.h"
 #include "cli/verbs/sweep_cell.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -77,7 +77,7 @@ ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
     const std::string text = arguments.map.Text(job.sweep(), cells, settings.OutputStyle());
     if (text.empty()) {
       throw Failure(ExitCode::kUsage,
-                    "a heat map is of a grid of two axes that fits into the terminal; -o draws a "
+                    "a heat map is of a grid of two axes that fits into the terminal; -f draws a "
                     "larger one");
     }
     fmt::print("{}", text.substr(1));  // Nothing stands above it.
@@ -87,32 +87,27 @@ ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
 
 }  // namespace
 
-void AddSweepCellCommands(CLI::App& sweep, const Settings& settings, Action* action) {
+void AddSweepCell(CommandLine& line, CLI::App& sweep) {
   CLI::App* map = sweep.add_subcommand("heatmap", "Show a metric over two axes");
   auto drawn = std::make_shared<HeatMapArguments>();
-  map->add_option("JOB", drawn->job, "ID or jobs/ID")->required();
-  map->add_option(
-         "-o,-f,--file", drawn->file,
-         "Draw it to this file through gnuplot: .svg, .png, .pdf or .tex. Default: print it")
-      ->type_name("FILE");
-  drawn->map.AddTo(*map);
-  map->callback([drawn, &settings, action] {
-    *action = [drawn, &settings] { return DrawMap(*drawn, settings); };
-  });
+  AddJob(line, *map, &drawn->job);
+  AddDestination(
+      line, *map, "-f,--file", &drawn->file,
+      "Draw it to this file through gnuplot: .svg, .png, .pdf or .tex. Default: print it");
+  drawn->map.AddTo(line, *map);
+  line.SetAction(*map, drawn, DrawMap);
 
   CLI::App* cell = sweep.add_subcommand(
       "cell", "Show one cell whole: its values, its metrics, why it failed; or run it alone");
   auto arguments = std::make_shared<CellArguments>();
-  cell->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
+  AddJob(line, *cell, &arguments->job);
   cell->add_option("CELL", arguments->cell,
                    "Its number, or its values, such as contacts[*].restitution=0.7,bodies[0]"
                    ".velocity_m_per_s=0.2; the last part of a field is enough")
       ->required();
   cell->add_flag("--run", arguments->run,
                  "Run its scenario as a job of its own, which can be plotted");
-  cell->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Cell(*arguments, settings); };
-  });
+  line.SetAction(*cell, arguments, Cell);
 }
 
 }  // namespace contact::cli

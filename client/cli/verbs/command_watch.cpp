@@ -20,8 +20,8 @@
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
 #include "cli/text/render_live.h"
-#include "cli/verbs/commands.h"
 #include "cli/verbs/follow.h"
+#include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
@@ -76,6 +76,22 @@ double ParseReplay(const std::string& text) {
   return speed;
 }
 
+// Draws until the job ends, its replay is over or the user stops it. `mistake` says why nothing
+// can be drawn; none if all is well.
+WatchEnd DrawLive(Client& client, WatchOptions options, const WatchArguments& arguments,
+                  double replay, std::optional<std::string>* mistake) {
+  LivePlot plot(stdout, {arguments.plot, replay, TerminalHasUtf8()});
+  options.stopped = [&plot] { return Interrupt::raised() || plot.mistake(); };
+  const WatchEnd end = Watch(client, options, plot);
+  plot.OnTick();
+  while (plot.replaying() && !options.stopped()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    plot.OnTick();
+  }
+  *mistake = plot.mistake();
+  return end;
+}
+
 ExitCode WatchPlot(const WatchArguments& arguments, const Settings& settings) {
   const double replay = ParseReplay(arguments.replay);
   if (isatty(STDOUT_FILENO) == 0) {
@@ -88,18 +104,7 @@ ExitCode WatchPlot(const WatchArguments& arguments, const Settings& settings) {
   options.kinds = {"attempt_started", "frame_chunk"};
   const Interrupt interrupt;
   std::optional<std::string> mistake;
-  WatchEnd end = WatchEnd::kStopped;
-  {
-    LivePlot plot(stdout, {arguments.plot, replay, TerminalHasUtf8()});
-    options.stopped = [&plot] { return Interrupt::raised() || plot.mistake(); };
-    end = Watch(client, options, plot);
-    plot.OnTick();
-    while (plot.replaying() && !options.stopped()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      plot.OnTick();
-    }
-    mistake = plot.mistake();
-  }
+  const WatchEnd end = DrawLive(client, options, arguments, replay, &mistake);
   if (mistake) throw Failure(ExitCode::kUsage, *mistake);
   return end == WatchEnd::kFinished ? CodeOf(GetJob(client, arguments.job))
                                     : Detach(end, options.name);
@@ -149,40 +154,41 @@ ExitCode Wait(const std::string& job, const Settings& settings) {
   return CodeOf(result);
 }
 
+void AddPlotting(CommandLine& line, CLI::App& watch, WatchArguments* arguments) {
+  line.SetKind(watch
+                   .add_option("--plot", arguments->plot,
+                               "Draw these channels on the terminal, such as "
+                               "B1.velocity,B1-B2.contact_force")
+                   ->delimiter(','),
+               ValueKind::kChannel);
+  watch.add_option("--replay", arguments->replay, "With --plot: simulated seconds in a second")
+      ->type_name("SPEEDx");
+}
+
 }  // namespace
 
-void AddWatchCommands(CLI::App& app, const Settings& settings, Action* action) {
+void AddWatch(CommandLine& line, CLI::App& watch) {
   auto arguments = std::make_shared<WatchArguments>();
-  CLI::App* watch = app.add_subcommand(
-      "watch", "Show what happened to a job from its start, and what happens until its end");
-  watch->add_option("JOB", arguments->job, "ID or jobs/ID")->required();
-  watch->add_option("--after-sequence", arguments->after_sequence, "Only later events")
+  AddJob(line, watch, &arguments->job);
+  watch.add_option("--after-sequence", arguments->after_sequence, "Only later events")
       ->type_name("N");
-  watch->add_option("--kinds", arguments->kinds, "Only these, such as cycle,iteration")
-      ->delimiter(',')
-      ->type_name("KIND,…");
-  watch->add_flag("--live", arguments->live_only, "Only what happens from now on")
+  line.SetKind(watch.add_option("--kinds", arguments->kinds, "Only these, such as cycle,iteration")
+                   ->delimiter(','),
+               ValueKind::kEventKind);
+  watch.add_flag("--live", arguments->live_only, "Only what happens from now on")
       ->excludes("--after-sequence");
   watch
-      ->add_option("--min-frame-interval", arguments->min_frame_interval,
-                   "Of frame chunks that follow each other sooner only the newest, and a gap")
+      .add_option("--min-frame-interval", arguments->min_frame_interval,
+                  "Of frame chunks that follow each other sooner only the newest, and a gap")
       ->type_name("DURATION");
-  watch
-      ->add_option("--plot", arguments->plot,
-                   "Draw these channels on the terminal, such as B1.velocity,B1-B2.contact_force")
-      ->delimiter(',')
-      ->type_name("NAME,…");
-  watch->add_option("--replay", arguments->replay, "With --plot: simulated seconds in a second")
-      ->type_name("SPEEDx");
-  watch->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return WatchEvents(*arguments, settings); };
-  });
+  AddPlotting(line, watch, arguments.get());
+  line.SetAction(watch, arguments, WatchEvents);
+}
 
+void AddWait(CommandLine& line, CLI::App& wait) {
   auto job = std::make_shared<std::string>();
-  CLI::App* wait = app.add_subcommand("wait", "Wait for the end of a job");
-  wait->add_option("JOB", *job, "ID or jobs/ID")->required();
-  wait->callback(
-      [job, &settings, action] { *action = [job, &settings] { return Wait(*job, settings); }; });
+  AddJob(line, wait, job.get());
+  line.SetAction(wait, job, Wait);
 }
 
 }  // namespace contact::cli

@@ -89,27 +89,27 @@ ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
 
 }  // namespace
 
-void AddLawPlotCommand(CLI::App& model, const Settings& settings, Action* action) {
+void AddLawPlot(CommandLine& line, CLI::App& model) {
   CLI::App* plot = model.add_subcommand(
       "plot",
       "Draw damping laws over the restitution asked for: -o svg, png, pdf, txt, tikz, gp "
       "or csv");
   auto arguments = std::make_shared<ModelPlotArguments>();
-  plot->add_option("WHAT", arguments->what,
-                   "alpha, the coefficient of each law, or restitution, what it gives back")
-      ->check(CLI::IsMember({"alpha", "restitution"}))
+  line.SetWords(plot->add_option("WHAT", arguments->what,
+                                 "alpha, the coefficient of each law, or restitution, what it "
+                                 "gives back"),
+                {"alpha", "restitution"})
       ->type_name("")
       ->required();
-  plot->add_option("LAW", arguments->laws,
-                   "Laws to draw, such as hunt-crossley. Default: all with a closed form, for "
-                   "which no server is needed");
-  plot->add_option("-f,--file", arguments->file,
-                   "Where to; without -o its ending tells the format, .tex being tikz. Default: "
-                   "WHAT.svg; txt is printed")
-      ->type_name("FILE");
-  plot->callback([arguments, &settings, action] {
-    *action = [arguments, &settings] { return Plot(*arguments, settings); };
-  });
+  line.SetKind(plot->add_option("LAW", arguments->laws,
+                                "Laws to draw, such as hunt-crossley. Default: all with a closed "
+                                "form, for which no server is needed"),
+               ValueKind::kLaw);
+  line.SetKind(plot->add_option("-f,--file", arguments->file,
+                                "Where to; without -o its ending tells the format, .tex being "
+                                "tikz. Default: WHAT.svg; txt is printed"),
+               ValueKind::kFile);
+  line.SetAction(*plot, arguments, Plot);
 }
 
 }  // namespace contact::cli

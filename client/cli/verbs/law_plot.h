@@ -1,12 +1,11 @@
 #pragma once
 
-#include <CLI/App.hpp>
-
-#include "cli/settings/settings.h"
+#include "cli/settings/command_line.h"
 
 namespace contact::cli {
 
-/// Adds `plot` to the command `model`: α, or the restitution delivered, over the one asked for.
-void AddLawPlotCommand(CLI::App& model, const Settings& settings, Action* action);
+/// Adds the command `plot` to `model`: draws the coefficient α of damping laws, or the restitution
+/// that they deliver, over the restitution asked for.
+void AddLawPlot(CommandLine& line, CLI::App& model);
 
 }  // namespace contact::cli

@@ -9,6 +9,7 @@
 #include "cli/base/interrupt.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
+#include "cli/link/job_source.h"
 #include "cli/verbs/follow.h"
 
 namespace contact::cli {
@@ -20,31 +21,33 @@ constexpr double kHertzStiffness = 1e8, kLinearStiffness = 1e6;
 
 std::string NameOf(std::size_t point) { return fmt::format("P{}", point); }
 
-v1::Job RunToItsEnd(Client& client, const v1::Scenario& scenario, const Settings& settings) {
-  v1::CreateJobRequest create;
-  *create.mutable_job()->mutable_scenario() = scenario;
-  create.set_request_id(RandomRequestId());
-  const v1::Job job = client.Call(&Client::Stub::CreateJob, create);
+void WaitForEnd(Client& client, const std::string& name, const Settings& settings) {
   WatchOptions options;
-  options.name = job.name();
+  options.name = name;
   options.kinds = {"state_changed"};
   options.deadline = settings.Deadline();
   options.stopped = Interrupt::raised;
   const Interrupt interrupt;
   WatchObserver silence;
   const WatchEnd end = Watch(client, options, silence);
-  if (end != WatchEnd::kFinished) {
-    throw Failure(Detach(end, job.name()), "the comparison is not complete");
-  }
-  v1::GetJobRequest get;
-  get.set_name(job.name());
-  v1::Job result = client.Call(&Client::Stub::GetJob, get);
+  if (end != WatchEnd::kFinished)
+    throw Failure(Detach(end, name), "the comparison is not complete");
+}
+
+// Runs the scenario as a job and deletes the job. Throws Failure unless the run succeeds.
+v1::Job RunToItsEnd(Client& client, const v1::Scenario& scenario, const Settings& settings) {
+  v1::CreateJobRequest create;
+  *create.mutable_job()->mutable_scenario() = scenario;
+  create.set_request_id(RandomRequestId());
+  const std::string name = client.Call(&Client::Stub::CreateJob, create).name();
+  WaitForEnd(client, name, settings);
+  v1::Job result = GetJob(client, name);
   if (result.state() != v1::Job::SUCCEEDED) {
-    throw Failure(ExitCode::kRunFailed, fmt::format("{} did not succeed: contactctl describe {}",
-                                                    result.name(), ShortName(result.name())));
+    throw Failure(ExitCode::kRunFailed,
+                  fmt::format("{} did not succeed: contactctl describe {}", name, ShortName(name)));
   }
   v1::DeleteJobRequest remove;
-  remove.set_name(job.name());
+  remove.set_name(name);
   client.Call(&Client::Stub::DeleteJob, remove);
   return result;
 }
@@ -61,11 +64,8 @@ const LawEntry& FindLaw(const std::string& text) {
     if (law.name == name) return law;
     names.push_back(law.name);
   }
-  const std::string_view nearest = Nearest(name, names);
-  throw Failure(ExitCode::kUsage,
-                fmt::format("there is no law {} — {}", Quoted(text),
-                            nearest.empty() ? "see contactctl model list"
-                                            : fmt::format("did you mean '{}'?", nearest)));
+  throw Failure(ExitCode::kUsage, WithHint(fmt::format("there is no law {}", Quoted(text)),
+                                           DidYouMean(name, names, "see contactctl model list")));
 }
 
 v1::Scenario CollisionsOf(const std::vector<LawPoint>& points) {

@@ -9,26 +9,28 @@
 
 namespace contact::cli {
 
-/// What a law gives back of the restitution asked for, in an isolated collision.
+/// The restitution that a law delivers in an isolated collision.
 struct LawPoint {
-  const LawEntry* law = nullptr;
-  double requested = 0;
-  double delivered = 0;
-  std::string_view method;  ///< `closed form` or `simulation`.
+  const LawEntry* law = nullptr;  ///< In the catalogue, which is never destroyed.
+  double requested = 0;           ///< Restitution asked for, in (0, 1].
+  double delivered = 0;           ///< Restitution that results; 0: not known yet.
+  std::string_view method;        ///< `closed form` or `simulation`.
 
+  /// Deviation relative to the restitution asked for.
   double miss() const { return delivered / requested - 1; }
 };
 
-/// The law with this name; `hunt-crossley` is as good as HUNT_CROSSLEY. Throws Failure (kUsage),
-/// which suggests the nearest one.
+/// The law with this name, written as HUNT_CROSSLEY or hunt-crossley. Throws Failure (kUsage) with
+/// the nearest name if there is no such law.
 const LawEntry& FindLaw(const std::string& text);
 
-/// The scenario in which each of these points is a ball that hits a wall of its own, one after
-/// the other. Contact i of its ledger is point i.
+/// A scenario with a ball and a wall for each point. The balls hit their walls one after the other.
+/// Contact i is point i.
 v1::Scenario CollisionsOf(const std::vector<LawPoint>& points);
 
-/// Fills `delivered` of points without a closed form from a run on the server, which is removed
-/// afterwards. Throws Failure.
+/// Fills `delivered` of the points whose law has no closed form, from one run on the server. The
+/// job is deleted afterwards. Without such points no server is asked. Throws Failure and
+/// CallFailure.
 void Simulate(std::vector<LawPoint>* points, const Settings& settings);
 
 }  // namespace contact::cli

@@ -5,7 +5,9 @@
 
 namespace contact::cli {
 
-/// Shows the jobs of a filter, and then a line for each change, until Ctrl-C or --timeout.
+/// Prints a line for each job that `request` selects, then a line for each change, until Ctrl-C or
+/// --timeout. Returns kInterrupted or kTimeout. Throws Failure (kUsage) unless the output is a
+/// table or JSON lines, and CallFailure.
 ExitCode ListAndWatch(const v1::WatchJobsRequest& request, const Settings& settings);
 
 }  // namespace contact::cli

@@ -45,11 +45,10 @@ int AxisOf(const v1::Sweep& sweep, const std::string& field) {
     names.push_back(std::string_view(name).substr(name.rfind('.') + 1));
   }
   if (found.size() == 1) return found.front();
-  const std::string_view nearest = Nearest(field, names);
-  throw Failure(ExitCode::kUsage,
-                fmt::format("{} is no axis of this sweep — {}", Quoted(field),
-                            nearest.empty() ? fmt::format("axes are {}", fmt::join(axes, ", "))
-                                            : fmt::format("did you mean '{}'?", nearest)));
+  throw Failure(
+      ExitCode::kUsage,
+      WithHint(fmt::format("{} is no axis of this sweep", Quoted(field)),
+               DidYouMean(field, names, fmt::format("axes are {}", fmt::join(axes, ", ")))));
 }
 
 std::vector<Choice> ReadChoices(const v1::Sweep& sweep, const std::string& text) {

@@ -8,19 +8,20 @@
 
 namespace contact::cli {
 
-/// Waits for the end of a sweep and fetches its cells. Throws CallFailure, and Failure (kTimeout,
-/// kInterrupted) when the wait ends first.
+/// Waits for the end of the sweep `job` and fetches its cells. Throws CallFailure, and Failure
+/// (kTimeout, kInterrupted) when the wait ends first.
 SweepCells ReadCells(Client& client, const v1::Job& job, const Settings& settings);
 
-/// The cell with this number, or with the values of `FIELD=VALUE,…` to six digits; the fields are
-/// axes, or what these end with after a dot. Throws Failure (kUsage) unless that is one cell.
+/// The cell that `text` names: by its index, or by `FIELD=VALUE,…` with values to six digits. A
+/// field is that of an axis, or its last part after a dot. Throws Failure (kUsage) unless exactly
+/// one cell is named. The result is in `cells`.
 const v1::SweepCell& FindCell(const v1::Sweep& sweep, const SweepCells& cells,
                               const std::string& text);
 
-/// A cell for people: what became of it and why, its values, its metrics.
+/// A cell of the sweep `job` as text: its state and why it failed, its values, its metrics.
 std::string RenderCell(const v1::Job& job, const v1::SweepCell& cell, const Style& style);
 
-/// The base with the values of the cell.
+/// The scenario of a cell: the base of the sweep with the values of the cell.
 v1::Scenario ScenarioOf(const v1::Sweep& sweep, const v1::SweepCell& cell);
 
 }  // namespace contact::cli

@@ -27,9 +27,7 @@ using Columns = std::vector<v1::FrameChunk::Column>;
 std::string ChannelHint(const std::string& name, const Columns& channels) {
   std::vector<std::string_view> names;
   for (const auto& channel : channels) names.push_back(channel.name());
-  const std::string_view nearest = Nearest(name, names);
-  if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
-  return fmt::format("channels are {}", fmt::join(names, ", "));
+  return DidYouMean(name, names, fmt::format("channels are {}", fmt::join(names, ", ")));
 }
 
 // The time and the channels asked for, each once.

@@ -68,9 +68,7 @@ std::string FieldHint(const google::protobuf::Descriptor& message, const std::st
   std::vector<std::string_view> names;
   names.reserve(static_cast<std::size_t>(message.field_count()));
   for (int i = 0; i < message.field_count(); ++i) names.push_back(message.field(i)->name());
-  const std::string_view nearest = Nearest(name, names);
-  if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
-  return fmt::format("fields are {}", fmt::join(names, ", "));
+  return DidYouMean(name, names, fmt::format("fields are {}", fmt::join(names, ", ")));
 }
 
 }  // namespace contact

@@ -131,11 +131,9 @@ int BodyNames::Find(std::string_view name, std::string_view field, const Rules& 
 std::string BodyNames::Hint(std::string_view name) const {
   std::vector<std::string_view> names;
   for (const Body& body : bodies_) names.push_back(body.name);
-  const std::string_view nearest = Nearest(name, names);
-  if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
   constexpr std::size_t kFew = 8;
-  if (names.empty() || names.size() > kFew || !std::ranges::all_of(names, IsName)) return {};
-  return fmt::format("bodies are {}", fmt::join(names, ", "));
+  const bool few = !names.empty() && names.size() <= kFew && std::ranges::all_of(names, IsName);
+  return DidYouMean(name, names, few ? fmt::format("bodies are {}", fmt::join(names, ", ")) : "");
 }
 
 }  // namespace contact

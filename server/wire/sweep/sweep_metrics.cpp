@@ -97,10 +97,9 @@ void SweepMetrics::CheckNames(const Scenario& scenario, std::vector<Violation>* 
       for (const Body& body : scenario.bodies) names.push_back(body.name);
     }
     if (std::ranges::find(names, root.key) != names.end()) continue;
-    const std::string_view nearest = Nearest(root.key, names);
     Rules(violations, "metrics", static_cast<int>(i))
         .Break("", fmt::format("the base has no {}", Quoted(root.key)),
-               nearest.empty() ? "" : fmt::format("did you mean '{}'?", nearest));
+               DidYouMean(root.key, names));
   }
 }
 

@@ -66,7 +66,7 @@ class Usage(unittest.TestCase):
                          "contactctl: unknown command 'inof' — did you mean 'info'?\n"
                          "See contactctl server --help.\n")
         self.assertIn("— did you mean 'table'?\n", self.run_it("list", "-o", "tabel", code=2)[1])
-        self.assertIn("— did you mean RUNNING?\n",
+        self.assertIn("— did you mean 'RUNNING'?\n",
                       self.run_it("list", "--state", "runing", code=2)[1])
 
     def test_wrong_usage_is_code_2_on_stderr(self):

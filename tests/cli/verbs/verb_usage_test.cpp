@@ -1,0 +1,150 @@
+// What verbs refuse before they ask a server: no server answers in these tests.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "cli/base/failure.h"
+#include "cli/base/scratch_folder.h"
+#include "cli/verbs/verbs.h"
+
+namespace contact::cli {
+namespace {
+
+using testing::HasSubstr;
+
+struct End {
+  ExitCode code = ExitCode::kOk;
+  std::string told;     ///< What() of a failure.
+  std::string printed;  ///< To the standard output.
+};
+
+// The end of a command line.
+End EndOf(std::vector<std::string> words) {
+  CommandLine line("A program.");
+  AddGlobalFlags(line);
+  AddVerbs(line);
+  words.insert(words.begin(), {"--server", "127.0.0.1:1"});
+  std::reverse(words.begin(), words.end());
+  line.app().parse(words);
+  testing::internal::CaptureStdout();
+  End end;
+  try {
+    end.code = line.action()();
+  } catch (const Failure& failure) {
+    end.code = failure.code();
+    end.told = failure.what();
+  }
+  std::fflush(stdout);
+  end.printed = testing::internal::GetCapturedStdout();
+  return end;
+}
+
+void ExpectUsage(const std::vector<std::string>& words, const std::string& told) {
+  const End end = EndOf(words);
+  EXPECT_EQ(end.code, ExitCode::kUsage) << end.told;
+  EXPECT_THAT(end.told, HasSubstr(told));
+  EXPECT_EQ(end.printed, "");
+}
+
+TEST(VerbUsageTest, FormatThatACommandDoesNotPrintIsRefused) {
+  ExpectUsage({"list", "-o", "svg"}, "--output svg: this command prints table, json, yaml");
+  ExpectUsage({"watch", "x", "-o", "json"}, "this command prints table, jsonl");
+  ExpectUsage({"delete", "x", "-o", "json"}, "this command prints table, name");
+  ExpectUsage({"export", "x", "-o", "svg"},
+              "this command prints jsonl, csv, netcdf, mat, protobuf");
+  ExpectUsage({"compare", "x", "y", "-o", "name"}, "this command prints table, json, yaml, csv");
+  ExpectUsage({"model", "show", "exact", "-o", "csv"}, "this command prints table, json");
+}
+
+TEST(VerbUsageTest, RunTakesExactlyOneScenario) {
+  ExpectUsage({"run"}, "give a FILE, --template NAME or --like JOB");
+  ExpectUsage({"run", "a.yaml", "-t", "two-balls"}, "one of them");
+  ExpectUsage({"submit", "-t", "table-3-sweep"}, "is a sweep");
+  ExpectUsage({"run", "-t", "tow-balls"}, "did you mean 'two-balls'?");
+  ExpectUsage({"run", "-t", "two-balls", "--set", "contacts"}, "--set");
+}
+
+TEST(VerbUsageTest, ExportRefusesWhatAFormatCannotHave) {
+  ExpectUsage({"export", "x", "-o", "mat"}, "mat is no text; give a file with -f");
+  ExpectUsage({"export", "x", "-o", "protobuf"}, "protobuf is no text");
+  ExpectUsage({"export", "x", "-f", "x.pb", "--every", "2"}, "protobuf has all that was recorded");
+  ExpectUsage({"export", "x", "-f", "x.nc", "--precision", "3"}, "--precision is of csv and jsonl");
+  ExpectUsage({"export", "x", "-f", "x.jsonl", "--comments"}, "--comments are of csv");
+  ExpectUsage({"export", "x", "--table", "cycles", "--every", "2"}, "are of the series");
+  ExpectUsage({"export", "x", "--every", "2", "--max-points", "9"}, "do not go together");
+}
+
+TEST(VerbUsageTest, WatchRefusesSpeedsAndPlotsThatCannotBe) {
+  ExpectUsage({"watch", "x", "--replay", "1e-3x"}, "--replay goes with --plot");
+  ExpectUsage({"watch", "x", "--plot", "a", "--replay", "0x"}, "must be a speed > 0");
+  ExpectUsage({"watch", "x", "--plot", "a", "--replay", "fast"}, "must be a speed > 0");
+}
+
+TEST(VerbUsageTest, StateAndLabelsAreChecked) {
+  ExpectUsage({"list", "--state", "runing"}, "did you mean 'RUNNING'?");
+  ExpectUsage({"list", "--state", "gone"}, "one of QUEUED, RUNNING, SUCCEEDED, FAILED, CANCELLED");
+  ExpectUsage({"list", "--columns", "ownr"}, "there is no column");
+  ExpectUsage({"list", "-o", "json", "--columns", "job"}, "--columns");
+}
+
+TEST(VerbUsageTest, ServerThatIsNotThereIsCode4) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"list"},
+                                                {"describe", "x"},
+                                                {"cancel", "x"},
+                                                {"plot", "x", "force"},
+                                                {"report", "x"},
+                                                {"sweep", "cell", "x", "0"},
+                                                {"run", "-t", "two-balls"}}) {
+    EXPECT_EQ(EndOf(words).code, ExitCode::kUnreachable) << words.front();
+  }
+}
+
+TEST(VerbUsageTest, TutorialNamesCommandsThatThereAre) {
+  const std::string tutorial = EndOf({"help", "tutorial"}).printed;
+  std::size_t commands = 0;
+  for (std::size_t at = tutorial.find("contactctl "); at != std::string::npos;
+       at = tutorial.find("contactctl ", at + 1)) {
+    const std::size_t begin = at + std::string("contactctl ").size();
+    const std::string verb = tutorial.substr(begin, tutorial.find_first_of(" \n", begin) - begin);
+    EXPECT_TRUE(std::ranges::any_of(Verbs(), [&](const Verb& v) { return v.name == verb; }))
+        << verb;
+    ++commands;
+  }
+  EXPECT_GT(commands, 5U);
+}
+
+TEST(VerbUsageTest, LawsAreShownWithoutAServer) {
+  EXPECT_THAT(EndOf({"model", "show", "hunt-crossley"}).printed,
+              HasSubstr("In an isolated collision"));
+  EXPECT_THAT(EndOf({"model", "list", "-o", "json"}).printed, HasSubstr(R"("law": "EXACT")"));
+  EXPECT_THAT(EndOf({"model", "list", "-o", "yaml"}).printed, HasSubstr("law: EXACT"));
+  EXPECT_THAT(EndOf({"model", "compare", "exact", "-o", "csv"}).printed,
+              testing::StartsWith("law,requested,delivered,miss,method\nEXACT,0.05,"));
+  ExpectUsage({"model", "compare", "exact", "--restitution", "0"}, "must be in (0, 1]");
+}
+
+TEST(VerbUsageTest, InitWritesAFileOnceUnlessForced) {
+  const ScratchFolder folder;
+  const std::string path = folder.path() / "mine.yaml";
+  EXPECT_EQ(EndOf({"init", "two-balls", "--file", path}).printed, path + "\n");
+  EXPECT_EQ(EndOf({"init", "two-balls", "--file", path}).code, ExitCode::kLocal);
+  EXPECT_EQ(EndOf({"init", "two-balls", "--file", path, "--force"}).code, ExitCode::kOk);
+  EXPECT_THAT(EndOf({"validate", path}).printed, HasSubstr("valid; 2 bodies"));
+}
+
+TEST(VerbUsageTest, ConfigRefusesKeysAndValuesThatNoFlagHas) {
+  ExpectUsage({"config", "get", "sever"}, "did you mean 'server'?");
+  ExpectUsage({"config", "set", "output", "jsn"}, "did you mean 'json'?");
+  ExpectUsage({"config", "use", "no such profile"}, "there is no profile 'no such profile'");
+}
+
+TEST(VerbUsageTest, ConfigViewTellsTheValueInUse) {
+  EXPECT_EQ(EndOf({"config", "get", "server"}).printed, "127.0.0.1:1\n");
+  EXPECT_THAT(EndOf({"config", "view", "-o", "json"}).printed, HasSubstr(R"("value": "json")"));
+}
+
+}  // namespace
+}  // namespace contact::cli
