@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <functional>
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,7 +41,7 @@ struct Settings {
 
   /// Throws Failure (kUsage) unless `output` is one of these formats. A command that prints
   /// kTable or kJson takes `wide` or `yaml`, too.
-  void RequireOutput(std::initializer_list<OutputFormat> formats) const;
+  void RequireOutput(const std::vector<OutputFormat>& formats) const;
 
   /// How long a call may take: `timeout`, or 10 s without.
   std::chrono::milliseconds CallTimeout() const;
@@ -51,8 +50,8 @@ struct Settings {
   std::optional<std::chrono::steady_clock::time_point> Deadline() const;
 
   ProgressForm Progress() const;
-  Style OutputStyle() const;     ///< Of the standard output.
-  Style MessageStyle() const;    ///< Of the standard error.
+  Style OutputStyle() const;   ///< Of the standard output.
+  Style MessageStyle() const;  ///< Of the standard error.
 };
 
 /// What the command line asks for.

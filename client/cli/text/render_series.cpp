@@ -1,7 +1,6 @@
 #include "cli/text/render_series.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <cstddef>
