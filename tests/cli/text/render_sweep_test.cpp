@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "cli/text/sweep/render_heat_map.h"
 
@@ -80,6 +81,16 @@ TEST(RenderSweep, HeatMapIsOfGridsOfTwoAxesThatFit) {
   EXPECT_EQ(RenderHeatMap(sweep, Cells(), 1, {}), "");
   sweep.set_combination(v1::Sweep::ZIP);
   EXPECT_EQ(RenderHeatMap(sweep, Cells(), 0, {}), "");
+}
+
+TEST(SweepJson, IsOneDocumentInWhichEveryCellHasItsIndex) {
+  SweepCells cells = Cells();
+  cells[0].Clear();  // Nothing is known of it, not even an index in the line of the message.
+  const auto json = nlohmann::json::parse(SweepJson(Job(), cells));
+  EXPECT_EQ(json["job"]["name"], "jobs/s");
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(json["cells"][i]["index"], i);
+  EXPECT_EQ(json["cells"][3]["message"], "at 1 s, \"B1\"");
+  EXPECT_EQ(json["cells"][2]["values"], nlohmann::json::array({2, 0.9}));
 }
 
 TEST(RenderSweep, CsvQuotesWhatNeedsIt) {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -98,12 +99,12 @@ std::vector<Table::Column> SweepCsvColumns(const v1::Sweep& sweep) {
 }
 
 std::string SweepJson(const v1::Job& job, const SweepCells& cells) {
+  using Json = nlohmann::ordered_json;
   std::vector<std::string> lines;
   for (const auto& [index, cell] : cells) {
-    std::string line = ToJsonLine(cell);
-    if (index == 0) line.insert(1, "\"index\":0,");  // One line leaves zeros out.
-    line.pop_back();
-    lines.push_back(std::move(line));
+    Json line{{"index", index}};  // ToJsonLine leaves out the index 0.
+    line.update(Json::parse(ToJsonLine(cell)));
+    lines.push_back(line.dump());
   }
   return fmt::format("{{\"job\": {}, \"cells\": [\n{}\n]}}\n", ToJson(job),
                      fmt::join(lines, ",\n"));
