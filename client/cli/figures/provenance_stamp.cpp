@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/crc.hpp>
+#include <boost/locale/encoding_utf.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -53,6 +56,43 @@ std::string StampedPng(std::string png, const std::string& title, const std::str
   return png.insert(kHeader, TextChunk("Title", title) + TextChunk("Description", lines));
 }
 
+// A text string of PDF: UTF-16 in hexadecimal digits.
+std::string PdfText(const std::string& text) {
+  std::string digits = "<FEFF";
+  for (const char16_t unit : boost::locale::conv::utf_to_utf<char16_t>(text)) {
+    digits += fmt::format("{:04X}", static_cast<unsigned>(unit));
+  }
+  return digits + ">";
+}
+
+// Overwrites the time of drawing with spaces, so that no byte moves.
+void EraseCreationDate(std::string* pdf) {
+  const auto begin = pdf->rfind("/CreationDate (");
+  if (begin == std::string::npos) return;
+  const auto size = pdf->find(')', begin) + 1 - begin;
+  pdf->replace(begin, size, size, ' ');
+}
+
+// Appends a new version of the document information: an incremental update, ISO 32000-1, 7.5.6. A
+// trailer that cairo 1.16 does not write is left alone.
+std::string StampedPdf(std::string pdf, const std::string& title, const std::string& lines) {
+  static const std::regex kTrailer(
+      R"(trailer\s+<< /Size (\d+)\s+/Root (\d+ 0 R)\s+/Info (\d+) 0 R\s+>>\s+)"
+      R"(startxref\s+(\d+)\s+%%EOF\s*)");
+  const std::string trailer = pdf.substr(std::min(pdf.rfind("trailer"), pdf.size()));
+  std::smatch parts;
+  if (!std::regex_match(trailer, parts, kTrailer)) return pdf;
+  EraseCreationDate(&pdf);
+  const std::size_t info = pdf.size();
+  pdf += fmt::format("{} 0 obj\n<< /Title {}\n   /Subject {} >>\nendobj\n", parts[3].str(),
+                     PdfText(title), PdfText(lines));
+  const std::size_t table = pdf.size();
+  return pdf + fmt::format(
+                   "xref\n{0} 1\n{1:010} 00000 n \ntrailer\n<< /Size {2} /Root {3} /Info {0} 0 R "
+                   "/Prev {4} >>\nstartxref\n{5}\n%%EOF\n",
+                   parts[3].str(), info, parts[1].str(), parts[2].str(), parts[4].str(), table);
+}
+
 // Leaves out the lines in which gnuplot tells its version and the time.
 std::string StampedTikz(const std::string& drawn, const std::vector<Provenance>& sources) {
   std::string stamped = Lines(sources, "% ") + "% \\usepackage{gnuplot-lua-tikz}\n";
@@ -80,11 +120,12 @@ std::string StampedCharacters(const std::string& drawn, const std::vector<Proven
 
 void StampProvenance(OutputFormat format, const std::string& path, const std::string& title,
                      const std::vector<Provenance>& sources) {
-  if (format == OutputFormat::kPdf) return;  // cairo writes neither title nor sources.
   std::string file = ReadText(path);
   const std::string lines = Lines(sources, "");
   if (format == OutputFormat::kPng) {
     file = StampedPng(std::move(file), title, lines);
+  } else if (format == OutputFormat::kPdf) {
+    file = StampedPdf(std::move(file), title, lines);
   } else if (format == OutputFormat::kTikz) {
     file = StampedTikz(file, sources);
   } else if (format == OutputFormat::kText) {
