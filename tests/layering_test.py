@@ -19,6 +19,8 @@ ORDER = {
     "server/rpc": ["net", "metrics", "call", "stream", "."],
     "client/cli": ["base", "input", "settings", "link", "text", "export", "figures", "paper", "help",
                    "verbs", "."],
+    "client/cli/text": [".", "comparison", "sweep"],
+    "client/cli/figures": [".", "heat_map"],
     "client/cli/help": ["contract", "."],
 }
 # What a folder must not include whatever the order says: folder, pattern, reason.

@@ -6,60 +6,65 @@
 #include <vector>
 
 #include "cli/export/provenance.h"
-#include "cli/figures/gnuplot.h"
 
 namespace contact::cli {
 
-/// A drawing of one or more panels below each other, whatever draws it.
+/// What a figure shows: panels below each other with curves, marks and labels. Plain values, which
+/// gnuplot_script.h turns into a script and WriteCsv into points.
 struct Figure {
+  /// How the points of a curve are drawn.
   enum class Mark {
     kLine,
     kDashed,
     kDotted,
-    kStart,       ///< o where cycles start.
-    kEnd,         ///< × where they end.
-    kLinePoints,  ///< Points joined by lines.
+    kStart,       ///< A circle at each point: where cycles start.
+    kEnd,         ///< A cross at each point: where cycles end.
+    kLinePoints,  ///< A circle at each point, joined by lines.
   };
+
+  /// Points (x, y) in the order in which they are joined; `x` and `y` have equal length.
   struct Curve {
-    std::string label;  ///< Empty: not in the key.
-    int colour = 0;
+    std::string label = {};  ///< Its entry in the key; empty: none.
+    int colour = 0;          ///< Place in the palette, which starts again after its last colour.
     Mark mark = Mark::kLine;
-    std::vector<double> x;
-    std::vector<double> y;
+    std::vector<double> x = {};  ///< In the unit of the panel's `x_label`.
+    std::vector<double> y = {};  ///< In the unit of the panel's `y_label`.
   };
+
+  /// A stretch of the x axis with a shade behind the curves.
   struct Band {
-    double start = 0;
-    double end = 0;
-    int colour = 0;
+    double start = 0;  ///< On the x axis.
+    double end = 0;    ///< On the x axis.
+    int colour = 0;    ///< As of a curve.
   };
+
+  /// A text above a point.
   struct Label {
     double x = 0;
     double y = 0;
     std::string text;
   };
+
+  /// One pair of axes.
   struct Panel {
-    std::string x_label;
-    std::string y_label;
-    bool counted_x = false;  ///< x are whole numbers.
-    bool log_y = false;
-    std::optional<double> lowest_y = {};  ///< Where the y axis starts; otherwise as the data want.
+    std::string x_label;                  ///< Quantity and unit, such as `time [s]`.
+    std::string y_label;                  ///< Quantity and unit.
+    bool counted_x = false;               ///< True if x are whole numbers, such as passes.
+    bool log_y = false;                   ///< True if the y axis is logarithmic.
+    std::optional<double> lowest_y = {};  ///< Lower end of the y axis; none: that of the points.
     std::vector<Curve> curves = {};
-    std::vector<Band> bands = {};           ///< Over x, behind the curves.
-    std::vector<Label> labels = {};         ///< Above their points.
-    std::vector<double> dotted_lines = {};  ///< Across at these y.
+    std::vector<Band> bands = {};
+    std::vector<Label> labels = {};
+    std::vector<double> dotted_lines = {};  ///< Values of y with a horizontal dotted line.
   };
 
   std::string title = {};
-  std::vector<Panel> panels = {};
-  std::vector<Provenance> sources = {};  ///< What it shows; a caption tells it.
+  std::vector<Panel> panels = {};        ///< From top to bottom.
+  std::vector<Provenance> sources = {};  ///< The runs it shows, for the caption.
 };
 
-/// A gnuplot script with its data inside, as many as can be seen, and where they come from, that
-/// draws the figure to a file.
-std::string GnuplotScript(Figure figure, const Medium& medium, const std::string& path);
-
-/// Leaves at most about `points` of each curve: of points that follow each other the first, the
-/// last, the lowest and the highest.
+/// Reduces each curve to about `points` points. Of each stretch of points it keeps the first, the
+/// last, the lowest and the highest, so that no peak is lost.
 void Thin(std::size_t points, Figure* figure);
 
 /// The points as CSV: for each panel a header with the labels of its axes, then a row a point:

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "cli/base/failure.h"
-#include "cli/text/job_comparison.h"
+#include "cli/text/comparison/job_comparison.h"
 
 namespace contact::cli {
 namespace {
@@ -54,7 +54,7 @@ const SampleColumn& Column(const Recording& run, const std::string& name) {
 
 }  // namespace
 
-Figure DrawOverlay(const std::vector<Recording>& runs, const std::vector<std::string>& channels) {
+Figure OverlayFigure(const std::vector<Recording>& runs, const std::vector<std::string>& channels) {
   Figure figure{.title = runs.front().job.scenario().title()};
   const Parameters parameters = Differing(runs);
   if (parameters.size() == 1) figure.title += fmt::format(": {}", parameters.front().path);

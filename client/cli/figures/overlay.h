@@ -11,6 +11,6 @@ namespace contact::cli {
 /// The same channels of several runs over each other, a panel for each channel, a colour for each
 /// run; the key names a run by the parameters in which it differs. Without channels: the forces of
 /// the first three contacts. Throws Failure (kUsage) if a run did not record a channel.
-Figure DrawOverlay(const std::vector<Recording>& runs, const std::vector<std::string>& channels);
+Figure OverlayFigure(const std::vector<Recording>& runs, const std::vector<std::string>& channels);
 
 }  // namespace contact::cli

@@ -8,14 +8,11 @@
 
 namespace contact::cli {
 
-/// Names of the figures that can be drawn of a run.
+/// The names of the figures that can be made of a run, such as `force`.
 std::vector<std::string> PresetNames();
 
-/// The figure with this name. Throws Failure (kUsage) if the run did not record what it shows.
-Figure DrawPreset(const std::string& preset, const Recording& recording);
-
-/// What to tell of cycles that lasted too short to be seen in the samples, and the command that
-/// records more; empty if there are none.
-std::string CoarseSampling(const Recording& recording);
+/// The figure with one of these names. Throws Failure (kUsage) if the run did not record what the
+/// figure shows.
+Figure PresetFigure(const std::string& preset, const Recording& recording);
 
 }  // namespace contact::cli

@@ -7,8 +7,8 @@
 #include "cli/base/html.h"
 #include "cli/base/number.h"
 #include "cli/export/provenance.h"
-#include "cli/text/render_comparison.h"
-#include "cli/text/render_job.h"
+#include "cli/text/comparison/render_comparison.h"
+#include "cli/text/render_ledger.h"
 
 namespace contact::cli {
 namespace {

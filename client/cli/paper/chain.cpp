@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cli/paper/cases.h"
-#include "cli/paper/drawings.h"
+#include "cli/paper/figures.h"
 #include "cli/paper/items.h"
 
 namespace contact::cli {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kVelocity = 0.2;  // Of the first ball [m/s].
 constexpr const char* kContacts[] = {"B1-B2", "B2-B3"};
 
-// The models of Figs. 10 to 12 and Table 2; the named laws give both contacts the factor for 0.8.
+// A model of Figs. 10 to 12 and Table 2. The named laws give both contacts the factor for 0.8.
 struct Model {
   const char* name;
   v1::Contact::Damping damping;
@@ -42,7 +42,8 @@ v1::Scenario Converged(const Model& model) {
   return scenario;
 }
 
-// Every model as the paper solves it, and the described one converged, one after the other.
+// The columns of all runs, one run after the other: each model as the paper solves it, and the
+// described one converged.
 Data Rows(const std::string& name, const std::vector<std::string>& columns,
           const std::vector<std::string>& headers, const std::vector<Solved>& runs) {
   Data data{name, {"run", "time [s]"}, {}};
@@ -86,6 +87,7 @@ PaperItem Table2(const std::vector<Solved>& published, const std::vector<Solved>
   return item;
 }
 
+// Passes that a run took; NaN if a cycle did not converge.
 double Passes(const Solved& solved) {
   for (const v1::Cycle& cycle : solved.job.cycles()) {
     if (cycle.status() != v1::Cycle::CONVERGED) return kNoNumber;
@@ -93,43 +95,58 @@ double Passes(const Solved& solved) {
   return 1.0 + solved.job.cycles(0).iterations();
 }
 
-// The printed cells cannot be told apart in the text that there is of the table, so none is
-// compared.
-PaperItem Table3(Lab& lab) {
-  std::vector<v1::Scenario> scenarios;
-  std::vector<std::pair<double, double>> cells;
+// A cell of Table 3: velocity of the first ball [m/s], and ε of both contacts.
+struct Cell {
+  double velocity;
+  double restitution;
+};
+
+std::vector<Cell> Table3Cells() {
+  std::vector<Cell> cells;
   for (int v = 1; v <= 5; ++v) {
-    for (int e = 95; e >= 50; e -= 5) {
-      cells.emplace_back(v / 10.0, e / 100.0);
-      const auto [velocity, restitution] = cells.back();
-      v1::Scenario exact = TripleChain(restitution, restitution, velocity);
-      exact.set_end_time_s(1e-2);
-      RecordLedgerOnly(&exact);
-      v1::Scenario paper = exact;
-      UseReferenceVelocity(&paper, velocity);
-      SolveAsPaper(&paper, v1::Solver::PAPER_RATIO, 0.01);
-      SplitAtPeakForce(&paper);
-      scenarios.insert(scenarios.end(), {paper, exact});
-    }
+    for (int e = 95; e >= 50; e -= 5) cells.push_back({v / 10.0, e / 100.0});
+  }
+  return cells;
+}
+
+// The scenarios of a cell: by the process of the paper, and by the default solver.
+std::vector<v1::Scenario> Table3Scenarios(const Cell& cell) {
+  v1::Scenario exact = TripleChain(cell.restitution, cell.restitution, cell.velocity);
+  exact.set_end_time_s(1e-2);
+  RecordLedgerOnly(&exact);
+  v1::Scenario paper = exact;
+  UseReferenceVelocity(&paper, cell.velocity);
+  SolveAsPaper(&paper, v1::Solver::PAPER_RATIO, 0.01);
+  SplitAtPeakForce(&paper);
+  return {paper, exact};
+}
+
+// No number is compared: in the text of the printed table its cells cannot be told apart.
+PaperItem Table3(Lab& lab) {
+  const std::vector<Cell> cells = Table3Cells();
+  std::vector<v1::Scenario> scenarios;
+  for (const Cell& cell : cells) {
+    for (v1::Scenario& scenario : Table3Scenarios(cell)) scenarios.push_back(std::move(scenario));
   }
   const std::vector<Solved> solved = lab.Solve(scenarios);
-  PaperItem item{
-      "table3",
-      "Passes until the chain's restitutions are met: published process to 1 %, ours "
-      "to 1e-8",
-      {},
-      {{"table3",
-        {"velocity [m/s]", "restitution", "passes_published_process", "passes_converged"},
-        {}}}};
+  Data data{"table3",
+            {"velocity [m/s]", "restitution", "passes_published_process", "passes_converged"},
+            {}};
+  PaperItem item{"table3",
+                 "Passes until the chain's restitutions are met: published process to 1 %, ours "
+                 "to 1e-8",
+                 {},
+                 {}};
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto [velocity, restitution] = cells[i];
     const double paper = Passes(solved[2 * i]);
     const double ours = Passes(solved[2 * i + 1]);
-    item.data[0].rows.push_back({cells[i].first, cells[i].second, paper, ours});
-    item.numbers.push_back(
-        {.what = fmt::format("v {:.1f} m/s, ε {:.2f}", cells[i].first, cells[i].second),
-         .process = paper,
-         .converged = ours});
+    data.rows.push_back({velocity, restitution, paper, ours});
+    item.numbers.push_back({.what = fmt::format("v {:.1f} m/s, ε {:.2f}", velocity, restitution),
+                            .process = paper,
+                            .converged = ours});
   }
+  item.data.push_back(std::move(data));
   return item;
 }
 
@@ -147,11 +164,11 @@ std::vector<PaperItem> MakeChainFigures(Lab& lab) {
     return PaperItem{id, title, {}, {Rows(id, columns, headers, runs)}, std::move(drawn)};
   };
   const auto models = [&](const std::string& preset) {
-    return DrawModels(preset, {&runs[0], &runs[1], &runs[2]},
-                      {kModels[0].name, kModels[1].name, kModels[2].name});
+    return ModelsFigure(preset, {&runs[0], &runs[1], &runs[2]},
+                        {kModels[0].name, kModels[1].name, kModels[2].name});
   };
   return {
-      item("fig9", "Velocities of the balls", DrawVelocities(runs[2]),
+      item("fig9", "Velocities of the balls", VelocitiesFigure(runs[2]),
            {"B1.velocity", "B2.velocity", "B3.velocity"},
            {"velocity_b1 [m/s]", "velocity_b2 [m/s]", "velocity_b3 [m/s]"}),
       item("fig10", "Contact forces", models("force"),

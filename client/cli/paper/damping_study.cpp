@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cli/paper/cases.h"
-#include "cli/paper/drawings.h"
+#include "cli/paper/figures.h"
 #include "cli/paper/items.h"
 
 namespace contact::cli {
@@ -53,7 +53,7 @@ PaperItem DeformationVelocity(Lab& lab) {
   scenario.set_end_time_s(1e-3);
   scenario.mutable_output()->Clear();
   scenario.mutable_output()->set_sample_interval_s(1e-6);
-  const Solved solved = lab.Solve(scenario);
+  const Solved solved = lab.SolveOne(scenario);
   Data data{"fig3", {"restitution", "deformation [m]", "deformation_velocity [m/s]"}, {}};
   for (std::size_t c = 0; c < restitutions.size(); ++c) {
     const auto& deformation = solved[fmt::format("{}.deformation", c)];
@@ -66,7 +66,7 @@ PaperItem DeformationVelocity(Lab& lab) {
           "Deformation velocity against deformation at several restitutions",
           {},
           {data},
-          DrawDeformationVelocities(data)};
+          DeformationVelocityFigure(data)};
 }
 
 // α = 3(1−ε²)/(2(ε²+ε^a)), paper (21), for one a; the exponent is sought from 1.00 down.
@@ -103,9 +103,9 @@ PaperItem Exponent(const std::vector<double>& grid, Lab& lab) {
 }
 
 Figure DrawPostRestitution(const Data& data) {
-  Figure figure = DrawColumns(data, "post-restitution coefficient",
-                              {"Hunt and Crossley", "Lankarani and Nikravesh", "Flores et al.",
-                               "Hu and Guo", "paper, (23)"});
+  Figure figure = ColumnsFigure(data, "post-restitution coefficient",
+                                {"Hunt and Crossley", "Lankarani and Nikravesh", "Flores et al.",
+                                 "Hu and Guo", "paper, (23)"});
   figure.title = "Restitution that each law delivers; ideal dotted";
   figure.panels.front().curves.back().mark = Figure::Mark::kDashed;  // As printed.
   AddIdeal(&figure);
@@ -143,7 +143,7 @@ PaperItem Coefficients(const std::vector<double>& grid, const std::vector<Solved
     data.rows.push_back({grid[i], CycleOf(laws[3], i).alpha(), CycleOf(laws[4], i).alpha()});
   }
   Figure figure =
-      DrawColumns(data, "hysteresis damping factor coefficient α", {"Hu and Guo", "paper, (23)"});
+      ColumnsFigure(data, "hysteresis damping factor coefficient α", {"Hu and Guo", "paper, (23)"});
   figure.title = "Coefficient α of the damping factor";
   for (Figure::Curve& curve : figure.panels.front().curves) {
     curve.mark = Figure::Mark::kLinePoints;

@@ -10,13 +10,14 @@ namespace contact::cli {
 
 /// What made the items.
 struct Origin {
-  std::string server;   ///< Version and revision.
-  std::string solver;   ///< Of the converged numbers, as JSON.
-  std::string command;  ///< That makes the page again.
+  std::string server;   ///< Version and revision of the server.
+  std::string solver;   ///< Options of the solver of the converged numbers, as JSON.
+  std::string command;  ///< The command that makes the page again.
 };
 
-/// One page with everything: numbers, figures (SVG by id; without one its data alone), and how to
-/// make it again. Needs nothing but itself.
+/// One HTML page with the numbers and figures of all items, links to their data, and how to make it
+/// again. It refers to no file but the data. `figures` has SVG elements by the id of their item; an
+/// item without one has its data alone.
 std::string IndexPage(const std::vector<PaperItem>& items,
                       const std::map<std::string, std::string>& figures, const Origin& origin);
 

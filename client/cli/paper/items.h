@@ -8,16 +8,24 @@
 
 namespace contact::cli {
 
-/// The figures and tables that can be made, in the paper's order.
+/// The ids of the figures and tables that can be made, in the order of the paper within each group
+/// that shares runs.
 const std::vector<std::string>& PaperItems();
 
-/// Makes those asked for, by id. Figures that share a run are made from one run.
+/// Makes the items with these ids, in the order of PaperItems. Items of a group share its runs.
+/// Throws as Lab::Solve does.
 std::vector<PaperItem> MakePaperItems(const std::vector<std::string>& ids, Lab& lab);
 
-// One group each.
-std::vector<PaperItem> MakeDampingStudy(Lab& lab);  ///< fig3, fig4, fig5, exponent.
-std::vector<PaperItem> MakeChainFigures(Lab& lab);  ///< fig9 to fig12.
-std::vector<PaperItem> MakeChainTables(Lab& lab);   ///< table2, table3.
-std::vector<PaperItem> MakeSpringItems(Lab& lab);   ///< table4, fig14 to fig17.
+/// Makes the group fig3, fig4, fig5, exponent: isolated collisions under damping laws.
+std::vector<PaperItem> MakeDampingStudy(Lab& lab);
+
+/// Makes the group fig9 to fig12: motion of the triple-ball chain.
+std::vector<PaperItem> MakeChainFigures(Lab& lab);
+
+/// Makes the group table2, table3: restitution and passes of the triple-ball chain.
+std::vector<PaperItem> MakeChainTables(Lab& lab);
+
+/// Makes the group fig14 to fig17, table4: the ball on a spring.
+std::vector<PaperItem> MakeSpringItems(Lab& lab);
 
 }  // namespace contact::cli

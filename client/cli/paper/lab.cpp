@@ -5,7 +5,7 @@
 namespace contact::cli {
 namespace {
 
-// So many wait for a worker at once, well below what a server's queue takes by default.
+// Jobs in the queue of the server at once, well below the default limit of the queue.
 constexpr std::size_t kBatch = 32;
 
 }  // namespace
@@ -27,7 +27,7 @@ std::vector<v1::Cycle> Solved::Cycles(const std::string& contact) const {
   return cycles;
 }
 
-std::vector<Solved> Lab::Solve(const std::vector<v1::Scenario>& scenarios) {
+std::vector<Solved> ServerLab::Solve(const std::vector<v1::Scenario>& scenarios) {
   std::vector<Solved> all;
   std::vector<std::string> waiting;
   const auto collect = [&] {
@@ -42,14 +42,14 @@ std::vector<Solved> Lab::Solve(const std::vector<v1::Scenario>& scenarios) {
   return all;
 }
 
-std::string Lab::Submit(const v1::Scenario& scenario) {
+std::string ServerLab::Submit(const v1::Scenario& scenario) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_scenario() = scenario;
   (*request.mutable_job()->mutable_labels())["made-by"] = "contactctl-paper";
   return client_.Call(&Client::Stub::CreateJob, request).name();
 }
 
-Solved Lab::Collect(const std::string& name) {
+Solved ServerLab::Collect(const std::string& name) {
   Solved solved{ReadRecording(client_, name, settings_)};
   if (solved.job.state() != v1::Job::SUCCEEDED) {
     throw Failure(ExitCode::kRunFailed,
@@ -59,7 +59,7 @@ Solved Lab::Collect(const std::string& name) {
   v1::DeleteJobRequest request;
   request.set_name(name);
   client_.Call(&Client::Stub::DeleteJob, request);
-  solved.job.clear_name();  // Nobody could find it.
+  solved.job.clear_name();  // The job is deleted: nobody could find it by its name.
   return solved;
 }
 

@@ -7,27 +7,43 @@
 
 namespace contact::cli {
 
-/// What a scenario came to.
+/// What the run of a scenario came to.
 struct Solved : Recording {
-  /// The values of a column of the trajectory, such as `B1.velocity`. Throws Failure if there is
-  /// none.
+  /// The samples of a column of the trajectory, such as `B1.velocity`. Throws Failure (kRunFailed)
+  /// if there is none.
   const std::vector<double>& operator[](const std::string& column) const;
-  /// The ledger's rows of a contact, in order.
+
+  /// The cycles of a contact, in order.
   std::vector<v1::Cycle> Cycles(const std::string& contact) const;
 };
 
-/// Has scenarios solved by a server.
+/// Runs scenarios. The items of the paper are made of nothing but what a lab returns.
 class Lab {
  public:
-  Lab(Client& client, const Settings& settings) : client_(client), settings_(settings) {}
+  virtual ~Lab() = default;
 
-  /// Solves all of them, as far as the server can at the same time, in the order given. Their jobs
-  /// are deleted. Throws Failure if one does not end well.
-  std::vector<Solved> Solve(const std::vector<v1::Scenario>& scenarios);
-  Solved Solve(const v1::Scenario& scenario) { return Solve(std::vector{scenario}).front(); }
+  /// Runs all scenarios; the results are in the same order. Throws Failure if a run does not
+  /// succeed.
+  virtual std::vector<Solved> Solve(const std::vector<v1::Scenario>& scenarios) = 0;
+
+  /// Runs one scenario. Throws as above.
+  Solved SolveOne(const v1::Scenario& scenario) { return Solve({scenario}).front(); }
+};
+
+/// Runs scenarios as jobs of a server, and deletes the jobs.
+class ServerLab : public Lab {
+ public:
+  /// `client` and `settings` must outlive this object.
+  ServerLab(Client& client, const Settings& settings) : client_(client), settings_(settings) {}
+
+  /// Runs as many at the same time as the server does. Throws Failure (kRunFailed) if a run does
+  /// not succeed, and as ReadRecording does.
+  std::vector<Solved> Solve(const std::vector<v1::Scenario>& scenarios) override;
 
  private:
+  // Creates a job; returns its name.
   std::string Submit(const v1::Scenario& scenario);
+  // Awaits the end of a job, reads its recording and deletes the job.
   Solved Collect(const std::string& name);
 
   Client& client_;

@@ -11,28 +11,30 @@
 
 namespace contact::cli {
 
+/// The value of a number that there is not.
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// A number of the paper beside ours.
+/// A number of the paper beside ours, all in the same unit.
 struct Comparison {
-  std::string what;
-  double published = kNoNumber;  ///< As printed; NaN: none that can be read.
+  std::string what;              ///< What the number is, with its unit.
+  double published = kNoNumber;  ///< As printed; NaN: the print cannot be read.
   double process = kNoNumber;    ///< Ours by the published process and definition.
   double converged = kNoNumber;  ///< Ours by the default solver, to its tolerance.
-  double limit = kNoNumber;      ///< |process − published| that is documented; NaN: not compared.
+  double limit = kNoNumber;      ///< Documented |process − published|; NaN: not compared.
   std::string why{};             ///< Why they differ, in a line; empty where they do not.
 
+  /// process − published.
   double deviation() const { return process - published; }
-  bool holds() const;  ///< The deviation is within what is documented.
+  /// True if the deviation is within the limit, or nothing is compared.
+  bool holds() const;
 };
 
-/// Columns of numbers, each with its unit in its name; as long as the longest, the others end
-/// early.
+/// Columns of numbers, which become a CSV file.
 struct Data {
-  std::string name;  ///< Of the file, without its ending.
-  std::vector<std::string> columns;
-  std::vector<std::vector<double>> rows;
-  std::string note = {};  ///< What the rows are, where their columns do not tell.
+  std::string name;                       ///< Of the file, without its ending.
+  std::vector<std::string> columns;       ///< Names with units, such as `force [N]`.
+  std::vector<std::vector<double>> rows;  ///< Each as long as `columns`.
+  std::string note = {};                  ///< What the rows are, where the columns do not tell.
 };
 
 /// A figure or table of the paper, made again.
@@ -43,16 +45,18 @@ struct PaperItem {
   std::vector<Data> data;
   std::optional<Figure> figure = {};  ///< None for tables.
 
+  /// True if all its numbers hold.
   bool holds() const;
 };
 
-/// Writes the item's data as CSV and its numbers as ID.txt and ID.json. Throws Failure (kLocal).
+/// Writes an item to files of `directory`: its data as CSV, its numbers as ID.txt and ID.json.
+/// Throws Failure (kLocal) if a file cannot be written.
 void Write(const PaperItem& item, const std::filesystem::path& directory);
 
-/// Five significant digits; empty for NaN.
+/// A number with five significant digits; empty for NaN.
 std::string Short(double value);
 
-/// The numbers of all items as one table.
+/// The numbers of all items as one table; empty if there are none.
 std::string Summary(const std::vector<PaperItem>& items, const Style& style);
 
 }  // namespace contact::cli

@@ -55,7 +55,7 @@ std::vector<Comparison> Factors(const std::vector<Solved>& runs) {
   return numbers;
 }
 
-// Where cycles start and end: the paper's marks o and ×.
+// Where cycles start and end: the marks o and × of the paper.
 Data Marks(const std::string& name, const Solved& run) {
   Data data{name,
             {"start_time [s]", "end_time [s]", "deformation_start [m]", "deformation_end [m]",
@@ -68,7 +68,7 @@ Data Marks(const std::string& name, const Solved& run) {
   return data;
 }
 
-// The key says what the paper's does. A mark is named once.
+// Names the curves in the key as the paper does. Each mark is named once.
 void NameCurves(Figure* figure) {
   bool starts = false;
   bool ends = false;
@@ -85,16 +85,16 @@ void NameCurves(Figure* figure) {
   }
 }
 
-PaperItem Draw(const std::string& id, const std::string& preset, const std::string& title,
-               const Solved& run, const std::vector<std::string>& columns,
-               const std::vector<std::string>& headers) {
+PaperItem MakeItem(const std::string& id, const std::string& preset, const std::string& title,
+                   const Solved& run, const std::vector<std::string>& columns,
+                   const std::vector<std::string>& headers) {
   Data data{id, {"time [s]"}, {}};
   data.columns.insert(data.columns.end(), headers.begin(), headers.end());
   for (std::size_t i = 0; i < run["time"].size(); ++i) {
     data.rows.push_back({run["time"][i]});
     for (const std::string& column : columns) data.rows.back().push_back(run[column][i]);
   }
-  Figure figure = DrawPreset(preset, run);
+  Figure figure = PresetFigure(preset, run);
   figure.title = title;
   NameCurves(&figure);
   return {id, title, {}, {data, Marks(id + "_cycles", run)}, std::move(figure)};
@@ -110,17 +110,17 @@ std::vector<PaperItem> MakeSpringItems(Lab& lab) {
   const std::vector<Solved> runs = lab.Solve({newton, ratio, SpringWall()});
   const Solved& run = runs[0];
   std::vector<PaperItem> items;
-  items.push_back(
-      Draw("fig14", "position", "Position of the ball", run, {"ball.position"}, {"position [m]"}));
-  items.push_back(Draw("fig15", "force", "Contact force and equivalent external force", run,
-                       {"ball-wall.contact_force", "ball-wall.external_force"},
-                       {"contact_force [N]", "external_force [N]"}));
+  items.push_back(MakeItem("fig14", "position", "Position of the ball", run, {"ball.position"},
+                           {"position [m]"}));
+  items.push_back(MakeItem("fig15", "force", "Contact force and equivalent external force", run,
+                           {"ball-wall.contact_force", "ball-wall.external_force"},
+                           {"contact_force [N]", "external_force [N]"}));
   items.back().numbers = Factors(runs);
-  items.push_back(Draw("fig16", "velocity", "Velocity of the ball", run, {"ball.velocity"},
-                       {"velocity [m/s]"}));
-  items.push_back(Draw("fig17", "hysteresis", "Hysteresis loops: force against deformation", run,
-                       {"ball-wall.deformation", "ball-wall.contact_force"},
-                       {"deformation [m]", "contact_force [N]"}));
+  items.push_back(MakeItem("fig16", "velocity", "Velocity of the ball", run, {"ball.velocity"},
+                           {"velocity [m/s]"}));
+  items.push_back(MakeItem("fig17", "hysteresis", "Hysteresis loops: force against deformation",
+                           run, {"ball-wall.deformation", "ball-wall.contact_force"},
+                           {"deformation [m]", "contact_force [N]"}));
   items.push_back(Table4(runs));
   return items;
 }

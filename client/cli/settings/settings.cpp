@@ -19,7 +19,7 @@ void Settings::SetOutput(std::string_view name) {
   output = wide ? OutputFormat::kTable : yaml ? OutputFormat::kJson : *format;
 }
 
-void Settings::RequireOutput(std::initializer_list<OutputFormat> formats) const {
+void Settings::RequireOutput(const std::vector<OutputFormat>& formats) const {
   if (std::ranges::find(formats, output) != formats.end()) return;
   std::vector<std::string_view> known;
   for (const OutputFormat format : formats) {

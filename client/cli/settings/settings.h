@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <functional>
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,7 +41,7 @@ struct Settings {
 
   /// Throws Failure (kUsage) unless `output` is one of these formats. A command that prints
   /// kTable or kJson takes `wide` or `yaml`, too.
-  void RequireOutput(std::initializer_list<OutputFormat> formats) const;
+  void RequireOutput(const std::vector<OutputFormat>& formats) const;
 
   /// Throws Failure (kUsage) unless `output` is a format with this use.
   void RequireUse(FormatUse use) const;

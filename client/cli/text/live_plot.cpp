@@ -91,7 +91,7 @@ LivePlot::LivePlot(std::FILE* terminal, Options options)
 
 LivePlot::~LivePlot() {
   std::string text = "\x1b[?25h\x1b[?1049l";
-  for (const std::string& line : Picture()) text += line + "\n";
+  for (const std::string& line : Plot()) text += line + "\n";
   std::fwrite(text.data(), 1, text.size(), terminal_);
   std::fflush(terminal_);
 }
@@ -115,7 +115,7 @@ void LivePlot::OnTick() {
   if (!start_ && !columns_.empty()) start_ = std::chrono::steady_clock::now();
   std::string text = "\x1b[H";
   std::string_view separator;
-  for (const std::string& line : Picture()) {
+  for (const std::string& line : Plot()) {
     text.append(separator).append(line).append("\x1b[K");
     separator = "\r\n";
   }
@@ -137,7 +137,7 @@ double LivePlot::Until() const {
   return elapsed.count() * options_.replay;
 }
 
-std::vector<std::string> LivePlot::Picture() const {
+std::vector<std::string> LivePlot::Plot() const {
   return RenderLivePlot(columns_, options_.channels, Until(), SizeOf(terminal_), options_.braille);
 }
 

@@ -10,48 +10,54 @@
 
 namespace contact::cli {
 
-/// Size of the part of a terminal that is drawn on.
+/// Size in characters of the part of a terminal that is drawn on.
 struct PlotSize {
   int columns = 80;
   int rows = 24;
 };
 
-/// Lines that show channels over time up to `until` [s], below each other; at most `size.rows`.
-/// Channels of which nothing has come yet have a title alone.
+/// The lines of a plot of channels over time, below each other: at most `size.rows`, each at most
+/// `size.columns` wide. `until` [s] is the end of what is shown; the axes are those of all samples.
+/// A channel without samples has a title alone. With `braille` a character has 2 by 4 dots.
 std::vector<std::string> RenderLivePlot(const std::vector<SampleColumn>& columns,
                                         const std::vector<std::string>& channels, double until,
                                         const PlotSize& size, bool braille);
 
-/// Draws channels on a terminal, ten times a second, while they are computed or replayed.
+/// Draws channels on a terminal while they are computed or replayed. The caller sets the pace by
+/// OnTick. Not thread-safe.
 class LivePlot : public Recorder {
  public:
   struct Options {
-    std::vector<std::string> channels;
-    double replay = 0;  ///< Simulated seconds in a second; 0: as they come.
-    bool braille = true;
+    std::vector<std::string> channels;  ///< Such as `B1.velocity`; at least one.
+    double replay = 0;                  ///< Simulated seconds a second; 0: as samples come.
+    bool braille = true;                ///< Draw with Braille dots, else with `*`.
   };
 
+  /// Switches `terminal`, which must outlive this object, to its second screen.
   LivePlot(std::FILE* terminal, Options options);
-  ~LivePlot() override;  ///< Leaves the last picture below what stood on the terminal.
+  /// Switches back and leaves the last plot below what stood on the terminal.
+  ~LivePlot() override;
 
   void OnEvent(const v1::Event& event) override;
+  /// Draws anew.
   void OnTick() override;
 
-  /// A channel that the job does not have, once that is known: what to say of it.
+  /// What to tell of a channel that the job does not have; none until that is known.
   const std::optional<std::string>& mistake() const { return mistake_; }
   /// True while a replay has not reached the last sample.
   bool replaying() const;
 
  private:
+  // The end of what is shown now [s]; infinite without a replay.
   double Until() const;
-  std::vector<std::string> Picture() const;
+  std::vector<std::string> Plot() const;
 
   std::FILE* const terminal_;
   const Options options_;
   std::vector<SampleColumn> columns_;
   std::optional<std::string> mistake_;
-  std::optional<std::chrono::steady_clock::time_point> start_;  ///< Of the replay.
-  bool stale_ = true;                                           ///< Chunks came since columns_.
+  std::optional<std::chrono::steady_clock::time_point> start_;  // When the replay began.
+  bool stale_ = true;  // True if samples have come that columns_ lacks.
 };
 
 }  // namespace contact::cli

@@ -8,15 +8,15 @@
 
 namespace contact::cli {
 
-/// Writes a JSON document to the standard output, as YAML where that is asked for.
+/// Writes a JSON document to the standard output, as YAML where -o asks for that.
 void PrintJson(const std::string& json, const Settings& settings);
 
-/// Writes a job to the standard output in the format asked for; its ledger has only `columns`,
-/// unless there are none.
+/// Writes a job to the standard output: its name, JSON, or as RenderJob does, as -o asks. `columns`
+/// selects columns of the ledger; empty: all.
 void PrintJob(const v1::Job& job, const Settings& settings,
               const std::vector<std::string>& columns = {});
 
-/// The code for how a job ended: kOk also while it has not.
+/// The exit code for how a job ended; kOk for a job that has not ended.
 ExitCode CodeOf(const v1::Job& job);
 
 }  // namespace contact::cli

@@ -7,9 +7,9 @@
 
 namespace contact::cli {
 
-/// What a job will probably take, beside what it may: the server's limits, or a budget or
-/// `max_steps` of its own. `job` is the answer to `validate_only`; empty for a server that
-/// estimates nothing.
+/// A table of what a job will probably take beside what it may take: the least of the server's
+/// limits, the budget of the job and its `max_steps`. `job` is the answer to `validate_only`. Empty
+/// if the answer has no estimate.
 std::string RenderEstimate(const v1::Job& job, const v1::ServerLimits& limits, const Style& style);
 
 }  // namespace contact::cli

@@ -3,19 +3,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "cli/base/number.h"
 #include "cli/base/table.h"
+#include "cli/text/render_ledger.h"
 
 namespace contact::cli {
 namespace {
 
 constexpr std::size_t kMostRows = 40;
 
-// How far it is, in parts that each stay in one line.
+// How far the job is, in parts that each stay in one line.
 std::vector<std::string> Extent(const v1::Job& job) {
   const v1::Progress& progress = job.progress();
   if (job.has_summary()) {
@@ -53,8 +54,8 @@ double InSeconds(const google::protobuf::Duration& span) {
   return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
 }
 
-// How the job is to be treated, as far as its user has said it.
-std::string Treatment(const v1::Job& job) {
+// What the user has asked for beside the run itself: priority, budget, time to live.
+std::string RequestedOptions(const v1::Job& job) {
   std::vector<std::string> parts;
   if (job.priority() != 0) parts.push_back(fmt::format("priority {}", job.priority()));
   const v1::Budget& budget = job.budget();
@@ -71,31 +72,6 @@ std::string Treatment(const v1::Job& job) {
     parts.push_back(fmt::format("kept {} after its end", Seconds(InSeconds(job.time_to_live()))));
   }
   return parts.empty() ? "" : fmt::format("{}\n", fmt::join(parts, ", "));
-}
-
-std::string Ledger(const v1::Job& job, const Style& style) {
-  if (job.cycles().empty()) return "";
-  Table table(LedgerColumns());
-  for (const v1::Cycle& cycle : job.cycles()) {
-    table.Add({cycle.contact(),
-               fmt::to_string(cycle.number()),
-               v1::Cycle::Kind_Name(cycle.kind()),
-               v1::Cycle::End_Name(cycle.end()),
-               {v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status())},
-               fmt::to_string(cycle.iterations()),
-               Digits(cycle.mu(), 7),
-               AlphaOrRatio(cycle),
-               Digits(cycle.restitution_in(), 6),
-               Digits(cycle.restitution_out(), 8),
-               RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
-               Digits(cycle.start_time_s(), 7),
-               Digits(cycle.end_time_s(), 7),
-               Digits(cycle.peak_force_n(), 7),
-               Digits(cycle.delta_max_m(), 7),
-               Digits(cycle.work_compression_j(), 7),
-               Digits(cycle.work_restitution_j(), 7)});
-  }
-  return fmt::format("\n{}", table.Text(style, kMostRows, "… {} more cycles; -o json prints all"));
 }
 
 std::string Bodies(const v1::Job& job, const Style& style) {
@@ -127,32 +103,12 @@ std::string Balances(const v1::Job& job, const Style& style) {
 
 }  // namespace
 
-std::vector<Table::Column> LedgerColumns() {
-  return {{"CONTACT"},
-          {"#", true, 0, "number"},
-          {"KIND"},
-          {"END", false, 2},
-          {"STATUS"},
-          {"n", true, 1, "iterations"},
-          {"μ", true, 0, "mu"},
-          {"α, or μ/k", true, 4, "alpha"},
-          {"ε IN", true, 0, "restitution_in"},
-          {"ε OUT", true, 0, "restitution_out"},
-          {"ERROR", true},
-          {"t START [s]", true, 3, "start_time"},
-          {"t END [s]", true, 3, "end_time"},
-          {"PEAK FORCE [N]", true, Table::kOnlyWide},
-          {"δ MAX [m]", true, Table::kOnlyWide, "delta_max"},
-          {"W_c [J]", true, Table::kOnlyWide, "work_compression"},
-          {"W_r [J]", true, Table::kOnlyWide, "work_restitution"}};
-}
-
 std::string RenderJob(const v1::Job& job, const Style& style) {
-  std::string text = Title(job, style) + Wrap(Treatment(job), style);
+  std::string text = Title(job, style) + Wrap(RequestedOptions(job), style);
   if (job.has_error()) {
     text += Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
   }
-  text += Ledger(job, style) + Bodies(job, style) + Balances(job, style);
+  text += RenderLedger(job, style) + Bodies(job, style) + Balances(job, style);
   if (job.has_sweep()) {
     text += fmt::format("cells: contactctl sweep watch {}\n", job.name());
   }
@@ -173,28 +129,6 @@ Tone ToneOf(v1::Job::State state) {
     default:
       return Tone::kPlain;
   }
-}
-
-Tone ToneOf(v1::Cycle::Status status) {
-  switch (status) {
-    case v1::Cycle::CONVERGED:
-      return Tone::kGood;
-    case v1::Cycle::NOT_CONVERGED:
-      return Tone::kBad;
-    case v1::Cycle::INFEASIBLE:
-      return Tone::kWarning;
-    default:
-      return Tone::kPlain;
-  }
-}
-
-std::string AlphaOrRatio(const v1::Cycle& cycle) {
-  return cycle.kind() == v1::Cycle::COLLISION ? Digits(cycle.alpha(), 7)
-                                              : Digits(cycle.mu_over_k_s_per_m(), 5) + " s/m";
-}
-
-double RestitutionError(double restitution_out, double restitution_in) {
-  return std::abs(restitution_out - restitution_in) / restitution_in;
 }
 
 }  // namespace contact::cli

@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "cli/base/number.h"
+#include "cli/text/iteration_table.h"
 #include "cli/text/render_job.h"
+#include "cli/text/render_ledger.h"
+#include "cli/text/render_progress.h"
 
 namespace contact::cli {
 namespace {
@@ -14,32 +17,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kBeforeProgress = 200ms;  // Most runs are over by then.
-constexpr int kBar = 24;
-
-std::string Row(const std::string& episode, const std::string& n, const std::string& contact,
-                const std::string& mu, const std::string& out, const std::string& error,
-                const std::string& update) {
-  return fmt::format("{} {}  {} {} {} {}  {}", Pad(episode, -7), Pad(n, -3), Pad(contact, 14),
-                     Pad(mu, -15), Pad(out, -13), Pad(error, -9), update);
-}
-
-// The interval in which μ is known to lie; a side that is not known yet is `-`.
-std::string Bracket(const v1::Iteration::Unknown& unknown) {
-  const auto side = [](double mu) { return mu == 0 ? "-" : Digits(mu, 9); };
-  return fmt::format("[{}, {}]", side(unknown.bracket_low()), side(unknown.bracket_high()));
-}
-
-// What stands to the right of a row in wide tables.
-std::string WithBracket(const std::string& row, const std::string& bracket, const Style& style) {
-  constexpr int kRow = 82;
-  return style.wide ? Pad(row, kRow) + bracket : row;
-}
-
-std::string NextStep(const v1::Iteration& iteration, const v1::Iteration::Unknown& unknown) {
-  if (iteration.accepted()) return "accepted";
-  if (unknown.update() == v1::Iteration::UPDATE_UNSPECIFIED) return "-";
-  return v1::Iteration::Update_Name(unknown.update());
-}
 
 }  // namespace
 
@@ -50,14 +27,14 @@ LiveView::LiveView(std::FILE* rows, const Style& rows_style, std::FILE* messages
       messages_(messages),
       messages_style_(messages_style),
       options_(std::move(options)) {
-  if (options_.progress == ProgressForm::kJson) signals_.emplace(messages_, options_.job);
+  if (options_.progress == ProgressForm::kJson) json_.emplace(messages_, options_.job);
 }
 
 LiveView::~LiveView() { EraseProgress(); }
 
 void LiveView::OnSnapshot(const v1::Job& job) {
   if (job.has_progress() && !IsFinal(job.state())) progress_ = job.progress();
-  if (job.has_progress() && signals_) signals_->Hear(job.progress());
+  if (job.has_progress() && json_) json_->Update(job.progress());
 }
 
 void LiveView::OnEvent(const v1::Event& event) {
@@ -68,22 +45,15 @@ void LiveView::OnEvent(const v1::Event& event) {
       return ShowCycle(event.cycle());
     case v1::Event::kStateChanged:
       return ShowState(event.state_changed());
-    case v1::Event::kLogEntry: {
-      const bool warning = event.log_entry().severity() == v1::LogEntry::WARNING;
-      const Tone tone = warning ? Tone::kWarning : Tone::kFaint;
-      return Write(rows_, Paint(warning ? "warning: " : "note: ", tone, rows_style_) +
-                              event.log_entry().message());
-    }
+    case v1::Event::kLogEntry:
+      return ShowLogEntry(event.log_entry());
     case v1::Event::kAttemptStarted:
-      if (event.attempt_started().attempt() > 1) {
-        Write(rows_, fmt::format("attempt {} starts anew", event.attempt_started().attempt()));
-      }
-      return;
+      return ShowAttempt(event.attempt_started());
     case v1::Event::kProgress:
       progress_ = event.progress();
-      if (signals_) signals_->Hear(*progress_);
+      if (json_) json_->Update(*progress_);
       return;
-    default:  // Frames are for programs; of kinds to come nothing is known.
+    default:  // Frames are for programs; a newer server may send kinds that are unknown here.
       return;
   }
 }
@@ -111,16 +81,9 @@ void LiveView::ShowIteration(const v1::Iteration& iteration) {
       continue;
     }
     if (!std::exchange(header_shown_, true)) {
-      const std::string header = Row("EPISODE", "n", "CONTACT", "μ", "ε OUT", "|Δε|/ε", "NEXT");
-      Write(rows_,
-            Paint(WithBracket(header, "BRACKET OF μ", rows_style_), Tone::kFaint, rows_style_));
+      Write(rows_, Paint(IterationHeader(rows_style_), Tone::kFaint, rows_style_));
     }
-    const double error = RestitutionError(unknown.restitution_out(), unknown.restitution_in());
-    const std::string row =
-        Row(fmt::to_string(iteration.episode()), fmt::to_string(iteration.number()),
-            unknown.contact(), Digits(unknown.mu(), 9), Digits(unknown.restitution_out(), 8),
-            RelativeError(error), NextStep(iteration, unknown));
-    Write(rows_, Paint(WithBracket(row, Bracket(unknown), rows_style_),
+    Write(rows_, Paint(IterationRow(iteration, unknown, rows_style_),
                        iteration.accepted() ? Tone::kStrong : Tone::kPlain, rows_style_));
   }
 }
@@ -146,11 +109,21 @@ void LiveView::ShowState(const v1::StateChanged& change) {
   Write(rows_, line);
 }
 
+void LiveView::ShowLogEntry(const v1::LogEntry& entry) {
+  const bool warning = entry.severity() == v1::LogEntry::WARNING;
+  const Tone tone = warning ? Tone::kWarning : Tone::kFaint;
+  Write(rows_, Paint(warning ? "warning: " : "note: ", tone, rows_style_) + entry.message());
+}
+
+void LiveView::ShowAttempt(const v1::AttemptStarted& start) {
+  if (start.attempt() > 1) Write(rows_, fmt::format("attempt {} starts anew", start.attempt()));
+}
+
 void LiveView::DrawProgress() {
   const auto elapsed = std::chrono::steady_clock::now() - start_;
   if (!progress_ || elapsed < kBeforeProgress) return;
   const double seconds = std::chrono::duration<double>(elapsed).count();
-  if (options_.progress == ProgressForm::kLines) TellProgress(seconds);
+  if (options_.progress == ProgressForm::kLines) WriteProgressLine(seconds);
   if (options_.progress != ProgressForm::kBar) return;
   const int width = StyleOf(fileno(messages_), "never").width;  // It may have been resized.
   const std::string line =
@@ -160,10 +133,10 @@ void LiveView::DrawProgress() {
   drawn_ = true;
 }
 
-void LiveView::TellProgress(double elapsed_s) {
+void LiveView::WriteProgressLine(double elapsed_s) {
   const int tenths = static_cast<int>(10 * PartDone(*progress_));
-  if (tenths <= told_tenths_) return;
-  told_tenths_ = tenths;
+  if (tenths <= written_tenths_) return;
+  written_tenths_ = tenths;
   Write(messages_, ProgressWords(*progress_, elapsed_s));
 }
 
@@ -171,27 +144,6 @@ void LiveView::EraseProgress() {
   if (!std::exchange(drawn_, false)) return;
   std::fputs("\r\x1b[K", messages_);
   std::fflush(messages_);
-}
-
-std::string TimeLeft(double part_done, double elapsed_s) {
-  const std::optional<double> left = TimeToGo(part_done, elapsed_s);
-  return left ? fmt::format(", {} left", Seconds(*left)) : "";
-}
-
-std::string ProgressWords(const v1::Progress& progress, double elapsed_s) {
-  const double done = PartDone(progress);
-  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s, {} cycles, {} iterations{}", 100 * done,
-                     progress.time_s(), progress.end_time_s(), progress.cycles(),
-                     progress.iterations(), TimeLeft(done, elapsed_s));
-}
-
-std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width, bool utf8) {
-  const int filled = static_cast<int>(std::lround(PartDone(progress) * kBar));
-  std::string bar;
-  for (int i = 0; i < kBar; ++i) bar += i < filled ? (utf8 ? "━" : "#") : (utf8 ? "─" : "-");
-  const std::string words = ProgressWords(progress, elapsed_s);
-  if (width <= 0 || Width(words) + kBar + 1 <= width) return bar + " " + words;
-  return Cut(words, width);
 }
 
 }  // namespace contact::cli

@@ -8,38 +8,47 @@
 
 #include "cli/base/style.h"
 #include "cli/link/watch.h"
-#include "cli/text/progress_signals.h"
+#include "cli/text/json_progress.h"
 
 namespace contact::cli {
 
-/// Shows a watch as it goes on: a growing table of the μ-iteration, remarks, and how far the job
-/// is, as a line below that is drawn anew ten times a second or as a line for each tenth.
+/// Shows a watch on a terminal while it goes on: a growing table of the μ-iteration, the cycles,
+/// warnings, and how far the job is. Not thread-safe.
 class LiveView : public WatchObserver {
  public:
   struct Options {
-    bool cycles = true;       ///< Show ledger rows too.
-    int most_iterations = 0;  ///< Rows of the iteration table; 0: all.
-    std::string job;          ///< To say how to see the rest.
+    bool cycles = true;       ///< Show state changes and the cycles of the ledger, too.
+    int most_iterations = 0;  ///< Rows of the table of the μ-iteration; 0: all.
+    std::string job;          ///< For the command that shows the rest, and for JSON.
     ProgressForm progress = ProgressForm::kNone;
   };
 
-  /// Events go to `rows`, the line of progress and troubles to `messages`, which may be the same.
+  /// Events go to `rows`, progress and lost connections to `messages`. Both may be the same stream
+  /// and must outlive this object.
   LiveView(std::FILE* rows, const Style& rows_style, std::FILE* messages,
            const Style& messages_style, Options options);
+  /// Erases the progress bar.
   ~LiveView() override;
 
   void OnSnapshot(const v1::Job& job) override;
   void OnEvent(const v1::Event& event) override;
   void OnLost(const std::string& why, std::chrono::milliseconds pause) override;
+  /// Draws the progress again.
   void OnTick() override;
 
  private:
+  // Writes a line in the place of the progress bar.
   void Write(std::FILE* stream, const std::string& line);
   void ShowIteration(const v1::Iteration& iteration);
   void ShowCycle(const v1::Cycle& cycle);
   void ShowState(const v1::StateChanged& change);
+  void ShowLogEntry(const v1::LogEntry& entry);
+  // Shows the start of an attempt that is not the first.
+  void ShowAttempt(const v1::AttemptStarted& start);
+  // Draws the bar or writes the line of progress, if either is wanted; not in the first 0.2 s.
   void DrawProgress();
-  void TellProgress(double elapsed_s);
+  // Writes a line for each tenth of the job that is done.
+  void WriteProgressLine(double elapsed_s);
   void EraseProgress();
 
   std::FILE* rows_;
@@ -49,21 +58,11 @@ class LiveView : public WatchObserver {
   Options options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<v1::Progress> progress_;
-  std::optional<ProgressSignals> signals_;  ///< With ProgressForm::kJson.
-  std::int64_t iterations_ = 0;
+  std::optional<JsonProgress> json_;  // Set with ProgressForm::kJson.
+  std::int64_t iterations_ = 0;       // Rows that came, shown or not.
   bool header_shown_ = false;
-  bool drawn_ = false;
-  int told_tenths_ = 0;
+  bool drawn_ = false;  // True while the bar stands on the terminal.
+  int written_tenths_ = 0;
 };
-
-/// How far a run is and how long it may still take, in words.
-std::string ProgressWords(const v1::Progress& progress, double elapsed_s);
-
-/// The same after a bar, at most `width` characters (0: no limit).
-std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width,
-                           bool utf8 = true);
-
-/// `, 3.2 s left`, if enough is done to tell.
-std::string TimeLeft(double part_done, double elapsed_s);
 
 }  // namespace contact::cli

@@ -1,10 +1,11 @@
 #include "cli/text/render_series.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <cstddef>
+#include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "cli/base/csv.h"
@@ -59,15 +60,19 @@ std::string SeriesCsv(const v1::Series& series) {
 }
 
 std::string SeriesJson(const v1::Series& series) {
-  std::vector<std::string> columns;
+  using Json = nlohmann::ordered_json;
+  Json columns = Json::array();
   for (const auto& column : series.columns()) {
-    columns.push_back(fmt::format(
-        R"(  {{"name": "{}", "quantity": "{}", "unit": "{}", "values": [{}]}})", column.name(),
-        column.quantity(), column.unit(), fmt::join(Doubles(column.values()), ", ")));
+    columns.push_back({{"name", column.name()},
+                       {"quantity", column.quantity()},
+                       {"unit", column.unit()},
+                       {"values", Doubles(column.values())}});
   }
-  return fmt::format(
-      "{{\"name\": \"{}\", \"samples\": {}, \"recorded_samples\": {}, \"columns\": [\n{}\n]}}\n",
-      series.name(), series.samples(), series.recorded_samples(), fmt::join(columns, ",\n"));
+  const Json document{{"name", series.name()},
+                      {"samples", series.samples()},
+                      {"recorded_samples", series.recorded_samples()},
+                      {"columns", std::move(columns)}};
+  return document.dump() + "\n";  // NaN becomes null.
 }
 
 }  // namespace contact::cli

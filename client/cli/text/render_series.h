@@ -7,14 +7,15 @@
 
 namespace contact::cli {
 
-/// Recorded motion for people: one line a sample, the middle of many left out.
+/// A series for people: a line a sample in its units; of many samples the middle is left out.
 std::string RenderSeries(const v1::Series& series, const Style& style);
 
-/// Recorded motion as CSV: a header such as `time [s],B1.velocity [m/s]`, and every sample with as
-/// many digits as give the same double back.
+/// A series as CSV: a header such as `time [s],B1.velocity [m/s]`, and every sample with as many
+/// digits as give the same double back.
 std::string SeriesCsv(const v1::Series& series);
 
-/// The same as one JSON document, its values as numbers.
+/// A series as one JSON document: name, samples, recorded_samples, and columns with name, quantity,
+/// unit and values, NaN being null.
 std::string SeriesJson(const v1::Series& series);
 
 }  // namespace contact::cli

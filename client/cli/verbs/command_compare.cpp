@@ -4,12 +4,14 @@
 #include <memory>
 #include <optional>
 
-#include "cli/figures/drawing.h"
+#include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_source.h"
+#include "cli/text/comparison/comparison_data.h"
+#include "cli/text/comparison/render_comparison.h"
 #include "cli/text/print_job.h"
-#include "cli/text/render_comparison.h"
+#include "cli/text/render_yaml.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -40,7 +42,7 @@ void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
     }
     runs.push_back(ReadRecording(client, job, settings));
   }
-  Draw(DrawOverlay(runs, arguments.channels), FormatOf(arguments.plot), arguments.plot);
+  Draw(OverlayFigure(runs, arguments.channels), FormatOfFigure(arguments.plot), arguments.plot);
   fmt::print(stderr, "{}\n", arguments.plot);
 }
 

@@ -10,7 +10,7 @@
 #include "cli/base/number.h"
 #include "cli/base/text_file.h"
 #include "cli/export/provenance.h"
-#include "cli/figures/drawing.h"
+#include "cli/figures/draw.h"
 #include "cli/link/connect.h"
 #include "cli/paper/cases.h"
 #include "cli/paper/index.h"
@@ -45,14 +45,16 @@ std::vector<std::string> Chosen(const std::vector<std::string>& asked) {
 // asked for may fail: the note tells it.
 std::map<std::string, std::string> DrawAll(const std::vector<PaperItem>& items,
                                            const PaperArguments& arguments) {
-  const std::string format = arguments.format.empty() ? "svg" : arguments.format;
+  const OutputFormat format = FindFormat(arguments.format).value_or(OutputFormat::kSvg);
   std::map<std::string, std::string> inlined;
   try {
     for (const PaperItem& item : items) {
       if (!item.figure) continue;
-      const std::string path = fs::path(arguments.directory) / (item.id + "." + EndingOf(format));
+      const std::string path =
+          fs::path(arguments.directory) / (item.id + std::string(InfoOf(format).ending));
       Draw(*item.figure, format, path);
-      inlined[item.id] = format == "svg" ? InlineSvg(ReadText(path)) : DrawInline(*item.figure);
+      inlined[item.id] =
+          format == OutputFormat::kSvg ? InlineSvg(ReadText(path)) : DrawInline(*item.figure);
     }
   } catch (const Failure& failure) {
     if (!arguments.format.empty()) throw;
@@ -95,7 +97,7 @@ ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
   const auto start = std::chrono::steady_clock::now();
   MakeFolder(arguments.directory);
   Client client = Connect(settings);
-  Lab lab(client, settings);
+  ServerLab lab(client, settings);
   std::vector<PaperItem> items = MakePaperItems(chosen, lab);
   const v1::ServerInfo server =
       client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());

@@ -5,9 +5,10 @@
 #include <system_error>
 
 #include "cli/base/text_file.h"
-#include "cli/figures/drawing.h"
-#include "cli/figures/picture_output.h"
+#include "cli/figures/draw.h"
+#include "cli/figures/gnuplot_script.h"
 #include "cli/figures/presets.h"
+#include "cli/figures/sampling.h"
 #include "cli/link/connect.h"
 #include "cli/verbs/verbs.h"
 
@@ -23,29 +24,30 @@ struct PlotArguments {
   std::string keep;
 };
 
-void Keep(const Figure& figure, const std::string& format, const PlotArguments& arguments,
+void Keep(const Figure& figure, OutputFormat format, const PlotArguments& arguments,
           const std::string& path) {
   const fs::path folder = arguments.keep;
   std::error_code error;
   fs::create_directories(folder, error);
-  WriteText(GnuplotScript(figure, Medium(format), path), folder / (arguments.preset + ".gp"));
-  Draw(figure, "csv", folder / (arguments.preset + ".csv"));
+  WriteText(GnuplotScript(figure, GnuplotTerminal(format), path),
+            folder / (arguments.preset + ".gp"));
+  Draw(figure, OutputFormat::kCsv, folder / (arguments.preset + ".csv"));
 }
 
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
-  const std::string format = PictureFormat(arguments.file, settings);
+  const OutputFormat format = FigureFormat(arguments.file, settings);
   Client client = Connect(settings);
   const Recording recording = ReadRecording(client, arguments.job, settings);
-  const Figure figure = DrawPreset(arguments.preset, recording);
+  const Figure figure = PresetFigure(arguments.preset, recording);
   const bool of_samples = !figure.panels.front().counted_x;
   if (const std::string note = CoarseSampling(recording); of_samples && !note.empty()) {
     fmt::print(stderr, "{}\n", note);
   }
-  const bool drawn = format != "gp" && format != "csv";
+  const bool drawn = format != OutputFormat::kGnuplot && format != OutputFormat::kCsv;
   if (drawn && !arguments.keep.empty()) {
-    Keep(figure, format, arguments, PicturePath(arguments.file, arguments.preset, settings));
+    Keep(figure, format, arguments, FigurePath(arguments.file, arguments.preset, settings));
   }
-  WritePicture(figure, arguments.preset, arguments.file, settings);
+  WriteFigure(figure, arguments.preset, arguments.file, settings);
   return ExitCode::kOk;
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cli/base/text_file.h"
-#include "cli/figures/drawing.h"
+#include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
 #include "cli/figures/presets.h"
 #include "cli/figures/run_report.h"
@@ -34,7 +34,7 @@ std::vector<std::string> DrawAll(const Recording& recording) {
   for (const std::string& preset : PresetNames()) {
     Figure figure;
     try {
-      figure = DrawPreset(preset, recording);
+      figure = PresetFigure(preset, recording);
     } catch (const Failure&) {
       continue;
     }
@@ -49,7 +49,7 @@ std::string DrawTogether(const std::vector<Recording>& runs) {
   Figure figure;
   if (runs.size() == 1) return "";
   try {
-    figure = DrawOverlay(runs, {});
+    figure = OverlayFigure(runs, {});
   } catch (const Failure&) {
     return "";
   }

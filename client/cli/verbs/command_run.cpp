@@ -16,6 +16,7 @@
 #include "cli/text/print_job.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
+#include "cli/text/render_ledger.h"
 #include "cli/verbs/follow.h"
 #include "cli/verbs/verbs.h"
 

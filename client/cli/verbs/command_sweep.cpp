@@ -10,7 +10,7 @@
 
 #include "cli/base/interrupt.h"
 #include "cli/export/provenance.h"
-#include "cli/figures/heat_map_options.h"
+#include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/input/grid_sweep.h"
 #include "cli/input/sweep_file.h"
 #include "cli/link/connect.h"
@@ -21,7 +21,8 @@
 #include "cli/settings/job_options.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_live.h"
-#include "cli/text/render_sweep.h"
+#include "cli/text/render_progress.h"
+#include "cli/text/sweep/render_sweep.h"
 #include "cli/verbs/follow.h"
 #include "cli/verbs/verbs.h"
 

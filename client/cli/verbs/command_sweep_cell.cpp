@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "cli/figures/heat_map_options.h"
+#include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"

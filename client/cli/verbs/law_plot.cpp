@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "cli/figures/picture_output.h"
-#include "cli/paper/drawings.h"
+#include "cli/figures/draw.h"
+#include "cli/paper/figures.h"
 #include "cli/verbs/law_study.h"
 
 namespace contact::cli {
@@ -72,18 +72,18 @@ Data Curves(const std::vector<const LawEntry*>& laws, bool alpha, const Settings
 }
 
 ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
-  PictureFormat(arguments.file, settings);  // Told before anything is run.
+  FigureFormat(arguments.file, settings);  // Told before anything is run.
   const std::vector<const LawEntry*> laws = Chosen(arguments);
   const bool alpha = arguments.what == "alpha";
   std::vector<std::string> names;
   for (const LawEntry* law : laws) names.emplace_back(law->name);
-  Figure figure = DrawColumns(
+  Figure figure = ColumnsFigure(
       Curves(laws, alpha, settings),
       alpha ? "hysteresis damping factor coefficient α" : "post-restitution coefficient", names);
   figure.title = alpha ? "Coefficient α of the damping factor"
                        : "Restitution that each law delivers; ideal dotted";
   if (!alpha) AddIdeal(&figure);
-  WritePicture(figure, arguments.what, arguments.file, settings);
+  WriteFigure(figure, arguments.what, arguments.file, settings);
   return ExitCode::kOk;
 }
 

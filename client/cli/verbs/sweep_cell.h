@@ -4,7 +4,7 @@
 
 #include "cli/link/client.h"
 #include "cli/settings/settings.h"
-#include "cli/text/render_sweep.h"
+#include "cli/text/sweep/render_sweep.h"
 
 namespace contact::cli {
 

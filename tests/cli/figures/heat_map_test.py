@@ -64,7 +64,7 @@ class HeatMapTest(CliTest):
                       printed)
 
     def labels(self, svg):
-        """The numbers that stand in the picture, each as often as it does."""
+        """The numbers that stand in the figure, each as often as it does."""
         return collections.Counter(re.findall(r"<text>(-?[0-9.e-]+)</text>", svg.decode()))
 
     def test_lines_of_equal_value_are_labelled_with_values_of_the_map(self):

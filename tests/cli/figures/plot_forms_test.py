@@ -1,4 +1,4 @@
-"""Pictures in characters and for LaTeX: the same figures in other forms."""
+"""Figures in characters and for LaTeX: the same figures in other forms."""
 
 import fcntl
 import os
@@ -71,12 +71,12 @@ class PlotFormsTest(CliTest):
         self.assertEqual(sorted(last, key=last.get), ["B3", "B2"])  # The faster one on top.
         self.assertIn("\n o start, × end of a contact cycle\n", "\n".join(lines))
 
-    def test_picture_in_characters_is_as_wide_as_the_terminal(self):
+    def test_figure_in_characters_is_as_wide_as_the_terminal(self):
         for width in (60, 120):
             border = next(line for line in self.on_terminal(width) if "+---" in line)
             self.assertIn(len(border), range(width - 8, width + 1))
 
-    def test_picture_in_characters_goes_to_a_file_that_is_named(self):
+    def test_figure_in_characters_goes_to_a_file_that_is_named(self):
         path = self.folder / "a.txt"
         self.assertEqual(self.run_it("plot", self.name, "force", "-f", path)[0], f"{path}\n")
         self.assertEqual(path.read_text("utf-8"),

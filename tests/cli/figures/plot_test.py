@@ -55,7 +55,7 @@ class PlotTest(CliTest):
         self.assertTrue(self.plot("force", "a.dat", "-o", "png").startswith(b"\x89PNG"))
         self.assertTrue(self.plot("force", "a.csv").startswith(b"curve,time [s],force [N]"))
 
-    def test_same_run_gives_the_same_picture(self):
+    def test_same_run_gives_the_same_figure(self):
         for form in ("svg", "png", "pdf"):
             first = self.plot("hysteresis", f"same.{form}")
             self.assertEqual(self.plot("hysteresis", f"same.{form}"), first, form)
@@ -68,9 +68,9 @@ class PlotTest(CliTest):
         self.plot("force", "alone.gp")
         subprocess.run(["gnuplot", "-d", self.folder / "alone.gp"], check=True,
                        timeout=PATIENCE_S)
-        def picture(svg):
+        def drawing_of(svg):
             return svg[svg.index(b"</desc>"):]
-        self.assertEqual(picture((self.folder / "alone.svg").read_bytes()), picture(drawn))
+        self.assertEqual(drawing_of((self.folder / "alone.svg").read_bytes()), drawing_of(drawn))
 
     def test_script_and_data_are_kept_on_request(self):
         keep = self.folder / "new" / "kept"
@@ -78,7 +78,7 @@ class PlotTest(CliTest):
         self.assertEqual({path.name for path in keep.iterdir()},
                          {"energy.gp", "energy.csv"})
 
-    def test_every_picture_tells_where_it_comes_from(self):
+    def test_every_figure_tells_where_it_comes_from(self):
         svg = self.plot("force", "a.svg").decode()
         script = self.plot("force", "a.gp").decode()
         source = {"title": "Triple-ball chain", "job": self.name,

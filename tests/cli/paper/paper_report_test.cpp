@@ -50,5 +50,34 @@ TEST(PaperReport, FilesHoldWhatTheItemHolds) {
   EXPECT_TRUE(json["numbers"][0]["converged"].is_null());
 }
 
+TEST(PaperReport, NumbersAreWrittenAsATableToo) {
+  const TempDirectory directory;
+  Write({"table2", "The title", {Number(1, 2, 0.5)}, {}}, directory.path());
+  EXPECT_THAT(Read(directory.path() / "table2.txt"),
+              testing::AllOf(testing::StartsWith("The title\n\n"), HasSubstr("DIFFERS")));
+}
+
+TEST(PaperReport, AnItemWithoutNumbersHasDataAlone) {
+  const TempDirectory directory;
+  Write({"fig1", "t", {}, {{"fig1", {"time [s]"}, {{0}}}}}, directory.path());
+  EXPECT_TRUE(std::filesystem::exists(directory.path() / "fig1.csv"));
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "fig1.json"));
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "fig1.txt"));
+}
+
+TEST(PaperReport, AnItemWithoutNumbersHasNoSummary) {
+  EXPECT_EQ(Summary({{"fig1", "t", {}, {}}}, Style{}), "");
+}
+
+TEST(PaperReport, ALimitIsMetExactlyDespiteRounding) {
+  EXPECT_TRUE(Number(0.7, 0.8, 0.1).holds());  // 0.8 - 0.7 > 0.1 in binary.
+  EXPECT_FALSE(Number(0.7, 0.8, 0.0999).holds());
+}
+
+TEST(Short, HasFiveDigitsAndNothingForNaN) {
+  EXPECT_EQ(Short(0.123456789), "0.12346");
+  EXPECT_EQ(Short(kNoNumber), "");
+}
+
 }  // namespace
 }  // namespace contact::cli

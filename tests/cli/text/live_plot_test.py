@@ -46,7 +46,7 @@ class LivePlotTest(CliTest):
         os.close(slave)
         return master, process
 
-    def test_draws_braille_and_leaves_the_picture(self):
+    def test_draws_braille_and_leaves_the_plot(self):
         master, process = self.on_terminal()
         seen = read_all(master).decode()
         self.assertIn("B1-B2.contact_force [N]", seen)

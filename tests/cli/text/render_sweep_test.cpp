@@ -1,8 +1,11 @@
-#include "cli/text/render_sweep.h"
+#include "cli/text/sweep/render_sweep.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/text/sweep/render_heat_map.h"
 
 namespace contact::cli {
 namespace {
@@ -58,7 +61,7 @@ TEST(RenderSweep, SaysWhatBecameOfEveryCell) {
 }
 
 TEST(RenderSweep, HeatMapMarksWhatDidNotConvergeOrFailed) {
-  EXPECT_EQ(HeatMap(Job().sweep(), Cells(), 0, {}),
+  EXPECT_EQ(RenderHeatMap(Job().sweep(), Cells(), 0, {}),
             "\niterations over bodies[0].mass_kg (down) and contacts[0].restitution (across, "
             "0.9 … 0.8)\n"
             "0.5  ░░ ░░\n"
@@ -69,15 +72,25 @@ TEST(RenderSweep, HeatMapMarksWhatDidNotConvergeOrFailed) {
 TEST(RenderSweep, HeatMapShowsHolesOfAnUnfinishedSweep) {
   SweepCells cells = Cells();
   cells.erase(1);
-  EXPECT_THAT(HeatMap(Job().sweep(), cells, 0, {}), HasSubstr("0.5  ░░ ··\n"));
+  EXPECT_THAT(RenderHeatMap(Job().sweep(), cells, 0, {}), HasSubstr("0.5  ░░ ··\n"));
 }
 
 TEST(RenderSweep, HeatMapIsOfGridsOfTwoAxesThatFit) {
   v1::Sweep sweep = Job().sweep();
-  EXPECT_EQ(HeatMap(sweep, Cells(), 0, {.width = 10}), "");
-  EXPECT_EQ(HeatMap(sweep, Cells(), 1, {}), "");
+  EXPECT_EQ(RenderHeatMap(sweep, Cells(), 0, {.width = 10}), "");
+  EXPECT_EQ(RenderHeatMap(sweep, Cells(), 1, {}), "");
   sweep.set_combination(v1::Sweep::ZIP);
-  EXPECT_EQ(HeatMap(sweep, Cells(), 0, {}), "");
+  EXPECT_EQ(RenderHeatMap(sweep, Cells(), 0, {}), "");
+}
+
+TEST(SweepJson, IsOneDocumentInWhichEveryCellHasItsIndex) {
+  SweepCells cells = Cells();
+  cells[0].Clear();  // Nothing is known of it, not even an index in the line of the message.
+  const auto json = nlohmann::json::parse(SweepJson(Job(), cells));
+  EXPECT_EQ(json["job"]["name"], "jobs/s");
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(json["cells"][i]["index"], i);
+  EXPECT_EQ(json["cells"][3]["message"], "at 1 s, \"B1\"");
+  EXPECT_EQ(json["cells"][2]["values"], nlohmann::json::array({2, 0.9}));
 }
 
 TEST(RenderSweep, CsvQuotesWhatNeedsIt) {

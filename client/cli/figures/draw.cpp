@@ -1,0 +1,107 @@
+#include "cli/figures/draw.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "cli/base/output_file.h"
+#include "cli/base/scratch_folder.h"
+#include "cli/base/text_file.h"
+#include "cli/figures/gnuplot.h"
+#include "cli/figures/gnuplot_script.h"
+#include "cli/figures/provenance_stamp.h"
+
+namespace contact::cli {
+namespace {
+
+void RemoveAll(std::string_view part, std::string* text) {
+  for (auto at = text->find(part); at != std::string::npos; at = text->find(part, at)) {
+    text->erase(at, part.size());
+  }
+}
+
+// What Draw writes to a file.
+std::string Drawn(const Figure& figure, OutputFormat format, int columns) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.path() / "figure";
+  Draw(figure, format, path, columns);
+  return ReadText(path);
+}
+
+// The width of a txt figure on the terminal of the standard output.
+int ColumnsOf(const Settings& settings) {
+  constexpr int kLeast = 40;
+  const int width = settings.OutputStyle().width;
+  return width > 0 ? std::max(width, kLeast) : GnuplotTerminal::kColumns;
+}
+
+}  // namespace
+
+OutputFormat FormatOfFigure(const std::string& path) {
+  return FormatOfFile(path, kPicture).value_or(OutputFormat::kSvg);
+}
+
+OutputFormat FigureFormat(const std::string& file, const Settings& settings) {
+  if (settings.output == OutputFormat::kTable) return FormatOfFigure(file);
+  std::vector<OutputFormat> figures;
+  for (const FormatInfo& info : Formats()) {
+    if ((info.uses & kPicture) != 0) figures.push_back(info.format);
+  }
+  settings.RequireOutput(figures);
+  return settings.output;
+}
+
+std::string FigurePath(const std::string& file, const std::string& name, const Settings& settings) {
+  return file.empty() ? name + std::string(InfoOf(FigureFormat(file, settings)).ending) : file;
+}
+
+void WriteFigure(const Figure& figure, const std::string& name, const std::string& file,
+                 const Settings& settings) {
+  const OutputFormat format = FigureFormat(file, settings);
+  if (format == OutputFormat::kText && file.empty()) {
+    fmt::print("{}", Drawn(figure, format, ColumnsOf(settings)));
+    return;
+  }
+  const std::string path = FigurePath(file, name, settings);
+  Draw(figure, format, path, ColumnsOf(settings));
+  fmt::print("{}\n", path);
+}
+
+void Draw(const Figure& figure, OutputFormat format, const std::string& path, int columns) {
+  if (format == OutputFormat::kCsv) return WriteText(FigureCsv(figure), path);
+  if (format == OutputFormat::kGnuplot) {
+    const auto drawn =
+        std::filesystem::path(path).replace_extension(InfoOf(OutputFormat::kSvg).ending);
+    return WriteText(GnuplotScript(figure, GnuplotTerminal(OutputFormat::kSvg), drawn), path);
+  }
+  DrawScript(GnuplotScript(figure, GnuplotTerminal(format, columns), path), path);
+  StampProvenance(format, path, figure.title, figure.sources);
+}
+
+void DrawScript(const std::string& script, const std::string& path) {
+  const OutputFile writable(path);  // Reports a file that cannot be written, before gnuplot does.
+  const ScratchFolder scratch;
+  const std::string script_path = scratch.path() / "figure.gp";
+  WriteText(script, script_path);
+  RunGnuplot(script_path);
+}
+
+std::string DrawInline(const Figure& figure) {
+  return InlineSvg(Drawn(figure, OutputFormat::kSvg, GnuplotTerminal::kColumns));
+}
+
+std::string InlineSvg(std::string_view document) {
+  const auto begin = document.find("<svg");
+  std::string svg(begin == std::string_view::npos ? "" : document.substr(begin));
+  // HTML knows both name spaces by itself.
+  RemoveAll(R"(xmlns="http://www.w3.org/2000/svg")", &svg);
+  RemoveAll(R"(xmlns:xlink="http://www.w3.org/1999/xlink")", &svg);
+  const auto title = svg.find("<title>");
+  const auto end = svg.find("</title>");
+  if (end != std::string::npos) svg.erase(title, end + 8 - title);
+  return svg;
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "cli/figures/gnuplot_terminal.h"
+#include "cli/text/sweep/heat_scale.h"
+
+namespace contact::cli {
+
+/// A gnuplot script that draws one metric of a sweep over two axes to the file `path`: the first
+/// axis down, the second across. Cells that did not converge are hatched, cells that failed are
+/// crossed, cells without a value are white. With `contours` it has lines of equal value between
+/// the cells that converged. Throws Failure (kUsage) unless the sweep is a grid of two axes with at
+/// most 10 000 cells.
+std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, const HeatScale& scale,
+                          bool contours, const GnuplotTerminal& terminal, const std::string& path);
+
+}  // namespace contact::cli

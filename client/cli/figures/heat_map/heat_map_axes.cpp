@@ -1,0 +1,78 @@
+#include "cli/figures/heat_map/heat_map_axes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "cli/base/number.h"
+#include "cli/figures/heat_map/contours.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::size_t kMostTics = 20;
+
+// The list of tics of an axis: value and place, every n-th where there are many.
+std::string Tics(const std::vector<double>& values) {
+  const std::size_t step = (values.size() + kMostTics - 1) / kMostTics;
+  std::vector<std::string> tics;
+  for (std::size_t i = 0; i < values.size(); i += step) {
+    tics.push_back(fmt::format("'{}' {}", Digits(values[i], 4), i));
+  }
+  return fmt::format("{}", fmt::join(tics, ", "));
+}
+
+std::string Legend(const HeatScale& scale) {
+  std::string legend = "hatched: not converged; crossed: failed";
+  if (scale.unshown() == 0) return legend;
+  return legend + fmt::format("; white: {}", Count(scale.unshown(), "value <= 0", "values <= 0"));
+}
+
+std::string ColourTics(const HeatScale& scale, const ColourRange& range) {
+  if (scale.log()) {
+    return fmt::format("set logscale cb\nset cblabel offset 0.8\nset cbtics ({})\n",
+                       fmt::join(LogLevels(range.low, range.high), ", "));
+  }
+  const bool few = range.high - range.low < static_cast<double>(kMostTics);
+  return scale.whole() && few ? "set cbtics 1\n" : "";
+}
+
+}  // namespace
+
+ColourRange::ColourRange(const HeatScale& scale) : low(scale.low()), high(scale.high()) {
+  if (low < high) return;
+  const bool one = low == high;
+  if (scale.log()) {
+    const double middle = one ? low : 1;
+    low = middle / 2;
+    high = middle * 2;
+  } else {
+    const double middle = one ? low : 0;
+    const double space = std::max(std::abs(middle) / 2, 0.5);
+    low = middle - space;
+    high = middle + space;
+  }
+}
+
+std::string HeatMapAxes(const v1::Sweep& sweep, const HeatScale& scale, const SweepGrid& grid,
+                        const GnuplotTerminal& terminal) {
+  const ColourRange range(scale);
+  return fmt::format(
+             "set title {}\nset xlabel {}\nset ylabel {}\nset cblabel {}\n"
+             "set xtics out nomirror ({})\nset ytics out nomirror ({})\n"
+             "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [{}:{}]\n"
+             "set label {} at screen 0.01,0.015{}\nunset key\n",
+             terminal.Text(sweep.base().title()), terminal.Text(sweep.axes(1).field()),
+             terminal.Text(sweep.axes(0).field()), terminal.Text(sweep.metrics(scale.metric())),
+             Tics(grid.columns()), Tics(grid.rows()),
+             static_cast<double>(grid.columns().size()) - 0.5,
+             static_cast<double>(grid.rows().size()) - 0.5, range.low, range.high,
+             terminal.Text(Legend(scale)), terminal.Font(9)) +
+         ColourTics(scale, range);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,60 @@
+#include "cli/figures/heat_map/heat_map_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/base/failure.h"
+#include "cli/export/provenance.h"
+#include "cli/figures/draw.h"
+#include "cli/figures/heat_map/heat_map.h"
+#include "cli/figures/provenance_stamp.h"
+#include "cli/text/sweep/render_heat_map.h"
+
+namespace contact::cli {
+
+void HeatMapOptions::AddTo(CommandLine& line, CLI::App& command) {
+  line.SetKind(command.add_option("--metric", metric_, "Of the heat map. Default: the first"),
+               ValueKind::kMetric);
+  line.SetWords(command.add_option("--scale", scale_,
+                                   "Of the colours of the heat map: linear or log, which has none "
+                                   "for values <= 0"),
+                {"linear", "log"})
+      ->type_name("SCALE")
+      ->capture_default_str();
+  command.add_flag("--contour", contours_,
+                   "Draw lines of equal value over the heat map in a file, between the cells that "
+                   "converged");
+}
+
+int HeatMapOptions::MetricOf(const v1::Sweep& sweep) const {
+  if (metric_.empty()) return 0;
+  const auto found = std::ranges::find(sweep.metrics(), metric_);
+  if (found != sweep.metrics().end()) {
+    return static_cast<int>(found - sweep.metrics().begin());
+  }
+  throw Failure(ExitCode::kUsage,
+                fmt::format("--metric {}: the sweep has none of this name", metric_));
+}
+
+std::string HeatMapOptions::Text(const v1::Sweep& sweep, const SweepCells& cells,
+                                 const Style& style) const {
+  return RenderHeatMap(sweep, cells, MetricOf(sweep), style, scale_ == "log");
+}
+
+void HeatMapOptions::Draw(const v1::Job& job, const SweepCells& cells,
+                          const std::string& path) const {
+  const OutputFormat format = FormatOfFigure(path);
+  if (format == OutputFormat::kGnuplot || format == OutputFormat::kCsv ||
+      format == OutputFormat::kText) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{}: a heat map is drawn as svg, png, pdf or tex", path));
+  }
+  const HeatScale scale(cells, MetricOf(job.sweep()), scale_ == "log");
+  DrawScript(HeatMapScript(job, cells, scale, contours_, GnuplotTerminal(format), path), path);
+  StampProvenance(format, path, job.sweep().base().title(), {SourceOf(job)});
+  fmt::print(stderr, "{}\n", path);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include "cli/base/style.h"
+#include "cli/settings/command_line.h"
+#include "cli/text/sweep/sweep_cells.h"
+#include "contact/v1/job.pb.h"
+
+namespace contact::cli {
+
+/// The flags --metric, --scale and --contour of the commands that show a heat map, and the map
+/// that they choose.
+class HeatMapOptions {
+ public:
+  /// Declares the flags. This object must outlive `command`, which writes to it.
+  void AddTo(CommandLine& line, CLI::App& command);
+
+  /// The metric as the user named it; empty: the first of the sweep.
+  const std::string& metric() const { return metric_; }
+
+  /// The place of the metric among those of the sweep. Throws Failure (kUsage) if the sweep has
+  /// none of this name.
+  int MetricOf(const v1::Sweep& sweep) const;
+
+  /// The map in characters, see RenderHeatMap. Throws as MetricOf does.
+  std::string Text(const v1::Sweep& sweep, const SweepCells& cells, const Style& style) const;
+
+  /// Draws the map to a file in the format of its ending, and prints the path to the standard
+  /// error. Throws as MetricOf, HeatMapScript and DrawScript do, and Failure (kUsage) for an ending
+  /// of a format in which there are no heat maps.
+  void Draw(const v1::Job& job, const SweepCells& cells, const std::string& path) const;
+
+ private:
+  std::string metric_;
+  std::string scale_ = "linear";
+  bool contours_ = false;
+};
+
+}  // namespace contact::cli

@@ -1,0 +1,101 @@
+#include "cli/text/comparison/render_comparison.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "cli/base/html.h"
+#include "cli/base/latex.h"
+#include "cli/base/table.h"
+#include "cli/text/comparison/comparison_cells.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::size_t kMostRows = 200;
+
+std::vector<Table::Column> Columns(const std::vector<std::string>& headers) {
+  std::vector<Table::Column> columns;
+  for (const std::string& header : headers) columns.push_back({header, !columns.empty()});
+  return columns;
+}
+
+std::string ParameterTable(const JobComparison& comparison, const Style& style) {
+  if (comparison.parameters.empty()) return "The scenarios are the same.\n";
+  ComparisonCells cells = ParameterCells(comparison, "PARAMETER");
+  Table table(Columns(cells.headers));
+  for (auto& row : cells.rows) table.Add({row.begin(), row.end()});
+  return table.Text(style);
+}
+
+Tone ToneOfVerdict(const std::string& verdict) {
+  if (verdict.empty()) return Tone::kPlain;
+  return verdict == "ok" ? Tone::kGood : Tone::kBad;
+}
+
+std::string ResultTable(const JobComparison& comparison, const Style& style) {
+  ComparisonCells cells = ResultCells(comparison, 9, "RESULT", "DEVIATION");
+  std::vector<Table::Column> columns = Columns(cells.headers);
+  columns.push_back({""});
+  Table table(std::move(columns));
+  for (std::size_t i = 0; i < cells.rows.size(); ++i) {
+    std::vector<Table::Cell> row(cells.rows[i].begin(), cells.rows[i].end());
+    const std::string verdict = VerdictOf(comparison, comparison.results[i]);
+    row.emplace_back(verdict, ToneOfVerdict(verdict));
+    table.Add(std::move(row));
+  }
+  return table.Text(style, kMostRows, "… {} more results; -o csv prints all");
+}
+
+std::string LatexRow(const std::vector<std::string>& cells) {
+  std::string row;
+  for (const std::string& cell : cells) row += (row.empty() ? "" : " & ") + LatexText(cell);
+  return row + " \\\\\n";
+}
+
+std::string Tabular(const ComparisonCells& cells) {
+  std::string text = fmt::format("\\begin{{tabular}}{{l{}}}\n\\hline\n",
+                                 std::string(cells.headers.size() - 1, 'r'));
+  text += LatexRow(cells.headers) + "\\hline\n";
+  for (const auto& row : cells.rows) text += LatexRow(row);
+  return text + "\\hline\n\\end{tabular}\n";
+}
+
+std::string ParametersHtml(const JobComparison& comparison) {
+  if (comparison.parameters.empty()) return "<p>The scenarios are the same.</p>\n";
+  ComparisonCells cells = ParameterCells(comparison, "Parameter");
+  std::vector<HtmlRow> rows;
+  for (auto& row : cells.rows) rows.push_back({std::move(row)});
+  return HtmlTable(cells.headers, rows);
+}
+
+}  // namespace
+
+std::string RenderComparison(const JobComparison& comparison, const Style& style) {
+  const bool holds = comparison.Holds();
+  return fmt::format(
+      "{}\n{}\n{} within {}\n", ParameterTable(comparison, style), ResultTable(comparison, style),
+      Paint(holds ? "equal" : "DIFFERENT: not all", holds ? Tone::kGood : Tone::kBad, style),
+      ToleranceText(comparison.tolerance));
+}
+
+std::string ComparisonLatex(const JobComparison& comparison) {
+  const std::string parameters =
+      comparison.parameters.empty() ? "" : Tabular(ParameterCells(comparison, "Parameter")) + "\n";
+  return parameters + Tabular(ResultCells(comparison, 7, "Result", "Deviation"));
+}
+
+std::string ComparisonHtml(const JobComparison& comparison) {
+  ComparisonCells cells = ResultCells(comparison, 9, "Result", "Deviation");
+  std::vector<HtmlRow> rows;
+  for (std::size_t i = 0; i < cells.rows.size(); ++i) {
+    rows.push_back({std::move(cells.rows[i]), !comparison.Holds(comparison.results[i])});
+  }
+  return ParametersHtml(comparison) + HtmlTable(cells.headers, rows) +
+         fmt::format("<p>Marked: not within {}.</p>\n",
+                     HtmlText(ToleranceText(comparison.tolerance)));
+}
+
+}  // namespace contact::cli

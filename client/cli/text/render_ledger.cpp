@@ -1,0 +1,80 @@
+#include "cli/text/render_ledger.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "cli/base/number.h"
+
+namespace contact::cli {
+
+std::vector<Table::Column> LedgerColumns() {
+  return {{"CONTACT"},
+          {"#", true, 0, "number"},
+          {"KIND"},
+          {"END", false, 2},
+          {"STATUS"},
+          {"n", true, 1, "iterations"},
+          {"μ", true, 0, "mu"},
+          {"α, or μ/k", true, 4, "alpha"},
+          {"ε IN", true, 0, "restitution_in"},
+          {"ε OUT", true, 0, "restitution_out"},
+          {"ERROR", true},
+          {"t START [s]", true, 3, "start_time"},
+          {"t END [s]", true, 3, "end_time"},
+          {"PEAK FORCE [N]", true, Table::kOnlyWide},
+          {"δ MAX [m]", true, Table::kOnlyWide, "delta_max"},
+          {"W_c [J]", true, Table::kOnlyWide, "work_compression"},
+          {"W_r [J]", true, Table::kOnlyWide, "work_restitution"}};
+}
+
+std::string RenderLedger(const v1::Job& job, const Style& style) {
+  if (job.cycles().empty()) return "";
+  constexpr std::size_t kMostRows = 40;
+  Table table(LedgerColumns());
+  for (const v1::Cycle& cycle : job.cycles()) {
+    table.Add({cycle.contact(),
+               fmt::to_string(cycle.number()),
+               v1::Cycle::Kind_Name(cycle.kind()),
+               v1::Cycle::End_Name(cycle.end()),
+               {v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status())},
+               fmt::to_string(cycle.iterations()),
+               Digits(cycle.mu(), 7),
+               AlphaOrRatio(cycle),
+               Digits(cycle.restitution_in(), 6),
+               Digits(cycle.restitution_out(), 8),
+               RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
+               Digits(cycle.start_time_s(), 7),
+               Digits(cycle.end_time_s(), 7),
+               Digits(cycle.peak_force_n(), 7),
+               Digits(cycle.delta_max_m(), 7),
+               Digits(cycle.work_compression_j(), 7),
+               Digits(cycle.work_restitution_j(), 7)});
+  }
+  return fmt::format("\n{}", table.Text(style, kMostRows, "… {} more cycles; -o json prints all"));
+}
+
+Tone ToneOf(v1::Cycle::Status status) {
+  switch (status) {
+    case v1::Cycle::CONVERGED:
+      return Tone::kGood;
+    case v1::Cycle::NOT_CONVERGED:
+      return Tone::kBad;
+    case v1::Cycle::INFEASIBLE:
+      return Tone::kWarning;
+    default:
+      return Tone::kPlain;
+  }
+}
+
+std::string AlphaOrRatio(const v1::Cycle& cycle) {
+  return cycle.kind() == v1::Cycle::COLLISION ? Digits(cycle.alpha(), 7)
+                                              : Digits(cycle.mu_over_k_s_per_m(), 5) + " s/m";
+}
+
+double RestitutionError(double restitution_out, double restitution_in) {
+  return std::abs(restitution_out - restitution_in) / restitution_in;
+}
+
+}  // namespace contact::cli

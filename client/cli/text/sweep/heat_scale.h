@@ -1,0 +1,50 @@
+#pragma once
+
+#include <limits>
+
+#include "cli/text/sweep/sweep_cells.h"
+
+namespace contact::cli {
+
+/// The scale of a heat map: which values of a metric it shows, and how high each stands between
+/// the lowest and the highest of them.
+class HeatScale {
+ public:
+  /// `metric` is the place of the metric among those of the sweep. With `log` the scale is
+  /// logarithmic and shows no value <= 0.
+  HeatScale(const SweepCells& cells, int metric, bool log);
+
+  /// The value that the map shows for a cell; NaN if the cell failed, has no finite value, or has
+  /// none that the scale shows.
+  double Shown(const v1::SweepCell& cell) const;
+
+  /// The place of a shown value on the scale, from 0 for the lowest to 1 for the highest; 0 if all
+  /// values are equal.
+  double Height(double value) const;
+
+  /// The place of the metric among those of the sweep.
+  int metric() const { return metric_; }
+  /// The lowest shown value; infinity if there is none.
+  double low() const { return low_; }
+  /// The highest shown value; −infinity if there is none.
+  double high() const { return high_; }
+  /// True if the scale is logarithmic.
+  bool log() const { return log_; }
+  /// True if all shown values are whole numbers.
+  bool whole() const { return whole_; }
+  /// The number of finite values that a logarithmic scale cannot show.
+  int unshown() const { return unshown_; }
+
+ private:
+  // The value of a cell whatever the scale; NaN if it failed or has none.
+  double Value(const v1::SweepCell& cell) const;
+
+  int metric_;
+  bool log_;
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = -std::numeric_limits<double>::infinity();
+  bool whole_ = true;
+  int unshown_ = 0;
+};
+
+}  // namespace contact::cli

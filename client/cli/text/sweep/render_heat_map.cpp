@@ -1,0 +1,73 @@
+#include "cli/text/sweep/render_heat_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "cli/base/number.h"
+#include "cli/text/sweep/heat_scale.h"
+#include "cli/text/sweep/sweep_grid.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::size_t kMostMapRows = 60;
+
+// Two characters for a cell.
+std::string Glyph(const v1::SweepCell* cell, const HeatScale& scale, const Style& style) {
+  constexpr std::array<std::string_view, 4> kShades{"░", "▒", "▓", "█"};
+  if (cell == nullptr) return "··";
+  if (cell->state() == v1::Job::FAILED) return Paint("××", Tone::kBad, style);
+  const double value = scale.Shown(*cell);
+  if (std::isnan(value)) return "--";
+  const std::string_view shade =
+      kShades[std::min<std::size_t>(3, static_cast<std::size_t>(scale.Height(value) * 4))];
+  if (cell->convergence() == v1::Job::FULL) return fmt::format("{0}{0}", shade);
+  return Paint(fmt::format("{}!", shade), Tone::kWarning, style);
+}
+
+std::string Title(const v1::Sweep& sweep, int metric, const SweepGrid& grid) {
+  return fmt::format("\n{} over {} (down) and {} (across, {} … {})\n", sweep.metrics(metric),
+                     sweep.axes(0).field(), sweep.axes(1).field(),
+                     Digits(grid.columns().front(), 4), Digits(grid.columns().back(), 4));
+}
+
+std::string Legend(const HeatScale& scale) {
+  std::string legend =
+      fmt::format("░ {} … █ {}{};  ! not converged, ×× failed, -- no value", Digits(scale.low(), 5),
+                  Digits(scale.high(), 5), scale.log() ? ", log scale" : "");
+  if (scale.unshown() == 0) return legend;
+  return legend + fmt::format(" ({})", Count(scale.unshown(), "is <= 0", "are <= 0"));
+}
+
+}  // namespace
+
+std::string RenderHeatMap(const v1::Sweep& sweep, const SweepCells& cells, int metric,
+                          const Style& style, bool log) {
+  const std::optional<SweepGrid> grid = SweepGrid::Of(sweep, cells);
+  if (!grid || metric < 0 || metric >= sweep.metrics_size()) return "";
+  std::vector<std::string> labels;
+  for (const double row : grid->rows()) labels.push_back(Digits(row, 4));
+  const int label = Width(*std::ranges::max_element(labels, {}, Width));
+  const int width = label + 2 + 3 * static_cast<int>(grid->columns().size());
+  if (labels.size() > kMostMapRows || (style.width > 0 && width > style.width)) return "";
+
+  const HeatScale scale(cells, metric, log);
+  std::string text = Wrap(Title(sweep, metric, *grid), style);
+  for (std::size_t row = 0; row < labels.size(); ++row) {
+    text += Pad(labels[row], -label) + " ";
+    for (std::size_t column = 0; column < grid->columns().size(); ++column) {
+      text.append(" ").append(Glyph(grid->At(row, column), scale, style));
+    }
+    text += "\n";
+  }
+  return text + Wrap(Legend(scale) + "\n", style);
+}
+
+}  // namespace contact::cli

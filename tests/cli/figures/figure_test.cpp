@@ -1,0 +1,129 @@
+#include "cli/figures/figure.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "cli/base/failure.h"
+#include "cli/figures/curve_style.h"
+#include "cli/figures/draw.h"
+#include "cli/figures/overlay.h"
+#include "cli/figures/sampling.h"
+#include "testing/sample_run.h"
+
+namespace contact::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+
+Figure OfCurve(std::vector<double> y) {
+  std::vector<double> x;
+  for (std::size_t i = 0; i < y.size(); ++i) x.push_back(static_cast<double>(i));
+  Figure figure{.panels = {{.x_label = "time [s]", .y_label = "force [N]"}}};
+  figure.panels[0].curves = {{"a", 0, Figure::Mark::kLine, std::move(x), std::move(y)}};
+  return figure;
+}
+
+TEST(Thin, LeavesShortCurvesAsTheyAre) {
+  Figure figure = OfCurve({3, 1, 2});
+  Thin(3, &figure);
+  EXPECT_THAT(figure.panels[0].curves[0].y, ElementsAre(3, 1, 2));
+}
+
+TEST(Thin, KeepsEndsAndExtremesInOrder) {
+  std::vector<double> y(1000, 0);
+  y[123] = 5;
+  y[877] = -5;
+  Figure figure = OfCurve(y);
+  Thin(40, &figure);
+  const auto& curve = figure.panels[0].curves[0];
+  EXPECT_LE(curve.x.size(), 40U);
+  EXPECT_EQ(curve.x.size(), curve.y.size());
+  EXPECT_EQ(curve.x.front(), 0);
+  EXPECT_EQ(curve.x.back(), 999);
+  EXPECT_TRUE(std::ranges::is_sorted(curve.x));
+  EXPECT_EQ(std::ranges::max(curve.y), 5);
+  EXPECT_EQ(std::ranges::min(curve.y), -5);
+}
+
+TEST(FigureCsv, HasEveryPointBelowTheNamesOfTheAxes) {
+  Figure figure = OfCurve({0.1, 1e-300});
+  figure.panels[0].curves.push_back({"a", 0, Figure::Mark::kEnd, {2}, {3}});
+  EXPECT_EQ(FigureCsv(figure), "curve,time [s],force [N]\na,0,0.1\na,1,1e-300\na ends,2,3\n");
+}
+
+TEST(CurveStyle, CurvesOfTheSameColourHaveOtherDashes) {
+  const Figure::Curve first{.colour = 1};
+  const Figure::Curve again{.colour = 8};
+  EXPECT_EQ(PaletteColour(1), PaletteColour(8));
+  EXPECT_NE(ColouredStyle(first), ColouredStyle(again));
+}
+
+TEST(CurveStyle, SolidAndDashedCurvesHaveOtherCharacters) {
+  for (int colour = 0; colour < 7; ++colour) {
+    EXPECT_NE(CharacterStyle({.colour = colour, .mark = Figure::Mark::kLine}),
+              CharacterStyle({.colour = colour, .mark = Figure::Mark::kDashed}));
+  }
+}
+
+TEST(FigureFormat, IsThatOfTheFlagElseOfTheEndingElseSvg) {
+  Settings settings;
+  EXPECT_EQ(FigureFormat("a.pdf", settings), OutputFormat::kPdf);
+  EXPECT_EQ(FigureFormat("a.tex", settings), OutputFormat::kTikz);
+  EXPECT_EQ(FigureFormat("a.dat", settings), OutputFormat::kSvg);
+  EXPECT_EQ(FigurePath("", "force", settings), "force.svg");
+  settings.SetOutput("tikz");
+  EXPECT_EQ(FigureFormat("a.pdf", settings), OutputFormat::kTikz);
+  EXPECT_EQ(FigurePath("", "force", settings), "force.tex");
+  settings.SetOutput("netcdf");
+  EXPECT_THROW(FigureFormat("a.pdf", settings), Failure);
+}
+
+TEST(InlineSvg, HasNeitherDeclarationsNorTooltip) {
+  EXPECT_EQ(InlineSvg("<?xml version=\"1.0\"?>\n<svg a=\"1\" xmlns=\"http://www.w3.org/2000/svg\">"
+                      "<title>t</title><g/></svg>"),
+            "<svg a=\"1\" ><g/></svg>");
+  EXPECT_EQ(InlineSvg("no picture"), "");
+}
+
+TEST(Overlay, NamesRunsByTheOneParameterInWhichTheyDiffer) {
+  Recording other = SampleRun();
+  other.job.mutable_scenario()->mutable_contacts(0)->set_restitution(0.5);
+  const Figure figure = OverlayFigure({SampleRun(), other}, {});
+  EXPECT_THAT(figure.title, HasSubstr(": contacts[0].restitution"));
+  ASSERT_THAT(figure.panels, SizeIs(2));  // A panel for each contact.
+  EXPECT_EQ(figure.panels[0].y_label, "A-B.contact_force [N]");
+  EXPECT_THAT(figure.panels[0].curves, ElementsAre(Field(&Figure::Curve::label, "0.8"),
+                                                   Field(&Figure::Curve::label, "0.5")));
+  EXPECT_THAT(figure.panels[1].curves[0].label, "");  // The key stands once.
+  EXPECT_THAT(figure.sources, SizeIs(2));
+}
+
+TEST(Overlay, NamesRunsByTheirJobWhereTheyDifferInMore) {
+  Recording other = SampleRun();
+  other.job.set_name("jobs/other");
+  other.job.mutable_scenario()->mutable_contacts(0)->set_restitution(0.5);
+  other.job.mutable_scenario()->mutable_bodies(0)->set_mass_kg(4);
+  const Figure figure = OverlayFigure({SampleRun(), other}, {"A.velocity"});
+  EXPECT_EQ(figure.panels.at(0).curves.at(1).label,
+            "jobs/other, bodies[0].mass_kg = 4, contacts[0].restitution = 0.5");
+  EXPECT_THROW(OverlayFigure({other}, {"C.velocity"}), Failure);
+}
+
+TEST(CoarseSampling, TellsTheCommandThatRecordsMore) {
+  Recording run = SampleRun();
+  EXPECT_EQ(CoarseSampling(run), "");
+  run.job.mutable_cycles(0)->set_end_time_s(0.05);
+  EXPECT_EQ(CoarseSampling(run),
+            "1 contact cycle has fewer than 10 samples, too few to show. For more:\n"
+            "  contactctl run --like jobs/sample --set output.sample_interval_s=1e-03");
+  run.job.mutable_cycles(0)->set_end(v1::Cycle::RUN_END);  // Cut off: its length says nothing.
+  EXPECT_EQ(CoarseSampling(run), "");
+}
+
+}  // namespace
+}  // namespace contact::cli

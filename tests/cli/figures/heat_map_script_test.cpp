@@ -1,0 +1,172 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "cli/base/failure.h"
+#include "cli/base/text_file.h"
+#include "cli/figures/gnuplot.h"
+#include "cli/figures/heat_map/contours.h"
+#include "cli/figures/heat_map/heat_map.h"
+#include "cli/figures/heat_map/heat_map_axes.h"
+#include "testing/temp_directory.h"
+
+namespace contact::cli {
+namespace {
+
+using testing::AllOf;
+using testing::DoubleEq;
+using testing::HasSubstr;
+using testing::Not;
+using testing::Pointwise;
+
+const GnuplotTerminal kSvg(OutputFormat::kSvg);
+
+v1::Job Sweep() {
+  v1::Job job;
+  v1::Sweep& sweep = *job.mutable_sweep();
+  sweep.mutable_base()->set_title("it's a sweep");
+  sweep.add_axes()->set_field("bodies[0].mass_kg");
+  sweep.add_axes()->set_field("contacts[0].restitution");
+  sweep.add_metrics("iterations");
+  return job;
+}
+
+// A grid whose metric is f(row, column).
+template <class F>
+SweepCells Grid(int rows, int columns, F f) {
+  SweepCells cells;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      v1::SweepCell& cell = cells[row * columns + column];
+      cell.add_values(1 + row);
+      cell.add_values(0.1 * (1 + column));
+      cell.add_metrics(f(row, column));
+      cell.set_state(v1::Job::SUCCEEDED);
+      cell.set_convergence(v1::Job::FULL);
+    }
+  }
+  return cells;
+}
+
+std::string Script(const SweepCells& cells, bool contours = false, bool log = false) {
+  return HeatMapScript(Sweep(), cells, HeatScale(cells, 0, log), contours, kSvg, "map.svg");
+}
+
+struct Point {
+  double x, y, level;
+};
+
+// The lines that gnuplot finds in a grid.
+std::vector<Point> Contours(const std::vector<double>& values, std::size_t columns,
+                            const HeatScale& scale) {
+  const TempDirectory folder;
+  const std::string lines = folder.path() / "lines";
+  WriteText(FindContours(values, columns, scale) + "set print '" + lines + "'\nprint $contours\n",
+            folder.path() / "script");
+  RunGnuplot(folder.path() / "script");
+  std::istringstream text(ReadText(lines));
+  std::vector<Point> points;
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream words(line);
+    Point point{};
+    if (line.find('#') == std::string::npos && words >> point.x >> point.y >> point.level) {
+      points.push_back(point);
+    }
+  }
+  std::erase_if(points, [](const Point& point) { return point.x == 0 && point.level == 0; });
+  return points;
+}
+
+TEST(LogLevels, AreRoundAndWithinTheValues) {
+  EXPECT_THAT(LogLevels(0.03, 3), Pointwise(DoubleEq(), {0.05, 0.1, 0.2, 0.5, 1.0, 2.0}));
+  EXPECT_THAT(LogLevels(1, 1e5), Pointwise(DoubleEq(), {1.0, 10.0, 100.0, 1e3, 1e4, 1e5}));
+  EXPECT_THAT(LogLevels(2.1, 2.9), Pointwise(DoubleEq(), {2.2, 2.4, 2.6, 2.8}));
+}
+
+TEST(LogLevels, Ascend) {
+  for (const double high : {1.1e-3, 0.02, 7.0, 3e4, 1e12}) {
+    const std::vector<double> levels = LogLevels(1e-3, high);
+    EXPECT_FALSE(levels.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(levels, std::less_equal())) << high;
+    EXPECT_GE(levels.front(), 1e-3 * (1 - 1e-12));
+    EXPECT_LE(levels.back(), high);
+  }
+}
+
+TEST(FindContours, LinesOfAPlaneAreStraight) {
+  const auto plane = [](double row, double column) { return 2 * row + 3 * column; };
+  std::vector<double> values;
+  for (int i = 0; i < 30; ++i) values.push_back(plane(i / 6, i % 6));
+  const std::vector<Point> points = Contours(values, 6, HeatScale(Grid(5, 6, plane), 0, false));
+  ASSERT_GT(points.size(), 10U);
+  for (const Point& point : points) {
+    EXPECT_NEAR(plane(point.y, point.x), point.level, 1e-3 * point.level);
+  }
+}
+
+TEST(FindContours, NoLineGoesBesideAHole) {
+  const auto slope = [](double, double column) { return column; };
+  std::vector<double> values;
+  for (int i = 0; i < 30; ++i) values.push_back(i % 6);
+  values[2 * 6 + 3] = NAN;
+  for (const Point& point : Contours(values, 6, HeatScale(Grid(5, 6, slope), 0, false))) {
+    EXPECT_FALSE(std::abs(point.x - 3) < 0.9 && std::abs(point.y - 2) < 0.9)
+        << point.x << ' ' << point.y;
+  }
+}
+
+TEST(HeatMapScript, HasEachValueAtItsPlace) {
+  const std::string script = Script(Grid(2, 3, [](int r, int c) { return 10 * r + c; }));
+  EXPECT_THAT(script, HasSubstr("$cells << end\n0 0 0\n1 0 1\n2 0 2\n0 1 10\n1 1 11\n2 1 12\n"));
+  EXPECT_THAT(script, AllOf(HasSubstr("set xtics out nomirror ('0.1' 0, '0.2' 1, '0.3' 2)"),
+                            HasSubstr("set ytics out nomirror ('1' 0, '2' 1)"),
+                            HasSubstr("set title 'it''s a sweep'"), HasSubstr("with labels")));
+}
+
+TEST(HeatMapScript, MarksCellsThatFailedOrDidNotConverge) {
+  SweepCells cells = Grid(2, 2, [](int r, int c) { return r + c; });
+  EXPECT_THAT(Script(cells), AllOf(Not(HasSubstr("pattern 4")), Not(HasSubstr("set arrow"))));
+  cells[1].set_convergence(v1::Job::PARTIAL);
+  cells[2].set_state(v1::Job::FAILED);
+  EXPECT_THAT(Script(cells),
+              AllOf(HasSubstr("rectangle from 0.5,-0.5 to 1.5,0.5 front fillcolor"),
+                    HasSubstr("pattern 4"), HasSubstr("set arrow from -0.5,0.5 to 0.5,1.5"),
+                    Not(HasSubstr("\n0 1 "))));  // The cell that failed has no colour.
+}
+
+TEST(HeatMapScript, ManyCellsHaveNoNumbersAndFewTics) {
+  const std::string script = Script(Grid(40, 40, [](int r, int c) { return r * c; }));
+  EXPECT_THAT(script, Not(HasSubstr("with labels")));
+  EXPECT_THAT(script, AllOf(HasSubstr("'5' 4, "), Not(HasSubstr("'4' 3"))));  // Every second row.
+}
+
+TEST(HeatMapScript, ContoursNeedTwoValuesAndTwoRows) {
+  EXPECT_THAT(Script(Grid(3, 3, [](int r, int c) { return r + c; }), true), HasSubstr("$contours"));
+  EXPECT_THAT(Script(Grid(3, 3, [](int, int) { return 1; }), true), Not(HasSubstr("$contours")));
+  EXPECT_THAT(Script(Grid(1, 9, [](int, int c) { return c; }), true), Not(HasSubstr("$contours")));
+}
+
+TEST(HeatMapScript, IsOfGridsOfTwoAxes) {
+  const SweepCells cells = Grid(2, 2, [](int r, int c) { return r + c; });
+  v1::Job job = Sweep();
+  job.mutable_sweep()->add_axes()->set_field("end_time_s");
+  const HeatScale scale(cells, 0, false);
+  EXPECT_THROW(HeatMapScript(job, cells, scale, false, kSvg, "m"), Failure);
+  EXPECT_THROW(HeatMapScript(Sweep(), {}, scale, false, kSvg, "m"), Failure);
+}
+
+TEST(ColourRange, HasTwoEndsForOneValueOrNone) {
+  for (const bool log : {false, true}) {
+    for (const double value : {3.0, 0.0, -2.0, static_cast<double>(NAN)}) {
+      const ColourRange range(HeatScale(Grid(2, 2, [&](int, int) { return value; }), 0, log));
+      EXPECT_LT(range.low, range.high) << value << log;
+      if (log) EXPECT_GT(range.low, 0) << value;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contact::cli
