@@ -18,7 +18,7 @@ constexpr char kScenario[] =
     "- {name: A, mass_kg: 0.5, position_m: 0, radius_m: 0.05, velocity_m_per_s: 0.2}\n"
     "- {name: B, mass_kg: 0.5, position_m: 0.1, radius_m: 0.05}\n"
     "contacts:\n"
-    "- {between: {first: A, second: B}, stiffness: 1e10, restitution: 0.8}\n";
+    "- {between: [A, B], stiffness: 1e10, restitution: 0.8}\n";
 
 class GridSweepTest : public testing::Test {
  protected:

@@ -23,7 +23,7 @@ v1::Scenario TwoBalls() {
   return ScenarioFile("two",
                       "end_time_s: 1e-3\n"
                       "bodies: [{name: A, mass_kg: 1}, {name: B, mass_kg: 1}]\n"
-                      "contacts: [{between: {first: A, second: B}, stiffness: 1e10}]\n")
+                      "contacts: [{between: [A, B], stiffness: 1e10}]\n")
       .scenario();
 }
 
