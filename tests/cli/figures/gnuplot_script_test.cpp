@@ -61,7 +61,9 @@ TEST(GnuplotScript, TextsCannotEndTheirStringOrTheirLine) {
   std::istringstream lines(Script(figure));
   for (std::string line; std::getline(lines, line);) {
     EXPECT_FALSE(line.starts_with("set output 'pwned")) << line;
-    if (!line.starts_with("#")) EXPECT_EQ(std::ranges::count(line, '\'') % 2, 0) << line;
+    if (!line.starts_with("#")) {
+      EXPECT_EQ(std::ranges::count(line, '\'') % 2, 0) << line;
+    }
   }
 }
 

@@ -163,7 +163,9 @@ TEST(ColourRange, HasTwoEndsForOneValueOrNone) {
     for (const double value : {3.0, 0.0, -2.0, static_cast<double>(NAN)}) {
       const ColourRange range(HeatScale(Grid(2, 2, [&](int, int) { return value; }), 0, log));
       EXPECT_LT(range.low, range.high) << value << log;
-      if (log) EXPECT_GT(range.low, 0) << value;
+      if (log) {
+        EXPECT_GT(range.low, 0) << value;
+      }
     }
   }
 }

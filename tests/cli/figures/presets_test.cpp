@@ -44,8 +44,12 @@ TEST(Presets, EveryPresetShowsCurvesWhoseAxesHaveUnits) {
     EXPECT_THAT(figure.sources, SizeIs(1));
     for (const Figure::Panel& panel : figure.panels) {
       EXPECT_THAT(panel.curves, Not(IsEmpty()));
-      if (!panel.counted_x) EXPECT_THAT(panel.x_label, MatchesRegex(".* \\[.+\\]"));
-      if (preset != "restitution") EXPECT_THAT(panel.y_label, MatchesRegex(".* \\[.+\\]"));
+      if (!panel.counted_x) {
+        EXPECT_THAT(panel.x_label, MatchesRegex(".* \\[.+\\]"));
+      }
+      if (preset != "restitution") {
+        EXPECT_THAT(panel.y_label, MatchesRegex(".* \\[.+\\]"));
+      }
       for (const Curve& curve : panel.curves) EXPECT_EQ(curve.x.size(), curve.y.size());
     }
   }

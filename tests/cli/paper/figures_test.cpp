@@ -68,8 +68,12 @@ TEST(ModelsFigure, HasTheForcesOfEveryModelInItsColour) {
     EXPECT_THAT(curves, Contains(Field(&Curve::label, label)).Times(1));
   }
   for (const Curve& curve : curves) {
-    if (curve.label.starts_with("one")) EXPECT_EQ(curve.colour, 0);
-    if (curve.label.starts_with("two")) EXPECT_EQ(curve.colour, 1);
+    if (curve.label.starts_with("one")) {
+      EXPECT_EQ(curve.colour, 0);
+    }
+    if (curve.label.starts_with("two")) {
+      EXPECT_EQ(curve.colour, 1);
+    }
   }
   EXPECT_THAT(curves, Not(Contains(Field(&Curve::label, testing::HasSubstr("external")))));
   EXPECT_THAT(figure.sources, SizeIs(2));
@@ -79,8 +83,12 @@ TEST(ModelsFigure, SecondContactIsDashed) {
   FakeLab lab;
   const Solved run = lab.SolveOne(TripleChain(0.8, 0.7));
   for (const Curve& curve : ModelsFigure("force", {&run}, {"m"}).panels.at(0).curves) {
-    if (curve.label == "m, B1-B2") EXPECT_EQ(curve.mark, Mark::kLine);
-    if (curve.label == "m, B2-B3") EXPECT_EQ(curve.mark, Mark::kDashed);
+    if (curve.label == "m, B1-B2") {
+      EXPECT_EQ(curve.mark, Mark::kLine);
+    }
+    if (curve.label == "m, B2-B3") {
+      EXPECT_EQ(curve.mark, Mark::kDashed);
+    }
   }
 }
 

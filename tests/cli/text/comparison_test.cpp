@@ -106,10 +106,15 @@ TEST(ComparisonJson, HasNoNumberThatJsonLacks) {
   const auto json = nlohmann::json::parse(ComparisonJson(Differing(0.25)));
   EXPECT_FALSE(json["equal"]);
   for (const auto& result : json["results"]) {
-    if (result["name"] == "A-B #1 ε out")
+    if (result["name"] == "A-B #1 ε out") {
       EXPECT_EQ(result["values"], nlohmann::json::array({nullptr, nullptr}));
-    if (result["name"] == "A-B #1 peak force") EXPECT_FALSE(result["holds"]);
-    if (result["name"] == "A-B #1 μ") EXPECT_EQ(result["values"][1], 1e6);
+    }
+    if (result["name"] == "A-B #1 peak force") {
+      EXPECT_FALSE(result["holds"]);
+    }
+    if (result["name"] == "A-B #1 μ") {
+      EXPECT_EQ(result["values"][1], 1e6);
+    }
   }
 }
 
