@@ -50,12 +50,12 @@ struct SweepArguments {
 class CellWatcher final : public WatchObserver {
  public:
   CellWatcher(const std::string& job, const Settings& settings) : form_(settings.Progress()) {
-    if (form_ == ProgressForm::kJson) signals_.emplace(stderr, ShortName(job));
+    if (form_ == ProgressForm::kJson) json_progress_.emplace(stderr, ShortName(job));
   }
   ~CellWatcher() override { Erase(); }
 
   void OnSnapshot(const v1::Job& job) override {
-    if (job.has_progress() && signals_) signals_->Hear(job.progress());
+    if (job.has_progress() && json_progress_) json_progress_->Update(job.progress());
   }
   void OnEvent(const v1::Event& event) override {
     if (event.has_sweep_cell()) cells_[event.sweep_cell().index()] = event.sweep_cell();
@@ -69,7 +69,7 @@ class CellWatcher final : public WatchObserver {
 
  private:
   void Show(const v1::Progress& progress) {
-    if (signals_) signals_->Hear(progress);
+    if (json_progress_) json_progress_->Update(progress);
     const double done = PartDone(progress);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     const std::string words = fmt::format(
@@ -89,7 +89,7 @@ class CellWatcher final : public WatchObserver {
   }
 
   const ProgressForm form_;
-  std::optional<ProgressSignals> signals_;  ///< With ProgressForm::kJson.
+  std::optional<JsonProgress> json_progress_;  ///< With ProgressForm::kJson.
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SweepCells cells_;
   int told_tenths_ = 0;
