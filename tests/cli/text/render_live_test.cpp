@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "cli/text/render_progress.h"
+
 namespace contact::cli {
 namespace {
 
