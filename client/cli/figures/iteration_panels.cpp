@@ -54,7 +54,7 @@ std::vector<Figure::Panel> IterationPanels(const std::vector<v1::Iteration>& ite
   }
   const std::string x_label = only ? "pass" : fmt::format("pass of episode {}", episode);
   return {
-      {.x_label = x_label, .y_label = "μ [N s/m^(n+1)]", .counted_x = true, .curves = mu.Take()},
+      {.x_label = x_label, .y_label = "μ [N·s/m^(n+1)]", .counted_x = true, .curves = mu.Take()},
       {.x_label = x_label,
        .y_label = "|W_r/W_c + ε²| [1]",
        .counted_x = true,

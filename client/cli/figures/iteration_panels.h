@@ -7,7 +7,7 @@
 
 namespace contact::cli {
 
-/// μ [N s/m^(n+1)] and |residual| over the passes of the episode that took the most passes, a curve
+/// μ [N·s/m^(n+1)] and |residual| over the passes of the episode that took the most passes, a curve
 /// for each cycle. A residual of zero, which has no logarithm, is drawn at 1e-17. Throws Failure
 /// (kUsage) without iterations.
 std::vector<Figure::Panel> IterationPanels(const std::vector<v1::Iteration>& iterations);

@@ -36,9 +36,10 @@ class SweepFile {
  private:
   void ReadRoot() {
     if (root_.IsNull()) return AddAt(root_.Mark(), "", "is empty", "a sweep has base and axes");
-    const YamlReader::Report report = [this](const YAML::Mark& mark, const std::string& field,
+    // The reader sees a clone, whose nodes have no marks.
+    const YamlReader::Report report = [this](const YAML::Mark&, const std::string& field,
                                              const std::string& what, const std::string& hint) {
-      AddAt(mark, field, what, hint);
+      AddAt(FindNode(root_, field).node.Mark(), field, what, hint);
     };
     const VariableValues own = ResolveVariables(variables_, report, &root_);
     std::erase_if(variables_, [&own](const auto& given) { return own.contains(given.first); });

@@ -104,7 +104,7 @@ TEST(ExportJsonLines, NumbersReadBackAsTheSameDoubles) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     EXPECT_EQ(rows.at(i)["a [1]"].get<double>(), numbers[i]);
   }
-  EXPECT_EQ(JsonLines({"t", "r", {{"a", "1", "", numbers}}}, 2)[0]["a [1]"], 0.33);
+  EXPECT_EQ(JsonLines({"t", "r", {{"a", "1", "", std::vector{1.0 / 3}}}}, 2)[0]["a [1]"], 0.33);
 }
 
 TEST(DataTable, EveryFieldOfTheLedgerIsAColumn) {

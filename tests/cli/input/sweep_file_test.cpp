@@ -55,7 +55,7 @@ TEST_F(SweepFileTest, ValuesOfAnEnumMayBeItsWords) {
       Read("base: base.yaml\naxes: [{field: solver.phase_split, values: [PEAK_FORCE, 1]}]\n");
   EXPECT_THAT(sweep.axes(0).values(), ElementsAre(v1::Solver::PEAK_FORCE, 1));
   EXPECT_THAT(Refused("base: base.yaml\naxes: [{field: solver.phase_split, values: [PEAK]}]\n"),
-              HasSubstr("sweep.yaml:2:46: axes[0].values[0]"));
+              HasSubstr("sweep.yaml:2:45: axes[0].values[0]"));
 }
 
 TEST_F(SweepFileTest, MistakesHaveTheirPlaceInTheFileThatHasThem) {
@@ -70,7 +70,7 @@ TEST_F(SweepFileTest, ABrokenRuleOfTheBaseIsPlacedInTheBase) {
   WriteText(std::string(kBase).replace(std::string(kBase).find("0.5"), 3, "-1."),
             folder_.path() / "base.yaml");
   EXPECT_THAT(Refused("base: base.yaml\naxes: [{field: end_time_s, values: [1]}]\n"),
-              HasSubstr("base.yaml:3:20: bodies[0].mass_kg: is -1"));
+              HasSubstr("base.yaml:3:22: bodies[0].mass_kg: is -1"));
 }
 
 TEST_F(SweepFileTest, WhatIsNoSweepIsTold) {

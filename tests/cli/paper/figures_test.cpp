@@ -82,7 +82,8 @@ TEST(ModelsFigure, HasTheForcesOfEveryModelInItsColour) {
 TEST(ModelsFigure, SecondContactIsDashed) {
   FakeLab lab;
   const Solved run = lab.SolveOne(TripleChain(0.8, 0.7));
-  for (const Curve& curve : ModelsFigure("force", {&run}, {"m"}).panels.at(0).curves) {
+  const Figure figure = ModelsFigure("force", {&run}, {"m"});
+  for (const Curve& curve : figure.panels.at(0).curves) {
     if (curve.label == "m, B1-B2") {
       EXPECT_EQ(curve.mark, Mark::kLine);
     }

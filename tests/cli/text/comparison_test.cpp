@@ -125,7 +125,7 @@ TEST(ComparisonCsv, EveryLineHasAsManyFields) {
   EXPECT_THAT(csv, StartsWith("kind,name,unit,jobs/a,jobs/b,jobs/c,deviation of jobs/b,"
                               "deviation of jobs/c,verdict\n"));
   EXPECT_THAT(csv, HasSubstr("\nparameter,title,,,\"a, \"\"b\"\"\",,,,\n"));
-  EXPECT_THAT(csv, HasSubstr("\nresult,A-B #1 μ,N s/m^(n+1),1000000,1000000,1000000,0,0,ok\n"));
+  EXPECT_THAT(csv, HasSubstr("\nresult,A-B #1 μ,N·s/m^(n+1),1e+06,1e+06,1e+06,0,0,ok\n"));
 }
 
 TEST(ComparisonLatex, EscapesTextsAndHasAsManyColumnsAsCells) {

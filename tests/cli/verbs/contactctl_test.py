@@ -35,7 +35,7 @@ class SeriesTest(CliTest):
         lines = self.run_it("series", self.job, "--raw", "-o", "csv")[0].splitlines()
         header = lines[0].split(",")
         self.assertEqual(header[:3], ["time [s]", "B1.position [m]", "B1.velocity [m/s]"])
-        self.assertEqual(header[-2:], ["B2-B3.contact_force_n", "B2-B3.external_force_n"])
+        self.assertEqual(header[-2:], ["B2-B3.contact_force [N]", "B2-B3.external_force [N]"])
         self.assertEqual(len(lines), 1 + 1001)
         last = dict(zip(header, map(float, lines[-1].split(","))))
         self.assertEqual(last["time [s]"], 4e-3)

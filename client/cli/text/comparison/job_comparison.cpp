@@ -104,7 +104,7 @@ class Results {
     const std::string name = fmt::format("{} #{} ", cycle.contact(), cycle.number());
     Add(job, name + "status", "", v1::Cycle::Status_Name(cycle.status()));
     Add(job, name + "end", "", v1::Cycle::End_Name(cycle.end()));
-    Add(job, name + "μ", "N s/m^(n+1)", cycle.mu());
+    Add(job, name + "μ", "N·s/m^(n+1)", cycle.mu());
     Add(job, name + "ε out", "1", cycle.restitution_out());
     Add(job, name + "peak force", "N", cycle.peak_force_n());
     Add(job, name + "δ max", "m", cycle.delta_max_m());
