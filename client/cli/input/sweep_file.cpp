@@ -36,12 +36,12 @@ class SweepFile {
  private:
   void ReadRoot() {
     if (root_.IsNull()) return AddAt(root_.Mark(), "", "is empty", "a sweep has base and axes");
-    // The reader sees a clone, whose nodes have no marks.
-    const YamlReader::Report report = [this](const YAML::Mark&, const std::string& field,
-                                             const std::string& what, const std::string& hint) {
-      AddAt(FindNode(root_, field).node.Mark(), field, what, hint);
-    };
-    const VariableValues own = ResolveVariables(variables_, report, &root_);
+    const VariableValues own = ResolveVariables(
+        variables_,
+        [this](const YAML::Mark& mark, const std::string& field, const std::string& what,
+               const std::string& hint) { AddAt(mark, field, what, hint); },
+        &root_);
+    if (!mistakes_.empty()) return;  // A text that names an unknown variable has no value.
     std::erase_if(variables_, [&own](const auto& given) { return own.contains(given.first); });
     YAML::Node rest = YAML::Clone(root_);
     if (rest.IsMap() && rest["base"].IsDefined() && rest["base"].IsScalar()) {
@@ -51,6 +51,11 @@ class SweepFile {
       RequireKnown(variables_, own);
     }
     NumberEnums(&rest);
+    // The reader sees a clone, whose nodes have no marks.
+    const auto report = [this](const YAML::Mark&, const std::string& field, const std::string& what,
+                               const std::string& hint) {
+      AddAt(FindNode(root_, field).node.Mark(), field, what, hint);
+    };
     YamlReader(report).ReadMessage(rest, "", &sweep_);
   }
 
