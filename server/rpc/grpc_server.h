@@ -38,8 +38,8 @@ struct GrpcServerOptions {
 /// The gRPC server: its settings, its services, its end. Plaintext, so for loopback only.
 class GrpcServer {
  public:
-  /// `identity`: see JobService. The manager and the clock outlive the server.
-  GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity,
+  /// `identity`: see JobService. The manager, its store and the clock outlive the server.
+  GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options, v1::ServerInfo identity,
              const Clock& clock = SystemClock());
 
   /// Shuts down if that has not been done.

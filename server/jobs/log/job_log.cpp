@@ -17,7 +17,7 @@ bool Ends(const LogRecord& record) {
          IsFinal(event.state_changed().state());
 }
 
-void Call(const std::set<std::shared_ptr<const JobLog::Waker>>& wakers) {
+void Call(const std::set<std::shared_ptr<const Wake>>& wakers) {
   for (const auto& waker : wakers) (*waker)();
 }
 
@@ -89,7 +89,7 @@ void JobLog::Fail() {
 }
 
 JobLog::Tail JobLog::After(const Want& want, std::uint64_t* progress_seen,
-                           std::shared_ptr<const Waker> waker) {
+                           std::shared_ptr<const Wake> waker) {
   const MutexLock lock(mutex_);
   Tail tail{Tail::Found::kEvents, want.position};
   if (IsBeforeRing(want.position)) {
@@ -131,7 +131,7 @@ void JobLog::Collect(const Want& want, Tail* tail) {
   }
 }
 
-void JobLog::Forget(const std::shared_ptr<const Waker>& waker) {
+void JobLog::Forget(const std::shared_ptr<const Wake>& waker) {
   const MutexLock lock(mutex_);
   waiting_.erase(waker);
 }

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <set>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "base/mutex.h"
 #include "contact/v1/event.pb.h"
+#include "jobs/job/callback.h"
 #include "jobs/log/log_cursor.h"
 
 namespace contact {
@@ -19,12 +19,9 @@ namespace contact {
 /// and who waits for more. Older events are in the store. Thread-safe.
 class JobLog {
  public:
-  /// Called when there is something new. Never under a lock of this class.
-  using Waker = std::function<void()>;
-
   /// `last` is the sequence of the newest stored event; `ended`: it tells of a final state.
   /// `on_state` is called once a state_changed event is added, before the wakers.
-  JobLog(std::uint64_t last, bool ended, Waker on_state = {})
+  JobLog(std::uint64_t last, bool ended, Wake on_state = {})
       : on_state_(std::move(on_state)), last_(last), ended_(ended) {}
 
   /// Adds events that are stored now, the first as `first`, the next after the newest one. The
@@ -59,23 +56,23 @@ class JobLog {
     std::size_t max_bytes;
   };
   /// `progress_seen` counts the progress that the watcher has seen; it starts at 0.
-  Tail After(const Want& want, std::uint64_t* progress_seen, std::shared_ptr<const Waker> waker);
+  Tail After(const Want& want, std::uint64_t* progress_seen, std::shared_ptr<const Wake> waker);
 
   /// True if what follows `position` is in the store only.
   bool IsOlder(std::uint64_t position) const;
 
   /// Takes back a waker. It may still be called once if that has begun.
-  void Forget(const std::shared_ptr<const Waker>& waker);
+  void Forget(const std::shared_ptr<const Wake>& waker);
 
  private:
-  using Wakers = std::set<std::shared_ptr<const Waker>>;
+  using Wakers = std::set<std::shared_ptr<const Wake>>;
 
   void Push(LogRecord record, bool ended) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool IsBeforeRing(std::uint64_t position) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Collect(const Want& want, Tail* tail) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Wakers TakeWaiting() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
-  const Waker on_state_;
+  const Wake on_state_;
   mutable Mutex mutex_;
   std::deque<LogRecord> ring_ ABSL_GUARDED_BY(mutex_);  ///< Up to last_, without a hole.
   std::size_t ring_bytes_ ABSL_GUARDED_BY(mutex_) = 0;

@@ -12,9 +12,9 @@
 
 #include "base/mutex.h"
 #include "jobs/job/errors.h"
+#include "jobs/log/stream_source.h"
 #include "rpc/call/status.h"
 #include "rpc/stream/stream_loop.h"
-#include "rpc/stream/stream_source.h"
 
 namespace contact {
 
@@ -28,14 +28,11 @@ template <class Message>
 class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Stream {
  public:
   using Source = std::unique_ptr<StreamSource<Message>>;
-  /// Takes the source of the stream, or the error with which the stream ends. Thread-safe; to be
-  /// called once, at any time.
-  using Opened = std::function<void(Result<Source>)>;
-  /// Asks the stream to look at its source soon. Thread-safe, short, also after the stream's end.
-  using Wake = std::function<void()>;
 
   /// Starts the call, which owns itself until gRPC is done with it. `open(wake, opened)` is called
-  /// once, at once; what it starts calls `opened`. `label` names in the log what is read.
+  /// once, at once; what it starts calls `opened` with a Result<Source>, once, at any time, on any
+  /// thread. The source may call `wake` at any time, also after the stream's end. `label` names in
+  /// the log what is read.
   template <class Open>
   static StreamReactor* Start(const std::shared_ptr<StreamLoop>& loop,
                               grpc::CallbackServerContext* context, std::string label, Open open);
@@ -214,7 +211,8 @@ typename StreamReactor<Message>::State StreamReactor<Message>::Choose() {
   if (!end_ && source_) {
     out_.Clear();
     StreamStep step = source_->Read(&out_);
-    end_ = std::move(step.end);
+    if (step.ended) end_ = grpc::Status::OK;
+    if (step.error) end_ = ToGrpc(*step.error);
     if (step.has_message) return State::kWriting;
   }
   return end_ ? State::kFinishing : State::kIdle;
