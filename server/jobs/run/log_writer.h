@@ -74,7 +74,7 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   /// it cannot be stored. On the store's thread, or in Finish if the store had failed before.
   using Ended = std::function<void(const v1::Job*)>;
   /// Stores the job with the last event, after all that was added. Does not wait; until `ended` is
-  /// called the run counts as reporting. False: it was given up, and `ended` is not called.
+  /// called the run is held. False: it was given up, and `ended` is not called.
   bool Finish(v1::Job job, v1::Event event, Ended ended);
   /// Tries again what there was no space for, if it is time. To be called now and then after
   /// Finish, on any thread.
@@ -129,7 +129,7 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   // Used by the worker's thread up to Finish, and after it by whoever got true from BeginWriting.
   Batch pending_;
   Time last_write_ = {};
-  std::optional<RunControl::Report> report_;  ///< Set by Finish, held until the end is stored.
+  std::optional<RunControl::Hold> hold_;  ///< Set by Finish, held until the end is stored.
 
   // Used by the store's thread while disk_ is kWriting, else as above.
   Batch batch_;

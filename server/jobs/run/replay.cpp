@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kPageBytes = 1 << 20;
 
 absl::StatusOr<EventPage> ReadPage(Store& store, EventQuery query, RunControl& control) {
-  const RunControl::Report report(control);
+  const RunControl::Hold hold(control);
   return Await<absl::StatusOr<EventPage>>(
       [&](auto done) { store.ReadEvents(std::move(query), std::move(done)); });
 }

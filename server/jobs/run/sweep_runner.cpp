@@ -51,7 +51,7 @@ Transition SweepRunner::Run(const v1::Sweep& sweep) {
                             [this] { WriteIfDue(); }};
   const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), clock_,
                                               options_, assignment_.control, sink);
-  if (const RunControl::Report report(*assignment_.control); report) assignment_.offer(run);
+  if (const RunControl::Hold hold(*assignment_.control); hold) assignment_.offer(run);
   while (run->Work(kSlice)) {
   }
   while (!run->AwaitIdle(kWriteTime)) WriteIfDue();
@@ -60,8 +60,8 @@ Transition SweepRunner::Run(const v1::Sweep& sweep) {
 
 // What is stored already. A damaged cell is computed again.
 bool SweepRunner::ReadDone(std::vector<bool>* done) {
-  const RunControl::Report report(*assignment_.control);
-  if (!report) return false;
+  const RunControl::Hold hold(*assignment_.control);
+  if (!hold) return false;
   const MutexLock lock(log_mutex_);
   const std::uint64_t last = assignment_.job.last_sequence();
   for (std::uint64_t position = 0; position < last;) {

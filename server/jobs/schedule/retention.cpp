@@ -6,6 +6,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <condition_variable>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 
@@ -102,30 +104,20 @@ Retention::~Retention() { Stop(); }
 void Retention::Start() {
   thread_ = std::thread([this] {
     pthread_setname_np(pthread_self(), "retention");
-    Loop();
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any never;
+    while (!stopped()) {
+      const int deleted = Purge();
+      if (deleted > 0) spdlog::info("deleted {} expired jobs", deleted);
+      never.wait_for(lock, stop_.get_token(), kPeriod, [] { return false; });
+    }
   });
 }
 
 void Retention::Stop() {
-  {
-    const MutexLock lock(mutex_);
-    stopped_ = true;
-    changed_.notify_all();
-  }
+  stop_.request_stop();
   if (thread_.joinable()) thread_.join();
-}
-
-bool Retention::stopped() const {
-  const MutexLock lock(mutex_);
-  return stopped_;
-}
-
-void Retention::Loop() {
-  while (!stopped()) {
-    if (const int deleted = Purge(); deleted > 0) spdlog::info("deleted {} expired jobs", deleted);
-    const MutexLock lock(mutex_);
-    if (!stopped_) changed_.wait_for(mutex_, kPeriod);
-  }
 }
 
 int Retention::Purge() {

@@ -29,7 +29,7 @@ class Worker {
   /// Gives it up if it works for this run, which was given up.
   bool Abandon(const RunControl& run);
   /// Waits for its end, and takes the time that takes from `patience`. Once that is used up it
-  /// gives the run up, as soon as the run does not report, and returns false.
+  /// gives the run up, as soon as the run is not held, and returns false.
   bool AwaitFinish(std::chrono::milliseconds* patience);
   void Finish();
 
