@@ -59,22 +59,13 @@ Error MakeJobError(Reason reason, std::string message, const std::string& name) 
   return error;
 }
 
-// Why an operation of the store failed.
+// Why an operation of the store failed with this code.
 Reason ReasonOf(absl::StatusCode code) {
-  switch (code) {
-    case kNotFound:
-      return Reason::kJobNotFound;
-    case kAlreadyExists:
-      return Reason::kRequestIdReused;
-    case kFailedPrecondition:
-      return Reason::kInvalidState;
-    case kResourceExhausted:
-      return Reason::kStoreFull;
-    case kDataLoss:
-      return Reason::kDataLoss;
-    default:
-      return Reason::kStoreFailed;
-  }
+  constexpr std::array kOfStore = {Reason::kJobNotFound, Reason::kRequestIdReused,
+                                   Reason::kInvalidState, Reason::kStoreFull, Reason::kDataLoss};
+  const auto found =
+      std::ranges::find(kOfStore, code, [](Reason reason) { return InfoOf(reason).code; });
+  return found == kOfStore.end() ? Reason::kStoreFailed : *found;
 }
 
 bool IsOfTheDisk(Reason reason) {

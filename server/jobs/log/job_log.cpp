@@ -29,13 +29,10 @@ LogRecord ToRecord(std::uint64_t sequence, v1::Event event) {
           std::make_shared<const std::string>(event.SerializeAsString())};
 }
 
-std::vector<LogRecord> ToRecords(const std::vector<v1::Event>& events) {
+std::vector<LogRecord> ToRecords(std::vector<v1::Event> events) {
   std::vector<LogRecord> records;
   records.reserve(events.size());
-  for (const v1::Event& event : events) {
-    records.push_back(
-        {0, event.payload_case(), std::make_shared<const std::string>(event.SerializeAsString())});
-  }
+  for (v1::Event& event : events) records.push_back(ToRecord(0, std::move(event)));
   return records;
 }
 

@@ -27,8 +27,8 @@ class JobLog {
   /// Adds events that are stored now, the first as `first`, the next after the newest one. The
   /// records get their sequences here.
   void Append(std::uint64_t first, std::vector<LogRecord> records);
-  void Append(std::uint64_t first, const std::vector<v1::Event>& events) {
-    Append(first, ToRecords(events));
+  void Append(std::uint64_t first, std::vector<v1::Event> events) {
+    Append(first, ToRecords(std::move(events)));
   }
 
   /// Replaces the progress that watchers have not seen yet.

@@ -20,7 +20,7 @@ struct LogRecord {
 /// Serialises an event; its own sequence is left out.
 LogRecord ToRecord(std::uint64_t sequence, v1::Event event);
 /// The same for events that have no sequence yet.
-std::vector<LogRecord> ToRecords(const std::vector<v1::Event>& events);
+std::vector<LogRecord> ToRecords(std::vector<v1::Event> events);
 
 /// A place in the log of one job, moving forward. Reads what is committed, from memory or the
 /// store, so replay and live view are one path and a slow reader costs a number, not a queue.

@@ -141,8 +141,7 @@ Transition JobRunner::SolveScenario(const StoredJob& spec, const Assignment& ass
 Outcome JobRunner::RunScenario(const Scenario& scenario, const StoredJob& spec,
                                const Assignment& assignment, LogWriter& writer) const {
   const auto start = clock_.Elapsed();
-  RunRecorder recorder(scenario, clock_, *assignment.control, writer, *assignment.log,
-                       *assignment.record, options_.checkpoint_interval);
+  RunRecorder recorder(scenario, clock_, assignment, writer, options_.checkpoint_interval);
   const Outcome outcome = RunOrResume(scenario, spec, assignment, writer, recorder);
   const std::chrono::duration<double> wall = clock_.Elapsed() - start;
   assignment.record->Do([&](v1::Job& job) {

@@ -103,8 +103,7 @@ void Scheduler::Add(Active active) {
 
 void Scheduler::Queue(const Active& active) {
   const v1::Job& job = active.job;
-  queue_.Push(
-      {job.name(), job.priority(), active.number, IsLastAttempt(job, options_.max_attempts)});
+  queue_.Push(job.name(), job.priority(), active.number, IsLastAttempt(job, options_.max_attempts));
   changed_.notify_one();
 }
 
@@ -153,7 +152,7 @@ Scheduler::Task Scheduler::Next(Worker& worker) {
     if (shutdown_.stop_requested()) return {};
     const bool careful = std::ranges::any_of(running_, [](const auto& job) { return job.second; });
     if (const auto next = queue_.Pop(careful)) {
-      Task task{Assign(active_.at(next->name)), nullptr};
+      Task task{Assign(active_.at(*next)), nullptr};
       worker.Begin(task.job->control);
       return task;
     }
