@@ -18,6 +18,7 @@ class AdminService final : public v1::AdminService::CallbackService {
   AdminService(Store& store, CallStarter& calls) : store_(store), calls_(calls) {}
 
  private:
+  /// Copies the store, and sends the copy. BACKUP_RUNNING while another backup is made or sent.
   grpc::ServerWriteReactor<v1::BackupChunk>* Backup(grpc::CallbackServerContext* context,
                                                     const v1::BackupRequest* request) override;
 

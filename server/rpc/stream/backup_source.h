@@ -38,6 +38,7 @@ class BackupReader : public std::enable_shared_from_this<BackupReader> {
   void Begin(absl::StatusOr<std::unique_ptr<BackupFile>> file);
 
  private:
+  /// The stream's end: its destruction stops the copy.
   class Source;
 
   /// Posts the reading of the next chunk.
@@ -50,17 +51,21 @@ class BackupReader : public std::enable_shared_from_this<BackupReader> {
   Executor& executor_;
   const Wake wake_;
   std::stop_source stop_;
-  std::shared_ptr<const void> busy_;  ///< Null from Begin on.
+  /// Held until the copy is complete. Null from Begin on.
+  std::shared_ptr<const void> busy_;
 
   // Of the executor's thread.
   std::unique_ptr<BackupFile> file_;
-  std::int64_t offset_ = 0;  ///< Bytes read.
-  Sha256 digest_;            ///< Of the bytes read.
+  /// Bytes read so far.
+  std::int64_t offset_ = 0;
+  /// Digest of the bytes read so far.
+  Sha256 digest_;
 
   Mutex mutex_;
-  v1::BackupChunk chunk_ ABSL_GUARDED_BY(mutex_);  ///< Empty while step_ is null.
-  std::optional<StreamStep> step_
-      ABSL_GUARDED_BY(mutex_);  ///< What Take gives next; null: not ready.
+  /// The next chunk. Empty while step_ is null.
+  v1::BackupChunk chunk_ ABSL_GUARDED_BY(mutex_);
+  /// What Take gives next. Nothing: it is not ready.
+  std::optional<StreamStep> step_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace contact

@@ -76,6 +76,7 @@ class StreamLoop {
   const std::chrono::milliseconds write_stall_;
   const std::shared_ptr<StreamMetrics> metrics_ = std::make_shared<StreamMetrics>();
   mutable Mutex mutex_;
+  /// Notified when a stream was woken where none was.
   std::condition_variable_any changed_;
   /// The streams that are ticked. May hold streams that are gone.
   Streams streams_ ABSL_GUARDED_BY(mutex_);

@@ -53,6 +53,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
     return self.get();
   }
 
+  /// See Stream.
   void Poke() final { Advance(); }
   void Drain() final { End(ToGrpc(MakeError(Reason::kServerDraining))); }
   bool Tick(std::chrono::steady_clock::time_point now) final {
@@ -154,6 +155,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
     last_write_ = now;
   }
 
+  /// gRPC has sent the message, or the client has left. On one of gRPC's threads.
   void OnWriteDone(bool ok) final {
     {
       const MutexLock lock(mutex_);
@@ -162,7 +164,9 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
     }
     Advance();
   }
+  /// The client has cancelled, or has left. On one of gRPC's threads.
   void OnCancel() final { End(grpc::Status::CANCELLED); }
+  /// gRPC is done with the call: the reactor may go. On one of gRPC's threads.
   void OnDone() final {
     std::shared_ptr<StreamReactor> last;  // Goes after the lock.
     const MutexLock lock(mutex_);
@@ -170,6 +174,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
     last = std::move(self_);
   }
 
+  /// What is read, for the log.
   const std::string label_;
   const std::shared_ptr<StreamLoop> loop_;
   /// Valid until kDone.
