@@ -81,6 +81,7 @@ class GrpcServer {
   /// Starts gRPC and the acceptor of the listener's connections. Returns the port.
   std::optional<int> Listen(Listener listener, grpc::ServerBuilder& builder);
 
+  /// The options, with connections reduced to what descriptors suffice for.
   const GrpcServerOptions options_;
   const std::shared_ptr<StreamLoop> loop_;
   /// Open streams of each peer.
@@ -89,6 +90,7 @@ class GrpcServer {
   CallGuard guard_;
   /// Starts the calls of both services.
   CallStarter calls_;
+  /// The services. gRPC uses them until server_ is gone.
   JobService jobs_;
   AdminService admin_;
   /// Null before Start and after Shutdown.

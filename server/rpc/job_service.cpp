@@ -9,9 +9,11 @@
 
 namespace contact {
 
-grpc::ServerUnaryReactor* JobService::CreateJob(Context* context,
-                                                const v1::CreateJobRequest* request,
-                                                v1::Job* response) {
+using grpc::ServerUnaryReactor;
+using grpc::ServerWriteReactor;
+
+ServerUnaryReactor* JobService::CreateJob(Context* context, const v1::CreateJobRequest* request,
+                                          v1::Job* response) {
   const auto run = [&](auto answer) {
     // gRPC made the request for this call alone, and a large scenario need not be in memory twice.
     auto& mine = const_cast<v1::CreateJobRequest&>(*request);
@@ -20,43 +22,40 @@ grpc::ServerUnaryReactor* JobService::CreateJob(Context* context,
   return calls_.Unary<v1::Job>(context, response, run, CallKind::kCreateJob);
 }
 
-grpc::ServerUnaryReactor* JobService::GetJob(Context* context, const v1::GetJobRequest* request,
-                                             v1::Job* response) {
+ServerUnaryReactor* JobService::GetJob(Context* context, const v1::GetJobRequest* request,
+                                       v1::Job* response) {
   return calls_.Unary<v1::Job>(context, response,
                                [&](auto answer) { jobs_.reader().Get(request->name(), answer); });
 }
 
-grpc::ServerUnaryReactor* JobService::ListJobs(Context* context, const v1::ListJobsRequest* request,
-                                               v1::ListJobsResponse* response) {
+ServerUnaryReactor* JobService::ListJobs(Context* context, const v1::ListJobsRequest* request,
+                                         v1::ListJobsResponse* response) {
   return calls_.Unary<v1::ListJobsResponse>(
       context, response, [&](auto answer) { jobs_.reader().List(*request, answer); });
 }
 
-grpc::ServerUnaryReactor* JobService::CancelJob(Context* context,
-                                                const v1::CancelJobRequest* request,
-                                                v1::Job* response) {
+ServerUnaryReactor* JobService::CancelJob(Context* context, const v1::CancelJobRequest* request,
+                                          v1::Job* response) {
   return calls_.Unary<v1::Job>(context, response,
                                [&](auto answer) { jobs_.Cancel(*request, answer); });
 }
 
-grpc::ServerUnaryReactor* JobService::DeleteJob(Context* context,
-                                                const v1::DeleteJobRequest* request,
-                                                google::protobuf::Empty* response) {
+ServerUnaryReactor* JobService::DeleteJob(Context* context, const v1::DeleteJobRequest* request,
+                                          google::protobuf::Empty* response) {
   return calls_.Unary<bool>(context, response,
                             [&](auto answer) { jobs_.Delete(*request, answer); });
 }
 
-grpc::ServerUnaryReactor* JobService::GetSeries(Context* context,
-                                                const v1::GetSeriesRequest* request,
-                                                v1::Series* response) {
+ServerUnaryReactor* JobService::GetSeries(Context* context, const v1::GetSeriesRequest* request,
+                                          v1::Series* response) {
   return calls_.Unary<v1::Series>(context, response, [&](auto answer) {
     jobs_.recordings().GetSeries(*request, answer, Abandonment(*context));
   });
 }
 
-grpc::ServerUnaryReactor* JobService::GetServerInfo(Context* context,
-                                                    const v1::GetServerInfoRequest* /*request*/,
-                                                    v1::ServerInfo* response) {
+ServerUnaryReactor* JobService::GetServerInfo(Context* context,
+                                              const v1::GetServerInfoRequest* /*request*/,
+                                              v1::ServerInfo* response) {
   return calls_.Unary<v1::ServerInfo>(context, response, [&](auto answer) {
     v1::ServerInfo info = jobs_.Info();
     info.MergeFrom(identity_);
@@ -64,8 +63,8 @@ grpc::ServerUnaryReactor* JobService::GetServerInfo(Context* context,
   });
 }
 
-grpc::ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* context,
-                                                                 const grpc::ByteBuffer* request) {
+ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* context,
+                                                           const grpc::ByteBuffer* request) {
   v1::WatchJobRequest parsed;
   grpc::ByteBuffer bytes = *request;
   const bool readable =
@@ -83,14 +82,14 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* contex
   return calls_.Stream<grpc::ByteBuffer>(context, "job=" + parsed.name(), open);
 }
 
-grpc::ServerWriteReactor<v1::WatchJobsResponse>* JobService::WatchJobs(
+ServerWriteReactor<v1::WatchJobsResponse>* JobService::WatchJobs(
     Context* context, const v1::WatchJobsRequest* request) {
   return calls_.Stream<v1::WatchJobsResponse>(context, "job=*", [&](auto wake, auto opened) {
     opened(jobs_.watches().WatchJobs(*request, wake));
   });
 }
 
-grpc::ServerWriteReactor<v1::ReadArtifactResponse>* JobService::ReadArtifact(
+ServerWriteReactor<v1::ReadArtifactResponse>* JobService::ReadArtifact(
     Context* context, const v1::ReadArtifactRequest* request) {
   return calls_.Stream<v1::ReadArtifactResponse>(
       context, "job=" + request->name(),

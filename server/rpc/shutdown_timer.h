@@ -13,7 +13,8 @@ class ShutdownTimer {
  public:
   using Action = std::function<void()>;
 
-  /// The actions run on the timer's thread. `patience` is at most `limit`.
+  /// Starts the thread, named `shutdown-timer`. The actions run on the timer's thread. `patience`
+  /// is at most `limit`.
   ShutdownTimer(std::chrono::milliseconds patience, Action urge, std::chrono::milliseconds limit,
                 Action give_up);
 

@@ -98,6 +98,9 @@ class Result {
 /// An error with code and retry delay of its reason, and its words unless `message` has others.
 Error MakeError(Reason reason, std::string message = {});
 
+/// An error of the job called `name`, with the words "`name` `what`", such as "jobs/a was deleted".
+Error JobError(Reason reason, const std::string& name, const std::string& what);
+
 /// The error of a request that breaks rules of the contract: kScenarioInvalid if it breaks some of
 /// those for scenarios and sweeps, else kFieldInvalid. Lists all violations; at least one is given.
 Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec = {});
@@ -115,17 +118,11 @@ Error Unreadable(const std::string& what);
 Error UidMismatch(const std::string& name, const std::string& uid);
 /// Frame chunks before `oldest_sequence` were asked for, and have been dropped (kEventsCompacted).
 Error EventsCompacted(const std::string& name, std::uint64_t oldest_sequence);
-/// The job has not ended, and the call is only for those that have (kInvalidState).
-Error NotEnded(const std::string& name);
-/// The job was deleted while it was watched (kJobNotFound).
-Error Deleted(const std::string& name);
 /// The job has no such artifact (kArtifactNotFound).
 Error NoArtifact(const std::string& name, const std::string& artifact);
 /// An artifact cannot be read from this offset (kOffsetOutOfRange). `size`: bytes of the artifact;
 /// negative if not known.
 Error OffsetOutOfRange(std::int64_t offset, std::int64_t size);
-/// The job records no trajectory (kNoTrajectory).
-Error NoTrajectory(const std::string& name);
 /// More samples were selected than the `most` that an answer can have (kSeriesTooLarge).
 Error SeriesTooLarge(std::size_t most);
 /// What is stored of the job fails its checksum (kDataLoss). Writes a line to the log.

@@ -84,8 +84,10 @@ class JobLog {
   bool IsBeforeRing(std::uint64_t position) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Adds the events in the ring after `want.position` to the tail.
   void Collect(const Want& want, Tail* tail) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  /// Empties waiting_, to call them without the lock.
-  Wakers TakeWaiting() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Calls `change` under the lock, then, without it, on_state_ if `change` has returned true, and
+  /// those who wait.
+  template <class Change>
+  void Tell(Change change);
 
   const Wake on_state_;
   mutable Mutex mutex_;

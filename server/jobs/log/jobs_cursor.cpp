@@ -55,38 +55,39 @@ StreamStep JobsCursor::ReadJobs(v1::WatchJobsResponse* out) {
 
 void JobsCursor::FetchPage() {
   fetch_ = std::make_shared<Fetch>();
-  const std::weak_ptr<Fetch> weak = fetch_;  // Gone if the reader leaves first.
-  store_.List(rules_.filter, [weak, wake = wake_](absl::StatusOr<JobPage> page) {
+  // Gone if the reader leaves first.
+  store_.List(rules_.filter, [weak = std::weak_ptr(fetch_)](absl::StatusOr<JobPage> page) {
     const auto fetch = weak.lock();
     if (!fetch) return;
-    {
-      const MutexLock lock(fetch->mutex);
-      fetch->done = true;
-      fetch->status = page.status();
-      if (page.ok()) fetch->page = *std::move(page);
-    }
-    (*wake)();
+    const MutexLock lock(fetch->mutex);
+    fetch->status = page.status();
+    if (page.ok()) fetch->page = *std::move(page);
   });
+  WakeWhenFetched();
 }
 
 void JobsCursor::FetchChanged(const std::vector<std::string>& names) {
   fetch_ = std::make_shared<Fetch>();
-  const std::weak_ptr<Fetch> weak = fetch_;
   for (const std::string& name : names) {
-    store_.Read(name, JobPart::kHeader, [weak, name](absl::StatusOr<StoredJob> stored) {
-      const auto fetch = weak.lock();
-      if (!fetch) return;
-      const MutexLock lock(fetch->mutex);
-      if (stored.ok()) {
-        fetch->page.jobs.push_back(*std::move(stored));
-      } else if (absl::IsNotFound(stored.status())) {
-        fetch->gone.push_back(name);
-      } else if (!absl::IsDataLoss(stored.status())) {
-        fetch->status = stored.status();
-      }
-    });
+    store_.Read(name, JobPart::kHeader,
+                [weak = std::weak_ptr(fetch_), name](absl::StatusOr<StoredJob> stored) {
+                  const auto fetch = weak.lock();
+                  if (!fetch) return;
+                  const MutexLock lock(fetch->mutex);
+                  if (stored.ok()) {
+                    fetch->page.jobs.push_back(*std::move(stored));
+                  } else if (absl::IsNotFound(stored.status())) {
+                    fetch->gone.push_back(name);
+                  } else if (!absl::IsDataLoss(stored.status())) {
+                    fetch->status = stored.status();
+                  }
+                });
   }
-  store_.Flush([weak, wake = wake_] {
+  WakeWhenFetched();
+}
+
+void JobsCursor::WakeWhenFetched() {
+  store_.Flush([weak = std::weak_ptr(fetch_), wake = wake_] {
     const auto fetch = weak.lock();
     if (!fetch) return;
     {

@@ -65,6 +65,8 @@ class JobsCursor final : public StreamSource<v1::WatchJobsResponse> {
   void FetchPage();
   /// Asks the store for these jobs.
   void FetchChanged(const std::vector<std::string>& names);
+  /// Wakes the reader once the store has answered all that was asked of it.
+  void WakeWhenFetched();
   /// Makes a message of what was fetched, if it is there.
   StreamStep TakeFetched(v1::WatchJobsResponse* out);
   bool HasState(const v1::Job& job) const;

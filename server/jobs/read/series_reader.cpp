@@ -36,10 +36,9 @@ void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
   if (job.oldest_sequence() > 1) {
     return done_(EventsCompacted(job.name(), job.oldest_sequence()));
   }
-  if (!job.has_scenario()) return done_(NoTrajectory(job.name()));
   const DecodedScenario decoded = DecodeScenario(job.scenario(), limits_);
-  if (!decoded.violations.empty() || decoded.scenario.sample_interval == 0) {
-    return done_(NoTrajectory(job.name()));
+  if (!job.has_scenario() || !decoded.violations.empty() || decoded.scenario.sample_interval == 0) {
+    return done_(JobError(Reason::kNoTrajectory, job.name(), "records no trajectory"));
   }
   std::vector<v1::FrameChunk::Column> channels = Channels(decoded.scenario);
   Result<SeriesSelection> selection = ToSelection(request_, channels);

@@ -39,8 +39,6 @@ class CellSolver {
   /// Solves the scenario of a cell and takes over its result. False if the run was stopped.
   bool Run(const Scenario& scenario, RunControl& control, const std::function<void()>& write,
            SolvedCell* solved) const;
-  /// True if the sweep keeps the trajectory of the cell.
-  bool Keeps(std::int32_t cell) const;
 
   const v1::Sweep& sweep_;
   const DecodedSweep& plan_;

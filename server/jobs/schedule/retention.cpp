@@ -43,18 +43,6 @@ std::unordered_map<std::string, std::int64_t> ReadBytes(Store& store) {
   return bytes;
 }
 
-bool Delete(Store& store, const std::string& name) {
-  const auto deleted =
-      Await<absl::StatusOr<bool>>([&](auto done) { store.Delete(name, "", std::move(done)); });
-  return deleted.ok();  // An error: another call has deleted it before.
-}
-
-bool Compact(Store& store, const std::string& name) {
-  const auto compacted =
-      Await<absl::StatusOr<bool>>([&](auto done) { store.Compact(name, std::move(done)); });
-  return compacted.ok();  // An error: it was deleted meanwhile.
-}
-
 }  // namespace
 
 std::optional<WallTime> ExpiryOf(const v1::Job& job, const RetentionLimits& limits) {
@@ -127,11 +115,14 @@ int Retention::Purge() {
   return deleted;
 }
 
+// An error means in both that another call has deleted the job meanwhile.
 int Retention::Delete(const std::vector<EndedJob>& jobs) {
   int deleted = 0;
   for (const std::string& name : Expired(jobs, clock_.Now(), limits_)) {
     if (stopped()) break;
-    if (!contact::Delete(store_, name)) continue;
+    const auto done = Await<absl::StatusOr<bool>>(
+        [&](auto callback) { store_.Delete(name, "", std::move(callback)); });
+    if (!done.ok()) continue;
     feed_.Changed(name);
     ++deleted;
   }
@@ -141,11 +132,13 @@ int Retention::Delete(const std::vector<EndedJob>& jobs) {
 void Retention::Compact(const std::vector<EndedJob>& jobs) {
   for (const EndedJob& job : jobs) {
     if (stopped()) break;
-    if (job.to_compact && contact::Compact(store_, job.name)) feed_.Changed(job.name);
+    if (!job.to_compact) continue;
+    const auto done = Await<absl::StatusOr<bool>>(
+        [&](auto callback) { store_.Compact(job.name, std::move(callback)); });
+    if (done.ok()) feed_.Changed(job.name);
   }
 }
 
-// Oldest end first.
 std::vector<EndedJob> Retention::ListEnded() {
   std::vector<std::pair<std::int64_t, EndedJob>> found;
   const auto bytes =

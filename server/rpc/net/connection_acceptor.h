@@ -84,6 +84,7 @@ class ConnectionAcceptor {
   const FileDescriptor stop_;
   /// True while there is no descriptor for a connection. Only for the thread.
   bool out_of_descriptors_ = false;
+  /// Connections that were closed at once.
   std::atomic<std::int64_t> refused_ = 0;
 
   mutable Mutex mutex_;

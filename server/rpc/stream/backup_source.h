@@ -50,6 +50,7 @@ class BackupReader : public std::enable_shared_from_this<BackupReader> {
 
   Executor& executor_;
   const Wake wake_;
+  /// Stopped when the stream ends.
   std::stop_source stop_;
   /// Held until the copy is complete. Null from Begin on.
   std::shared_ptr<const void> busy_;

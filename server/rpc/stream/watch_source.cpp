@@ -44,7 +44,7 @@ class WatchSource final : public StreamSource<grpc::ByteBuffer> {
       case LogCursor::Next::kEnd:
         return {.ended = true};
       case LogCursor::Next::kDeleted:
-        return {.error = Deleted(name_)};
+        return {.error = JobError(Reason::kJobNotFound, name_, "was deleted")};
       case LogCursor::Next::kCompacted:
         return {.error = EventsCompacted(name_, watched_.cursor->oldest())};
       case LogCursor::Next::kSlow:
