@@ -41,8 +41,9 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options
       options_(options),
       feed_(feed),
       workers_([this](Worker& worker) { Work(worker); }),
-      watch_(clock, options, endings_,
-             [this](const std::string& job, const RunControl& run) { FailLostRun(job, run); }) {
+      supervisor_(clock, options, endings_, [this](const std::string& job, const RunControl& run) {
+        FailLostRun(job, run);
+      }) {
   Recover();
   workers_.Start(options_.workers);
 }
@@ -168,7 +169,7 @@ Assignment Scheduler::Assign(Active& active) {
   v1::Job& job = active.job;
   active.control = std::make_shared<RunControl>(BudgetOf(job, options_.max_budget));
   running_.emplace(job.name(), IsLastAttempt(job, options_.max_attempts));
-  watch_.Add(job.name(), active.control);
+  supervisor_.Add(job.name(), active.control);
   job.set_attempt(job.attempt() + 1);
   v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &job);
   options_.metrics->Moved(v1::Job::QUEUED, job);
@@ -197,7 +198,7 @@ std::shared_ptr<SweepRun> Scheduler::FindSweep() {
 }
 
 void Scheduler::Remove(const std::string& name) {
-  watch_.Remove(name);
+  supervisor_.Remove(name);
   const MutexLock lock(mutex_);
   active_.erase(name);
   running_.erase(name);
@@ -301,7 +302,7 @@ void Scheduler::Stop() {
     }
     changed_.notify_all();
   }
-  watch_.Stop();
+  supervisor_.Stop();
   workers_.Stop(kEndTime);
 }
 

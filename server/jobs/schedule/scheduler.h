@@ -17,7 +17,7 @@
 #include "jobs/run/job_runner.h"
 #include "jobs/run/sweep_run.h"
 #include "jobs/schedule/job_queue.h"
-#include "jobs/schedule/run_watch.h"
+#include "jobs/schedule/run_supervisor.h"
 #include "jobs/schedule/spec_cache.h"
 #include "jobs/schedule/worker_pool.h"
 
@@ -140,7 +140,7 @@ class Scheduler {
   EndingRuns endings_;
   // Last: they use all of the above.
   WorkerPool workers_;
-  RunWatch watch_;
+  RunSupervisor supervisor_;
 };
 
 }  // namespace contact

@@ -1,33 +1,34 @@
-#include "jobs/schedule/run_watch.h"
+#include "jobs/schedule/run_supervisor.h"
 
 #include <pthread.h>
 
 namespace contact {
 
-RunWatch::RunWatch(const Clock& clock, const JobOptions& options, EndingRuns& endings, Lost lost)
+RunSupervisor::RunSupervisor(const Clock& clock, const JobOptions& options, EndingRuns& endings,
+                             Lost lost)
     : clock_(clock),
       options_(options),
       endings_(endings),
       lost_(std::move(lost)),
       thread_([this](const std::stop_token& stop) { Loop(stop); }) {}
 
-void RunWatch::Add(const std::string& job, std::shared_ptr<RunControl> run) {
+void RunSupervisor::Add(const std::string& job, std::shared_ptr<RunControl> run) {
   const MutexLock lock(mutex_);
   if (runs_.empty()) added_.notify_one();
   runs_.emplace(job, Run{std::move(run), Watchdog(clock_.Elapsed())});
 }
 
-void RunWatch::Remove(const std::string& job) {
+void RunSupervisor::Remove(const std::string& job) {
   const MutexLock lock(mutex_);
   runs_.erase(job);
 }
 
-void RunWatch::Stop() {
+void RunSupervisor::Stop() {
   thread_.request_stop();
   if (thread_.joinable()) thread_.join();
 }
 
-void RunWatch::Loop(const std::stop_token& stop) {
+void RunSupervisor::Loop(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), "watchdog");
   while (!stop.stop_requested()) {
     for (const auto& [job, run] : Look(stop)) lost_(job, *run);
@@ -35,7 +36,7 @@ void RunWatch::Loop(const std::stop_token& stop) {
   }
 }
 
-RunWatch::Runs RunWatch::Look(const std::stop_token& stop) {
+RunSupervisor::Runs RunSupervisor::Look(const std::stop_token& stop) {
   const MutexLock lock(mutex_);
   if (runs_.empty()) {
     added_.wait(mutex_, stop,

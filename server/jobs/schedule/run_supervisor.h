@@ -21,14 +21,14 @@ namespace contact {
 
 /// Watches over all runs from a thread of its own, named `watchdog`: stops those that stall or are
 /// out of time, and gives up those that do not react. Thread-safe.
-class RunWatch {
+class RunSupervisor {
  public:
-  /// Called on the watching thread, once a run was given up, with the name of its job.
+  /// Called on the thread, once a run was given up, with the name of its job.
   using Lost = std::function<void(const std::string& job, const RunControl& run)>;
 
   /// Starts the thread. At each look it also has `endings` try again. Clock, options and endings
-  /// outlive the watch.
-  RunWatch(const Clock& clock, const JobOptions& options, EndingRuns& endings, Lost lost);
+  /// outlive the supervisor.
+  RunSupervisor(const Clock& clock, const JobOptions& options, EndingRuns& endings, Lost lost);
 
   /// A run begins. It is watched until it is removed or given up.
   void Add(const std::string& job, std::shared_ptr<RunControl> run);
