@@ -52,9 +52,9 @@ std::vector<std::string> FlagsFromEnvironment(const CLI::App& app) {
 // Whether the address is of this machine only. Throws CLI::ValidationError if it is none, and for
 // one that others can reach, unless they may.
 bool CheckAddress(const char* flag, const std::string& listen, const char* forms, bool insecure) {
-  const auto address = ParseAddress(listen);
-  if (!address) throw CLI::ValidationError(flag, fmt::format("{} is not {}", listen, forms));
-  const bool loopback = IsLoopback(address->host);
+  const auto host = HostOf(listen);
+  if (!host) throw CLI::ValidationError(flag, fmt::format("{} is not {}", listen, forms));
+  const bool loopback = IsLoopback(*host);
   if (loopback || insecure) return loopback;
   throw CLI::ValidationError(
       flag, listen +
