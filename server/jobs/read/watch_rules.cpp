@@ -31,18 +31,15 @@ std::uint32_t KindSet(const v1::WatchJobRequest& request, std::vector<Violation>
   return set;
 }
 
-// The lengths that an interval may have: from `least_s` to an hour.
-struct IntervalRange {
-  std::int64_t least_s;
-  const char* text;
-};
+// The field's value, which must be at least `least_s`, 0 or 1 s, and at most 1 h.
 std::chrono::milliseconds Interval(const std::string& field,
-                                   const google::protobuf::Duration& interval,
-                                   const IntervalRange& range, std::vector<Violation>* violations) {
+                                   const google::protobuf::Duration& interval, std::int64_t least_s,
+                                   std::vector<Violation>* violations) {
   constexpr std::int64_t kMostNanos = 999'999'999;
-  if (interval.seconds() < range.least_s || interval.nanos() < 0 || interval.nanos() > kMostNanos ||
+  if (interval.seconds() < least_s || interval.nanos() < 0 || interval.nanos() > kMostNanos ||
       interval.seconds() > 3600 || (interval.seconds() == 3600 && interval.nanos() > 0)) {
-    violations->push_back({field, fmt::format("must be in {}", range.text), ""});
+    const char* const range = least_s == 0 ? "[0, 1 h]" : "[1 s, 1 h]";
+    violations->push_back({field, fmt::format("must be in {}", range), ""});
     return {};
   }
   return std::chrono::milliseconds{interval.seconds() * 1000 + interval.nanos() / 1'000'000};
@@ -52,7 +49,7 @@ template <class Request>
 std::chrono::milliseconds BookmarkInterval(const Request& request,
                                            std::vector<Violation>* violations) {
   if (!request.has_bookmark_interval()) return kDefaultBookmarkInterval;
-  return Interval("bookmark_interval", request.bookmark_interval(), {1, "[1 s, 1 h]"}, violations);
+  return Interval("bookmark_interval", request.bookmark_interval(), 1, violations);
 }
 
 }  // namespace
@@ -64,8 +61,8 @@ Result<WatchRules> ToRules(const v1::WatchJobRequest& request) {
   rules.bookmark_interval = BookmarkInterval(request, &violations);
   const v1::DeliveryOptions& delivery = request.delivery();
   if (delivery.has_min_frame_interval()) {
-    rules.delivery.min_frame_interval = Interval(
-        "delivery.min_frame_interval", delivery.min_frame_interval(), {0, "[0, 1 h]"}, &violations);
+    rules.delivery.min_frame_interval =
+        Interval("delivery.min_frame_interval", delivery.min_frame_interval(), 0, &violations);
   }
   if (!v1::DeliveryOptions::OverflowPolicy_IsValid(delivery.overflow())) {
     violations.push_back({"delivery.overflow", "is neither CONFLATE nor DISCONNECT nor LAG", ""});
@@ -80,14 +77,14 @@ Result<WatchRules> ToRules(const v1::WatchJobRequest& request) {
   return rules;
 }
 
-Result<JobsRules> ToRules(const v1::WatchJobsRequest& request) {
+Result<JobsCursor::Rules> ToRules(const v1::WatchJobsRequest& request) {
   v1::ListJobsRequest list;
   *list.mutable_states() = request.states();
   *list.mutable_labels() = request.labels();
   Result<JobQuery> filter = ToQuery(list);
   if (!filter.ok()) return filter.error();
   std::vector<Violation> violations;
-  JobsRules rules{std::move(filter.value()), BookmarkInterval(request, &violations)};
+  JobsCursor::Rules rules{std::move(filter.value()), BookmarkInterval(request, &violations)};
   if (!violations.empty()) return Invalid(std::move(violations));
   return rules;
 }

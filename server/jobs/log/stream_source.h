@@ -1,16 +1,20 @@
 #pragma once
 
-#include <grpcpp/support/status.h>
-
 #include <chrono>
 #include <optional>
+
+#include "jobs/job/errors.h"
 
 namespace contact {
 
 /// What a source has for its stream.
 struct StreamStep {
-  bool has_message = false;              ///< The message in `out` is to be sent.
-  std::optional<grpc::Status> end = {};  ///< The stream ends so, after the message if there is one.
+  /// The message in `out` is to be sent.
+  bool has_message = false;
+  /// The stream ends without error, after the message if there is one.
+  bool ended = false;
+  /// The stream ends with this error. Without one, see `ended`.
+  std::optional<Error> error = {};
 };
 
 /// Where the messages of one stream come from. The stream calls it under the stream's lock, from
@@ -25,8 +29,8 @@ class StreamSource {
   /// there is nothing to send now.
   virtual StreamStep Read(Message* out) = 0;
 
-  /// True if Read may have something to send only because time has passed. Asked at each tick of
-  /// the StreamLoop while no message is under way; `now` is of the loop's monotonic clock.
+  /// True if Read may have something to send only because time has passed. Asked now and then while
+  /// no message is under way; `now` is of the monotonic clock of all streams.
   virtual bool IsDue(std::chrono::steady_clock::time_point /*now*/) const { return false; }
 };
 
