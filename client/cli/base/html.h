@@ -6,10 +6,7 @@
 
 namespace contact::cli {
 
-/// Pieces of a page that needs nothing but itself: no scripts, nothing from elsewhere.
-
-/// `text` with the special characters of HTML escaped, so that it cannot become markup.
-std::string HtmlText(std::string_view text);
+/// Pieces of an HTML page that refers to nothing else: no scripts, style sheets, fonts or files.
 
 /// A row of a table.
 struct HtmlRow {

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "cli/base/html.h"
+#include "cli/base/escape.h"
 #include "cli/base/style.h"
 #include "cli/base/text_file.h"
 

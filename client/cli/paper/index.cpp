@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "cli/base/escape.h"
 #include "cli/base/html.h"
 #include "cli/base/number.h"
 

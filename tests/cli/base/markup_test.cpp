@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "cli/base/html.h"
-#include "cli/base/latex.h"
+#include "cli/base/escape.h"
 
 namespace contact::cli {
 namespace {
