@@ -5,7 +5,7 @@
 #include <random>
 #include <string_view>
 
-#include "cli/base/failure.h"
+#include "cli/base/assignments.h"
 
 namespace contact::cli {
 
@@ -24,15 +24,7 @@ std::string RandomRequestId() {
 }
 
 std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts) {
-  std::map<std::string, std::string> labels;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw Failure(ExitCode::kUsage, fmt::format("--label {}: expected KEY=VALUE", text));
-    }
-    labels[text.substr(0, equals)] = text.substr(equals + 1);
-  }
-  return labels;
+  return ParseAssignments(texts, "--label", "KEY=VALUE");
 }
 
 }  // namespace contact::cli
