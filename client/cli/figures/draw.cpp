@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <vector>
 
 #include "cli/base/output_file.h"
 #include "cli/base/scratch_folder.h"
@@ -40,16 +39,12 @@ int ColumnsOf(const Settings& settings) {
 }  // namespace
 
 OutputFormat FormatOfFigure(const std::string& path) {
-  return FormatOfFile(path, kPicture).value_or(OutputFormat::kSvg);
+  return FormatOfFile(path, kFigure).value_or(OutputFormat::kSvg);
 }
 
 OutputFormat FigureFormat(const std::string& file, const Settings& settings) {
   if (settings.output == OutputFormat::kTable) return FormatOfFigure(file);
-  std::vector<OutputFormat> figures;
-  for (const FormatInfo& info : Formats()) {
-    if ((info.uses & kPicture) != 0) figures.push_back(info.format);
-  }
-  settings.RequireOutput(figures);
+  settings.RequireUse(kFigure);
   return settings.output;
 }
 

@@ -14,7 +14,13 @@ struct ConfigValue {
   std::string origin;  ///< `path:line`.
 };
 
-/// Values by key, such as `server`. The value of `use_profile` has the key `profile`.
+/// The key of the profile in use, as that of the flag --profile.
+inline constexpr char kProfileKey[] = "profile";
+
+/// What config files call kProfileKey: TOML does not take `profile = …` beside `[profile.lab]`.
+inline constexpr char kUseProfileKey[] = "use_profile";
+
+/// Values by key, such as `server`. The profile in use has the key kProfileKey.
 using ConfigSection = std::map<std::string, ConfigValue>;
 
 /// A config file in TOML:
@@ -45,11 +51,5 @@ std::string UserConfigPath();
 /// profiles. An empty `profile` has no sections.
 std::optional<ConfigValue> FindValue(const std::vector<ConfigFile>& files, const std::string& key,
                                      const std::string& profile);
-
-/// The content `text` of a config file, changed to have `key = 'value'` in the section of
-/// `profile`, or before all sections if `profile` is empty. All other lines stay, comments too.
-/// Throws Failure (kLocal) if that cannot be done line by line.
-std::string WithValue(const std::string& text, const std::string& profile, const std::string& key,
-                      const std::string& value);
 
 }  // namespace contact::cli

@@ -18,7 +18,7 @@ enum class OutputFormat {
 enum FormatUse : unsigned {
   kPrinted = 1,  ///< Commands print it to the standard output.
   kData = 2,     ///< `export` writes the numbers of a job in it.
-  kPicture = 4,  ///< `plot` draws in it.
+  kFigure = 4,   ///< `plot` draws in it.
 };
 
 /// One row of the registry.

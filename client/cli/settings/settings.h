@@ -64,7 +64,7 @@ struct Settings {
 
  private:
   /// Throws what RequireOutput throws, with the names of the formats that would do.
-  [[noreturn]] void RefuseOutput(const std::vector<std::string_view>& known) const;
+  [[noreturn]] void RefuseOutput(const std::vector<std::string>& known) const;
 };
 
 /// What the command line asks for: runs the command and returns the exit code. May throw Failure.
