@@ -10,7 +10,7 @@
 namespace contact::cli {
 
 /// What a figure shows: panels below each other with curves, marks and labels. Plain values, which
-/// gnuplot_script.h turns into a script and WriteCsv into points.
+/// gnuplot_script.h turns into a script and FigureCsv into points.
 struct Figure {
   /// How the points of a curve are drawn.
   enum class Mark {
