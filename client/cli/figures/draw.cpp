@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/erase.hpp>
 #include <filesystem>
 
 #include "cli/base/output_file.h"
@@ -14,12 +15,6 @@
 
 namespace contact::cli {
 namespace {
-
-void RemoveAll(std::string_view part, std::string* text) {
-  for (auto at = text->find(part); at != std::string::npos; at = text->find(part, at)) {
-    text->erase(at, part.size());
-  }
-}
 
 // What Draw writes to a file.
 std::string Drawn(const Figure& figure, OutputFormat format, int columns) {
@@ -91,8 +86,8 @@ std::string InlineSvg(std::string_view document) {
   const auto begin = document.find("<svg");
   std::string svg(begin == std::string_view::npos ? "" : document.substr(begin));
   // HTML knows both name spaces by itself.
-  RemoveAll(R"(xmlns="http://www.w3.org/2000/svg")", &svg);
-  RemoveAll(R"(xmlns:xlink="http://www.w3.org/1999/xlink")", &svg);
+  boost::erase_all(svg, R"(xmlns="http://www.w3.org/2000/svg")");
+  boost::erase_all(svg, R"(xmlns:xlink="http://www.w3.org/1999/xlink")");
   const auto title = svg.find("<title>");
   const auto end = svg.find("</title>");
   if (end != std::string::npos) svg.erase(title, end + 8 - title);

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/crc.hpp>
+#include <boost/endian/conversion.hpp>
 #include <boost/locale/encoding_utf.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -34,11 +36,9 @@ std::string StampedSvg(std::string svg, const std::string& title, const std::str
 }
 
 std::string BigEndian(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) {
-    bytes += static_cast<char>((value >> static_cast<unsigned>(shift)) & 0xFFU);
-  }
-  return bytes;
+  std::array<unsigned char, sizeof value> bytes{};
+  boost::endian::store_big_u32(bytes.data(), value);
+  return {bytes.begin(), bytes.end()};
 }
 
 // An iTXt chunk of PNG: UTF-8, not compressed, in no named language.

@@ -15,6 +15,13 @@ namespace contact::cli {
 /// How often a stream is looked at while it brings nothing.
 inline constexpr std::chrono::milliseconds kStreamTick{100};
 
+/// Why a watch ended.
+enum class WatchEnd {
+  kFinished,  ///< The job ended, and all its events came.
+  kStopped,   ///< `stopped` returned true.
+  kTimedOut,  ///< The deadline passed.
+};
+
 /// When to ask again after a stream has ended early, and when to give up.
 struct Patience {
   std::chrono::milliseconds first_pause{200};  ///< Before trying again; doubles, with jitter.

@@ -41,13 +41,6 @@ struct WatchOptions {
   Patience patience = {};  ///< With a server that cannot be reached.
 };
 
-/// Why a watch ended.
-enum class WatchEnd {
-  kFinished,  ///< The job ended, and all its events came.
-  kStopped,   ///< `stopped` returned true.
-  kTimedOut,  ///< The deadline passed.
-};
-
 /// Follows the log of a job to its end, across connections: no event is missed or heard twice.
 /// Throws CallFailure if the server refuses to be asked again, if it could never be reached, or
 /// not for too long.

@@ -19,6 +19,7 @@ class JobsObserver {
   virtual void OnGone(const std::string& /*name*/) {}  ///< A job that was told of was deleted.
   /// The connection was lost; another attempt follows after `pause`.
   virtual void OnLost(const std::string& /*why*/, std::chrono::milliseconds /*pause*/) {}
+  virtual void OnTick() {}  ///< About ten times a second.
 };
 
 /// What WatchJobs follows, and for how long.

@@ -56,6 +56,13 @@ void Write(const PaperItem& item, const std::filesystem::path& directory);
 /// A number with five significant digits; empty for NaN.
 std::string Short(double value);
 
+/// The deviation with its sign, such as `+1.2e-04`; empty for a number that is not compared.
+std::string DeviationText(const Comparison& number);
+
+/// The documented limit of the deviation, such as `0.0007`; empty for a number that is not
+/// compared.
+std::string LimitText(const Comparison& number);
+
 /// The numbers of all items as one table; empty if there are none.
 std::string Summary(const std::vector<PaperItem>& items, const Style& style);
 
