@@ -10,8 +10,10 @@ namespace contact::cli {
 
 /// A row of a table.
 struct HtmlRow {
-  std::vector<std::string> cells;  ///< Plain text, one a column.
-  bool differs = false;            ///< The row is marked.
+  /// Plain text, one a column.
+  std::vector<std::string> cells;
+  /// True for a row with a coloured background, to be noticed.
+  bool differs = false;
 };
 
 /// A table. A column of which most cells begin with a digit or sign is aligned to the right.

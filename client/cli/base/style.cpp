@@ -23,7 +23,7 @@ bool WantsColor(bool terminal, const std::string& color) {
 // Parameters of the escape sequence of each Tone, in its order.
 constexpr std::string_view kCodes[] = {"", "1", "32", "33", "31", "2"};
 
-// Each with the spaces that follow it.
+// The words of a line, each with the spaces that follow it.
 std::vector<std::string> Words(std::string_view line) {
   std::vector<std::string> words;
   while (!line.empty()) {

@@ -42,7 +42,7 @@ std::size_t Find(const std::vector<Table::Column>& columns, const std::string& n
                             hint.empty() ? "" : ", " + hint, fmt::join(known, ", ")));
 }
 
-// Those of these names, in their order; all without names.
+// Indices of the columns with these names, in the order of the names; of all columns for no names.
 std::vector<std::size_t> Picked(const std::vector<Table::Column>& columns,
                                 const std::vector<std::string>& names) {
   std::vector<std::size_t> picked;

@@ -89,7 +89,7 @@ Recording ReadRecording(Client& client, const std::string& job, const Settings& 
   Recording recording{.job = GetJob(client, job),
                       .columns = recorder.Columns(),
                       .iterations = recorder.Iterations()};
-  // An answer has not the end of a long ledger.
+  // GetJob leaves out the end of a long ledger; the events have all of it.
   const std::vector<v1::Cycle> cycles = recorder.Cycles();
   if (static_cast<std::size_t>(recording.job.cycles_size()) < cycles.size()) {
     recording.job.mutable_cycles()->Assign(cycles.begin(), cycles.end());

@@ -10,8 +10,10 @@ namespace contact::cli {
 
 /// A value in a config file.
 struct ConfigValue {
-  std::string text;    ///< The value as a flag would have it.
-  std::string origin;  ///< `path:line`.
+  /// The value as a flag would have it.
+  std::string text;
+  /// Where it stands: `path:line`.
+  std::string origin;
 };
 
 /// The key of the profile in use, as that of the flag --profile.
@@ -29,10 +31,14 @@ using ConfigSection = std::map<std::string, ConfigValue>;
 ///   [profile.lab]
 ///   server = "lab.example:7070"
 struct ConfigFile {
-  std::string path;                               ///< As messages name the file.
-  ConfigSection values;                           ///< Values outside of profiles.
-  std::map<std::string, ConfigSection> profiles;  ///< Values of each profile.
-  std::string mistake;  ///< Where and why it cannot be read; empty if it can.
+  /// The file, as messages name it.
+  std::string path;
+  /// Values outside of profiles.
+  ConfigSection values;
+  /// The values of each profile, by its name.
+  std::map<std::string, ConfigSection> profiles;
+  /// Where and why the file cannot be read; empty if it can.
+  std::string mistake;
 };
 
 /// Reads a config file with the content `text`. A key that is not among `keys` is a mistake of the

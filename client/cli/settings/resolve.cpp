@@ -19,7 +19,7 @@ std::string KeyOf(const CLI::Option& option) {
   return key;
 }
 
-// Where else but on the command line a value stands.
+// The value of a key outside of the command line: in the environment, else in a config file.
 std::optional<ConfigValue> Elsewhere(const std::string& key, const std::vector<ConfigFile>& files,
                                      const std::string& profile) {
   const std::string variable = VariableOf(key);
