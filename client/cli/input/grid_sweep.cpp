@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/erase.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -23,14 +25,9 @@ namespace {
 }
 
 std::vector<std::string> Split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else if (c != ' ') {
-      parts.back() += c;
-    }
-  }
+  const std::string packed = boost::erase_all_copy(text, " ");
+  std::vector<std::string> parts;
+  boost::split(parts, packed, [separator](char c) { return c == separator; });
   return parts;
 }
 
