@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "base/ids.h"
 #include "cli/base/assignments.h"
 
 namespace contact::cli {
@@ -14,6 +15,8 @@ std::string ShortName(const std::string& name) {
   constexpr std::string_view kCollection = "jobs/";
   return name.starts_with(kCollection) ? name.substr(kCollection.size()) : name;
 }
+
+std::string RandomRequestId() { return RandomIds().NextUuid(); }
 
 std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts) {
   return ParseAssignments(texts, "--label", "KEY=VALUE");

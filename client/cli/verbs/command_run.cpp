@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/ids.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/input/no_limits.h"
 #include "cli/input/sweep_file.h"
@@ -41,8 +40,7 @@ struct RunArguments {
 v1::CreateJobRequest Request(const RunArguments& arguments, const v1::Scenario& scenario) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_scenario() = scenario;
-  request.set_request_id(arguments.request_id.empty() ? RandomIds().NextUuid()
-                                                      : arguments.request_id);
+  request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/ids.h"
 #include "cli/base/interrupt.h"
 #include "cli/export/provenance.h"
 #include "cli/figures/heat_map/heat_map_options.h"
@@ -175,8 +174,7 @@ v1::Sweep Open(const SweepArguments& arguments) {
 v1::CreateJobRequest Request(const SweepArguments& arguments) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_sweep() = Open(arguments);
-  request.set_request_id(arguments.request_id.empty() ? RandomIds().NextUuid()
-                                                      : arguments.request_id);
+  request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
   for (const auto& [key, value] : ParseLabels(arguments.labels)) {
     (*request.mutable_job()->mutable_labels())[key] = value;
   }

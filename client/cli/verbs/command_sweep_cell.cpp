@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "base/ids.h"
 #include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
@@ -35,7 +34,7 @@ ExitCode RunCell(Client& client, const v1::Job& sweep, const v1::SweepCell& cell
   *request.mutable_job()->mutable_scenario() = ScenarioOf(sweep.sweep(), cell);
   (*request.mutable_job()->mutable_labels())["sweep"] = ShortName(sweep.name());
   (*request.mutable_job()->mutable_labels())["cell"] = fmt::to_string(cell.index());
-  request.set_request_id(RandomIds().NextUuid());
+  request.set_request_id(RandomRequestId());
   v1::Job job = client.CallTellingAll(&Client::Stub::CreateJob, request);
   const WatchEnd end =
       FollowRun(client, job.name(), settings.Deadline(), IterationRows::kFirst, settings);

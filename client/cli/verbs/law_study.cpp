@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/ids.h"
 #include "base/spelling.h"
 #include "cli/base/interrupt.h"
 #include "cli/link/connect.h"
@@ -39,7 +38,7 @@ void WaitForEnd(Client& client, const std::string& name, const Settings& setting
 v1::Job RunToItsEnd(Client& client, const v1::Scenario& scenario, const Settings& settings) {
   v1::CreateJobRequest create;
   *create.mutable_job()->mutable_scenario() = scenario;
-  create.set_request_id(RandomIds().NextUuid());
+  create.set_request_id(RandomRequestId());
   const std::string name = client.Call(&Client::Stub::CreateJob, create).name();
   WaitForEnd(client, name, settings);
   v1::Job result = GetJob(client, name);

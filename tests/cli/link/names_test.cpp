@@ -20,6 +20,11 @@ TEST(JobNames, LongAndShortNamesAreOfTheSameJob) {
   }
 }
 
+TEST(JobNames, RequestIdsDiffer) {
+  EXPECT_EQ(RandomRequestId().size(), 36U);
+  EXPECT_NE(RandomRequestId(), RandomRequestId());
+}
+
 TEST(JobNames, LabelsAreSplitAtTheirFirstSign) {
   EXPECT_THAT(ParseLabels({"a=1", "b=x=y", "c=", "a=2"}),
               ElementsAre(Pair("a", "2"), Pair("b", "x=y"), Pair("c", "")));
