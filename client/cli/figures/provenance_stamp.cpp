@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <regex>
-#include <sstream>
 #include <utility>
 
 #include "cli/base/escape.h"
@@ -96,8 +95,7 @@ std::string StampedPdf(std::string pdf, const std::string& title, const std::str
 // Leaves out the lines in which gnuplot tells its version and the time.
 std::string StampedTikz(const std::string& drawn, const std::vector<Provenance>& sources) {
   std::string stamped = Lines(sources, "% ") + "% \\usepackage{gnuplot-lua-tikz}\n";
-  std::istringstream lines(drawn);
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : LinesOf(drawn)) {
     if (!line.starts_with("%%")) stamped.append(line).append("\n");
   }
   return stamped;
@@ -106,8 +104,7 @@ std::string StampedTikz(const std::string& drawn, const std::vector<Provenance>&
 // Leaves out the form feed and the spaces with which gnuplot fills lines.
 std::string StampedCharacters(const std::string& drawn, const std::vector<Provenance>& sources) {
   std::string stamped;
-  std::istringstream lines(drawn);
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line : LinesOf(drawn)) {
     line.erase(0, line.starts_with('\f') ? 1 : 0);
     stamped.append(TrimRight(line)).append("\n");
   }

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/trim.hpp>
-#include <sstream>
 #include <vector>
 
 #include "cli/base/failure.h"
+#include "cli/base/text_file.h"
 #include "cli/settings/config.h"
 
 namespace contact::cli {
@@ -26,13 +26,6 @@ std::string KeyOf(const std::string& line) {
 }
 
 bool IsSection(const std::string& line) { return Trimmed(line).starts_with('['); }
-
-std::vector<std::string> LinesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 // The line after the header of the section of `profile`, which is added at the end if missing.
 std::vector<std::string>::iterator BeginOf(const std::string& profile,
