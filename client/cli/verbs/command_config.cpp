@@ -12,6 +12,7 @@
 #include "cli/base/table.h"
 #include "cli/base/text_file.h"
 #include "cli/settings/config.h"
+#include "cli/settings/config_edit.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/verbs.h"

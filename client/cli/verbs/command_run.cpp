@@ -60,13 +60,6 @@ void TellOfOtherServer(Client& client, const v1::Job& job) {
              info.revision());
 }
 
-ScenarioFile Checked(ScenarioFile file, const std::vector<std::string>& overrides) {
-  for (const std::string& assignment : overrides) file.Set(assignment);
-  file.Check(kNoLimits);
-  RequireNoMistakes(file);
-  return file;
-}
-
 // The scenario of an earlier job, with the overrides.
 ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
   const v1::Job job = GetJob(client, arguments.like);
@@ -76,7 +69,7 @@ ScenarioFile OpenLike(Client& client, const RunArguments& arguments) {
   TellOfOtherServer(client, job);
   return Checked(
       ScenarioFile(job.name(), ToJsonLine(job.scenario()), ParseVariables(arguments.variables)),
-      arguments.overrides);
+      arguments.overrides, kNoLimits);
 }
 
 ScenarioFile OpenTemplate(const RunArguments& arguments) {
@@ -87,7 +80,7 @@ ScenarioFile OpenTemplate(const RunArguments& arguments) {
                                                 arguments.from_template));
   }
   return Checked(ScenarioFile(arguments.from_template, text, ParseVariables(arguments.variables)),
-                 arguments.overrides);
+                 arguments.overrides, kNoLimits);
 }
 
 ScenarioFile Open(Client& client, const RunArguments& arguments) {
@@ -98,9 +91,9 @@ ScenarioFile Open(Client& client, const RunArguments& arguments) {
     throw Failure(ExitCode::kUsage, "give a FILE, --template NAME or --like JOB, one of them");
   }
   if (!arguments.from_template.empty()) return OpenTemplate(arguments);
-  return arguments.like.empty() ? OpenChecked(arguments.file, arguments.overrides, kNoLimits,
-                                              ParseVariables(arguments.variables))
-                                : OpenLike(client, arguments);
+  if (!arguments.like.empty()) return OpenLike(client, arguments);
+  return Checked(ScenarioFile::Open(arguments.file, ParseVariables(arguments.variables)),
+                 arguments.overrides, kNoLimits);
 }
 
 // What the server finds wrong is shown at its place in the file, as what is found here.
@@ -112,7 +105,7 @@ v1::Job Create(Client& client, const RunArguments& arguments) {
   } catch (const CallFailure& failure) {
     if (failure.code() != ExitCode::kInvalidScenario) throw failure.AllTold();
     for (const Violation& violation : failure.violations()) file.Add(violation);
-    RequireNoMistakes(file);
+    RequireNone(file.diagnostics());
     throw;
   }
 }

@@ -74,11 +74,9 @@ ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) 
   settings.RequireOutput({OutputFormat::kTable});
   const std::string text = ReadText(arguments.file);
   if (IsSweep(text)) return ValidateSweep(arguments, text, settings);
-  ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text,
-                    ParseVariables(arguments.variables));
-  for (const std::string& assignment : arguments.overrides) file.Set(assignment);
-  file.Check();
-  RequireNoMistakes(file);
+  const ScenarioFile file = Checked({arguments.file == "-" ? "<stdin>" : arguments.file, text,
+                                     ParseVariables(arguments.variables)},
+                                    arguments.overrides);
   TellAdvice(file);
   const v1::Scenario& scenario = file.scenario();
   fmt::print("{}: valid; {}, {}, {}, {}, {}\n", arguments.file,

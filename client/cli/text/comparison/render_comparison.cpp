@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "cli/base/escape.h"
 #include "cli/base/html.h"
-#include "cli/base/latex.h"
 #include "cli/base/table.h"
 #include "cli/text/comparison/comparison_cells.h"
 
