@@ -14,13 +14,4 @@ void TellAdvice(const ScenarioFile& file) {
   }
 }
 
-ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides,
-                         const ScenarioLimits& limits, const VariableValues& variables) {
-  ScenarioFile file = ScenarioFile::Open(path, variables);
-  for (const std::string& assignment : overrides) file.Set(assignment);
-  file.Check(limits);
-  RequireNoMistakes(file);
-  return file;
-}
-
 }  // namespace contact::cli

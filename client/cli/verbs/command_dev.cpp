@@ -9,6 +9,7 @@
 
 #include "cli/base/process.h"
 #include "cli/link/local_server.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -93,10 +94,8 @@ ExitCode Dev(const DevArguments& arguments, const Settings& settings) {
 
 void AddDev(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<DevArguments>();
-  line.SetKind(command.add_option("--contactd", arguments->contactd,
-                                  "The server's program. Default: beside contactctl, else in the "
-                                  "PATH"),
-               ValueKind::kFile);
+  AddOption(line, command, "--contactd", &arguments->contactd, ValueKind::kFile,
+            "The server's program. Default: beside contactctl, else in the PATH");
   command.add_option("CMD", arguments->command,
                      "Command, after --; finds the server in CONTACT_SERVER, and its code is ours");
   line.SetAction(command, arguments, Dev);

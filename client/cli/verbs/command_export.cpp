@@ -10,6 +10,7 @@
 #include "cli/export/writers.h"
 #include "cli/link/connect.h"
 #include "cli/link/recording.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -20,7 +21,7 @@ struct ExportArguments {
   std::string file;
   std::string table = "series";
   bool comments = false;
-  int precision = 0;  ///< Significant digits; 0: those that give the same double back.
+  int precision = 0;  // Significant digits; 0: those that give the same double back.
   SeriesSelection part;
 };
 
@@ -76,13 +77,10 @@ Recording Read(const ExportArguments& arguments, const Settings& settings) {
   return recording;
 }
 
+// Which part of the series is written.
 void AddPart(CommandLine& line, CLI::App& command, SeriesSelection* part) {
-  line.SetKind(command
-                   .add_option("--channels", part->channels,
-                               "Only these columns of the series, such as "
-                               "B1.velocity,B1-B2.contact_force")
-                   ->delimiter(','),
-               ValueKind::kChannel);
+  AddListOption(line, command, "--channels", &part->channels, ValueKind::kChannel,
+                "Only these columns of the series, such as B1.velocity,B1-B2.contact_force");
   command.add_option("--from,--t0", part->from, "Only samples from this simulated time on")
       ->type_name("SECONDS");
   command.add_option("--to,--t1", part->to, "Only samples up to this simulated time")
@@ -142,19 +140,16 @@ ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
 void AddExport(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<ExportArguments>();
   AddJob(line, command, &arguments->job);
-  line.SetKind(command.add_option("-f,--file", arguments->file,
-                                  fmt::format("Where to; without -o its ending tells the format: "
-                                              "{}. Default: the standard output",
-                                              FormatEndings(kData))),
-               ValueKind::kFile);
-  line.SetWords(command.add_option("--table", arguments->table,
-                                   "For csv and jsonl: series, cycles, iterations or bodies; the "
-                                   "others have them all"),
-                {"series", "cycles", "iterations", "bodies"})
+  AddOption(line, command, "-f,--file", &arguments->file, ValueKind::kFile,
+            fmt::format("Where to; without -o its ending tells the format: {}. Default: the "
+                        "standard output",
+                        FormatEndings(kData)));
+  AddOption(line, command, "--table", &arguments->table,
+            {"series", "cycles", "iterations", "bodies"},
+            "For csv and jsonl: series, cycles, iterations or bodies; the others have them all")
       ->type_name("TABLE")
       ->capture_default_str();
-  command.add_flag("--comments", arguments->comments,
-                   "Begin csv with where it comes from, in lines that start with #");
+  command.add_flag("--comments", arguments->comments, kCommentsAbout);
   command
       .add_option("--precision", arguments->precision,
                   "Significant digits of csv and jsonl. Default: those that give the same number "

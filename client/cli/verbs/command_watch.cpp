@@ -20,7 +20,8 @@
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
 #include "cli/text/render_live.h"
-#include "cli/verbs/follow.h"
+#include "cli/verbs/job/follow.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -43,17 +44,14 @@ class JsonLines : public WatchObserver {
     fmt::print("{}", ToJsonLine(event));
     std::fflush(stdout);
   }
-  void OnLost(const std::string& why, std::chrono::milliseconds) override {
-    fmt::print(stderr, "connection lost ({}); trying again\n", why);
-  }
+  void OnLost(const std::string& why, std::chrono::milliseconds) override { TellLost(why); }
 };
 
 WatchOptions Options(const std::string& job, const Settings& settings) {
-  WatchOptions options;
-  options.name = JobName(job);
-  options.deadline = settings.Deadline();
-  options.stopped = Interrupt::raised;
-  return options;
+  return {.name = JobName(job),
+          .kinds = {},
+          .deadline = settings.Deadline(),
+          .stopped = Interrupt::raised};
 }
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
@@ -137,12 +135,8 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
 ExitCode Wait(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
-  WatchOptions options = Options(job, settings);
-  options.kinds = {"state_changed"};
-  const Interrupt interrupt;
-  WatchObserver silence;
-  const WatchEnd end = Watch(client, options, silence);
-  if (end != WatchEnd::kFinished) return Detach(end, options.name);
+  const WatchEnd end = AwaitEnd(client, JobName(job), settings);
+  if (end != WatchEnd::kFinished) return Detach(end, JobName(job));
   const v1::Job result = GetJob(client, job);
   if (settings.output == OutputFormat::kTable) {
     const std::string state = v1::Job::State_Name(result.state());
@@ -154,17 +148,6 @@ ExitCode Wait(const std::string& job, const Settings& settings) {
   return CodeOf(result);
 }
 
-void AddPlotting(CommandLine& line, CLI::App& watch, WatchArguments* arguments) {
-  line.SetKind(watch
-                   .add_option("--plot", arguments->plot,
-                               "Draw these channels on the terminal, such as "
-                               "B1.velocity,B1-B2.contact_force")
-                   ->delimiter(','),
-               ValueKind::kChannel);
-  watch.add_option("--replay", arguments->replay, "With --plot: simulated seconds in a second")
-      ->type_name("SPEEDx");
-}
-
 }  // namespace
 
 void AddWatch(CommandLine& line, CLI::App& watch) {
@@ -172,16 +155,18 @@ void AddWatch(CommandLine& line, CLI::App& watch) {
   AddJob(line, watch, &arguments->job);
   watch.add_option("--after-sequence", arguments->after_sequence, "Only later events")
       ->type_name("N");
-  line.SetKind(watch.add_option("--kinds", arguments->kinds, "Only these, such as cycle,iteration")
-                   ->delimiter(','),
-               ValueKind::kEventKind);
+  AddListOption(line, watch, "--kinds", &arguments->kinds, ValueKind::kEventKind,
+                "Only these, such as cycle,iteration");
   watch.add_flag("--live", arguments->live_only, "Only what happens from now on")
       ->excludes("--after-sequence");
   watch
       .add_option("--min-frame-interval", arguments->min_frame_interval,
                   "Of frame chunks that follow each other sooner only the newest, and a gap")
       ->type_name("DURATION");
-  AddPlotting(line, watch, arguments.get());
+  AddListOption(line, watch, "--plot", &arguments->plot, ValueKind::kChannel,
+                "Draw these channels on the terminal, such as B1.velocity,B1-B2.contact_force");
+  watch.add_option("--replay", arguments->replay, "With --plot: simulated seconds in a second")
+      ->type_name("SPEEDx");
   line.SetAction(watch, arguments, WatchEvents);
 }
 

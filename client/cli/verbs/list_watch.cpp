@@ -11,7 +11,7 @@
 #include "cli/link/watch_jobs.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/follow.h"
+#include "cli/verbs/job/follow.h"
 
 namespace contact::cli {
 namespace {
@@ -42,9 +42,7 @@ class JobLines : public JobsObserver {
                                                        : ShortName(name) + "  gone\n");
   }
 
-  void OnLost(const std::string& why, std::chrono::milliseconds) override {
-    fmt::print(stderr, "connection lost ({}); trying again\n", why);
-  }
+  void OnLost(const std::string& why, std::chrono::milliseconds) override { TellLost(why); }
 
  private:
   static void Print(const std::string& text) {

@@ -1,75 +1,56 @@
 #include "cli/text/comparison/job_comparison.h"
 
 #include <fmt/format.h>
-#include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
+
+#include "cli/text/render_json.h"
 
 namespace contact::cli {
 namespace {
 
-using google::protobuf::FieldDescriptor;
-using google::protobuf::Message;
+using Json = nlohmann::json;
 using Fields = std::map<std::string, std::string>;  // Values by path.
 
-std::string Text(const Message& message, const FieldDescriptor& field, int index) {
-  const auto& reflection = *message.GetReflection();
-  const bool many = field.is_repeated();
-  switch (field.cpp_type()) {
-    case FieldDescriptor::CPPTYPE_DOUBLE:
-      return fmt::to_string(many ? reflection.GetRepeatedDouble(message, &field, index)
-                                 : reflection.GetDouble(message, &field));
-    case FieldDescriptor::CPPTYPE_INT32:
-      return fmt::to_string(many ? reflection.GetRepeatedInt32(message, &field, index)
-                                 : reflection.GetInt32(message, &field));
-    case FieldDescriptor::CPPTYPE_INT64:
-      return fmt::to_string(many ? reflection.GetRepeatedInt64(message, &field, index)
-                                 : reflection.GetInt64(message, &field));
-    case FieldDescriptor::CPPTYPE_BOOL:
-      return reflection.GetBool(message, &field) ? "true" : "false";
-    case FieldDescriptor::CPPTYPE_ENUM:
-      return (many ? reflection.GetRepeatedEnum(message, &field, index)
-                   : reflection.GetEnum(message, &field))
-          ->name();
-    default:
-      return many ? reflection.GetRepeatedString(message, &field, index)
-                  : reflection.GetString(message, &field);
+// A JSON pointer as scenario files write paths: `/bodies/0/mass_kg` is `bodies[0].mass_kg`.
+std::string PathOf(const std::string& pointer) {
+  std::string path;
+  for (std::size_t begin = 1; begin <= pointer.size();) {
+    const std::size_t end = std::min(pointer.find('/', begin), pointer.size());
+    const std::string part = pointer.substr(begin, end - begin);
+    const bool index = std::isdigit(static_cast<unsigned char>(part.front())) != 0;
+    path += index ? fmt::format("[{}]", part) : (path.empty() ? "" : ".") + part;
+    begin = end + 1;
   }
+  return path;
 }
 
-void AddFields(const Message& message, const std::string& path, Fields* fields) {
-  const auto& reflection = *message.GetReflection();
-  std::vector<const FieldDescriptor*> set;
-  reflection.ListFields(message, &set);
-  for (const FieldDescriptor* field : set) {
-    const std::string here = path.empty() ? field->name() : path + "." + field->name();
-    const bool nested = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
-    if (!field->is_repeated() && nested) {
-      AddFields(reflection.GetMessage(message, field), here, fields);
-    } else if (!field->is_repeated()) {
-      (*fields)[here] = Text(message, *field, 0);
-    }
-    for (int i = 0; field->is_repeated() && i < reflection.FieldSize(message, field); ++i) {
-      const std::string entry = fmt::format("{}[{}]", here, i);
-      if (nested) {
-        AddFields(reflection.GetRepeatedMessage(message, field, i), entry, fields);
-      } else {
-        (*fields)[entry] = Text(message, *field, i);
-      }
-    }
+std::string TextOf(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? fmt::to_string(value.get<double>()) : value.dump();
+}
+
+// The fields of the scenario that are set; a message without fields has none.
+Fields FieldsOf(const v1::Scenario& scenario) {
+  Fields fields;
+  for (const auto& [pointer, value] : Json::parse(ToJsonLine(scenario)).flatten().items()) {
+    if (!value.is_null()) fields[PathOf(pointer)] = TextOf(value);
   }
+  return fields;
 }
 
 std::vector<JobComparison::Parameter> Differing(const std::vector<v1::Job>& jobs) {
   std::vector<Fields> all(jobs.size());
   std::set<std::string> paths;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    AddFields(jobs[i].scenario(), "", &all[i]);
+    all[i] = FieldsOf(jobs[i].scenario());
     for (const auto& [path, value] : all[i]) paths.insert(path);
   }
   std::vector<JobComparison::Parameter> differing;

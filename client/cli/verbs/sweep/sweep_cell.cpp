@@ -1,4 +1,4 @@
-#include "cli/verbs/sweep_cell.h"
+#include "cli/verbs/sweep/sweep_cell.h"
 
 #include <fmt/format.h>
 
@@ -8,25 +8,17 @@
 #include <vector>
 
 #include "base/spelling.h"
-#include "cli/base/interrupt.h"
+#include "cli/base/failure.h"
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
 #include "cli/base/table.h"
-#include "cli/link/watch.h"
 #include "cli/text/render_job.h"
 #include "wire/sweep/sweep_fields.h"
 
 namespace contact::cli {
 namespace {
 
-class Collector final : public WatchObserver {
- public:
-  void OnEvent(const v1::Event& event) override {
-    if (event.has_sweep_cell()) cells[event.sweep_cell().index()] = event.sweep_cell();
-  }
-  SweepCells cells;
-};
-
+// One FIELD=VALUE of what names a cell.
 struct Choice {
   int axis = 0;
   double value = 0;
@@ -93,22 +85,6 @@ bool Has(const v1::SweepCell& cell, const std::vector<Choice>& choices) {
 }
 
 }  // namespace
-
-SweepCells ReadCells(Client& client, const v1::Job& job, const Settings& settings) {
-  WatchOptions options;
-  options.name = job.name();
-  options.kinds = {"sweep_cell"};
-  options.deadline = settings.Deadline();
-  options.stopped = Interrupt::raised;
-  const Interrupt interrupt;
-  Collector collector;
-  const WatchEnd end = Watch(client, options, collector);
-  if (end == WatchEnd::kFinished) return std::move(collector.cells);
-  const bool interrupted = end == WatchEnd::kStopped;
-  throw Failure(
-      interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout,
-      fmt::format("{}; {} has not ended", interrupted ? "interrupted" : "time is up", job.name()));
-}
 
 const v1::SweepCell& FindCell(const v1::Sweep& sweep, const SweepCells& cells,
                               const std::string& text) {
