@@ -37,11 +37,8 @@ std::vector<std::string> Extent(const v1::Job& job) {
 }
 
 std::string Title(const v1::Job& job, const Style& style) {
-  const std::string reason =
-      job.state_reason().empty() ? "" : fmt::format(" ({})", job.state_reason());
-  std::vector<std::string> parts = {
-      Paint(job.name(), Tone::kStrong, style) + "  ",
-      Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style) + reason};
+  std::vector<std::string> parts = {Paint(job.name(), Tone::kStrong, style) + "  ",
+                                    StateText(job.state(), job.state_reason(), style)};
   const std::vector<std::string> extent = Extent(job);
   if (!extent.empty()) parts.back() += "  ";
   parts.insert(parts.end(), extent.begin(), extent.end());
@@ -104,11 +101,9 @@ std::string Balances(const v1::Job& job, const Style& style) {
 }  // namespace
 
 std::string RenderJob(const v1::Job& job, const Style& style) {
-  std::string text = Title(job, style) + Wrap(RequestedOptions(job), style);
-  if (job.has_error()) {
-    text += Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
-  }
-  text += RenderLedger(job, style) + Bodies(job, style) + Balances(job, style);
+  std::string text = Title(job, style) + Wrap(RequestedOptions(job), style) +
+                     ErrorLine(job, style) + RenderLedger(job, style) + Bodies(job, style) +
+                     Balances(job, style);
   if (job.has_sweep()) {
     text += fmt::format("cells: contactctl sweep watch {}\n", job.name());
   }
@@ -116,6 +111,16 @@ std::string RenderJob(const v1::Job& job, const Style& style) {
     text += Wrap(Paint("warning: ", Tone::kWarning, style) + warning + "\n", style);
   }
   return text;
+}
+
+std::string StateText(v1::Job::State state, const std::string& reason, const Style& style) {
+  const std::string painted = Paint(v1::Job::State_Name(state), ToneOf(state), style);
+  return reason.empty() ? painted : fmt::format("{} ({})", painted, reason);
+}
+
+std::string ErrorLine(const v1::Job& job, const Style& style) {
+  if (!job.has_error()) return "";
+  return Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
 }
 
 Tone ToneOf(v1::Job::State state) {

@@ -63,8 +63,6 @@ void LiveView::OnLost(const std::string& why, std::chrono::milliseconds pause) {
                                Seconds(static_cast<double>(pause.count()) / 1e3)));
 }
 
-void LiveView::OnTick() { DrawProgress(); }
-
 void LiveView::Write(std::FILE* stream, const std::string& line) {
   EraseProgress();
   std::fputs((line + "\n").c_str(), stream);
@@ -101,9 +99,7 @@ void LiveView::ShowCycle(const v1::Cycle& cycle) {
 
 void LiveView::ShowState(const v1::StateChanged& change) {
   if (!options_.cycles) return;  // The result that follows says it.
-  std::string line =
-      Paint(v1::Job::State_Name(change.state()), ToneOf(change.state()), rows_style_);
-  if (!change.state_reason().empty()) line += fmt::format(" ({})", change.state_reason());
+  std::string line = StateText(change.state(), change.state_reason(), rows_style_);
   if (change.convergence() == v1::Job::PARTIAL) line += ", convergence PARTIAL";
   if (!change.message().empty()) line += ": " + change.message();
   Write(rows_, line);
@@ -119,7 +115,7 @@ void LiveView::ShowAttempt(const v1::AttemptStarted& start) {
   if (start.attempt() > 1) Write(rows_, fmt::format("attempt {} starts anew", start.attempt()));
 }
 
-void LiveView::DrawProgress() {
+void LiveView::OnTick() {
   const auto elapsed = std::chrono::steady_clock::now() - start_;
   if (!progress_ || elapsed < kBeforeProgress) return;
   const double seconds = std::chrono::duration<double>(elapsed).count();

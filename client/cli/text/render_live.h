@@ -33,7 +33,8 @@ class LiveView : public WatchObserver {
   void OnSnapshot(const v1::Job& job) override;
   void OnEvent(const v1::Event& event) override;
   void OnLost(const std::string& why, std::chrono::milliseconds pause) override;
-  /// Draws the progress again.
+  /// Draws the bar again or writes the line of progress, if either is wanted; not in the first
+  /// 0.2 s.
   void OnTick() override;
 
  private:
@@ -45,8 +46,6 @@ class LiveView : public WatchObserver {
   void ShowLogEntry(const v1::LogEntry& entry);
   // Shows the start of an attempt that is not the first.
   void ShowAttempt(const v1::AttemptStarted& start);
-  // Draws the bar or writes the line of progress, if either is wanted; not in the first 0.2 s.
-  void DrawProgress();
   // Writes a line for each tenth of the job that is done.
   void WriteProgressLine(double elapsed_s);
   void EraseProgress();

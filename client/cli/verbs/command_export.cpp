@@ -85,14 +85,9 @@ void AddPart(CommandLine& line, CLI::App& command, SeriesSelection* part) {
       ->type_name("SECONDS");
   command.add_option("--to,--t1", part->to, "Only samples up to this simulated time")
       ->type_name("SECONDS");
-  command.add_option("--every", part->every, "Only the first of so many samples")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  command
-      .add_option("--max-points", part->max_points,
-                  "At most so many samples, chosen by the server without losing a peak")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
+  AddCount(command, "--every", &part->every, "Only the first of so many samples");
+  AddCount(command, "--max-points", &part->max_points,
+           "At most so many samples, chosen by the server without losing a peak");
 }
 
 void RequireUse(const ExportArguments& arguments, OutputFormat format) {

@@ -8,6 +8,7 @@
 #include "cli/settings/column_choice.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_ledger.h"
+#include "cli/verbs/job/follow.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -28,9 +29,8 @@ ExitCode Describe(const DescribeArguments& arguments, const Settings& settings) 
 
 ExitCode Cancel(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
-  v1::CancelJobRequest request;
-  request.set_name(JobName(job));
-  const v1::Job answer = Connect(settings).Call(&Client::Stub::CancelJob, request);
+  Client client = Connect(settings);
+  const v1::Job answer = CancelJob(client, JobName(job));
   if (settings.output != OutputFormat::kTable) {
     PrintJob(answer, settings);
   } else if (answer.state() == v1::Job::RUNNING) {

@@ -66,11 +66,8 @@ void AddSeries(CommandLine& line, CLI::App& series) {
   series.add_option("--from", arguments->from, "Only from this simulated time on")
       ->type_name("SECONDS");
   series.add_option("--to", arguments->to, "Only up to this simulated time")->type_name("SECONDS");
-  series
-      .add_option("--points", arguments->points,
-                  "At most so many samples, without losing a peak. Default: 1000")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
+  AddCount(series, "--points", &arguments->points,
+           "At most so many samples, without losing a peak. Default: 1000");
   series.add_flag("--raw", arguments->raw, "Every sample");
   series.add_flag("--comments", arguments->comments, kCommentsAbout);
   line.SetAction(series, arguments, Series);

@@ -121,11 +121,10 @@ ExitCode Show(const SweepArguments& arguments, const Settings& settings) {
   return Follow(client, JobName(arguments.job), arguments, settings);
 }
 
-// Whatever became of the cells, they were printed.
+// Succeeds once the cells are printed, even if some failed or did not converge.
 ExitCode Export(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson});
-  Client client = Connect(settings);
-  const ExitCode code = Follow(client, JobName(arguments.job), arguments, settings);
+  const ExitCode code = Show(arguments, settings);
   return code == ExitCode::kNotConverged || code == ExitCode::kRunFailed ? ExitCode::kOk : code;
 }
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "cli/base/interrupt.h"
 #include "cli/base/number.h"
+#include "cli/base/scalar.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
@@ -61,17 +61,13 @@ std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const S
       LiveView::Options{.job = ShortName(arguments.job), .progress = settings.Progress()});
 }
 
-// `1e-3x`: simulated seconds in a second.
-double ParseReplay(const std::string& text) {
+// The speed of a replay in simulated seconds a second, such as `1e-3x`; 0 for an empty text.
+double ParseReplay(std::string_view text) {
   if (text.empty()) return 0;
-  char* end = nullptr;
-  const double speed = std::strtod(text.c_str(), &end);
-  const std::string_view rest = end;
-  if (!std::isfinite(speed) || speed <= 0 || (!rest.empty() && rest != "x")) {
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("--replay {}: must be a speed > 0 such as 1e-3x", text));
-  }
-  return speed;
+  const auto speed = ParseNumber(text.substr(0, text.size() - (text.ends_with('x') ? 1 : 0)));
+  if (speed && std::isfinite(*speed) && *speed > 0) return *speed;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("--replay {}: must be a speed > 0 such as 1e-3x", text));
 }
 
 // Draws until the job ends, its replay is over or the user stops it. `mistake` says why nothing
@@ -139,9 +135,7 @@ ExitCode Wait(const std::string& job, const Settings& settings) {
   if (end != WatchEnd::kFinished) return Detach(end, JobName(job));
   const v1::Job result = GetJob(client, job);
   if (settings.output == OutputFormat::kTable) {
-    const std::string state = v1::Job::State_Name(result.state());
-    fmt::print("{}  {}\n", result.name(),
-               Paint(state, ToneOf(result.state()), settings.OutputStyle()));
+    fmt::print("{}  {}\n", result.name(), StateText(result.state(), "", settings.OutputStyle()));
   } else {
     PrintJob(result, settings);
   }

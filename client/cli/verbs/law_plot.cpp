@@ -58,13 +58,11 @@ Data Curves(const std::vector<const LawEntry*>& laws, bool alpha, const Settings
 
 ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
   FigureFormat(arguments.file, settings);  // Told before anything is run.
-  const std::vector<const LawEntry*> laws = ChooseLaws(arguments.laws, true);
   const bool alpha = arguments.what == "alpha";
-  std::vector<std::string> names;
-  for (const LawEntry* law : laws) names.emplace_back(law->name);
+  const Data curves = Curves(ChooseLaws(arguments.laws, true), alpha, settings);
   Figure figure = ColumnsFigure(
-      Curves(laws, alpha, settings),
-      alpha ? "hysteresis damping factor coefficient α" : "post-restitution coefficient", names);
+      curves, alpha ? "hysteresis damping factor coefficient α" : "post-restitution coefficient",
+      {curves.columns.begin() + 1, curves.columns.end()});
   figure.title = alpha ? "Coefficient α of the damping factor"
                        : "Restitution that each law delivers; ideal dotted";
   if (!alpha) AddIdeal(&figure);

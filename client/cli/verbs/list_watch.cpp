@@ -23,14 +23,12 @@ class JobLines : public JobsObserver {
 
   void OnJob(const v1::Job& job) override {
     if (settings_.output == OutputFormat::kJsonLines) return Print(ToJsonLine(job));
-    const Style style = settings_.OutputStyle();
-    const std::string state = v1::Job::State_Name(job.state());
     const auto& time = job.has_end_time()     ? job.end_time()
                        : job.has_start_time() ? job.start_time()
                                               : job.create_time();
-    std::string line = fmt::format("{}  {}  {}", Instant(time), ShortName(job.name()),
-                                   Paint(state, ToneOf(job.state()), style));
-    if (!job.state_reason().empty()) line += fmt::format(" ({})", job.state_reason());
+    std::string line =
+        fmt::format("{}  {}  {}", Instant(time), ShortName(job.name()),
+                    StateText(job.state(), job.state_reason(), settings_.OutputStyle()));
     if (job.convergence() == v1::Job::PARTIAL) line += ", convergence PARTIAL";
     Print(line + "\n");
   }

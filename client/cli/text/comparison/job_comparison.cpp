@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "cli/text/render_json.h"
@@ -17,7 +17,6 @@ namespace contact::cli {
 namespace {
 
 using Json = nlohmann::json;
-using Fields = std::map<std::string, std::string>;  // Values by path.
 
 // A JSON pointer as scenario files write paths: `/bodies/0/mass_kg` is `bodies[0].mass_kg`.
 std::string PathOf(const std::string& pointer) {
@@ -37,32 +36,21 @@ std::string TextOf(const Json& value) {
   return value.is_number_float() ? fmt::to_string(value.get<double>()) : value.dump();
 }
 
-// The fields of the scenario that are set; a message without fields has none.
-Fields FieldsOf(const v1::Scenario& scenario) {
-  Fields fields;
-  for (const auto& [pointer, value] : Json::parse(ToJsonLine(scenario)).flatten().items()) {
-    if (!value.is_null()) fields[PathOf(pointer)] = TextOf(value);
-  }
-  return fields;
-}
-
+// The fields that are set in at least one scenario and not equal in all. A message without fields
+// has none.
 std::vector<JobComparison::Parameter> Differing(const std::vector<v1::Job>& jobs) {
-  std::vector<Fields> all(jobs.size());
-  std::set<std::string> paths;
+  std::map<std::string, std::vector<std::string>> all;  // Of each path the values of all jobs.
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    all[i] = FieldsOf(jobs[i].scenario());
-    for (const auto& [path, value] : all[i]) paths.insert(path);
+    const Json fields = Json::parse(ToJsonLine(jobs[i].scenario())).flatten();
+    for (const auto& [pointer, value] : fields.items()) {
+      if (value.is_null()) continue;
+      all.try_emplace(PathOf(pointer), jobs.size()).first->second[i] = TextOf(value);
+    }
   }
   std::vector<JobComparison::Parameter> differing;
-  for (const std::string& path : paths) {
-    JobComparison::Parameter parameter{path, {}};
-    for (const Fields& fields : all) {
-      const auto found = fields.find(path);
-      parameter.values.push_back(found == fields.end() ? "" : found->second);
-    }
-    const std::string& first = parameter.values.front();
-    if (std::ranges::all_of(parameter.values, [&](const auto& v) { return v == first; })) continue;
-    differing.push_back(std::move(parameter));
+  for (const auto& [path, values] : all) {
+    const bool equal = std::ranges::adjacent_find(values, std::not_equal_to()) == values.end();
+    if (!equal) differing.push_back({path, values});
   }
   return differing;
 }

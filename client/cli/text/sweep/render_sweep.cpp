@@ -20,11 +20,9 @@ constexpr std::size_t kMostRows = 40;
 
 std::string Title(const v1::Job& job, const Style& style) {
   const v1::Progress& progress = job.progress();
-  std::string line =
-      fmt::format("{}  {}", Paint(job.name(), Tone::kStrong, style),
-                  Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style));
-  if (!job.state_reason().empty()) line += fmt::format(" ({})", job.state_reason());
-  line += fmt::format("  {} of {} cells", progress.cells_done(), progress.cells());
+  std::string line = fmt::format("{}  {}  {} of {} cells", Paint(job.name(), Tone::kStrong, style),
+                                 StateText(job.state(), job.state_reason(), style),
+                                 progress.cells_done(), progress.cells());
   if (progress.cells_failed() > 0) line += fmt::format(", {} failed", progress.cells_failed());
   if (progress.cells_not_converged() > 0) {
     line += fmt::format(", {} not converged", progress.cells_not_converged());
@@ -62,11 +60,8 @@ std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style
     row.push_back(Verdict(cell));
     table.Add(std::move(row));
   }
-  std::string text = Title(job, style);
-  if (job.has_error()) {
-    text += Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
-  }
-  return text + "\n" + table.Text(style, kMostRows, "… {} more cells; -o csv prints all");
+  return Title(job, style) + ErrorLine(job, style) + "\n" +
+         table.Text(style, kMostRows, "… {} more cells; -o csv prints all");
 }
 
 std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells,

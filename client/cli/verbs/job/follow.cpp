@@ -15,9 +15,7 @@ namespace contact::cli {
 namespace {
 
 ExitCode Cancel(Client& client, const std::string& name) {
-  v1::CancelJobRequest request;
-  request.set_name(name);
-  client.Call(&Client::Stub::CancelJob, request);
+  CancelJob(client, name);
   fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
   return ExitCode::kInterrupted;
 }
@@ -65,6 +63,12 @@ WatchEnd AwaitEnd(Client& client, const std::string& name, const Settings& setti
   const Interrupt interrupt;
   WatchObserver silence;
   return WatchJob(client, name, {"state_changed"}, settings, silence);
+}
+
+v1::Job CancelJob(Client& client, const std::string& name) {
+  v1::CancelJobRequest request;
+  request.set_name(name);
+  return client.Call(&Client::Stub::CancelJob, request);
 }
 
 ExitCode Detach(WatchEnd end, const std::string& name) {

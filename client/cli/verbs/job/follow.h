@@ -43,6 +43,9 @@ WatchEnd WatchJob(Client& client, const std::string& name, const std::vector<std
 /// and on Ctrl-C. Throws CallFailure.
 WatchEnd AwaitEnd(Client& client, const std::string& name, const Settings& settings);
 
+/// Asks the server to stop the job `name`. Returns the job as it is then. Throws CallFailure.
+v1::Job CancelJob(Client& client, const std::string& name);
+
 /// Says that the job continues although contactctl ends. `end` is why the watch ended: not
 /// kFinished. Returns kInterrupted or kTimeout.
 ExitCode Detach(WatchEnd end, const std::string& name);

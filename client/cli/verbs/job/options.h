@@ -1,6 +1,6 @@
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -33,6 +33,12 @@ inline CLI::Option* AddListOption(CommandLine& line, CLI::App& command, const st
                                   std::vector<std::string>* values, ValueKind kind,
                                   const std::string& about) {
   return line.SetKind(command.add_option(names, *values, about)->delimiter(','), kind);
+}
+
+/// Adds a flag for a number > 0.
+inline CLI::Option* AddCount(CLI::App& command, const std::string& names, int* count,
+                             const std::string& about) {
+  return command.add_option(names, *count, about)->check(CLI::PositiveNumber)->type_name("N");
 }
 
 /// Lets a flag be given several times, each time with one value. Returns the flag.
