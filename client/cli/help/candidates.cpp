@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
@@ -94,10 +94,8 @@ Candidates TemplateNames(const Settings&, const TypedWords&) {
 Candidates Laws(const Settings&, const TypedWords&) {
   Candidates laws;
   for (const LawEntry& law : LawCatalogue()) {
-    std::string name(law.name);
-    std::ranges::transform(name, name.begin(), [](unsigned char c) {
-      return c == '_' ? '-' : static_cast<char>(std::tolower(c));
-    });
+    std::string name = boost::to_lower_copy(std::string(law.name));
+    std::ranges::replace(name, '_', '-');
     laws.push_back({name, std::string(law.source)});
   }
   return laws;

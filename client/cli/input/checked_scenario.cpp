@@ -6,12 +6,18 @@
 
 namespace contact::cli {
 
-void RequireNoMistakes(const ScenarioFile& file) { RequireNone(file.diagnostics()); }
-
 void TellAdvice(const ScenarioFile& file) {
   for (const Diagnostic& advice : file.advice()) {
     fmt::print(stderr, "{}\n", Format(advice, "warning"));
   }
+}
+
+ScenarioFile Checked(ScenarioFile file, const std::vector<std::string>& overrides,
+                     const ScenarioLimits& limits) {
+  for (const std::string& assignment : overrides) file.Set(assignment);
+  file.Check(limits);
+  RequireNone(file.diagnostics());
+  return file;
 }
 
 }  // namespace contact::cli

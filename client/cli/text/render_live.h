@@ -16,17 +16,27 @@ namespace contact::cli {
 /// warnings, and how far the job is. Not thread-safe.
 class LiveView : public WatchObserver {
  public:
+  /// Where and how to write. Both streams may be the same; they must outlive the view.
   struct Options {
-    bool cycles = true;       ///< Show state changes and the cycles of the ledger, too.
-    int most_iterations = 0;  ///< Rows of the table of the μ-iteration; 0: all.
-    std::string job;          ///< For the command that shows the rest, and for JSON.
+    /// Receives events: rows of the iteration, cycles, states, warnings.
+    std::FILE* rows = stdout;
+    /// How to write to `rows`.
+    Style rows_style = {};
+    /// Receives progress and lost connections.
+    std::FILE* messages = stderr;
+    /// How to write to `messages`.
+    Style messages_style = {};
+    /// Show state changes and the cycles of the ledger, too.
+    bool cycles = true;
+    /// Rows of the table of the μ-iteration that are shown; 0: all.
+    int most_iterations = 0;
+    /// ID of the job, for the command that shows the rest, and for JSON.
+    std::string job = {};
+    /// How progress is shown.
     ProgressForm progress = ProgressForm::kNone;
   };
 
-  /// Events go to `rows`, progress and lost connections to `messages`. Both may be the same stream
-  /// and must outlive this object.
-  LiveView(std::FILE* rows, const Style& rows_style, std::FILE* messages,
-           const Style& messages_style, Options options);
+  explicit LiveView(Options options);
   /// Erases the progress bar.
   ~LiveView() override;
 
@@ -50,10 +60,6 @@ class LiveView : public WatchObserver {
   void WriteProgressLine(double elapsed_s);
   void EraseProgress();
 
-  std::FILE* rows_;
-  Style rows_style_;
-  std::FILE* messages_;
-  Style messages_style_;
   Options options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<v1::Progress> progress_;

@@ -2,7 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <memory>
 #include <string_view>
 
@@ -32,8 +32,7 @@ struct ListArguments {
 };
 
 v1::Job::State ParseState(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  boost::to_upper(text);
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
   if (v1::Job::State_Parse(text, &state) && state != v1::Job::STATE_UNSPECIFIED) return state;
   const std::vector<std::string_view> states = JobStates();

@@ -37,7 +37,7 @@ v1::Job Create(Client& client, const RunArguments& arguments) {
   } catch (const CallFailure& failure) {
     if (failure.code() != ExitCode::kInvalidScenario) throw failure.AllTold();
     for (const Violation& violation : failure.violations()) file.Add(violation);
-    RequireNoMistakes(file);
+    RequireNone(file.diagnostics());
     throw;
   }
 }

@@ -71,11 +71,9 @@ v1::Job ValidateSweep(const ValidateArguments& arguments, const std::string& tex
 
 // Checks a scenario and says what it has.
 v1::Job ValidateScenario(const ValidateArguments& arguments, const std::string& text) {
-  ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text,
-                    ParseVariables(arguments.variables));
-  for (const std::string& assignment : arguments.overrides) file.Set(assignment);
-  file.Check();
-  RequireNoMistakes(file);
+  const ScenarioFile file = Checked({arguments.file == "-" ? "<stdin>" : arguments.file, text,
+                                     ParseVariables(arguments.variables)},
+                                    arguments.overrides);
   TellAdvice(file);
   const v1::Scenario& scenario = file.scenario();
   fmt::print("{}: valid; {}, {}, {}, {}, {}\n", arguments.file,

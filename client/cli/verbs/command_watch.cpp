@@ -56,9 +56,10 @@ WatchOptions Options(const std::string& job, const Settings& settings) {
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
   if (settings.output == OutputFormat::kJsonLines) return std::make_unique<JsonLines>();
-  return std::make_unique<LiveView>(
-      stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
-      LiveView::Options{.job = ShortName(arguments.job), .progress = settings.Progress()});
+  return std::make_unique<LiveView>(LiveView::Options{.rows_style = settings.OutputStyle(),
+                                                      .messages_style = settings.MessageStyle(),
+                                                      .job = ShortName(arguments.job),
+                                                      .progress = settings.Progress()});
 }
 
 // The speed of a replay in simulated seconds a second, such as `1e-3x`; 0 for an empty text.

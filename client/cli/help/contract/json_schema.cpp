@@ -31,11 +31,6 @@ ordered_json Enum(const EnumDescriptor& type, Side side) {
   return {{"type", "string"}, {"enum", names}, {"enumDescriptions", meanings}};
 }
 
-ordered_json Integer64(Side side) {
-  if (side == Side::kWritten) return {{"type", "integer"}};
-  return {{"type", "string"}, {"pattern", "^-?[0-9]+$"}};
-}
-
 ordered_json Double(const FieldDescriptor& field, Side side) {
   ordered_json number = {{"type", "number"}};
   if (side == Side::kWritten || !RuleOf(field).may_be_nan()) return number;
@@ -165,7 +160,8 @@ class Maker {
         return {{"type", "integer"}};
       case FieldDescriptor::CPPTYPE_INT64:
       case FieldDescriptor::CPPTYPE_UINT64:
-        return Integer64(side_);
+        if (side_ == Side::kWritten) return {{"type", "integer"}};
+        return {{"type", "string"}, {"pattern", "^-?[0-9]+$"}};
       case FieldDescriptor::CPPTYPE_BOOL:
         return {{"type", "boolean"}};
       case FieldDescriptor::CPPTYPE_ENUM:
@@ -201,11 +197,8 @@ std::string JsonSchema(const Contract& contract, const std::string& kind) {
   Maker maker(kind == "job" ? Side::kPrinted : Side::kWritten, kind == "sweep");
   ordered_json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                          {"title", "contactd " + kind}};
-  schema.update(maker.Message(contract.Message(type)));
-  // Beside $ref, draft-07 ignores every other word, so it has a place of its own.
-  const ordered_json reference = {{"$ref", schema["$ref"]}};
-  schema.erase("$ref");
-  schema["allOf"] = {reference};
+  // In an array of its own, because draft-07 ignores every word beside $ref.
+  schema["allOf"] = ordered_json::array({maker.Message(contract.Message(type))});
   schema["definitions"] = maker.definitions();
   if (kind != "job") AddVariables(type, &schema["definitions"]);
   return schema.dump(2) + "\n";

@@ -34,8 +34,11 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
     if (rows != IterationRows::kNone) options.kinds.emplace_back("iteration");
   }
   const Style style = settings.MessageStyle();
-  LiveView view(stderr, style, stderr, style,
-                {.cycles = false,
+  LiveView view({.rows = stderr,
+                 .rows_style = style,
+                 .messages = stderr,
+                 .messages_style = style,
+                 .cycles = false,
                  .most_iterations = rows == IterationRows::kAll ? 0 : kMostIterations,
                  .job = ShortName(name),
                  .progress = settings.Progress()});

@@ -44,11 +44,7 @@ void ScenarioSource::AddTo(CommandLine& line, CLI::App& command) {
 }
 
 ScenarioFile ScenarioSource::Open(Client& client) const {
-  ScenarioFile file = Read(client);
-  for (const std::string& assignment : overrides_) file.Set(assignment);
-  file.Check(kNoLimits);
-  RequireNoMistakes(file);
-  return file;
+  return Checked(Read(client), overrides_, kNoLimits);
 }
 
 ScenarioFile ScenarioSource::Read(Client& client) const {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 
 #include "base/spelling.h"
 #include "cli/link/connect.h"
@@ -50,10 +50,8 @@ LawPoint PointOf(const LawEntry& law, double requested) {
 }
 
 const LawEntry& FindLaw(const std::string& text) {
-  std::string name = text;
-  std::ranges::transform(name, name.begin(), [](unsigned char c) {
-    return c == '-' ? '_' : static_cast<char>(std::toupper(c));
-  });
+  std::string name = boost::to_upper_copy(text);
+  std::ranges::replace(name, '-', '_');
   std::vector<std::string_view> names;
   for (const LawEntry& law : LawCatalogue()) {
     if (law.name == name) return law;

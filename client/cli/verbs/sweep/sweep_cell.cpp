@@ -24,6 +24,7 @@ struct Choice {
   double value = 0;
 };
 
+// The axis of a field, or of the last part of its name. Throws Failure (kUsage) if there is none.
 int AxisOf(const v1::Sweep& sweep, const std::string& field) {
   std::vector<int> found;
   std::vector<std::string_view> axes;
@@ -62,7 +63,7 @@ std::vector<Choice> ReadChoices(const v1::Sweep& sweep, const std::string& text)
   return choices;
 }
 
-// As tables show values, with six digits.
+// True if the values are equal to six digits, as tables show them.
 bool Near(double a, double b) {
   return std::abs(a - b) <= 1e-5 * std::max(std::abs(a), std::abs(b));
 }
@@ -73,12 +74,13 @@ bool Has(const v1::SweepCell& cell, const std::vector<Choice>& choices) {
   });
 }
 
-[[noreturn]] void FailNone(const v1::Sweep& sweep, const SweepCells& cells, const Choice& choice) {
-  double nearest = cells.begin()->second.values(choice.axis);
-  for (const auto& [index, cell] : cells) {
-    const double value = cell.values(choice.axis);
-    if (std::abs(value - choice.value) < std::abs(nearest - choice.value)) nearest = value;
-  }
+// Throws if no cell has the value, with the nearest one that a cell has.
+void RequireValue(const v1::Sweep& sweep, const SweepCells& cells, const Choice& choice) {
+  const auto distance = [&choice](const SweepCells::value_type& cell) {
+    return std::abs(cell.second.values(choice.axis) - choice.value);
+  };
+  const double nearest = std::ranges::min_element(cells, {}, distance)->second.values(choice.axis);
+  if (Near(nearest, choice.value)) return;
   throw Failure(ExitCode::kUsage,
                 fmt::format("no cell has {}={}; the nearest value is {}",
                             sweep.axes(choice.axis).field(), choice.value, nearest));
@@ -109,9 +111,7 @@ const v1::SweepCell& FindCell(const v1::Sweep& sweep, const SweepCells& cells,
                               found[0]->index(), found[1]->index()));
   }
   for (const Choice& choice : choices) {
-    const bool known = std::ranges::any_of(
-        cells, [&choice](const auto& entry) { return Has(entry.second, {choice}); });
-    if (!known && !cells.empty()) FailNone(sweep, cells, choice);
+    if (!cells.empty()) RequireValue(sweep, cells, choice);
   }
   throw Failure(ExitCode::kUsage, fmt::format("no cell has {} together", text));
 }
