@@ -40,24 +40,32 @@ class LiveView : public WatchObserver {
   /// Erases the progress bar.
   ~LiveView() override;
 
+  /// Takes the progress of the job.
   void OnSnapshot(const v1::Job& job) override;
+  /// Shows an event; frames and kinds that are unknown here are left out.
   void OnEvent(const v1::Event& event) override;
+  /// Says that the connection was lost, and when the next attempt is.
   void OnLost(const std::string& why, std::chrono::milliseconds pause) override;
   /// Draws the bar again or writes the line of progress, if either is wanted; not in the first
   /// 0.2 s.
   void OnTick() override;
 
  private:
-  // Writes a line in the place of the progress bar.
+  /// Writes a line in the place of the progress bar.
   void Write(std::FILE* stream, const std::string& line);
+  /// Shows a row for each unknown, up to the limit of rows.
   void ShowIteration(const v1::Iteration& iteration);
+  /// Shows a cycle in one line, if cycles are wanted.
   void ShowCycle(const v1::Cycle& cycle);
+  /// Shows a change of state, if cycles are wanted; else the result that follows shows it.
   void ShowState(const v1::StateChanged& change);
+  /// Shows a warning or a note.
   void ShowLogEntry(const v1::LogEntry& entry);
-  // Shows the start of an attempt that is not the first.
+  /// Shows the start of an attempt that is not the first.
   void ShowAttempt(const v1::AttemptStarted& start);
-  // Writes a line for each tenth of the job that is done.
+  /// Writes a line for each tenth of the job that is done.
   void WriteProgressLine(double elapsed_s);
+  /// Erases the bar if it stands on the terminal.
   void EraseProgress();
 
   Options options_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <CLI/CLI.hpp>  // All of it: App.hpp alone leaves vtables to others.
+#include <CLI/CLI.hpp>  // All of it: App.hpp alone lacks definitions.
 #include <string_view>
 #include <vector>
 

@@ -30,9 +30,9 @@ class ScenarioSource {
   /// The shipped scenario that --template names.
   ScenarioFile ReadTemplate() const;
 
-  std::string file_;
-  std::string like_;  // Name of a job.
-  std::string template_;
+  std::string file_;                    // Path, or `-` for the standard input.
+  std::string like_;                    // A job, by ID or jobs/ID.
+  std::string template_;                // Name of a shipped scenario.
   std::vector<std::string> overrides_;  // FIELD=VALUE
   std::vector<std::string> variables_;  // NAME=VALUE
 };
