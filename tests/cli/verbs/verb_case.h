@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,14 @@
 #include "contact/v1/job_service.grpc.pb.h"
 
 namespace contact::cli {
+
+/// The lines of a text.
+inline std::vector<std::string> Lines(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
 
 /// How a command line ended.
 struct End {

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "cli/verbs/verb_case.h"
 #include "contact/v1/event.pb.h"
@@ -41,13 +40,6 @@ class VerbRequestsTest : public testing::Test {
 
   ScriptedServer server_;
 };
-
-std::vector<std::string> Lines(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 TEST_F(VerbRequestsTest, ListAsksForNoMoreThanItsLimit) {
   AddJobs(7);
