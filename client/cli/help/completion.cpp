@@ -142,11 +142,8 @@ std::vector<std::string> Joined(const std::vector<std::string>& words) {
   std::vector<std::string> joined;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool part = !joined.empty() && (words[i] == "=" || words[i - 1] == "=");
-    if (part) {
-      joined.back() += words[i];
-    } else {
-      joined.push_back(words[i]);
-    }
+    if (!part) joined.emplace_back();
+    joined.back() += words[i];
   }
   return joined;
 }

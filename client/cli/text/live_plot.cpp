@@ -89,10 +89,7 @@ LivePlot::LivePlot(std::FILE* terminal, Options options)
   fmt::print(terminal_, "\x1b[?1049h\x1b[?25l");  // A screen of its own, no cursor.
 }
 
-LivePlot::~LivePlot() {
-  fmt::print(terminal_, "\x1b[?25h\x1b[?1049l{}\n", fmt::join(Plot(), "\n"));
-  std::fflush(terminal_);
-}
+LivePlot::~LivePlot() { Write(fmt::format("\x1b[?25h\x1b[?1049l{}\n", fmt::join(Plot(), "\n"))); }
 
 void LivePlot::OnEvent(const v1::Event& event) {
   Recorder::OnEvent(event);
@@ -111,7 +108,11 @@ void LivePlot::OnTick() {
   if (stale_ && !has_holes()) columns_ = Columns();
   stale_ = false;
   if (!start_ && !columns_.empty()) start_ = std::chrono::steady_clock::now();
-  fmt::print(terminal_, "\x1b[H{}\x1b[K\x1b[J", fmt::join(Plot(), "\x1b[K\r\n"));
+  Write(fmt::format("\x1b[H{}\x1b[K\x1b[J", fmt::join(Plot(), "\x1b[K\r\n")));
+}
+
+void LivePlot::Write(const std::string& text) {
+  std::fputs(text.c_str(), terminal_);
   std::fflush(terminal_);
 }
 

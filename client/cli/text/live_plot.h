@@ -59,6 +59,8 @@ class LivePlot : public Recorder {
   double Until() const;
   /// The lines of the plot as they are now.
   std::vector<std::string> Plot() const;
+  /// Writes to the terminal at once; never throws for a terminal that is gone.
+  void Write(const std::string& text);
 
   std::FILE* const terminal_;
   const Options options_;

@@ -124,16 +124,9 @@ std::string ErrorLine(const v1::Job& job, const Style& style) {
 }
 
 Tone ToneOf(v1::Job::State state) {
-  switch (state) {
-    case v1::Job::SUCCEEDED:
-      return Tone::kGood;
-    case v1::Job::FAILED:
-      return Tone::kBad;
-    case v1::Job::CANCELLED:
-      return Tone::kWarning;
-    default:
-      return Tone::kPlain;
-  }
+  if (state == v1::Job::SUCCEEDED) return Tone::kGood;
+  if (state == v1::Job::FAILED) return Tone::kBad;
+  return state == v1::Job::CANCELLED ? Tone::kWarning : Tone::kPlain;
 }
 
 }  // namespace contact::cli

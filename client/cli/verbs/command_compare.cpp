@@ -81,14 +81,11 @@ ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) 
 }
 
 void AddTolerance(CLI::App& command, Tolerance* tolerance) {
-  command.add_option("--abs", tolerance->absolute, "Deviation that does not matter")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command
-      .add_option("--rel", tolerance->relative,
-                  "The same relative to the baseline; the larger one counts")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  const auto add = [&command](const char* name, double* value, const char* about) {
+    command.add_option(name, *value, about)->check(CLI::NonNegativeNumber)->capture_default_str();
+  };
+  add("--abs", &tolerance->absolute, "Deviation that does not matter");
+  add("--rel", &tolerance->relative, "The same relative to the baseline; the larger one counts");
 }
 
 }  // namespace

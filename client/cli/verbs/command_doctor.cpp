@@ -63,10 +63,10 @@ void LookAtServer(const Settings& settings, Findings* findings) {
 Finding LookAtGnuplot() {
   std::string version = OutputOf({"gnuplot", "--version"}, {.silent_errors = true}).value_or("");
   version.erase(version.find_last_not_of('\n') + 1);
-  if (version.starts_with("gnuplot 5")) return {"gnuplot", version};
-  return {"gnuplot",
-          version.empty() ? "not found, so plot draws nothing" : version + ", made for 5",
-          "apt-get install gnuplot-nox", ExitCode::kLocal};
+  const bool good = version.starts_with("gnuplot 5");
+  if (!good)
+    version = version.empty() ? "not found, so plot draws nothing" : version + ", made for 5";
+  return {"gnuplot", version, good ? "" : "apt-get install gnuplot-nox", ExitCode::kLocal};
 }
 
 Finding LookAtTerminal(const Settings& settings) {
@@ -76,12 +76,12 @@ Finding LookAtTerminal(const Settings& settings) {
   std::string found = style.terminal ? fmt::format("{} columns", style.width) : "not a terminal";
   found += style.color ? ", colour" : ", no colour";
   found += utf8 ? ", UTF-8" : ", not UTF-8";
-  if (!utf8) return {"terminal", found, "export LC_CTYPE=C.UTF-8", ExitCode::kLocal};
-  if (style.terminal && style.width > 0 && style.width < 60) {
-    return {"terminal", found, "make it wider: below 60 columns, tables leave some out",
-            ExitCode::kLocal};
-  }
-  return {"terminal", found};
+  const bool narrow = style.terminal && style.width > 0 && style.width < 60;
+  return {"terminal", found,
+          !utf8    ? "export LC_CTYPE=C.UTF-8"
+          : narrow ? "make it wider: below 60 columns, tables leave some out"
+                   : "",
+          ExitCode::kLocal};
 }
 
 void LookAtConfig(const CLI::App& app, const Settings& settings, Findings* findings) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cli/base/text_file.h"
@@ -29,18 +30,24 @@ std::string DrawThinned(Figure figure) {
   return DrawInline(figure);
 }
 
+// The figure that `make` makes; none if the runs have no data for it.
+template <class Make>
+std::optional<Figure> TryFigure(Make make) {
+  try {
+    return make();
+  } catch (const Failure&) {
+    return std::nullopt;
+  }
+}
+
 // The figures of all presets for which the run has data.
 std::vector<std::string> DrawAll(const Recording& recording) {
   std::vector<std::string> figures;
   for (const std::string& preset : PresetNames()) {
-    Figure figure;
-    try {
-      figure = PresetFigure(preset, recording);
-    } catch (const Failure&) {
-      continue;
-    }
-    figure.title = preset;
-    figures.push_back(DrawThinned(std::move(figure)));
+    std::optional<Figure> figure = TryFigure([&] { return PresetFigure(preset, recording); });
+    if (!figure) continue;
+    figure->title = preset;
+    figures.push_back(DrawThinned(std::move(*figure)));
   }
   return figures;
 }
@@ -48,13 +55,8 @@ std::vector<std::string> DrawAll(const Recording& recording) {
 // The contact forces of all runs in one figure; empty for one run or for different contacts.
 std::string DrawTogether(const std::vector<Recording>& runs) {
   if (runs.size() == 1) return "";
-  Figure figure;
-  try {
-    figure = OverlayFigure(runs, {});
-  } catch (const Failure&) {
-    return "";
-  }
-  return DrawThinned(std::move(figure));
+  std::optional<Figure> figure = TryFigure([&] { return OverlayFigure(runs, {}); });
+  return figure ? DrawThinned(std::move(*figure)) : "";
 }
 
 Recording Read(Client& client, const std::string& job, const Settings& settings) {

@@ -13,15 +13,8 @@ namespace contact::cli {
 /// When to give up; none: never.
 using Deadline = std::optional<std::chrono::steady_clock::time_point>;
 
-/// How many rows of the μ-iteration a run shows.
-enum class IterationRows {
-  /// No row.
-  kNone,
-  /// The first 60 rows.
-  kFirst,
-  /// Every row.
-  kAll,
-};
+/// How many rows of the μ-iteration a run shows: none, the first 60, or all.
+enum class IterationRows { kNone, kFirst, kAll };
 
 /// Watches the job `name` and shows its iteration and progress on the standard error. Returns at
 /// the end of the job, at the deadline or on Ctrl-C. Throws CallFailure.
