@@ -23,7 +23,7 @@
 namespace contact::cli {
 namespace {
 
-// A candidate for each item, without a word about it. `name` makes its text.
+// A candidate for each item, without a description. `name` makes the text of an item.
 template <class Items, class Name = std::identity>
 Candidates Named(const Items& items, Name name = {}) {
   Candidates candidates;
@@ -122,9 +122,9 @@ const CLI::App& RootOf(const TypedWords& typed) {
   return *root;
 }
 
-// What `help` takes.
+// The words that `help` takes.
 Candidates Commands(const Settings&, const TypedWords& typed) {
-  Candidates commands = {{"tutorial", "the way through all of them"}};
+  Candidates commands = {{"tutorial", "the way from a server to a report"}};
   for (const CLI::App* command : RootOf(typed).get_subcommands({})) {
     commands.push_back({command->get_name(), command->get_description()});
   }
@@ -137,7 +137,7 @@ Candidates ConfigKeyNames(const Settings&, const TypedWords& typed) {
   return keys;
 }
 
-// Profiles are sections of files, whatever else these hold.
+// The profiles of all config files.
 Candidates ProfileNames(const Settings& settings, const TypedWords& typed) {
   std::vector<std::string> keys;
   for (const Candidate& key : ConfigKeyNames(settings, typed)) keys.push_back(key.text);

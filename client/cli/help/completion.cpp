@@ -36,7 +36,7 @@ void KeepGlobal(const CLI::App& app, CLI::Option* option, const std::string& val
   if (std::ranges::find(global, option) != global.end()) option->add_result(value);
 }
 
-// Follows the words as the parser would.
+// Reads the words as the parser would.
 TypedWords Follow(CLI::App& app, const std::vector<std::string>& words) {
   TypedWords typed{.command = &app, .positionals = {}, .open = nullptr};
   for (const std::string& word : words) {
@@ -137,7 +137,7 @@ std::string PrintValues(const CommandLine& line, const CLI::Option& option, cons
          Directive(line, option);
 }
 
-// The words as they were before bash split them at `=`.
+// Joins words that bash has split at `=`.
 std::vector<std::string> Joined(const std::vector<std::string>& words) {
   std::vector<std::string> joined;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -174,7 +174,8 @@ std::string PrintNext(const CommandLine& line, const TypedWords& typed, const st
 std::string Complete(CommandLine& line, const std::vector<std::string>& split) try {
   if (split.empty()) return ":none\n";
   const std::vector<std::string> words = Joined(split);
-  const bool after_equals = split.back() != words.back();  // All that the shell replaces.
+  const bool after_equals =
+      split.back() != words.back();  // Then the shell replaces only the value.
   TypedWords typed = Follow(line.app(), {words.begin(), words.end() - 1});
   std::string word = words.back();
   std::string prefix;
@@ -191,7 +192,7 @@ std::string Complete(CommandLine& line, const std::vector<std::string>& split) t
     return PrintValues(line, *typed.open, typed, prefix, word);
   }
   return PrintAssignments(typed, word, prefix, after_equals) + Directive(line, *typed.open);
-} catch (const Failure&) {  // Such as an address that is none: nothing to offer.
+} catch (const Failure&) {  // Such as a wrong address: there is nothing to offer.
   return ":none\n";
 }
 

@@ -15,7 +15,7 @@
 namespace contact::cli {
 namespace {
 
-// Text as scdoc takes it; `code` becomes bold, lines that stand for themselves stay as they are.
+// Text with the special characters of scdoc escaped; `code` becomes bold.
 std::string Inline(std::string_view text) {
   constexpr std::string_view kAtBegin = "[]|#-.:";
   std::string escaped;
@@ -46,7 +46,7 @@ std::string Paragraphs(const std::string& text) {
     end_code();
     if (line.empty()) {
       page += "\n\n";
-    } else {  // A line of its own could begin with what troff takes for a request.
+    } else {  // Joined, because a line could begin with a request of troff.
       page += (page.empty() || page.back() == '\n' ? "" : " ") + Inline(line);
     }
   }

@@ -86,7 +86,7 @@ std::vector<std::string> RenderLivePlot(const std::vector<SampleColumn>& columns
 
 LivePlot::LivePlot(std::FILE* terminal, Options options)
     : terminal_(terminal), options_(std::move(options)) {
-  fmt::print(terminal_, "\x1b[?1049h\x1b[?25l");  // A screen of its own, no cursor.
+  fmt::print(terminal_, "\x1b[?1049h\x1b[?25l");  // Second screen, no cursor.
 }
 
 LivePlot::~LivePlot() { Write(fmt::format("\x1b[?25h\x1b[?1049l{}\n", fmt::join(Plot(), "\n"))); }

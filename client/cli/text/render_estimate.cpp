@@ -16,7 +16,7 @@ namespace {
 
 using google::protobuf::util::TimeUtil;
 
-// Two digits are more than an estimate knows.
+// A number with two significant digits, which is all that an estimate can promise.
 std::string About(double value) {
   if (value >= 1e9) return fmt::format("{:.1e}", value);
   const double unit = value < 100 ? 1 : std::pow(10, std::floor(std::log10(value)) - 1);
@@ -31,7 +31,7 @@ std::string Bytes(std::int64_t count) {
   return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
 }
 
-// The lower of those that are set.
+// The lowest limit that is set (> 0); 0 if none is.
 std::int64_t Least(std::initializer_list<std::int64_t> limits) {
   std::int64_t least = 0;
   for (const std::int64_t limit : limits) {
@@ -42,7 +42,7 @@ std::int64_t Least(std::initializer_list<std::int64_t> limits) {
 
 std::int64_t MaxSteps(const v1::Job& job) {
   constexpr std::int64_t kDefault = 100'000'000;
-  if (job.has_sweep()) return 0;  // Its cells have it each.
+  if (job.has_sweep()) return 0;  // Each cell has a limit of its own.
   return job.scenario().solver().has_max_steps() ? job.scenario().solver().max_steps() : kDefault;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostRows = 40;
 
-// How far the job is, in parts that each stay in one line.
+// How far the job is, in parts that are not broken between lines.
 std::vector<std::string> Extent(const v1::Job& job) {
   const v1::Progress& progress = job.progress();
   if (job.has_summary()) {
@@ -51,7 +51,7 @@ double InSeconds(const google::protobuf::Duration& span) {
   return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
 }
 
-// What the user has asked for beside the run itself: priority, budget, time to live.
+// A line with priority, budget and time to live, as far as the user set them.
 std::string RequestedOptions(const v1::Job& job) {
   std::vector<std::string> parts;
   if (job.priority() != 0) parts.push_back(fmt::format("priority {}", job.priority()));

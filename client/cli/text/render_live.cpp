@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kBeforeProgress = 200ms;  // Most runs are over by then.
+constexpr auto kBeforeProgress = 200ms;  // Most runs end sooner and need no bar.
 
 }  // namespace
 
@@ -96,7 +96,7 @@ void LiveView::ShowCycle(const v1::Cycle& cycle) {
 }
 
 void LiveView::ShowState(const v1::StateChanged& change) {
-  if (!options_.cycles) return;  // The result that follows says it.
+  if (!options_.cycles) return;  // The result that is printed at the end says it.
   std::string line = StateText(change.state(), change.state_reason(), options_.rows_style);
   if (change.convergence() == v1::Job::PARTIAL) line += ", convergence PARTIAL";
   if (!change.message().empty()) line += ": " + change.message();

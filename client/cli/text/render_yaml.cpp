@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-// Whether some reader may take a text without quotes for a number, a flag, a date or nothing.
+// True if some reader may take the text without quotes for a number, a flag, a date or null.
 bool NeedsQuotes(const std::string& text) {
   constexpr std::array<std::string_view, 11> kWords = {
       "true", "false", "yes", "no", "on", "off", "y", "n", "null", "nan", "infinity"};

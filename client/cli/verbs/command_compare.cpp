@@ -24,7 +24,7 @@ struct CompareArguments {
   std::vector<std::string> channels;
 };
 
-// --format is an older flag for the format, which wins over -o.
+// The settings with the format of --format, an older flag that wins over -o.
 Settings WithFormat(const CompareArguments& arguments, Settings settings) {
   if (!arguments.format.empty()) settings.SetOutput(arguments.format);
   settings.RequireOutput(

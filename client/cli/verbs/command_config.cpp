@@ -29,7 +29,7 @@ struct ConfigArguments {
 
 using Keys = std::vector<std::string>;
 
-// Mistakes of the files are no reason not to show the rest.
+// Prints what is wrong with config files, after the settings that could be read.
 ExitCode TellProblems(const Settings& settings) {
   for (const Problem& problem : settings.problems) {
     fmt::print(stderr, "contactctl: {}\n", problem.text);
@@ -115,7 +115,7 @@ ExitCode Set(const ConfigArguments& arguments, const Settings& settings) {
   flag.clear();
   flag.add_result(arguments.value);
   try {
-    flag.run_callback();  // A value that no command would take is not stored.
+    flag.run_callback();  // Refuses a value that no command would take.
   } catch (const CLI::Error& error) {
     throw Failure(ExitCode::kUsage, error.what());
   }
@@ -190,7 +190,7 @@ void AddConfig(CommandLine& line, CLI::App& config) {
   CLI::App* set = config.add_subcommand(
       "set", "Change a setting in the user's file; with --profile, one of that profile");
   AddKey(line, *set, &arguments->key);
-  set->add_option("VALUE", arguments->value, "What it shall be")->required();
+  set->add_option("VALUE", arguments->value, "The new value")->required();
   line.SetAction(*set, arguments, Set);
 
   line.SetAction(*config.add_subcommand("list", "List the profiles"), arguments, ListProfiles);

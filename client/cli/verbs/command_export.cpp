@@ -49,9 +49,9 @@ void WriteTable(const DataTable& table, const Provenance& source, TableWriter* w
   file.Close();
 }
 
-// All tables in one file. Returns how much it holds, in words.
+// Writes all tables to one file. Returns in words how many samples and cycles it holds.
 std::string WriteAll(Recording&& recording, FileWriter* write, const std::string& path) {
-  const OutputFile writable(path);  // An error has our words, before those of the library.
+  const OutputFile writable(path);  // Fails with our message before the library does.
   const Provenance provenance = ProvenanceOf(recording.job);
   std::vector<DataTable> tables{CyclesTable(recording.job), IterationsTable(recording.iterations),
                                 BodiesTable(recording.job)};
@@ -85,9 +85,9 @@ void AddPart(CommandLine& line, CLI::App& command, SeriesSelection* part) {
       ->type_name("SECONDS");
   command.add_option("--to,--t1", part->to, "Only samples up to this simulated time")
       ->type_name("SECONDS");
-  AddCount(command, "--every", &part->every, "Only the first of so many samples");
+  AddCount(command, "--every", &part->every, "Keep one of N samples, beginning with the first");
   AddCount(command, "--max-points", &part->max_points,
-           "At most so many samples, chosen by the server without losing a peak");
+           "At most N samples; the server chooses them so that no peak is lost");
 }
 
 void RequireUse(const ExportArguments& arguments, OutputFormat format) {
@@ -106,11 +106,11 @@ void RequireUse(const ExportArguments& arguments, OutputFormat format) {
   require(text || arguments.precision == 0, "--precision is of csv and jsonl");
 }
 
-// Writes the job in the format. Returns how much that was, in words.
+// Writes the job in the format. Returns in words how much that was.
 std::string Write(const ExportArguments& arguments, OutputFormat format, const Settings& settings) {
   TableWriter* const table_writer = TableWriterOf(format);
   FileWriter* const file_writer = FileWriterOf(format);
-  if (table_writer == nullptr && file_writer == nullptr) {  // No tables, but the events.
+  if (table_writer == nullptr && file_writer == nullptr) {  // protobuf: events instead of tables.
     Client client = Connect(settings);
     return Count(WriteProtobuf(client, arguments.job, settings, arguments.file), "event", "events");
   }

@@ -50,7 +50,7 @@ ExitCode Delete(const std::string& job, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-// A command whose one argument is a job.
+// Makes `act` the action of a command whose only argument is a job.
 void AddJobAction(CommandLine& line, CLI::App& command,
                   ExitCode (*act)(const std::string&, const Settings&)) {
   auto job = std::make_shared<std::string>();

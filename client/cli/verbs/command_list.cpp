@@ -51,7 +51,7 @@ Request Filtered(const ListArguments& arguments) {
   return request;
 }
 
-// All pages, up to the limit.
+// The jobs of all pages, up to the limit; with a page token if there are more.
 v1::ListJobsResponse ListAll(Client& client, const ListArguments& arguments) {
   constexpr int kPage = 500;
   auto request = Filtered<v1::ListJobsRequest>(arguments);
@@ -148,7 +148,7 @@ void AddList(CommandLine& line, CLI::App& list) {
                        "Only jobs in this state; repeatable"));
   Repeatable(list.add_option("--label", arguments->labels, "Only jobs with this label; repeatable"))
       ->type_name("KEY=VALUE");
-  list.add_option("--limit", arguments->limit, "At most so many; 0 is all")
+  list.add_option("--limit", arguments->limit, "Most jobs to list; 0: all")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N")
       ->capture_default_str();

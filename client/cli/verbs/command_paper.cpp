@@ -42,8 +42,8 @@ std::vector<std::string> Chosen(const std::vector<std::string>& asked) {
   return asked;
 }
 
-// Draws the figures beside their data; returns them as SVG for the page. A drawing that nobody
-// asked for may fail: the note tells it.
+// Draws the figures beside their data. Returns them as SVG, by item, for the page. Without --format
+// a failure to draw is only told.
 std::map<std::string, std::string> DrawAll(const std::vector<PaperItem>& items,
                                            const PaperArguments& arguments) {
   const OutputFormat format = FindFormat(arguments.format).value_or(OutputFormat::kSvg);
@@ -82,7 +82,7 @@ void MakeFolder(const std::string& directory) {
   }
 }
 
-// What shows no single run is at least of this server.
+// Writes the data of the items. A figure of no single run names this server as its source.
 void WriteAll(const v1::ServerInfo& server, const PaperArguments& arguments,
               std::vector<PaperItem>* items) {
   const Provenance here = {{"version", server.version()}, {"revision", server.revision()}};

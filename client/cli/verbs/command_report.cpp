@@ -26,7 +26,7 @@ struct ReportArguments {
 std::string DrawThinned(Figure figure) {
   constexpr std::size_t kPoints = 1000;
   Thin(kPoints, &figure);
-  figure.sources.clear();  // The page tells them.
+  figure.sources.clear();  // The page names them.
   return DrawInline(figure);
 }
 

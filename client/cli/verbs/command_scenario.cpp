@@ -52,7 +52,7 @@ void ValidateOnServer(const v1::Job& job, const Settings& settings) {
              RenderEstimate(checked, info.limits(), settings.OutputStyle()));
 }
 
-// Checks a sweep and says what it has.
+// Checks a sweep and prints what it has. Returns a job with it.
 v1::Job ValidateSweep(const ValidateArguments& arguments, const std::string& text) {
   if (!arguments.overrides.empty()) {
     throw Failure(ExitCode::kUsage, "--set is for scenarios; a sweep has axes");
@@ -69,7 +69,7 @@ v1::Job ValidateSweep(const ValidateArguments& arguments, const std::string& tex
   return job;
 }
 
-// Checks a scenario and says what it has.
+// Checks a scenario and prints what it has. Returns a job with it.
 v1::Job ValidateScenario(const ValidateArguments& arguments, const std::string& text) {
   const ScenarioFile file = Checked({arguments.file == "-" ? "<stdin>" : arguments.file, text,
                                      ParseVariables(arguments.variables)},
@@ -108,7 +108,7 @@ void WriteFile(const std::string& path, std::string_view text, bool force) {
   }
 }
 
-// The scenario that a sweep names, unless there is a file of this name beside it.
+// Writes the scenario that a sweep names beside it, unless a file of this name exists.
 void WriteBase(const Template& sweep, const std::string& path) {
   for (const Template& scenario : Templates()) {
     const std::string name = std::string(scenario.name) + ".yaml";
@@ -175,7 +175,7 @@ void AddValidate(CommandLine& line, CLI::App& command) {
 void AddInit(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<InitArguments>();
   AddOption(line, command, "TEMPLATE", &arguments->name, ValueKind::kTemplate,
-            "Which; without it they are listed");
+            "Its name; without it all are listed");
   AddOption(line, command, "--file", &arguments->file, ValueKind::kFile,
             "Where to; - is the standard output");
   command.add_flag("--list", arguments->list, "List the templates");

@@ -32,7 +32,7 @@ ExitCode Schema(const SchemaArguments& arguments, const Settings& settings) {
 void AddSchema(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<SchemaArguments>();
   AddOption(line, command, "KIND", &arguments->kind, {"scenario", "sweep", "job"},
-            "What of: a file, or what -o json prints")
+            "What to describe: a scenario file, a sweep file, or the job that -o json prints")
       ->type_name("")
       ->capture_default_str();
   command.add_flag("--markdown", arguments->markdown,

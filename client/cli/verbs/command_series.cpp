@@ -36,7 +36,7 @@ v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
   return request;
 }
 
-// Where the motion comes from, in lines that readers of CSV skip.
+// With --comments the source of the series, in lines that begin with #.
 std::string Comments(Client& client, const SeriesArguments& arguments) {
   if (!arguments.comments) return "";
   return Lines({SourceOf(GetJob(client, arguments.job))}, "# ");
@@ -67,7 +67,7 @@ void AddSeries(CommandLine& line, CLI::App& series) {
       ->type_name("SECONDS");
   series.add_option("--to", arguments->to, "Only up to this simulated time")->type_name("SECONDS");
   AddCount(series, "--points", &arguments->points,
-           "At most so many samples, without losing a peak. Default: 1000");
+           "At most N samples; no peak is lost. Default: 1000");
   series.add_flag("--raw", arguments->raw, "Every sample");
   series.add_flag("--comments", arguments->comments, kCommentsAbout);
   line.SetAction(series, arguments, Series);

@@ -64,7 +64,7 @@ void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& ar
   }
 }
 
-// Follows a sweep to its end, from its first cell on, and prints it.
+// Follows a sweep to its end and prints all its cells.
 ExitCode Follow(Client& client, const std::string& name, const SweepArguments& arguments,
                 const Settings& settings) {
   const bool submitted = arguments.job.empty();
@@ -88,7 +88,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   return CodeOf(job);
 }
 
-// The sweep of the file, or the scenario of the file with the axes of --grid.
+// The sweep of a sweep file, or with --grid the scenario of the file with these axes.
 v1::Sweep Open(const SweepArguments& arguments) {
   const VariableValues variables = ParseVariables(arguments.variables);
   if (arguments.grid.empty()) return OpenSweep(arguments.file, variables);
@@ -128,7 +128,7 @@ ExitCode Export(const SweepArguments& arguments, const Settings& settings) {
   return code == ExitCode::kNotConverged || code == ExitCode::kRunFailed ? ExitCode::kOk : code;
 }
 
-// What the commands that print the cells of a sweep have in common.
+// Adds the flags of the commands that print the cells of a sweep.
 void AddShowing(CommandLine& line, CLI::App& command,
                 const std::shared_ptr<SweepArguments>& arguments,
                 ExitCode (*act)(const SweepArguments&, const Settings&)) {
@@ -149,24 +149,23 @@ CLI::Option* AddDrawn(CLI::App& run, const char* name, int* cells, CLI::Option* 
       ->needs(grid);
 }
 
-// Axes on the command line, instead of a sweep file.
+// Adds the flags for axes on the command line, instead of a sweep file.
 void AddAxes(CLI::App& run, SweepArguments* arguments) {
   CLI::Option* grid =
       Repeatable(
           run.add_option("--grid", arguments->grid,
-                         "Every value of this field with every one of the others, such as "
+                         "An axis; its values are combined with those of all other axes, such as "
                          "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is "
-                         "then what is computed, iterations unless given"))
+                         "then what is computed, by default iterations"))
           ->type_name("FIELD=VALUES");
-  CLI::Option* random =
-      AddDrawn(run, "--random", &arguments->random, grid,
-               "So many cells with values drawn by chance, each axis of --grid as "
-               "FIELD=LOW:HIGH or FIELD=A,B,C");
+  CLI::Option* random = AddDrawn(
+      run, "--random", &arguments->random, grid,
+      "Number of cells with random values; each axis of --grid is FIELD=LOW:HIGH or FIELD=A,B,C");
   AddDrawn(run, "--lhs", &arguments->latin_hypercube, grid,
-           "The same as a Latin hypercube, which covers every axis evenly")
+           "Like --random, but a Latin hypercube, which covers every axis evenly")
       ->excludes(random);
   run.add_option("--seed", arguments->seed,
-                 "Of the drawn values: the same seed, the same cells (default 0)")
+                 "Seed of --random and --lhs; the same seed gives the same cells. Default: 0")
       ->needs(grid);
 }
 

@@ -37,7 +37,7 @@ struct WatchArguments {
   std::string replay;
 };
 
-// One event a line, for programs.
+// Prints each event as a line of JSON, for programs.
 class JsonLines : public WatchObserver {
  public:
   void OnEvent(const v1::Event& event) override {
@@ -71,8 +71,8 @@ double ParseReplay(std::string_view text) {
                 fmt::format("--replay {}: must be a speed > 0 such as 1e-3x", text));
 }
 
-// Draws until the job ends, its replay is over or the user stops it. `mistake` says why nothing
-// can be drawn; none if all is well.
+// Draws until the job ends, its replay is over or the user stops it. `mistake` receives why
+// nothing can be drawn; none if something can.
 WatchEnd DrawLive(Client& client, WatchOptions options, const WatchArguments& arguments,
                   double replay, std::optional<std::string>* mistake) {
   LivePlot plot(stdout, {arguments.plot, replay, TerminalHasUtf8()});
@@ -125,7 +125,7 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   const WatchEnd end = Watch(client, options, *observer);
   if (end != WatchEnd::kFinished) return Detach(end, options.name);
   const v1::Job job = GetJob(client, arguments.job);
-  observer->OnSnapshot(job);  // How far it came.
+  observer->OnSnapshot(job);  // The last progress.
   return CodeOf(job);
 }
 
@@ -156,7 +156,7 @@ void AddWatch(CommandLine& line, CLI::App& watch) {
       ->excludes("--after-sequence");
   watch
       .add_option("--min-frame-interval", arguments->min_frame_interval,
-                  "Of frame chunks that follow each other sooner only the newest, and a gap")
+                  "Leave out frame chunks that follow sooner than this; a gap tells of them")
       ->type_name("DURATION");
   AddListOption(line, watch, "--plot", &arguments->plot, ValueKind::kChannel,
                 "Draw these channels on the terminal, such as B1.velocity,B1-B2.contact_force");

@@ -57,7 +57,7 @@ Data Curves(const std::vector<const LawEntry*>& laws, bool alpha, const Settings
 }
 
 ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
-  FigureFormat(arguments.file, settings);  // Told before anything is run.
+  FigureFormat(arguments.file, settings);  // Refuses a wrong format before anything is run.
   const bool alpha = arguments.what == "alpha";
   const Data curves = Curves(ChooseLaws(arguments.laws, true), alpha, settings);
   Figure figure = ColumnsFigure(

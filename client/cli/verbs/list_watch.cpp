@@ -16,7 +16,7 @@
 namespace contact::cli {
 namespace {
 
-// A line for each job that is new or has changed.
+// Prints a line for each job that is new, has changed or was deleted.
 class JobLines : public JobsObserver {
  public:
   explicit JobLines(const Settings& settings) : settings_(settings) {}

@@ -13,7 +13,7 @@ namespace {
 
 constexpr char kPackage[] = "contact.v1.";
 
-// Whether a line of a comment stands for itself, as formulas and lists do.
+// True if a line of a comment is not joined with its neighbours: a formula or an entry of a list.
 bool StandsAlone(const std::string& line) {
   return line.starts_with(" ") || line.starts_with("* ") || line.starts_with("- ");
 }
@@ -62,7 +62,7 @@ std::string Unwrap(const std::string& comment) {
   std::istringstream lines(comment);
   std::string text;
   std::string line;
-  bool open = false;  // The last line of `text` goes on.
+  bool open = false;  // The next line continues the last one of `text`.
   while (std::getline(lines, line)) {
     if (line.starts_with(" ")) line.erase(0, 1);
     const bool alone = StandsAlone(line);

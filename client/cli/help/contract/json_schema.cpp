@@ -14,7 +14,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::OneofDescriptor;
 using nlohmann::ordered_json;
 
-// Who writes the JSON.
+// Which JSON the schema describes.
 enum class Side {
   kWritten,  // By a user: ranges and required fields hold.
   kPrinted,  // By the server: unset fields have their zero, int64 is text, NaN may occur.
@@ -37,7 +37,7 @@ ordered_json Double(const FieldDescriptor& field, Side side) {
   return {{"anyOf", {number, {{"enum", {"NaN", "Infinity", "-Infinity"}}}}}};
 }
 
-// A variable of the file, which may stand for any value.
+// The schema, or in a file also a variable in the place of the value.
 ordered_json OrVariable(const ordered_json& schema, Side side) {
   if (side == Side::kPrinted) return schema;
   return {{"anyOf", {schema, {{"$ref", "#/definitions/variable"}}}}};
@@ -49,7 +49,7 @@ void AddBounds(const v1::FieldRule& rule, ordered_json* schema) {
   if (rule.has_max()) (*schema)["maximum"] = rule.max();
 }
 
-// A default in words is left to the description.
+// Adds the default of a field unless it is a sentence, which the description has.
 void AddDefault(const FieldDescriptor& field, const v1::FieldRule& rule, ordered_json* schema) {
   if (rule.has_default_number()) {
     (*schema)["default"] = rule.default_number();
@@ -91,7 +91,7 @@ class Maker {
     }
     if (message.full_name() == "google.protobuf.Any") return {{"type", "object"}};
     if (!definitions_.contains(name)) {
-      definitions_[name] = nullptr;  // Keeps its place before what it needs.
+      definitions_[name] = nullptr;  // Stands before the definitions that it needs.
       definitions_[name] = Definition(message);
     }
     return {{"$ref", "#/definitions/" + name}};
@@ -130,7 +130,7 @@ class Maker {
     } else if (named_base_ && field.full_name() == "contact.v1.Sweep.base") {
       schema["anyOf"] = {{{"type", "string"}, {"minLength", 1}}, Single(field)};
     } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
-      schema["allOf"] = {Single(field)};  // Beside $ref a description is not seen.
+      schema["allOf"] = {Single(field)};  // Validators ignore a description beside $ref.
     } else {
       schema.update(Scalar(field, rule));
       AddDefault(field, rule, &schema);
@@ -178,7 +178,7 @@ class Maker {
   ordered_json definitions_ = ordered_json::object();
 };
 
-// Lets the message `type`, which is the whole file, declare variables.
+// Lets the message `type`, which is the whole file, have a mapping `variables`.
 void AddVariables(const std::string& type, ordered_json* definitions) {
   (*definitions)[type]["properties"]["variables"] = {
       {"description", "Values by name, for ${name} in the file. --var NAME=VALUE gives others."},

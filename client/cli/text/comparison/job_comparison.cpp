@@ -39,7 +39,7 @@ std::string TextOf(const Json& value) {
 // The fields that are set in at least one scenario and not equal in all. A message without fields
 // has none.
 std::vector<JobComparison::Parameter> Differing(const std::vector<v1::Job>& jobs) {
-  std::map<std::string, std::vector<std::string>> all;  // Of each path the values of all jobs.
+  std::map<std::string, std::vector<std::string>> all;  // The values of all jobs by path.
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const Json fields = Json::parse(ToJsonLine(jobs[i].scenario())).flatten();
     for (const auto& [pointer, value] : fields.items()) {
@@ -55,7 +55,7 @@ std::vector<JobComparison::Parameter> Differing(const std::vector<v1::Job>& jobs
   return differing;
 }
 
-// Gathers results of one job after the other, in the order in which they are first met.
+// Gathers results job by job. Results stand in the order in which the first job with each has it.
 class Results {
  public:
   explicit Results(std::size_t jobs) : jobs_(jobs) {}

@@ -30,14 +30,14 @@ std::string Title(const v1::Job& job, const Style& style) {
   return Wrap(line + "\n", style);
 }
 
-// What became of a cell: its convergence, or why it failed.
+// The last column of a cell: its convergence, or why it failed.
 Table::Cell Verdict(const v1::SweepCell& cell) {
   if (cell.state() == v1::Job::FAILED) return {cell.state_reason(), Tone::kBad};
   const bool full = cell.convergence() == v1::Job::FULL;
   return {v1::Job::Convergence_Name(cell.convergence()), full ? Tone::kGood : Tone::kWarning};
 }
 
-// The columns of cell, axes and metrics. Metrics are the first to be left out.
+// The columns of cell, axes and metrics. A narrow terminal leaves out metrics first.
 std::vector<Table::Column> Quantities(const v1::Sweep& sweep) {
   std::vector<Table::Column> columns{{"CELL", true}};
   for (const auto& axis : sweep.axes()) columns.push_back({axis.field(), true, 0, axis.field()});

@@ -43,7 +43,7 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
                  .job = ShortName(name),
                  .progress = settings.Progress()});
   const WatchEnd end = Watch(client, options, view);
-  if (end == WatchEnd::kFinished) view.OnSnapshot(GetJob(client, name));  // How far it came.
+  if (end == WatchEnd::kFinished) view.OnSnapshot(GetJob(client, name));  // The last progress.
   return end;
 }
 

@@ -17,7 +17,8 @@
 namespace contact::cli {
 namespace {
 
-// Only one and the same server promises the same bits.
+// Says so if a server of another version made the job: only the same version repeats it bit for
+// bit.
 void TellOfOtherServer(Client& client, const v1::Job& job) {
   const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
   if (job.server_version().empty() ||

@@ -13,7 +13,7 @@ void Submission::AddTo(CLI::App& command, std::string_view what) {
       ->type_name("KEY=VALUE");
   command
       .add_option("--request-id", request_id_,
-                  fmt::format("The same id and {} make one job, however often submitted", what))
+                  fmt::format("Submitting the same ID and {} again returns the same job", what))
       ->type_name("ID");
   options_.AddTo(command);
 }

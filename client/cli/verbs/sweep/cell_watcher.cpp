@@ -74,7 +74,7 @@ WatchEnd GatherCells(Client& client, v1::Job* job, const Settings& settings, Swe
   const WatchEnd end = WatchJob(client, job->name(), {"sweep_cell", "progress"}, settings, watcher);
   if (end == WatchEnd::kFinished) {
     *job = GetJob(client, job->name());
-    watcher.OnSnapshot(*job);  // The last progress is always told.
+    watcher.OnSnapshot(*job);  // Programs always receive the last progress.
   }
   *cells = watcher.Take();
   return end;

@@ -18,7 +18,7 @@
 namespace contact::cli {
 namespace {
 
-// One FIELD=VALUE of what names a cell.
+// One FIELD=VALUE of the text that names a cell.
 struct Choice {
   int axis = 0;
   double value = 0;
@@ -28,7 +28,7 @@ struct Choice {
 int AxisOf(const v1::Sweep& sweep, const std::string& field) {
   std::vector<int> found;
   std::vector<std::string_view> axes;
-  std::vector<std::string_view> names;  // And their last parts.
+  std::vector<std::string_view> names;  // The axes, and the last part of each.
   for (int i = 0; i < sweep.axes_size(); ++i) {
     const std::string& name = sweep.axes(i).field();
     if (name == field) return i;
@@ -74,7 +74,7 @@ bool Has(const v1::SweepCell& cell, const std::vector<Choice>& choices) {
   });
 }
 
-// Throws if no cell has the value, with the nearest one that a cell has.
+// Throws Failure (kUsage) with the nearest value if no cell has the value of the choice.
 void RequireValue(const v1::Sweep& sweep, const SweepCells& cells, const Choice& choice) {
   const auto distance = [&choice](const SweepCells::value_type& cell) {
     return std::abs(cell.second.values(choice.axis) - choice.value);
