@@ -91,8 +91,8 @@ class RefusalsOfAServer(CliTest):
 
     def test_labels_and_request_ids_that_break_a_rule(self):
         self.assertIn("request_id", self.refused("submit", CHAIN, "--request-id", "x" * 200,
-                                                 code=3))
-        self.assertIn("priority", self.refused("submit", CHAIN, "--priority", 101, code=3))
+                                                 code=2))
+        self.assertIn("priority", self.refused("submit", CHAIN, "--priority", 101, code=2))
         self.assertEqual(len(json.loads(self.run_it("list", "-o", "json")[0])["jobs"]), 1)
 
     def test_request_id_of_another_scenario(self):
