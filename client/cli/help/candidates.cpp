@@ -61,8 +61,9 @@ Response AskOfJob(const Settings& settings, const TypedWords& typed,
 Candidates Jobs(const Settings& settings, const TypedWords&) {
   v1::ListJobsRequest request;
   request.set_page_size(100);
+  const v1::ListJobsResponse answer = Ask(settings, &Client::Stub::ListJobs, request);
   Candidates jobs;
-  for (const v1::Job& job : Ask(settings, &Client::Stub::ListJobs, request).jobs()) {
+  for (const v1::Job& job : answer.jobs()) {
     jobs.push_back(
         {job.name().substr(job.name().find('/') + 1),
          fmt::format("{} {}", v1::Job::State_Name(job.state()), job.scenario().title())});
