@@ -1,4 +1,4 @@
-#include "cli/verbs/follow.h"
+#include "cli/verbs/job/follow.h"
 
 #include <fmt/format.h>
 
@@ -8,16 +8,14 @@
 #include "cli/base/interrupt.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
+#include "cli/text/print_job.h"
 #include "cli/text/render_live.h"
 
 namespace contact::cli {
-
 namespace {
 
 ExitCode Cancel(Client& client, const std::string& name) {
-  v1::CancelJobRequest request;
-  request.set_name(name);
-  client.Call(&Client::Stub::CancelJob, request);
+  CancelJob(client, name);
   fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
   return ExitCode::kInterrupted;
 }
@@ -27,26 +25,53 @@ ExitCode Cancel(Client& client, const std::string& name) {
 WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, IterationRows rows,
                    const Settings& settings) {
   constexpr int kMostIterations = 60;
-  const Interrupt interrupt;  // From before the name is told on.
-  WatchOptions options;
-  options.name = name;
-  options.deadline = deadline;
-  options.stopped = Interrupt::raised;
-  options.kinds = {"progress"};
+  const Interrupt interrupt;  // Installed before the name of the job is told.
+  WatchOptions options{
+      .name = name, .kinds = {"progress"}, .deadline = deadline, .stopped = Interrupt::raised};
   if (settings.output == OutputFormat::kTable) {
     fmt::print(stderr, "{} submitted\n", name);
     options.kinds = {"progress", "log_entry", "attempt_started"};
     if (rows != IterationRows::kNone) options.kinds.emplace_back("iteration");
   }
   const Style style = settings.MessageStyle();
-  LiveView view(stderr, style, stderr, style,
-                {.cycles = false,
+  LiveView view({.rows = stderr,
+                 .rows_style = style,
+                 .messages = stderr,
+                 .messages_style = style,
+                 .cycles = false,
                  .most_iterations = rows == IterationRows::kAll ? 0 : kMostIterations,
                  .job = ShortName(name),
                  .progress = settings.Progress()});
   const WatchEnd end = Watch(client, options, view);
-  if (end == WatchEnd::kFinished) view.OnSnapshot(GetJob(client, name));  // How far it came.
+  if (end == WatchEnd::kFinished) view.OnSnapshot(GetJob(client, name));  // The last progress.
   return end;
+}
+
+ExitCode PrintResult(Client& client, const std::string& name, const Settings& settings,
+                     const std::vector<std::string>& columns) {
+  const v1::Job job = GetJob(client, name);
+  PrintJob(job, settings, columns);
+  if (settings.output == OutputFormat::kTable) fmt::print(stderr, "{}", NextSteps(job));
+  return CodeOf(job);
+}
+
+WatchEnd WatchJob(Client& client, const std::string& name, const std::vector<std::string>& kinds,
+                  const Settings& settings, WatchObserver& observer) {
+  const WatchOptions options{
+      .name = name, .kinds = kinds, .deadline = settings.Deadline(), .stopped = Interrupt::raised};
+  return Watch(client, options, observer);
+}
+
+WatchEnd AwaitEnd(Client& client, const std::string& name, const Settings& settings) {
+  const Interrupt interrupt;
+  WatchObserver silence;
+  return WatchJob(client, name, {"state_changed"}, settings, silence);
+}
+
+v1::Job CancelJob(Client& client, const std::string& name) {
+  v1::CancelJobRequest request;
+  request.set_name(name);
+  return client.Call(&Client::Stub::CancelJob, request);
 }
 
 ExitCode Detach(WatchEnd end, const std::string& name) {
@@ -68,6 +93,10 @@ ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, b
     std::this_thread::sleep_for(50ms);
   }
   return Detach(end, name);
+}
+
+void TellLost(const std::string& why) {
+  fmt::print(stderr, "connection lost ({}); trying again\n", why);
 }
 
 std::string NextSteps(const v1::Job& job) {

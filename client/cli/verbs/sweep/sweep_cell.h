@@ -2,15 +2,11 @@
 
 #include <string>
 
-#include "cli/link/client.h"
-#include "cli/settings/settings.h"
-#include "cli/text/sweep/render_sweep.h"
+#include "cli/base/style.h"
+#include "cli/text/sweep/sweep_cells.h"
+#include "contact/v1/job.pb.h"
 
 namespace contact::cli {
-
-/// Waits for the end of the sweep `job` and fetches its cells. Throws CallFailure, and Failure
-/// (kTimeout, kInterrupted) when the wait ends first.
-SweepCells ReadCells(Client& client, const v1::Job& job, const Settings& settings);
 
 /// The cell that `text` names: by its index, or by `FIELD=VALUE,…` with values to six digits. A
 /// field is that of an axis, or its last part after a dot. Throws Failure (kUsage) unless exactly

@@ -1,16 +1,15 @@
-#include "cli/verbs/law_study.h"
+#include "cli/verbs/laws/law_study.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 
 #include "base/spelling.h"
-#include "cli/base/interrupt.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
-#include "cli/verbs/follow.h"
+#include "cli/verbs/job/follow.h"
 
 namespace contact::cli {
 namespace {
@@ -21,26 +20,16 @@ constexpr double kHertzStiffness = 1e8, kLinearStiffness = 1e6;
 
 std::string NameOf(std::size_t point) { return fmt::format("P{}", point); }
 
-void WaitForEnd(Client& client, const std::string& name, const Settings& settings) {
-  WatchOptions options;
-  options.name = name;
-  options.kinds = {"state_changed"};
-  options.deadline = settings.Deadline();
-  options.stopped = Interrupt::raised;
-  const Interrupt interrupt;
-  WatchObserver silence;
-  const WatchEnd end = Watch(client, options, silence);
-  if (end != WatchEnd::kFinished)
-    throw Failure(Detach(end, name), "the comparison is not complete");
-}
-
 // Runs the scenario as a job and deletes the job. Throws Failure unless the run succeeds.
 v1::Job RunToItsEnd(Client& client, const v1::Scenario& scenario, const Settings& settings) {
   v1::CreateJobRequest create;
   *create.mutable_job()->mutable_scenario() = scenario;
   create.set_request_id(RandomRequestId());
   const std::string name = client.Call(&Client::Stub::CreateJob, create).name();
-  WaitForEnd(client, name, settings);
+  const WatchEnd end = AwaitEnd(client, name, settings);
+  if (end != WatchEnd::kFinished) {
+    throw Failure(Detach(end, name), "the comparison is not complete");
+  }
   v1::Job result = GetJob(client, name);
   if (result.state() != v1::Job::SUCCEEDED) {
     throw Failure(ExitCode::kRunFailed,
@@ -54,11 +43,15 @@ v1::Job RunToItsEnd(Client& client, const v1::Scenario& scenario, const Settings
 
 }  // namespace
 
+LawPoint PointOf(const LawEntry& law, double requested) {
+  return {.law = &law,
+          .requested = requested,
+          .delivered = law.closed_form() ? law.Delivered(requested) : 0};
+}
+
 const LawEntry& FindLaw(const std::string& text) {
-  std::string name = text;
-  std::ranges::transform(name, name.begin(), [](unsigned char c) {
-    return c == '-' ? '_' : static_cast<char>(std::toupper(c));
-  });
+  std::string name = boost::to_upper_copy(text);
+  std::ranges::replace(name, '-', '_');
   std::vector<std::string_view> names;
   for (const LawEntry& law : LawCatalogue()) {
     if (law.name == name) return law;
@@ -66,6 +59,16 @@ const LawEntry& FindLaw(const std::string& text) {
   }
   throw Failure(ExitCode::kUsage, WithHint(fmt::format("there is no law {}", Quoted(text)),
                                            DidYouMean(name, names, "see contactctl model list")));
+}
+
+std::vector<const LawEntry*> ChooseLaws(const std::vector<std::string>& names, bool closed_form) {
+  std::vector<const LawEntry*> laws;
+  for (const std::string& name : names) laws.push_back(&FindLaw(name));
+  if (!laws.empty()) return laws;
+  for (const LawEntry& law : LawCatalogue()) {
+    if (law.closed_form() || !closed_form) laws.push_back(&law);
+  }
+  return laws;
 }
 
 v1::Scenario CollisionsOf(const std::vector<LawPoint>& points) {

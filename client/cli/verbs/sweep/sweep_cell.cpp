@@ -1,4 +1,4 @@
-#include "cli/verbs/sweep_cell.h"
+#include "cli/verbs/sweep/sweep_cell.h"
 
 #include <fmt/format.h>
 
@@ -8,34 +8,27 @@
 #include <vector>
 
 #include "base/spelling.h"
-#include "cli/base/interrupt.h"
+#include "cli/base/failure.h"
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
 #include "cli/base/table.h"
-#include "cli/link/watch.h"
 #include "cli/text/render_job.h"
 #include "wire/sweep/sweep_fields.h"
 
 namespace contact::cli {
 namespace {
 
-class Collector final : public WatchObserver {
- public:
-  void OnEvent(const v1::Event& event) override {
-    if (event.has_sweep_cell()) cells[event.sweep_cell().index()] = event.sweep_cell();
-  }
-  SweepCells cells;
-};
-
+// One FIELD=VALUE of the text that names a cell.
 struct Choice {
   int axis = 0;
   double value = 0;
 };
 
+// The axis of a field, or of the last part of its name. Throws Failure (kUsage) if there is none.
 int AxisOf(const v1::Sweep& sweep, const std::string& field) {
   std::vector<int> found;
   std::vector<std::string_view> axes;
-  std::vector<std::string_view> names;  // And their last parts.
+  std::vector<std::string_view> names;  // The axes, and the last part of each.
   for (int i = 0; i < sweep.axes_size(); ++i) {
     const std::string& name = sweep.axes(i).field();
     if (name == field) return i;
@@ -70,7 +63,7 @@ std::vector<Choice> ReadChoices(const v1::Sweep& sweep, const std::string& text)
   return choices;
 }
 
-// As tables show values, with six digits.
+// True if the values are equal to six digits, as tables show them.
 bool Near(double a, double b) {
   return std::abs(a - b) <= 1e-5 * std::max(std::abs(a), std::abs(b));
 }
@@ -81,34 +74,19 @@ bool Has(const v1::SweepCell& cell, const std::vector<Choice>& choices) {
   });
 }
 
-[[noreturn]] void FailNone(const v1::Sweep& sweep, const SweepCells& cells, const Choice& choice) {
-  double nearest = cells.begin()->second.values(choice.axis);
-  for (const auto& [index, cell] : cells) {
-    const double value = cell.values(choice.axis);
-    if (std::abs(value - choice.value) < std::abs(nearest - choice.value)) nearest = value;
-  }
+// Throws Failure (kUsage) with the nearest value if no cell has the value of the choice.
+void RequireValue(const v1::Sweep& sweep, const SweepCells& cells, const Choice& choice) {
+  const auto distance = [&choice](const SweepCells::value_type& cell) {
+    return std::abs(cell.second.values(choice.axis) - choice.value);
+  };
+  const double nearest = std::ranges::min_element(cells, {}, distance)->second.values(choice.axis);
+  if (Near(nearest, choice.value)) return;
   throw Failure(ExitCode::kUsage,
                 fmt::format("no cell has {}={}; the nearest value is {}",
                             sweep.axes(choice.axis).field(), choice.value, nearest));
 }
 
 }  // namespace
-
-SweepCells ReadCells(Client& client, const v1::Job& job, const Settings& settings) {
-  WatchOptions options;
-  options.name = job.name();
-  options.kinds = {"sweep_cell"};
-  options.deadline = settings.Deadline();
-  options.stopped = Interrupt::raised;
-  const Interrupt interrupt;
-  Collector collector;
-  const WatchEnd end = Watch(client, options, collector);
-  if (end == WatchEnd::kFinished) return std::move(collector.cells);
-  const bool interrupted = end == WatchEnd::kStopped;
-  throw Failure(
-      interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout,
-      fmt::format("{}; {} has not ended", interrupted ? "interrupted" : "time is up", job.name()));
-}
 
 const v1::SweepCell& FindCell(const v1::Sweep& sweep, const SweepCells& cells,
                               const std::string& text) {
@@ -133,9 +111,7 @@ const v1::SweepCell& FindCell(const v1::Sweep& sweep, const SweepCells& cells,
                               found[0]->index(), found[1]->index()));
   }
   for (const Choice& choice : choices) {
-    const bool known = std::ranges::any_of(
-        cells, [&choice](const auto& entry) { return Has(entry.second, {choice}); });
-    if (!known && !cells.empty()) FailNone(sweep, cells, choice);
+    if (!cells.empty()) RequireValue(sweep, cells, choice);
   }
   throw Failure(ExitCode::kUsage, fmt::format("no cell has {} together", text));
 }
