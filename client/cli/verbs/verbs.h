@@ -21,7 +21,7 @@ struct Verb {
   AddVerb* add;
   /// False: it works although a config file or an environment variable is wrong, so that the user
   /// can find out.
-  bool needs_settings = true;
+  bool needs_settings;
 };
 
 /// All verbs, in the order of the help.
@@ -33,11 +33,10 @@ void AddVerbs(CommandLine& line);
 /// True if the parsed line names a verb that needs valid settings.
 bool NeedsSettings(const CLI::App& app);
 
-/// The `add` functions of the verbs; AddX is in command_x.cpp, or beside a verb that is alike.
-AddVerb AddArtifact, AddCancel, AddCompare, AddCompletion, AddConfig, AddDelete, AddDescribe,
-    AddDev, AddDoctor, AddExport, AddHelp, AddInit, AddList, AddModel, AddPaper, AddPlot, AddReport,
-    AddRun, AddSchema, AddSeries, AddServer, AddSubmit, AddSweep, AddValidate, AddVersion, AddWait,
-    AddWatch;
+/// The `add` functions of the verbs of verbs.def.
+#define VERB(function, name, needs_settings, about) AddVerb function;
+#include "cli/verbs/verbs.def"
+#undef VERB
 
 /// Adds `heatmap` and `cell` to `sweep`.
 void AddSweepCell(CommandLine& line, CLI::App& sweep);
