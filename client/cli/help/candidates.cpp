@@ -168,7 +168,9 @@ Candidates Assignments(const TypedWords& typed, const std::string& word) {
   for (const SettableField& field : SettableFields(scenario)) {
     if (path.size() == word.size()) assignments.push_back({field.path + "=", ""});
     if (path != field.path) continue;
-    for (const std::string& value : field.words) assignments.push_back({path + "=" + value, ""});
+    for (const std::string& value : field.words) {
+      assignments.push_back({fmt::format("{}={}", path, value), ""});
+    }
   }
   return assignments;
 }
