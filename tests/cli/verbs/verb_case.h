@@ -158,7 +158,7 @@ class ScriptedServer final : public v1::JobService::Service {
                         grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
     const auto lock = Keep(*request);
     v1::WatchJobResponse message;
-    const grpc::Status status = Find(request->name(), message.mutable_snapshot());
+    grpc::Status status = Find(request->name(), message.mutable_snapshot());
     if (!status.ok()) return status;
     message.mutable_snapshot()->set_last_sequence(events.size() + 1);
     for (const v1::Event& event : events) {
