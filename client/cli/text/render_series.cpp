@@ -11,7 +11,7 @@
 #include "cli/base/csv.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
-#include "cli/link/columns.h"
+#include "wire/column_bytes.h"
 #include "wire/column_name.h"
 
 namespace contact::cli {
