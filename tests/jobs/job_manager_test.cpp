@@ -452,7 +452,8 @@ TEST_F(JobsTest, FailedRunKeepsItsReasonAndWarnings) {
 
 TEST_F(JobsTest, LargeSamplesAreCutIntoChunksThatFitMessages) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
-    observer.OnSamples({.first = 5, .columns = 7, .values = std::vector<double>(7 * 40'000, 1)});
+    observer.OnSamples(
+        {.first = 5, .columns = 7, .values = std::vector<double>(std::size_t{7} * 40'000, 1)});
     return Outcome{};
   });
   JobOptions options;

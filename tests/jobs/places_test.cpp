@@ -36,8 +36,8 @@ TEST(Places, PlaceIsFreeOnceItsLastCopyIsGone) {
 
 TEST(Places, CopiesShareThem) {
   const Places places(1);
-  const Places copy = places;
-  const auto place = copy.Take();
+  const auto take = [copy = places] { return copy.Take(); };
+  const auto place = take();
   EXPECT_FALSE(places.Take());
 }
 

@@ -54,7 +54,7 @@ class RetentionTest : public JobsTest {
       request.mutable_job()->mutable_time_to_live()->set_seconds(time_to_live_s);
     }
     run_.Allow();
-    const std::string name = Create(request).value().name();
+    std::string name = Create(request).value().name();
     Ended(name);
     return name;
   }

@@ -129,10 +129,10 @@ TEST_F(SeriesTest, AnyTimeRangeIsThatPartOfTheWhole) {
   constexpr int kRows = 5;
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
     for (int chunk = 0; chunk < kChunks; ++chunk) {
-      std::vector<double> values(kRows * 7, 0.5);
+      std::vector<double> values(std::size_t{7} * kRows, 0.5);
       for (int row = 0; row < kRows; ++row)
         values[static_cast<std::size_t>(row) * 7] = chunk * kRows + row;
-      observer.OnSamples({chunk * kRows, 7, std::move(values)});
+      observer.OnSamples({std::int64_t{kRows} * chunk, 7, std::move(values)});
       for (int i = 0; i < chunk % 3; ++i) observer.OnWarning("between");
     }
     return Outcome{};
@@ -192,7 +192,7 @@ TEST_F(SeriesTest, ReadsWhatARunningJobHasRecorded) {
 
 TEST_F(SeriesTest, EarlierAttemptsAreLeftOut) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token& stop) {
-    observer.OnSamples({0, 7, std::vector<double>(7 * 4, 1)});
+    observer.OnSamples({0, 7, std::vector<double>(28, 1)});
     while (!stop.stop_requested()) std::this_thread::yield();
     return Ending(Outcome::End::kStopped);
   });
@@ -205,7 +205,7 @@ TEST_F(SeriesTest, EarlierAttemptsAreLeftOut) {
   manager_->Stop();  // The job goes back into the queue.
 
   FakeRun again([](const Scenario&, Observer& observer, const std::stop_token&) {
-    observer.OnSamples({0, 7, std::vector<double>(7 * 2, 2)});
+    observer.OnSamples({0, 7, std::vector<double>(14, 2)});
     return Outcome{};
   });
   again.Allow();
@@ -264,7 +264,8 @@ TEST_F(SeriesTest, RawRefusesMoreThanItsPoints) {
 
 TEST_F(SeriesTest, AnswerStaysBelowWhatAClientTakes) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
-    for (int i = 0; i < 75; ++i) observer.OnSamples({i * 1000, 7, std::vector<double>(7000, i)});
+    for (int i = 0; i < 75; ++i)
+      observer.OnSamples({std::int64_t{1000} * i, 7, std::vector<double>(7000, i)});
     return Outcome{};
   });
   run.Allow();

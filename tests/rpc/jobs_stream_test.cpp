@@ -11,7 +11,7 @@ namespace {
 // A client's side of one watch of all jobs.
 class JobsWatch {
  public:
-  explicit JobsWatch(TestServer& server, v1::WatchJobsRequest request = {}) {
+  explicit JobsWatch(TestServer& server, const v1::WatchJobsRequest& request = {}) {
     context_.set_deadline(std::chrono::system_clock::now() + kPatience);
     reader_ = server.stub().WatchJobs(&context_, request);
   }

@@ -284,7 +284,7 @@ grpc::Status WatchLate(v1::DeliveryOptions::OverflowPolicy overflow,
   } while (message.events().empty() || !message.events().rbegin()->has_bookmark());
   run.Allow();
   EXPECT_TRUE(Watch(server.stub(), name).End().ok());
-  const grpc::Status status = watch.End();
+  grpc::Status status = watch.End();
   events->insert(events->end(), watch.events().begin(), watch.events().end());
   return status;
 }

@@ -80,13 +80,12 @@ Scenario Roll(Dice& dice) {
   }
   for (std::size_t i = 0; i < s.contacts.size(); ++i) s.contacts[i].name = std::to_string(i);
   if (dice.Chance(0.4)) {
-    s.supports.push_back({.body = dice.Below(n),
-                          .other = n > 1 && dice.Chance(0.3) ? -2 : kNone,
+    const int body = dice.Below(n);
+    s.supports.push_back({.body = body,
+                          .other = n > 1 && dice.Chance(0.3) ? (body + 1) % n : kNone,
                           .stiffness = dice.Log(1e3, 1e6),
                           .damping = dice.Log(1, 100),
                           .rest_position = dice.Uniform(0, 0.1)});
-    Support& support = s.supports.back();
-    if (support.other != kNone) support.other = (support.body + 1) % n;
   }
   if (dice.Chance(0.3)) {
     for (int i = 0; i < n; ++i) {

@@ -65,7 +65,7 @@ TEST(Sampler, RowsLieOnTheTrajectoryAtEqualIntervals) {
     EXPECT_NEAR(values[3 * i + 1], 1 + 3 * t, 1e-13);
     EXPECT_NEAR(values[3 * i + 2], 3, 1e-13);
   }
-  EXPECT_EQ(values[3 * 1000], 1);  // The end itself, whatever 1000 times the interval is.
+  EXPECT_EQ(values[3000], 1);  // The end itself, whatever 1000 times the interval is.
 }
 
 TEST(Sampler, ChunksAreFullButTheLastAndFollowEachOther) {

@@ -369,7 +369,8 @@ TEST_F(StoreTest, CompactionDropsFrameChunksOfAnEndedJobOnly) {
   EXPECT_EQ(ReadEvents({.name = "jobs/a"})->oldest, 201U);
   // Takes several turns of the store's thread, and goes on after a restart.
   Open();
-  while (ReadEvents({.name = "jobs/a", .kinds = KindBit(v1::Event::kFrameChunk)})->events.size()) {
+  while (
+      !ReadEvents({.name = "jobs/a", .kinds = KindBit(v1::Event::kFrameChunk)})->events.empty()) {
   }
   EXPECT_LT(Sizes()->front().bytes, before);
   EXPECT_EQ(Sizes()->front().bytes, StoredBytes("jobs/a"));

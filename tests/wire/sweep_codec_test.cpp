@@ -12,7 +12,6 @@ namespace contact {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 v1::Scenario Chain() {

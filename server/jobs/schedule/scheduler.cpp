@@ -183,9 +183,9 @@ Assignment Scheduler::Assign(Active& active) {
           [this](const std::shared_ptr<SweepRun>& sweep) { Offer(sweep); }};
 }
 
-void Scheduler::Offer(std::shared_ptr<SweepRun> sweep) {
+void Scheduler::Offer(const std::shared_ptr<SweepRun>& sweep) {
   const MutexLock lock(mutex_);
-  sweeps_.push_back(std::move(sweep));
+  sweeps_.push_back(sweep);
   changed_.notify_all();
 }
 

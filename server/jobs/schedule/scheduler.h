@@ -105,7 +105,7 @@ class Scheduler {
   /// Hands a queued job to the calling worker: it is RUNNING from here on.
   Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Lets idle workers help with a sweep.
-  void Offer(std::shared_ptr<SweepRun> sweep);
+  void Offer(const std::shared_ptr<SweepRun>& sweep);
   /// The oldest sweep that has a cell to compute; null if there is none.
   std::shared_ptr<SweepRun> FindSweep() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Forgets a job that has ended.
