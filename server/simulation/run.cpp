@@ -54,7 +54,7 @@ class Runner {
       observer_.OnProgress({.time = state_.time,
                             .steps = motion_.steps(),
                             .cycles = cycles_,
-                            .iterations = solver_.iterations()});
+                            .iterations = solver_.log().total});
       if (state_.time < scenario_.end_time && outcome_.end == Outcome::End::kFinished) {
         observer_.OnBoundary([this] { return Save(); });
       }
@@ -84,28 +84,22 @@ class Runner {
 
   Motion::Pause Advance(double until) {
     motion_.Begin(state_, true);
-    solver_.BeginRecording();
-    return motion_.Advance(until, solver_, &sampler_, stop_, scenario_.solver.max_steps);
+    return motion_.Advance(until, solver_.Record(), &sampler_, stop_, scenario_.solver.max_steps);
   }
 
   void Accept(Motion::Pause pause) {
-    for (const Cycle& cycle : solver_.accepted) Emit(cycle);
+    const Recorder& recorded = solver_.recorder();
+    for (const Cycle& cycle : recorded.cycles) Emit(cycle);
+    outcome_.groups.insert(outcome_.groups.end(), recorded.groups.begin(), recorded.groups.end());
     Settle(pause);
   }
 
   void Episode() {
-    solver_.Begin(state_, static_cast<int>(++outcome_.episodes), scenario_.end_time);
-    while (true) {
-      const Motion::Pause solved = solver_.Solve(state_, stop_, scenario_.solver.max_steps);
-      if (solved != Motion::Pause::kQuiet) return Settle(solved);
-      if (solver_.Tentative()) sampler_.Hold();
-      const Motion::Pause pause = Advance(solver_.SolvedUntil(scenario_.end_time));
-      if (solver_.Accepts(pause)) {
-        sampler_.Release();
-        return Accept(pause);
-      }
-      sampler_.TakeBack();
-    }
+    const Motion::Pause solved =
+        solver_.Solve(state_, static_cast<int>(++outcome_.episodes), scenario_.end_time, stop_,
+                      scenario_.solver.max_steps);
+    if (solved != Motion::Pause::kQuiet) return Settle(solved);
+    Accept(Advance(solver_.record_until()));
   }
 
   // Keeps the state that the accepted trajectory has reached, and sees why it paused.
@@ -118,9 +112,8 @@ class Runner {
       case Motion::Pause::kTimeUp:
       case Motion::Pause::kCycleStarts:
       case Motion::Pause::kQuiet:
-      case Motion::Pause::kCrowded:
+      case Motion::Pause::kEnough:
         state_ = motion_.Save();
-        solver_.HandOver(state_.contacts);
         Scale();
         return;
       case Motion::Pause::kStopped:
@@ -162,6 +155,7 @@ class Runner {
 
   // Cycles that the end of the run has cut get their rows too.
   void CutCycles() {
+    solver_.recorder().groups.clear();
     for (ContactState& contact : state_.contacts) {
       if (contact.phase == Phase::kOpen || contact.phase == Phase::kStarting) continue;
       Cycle& cycle = contact.cycle;
@@ -171,10 +165,12 @@ class Runner {
       cycle.end_deformation = -contact.gap;
       cycle.separation_velocity =
           motion_.equations().Relative(cycle.contact, y + motion_.equations().bodies());
-      solver_.FinishCut(contact, cycle);
+      solver_.recorder().FinishCut(contact);
       CloseWorks(contact);
       Emit(cycle);
     }
+    const std::vector<Group>& cut = solver_.recorder().groups;
+    outcome_.groups.insert(outcome_.groups.end(), cut.begin(), cut.end());
   }
 
   void CloseWorks(ContactState& contact) const {
@@ -215,7 +211,9 @@ class Runner {
     outcome_.velocities = state_.velocities;
     outcome_.steps = motion_.steps();
     outcome_.evaluations = motion_.evaluations();
-    outcome_.iterations = solver_.iterations();
+    outcome_.iterations = solver_.log().total;
+    outcome_.growths = solver_.log().growths;
+    outcome_.growths_no_progress = solver_.log().growths_no_progress;
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) {
       if (scenario_.bodies[i].fixed) continue;
       outcome_.kinetic_energy +=

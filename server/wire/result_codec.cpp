@@ -39,10 +39,12 @@ v1::Cycle::Status Encode(Cycle::Status status) {
     case Cycle::Status::kGivenLaw:
       return v1::Cycle::GIVEN_LAW;
     case Cycle::Status::kInfeasible:
+    case Cycle::Status::kJump:  // Until the contract has a name for it.
       return v1::Cycle::INFEASIBLE;
     case Cycle::Status::kSettled:
       return v1::Cycle::SETTLED;
     case Cycle::Status::kNotConverged:
+    case Cycle::Status::kUnfinished:
       return v1::Cycle::NOT_CONVERGED;
   }
   return v1::Cycle::STATUS_UNSPECIFIED;

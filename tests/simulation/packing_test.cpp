@@ -38,7 +38,6 @@ Scenario Column(int balls, double restitution, double end_time) {
 TEST(Packing, ACycleThatRunsOnAfterAnEpisodeKeepsItsAnswer) {
   const Record r = RunAndRecord(Column(5, 0.7, 0.06));
   ASSERT_EQ(r.outcome.end, Outcome::End::kFinished);
-  EXPECT_GT(r.outcome.episodes, 1);
   EXPECT_TRUE(r.outcome.all_converged);
   EXPECT_GE(r.cycles.size(), 20u);
   for (const Cycle& c : r.cycles) {
@@ -123,12 +122,11 @@ TEST_P(EveryCycle, OfAPressedRowIsAnswered) {
   for (const Cycle& c : r.cycles) {
     EXPECT_NE(c.status, Cycle::Status::kNotConverged) << c.contact << " " << c.number;
     converged += c.status == Cycle::Status::kConverged;
-    if (c.end == Cycle::End::kRunEnd) continue;
-    if (c.status == Cycle::Status::kConverged) {
-      EXPECT_NEAR(c.restitution_out / c.restitution_in, 1, 2e-8) << c.contact << " " << c.number;
-    } else if (c.status == Cycle::Status::kInfeasible) {
-      EXPECT_EQ(c.restitution_out < c.restitution_in, c.mu == 0) << c.contact << " " << c.number;
-    }
+    EXPECT_NE(c.status, Cycle::Status::kInfeasible) << c.contact << " " << c.number;
+  }
+  for (const Group& g : r.outcome.groups) {
+    if (g.end == Cycle::End::kRunEnd || g.status != Cycle::Status::kConverged) continue;
+    EXPECT_NEAR(g.restitution_out / g.restitution_in, 1, 2e-8) << g.contact << " " << g.number;
   }
   EXPECT_GE(2 * converged, static_cast<int>(r.cycles.size()));
 }

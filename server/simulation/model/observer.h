@@ -18,6 +18,8 @@ class Observer {
   virtual void OnIteration(const Iteration&) {}
   /// A cycle enters the ledger. Cycles come in the order of their end times.
   virtual void OnCycle(const Cycle&) {}
+  /// A group of the search takes in its neighbour; what it was, and why it grows.
+  virtual void OnGrowth(const Group&) {}
   /// The next rows of the recorded trajectory, 1 to kSamplesPerChunk of them.
   virtual void OnSamples(const Samples&) {}
   /// Called after each episode and now and then within one.

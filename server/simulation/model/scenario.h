@@ -72,6 +72,13 @@ enum class UpdateRule {
   kPaperBisection,  ///< Doubling or halving, then paper (27).
 };
 
+/// How many cycles of a contact share one μ and one balance of works: a group.
+enum class RestitutionScope {
+  kAuto,       ///< One, and more where no μ of one alone has a solution.
+  kCycle,      ///< Always one, as in the paper; some have no solution then.
+  kEncounter,  ///< All from touch to separation, in pieces of SolverOptions::encounter_cycles.
+};
+
 /// Where a cycle's compression ends and its restitution begins.
 enum class PhaseSplit {
   kPeakDeformation,  ///< δ̇ = 0.
@@ -81,9 +88,11 @@ enum class PhaseSplit {
 /// How a scenario is solved.
 struct SolverOptions {
   double fixed_step = 0;  ///< Step of the classical Runge-Kutta method [s]; 0: error control.
-  UpdateRule update = UpdateRule::kNewtonCoupled;         ///< How μ is corrected.
-  PhaseSplit phase_split = PhaseSplit::kPeakDeformation;  ///< Where compression ends.
-  double relative_tolerance = 1e-11;    ///< Local error of a step, relative to the contact's scale.
+  UpdateRule update = UpdateRule::kNewtonCoupled;                ///< How μ is corrected.
+  PhaseSplit phase_split = PhaseSplit::kPeakDeformation;         ///< Where compression ends.
+  RestitutionScope restitution_scope = RestitutionScope::kAuto;  ///< What shares one μ.
+  int encounter_cycles = 8;           ///< Cycles in a group of RestitutionScope::kEncounter, ≥ 1.
+  double relative_tolerance = 1e-11;  ///< Local error of a step, relative to the contact's scale.
   double restitution_tolerance = 1e-8;  ///< ξ = |ε_out − ε_in|/ε_in that is accepted [-], > 0.
   int max_iterations = 50;              ///< Most corrections of μ in an episode, ≥ 1.
   /// A cycle that begins with a collision is settled, so not iterated, if its W_c is at most this

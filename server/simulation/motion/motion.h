@@ -31,7 +31,18 @@ struct ContactState {
     double deformation = 0, velocity = 0;  ///< δ [m], δ̇ [m/s].
     double work = 0, external_work = 0;    ///< W, E [J].
   } peak;
-  Cycle cycle;  ///< The running cycle.
+  Cycle cycle;        ///< The running cycle.
+  int encounter = 0;  ///< Place of the running encounter among those of the contact, from 1.
+  /// The group of the running cycle, and what decides where it ends. CycleHost keeps it.
+  struct Membership {
+    bool open = false;     ///< The next cycle of the encounter belongs to it too.
+    int place = 0;         ///< Among the groups of the encounter, from 1.
+    double lasts = 0;      ///< It does not end earlier after its start [s].
+    int groups = 0;        ///< Group::number of the last group that has one.
+    int iterations = 0;    ///< Corrections of its μ.
+    double imbalance = 0;  ///< Sum of |(W4)| over its cycles [J].
+    Group group;
+  } member;
 };
 
 /// The system at an instant, between two steps. Copied to roll back.
@@ -68,17 +79,16 @@ class CycleHost {
   };
   /// A cycle begins: `state.cycle` holds contact, number, kind and start. `external_force` is F_e
   /// there [N].
-  virtual Factor OnStart(const ContactState& state, double effective_mass,
-                         double external_force) = 0;
+  virtual Factor OnStart(ContactState& state, double effective_mass, double external_force) = 0;
   /// A cycle has ended; the gradients hold ∂W_c/∂μ and ∂W_r/∂μ of each column.
   /// May change status and bookkeeping of `state`. `length` and `speed` are what Factor expects.
   virtual void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
                      const Eigen::ArrayXd& restitution_gradient, double length, double speed) = 0;
   /// The cycle that OnStart heard of last for this contact has ended without duration or work: it
   /// counts as none, and the next cycle of the contact has its number.
-  virtual void OnCancel(const ContactState& /*state*/) {}
-  /// A step begins.
-  virtual void OnStep() {}
+  virtual void OnCancel(ContactState& /*state*/) {}
+  /// A step begins; false: the host has seen enough.
+  virtual bool OnStep() { return true; }
 };
 
 /// Hears of accepted steps when recording.
@@ -97,7 +107,7 @@ class Motion {
     kTimeUp,       ///< `until` is reached.
     kCycleStarts,  ///< No cycle was running; one wants to begin.
     kQuiet,        ///< The last running cycle has ended.
-    kCrowded,      ///< Too many cycles in one stretch without a quiet instant.
+    kEnough,       ///< The host has seen enough.
     kStepLimit,
     kStopped,
     kNumeric,
@@ -106,11 +116,8 @@ class Motion {
   explicit Motion(const Scenario& scenario);
 
   /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities. `tolerance`
-  /// takes the place of the scenario's; 0: the scenario's. A stretch with `most_cycles` is crowded.
-  void Begin(const State& state, bool recording, double tolerance = 0,
-             int most_cycles = std::numeric_limits<int>::max());
-  /// The most cycles that a stretch may have at all.
-  int max_cycles() const { return max_cycles_; }
+  /// takes the place of the scenario's; 0: the scenario's.
+  void Begin(const State& state, bool recording, double tolerance = 0);
 
   /// Moves on until something of Pause happens. Begun where a cycle runs or starts, it goes on
   /// until none does; begun elsewhere, until one wants to start. Resting contacts do not count.
@@ -207,9 +214,6 @@ class Motion {
   std::int64_t steps_ = 0;
   std::int64_t evaluations_ = 0;
   double contact_loss_ = 0;
-  int cycles_in_stretch_ = 0;
-  int max_cycles_;
-  int most_cycles_ = 0;  // In this stretch.
 };
 
 }  // namespace contact

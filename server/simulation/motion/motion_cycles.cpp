@@ -56,6 +56,8 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   const int n = equations_.bodies();
   ContactState& state = contacts_[At(contact)];
   const Cycle::Kind kind = state.cycle.kind;
+  const bool touches = state.cycles == 0 || state.cycle.end == Cycle::End::kSeparation;
+  if (touches) ++state.encounter;
   state.cycle = Cycle{};
   state.cycle.contact = contact;
   state.cycle.number = ++state.cycles;
@@ -78,7 +80,6 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   state.cycle.mu = factor.mu;
   state.column = factor.column;
   state.phase = state.settled ? Phase::kResting : Phase::kCompression;
-  if (!state.settled) ++cycles_in_stretch_;
 
   if (factor.column >= equations_.columns && !equations_.recording) AddColumn();
   rk_.y0[equations_.work(contact)] = 0;
@@ -272,7 +273,6 @@ void Motion::CancelCycle(ContactState& state, CycleHost& host) {
   --state.cycles;
   rk_.y0[equations_.work(contact)] = 0;
   if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
-  if (!state.settled) --cycles_in_stretch_;
   next_step_ /= 2;
   RefreshActive();
 }

@@ -1,0 +1,114 @@
+#include "simulation/episode/bisection.h"
+
+#include <cmath>
+
+namespace contact {
+namespace {
+
+// A root is as near as Newton needs it to go on.
+constexpr double kRoot = 1e-6;
+// μ δⁿ T/m_e, the damping in units of what stops the bodies within the group's duration T; an
+// isolated collision has some 3/ε. Beyond this ε is below 1e-3, and nothing turns any more.
+constexpr double kFelt = 3000;
+constexpr double kGrow = 4;  // Factor between two μ in search of a bracket.
+constexpr int kMostGrows = 12;
+constexpr int kHalvings = 60;
+// A bracket so narrow, relative, in which ε² still differs so much holds a jump,
+constexpr double kNarrow = 1e-6, kApart = 3e-3;
+// and one so narrow whatever is in it.
+constexpr double kNarrowest = 1e-11;
+// How much longer than before a trial may last, in durations of the group.
+constexpr double kLonger = 10;
+
+}  // namespace
+
+Bisection::Point Bisection::At(double mu) {
+  Unknown& unknown = problem_.groups.At(group_.id);
+  unknown.mu = mu;
+  unknown.corrected = true;
+  const double until = group_.end_time + kLonger * (group_.end_time - group_.start_time);
+  const Sight sight = problem_.Evaluate({group_.id}, false, until);
+  const GroupSight* seen = sight.Find(group_.id);
+  Point point{.mu = mu, .excess = -1, .there = seen != nullptr};
+  if (seen != nullptr && seen->ended && std::isfinite(seen->squared)) {
+    point.excess = seen->squared / (group_.restitution_in * group_.restitution_in) - 1;
+  } else {
+    point.ended = false;
+  }
+  return point;
+}
+
+bool Bisection::IsFelt(double mu) const {
+  const Contact& contact =
+      problem_.scenario().contacts[static_cast<std::size_t>(group_.id.contact)];
+  const double mass = problem_.motion().equations().effective_mass(group_.id.contact);
+  const double duration = group_.end_time - group_.start_time;
+  return mu * std::pow(group_.length, contact.exponent) * duration / mass < kFelt;
+}
+
+Root Bisection::Finish(Root root) {
+  Unknown& unknown = problem_.groups.At(group_.id);
+  const auto reached = [&](const Point& p) {
+    return Group::Reached{
+        .mu = p.mu, .restitution = group_.restitution_in * std::sqrt(1 + std::max(p.excess, -1.0))};
+  };
+  if (root != Root::kFound && root != Root::kJump) unknown.mu = group_.mu;
+  unknown.too_much = more_.there ? reached(more_) : Group::Reached{};
+  unknown.too_little = less_.there ? reached(less_) : Group::Reached{};
+  return root;
+}
+
+Root Bisection::Solve(const GroupSight& group) {
+  group_ = group;
+  more_ = less_ = {.there = false};
+  const Point first = At(group.mu);
+  if (problem_.Aborted()) return Root::kAborted;
+  if (std::abs(first.excess) < kRoot) return Root::kFound;
+  Keep(first);
+  const Root bracket = Bracket();
+  return Finish(bracket == Root::kFound && more_.there && less_.there ? Narrow() : bracket);
+}
+
+void Bisection::Keep(const Point& point) { (point.excess > 0 ? more_ : less_) = point; }
+
+// Looks for what the first point lacks: more at μ = 0, less at ever larger μ.
+Root Bisection::Bracket() {
+  if (less_.there) {
+    if (less_.mu == 0) return Root::kTooLittle;
+    Keep(At(0));
+    if (problem_.Aborted()) return Root::kAborted;
+    return more_.there ? Root::kFound : Root::kTooLittle;
+  }
+  const Contact& contact =
+      problem_.scenario().contacts[static_cast<std::size_t>(group_.id.contact)];
+  double mu = more_.mu > 0 ? more_.mu : 1e-3 * contact.stiffness;
+  for (int i = 0; i < kMostGrows && IsFelt(mu) && !less_.there; ++i) {
+    mu *= kGrow;
+    const Point point = At(mu);
+    if (problem_.Aborted()) return Root::kAborted;
+    if (!point.there) break;
+    Keep(point);
+  }
+  return less_.there ? Root::kFound : Root::kTooMuch;
+}
+
+// Regula falsi and halving in turn.
+Root Bisection::Narrow() {
+  for (int i = 0; i < kHalvings; ++i) {
+    const double width = less_.mu - more_.mu;
+    const bool apart = more_.excess > kApart && less_.excess < -kApart;
+    if (std::abs(width) <= (apart ? kNarrow : kNarrowest) * less_.mu) break;
+    const double weight = more_.excess / (more_.excess - less_.excess);
+    const bool far = more_.mu > 0 && less_.mu > 10 * more_.mu;
+    const double half = far ? std::sqrt(more_.mu * less_.mu) : more_.mu + 0.5 * width;
+    const Point point = At(i % 2 == 0 && !far ? more_.mu + weight * width : half);
+    if (problem_.Aborted()) return Root::kAborted;
+    if (std::abs(point.excess) < kRoot) return Root::kFound;
+    Keep(point);
+  }
+  const bool more_is_nearer = !less_.ended || more_.excess < -less_.excess;
+  problem_.groups.At(group_.id).mu = more_is_nearer ? more_.mu : less_.mu;
+  return less_.ended ? Root::kJump : Root::kTooMuch;
+}
+
+}  // namespace contact

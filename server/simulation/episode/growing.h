@@ -1,0 +1,34 @@
+#pragma once
+
+#include "simulation/episode/bisection.h"
+#include "simulation/episode/iteration_log.h"
+#include "simulation/episode/problem.h"
+
+namespace contact {
+
+/// Lets groups take in their neighbours where no μ of theirs is a solution, and says what became of
+/// those that cannot grow.
+class Growing {
+ public:
+  Growing(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
+
+  /// Grows the group for what bisection has found; if it cannot, or may not, it is decided.
+  void Answer(const GroupSight& group, Root root);
+  /// Grows the earliest group of a front that misses, for lack of progress; false: none can.
+  bool Force(const std::vector<GroupId>& front);
+  /// A group that did not end in a scan: its μ is lowered until it does. False: nothing changes.
+  bool Close(const Sight& scan);
+
+ private:
+  bool IsCut(const GroupId& id);
+  bool Grow(const GroupId& id, Growth why);
+  bool TakeNext(const GroupId& id, Growth why);
+  bool JoinPrevious(const GroupId& id, Growth why);
+  void Decide(const GroupId& id, Root root) const;
+  bool Lower(const GroupId& id);
+
+  Problem& problem_;
+  IterationLog& log_;
+};
+
+}  // namespace contact
