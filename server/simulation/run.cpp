@@ -95,11 +95,20 @@ class Runner {
   }
 
   void Episode() {
-    const Motion::Pause solved =
-        solver_.Solve(state_, static_cast<int>(++outcome_.episodes), scenario_.end_time, stop_,
-                      scenario_.solver.max_steps);
-    if (solved != Motion::Pause::kQuiet) return Settle(solved);
-    Accept(Advance(solver_.record_until()));
+    ++outcome_.episodes;
+    while (true) {
+      const Motion::Pause solved =
+          solver_.Solve(state_, static_cast<int>(outcome_.episodes), scenario_.end_time, stop_,
+                        scenario_.solver.max_steps);
+      if (solved != Motion::Pause::kQuiet) return Settle(solved);
+      if (solver_.tentative()) sampler_.Hold();
+      const Motion::Pause pause = Advance(solver_.record_until());
+      if (solver_.Accepts(pause)) {
+        sampler_.Release();
+        return Accept(pause);
+      }
+      sampler_.TakeBack();
+    }
   }
 
   // Keeps the state that the accepted trajectory has reached, and sees why it paused.

@@ -68,7 +68,11 @@ void Sampler::Record(double time, const Eigen::ArrayXd& y) {
 void Sampler::Flush() {
   if (samples_.rows() == 0) return;
   samples_.first = next_ - samples_.rows();
-  observer_.OnSamples(samples_);
+  if (holding_) {
+    held_.push_back(samples_);
+  } else {
+    observer_.OnSamples(samples_);
+  }
   samples_.values.clear();
 }
 
@@ -81,6 +85,25 @@ Samples Sampler::pending() const {
 void Sampler::Restore(Samples pending) {
   next_ = pending.first + pending.rows();
   samples_ = std::move(pending);
+}
+
+void Sampler::Hold() {
+  holding_ = true;
+  next_before_ = next_;
+  samples_before_ = samples_;
+}
+
+void Sampler::Release() {
+  holding_ = false;
+  for (const Samples& samples : held_) observer_.OnSamples(samples);
+  held_.clear();
+}
+
+void Sampler::TakeBack() {
+  holding_ = false;
+  held_.clear();
+  next_ = next_before_;
+  samples_ = samples_before_;
 }
 
 }  // namespace contact

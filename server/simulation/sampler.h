@@ -30,6 +30,11 @@ class Sampler final : public StepListener {
   /// Goes on after those.
   void Restore(Samples pending);
 
+  /// Keeps the samples from now on until they are released or taken back.
+  void Hold();
+  void Release();
+  void TakeBack();
+
  private:
   void Record(double time, const Eigen::ArrayXd& y);
 
@@ -40,6 +45,10 @@ class Sampler final : public StepListener {
   bool cut_short_ = false;
   std::int64_t next_ = 0;  // Index of the next sample.
   Samples samples_;
+  bool holding_ = false;
+  std::vector<Samples> held_;     // Full chunks.
+  std::int64_t next_before_ = 0;  // What there was before Hold.
+  Samples samples_before_;
   Eigen::ArrayXd y_, slope_;
 };
 

@@ -5,17 +5,18 @@
 namespace contact {
 namespace {
 
-// A root is as near as Newton needs it to go on.
-constexpr double kRoot = 1e-6;
-// μ δⁿ T/m_e, the damping in units of what stops the bodies within the group's duration T; an
-// isolated collision has some 3/ε. Beyond this ε is below 1e-3, and nothing turns any more.
-constexpr double kFelt = 3000;
+// A root is as near as Newton needs it to go on, and as a coarse pass can tell.
+constexpr double kRoot = 1e-4;
+// Relative error of the passes that only look; those that decide are as exact as the scenario asks.
+constexpr double kCoarse = 1e-6;
 constexpr double kGrow = 4;  // Factor between two μ in search of a bracket.
 constexpr int kMostGrows = 12;
 constexpr int kHalvings = 60;
 // A bracket so narrow, relative, in which ε² still differs so much holds a jump,
 constexpr double kNarrow = 1e-6, kApart = 3e-3;
-// and one so narrow whatever is in it.
+// one whose other side does not end holds none if it is so narrow,
+constexpr double kCreeps = 1e-4;
+// and one so narrow has no root whatever is in it.
 constexpr double kNarrowest = 1e-11;
 // How much longer than before a trial may last, in durations of the group.
 constexpr double kLonger = 10;
@@ -27,7 +28,7 @@ Bisection::Point Bisection::At(double mu) {
   unknown.mu = mu;
   unknown.corrected = true;
   const double until = group_.end_time + kLonger * (group_.end_time - group_.start_time);
-  const Sight sight = problem_.Evaluate({group_.id}, false, until);
+  const Sight sight = problem_.Evaluate({group_.id}, false, until, coarse_ ? kCoarse : 0);
   const GroupSight* seen = sight.Find(group_.id);
   Point point{.mu = mu, .excess = -1, .there = seen != nullptr};
   if (seen != nullptr && seen->ended && std::isfinite(seen->squared)) {
@@ -36,14 +37,6 @@ Bisection::Point Bisection::At(double mu) {
     point.ended = false;
   }
   return point;
-}
-
-bool Bisection::IsFelt(double mu) const {
-  const Contact& contact =
-      problem_.scenario().contacts[static_cast<std::size_t>(group_.id.contact)];
-  const double mass = problem_.motion().equations().effective_mass(group_.id.contact);
-  const double duration = group_.end_time - group_.start_time;
-  return mu * std::pow(group_.length, contact.exponent) * duration / mass < kFelt;
 }
 
 Root Bisection::Finish(Root root) {
@@ -60,13 +53,37 @@ Root Bisection::Finish(Root root) {
 
 Root Bisection::Solve(const GroupSight& group) {
   group_ = group;
+  coarse_ = true;
+  Root root = Look();
+  if (root == Root::kFound || root == Root::kAborted) return root;
+  coarse_ = false;
+  if (!Confirmed() && !problem_.Aborted()) root = Look();
+  return problem_.Aborted() ? Root::kAborted : Finish(root);
+}
+
+Root Bisection::Look() {
   more_ = less_ = {.there = false};
-  const Point first = At(group.mu);
+  const Point first = At(group_.mu);
   if (problem_.Aborted()) return Root::kAborted;
   if (std::abs(first.excess) < kRoot) return Root::kFound;
   Keep(first);
   const Root bracket = Bracket();
-  return Finish(bracket == Root::kFound && more_.there && less_.there ? Narrow() : bracket);
+  return bracket == Root::kFound && more_.there && less_.there ? Narrow() : bracket;
+}
+
+// Whether exact passes see what the coarse ones saw at both sides of the bracket.
+bool Bisection::Confirmed() {
+  const double mu = problem_.groups.At(group_.id).mu;
+  bool confirmed = true;
+  for (Point* side : {&more_, &less_}) {
+    if (!side->there || !confirmed) continue;
+    const Point exact = At(side->mu);
+    confirmed = exact.there && exact.ended == side->ended &&
+                (exact.excess > 0) == (side == &more_) && std::abs(exact.excess) > kRoot;
+    *side = exact;
+  }
+  problem_.groups.At(group_.id).mu = mu;
+  return confirmed;
 }
 
 void Bisection::Keep(const Point& point) { (point.excess > 0 ? more_ : less_) = point; }
@@ -82,7 +99,8 @@ Root Bisection::Bracket() {
   const Contact& contact =
       problem_.scenario().contacts[static_cast<std::size_t>(group_.id.contact)];
   double mu = more_.mu > 0 ? more_.mu : 1e-3 * contact.stiffness;
-  for (int i = 0; i < kMostGrows && IsFelt(mu) && !less_.there; ++i) {
+  const double most = problem_.MostMu(group_);
+  for (int i = 0; i < kMostGrows && mu < most && !less_.there; ++i) {
     mu *= kGrow;
     const Point point = At(mu);
     if (problem_.Aborted()) return Root::kAborted;
@@ -97,7 +115,8 @@ Root Bisection::Narrow() {
   for (int i = 0; i < kHalvings; ++i) {
     const double width = less_.mu - more_.mu;
     const bool apart = more_.excess > kApart && less_.excess < -kApart;
-    if (std::abs(width) <= (apart ? kNarrow : kNarrowest) * less_.mu) break;
+    const double narrow = !apart ? kNarrowest : less_.ended ? kNarrow : kCreeps;
+    if (std::abs(width) <= narrow * less_.mu) break;
     const double weight = more_.excess / (more_.excess - less_.excess);
     const bool far = more_.mu > 0 && less_.mu > 10 * more_.mu;
     const double half = far ? std::sqrt(more_.mu * less_.mu) : more_.mu + 0.5 * width;

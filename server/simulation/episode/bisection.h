@@ -31,16 +31,18 @@ class Bisection {
     bool ended = true;
   };
   Point At(double mu);
+  Root Look();
+  bool Confirmed();
   Root Bracket();
   Root Narrow();
-  bool IsFelt(double mu) const;
   void Keep(const Point& point);
   Root Finish(Root root);
 
   Problem& problem_;
   IterationLog& log_;
-  GroupSight group_;   // As first seen.
-  Point more_, less_;  // Nearest μ with too much, too little.
+  GroupSight group_;
+  bool coarse_ = true;  // As first seen.
+  Point more_, less_;   // Nearest μ with too much, too little.
 };
 
 }  // namespace contact

@@ -23,8 +23,15 @@ constexpr int kRescans = 5;
 // A miss by which a guess is poor, so that the search begins with the earliest part of the front,
 // and one that is good enough for the next part.
 constexpr double kPoor = 0.02, kGood = 1e-3;
+// A miss that may be the error of the first, coarse look.
+constexpr double kNoise = 1e-6;
 // A stretch that the paper's process takes as one episode has at most so many cycles.
 constexpr int kPaperCycles = 120;
+
+bool Within(const std::vector<GroupId>& front, const Sight& sight, double miss) {
+  return std::ranges::all_of(
+      front, [&](const GroupId& id) { return std::abs(sight.Find(id)->Miss()) <= miss; });
+}
 
 }  // namespace
 
@@ -64,13 +71,17 @@ Recorder& EpisodeSolver::Record() {
 
 Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
                                    const std::stop_token& stop, std::int64_t step_limit) {
+  if (episode != episode_) {
+    problem_.groups.ForgetBegun(start);
+    log_.Begin(episode, start.time);
+    rejected_ = false;
+  }
   episode_ = episode;
-  problem_.groups.ForgetBegun(start);
-  log_.Begin(episode, start.time);
   const bool nothing_to_find = std::ranges::none_of(scenario_.contacts, [](const Contact& c) {
     return c.damping == DampingLaw::kEnergyRestitution;
   });
   record_until_ = end;
+  tentative_ = false;
   if (nothing_to_find || start.time < solved_until_) return Motion::Pause::kQuiet;
   problem_.Begin(start, end, stop, step_limit);
   if (scenario_.solver.update != UpdateRule::kNewtonCoupled) {
@@ -86,9 +97,9 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
 
 // A scan, of which what it tells of each group is noted; again where a group has become negligible,
 // or is no more, for that changes its μ.
-Sight EpisodeSolver::Scan() {
+Sight EpisodeSolver::Scan(bool coarse) {
   for (int i = 0;; ++i) {
-    Sight sight = problem_.Scan(window_.cycles(), guessing_);
+    Sight sight = problem_.Scan(window_.cycles(), guessing_, coarse);
     bool changed = false;
     for (const GroupSight& g : sight.groups) {
       Unknown& unknown = problem_.groups.At(g.id);
@@ -114,12 +125,24 @@ Motion::Pause EpisodeSolver::Search() {
   sweeps_ = 0;
   guessing_ = true;
   for (int round = 0; round < kRounds; ++round) {
-    const Sight sight = Scan();
+    const bool first = round == 0 && !rejected_;
+    const Sight sight = Scan(first);
     if (problem_.Aborted() || sight.pause == Motion::Pause::kNumeric) return sight.pause;
     const std::vector<GroupId> front =
         Front(sight, problem_.groups, problem_.tolerance(), problem_.end());
     if (!front.empty()) {
-      if (SolveFront(sight, front) == Found::kAborted) return problem_.pause();
+      if (!rejected_ && !sight.quiet.empty() &&
+          sight.quiet.front() <= sight.Find(front.front())->start_time) {
+        return Tentatively();
+      }
+      if (first && !sight.crowded && Within(front, sight, kNoise)) return Tentatively();
+      const Found found = SolveFront(sight, front, first);
+      if (found == Found::kAborted) return problem_.pause();
+      if (found == Found::kSolved && !rejected_ && !sight.crowded) return Tentatively();
+      continue;
+    }
+    if (first) {
+      if (!sight.crowded && !sight.quiet.empty()) return Tentatively();
       continue;
     }
     if (!sight.crowded && growing_.Close(sight)) continue;
@@ -135,18 +158,39 @@ Motion::Pause EpisodeSolver::Search() {
   return Motion::Pause::kQuiet;
 }
 
-Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front) {
+// All up to the first instant at which no cycle runs seems to be solved: its recording will tell.
+Motion::Pause EpisodeSolver::Tentatively() {
+  tentative_ = true;
+  return Motion::Pause::kQuiet;
+}
+
+bool EpisodeSolver::Accepts(Motion::Pause pause) {
+  if (!tentative_) return true;
+  const bool complete = pause == Motion::Pause::kQuiet || pause == Motion::Pause::kCycleStarts;
+  const bool broken = pause == Motion::Pause::kStopped || pause == Motion::Pause::kStepLimit;
+  if (broken || (complete && recorder_.sound())) {
+    log_.Accept(recorder_.groups);
+    return true;
+  }
+  rejected_ = true;
+  return false;
+}
+
+Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front,
+                                bool sensitive) {
   const std::vector<GroupId> part = EarliestPart(front, sight, kPoor);
   guessing_ = !part.empty();
   const bool whole = part.empty() || part.size() == front.size();
   const std::vector<GroupId>& now = whole ? front : part;
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;
-  Found found = newton_.Solve(now, goal, most, true);
+  for (auto& [id, unknown] : problem_.groups.known()) unknown.update = Iteration::Update::kNothing;
+  Found found = newton_.Solve(now, goal, most, true, sensitive ? &sight : nullptr);
   if (found == Found::kSolved && newton_.corrections() == 0) {  // A coarse pass sees what is not.
     found = newton_.Solve(front, problem_.tolerance(), most, false);
     if (found == Found::kSolved && newton_.corrections() == 0) found = Found::kStalled;
   }
+  if (found == Found::kSolved && !whole) return Found::kStalled;  // The rest is still to be solved.
   if (found == Found::kSolved || found == Found::kAborted) return found;
   if (found == Found::kLimit) {
     GiveUp(sight, now);

@@ -27,6 +27,11 @@ class EpisodeSolver {
 
   /// The instant up to which the episode may be recorded, if it does not end before.
   double record_until() const { return record_until_; }
+  /// Whether what is recorded has yet to show that the episode is solved.
+  bool tentative() const { return tentative_; }
+  /// Looks at the recording, which has ended for this reason. False: the episode is to be solved
+  /// again, and recorded anew.
+  bool Accepts(Motion::Pause pause);
 
   /// Begins the recording of the episode; hosts it.
   Recorder& Record();
@@ -38,8 +43,9 @@ class EpisodeSolver {
 
  private:
   Motion::Pause Search();
-  Sight Scan();
-  Found SolveFront(const Sight& sight, const std::vector<GroupId>& front);
+  Sight Scan(bool coarse);
+  Motion::Pause Tentatively();
+  Found SolveFront(const Sight& sight, const std::vector<GroupId>& front, bool sensitive);
   bool Bisect(const Sight& sight, const std::vector<GroupId>& front);
   void GiveUp(const Sight& sight, const std::vector<GroupId>& front);
 
@@ -55,9 +61,11 @@ class EpisodeSolver {
   int episode_ = 0;
   double solved_until_ = 0;  // All that begins before has its answer.
   double record_until_ = 0;
-  GroupId last_;          // The first of the last front, and
-  bool guessing_ = true;  // The μ of neighbours may have changed what is to be guessed.
-  int sweeps_ = 0;        // how often its groups were bisected one by one.
+  bool tentative_ = false;
+  bool rejected_ = false;  // A recording has shown that the episode is not solved.
+  GroupId last_;           // The first of the last front, and
+  bool guessing_ = true;   // The μ of neighbours may have changed what is to be guessed.
+  int sweeps_ = 0;         // how often its groups were bisected one by one.
 };
 
 }  // namespace contact

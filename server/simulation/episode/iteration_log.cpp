@@ -18,6 +18,19 @@ void IterationLog::Correct(const Sight& sight) {
 
 void IterationLog::Accept(const Sight& sight) { Report(sight, true); }
 
+void IterationLog::Accept(const std::vector<Group>& recorded) {
+  Sight sight;
+  for (const Group& group : recorded) {
+    GroupSight& seen = sight.groups.emplace_back();
+    seen.id.contact = group.contact;
+    seen.first_cycle = group.first_cycle;
+    seen.mu = group.mu;
+    seen.squared = group.restitution_out * group.restitution_out;
+    seen.restitution_in = group.restitution_in;
+  }
+  Report(sight, true);
+}
+
 void IterationLog::Grow(const Sight& sight, const GroupId& id, const Unknown& unknown) {
   ++growths;
   growths_no_progress += unknown.growth == Growth::kNoProgress;

@@ -15,8 +15,10 @@ class IterationLog {
   void Begin(int episode, double start_time);
   /// The pass that a correction starts from.
   void Correct(const Sight& sight);
-  /// The pass whose μ are taken.
+  /// The pass whose μ are taken,
   void Accept(const Sight& sight);
+  /// or the groups of the one that is recorded.
+  void Accept(const std::vector<Group>& recorded);
   /// A group has taken in its neighbour.
   void Grow(const Sight& sight, const GroupId& id, const Unknown& unknown);
 

@@ -23,8 +23,14 @@ constexpr double kOpen = 10;
 // Error that a pass may have, in units of the miss that is expected of it. A step that works has
 // an error some 10 times the tolerance.
 constexpr double kNoise = 1e-3;
-// A miss below which the last Jacobian, updated, leads as well as a true one, for less.
+// A miss below which the last Jacobian, updated, leads as well as a true one, for less where there
+// are more than a few unknowns.
 constexpr double kNear = 0.01;
+constexpr std::size_t kFew = 4;
+// Part of the goal below which a miss that is expected is none.
+constexpr double kSure = 0.1;
+// The curvature that is expected before it was seen.
+constexpr double kCurved = 1;
 // How much longer than before a trial may last, in spans of the front.
 constexpr double kLonger = 4;
 
@@ -66,8 +72,12 @@ double Newton::Worst(const std::vector<GroupId>& front, const Sight& sight) cons
 // A pass as exact as the miss that is expected of it demands.
 Sight Newton::Look(const std::vector<GroupId>& front, bool sensitive, double expected,
                    double horizon) {
-  const double tolerance = coarse_ ? kNoise * std::max(expected, goal_) : 0;
-  return problem_.Evaluate(front, sensitive, horizon, tolerance);
+  // The last correction rests on the pass before it, which must be as exact as the goal.
+  const bool last = curvature_ * expected * expected <= kSure * goal_;
+  const double tolerance = coarse_ && !last ? kNoise * std::max(expected, goal_) : 0;
+  Sight sight = problem_.Evaluate(front, sensitive, horizon, tolerance);
+  sight.exact = tolerance == 0;
+  return sight;
 }
 
 // Of groups that were not seen to their ends 0: they are not to be moved.
@@ -126,30 +136,43 @@ void Newton::Move(const std::vector<GroupId>& front, const Sight& from,
     if (g == nullptr) continue;
     Unknown& unknown = problem_.groups.At(front[i]);
     unknown.corrected = true;
-    unknown.mu = g->mu * (1 + std::clamp(step[static_cast<Eigen::Index>(i)], kLeast, kMost));
+    const double mu = g->mu * (1 + std::clamp(step[static_cast<Eigen::Index>(i)], kLeast, kMost));
+    unknown.mu = g->ended ? std::min(mu, std::max(g->mu, problem_.MostMu(*g))) : mu;
   }
 }
 
-void Newton::Count(const std::vector<GroupId>& front, Sight& sight, int corrections, bool damped) {
-  for (GroupSight& g : sight.groups) {
-    if (std::ranges::find(front, g.id) == front.end()) continue;
-    g.update = damped ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
-    problem_.groups.At(g.id).iterations = corrections;
-  }
+void Newton::Count(const std::vector<GroupId>& front, const Sight& sight, int corrections,
+                   bool damped) {
   log_.Correct(sight);
+  for (const GroupId& id : front) {
+    Unknown& unknown = problem_.groups.At(id);
+    unknown.update = damped ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
+    unknown.iterations = corrections;
+  }
+}
+
+// The miss that a whole step leaves.
+double Newton::Expected(double worst) const {
+  return true_ ? std::min(worst, curvature_ * worst * worst) : worst;
 }
 
 Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_corrections,
-                    bool coarse) {
+                    bool coarse, const Sight* seen) {
   goal_ = goal;
   coarse_ = coarse;
-  Sight now = Look(front, true, 1, kForever);
+  curvature_ = kCurved;
+  Sight now = seen != nullptr ? *seen : Look(front, true, 1, kForever);
   Take(front, now);
   for (corrections_ = 0;; ++corrections_) {
     if (problem_.Aborted()) return Found::kAborted;
     if (now.pause == Motion::Pause::kNumeric) return Found::kStalled;
     if (Worst(front, now) <= goal) return Found::kSolved;
     if (corrections_ >= most_corrections) return Found::kLimit;
+    if (coarse && now.exact && Expected(Worst(front, now)) <= kSure * goal) {
+      Move(front, now, Step());
+      Count(front, now, ++corrections_, false);
+      return Found::kSolved;
+    }
     const Found moved = Correct(front, now);
     if (moved == Found::kStalled && !true_) {  // By an updated Jacobian: a true one may do better.
       now = Look(front, true, Worst(front, now), kForever);
@@ -164,11 +187,11 @@ Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_cor
 Found Newton::Correct(const std::vector<GroupId>& front, Sight& now) {
   const Eigen::VectorXd step = Step();
   const double worst = Worst(front, now), merit = Merit(front, now), horizon = Horizon(front, now);
-  const bool near = worst < kNear;
+  const bool near = worst < kNear && front.size() > kFew;
   double part = 1;
   for (int i = 0; i < (true_ ? kShortenings : 1); ++i, part *= kShorter) {
     Move(front, now, part * step);
-    Sight trial = Look(front, !near, std::min(worst * worst, worst), horizon);
+    Sight trial = Look(front, !near, part < 1 ? worst : Expected(worst), horizon);
     if (problem_.Aborted()) return Found::kAborted;
     const bool falls = Merit(front, trial) < (1 - kFall * part) * merit;
     if (trial.pause == Motion::Pause::kNumeric || !falls) continue;
@@ -176,6 +199,7 @@ Found Newton::Correct(const std::vector<GroupId>& front, Sight& now) {
     if (near) {
       Learn(front, trial, part * step);
     } else {
+      if (true_ && part == 1) curvature_ = std::max(1.0, Worst(front, trial) / (worst * worst));
       Take(front, trial);
     }
     now = std::move(trial);

@@ -24,8 +24,11 @@ class Newton {
   Newton(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
 
   /// Solves the front until no group of it misses its restitution by more than `goal`, relative.
-  /// `coarse`: passes may be as inexact as what they are to show allows.
-  Found Solve(const std::vector<GroupId>& front, double goal, int most_corrections, bool coarse);
+  /// `coarse`: passes may be as inexact as what they are to show allows; the last correction is
+  /// taken without a look where it is sure to do. `seen`: a pass with slopes to begin with, if it
+  /// has seen the front.
+  Found Solve(const std::vector<GroupId>& front, double goal, int most_corrections, bool coarse,
+              const Sight* seen = nullptr);
   /// Corrections made by the last Solve.
   int corrections() const { return corrections_; }
 
@@ -37,7 +40,8 @@ class Newton {
   static Eigen::VectorXd Residuals(const std::vector<GroupId>& front, const Sight& sight);
   double Merit(const std::vector<GroupId>& front, const Sight& sight) const;
   void Move(const std::vector<GroupId>& front, const Sight& from, const Eigen::VectorXd& step);
-  void Count(const std::vector<GroupId>& front, Sight& sight, int corrections, bool damped);
+  void Count(const std::vector<GroupId>& front, const Sight& sight, int corrections, bool damped);
+  double Expected(double worst) const;
   double Worst(const std::vector<GroupId>& front, const Sight& sight) const;
   Sight Look(const std::vector<GroupId>& front, bool sensitive, double expected, double horizon);
   double Horizon(const std::vector<GroupId>& front, const Sight& sight) const;
@@ -47,7 +51,8 @@ class Newton {
   double goal_ = 0;
   bool coarse_ = true;
   int corrections_ = 0;
-  bool true_ = false;         // The Jacobian is that of a pass with sensitivities.
+  bool true_ = false;     // The Jacobian is that of a pass with sensitivities.
+  double curvature_ = 0;  // Largest miss after a whole true step over the square of that before.
   Eigen::MatrixXd jacobian_;  // ∂residual/∂ln μ.
   Eigen::VectorXd residual_;  // Of the last pass.
 };

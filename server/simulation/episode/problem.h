@@ -19,14 +19,19 @@ class Problem {
   void Begin(const State& start, double end, const std::stop_token& stop, std::int64_t step_limit);
 
   /// Looks for the earliest groups that miss among the next `most_cycles` cycles.
-  /// `guess`: what was only guessed is guessed anew.
-  Sight Scan(int most_cycles, bool guess);
+  /// `guess`: what was only guessed is guessed anew. `coarse`: with slopes, and as inexactly as a
+  /// first look may be.
+  Sight Scan(int most_cycles, bool guess, bool coarse = false);
   /// Sees the first stretch without pause, each cycle of it.
   Sight SeeStretch(int most_cycles);
   /// The front with the μ that its groups now have. `until`: what has not ended then is open [s].
   /// `tolerance`: of the integration; 0: the scenario's, which is the finest.
   Sight Evaluate(const std::vector<GroupId>& front, bool sensitive, double until,
                  double tolerance = 0);
+
+  /// The largest μ [N·s/mⁿ⁺¹] that a group, as a pass has seen it, can feel: beyond it nothing
+  /// turns any more.
+  double MostMu(const GroupSight& group) const;
 
   /// Whether the run was stopped or has spent its steps: no pass means anything any more.
   bool Aborted() const { return aborted_; }
@@ -42,6 +47,7 @@ class Problem {
 
  private:
   Sight Look(Pass::Plan plan);
+  double Tolerance(double wanted) const;
 
   const Scenario& scenario_;
   Motion& motion_;

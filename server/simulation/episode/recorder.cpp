@@ -35,6 +35,7 @@ Recorder::Recorder(const Scenario& scenario, const Motion& motion, Observer& obs
 void Recorder::Begin(int episode) {
   episode_ = episode;
   membership_.Begin(false);
+  sound_ = true;
   cycles.clear();
   groups.clear();
 }
@@ -153,6 +154,10 @@ void Recorder::Close(ContactState& state) {
   group.restitution_out = Ratio(group.work_compression, group.work_restitution);
   group.residual = state.member.imbalance / group.work_compression;
   state.member.imbalance = 0;
+  const Unknown* unknown = known_.Find(Membership::IdOf(state));
+  const bool weak = group.cycles == 1 && membership_.IsWeak(state);
+  const bool settled = unknown == nullptr || unknown->flips > 0 || unknown->weak == weak;
+  if (group.status != Cycle::Status::kGivenLaw && !settled) sound_ = false;
   if (group.number == 0) return;
   const double allowed = scenario_.solver.restitution_tolerance * group.restitution_in;
   const double miss = std::abs(group.restitution_out - group.restitution_in);
@@ -162,9 +167,10 @@ void Recorder::Close(ContactState& state) {
   if (status == Cycle::Status::kConverged && !(miss <= kRecorded * allowed)) {
     status = Cycle::Status::kNotConverged;
   }
-  const bool weak = group.cycles == 1 && membership_.IsWeak(state);
   if (status == Cycle::Status::kNotConverged && weak) status = Cycle::Status::kSettled;
   group.status = status;
+  const bool answered = unknown == nullptr || unknown->given_up;
+  if (status == Cycle::Status::kNotConverged && !answered) sound_ = false;
   for (Cycle& cycle : cycles) {
     if (cycle.contact == group.contact && cycle.group == group.number) cycle.status = status;
   }

@@ -29,6 +29,9 @@ class Recorder final : public CycleHost {
   void Save(RunState* state) const;
   void Restore(const RunState& state);
 
+  /// Whether every group that has ended since Begin is one that the search has answered.
+  bool sound() const { return sound_; }
+
   std::vector<Cycle> cycles;  ///< Ended since Begin,
   std::vector<Group> groups;  ///< and the groups that ended with them.
 
@@ -45,6 +48,7 @@ class Recorder final : public CycleHost {
   Groups& known_;
   Membership membership_;
   int episode_ = 0;
+  bool sound_ = true;
   std::vector<bool> warned_;  // Per contact.
   std::vector<bool> missed_;  // Per law.
 };

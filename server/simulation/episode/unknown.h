@@ -37,6 +37,7 @@ struct Unknown {
   bool given_up = false;          ///< As many corrections as are allowed did not solve it.
   bool lowered = false;           ///< It did not end, and its μ was lowered until it did.
   int iterations = 0;             ///< Corrections of μ by the search that found it.
+  Iteration::Update update = Iteration::Update::kNothing;  ///< The last change of μ.
   Growth growth = Growth::kNotGrown;
   /// kConverged, kJump, kInfeasible, kUnfinished: found. kNotConverged: still sought.
   Cycle::Status status = Cycle::Status::kNotConverged;
@@ -82,6 +83,7 @@ struct Sight {
   Motion::Pause pause = Motion::Pause::kQuiet;
   double time = 0;       ///< Reached [s].
   bool crowded = false;  ///< It saw as many cycles as it was to see, and there are more.
+  bool exact = true;     ///< It was as exact as the scenario asks.
 
   const GroupSight* Find(const GroupId& id) const;
 };
