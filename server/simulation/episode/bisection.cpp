@@ -33,6 +33,7 @@ Bisection::Point Bisection::At(double mu) {
   Point point{.mu = mu, .excess = -1, .there = seen != nullptr};
   if (seen != nullptr && seen->ended && std::isfinite(seen->squared)) {
     point.excess = seen->squared / (group_.restitution_in * group_.restitution_in) - 1;
+    point.most = problem_.MostMu(*seen);
   } else {
     point.ended = false;
   }
@@ -99,8 +100,7 @@ Root Bisection::Bracket() {
   const Contact& contact =
       problem_.scenario().contacts[static_cast<std::size_t>(group_.id.contact)];
   double mu = more_.mu > 0 ? more_.mu : 1e-3 * contact.stiffness;
-  const double most = problem_.MostMu(group_);
-  for (int i = 0; i < kMostGrows && mu < most && !less_.there; ++i) {
+  for (int i = 0; i < kMostGrows && mu < more_.most && !less_.there; ++i) {
     mu *= kGrow;
     const Point point = At(mu);
     if (problem_.Aborted()) return Root::kAborted;

@@ -27,6 +27,7 @@ class Bisection {
   struct Point {
     double mu = 0;
     double excess = 0;  // ε_out²/ε_in² − 1; of what does not end −1.
+    double most = 0;    // See Problem::MostMu.
     bool there = true;
     bool ended = true;
   };

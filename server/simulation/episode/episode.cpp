@@ -28,6 +28,11 @@ constexpr double kNoise = 1e-6;
 // A stretch that the paper's process takes as one episode has at most so many cycles.
 constexpr int kPaperCycles = 120;
 
+// Whether no group ends where the next of its encounter begins, which may want to join it.
+bool IsApart(const Sight& sight) {
+  return std::ranges::all_of(sight.groups, [](const GroupSight& g) { return g.separated; });
+}
+
 bool Within(const std::vector<GroupId>& front, const Sight& sight, double miss) {
   return std::ranges::all_of(
       front, [&](const GroupId& id) { return std::abs(sight.Find(id)->Miss()) <= miss; });
@@ -131,30 +136,35 @@ Motion::Pause EpisodeSolver::Search() {
     const std::vector<GroupId> front =
         Front(sight, problem_.groups, problem_.tolerance(), problem_.end());
     if (!front.empty()) {
-      if (!rejected_ && !sight.quiet.empty() &&
-          sight.quiet.front() <= sight.Find(front.front())->start_time) {
-        return Tentatively();
+      if (const double final = first ? 0 : LastFinal(sight, front); final > problem_.start_time()) {
+        return Record(sight, final);
       }
-      if (first && !sight.crowded && Within(front, sight, kNoise)) return Tentatively();
+      const bool may_be_all = !rejected_ && !sight.crowded && IsApart(sight);
+      if (first && may_be_all && Within(front, sight, kNoise)) return Tentatively();
       const Found found = SolveFront(sight, front, first);
       if (found == Found::kAborted) return problem_.pause();
-      if (found == Found::kSolved && !rejected_ && !sight.crowded) return Tentatively();
+      if (found == Found::kSolved && may_be_all) return Tentatively();
       continue;
     }
     if (first) {
-      if (!sight.crowded && !sight.quiet.empty()) return Tentatively();
+      if (!sight.crowded && !sight.quiet.empty() && IsApart(sight)) return Tentatively();
       continue;
     }
     if (!sight.crowded && growing_.Close(sight)) continue;
-    solved_until_ =
+    const double final =
         window_.FinalUntil(sight, problem_.groups, problem_.tolerance(), problem_.end());
     guessing_ = true;
-    if (solved_until_ <= problem_.start_time()) continue;  // The window has grown.
-    if (sight.crowded) record_until_ = solved_until_;
-    solved_until_ -= kAtOnce * (solved_until_ - problem_.start_time());
-    log_.Accept(sight);
-    return Motion::Pause::kQuiet;
+    if (final > problem_.start_time()) return Record(sight, final);
+    // The window has grown.
   }
+  return Motion::Pause::kQuiet;
+}
+
+// What begins before `until` has its answer.
+Motion::Pause EpisodeSolver::Record(const Sight& sight, double until) {
+  if (until < problem_.end()) record_until_ = until;
+  solved_until_ = until - kAtOnce * (until - problem_.start_time());
+  log_.Accept(sight);
   return Motion::Pause::kQuiet;
 }
 
@@ -166,7 +176,7 @@ Motion::Pause EpisodeSolver::Tentatively() {
 
 bool EpisodeSolver::Accepts(Motion::Pause pause) {
   if (!tentative_) return true;
-  const bool complete = pause == Motion::Pause::kQuiet || pause == Motion::Pause::kCycleStarts;
+  const bool complete = pause == Motion::Pause::kQuiet && problem_.IsOpen();
   const bool broken = pause == Motion::Pause::kStopped || pause == Motion::Pause::kStepLimit;
   if (broken || (complete && recorder_.sound())) {
     log_.Accept(recorder_.groups);

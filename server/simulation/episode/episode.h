@@ -44,6 +44,7 @@ class EpisodeSolver {
  private:
   Motion::Pause Search();
   Sight Scan(bool coarse);
+  Motion::Pause Record(const Sight& sight, double until);
   Motion::Pause Tentatively();
   Found SolveFront(const Sight& sight, const std::vector<GroupId>& front, bool sensitive);
   bool Bisect(const Sight& sight, const std::vector<GroupId>& front);

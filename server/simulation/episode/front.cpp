@@ -81,6 +81,22 @@ std::vector<GroupId> EarliestPart(const std::vector<GroupId>& front, const Sight
   return part;
 }
 
+double LastFinal(const Sight& sight, const std::vector<GroupId>& front) {
+  const double front_starts = sight.Find(front.front())->start_time;
+  double before = front_starts;
+  for (const GroupSight& g : sight.groups) {
+    if (g.separated || g.start_time >= before) continue;
+    const GroupSight* next = sight.Find({g.id.contact, g.id.encounter, g.id.place + 1});
+    const bool joins_none = next != nullptr && next->ended && next->end_time <= front_starts;
+    if (!joins_none) before = g.start_time;
+  }
+  double last = 0;
+  for (const double quiet : sight.quiet) {
+    if (quiet <= before) last = quiet;
+  }
+  return last;
+}
+
 bool FrontIsComplete(const Sight& sight, const Groups& groups, double tolerance, double end) {
   const Span span = FrontSpan(sight, groups, tolerance, end);
   return span.start < span.end && span.closed;

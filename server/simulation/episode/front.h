@@ -20,6 +20,10 @@ std::vector<GroupId> Front(const Sight& sight, const Groups& groups, double tole
 std::vector<GroupId> EarliestPart(const std::vector<GroupId>& front, const Sight& sight,
                                   double tolerance);
 
+/// The last instant [s] at which no cycle runs, before the front begins, such that no group that
+/// begins later may want to join one that ended before it; 0 if there is none.
+double LastFinal(const Sight& sight, const std::vector<GroupId>& front);
+
 /// Whether there is such a front and all of it has ended.
 bool FrontIsComplete(const Sight& sight, const Groups& groups, double tolerance, double end);
 

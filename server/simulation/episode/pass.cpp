@@ -53,15 +53,14 @@ Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& st
   do {
     sight_.pause = motion_.Advance(plan.until, *this, nullptr, stop, step_limit);
     if (sight_.pause == Motion::Pause::kQuiet) sight_.quiet.push_back(motion_.time());
-  } while (sight_.pause == Motion::Pause::kQuiet && !plan.first_quiet && !Closed() && !enough_ &&
+  } while (sight_.pause == Motion::Pause::kQuiet && !plan.first_quiet && !IsOpen() && !enough_ &&
            (motion_.time() < plan.end || !plan.front.empty()));
   sight_.time = motion_.time();
   sight_.crowded = cycles_ >= plan.most_cycles && sight_.pause == Motion::Pause::kEnough;
   return std::move(sight_);
 }
 
-// Whether no contact is about to begin a cycle.
-bool Pass::Closed() const {
+bool Pass::IsOpen() const {
   return std::ranges::none_of(motion_.contacts(), [](const ContactState& c) {
     return c.phase == Phase::kStarting && !c.settled;
   });

@@ -36,6 +36,9 @@ class Pass final : public CycleHost {
   Sight Look(const State& start, const Plan& plan, const std::stop_token& stop,
              std::int64_t step_limit);
 
+  /// Whether no contact is about to begin a cycle.
+  bool IsOpen() const;
+
   Factor OnStart(ContactState& state, double effective_mass, double external_force) override;
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
              const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
@@ -49,7 +52,6 @@ class Pass final : public CycleHost {
   void Measure(GroupSight& group) const;
   bool Enough() const;
   bool FrontHasEnded() const;
-  bool Closed() const;
 
   const Scenario& scenario_;
   Motion& motion_;

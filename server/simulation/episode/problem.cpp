@@ -13,8 +13,8 @@ constexpr int kMostCyclesOfATrial = 400;
 constexpr double kBeyond = 3, kOwn = 5;
 // μ δⁿ T/m_e, the damping in units of what stops the bodies within the group's duration T; an
 // isolated collision has some 3/ε. Of 2,700 groups of random scenarios one in a thousand needs
-// more.
-constexpr double kFelt = 3000;
+// more. The first group of an encounter begins at rest, so that it has a root if it ends at all.
+constexpr double kFelt = 3000, kFeltAtFirst = 1e6;
 // Coarser passes miss events.
 constexpr double kCoarsest = 1e-6;
 
@@ -65,7 +65,7 @@ double Problem::MostMu(const GroupSight& g) const {
   const double duration = g.end_time - g.start_time;
   const double unit = std::pow(g.length, contact.exponent) * duration /
                       motion_.equations().effective_mass(g.id.contact);
-  return kFelt / g.restitution_in / unit;
+  return (g.id.place > 1 ? kFelt : kFeltAtFirst) / g.restitution_in / unit;
 }
 
 Sight Problem::Evaluate(const std::vector<GroupId>& front, bool sensitive, double until,

@@ -35,6 +35,8 @@ class Problem {
 
   /// Whether the run was stopped or has spent its steps: no pass means anything any more.
   bool Aborted() const { return aborted_; }
+  /// Whether no contact is about to begin a cycle.
+  bool IsOpen() const { return pass_.IsOpen(); }
   Motion::Pause pause() const { return pause_; }
   double start_time() const { return start_->time; }
   double end() const { return end_; }
