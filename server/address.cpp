@@ -6,17 +6,16 @@
 
 namespace contact {
 
-std::optional<Address> ParseAddress(const std::string& text) {
-  if (text.starts_with("unix:")) return std::nullopt;
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) return std::nullopt;
-  const std::string host = text.substr(0, colon);
-  const std::string port = text.substr(colon + 1);
+std::optional<std::string> HostOf(const std::string& address) {
+  const std::size_t colon = address.rfind(':');
+  if (address.starts_with("unix:") || colon == std::string::npos || colon == 0) return std::nullopt;
+  const std::string host = address.substr(0, colon);
+  const std::string port = address.substr(colon + 1);
   const bool bracketed = host.front() == '[' && host.back() == ']';
   if (!bracketed && host.find(':') != std::string::npos) return std::nullopt;
   if (port.empty() || port.size() > 5 || !std::ranges::all_of(port, ::isdigit)) return std::nullopt;
   if (std::stoi(port) > 65535) return std::nullopt;
-  return Address{host, std::stoi(port)};
+  return host;
 }
 
 bool IsLoopback(const std::string& host) {

@@ -5,14 +5,9 @@
 
 namespace contact {
 
-/// An address of the network to listen on.
-struct Address {
-  std::string host;  ///< A name or an IPv4 address; an IPv6 address has its brackets.
-  int port;          ///< 0 to 65535.
-};
-
-/// Reads `HOST:PORT`. Nothing for any other text, and for `unix:PATH`.
-std::optional<Address> ParseAddress(const std::string& text);
+/// The host of the address `HOST:PORT`, where PORT is a number up to 65535: a name or an IPv4
+/// address, or an IPv6 address with its brackets. Nothing for any other text, and for `unix:PATH`.
+std::optional<std::string> HostOf(const std::string& address);
 
 /// True if only this machine can reach the host: `localhost` or a numeric loopback address. Other
 /// names are not, because a name such as 127.evil.example may lead anywhere.

@@ -151,7 +151,7 @@ int Serve(const Config& config, const sigset_t& signals) {
   const auto store = Store::Open(config.data_dir, options);
   if (!store.ok()) return Refuse(store.status());
   JobManager jobs(**store, SystemClock(), RandomIds(), config.jobs);
-  GrpcServer server(jobs, config.rpc, Identity(config));
+  GrpcServer server(jobs, **store, config.rpc, Identity(config));
   const auto port = server.Start(config.listen);
   std::unique_ptr<MetricsServer> metrics;
   int code = kExitHeld;
@@ -166,7 +166,7 @@ int Serve(const Config& config, const sigset_t& signals) {
     code = kExitOk;
   }
   metrics.reset();
-  jobs.Drain();
+  jobs.creator().Drain();
   server.Shutdown(kGrace);  // From here on no call asks anything of the manager.
   jobs.Stop();
   return code;

@@ -49,39 +49,30 @@ std::vector<std::string> FlagsFromEnvironment(const CLI::App& app) {
   return flags;
 }
 
-// Throws CLI::ValidationError for an address that others can reach without --insecure-i-know.
-void CheckReach(const char* flag, const std::string& listen, bool loopback, bool insecure) {
-  if (loopback || insecure) return;
+// Whether the address is of this machine only. Throws CLI::ValidationError if it is none, and for
+// one that others can reach, unless they may.
+bool CheckAddress(const char* flag, const std::string& listen, const char* forms, bool insecure) {
+  const auto host = HostOf(listen);
+  if (!host) throw CLI::ValidationError(flag, fmt::format("{} is not {}", listen, forms));
+  const bool loopback = IsLoopback(*host);
+  if (loopback || insecure) return loopback;
   throw CLI::ValidationError(
       flag, listen +
                 " is not a loopback address, and there is neither encryption nor password; "
                 "use 127.0.0.1, or say --insecure-i-know");
 }
 
-// Whether the address of --listen is of this machine only. Throws if it is no address.
-bool ListensLocally(const std::string& listen) {
-  constexpr std::string_view kUnix = "unix:";
-  if (listen.starts_with(kUnix) && listen.size() > kUnix.size()) return true;
-  const auto address = ParseAddress(listen);
-  if (!address) {
-    throw CLI::ValidationError("--listen", listen + " is not HOST:PORT or unix:PATH");
-  }
-  return IsLoopback(address->host);
-}
-
-void CheckMetrics(const std::string& listen, bool insecure) {
-  if (listen.empty()) return;
-  const auto address = ParseAddress(listen);
-  if (!address) throw CLI::ValidationError("--metrics-listen", listen + " is not HOST:PORT");
-  CheckReach("--metrics-listen", listen, IsLoopback(address->host), insecure);
-}
-
 // Sets what follows from several flags. Throws CLI::ValidationError for values that one flag's own
 // check cannot refuse.
 void Finish(const Switches& switches, Config* config) {
-  const bool loopback = ListensLocally(config->listen);
-  CheckReach("--listen", config->listen, loopback, switches.insecure);
-  CheckMetrics(config->metrics_listen, switches.insecure);
+  constexpr std::string_view kUnix = "unix:";
+  const std::string& listen = config->listen;
+  const bool file = listen.starts_with(kUnix) && listen.size() > kUnix.size();
+  const bool loopback =
+      file || CheckAddress("--listen", listen, "HOST:PORT or unix:PATH", switches.insecure);
+  if (!config->metrics_listen.empty()) {
+    CheckAddress("--metrics-listen", config->metrics_listen, "HOST:PORT", switches.insecure);
+  }
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
   config->rpc.reflection = loopback && !switches.no_reflection;
   config->rpc.channelz = loopback && switches.channelz;

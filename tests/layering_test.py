@@ -22,6 +22,7 @@ ORDER = {
     "client/cli/text": [".", "comparison", "sweep"],
     "client/cli/figures": [".", "heat_map"],
     "client/cli/help": ["contract", "."],
+    "client/cli/verbs": ["job", "laws", "sweep", "."],
 }
 # What a folder must not include whatever the order says: folder, pattern, reason.
 REFUSED = [

@@ -37,8 +37,8 @@ int Tell(const Failure& failure) {
   return static_cast<int>(failure.code());
 }
 
-// What completion scripts and the build ask: __complete WORD… and __man FOLDER CONTACTD. True if
-// that was it.
+// Answers `__complete WORD…` of completion scripts and `__man FOLDER CONTACTD` of the build.
+// Returns false if the words are neither.
 bool Serve(CommandLine& line, const std::vector<std::string>& words) {
   const std::string first = words.empty() ? "" : words.front();
   if (first == "__complete") {

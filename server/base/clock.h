@@ -9,7 +9,8 @@ class Clock {
  public:
   virtual ~Clock() = default;
 
-  /// The date and time of day. May jump when the system's clock is set; only for people to read.
+  /// The date and time of day, UTC. May jump when the system's clock is set; only for people to
+  /// read.
   virtual std::chrono::system_clock::time_point Now() const = 0;
 
   /// Time since an arbitrary start. Never jumps; for measuring durations and for deadlines.

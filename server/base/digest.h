@@ -7,10 +7,11 @@
 
 namespace contact {
 
-/// CRC-32C (Castagnoli) of bytes, as in BackupChunk.
+/// CRC-32C (Castagnoli) of bytes: polynomial 0x1EDC6F41, reflected, as BackupChunk.crc32c has it.
 std::uint32_t Crc32c(std::string_view bytes);
 
-/// SHA-256 of bytes that come in pieces.
+/// SHA-256 of bytes that come in pieces. Throws std::runtime_error if OpenSSL fails. Not
+/// thread-safe.
 class Sha256 {
  public:
   Sha256();
@@ -18,11 +19,13 @@ class Sha256 {
   Sha256(const Sha256&) = delete;
   Sha256& operator=(const Sha256&) = delete;
 
+  /// Appends a piece; it may be empty.
   void Add(std::string_view bytes);
-  /// The 32 bytes of the digest. Call it once, at the end.
+  /// The 32 bytes of the digest, not hexadecimal. Call it once, at the end.
   std::string Finish();
 
  private:
+  // OpenSSL's context; hides its header.
   struct State;
   std::unique_ptr<State> state_;
 };

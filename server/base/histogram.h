@@ -6,20 +6,27 @@
 
 namespace contact {
 
-/// Counts values by the bucket they fall into. Thread-safe; a snapshot may miss what is being
-/// counted meanwhile.
+/// Counts values by the bucket that they fall into, without locks. Thread-safe; a snapshot may miss
+/// values that are being counted meanwhile, so its sum and counts may not agree to the last value.
 class Histogram {
  public:
-  /// `bounds`: what the buckets hold at most, ascending; one more takes what is beyond.
+  /// `bounds` are the largest values of the buckets, ascending. One more bucket takes what is
+  /// beyond the last.
   explicit Histogram(std::vector<double> bounds);
 
+  /// Counts a finite value. Does not block.
   void Count(double value);
 
+  /// The counts at an instant.
   struct Snapshot {
+    /// As given to the constructor.
     std::vector<double> bounds;
-    std::vector<std::int64_t> counts;  ///< One more than bounds.
+    /// Values in each bucket, not those below it; one more than bounds.
+    std::vector<std::int64_t> counts;
+    /// Of all values.
     double sum = 0;
   };
+  /// What was counted so far.
   Snapshot Get() const;
 
  private:
@@ -28,7 +35,8 @@ class Histogram {
   std::atomic<double> sum_ = 0;
 };
 
-/// 1, 2.5 and 5 of every power of ten from 10^`first` to 10^`last`.
+/// Bounds that grow evenly on a logarithmic scale: 1, 2.5 and 5 times every power of ten from
+/// 10^`first` on, up to 10^`last` itself. `first` ≤ `last`.
 std::vector<double> DecadeBounds(int first, int last);
 
 }  // namespace contact

@@ -12,7 +12,9 @@ namespace contact {
 /// Waits go through std::condition_variable_any, which takes the Mutex itself.
 class ABSL_LOCKABLE Mutex {
  public:
+  /// Waits until no other thread holds it. Not recursive.
   void lock() ABSL_EXCLUSIVE_LOCK_FUNCTION() { mutex_.lock(); }
+  /// False if another thread holds it. Does not wait.
   bool try_lock() ABSL_EXCLUSIVE_TRYLOCK_FUNCTION(true) { return mutex_.try_lock(); }
   void unlock() ABSL_UNLOCK_FUNCTION() { mutex_.unlock(); }
 
@@ -20,7 +22,7 @@ class ABSL_LOCKABLE Mutex {
   std::mutex mutex_;
 };
 
-/// Holds a Mutex for a scope.
+/// Holds a Mutex from its construction to its destruction.
 class ABSL_SCOPED_LOCKABLE MutexLock {
  public:
   explicit MutexLock(Mutex& mutex) ABSL_EXCLUSIVE_LOCK_FUNCTION(mutex) : mutex_(mutex) {

@@ -8,17 +8,20 @@ namespace contact {
 
 /// The candidate that `name` is most likely a misspelling of; empty if none is near. Near is one
 /// that begins with `name`, or that a few edits turn into it: up to a third of its letters, at
-/// least 2, at most half.
+/// least 2, at most half. The first of equally near ones. Names of more than 64 bytes are near
+/// nothing. The result is one of `candidates`, not a copy.
 std::string_view Nearest(std::string_view name, const std::vector<std::string_view>& candidates);
 
-/// `did you mean 'x'?` with the candidate nearest to `name`, or `otherwise` if none is near.
+/// The hint `did you mean 'x'?` with the candidate nearest to `name`, or `otherwise` if none is
+/// near.
 std::string DidYouMean(std::string_view name, const std::vector<std::string_view>& candidates,
                        const std::string& otherwise = "");
 
-/// `message — hint`; the message alone if there is no hint.
+/// The line `message — hint`; the message alone if there is no hint.
 std::string WithHint(const std::string& message, const std::string& hint);
 
-/// Text of a user in quotes, cut to 64 bytes and without control characters, to be shown.
+/// Text of a user in single quotes, to be shown in a message: cut to 64 bytes at the end of a
+/// UTF-8 character, with `?` for control characters.
 std::string Quoted(std::string_view text);
 
 }  // namespace contact

@@ -15,7 +15,7 @@ grpc::ServerWriteReactor<v1::BackupChunk>* AdminService::Backup(
     const std::shared_ptr<const void> busy(this, [this](const void*) { busy_ = false; });
     const auto reader = std::make_shared<BackupReader>(executor_, wake, busy);
     opened(reader->MakeSource());
-    jobs_.Backup(reader->stop_token(), [reader](Result<std::shared_ptr<BackupFile>> file) {
+    store_.Backup(reader->stop_token(), [reader](absl::StatusOr<std::unique_ptr<BackupFile>> file) {
       reader->Begin(std::move(file));
     });
   });

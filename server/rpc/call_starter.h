@@ -53,6 +53,7 @@ class CallStarter {
   const StreamLoop& loop() const { return *loop_; }
 
  private:
+  /// Moves a result into the response.
   static void Put(bool /*done*/, google::protobuf::Empty* /*response*/) {}
   template <class T>
   static void Put(T value, T* response) {

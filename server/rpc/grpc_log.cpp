@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -18,22 +19,13 @@ constexpr int kLinesPerSecond = 10;
 // Counts the lines of the running second.
 class LineBudget {
  public:
-  struct Verdict {
-    bool write;
-    int left_out;  ///< Lines that the seconds before left out.
-  };
-
-  Verdict Take() {
+  // The number of lines that were left out before this one; nothing if this one is left out, too.
+  std::optional<int> Take() {
     const auto second = std::chrono::floor<std::chrono::seconds>(std::chrono::steady_clock::now());
-    int left_out = 0;
-    if (second != second_) {
-      second_ = second;
-      left_out = std::exchange(left_out_, 0);
-      lines_ = 0;
-    }
-    if (++lines_ <= kLinesPerSecond) return {true, left_out};
+    if (std::exchange(second_, second) != second) lines_ = 0;
+    if (++lines_ <= kLinesPerSecond) return std::exchange(left_out_, 0);
     ++left_out_;
-    return {false, 0};
+    return std::nullopt;
   }
 
  private:
@@ -58,7 +50,7 @@ spdlog::level::level_enum Level(gpr_log_severity severity) {
 // one do not suppress those of the others.
 using Site = std::pair<std::string_view, int>;
 
-LineBudget::Verdict TakeOf(const Site& site) {
+std::optional<int> TakeOf(const Site& site) {
   static Mutex mutex;
   static std::map<Site, LineBudget> budgets ABSL_GUARDED_BY(mutex);
   const MutexLock lock(mutex);
@@ -66,9 +58,10 @@ LineBudget::Verdict TakeOf(const Site& site) {
 }
 
 void Log(gpr_log_func_args* line) {
-  const auto verdict = TakeOf({line->file, line->line});
-  if (verdict.left_out > 0) spdlog::warn("gRPC: {} lines left out", verdict.left_out);
-  if (verdict.write) spdlog::log(Level(line->severity), "gRPC: {}", line->message);
+  const auto left_out = TakeOf({line->file, line->line});
+  if (!left_out) return;
+  if (*left_out > 0) spdlog::warn("gRPC: {} lines left out", *left_out);
+  spdlog::log(Level(line->severity), "gRPC: {}", line->message);
 }
 
 }  // namespace

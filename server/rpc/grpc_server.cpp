@@ -105,14 +105,14 @@ v1::ServerInfo WithLimits(v1::ServerInfo identity, const GrpcServerOptions& opti
 
 }  // namespace
 
-GrpcServer::GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity,
-                       const Clock& clock)
+GrpcServer::GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options,
+                       v1::ServerInfo identity, const Clock& clock)
     : options_(Fitted(options)),
       loop_(std::make_shared<StreamLoop>(clock, options.write_stall)),
       guard_(options_.calls, streams_, metrics_, clock),
       calls_(guard_, loop_),
       jobs_(jobs, calls_, WithLimits(std::move(identity), options_)),
-      admin_(jobs, calls_) {}
+      admin_(store, calls_) {}
 
 GrpcServer::~GrpcServer() { Shutdown(1s); }
 

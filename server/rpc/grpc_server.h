@@ -22,24 +22,30 @@ namespace contact {
 
 /// Settings of the gRPC server.
 struct GrpcServerOptions {
-  int max_message_bytes = 8 << 20;   ///< Of one request.
-  int max_memory_bytes = 512 << 20;  ///< Of all connections and messages; past it gRPC cuts some.
+  /// Largest size of a request.
+  int max_message_bytes = 8 << 20;
+  /// Memory of all connections and messages. Past it gRPC cuts some connections.
+  int max_memory_bytes = 512 << 20;
+  /// See ConnectionAcceptor.
   ConnectionLimits connections = {};
+  /// See CallGuard.
   CallLimits calls = {};
   /// A connection that has not begun to speak HTTP/2 after this time is closed.
   std::chrono::milliseconds handshake_timeout{5'000};
   /// A reader of a stream that takes nothing for this time is dropped; also the limit of
   /// `connections.stall`, which it replaces.
   std::chrono::milliseconds write_stall{30'000};
-  bool reflection = true;  ///< Answer which services and messages there are.
-  bool channelz = false;   ///< Answer which connections there are, and what went over them.
+  /// True: the server answers which services and messages there are.
+  bool reflection = true;
+  /// True: the server answers which connections there are, and what went over them.
+  bool channelz = false;
 };
 
 /// The gRPC server: its settings, its services, its end. Plaintext, so for loopback only.
 class GrpcServer {
  public:
-  /// `identity`: see JobService. The manager and the clock outlive the server.
-  GrpcServer(JobManager& jobs, GrpcServerOptions options, v1::ServerInfo identity,
+  /// `identity`: see JobService. The manager, its store and the clock outlive the server.
+  GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options, v1::ServerInfo identity,
              const Clock& clock = SystemClock());
 
   /// Shuts down if that has not been done.
@@ -75,14 +81,19 @@ class GrpcServer {
   /// Starts gRPC and the acceptor of the listener's connections. Returns the port.
   std::optional<int> Listen(Listener listener, grpc::ServerBuilder& builder);
 
+  /// The options, with connections reduced to what descriptors suffice for.
   const GrpcServerOptions options_;
   const std::shared_ptr<StreamLoop> loop_;
+  /// Open streams of each peer.
   const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
   const std::shared_ptr<RpcMetrics> metrics_ = std::make_shared<RpcMetrics>();
   CallGuard guard_;
+  /// Starts the calls of both services.
   CallStarter calls_;
+  /// The services. gRPC uses them until server_ is gone.
   JobService jobs_;
   AdminService admin_;
+  /// Null before Start and after Shutdown.
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<ConnectionAcceptor> acceptor_;  // Hands connections to server_.
 };

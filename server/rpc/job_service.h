@@ -10,8 +10,8 @@
 
 namespace contact {
 
-/// The calls of the contract's JobService, each handed to the JobManager. Handlers never wait,
-/// because gRPC runs all of them on a few threads.
+/// The calls of the contract's JobService. Each is handed to the part of the JobManager that
+/// answers it. Handlers never wait, because gRPC runs all of them on a few threads.
 ///
 /// WatchJob sends serialised bytes, so that an event is serialised once for all watchers.
 class JobService final
@@ -23,35 +23,43 @@ class JobService final
       : jobs_(jobs), calls_(calls), identity_(std::move(identity)) {}
 
  private:
-  grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context,
-                                      const v1::CreateJobRequest* request,
-                                      v1::Job* response) override;
-  grpc::ServerUnaryReactor* GetJob(grpc::CallbackServerContext* context,
-                                   const v1::GetJobRequest* request, v1::Job* response) override;
-  grpc::ServerUnaryReactor* ListJobs(grpc::CallbackServerContext* context,
-                                     const v1::ListJobsRequest* request,
-                                     v1::ListJobsResponse* response) override;
-  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context,
-                                      const v1::CancelJobRequest* request,
-                                      v1::Job* response) override;
-  grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context,
-                                      const v1::DeleteJobRequest* request,
-                                      google::protobuf::Empty* response) override;
-  grpc::ServerWriteReactor<grpc::ByteBuffer>* WatchJob(grpc::CallbackServerContext* context,
-                                                       const grpc::ByteBuffer* request) override;
-  grpc::ServerWriteReactor<v1::WatchJobsResponse>* WatchJobs(
-      grpc::CallbackServerContext* context, const v1::WatchJobsRequest* request) override;
-  grpc::ServerWriteReactor<v1::ReadArtifactResponse>* ReadArtifact(
-      grpc::CallbackServerContext* context, const v1::ReadArtifactRequest* request) override;
-  grpc::ServerUnaryReactor* GetSeries(grpc::CallbackServerContext* context,
-                                      const v1::GetSeriesRequest* request,
-                                      v1::Series* response) override;
-  grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
-                                          const v1::GetServerInfoRequest* request,
-                                          v1::ServerInfo* response) override;
+  using Context = grpc::CallbackServerContext;
+  using Unary = grpc::ServerUnaryReactor;
+  template <class Message>
+  using Stream = grpc::ServerWriteReactor<Message>;
+
+  /// Answered by JobCreator once the job is on disk. Limited for each peer, see CallKind.
+  Unary* CreateJob(Context* context, const v1::CreateJobRequest* request,
+                   v1::Job* response) override;
+  /// Answered by JobReader, with ledger and artifacts.
+  Unary* GetJob(Context* context, const v1::GetJobRequest* request, v1::Job* response) override;
+  /// Answered by JobReader, with a page of headers.
+  Unary* ListJobs(Context* context, const v1::ListJobsRequest* request,
+                  v1::ListJobsResponse* response) override;
+  /// Answered by the manager once it is stored that the job is to stop.
+  Unary* CancelJob(Context* context, const v1::CancelJobRequest* request,
+                   v1::Job* response) override;
+  /// Answered by the manager once the job is gone from the disk.
+  Unary* DeleteJob(Context* context, const v1::DeleteJobRequest* request,
+                   google::protobuf::Empty* response) override;
+  /// Answered by Recordings, on the thread that checks scenarios.
+  Unary* GetSeries(Context* context, const v1::GetSeriesRequest* request,
+                   v1::Series* response) override;
+  /// Answered at once: what the manager knows, with `identity`.
+  Unary* GetServerInfo(Context* context, const v1::GetServerInfoRequest* request,
+                       v1::ServerInfo* response) override;
+  /// Opened by Watches; a WatchSource makes the messages.
+  Stream<grpc::ByteBuffer>* WatchJob(Context* context, const grpc::ByteBuffer* request) override;
+  /// Opened by Watches; a JobsCursor makes the messages.
+  Stream<v1::WatchJobsResponse>* WatchJobs(Context* context,
+                                           const v1::WatchJobsRequest* request) override;
+  /// Opened by Recordings; an ArtifactReader makes the messages.
+  Stream<v1::ReadArtifactResponse>* ReadArtifact(Context* context,
+                                                 const v1::ReadArtifactRequest* request) override;
 
   JobManager& jobs_;
   CallStarter& calls_;
+  /// The part of GetServerInfo that never changes.
   const v1::ServerInfo identity_;
 };
 

@@ -2,37 +2,35 @@
 
 #include <pthread.h>
 
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
 #include <utility>
 
 namespace contact {
+namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
+// Waits until `end`. True if `stop` was requested before.
+bool StoppedBefore(steady_clock::time_point end, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  const auto stopped = [&stop] { return stop.stop_requested(); };
+  return std::condition_variable_any().wait_until(lock, stop, end, stopped);
+}
+
+}  // namespace
+
 ShutdownTimer::ShutdownTimer(milliseconds patience, Action urge, milliseconds limit, Action give_up)
-    : thread_([this, patience, urge = std::move(urge), limit, give_up = std::move(give_up)] {
+    : thread_([patience, urge = std::move(urge), limit,
+               give_up = std::move(give_up)](const std::stop_token& stop) {
         pthread_setname_np(pthread_self(), "shutdown-timer");
         const auto begin = steady_clock::now();
-        if (DoneBy(begin + patience)) return;
+        if (StoppedBefore(begin + patience, stop)) return;
         urge();
-        if (!DoneBy(begin + limit)) give_up();
+        if (!StoppedBefore(begin + limit, stop)) give_up();
       }) {}
-
-ShutdownTimer::~ShutdownTimer() {
-  {
-    const MutexLock lock(mutex_);
-    done_ = true;
-    changed_.notify_one();
-  }
-  thread_.join();
-}
-
-bool ShutdownTimer::DoneBy(steady_clock::time_point end) {
-  const MutexLock lock(mutex_);
-  while (!done_) {
-    if (changed_.wait_until(mutex_, end) == std::cv_status::timeout) break;
-  }
-  return done_;
-}
 
 }  // namespace contact

@@ -1,6 +1,7 @@
 #include "simulation/sampler.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -68,7 +69,7 @@ void Sampler::Record(double time, const Eigen::ArrayXd& y) {
 void Sampler::Flush() {
   if (samples_.rows() == 0) return;
   samples_.first = next_ - samples_.rows();
-  if (holding_) {
+  if (before_) {
     held_.push_back(samples_);
   } else {
     observer_.OnSamples(samples_);
@@ -87,23 +88,18 @@ void Sampler::Restore(Samples pending) {
   samples_ = std::move(pending);
 }
 
-void Sampler::Hold() {
-  holding_ = true;
-  next_before_ = next_;
-  samples_before_ = samples_;
-}
+void Sampler::Hold() { before_ = pending(); }
 
 void Sampler::Release() {
-  holding_ = false;
+  before_.reset();
   for (const Samples& samples : held_) observer_.OnSamples(samples);
   held_.clear();
 }
 
 void Sampler::TakeBack() {
-  holding_ = false;
+  assert(before_);
+  Restore(*std::exchange(before_, std::nullopt));
   held_.clear();
-  next_ = next_before_;
-  samples_ = samples_before_;
 }
 
 }  // namespace contact

@@ -21,11 +21,6 @@ absl::Status Failed(const std::string& what) {
       absl::StrCat("cannot ", what, " the backup: ", std::generic_category().message(errno)));
 }
 
-void Remove(const fs::path& file) {
-  std::error_code missing;
-  fs::remove(file, missing);
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<BackupFile>> BackupFile::Adopt(const fs::path& path) {
@@ -50,7 +45,8 @@ absl::StatusOr<std::string> BackupFile::Read(std::int64_t offset, std::size_t mo
 
 Backup::~Backup() {
   copy_.reset();
-  if (!draft_.empty()) Remove(draft_);
+  std::error_code missing;
+  fs::remove(draft_, missing);
 }
 
 absl::StatusOr<bool> Backup::Step(Database& database) {

@@ -18,15 +18,18 @@ namespace contact {
 
 class Database;
 
-/// A copy of the store in a file without a name: it is gone when this is.
+/// A copy of the store in a file without a name: the file is gone when this is. Safe to read from
+/// any thread.
 class BackupFile {
  public:
-  /// Takes the file at `path` over and removes its name.
+  /// Opens the file at `path` and removes its name. UNAVAILABLE: the disk failed.
   static absl::StatusOr<std::unique_ptr<BackupFile>> Adopt(const std::filesystem::path& path);
 
-  std::int64_t size() const { return size_; }  ///< In bytes.
+  /// In bytes.
+  std::int64_t size() const { return size_; }
 
-  /// The bytes from `offset` on, `most` of them or as many as there are.
+  /// The bytes from `offset` on, `most` of them or as many as there are. `offset` is at most
+  /// size(). UNAVAILABLE: the disk failed, or the file is shorter than it was.
   absl::StatusOr<std::string> Read(std::int64_t offset, std::size_t most) const;
 
  private:
@@ -36,23 +39,29 @@ class BackupFile {
   const std::int64_t size_;
 };
 
-/// A backup on its way, see Store::Backup. Its file has a name only until it is complete.
+/// A backup that is being made, see Store::Backup. Its file has a name only until it is complete.
+/// Belongs to the store's thread.
 class Backup {
  public:
+  /// `stop`: the next step gives up once a stop is requested.
   explicit Backup(std::stop_token stop) : stop_(std::move(stop)) {}
+  /// Removes the file of a backup that is not complete.
   ~Backup();
   Backup(const Backup&) = delete;
   Backup& operator=(const Backup&) = delete;
 
-  /// Copies some more of the database. False: it is complete. CANCELLED: it was stopped.
+  /// Copies some more of the database. Returns false once the backup is complete. CANCELLED: a stop
+  /// was requested.
   absl::StatusOr<bool> Step(Database& database);
 
-  /// What was copied, once it is complete.
+  /// The copy, once it is complete; null before.
   std::unique_ptr<BackupFile> Take() { return std::move(file_); }
 
  private:
   const std::stop_token stop_;
-  std::filesystem::path draft_;  ///< Empty: there is none.
+  // Where the copy is made; empty before the first step.
+  std::filesystem::path draft_;
+  // Present while the copy is made.
   std::optional<DatabaseCopy> copy_;
   std::unique_ptr<BackupFile> file_;
 };

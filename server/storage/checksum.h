@@ -8,10 +8,11 @@
 namespace contact {
 
 /// CRC-32 (zlib's) of bytes and of the place where they belong, such as a sequence: bytes that
-/// were changed or that moved fail it.
+/// were changed or that moved fail it. From 0 to 2^32 − 1.
 std::int64_t Checksum(const std::string& bytes, std::uint64_t place = 0);
 
-/// The same of an event, which belongs to its sequence and is read by its coding.
+/// Checksum of an event with this sequence. Its coding counts as well, since that says how the
+/// bytes are read.
 std::int64_t Checksum(const CodedEvent& event, std::uint64_t sequence);
 
 }  // namespace contact

@@ -70,7 +70,6 @@ void CommitThread::Loop() {
   CancelTasks();
 }
 
-// Waits for operations. None at all: it is time to stop; an empty batch: to see to the database.
 std::optional<CommitThread::Batch> CommitThread::NextBatch() {
   const bool checkpointed = database_->log_pages() == 0;
   const MutexLock lock(mutex_);
@@ -128,7 +127,6 @@ void CommitThread::Count(std::chrono::steady_clock::time_point begin, std::size_
   metrics_->commit_operations.Count(static_cast<double>(operations));
 }
 
-// Does it in a transaction; on error nothing is done.
 absl::Status CommitThread::Try(const std::function<void()>& work) {
   if (!failure_.ok()) return failure_;
   try {
@@ -143,7 +141,6 @@ absl::Status CommitThread::Try(const std::function<void()>& work) {
   }
 }
 
-// Anything but success: it is done, or will be tried after the next batch.
 void CommitThread::Tidy() {
   bool more = false;
   const absl::Status status = Try([&] { more = tidy_(*database_); });

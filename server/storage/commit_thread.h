@@ -26,6 +26,7 @@ class Database;
 /// wait for others.
 class CommitThread {
  public:
+  /// A change or a question, of which many share a transaction.
   struct Operation {
     /// Runs inside the transaction. Runs again if an operation beside it made that fail.
     std::function<void(Database&)> run;
@@ -48,45 +49,62 @@ class CommitThread {
   CommitThread(std::unique_ptr<Database> database, std::function<bool(Database&)> tidy,
                std::function<void(const absl::Status&)> on_failure,
                std::shared_ptr<StoreMetrics> metrics, const Clock& clock);
-  /// Commits what was posted, then joins.
+  /// Commits what was posted, cancels the tasks, then joins.
   ~CommitThread();
 
   /// Thread-safe; returns at once. Operations run in the order of their posting.
   void Post(Operation operation);
-  /// The same; tasks run one after the other.
+  /// Thread-safe; returns at once. Tasks run one after the other, in the order of their posting.
   void Post(Task task);
 
  private:
   using Batch = std::vector<Operation>;
 
+  // All private methods run on the thread.
   void Loop();
+  // Waits for operations. Empty: the database is to be tidied or checkpointed, or a task goes on.
+  // None at all: it is time to stop.
   std::optional<Batch> NextBatch();
+  // Commits a batch as one transaction, or its operations one by one if that fails, and tells them.
   void Commit(Batch& batch);
+  // Counts a transaction of `operations` that began at `begin`.
   void Count(std::chrono::steady_clock::time_point begin, std::size_t operations,
              const absl::Status& status);
+  // Does `work` in a transaction; on error nothing is done.
   absl::Status Try(const std::function<void()>& work);
+  // Runs `tidy_`. What fails is tried again after the next batch.
   void Tidy();
+  // Runs a step of the task under way, and ends the task after the last one.
   void StepTask();
+  // Ends the task under way and tells it why.
   void EndTask(const absl::Status& status);
+  // Ends the task under way and those that wait.
   void CancelTasks();
+  // Folds the write-ahead log into the database file.
   void Checkpoint();
+  // Refuses everything from now on.
   void Fail(const absl::Status& failure);
 
-  const std::unique_ptr<Database> database_;  // Of the thread.
+  // Used by the thread alone, as all members up to `mutex_`.
+  const std::unique_ptr<Database> database_;
   const std::function<bool(Database&)> tidy_;
   const std::function<void(const absl::Status&)> on_failure_;
   const std::shared_ptr<StoreMetrics> metrics_;
   const Clock& clock_;
-  bool untidy_ = true;        // Of the thread: `tidy_` may have something to do.
-  absl::Status failure_;      // Of the thread.
-  std::optional<Task> task_;  // Of the thread: the one under way.
+  // True while `tidy_` may have something to do.
+  bool untidy_ = true;
+  // Why everything is refused; OK: nothing is.
+  absl::Status failure_;
+  // The task under way.
+  std::optional<Task> task_;
 
   Mutex mutex_;
   std::condition_variable_any posted_;
   Batch queue_ ABSL_GUARDED_BY(mutex_);
   std::deque<Task> tasks_ ABSL_GUARDED_BY(mutex_);
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
-  std::thread thread_;  // Last: it uses all of the above.
+  // Last, because it uses all of the above.
+  std::thread thread_;
 };
 
 }  // namespace contact

@@ -20,12 +20,14 @@ inline constexpr char kGiveAccess[] =
 class DataDirectory {
  public:
   /// Creates the folder if it is missing and locks it. UNAVAILABLE if another process holds it.
+  /// FAILED_PRECONDITION if it cannot be made or written.
   static absl::StatusOr<DataDirectory> Open(const std::filesystem::path& path);
 
   /// Locks it against processes that change it, without changing anything: for those that only
   /// read. UNAVAILABLE if another process holds it. NOT_FOUND: there is no such folder.
   static absl::StatusOr<DataDirectory> OpenToRead(const std::filesystem::path& path);
 
+  /// File of the database.
   std::filesystem::path database() const { return path_ / "contactd.db"; }
 
   /// Where a backup is made before it is sent. Removed at the next Open if a crash leaves it.
@@ -33,6 +35,7 @@ class DataDirectory {
 
   /// True once MarkInitialised succeeded: from then on a missing database is a loss.
   bool initialised() const;
+  /// Marks the directory as one in use, on disk. FAILED_PRECONDITION: it cannot be written.
   absl::Status MarkInitialised() const;
 
  private:
@@ -40,7 +43,8 @@ class DataDirectory {
       : path_(std::move(path)), lock_(std::move(lock)) {}
 
   std::filesystem::path path_;
-  FileDescriptor lock_;  ///< Holds the lock.
+  // The lock file, which is locked while this is open; none for a reader of an unused directory.
+  FileDescriptor lock_;
 };
 
 }  // namespace contact

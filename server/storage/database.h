@@ -30,33 +30,45 @@ class Database {
 
   /// The statement of an SQL text, prepared once. Use it through Query.
   SQLite::Statement& Prepared(const std::string& sql);
+  /// The key of the row inserted last, such as the number of a new job.
   std::int64_t LastInsertRowid() const { return connection_.getLastInsertRowid(); }
+  /// For transactions and copies.
   SQLite::Database& connection() { return connection_; }
   const DataDirectory& directory() const { return directory_; }
 
   /// Pages in the write-ahead log that are not in the database file yet.
   int log_pages() const { return log_pages_; }
-  /// Moves them there.
+  /// Copies the pages of the write-ahead log into the database file.
   void Checkpoint();
 
  private:
   explicit Database(DataDirectory directory);
+  // Fills `version_`. DATA_LOSS: damaged; FAILED_PRECONDITION: newer than this program.
   absl::Status Check();
+  // Puts a copy beside a database that is about to be migrated.
   void KeepOldVersion();
+  // Makes the tables, or brings those of an older version up to date, and marks the directory.
   absl::Status BringUpToDate();
+  // Sets how SQLite commits and what it allows.
   void Configure(std::int64_t max_bytes);
+  // The one number that a query gives.
   std::int64_t Number(const char* sql);
 
   DataDirectory directory_;
   SQLite::Database connection_;
-  std::map<std::string, SQLite::Statement> statements_;  // After connection_: they go first.
-  int version_ = 0;                                      // Of the schema; 0: there is none.
+  // By SQL text. After connection_, because they must go before it.
+  std::map<std::string, SQLite::Statement> statements_;
+  // Schema version of the database that was found; 0: it had no tables.
+  int version_ = 0;
+  // Updated by a hook of SQLite at each commit.
   int log_pages_ = 0;
 };
 
-/// One use of a prepared statement: binds its parameters in order, and resets it at the end.
+/// One use of a prepared statement: binds its parameters in order, and resets it at the end. Two
+/// uses of one SQL text must not overlap. Columns are counted from 0.
 class Query {
  public:
+  /// Binds `values` to the first parameters of the statement.
   template <class... Values>
   Query(Database& database, const std::string& sql, const Values&... values)
       : statement_(database.Prepared(sql)) {
@@ -74,7 +86,9 @@ class Query {
   /// Runs a statement without rows and returns the number of rows changed.
   int Run() { return statement_.exec(); }
 
+  /// An integer of the present row; 0 for NULL.
   std::int64_t Integer(int column) const { return statement_.getColumn(column).getInt64(); }
+  /// A text or blob of the present row; empty for NULL.
   std::string Bytes(int column) const { return statement_.getColumn(column).getString(); }
 
   /// Bytes to store as they are; they must outlive the query.
@@ -95,6 +109,12 @@ class Query {
   SQLite::Statement& statement_;
   int bound_ = 0;
 };
+
+/// Runs a statement without rows, with these values for its parameters.
+template <class... Values>
+void Execute(Database& database, const std::string& sql, const Values&... values) {
+  Query(database, sql, values...).Run();
+}
 
 /// What an error means. RESOURCE_EXHAUSTED: no space; DATA_LOSS: damaged; UNAVAILABLE: the disk
 /// failed; else INTERNAL.

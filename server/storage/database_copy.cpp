@@ -15,15 +15,11 @@ namespace fs = std::filesystem;
 // Bounds how long one step holds up the commits: 1 MiB.
 constexpr int kPagesAStep = 256;
 
-void Remove(const fs::path& file) {
-  std::error_code missing;
-  fs::remove(file, missing);
-}
-
 }  // namespace
 
 DatabaseCopy::DatabaseCopy(SQLite::Database& from, const fs::path& to) {
-  Remove(to);
+  std::error_code missing;
+  fs::remove(to, missing);
   to_.emplace(to, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   // A copy that is not finished is worth nothing, so nothing of it is kept safe on the way.
   to_->exec("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF");

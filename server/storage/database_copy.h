@@ -13,18 +13,22 @@ namespace contact {
 /// last step. SQL errors, also of the copy, are thrown as SQLite::Exception.
 class DatabaseCopy {
  public:
-  /// Replaces a file that is there.
+  /// Begins to copy `from`, which must outlive this, into the file `to`. Replaces a file that is
+  /// there.
   DatabaseCopy(SQLite::Database& from, const std::filesystem::path& to);
 
-  /// Copies about 1 MiB. False: it is done, and the file is closed but not synchronised.
+  /// Copies about 1 MiB. Returns false once the copy is complete; the file is then closed, but not
+  /// synchronised.
   bool Step();
 
  private:
   std::optional<SQLite::Database> to_;
-  std::optional<SQLite::Backup> backup_;  // After to_: it goes first.
+  // After to_, because it must go before it.
+  std::optional<SQLite::Backup> backup_;
 };
 
-/// Copies a database as a whole; the file is on disk, or there is none.
+/// Copies a database as a whole into the file `to`. The file appears complete and synchronised, or
+/// not at all. Errors are thrown as SQLite::Exception.
 void CopyDatabase(SQLite::Database& from, const std::filesystem::path& to);
 
 }  // namespace contact

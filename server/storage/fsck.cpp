@@ -57,20 +57,38 @@ absl::StatusOr<Connection> OpenToCheck(const fs::path& file) {
   }
 }
 
+// A row that a query found.
+class Row {
+ public:
+  explicit Row(SQLite::Statement& query) : query_(query) {}
+
+  std::int64_t Integer(int column) const { return query_.getColumn(column).getInt64(); }
+  std::string Bytes(int column) const { return query_.getColumn(column).getString(); }
+
+ private:
+  SQLite::Statement& query_;
+};
+
 class Checker {
  public:
   Checker(SQLite::Database& connection, const std::function<void(const std::string&)>& tell)
       : connection_(connection), tell_(tell) {}
 
   FsckReport Run() {
-    Guard("database", &Checker::CheckPages);
-    Guard("database", &Checker::CheckReferences);
-    Guard("jobs", &Checker::CheckJobs);
-    Guard("specs", &Checker::CheckSpecs);
-    Guard("results", &Checker::CheckResults);
-    Guard("events", &Checker::CheckEvents);
-    Guard("checkpoints", &Checker::CheckCheckpoints);
-    Guard("jobs", &Checker::CheckTotals);
+    Check("database", "PRAGMA integrity_check(100)", &Checker::CheckPage);
+    Check("database", "PRAGMA foreign_key_check", &Checker::CheckReference);
+    Check("jobs",
+          "SELECT number, name, state, last_sequence, bytes, crc32, header, oldest_sequence"
+          " FROM jobs ORDER BY number",
+          &Checker::CheckJob);
+    Check("specs", "SELECT job, crc32, spec FROM specs", &Checker::CheckSpec);
+    Check("results", "SELECT job, crc32, result FROM results", &Checker::CheckResult);
+    Check("events",
+          "SELECT job, sequence, kind, coding, crc32, payload FROM events"
+          " WHERE job NOT IN (SELECT job FROM removed) ORDER BY job, sequence",
+          &Checker::CheckEvent);
+    Check("checkpoints", "SELECT job, crc32, state FROM checkpoints", &Checker::CheckCheckpoint);
+    CheckTotals();
     return report_;
   }
 
@@ -92,113 +110,83 @@ class Checker {
     tell_(absl::StrCat(words...));
   }
 
-  // A page that cannot be read ends one part of the check, not all of it.
-  void Guard(const char* part, void (Checker::*check)()) {
+  // Checks every row of a query. A page that cannot be read ends this part of the check, not all
+  // of it.
+  void Check(const char* part, const char* sql, void (Checker::*check)(Row)) {
     try {
-      (this->*check)();
+      SQLite::Statement query(connection_, sql);
+      while (query.executeStep()) (this->*check)(Row(query));
     } catch (const SQLite::Exception& error) {
       Find(part, ": cannot be read to the end: ", error.what());
     }
   }
 
-  void CheckPages() {
-    SQLite::Statement query(connection_, "PRAGMA integrity_check(100)");
-    while (query.executeStep()) {
-      const std::string verdict = query.getColumn(0).getString();
-      if (verdict != "ok") Find("database: ", verdict);
+  void CheckPage(Row row) {
+    if (const std::string verdict = row.Bytes(0); verdict != "ok") Find("database: ", verdict);
+  }
+
+  void CheckReference(Row row) { Find("database: a row of ", row.Bytes(0), " belongs to no job"); }
+
+  void CheckJob(Row row) {
+    ++report_.jobs;
+    Job& job = jobs_[row.Integer(0)];
+    job.name = row.Bytes(1);
+    job.last_sequence = row.Integer(3);
+    job.bytes = row.Integer(4);
+    job.oldest_sequence = row.Integer(7);
+    const std::string header = row.Bytes(6);
+    v1::Job message;
+    if (Checksum(header) != row.Integer(5)) {
+      Find(job.name, ": the job fails its checksum");
+    } else if (!message.ParseFromString(header) || message.name() != job.name ||
+               message.state() != row.Integer(2)) {
+      Find(job.name, ": the job is not what its row says");
     }
   }
 
-  void CheckReferences() {
-    SQLite::Statement query(connection_, "PRAGMA foreign_key_check");
-    while (query.executeStep()) {
-      Find("database: a row of ", query.getColumn(0).getString(), " belongs to no job");
+  void CheckSpec(Row row) { CheckPart("spec", row); }
+  void CheckResult(Row row) { CheckPart("result", row); }
+
+  void CheckPart(const std::string& part, Row row) {
+    const auto job = jobs_.find(row.Integer(0));
+    if (job == jobs_.end()) return;  // CheckReference has told.
+    const std::string bytes = row.Bytes(2);
+    job->second.found_bytes += static_cast<std::int64_t>(bytes.size());
+    job->second.has_spec |= part == "spec";
+    v1::Job message;
+    if (Checksum(bytes) != row.Integer(1)) {
+      Find(job->second.name, ": its ", part, " fails its checksum");
+    } else if (!message.ParseFromString(bytes)) {
+      Find(job->second.name, ": its ", part, " is no message");
     }
   }
 
-  void CheckJobs() {
-    SQLite::Statement query(connection_,
-                            "SELECT number, name, state, last_sequence, bytes, crc32, header,"
-                            " oldest_sequence FROM jobs ORDER BY number");
-    while (query.executeStep()) {
-      ++report_.jobs;
-      Job& job = jobs_[query.getColumn(0).getInt64()];
-      job.name = query.getColumn(1).getString();
-      job.last_sequence = query.getColumn(3).getInt64();
-      job.bytes = query.getColumn(4).getInt64();
-      job.oldest_sequence = query.getColumn(7).getInt64();
-      const std::string header = query.getColumn(6).getString();
-      v1::Job message;
-      if (Checksum(header) != query.getColumn(5).getInt64()) {
-        Find(job.name, ": the job fails its checksum");
-      } else if (!message.ParseFromString(header) || message.name() != job.name ||
-                 message.state() != query.getColumn(2).getInt()) {
-        Find(job.name, ": the job is not what its row says");
-      }
+  void CheckEvent(Row row) {
+    ++report_.events;
+    const auto found = jobs_.find(row.Integer(0));
+    if (found == jobs_.end()) return Find("database: an event belongs to no job");
+    Job& job = found->second;
+    const std::int64_t sequence = row.Integer(1);
+    const CodedEvent coded{static_cast<Coding>(row.Integer(3)), row.Bytes(5)};
+    if (sequence != job.found_sequence + 1 && sequence > job.oldest_sequence) {
+      Find(job.name, ": events ", job.found_sequence + 1, " to ", sequence - 1, " are missing");
     }
-  }
-
-  void CheckSpecs() { CheckPart("spec", "SELECT job, crc32, spec FROM specs"); }
-  void CheckResults() { CheckPart("result", "SELECT job, crc32, result FROM results"); }
-
-  void CheckPart(const std::string& part, const char* sql) {
-    SQLite::Statement query(connection_, sql);
-    while (query.executeStep()) {
-      const auto job = jobs_.find(query.getColumn(0).getInt64());
-      if (job == jobs_.end()) continue;  // CheckReferences has told.
-      const std::string bytes = query.getColumn(2).getString();
-      job->second.found_bytes += static_cast<std::int64_t>(bytes.size());
-      job->second.has_spec |= part == "spec";
-      v1::Job message;
-      if (Checksum(bytes) != query.getColumn(1).getInt64()) {
-        Find(job->second.name, ": its ", part, " fails its checksum");
-      } else if (!message.ParseFromString(bytes)) {
-        Find(job->second.name, ": its ", part, " is no message");
-      }
-    }
-  }
-
-  void CheckEvents() {
-    SQLite::Statement query(connection_,
-                            "SELECT job, sequence, kind, coding, crc32, payload FROM events"
-                            " WHERE job NOT IN (SELECT job FROM removed) ORDER BY job, sequence");
-    while (query.executeStep()) {
-      ++report_.events;
-      const auto job = jobs_.find(query.getColumn(0).getInt64());
-      if (job == jobs_.end()) {
-        Find("database: an event belongs to no job");
-      } else {
-        CheckEvent(query, &job->second);
-      }
-    }
-  }
-
-  void CheckEvent(SQLite::Statement& query, Job* job) {
-    const std::int64_t sequence = query.getColumn(1).getInt64();
-    const CodedEvent coded{static_cast<Coding>(query.getColumn(3).getInt()),
-                           query.getColumn(5).getString()};
-    if (sequence != job->found_sequence + 1 && sequence > job->oldest_sequence) {
-      Find(job->name, ": events ", job->found_sequence + 1, " to ", sequence - 1, " are missing");
-    }
-    job->found_sequence = sequence;
-    job->found_bytes += static_cast<std::int64_t>(coded.bytes.size());
+    job.found_sequence = sequence;
+    job.found_bytes += static_cast<std::int64_t>(coded.bytes.size());
     v1::Event event;
-    if (Checksum(coded, static_cast<std::uint64_t>(sequence)) != query.getColumn(4).getInt64()) {
-      Find(job->name, ": event ", sequence, " fails its checksum");
+    if (Checksum(coded, static_cast<std::uint64_t>(sequence)) != row.Integer(4)) {
+      Find(job.name, ": event ", sequence, " fails its checksum");
     } else if (!DecodeEvent(coded.coding, coded.bytes, &event) ||
-               static_cast<int>(event.payload_case()) != query.getColumn(2).getInt()) {
-      Find(job->name, ": event ", sequence, " is not what its row says");
+               event.payload_case() != row.Integer(2)) {
+      Find(job.name, ": event ", sequence, " is not what its row says");
     }
   }
 
-  void CheckCheckpoints() {
-    SQLite::Statement query(connection_, "SELECT job, crc32, state FROM checkpoints");
-    while (query.executeStep()) {
-      const auto job = jobs_.find(query.getColumn(0).getInt64());
-      if (job == jobs_.end()) continue;  // CheckReferences has told.
-      if (Checksum(query.getColumn(2).getString()) != query.getColumn(1).getInt64()) {
-        Find(job->second.name, ": its checkpoint fails its checksum");
-      }
+  void CheckCheckpoint(Row row) {
+    const auto job = jobs_.find(row.Integer(0));
+    if (job == jobs_.end()) return;  // CheckReference has told.
+    if (Checksum(row.Bytes(2)) != row.Integer(1)) {
+      Find(job->second.name, ": its checkpoint fails its checksum");
     }
   }
 

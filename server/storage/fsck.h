@@ -11,8 +11,11 @@ namespace contact {
 
 /// What was looked at, and how much of it is not as it should be.
 struct FsckReport {
+  /// Jobs looked at.
   std::int64_t jobs = 0;
+  /// Events looked at; those of removed jobs do not count.
   std::int64_t events = 0;
+  /// Lines told. 0: no damage.
   std::int64_t findings = 0;
 };
 

@@ -11,22 +11,32 @@
 
 namespace contact {
 
-/// How messages become bytes: the pieces in which a job is stored, by how often they change.
-/// Put together in any order they parse to the whole job.
+/// The pieces in which a job is stored, by how often they change. Each is a serialised v1::Job with
+/// some of its fields; put together in any order they parse to the whole job.
 struct JobParts {
-  std::string header;  ///< All but the other two; rewritten at every transition.
-  std::string spec;    ///< Spec and labels, as the client sent them. Equal jobs, equal bytes.
-  std::string result;  ///< Cycles and final bodies, written once; empty if there are none.
-  std::int64_t end_time = 0;  ///< See JobSize.
+  /// All fields but the spec, cycles and final bodies. Rewritten at every transition.
+  std::string header;
+  /// What the client sent: spec, labels, priority, budget and time to live. Equal jobs give equal
+  /// bytes.
+  std::string spec;
+  /// Cycles and final bodies, written once; empty if there are none.
+  std::string result;
+  /// See JobSize.
+  std::int64_t end_time = 0;
 };
+
+/// Serialises the pieces of a job.
 JobParts Split(const v1::Job& job);
 
-/// A stored event: its kind (the field number of its payload) and its message. Making rows
-/// compresses, so it is done before they reach the store's thread.
+/// An event to be stored.
 struct EventRow {
+  /// Field number of its payload.
   int kind = 0;
   CodedEvent event;
 };
+
+/// Serialises and compresses events. Takes long for frame chunks, so it is done before they reach
+/// the store's thread.
 std::vector<EventRow> ToRows(absl::Span<const v1::Event> events);
 
 }  // namespace contact

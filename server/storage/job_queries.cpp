@@ -47,6 +47,18 @@ JobRow RowOf(const Query& query) {
   return row;
 }
 
+StoredEvent EventOf(const Query& query) {
+  StoredEvent event;
+  event.sequence = static_cast<std::uint64_t>(query.Integer(0));
+  event.kind = static_cast<v1::Event::PayloadCase>(query.Integer(4));
+  CodedEvent coded{static_cast<Coding>(query.Integer(2)), query.Bytes(3)};
+  event.intact = Checksum(coded, event.sequence) == query.Integer(1);
+  if (!event.intact) return event;
+  event.coding = coded.coding;
+  event.bytes = std::move(coded.bytes);
+  return event;
+}
+
 // Adds the bytes that `sql` finds for the job, if any.
 void MergePart(Database& database, const std::string& sql, JobRow& row) {
   Query query(database, sql, row.number);
@@ -175,22 +187,12 @@ absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query
              " AND sequence<=? AND (1<<kind)&? ORDER BY sequence",
              job.Integer(0), query.after, page.position, query.kinds);
   for (std::size_t bytes = 0; rows.Next();) {
-    StoredEvent event;
-    event.sequence = static_cast<std::uint64_t>(rows.Integer(0));
     if (bytes >= query.max_bytes) {
       page.position = page.events.back().sequence;
       break;
     }
-    event.kind = static_cast<v1::Event::PayloadCase>(rows.Integer(4));
-    CodedEvent coded{static_cast<Coding>(rows.Integer(2)), rows.Bytes(3)};
-    event.intact = Checksum(coded, event.sequence) == rows.Integer(1);
-    if (event.intact) {
-      event.coding = coded.coding;
-      event.bytes = std::move(coded.bytes);
-      bytes += DecodedSize(event.coding, event.bytes);
-    }
-    ++bytes;
-    page.events.push_back(std::move(event));
+    const StoredEvent& event = page.events.emplace_back(EventOf(rows));
+    bytes += DecodedSize(event.coding, event.bytes) + 1;
   }
   return page;
 }

@@ -14,17 +14,22 @@ class Database;
 
 /// Operations that read the tables. SQL errors are thrown as SQLite::Exception.
 
+/// NOT_FOUND, for a job with this name.
 absl::Status NoSuchJob(const std::string& name);
-/// DATA_LOSS.
+/// DATA_LOSS, for a job that is damaged.
 absl::Status FailsChecksum(const std::string& name);
-/// ABORTED, with the uid that the job has.
+/// ABORTED, with the uid of `job`, which is not the one expected, as the payload kUidPayload.
 absl::Status OtherJob(const v1::Job& job);
 
-/// See the functions of Store with these names.
+/// See Store::Read.
 absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobPart part);
+/// See Store::List.
 JobPage List(Database& database, const JobQuery& query);
+/// See Store::ListUnfinished.
 std::vector<StoredJob> ListUnfinished(Database& database);
+/// See Store::Sizes.
 std::vector<JobSize> Sizes(Database& database);
+/// See Store::ReadEvents. Looks at 4096 events at most.
 absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query);
 
 }  // namespace contact

@@ -16,26 +16,37 @@ namespace contact {
 
 /// A job to be created. Only looked at during the call.
 struct NewJob {
-  const v1::Job& job;                  ///< `name` is new; its output fields are stored as they are.
-  const std::string& request_id;       ///< Empty: none.
-  absl::Span<const v1::Event> events;  ///< The first of its log, without sequence.
-  bool may_create = true;  ///< False: only answer a repeated request; RESOURCE_EXHAUSTED if new.
+  /// Its `name` is new. Its output fields are stored as they are.
+  const v1::Job& job;
+  /// Empty: none.
+  const std::string& request_id;
+  /// The first events of its log, without sequence.
+  absl::Span<const v1::Event> events;
+  /// False: a repeated request is answered, a new one is RESOURCE_EXHAUSTED.
+  bool may_create = true;
 };
 
-/// Where the run of a job may go on after a crash. Goes when the job ends.
+/// Where the run of a job may go on after a crash. Removed when the job ends.
 struct Checkpoint {
-  std::size_t events = 0;  ///< Of the update, those that came before it.
-  std::string state;       ///< For whoever runs it.
+  /// How many events of the same update came before the checkpoint.
+  std::size_t events = 0;
+  /// Bytes that only the program that runs the job understands.
+  std::string state;
 };
 
 /// A change of a job, written as a whole. Only looked at during the call.
 struct JobUpdate {
   const std::string& name;
-  std::uint64_t epoch = 0;  ///< The job must have this one, else ABORTED: another owner took it.
-  bool take = false;        ///< Take the job: its epoch becomes `epoch` + 1.
-  const v1::Job* job = nullptr;  ///< Replaces the stored job, except for its spec; or null.
-  absl::Span<const v1::Event> events = {};  ///< Appended to its log, without sequence.
-  const Checkpoint* checkpoint = nullptr;   ///< Replaces the one before; or null.
+  /// The epoch that the job must have, else ABORTED: another owner took the job.
+  std::uint64_t epoch = 0;
+  /// Takes the job: its epoch becomes `epoch` + 1.
+  bool take = false;
+  /// Replaces the stored job, except for its spec; or null.
+  const v1::Job* job = nullptr;
+  /// Appended to the log of the job, without sequence.
+  absl::Span<const v1::Event> events = {};
+  /// Replaces the checkpoint of the job; or null.
+  const Checkpoint* checkpoint = nullptr;
 };
 
 /// Payload of a status: the uid of the job that was found in place of the one expected.
@@ -43,75 +54,112 @@ inline constexpr char kUidPayload[] = "contact/uid";
 
 /// What of a job to read.
 enum class JobPart {
-  kHeader,  ///< All but spec, cycles and final bodies.
-  kSpec,    ///< Header and spec.
-  kRun,     ///< The same, and the checkpoint.
-  kAll,     ///< Header, spec, and the result: cycles and final bodies, not parsed.
+  /// All but spec, cycles and final bodies.
+  kHeader,
+  /// Header and spec.
+  kSpec,
+  /// Header, spec and checkpoint.
+  kRun,
+  /// Header, spec, and the result, not parsed: cycles and final bodies.
+  kAll,
 };
 
+/// A job as it was read.
 struct StoredJob {
   v1::Job job;
+  /// Grows by 1 each time the job is taken, see JobUpdate::take.
   std::uint64_t epoch = 0;
+  /// See Store::RequestCancel.
   bool cancel_requested = false;
-  bool compacted = false;  ///< By Compact.
-  bool created = false;    ///< By this call of Create.
-  bool intact = true;      ///< False: fails its checksum; only name, state and sequences are true.
-  std::string checkpoint = {};            ///< Empty: none, or a damaged one.
-  std::uint64_t checkpoint_sequence = 0;  ///< Of the last event before it.
-  std::string result = {};                ///< As it is stored; empty: none, or not asked for.
+  /// See Store::Compact.
+  bool compacted = false;
+  /// True if this call of Store::Create made the job.
+  bool created = false;
+  /// False if the job fails its checksum: then only name, state and sequences of `job` are right.
+  bool intact = true;
+  /// Checkpoint::state; empty without one, or if it is damaged.
+  std::string checkpoint = {};
+  /// Sequence of the last event before the checkpoint.
+  std::uint64_t checkpoint_sequence = 0;
+  /// The result as it is stored; empty if there is none or none was asked for.
+  std::string result = {};
+  /// Checksum of `result`.
   std::int64_t result_crc32 = 0;
 
-  /// Puts the result into the job. A long ledger takes a while: not for the store's thread. False
-  /// if it is damaged.
+  /// Moves the result into `job`. Parsing a long ledger takes long: not for the store's thread.
+  /// Returns false if the result is damaged.
   bool MergeResult();
 };
 
+/// Which jobs to list.
 struct JobQuery {
-  std::vector<int> states = {};                                  ///< One of these; empty: all.
-  std::vector<std::pair<std::string, std::string>> labels = {};  ///< All of these.
-  std::int64_t before = 0;  ///< JobPage::next of the page before; 0: from the newest.
+  /// Jobs in one of these states; empty: in any.
+  std::vector<int> states = {};
+  /// Jobs that have all of these labels.
+  std::vector<std::pair<std::string, std::string>> labels = {};
+  /// JobPage::next of the page before; 0: from the newest job on.
+  std::int64_t before = 0;
+  /// Most jobs of the page, > 0.
   int limit = 50;
 };
 
+/// Some of the jobs that a query asks for.
 struct JobPage {
-  std::vector<StoredJob> jobs;  ///< Headers, newest first.
-  std::int64_t next = 0;        ///< 0: no more.
+  /// Headers, newest job first.
+  std::vector<StoredJob> jobs;
+  /// JobQuery::before of the next page; 0: there is none.
+  std::int64_t next = 0;
 };
 
 /// What an ended job takes.
 struct JobSize {
   std::string name;
-  std::int64_t end_time = 0;  ///< Unix time in seconds; 0 if the job does not tell.
-  std::int64_t bytes = 0;     ///< Stored of its events, spec and result.
+  /// Unix time in seconds; 0 if the job does not tell.
+  std::int64_t end_time = 0;
+  /// Bytes stored of its events, spec and result.
+  std::int64_t bytes = 0;
 };
 
+/// Which events of a job to read.
 struct EventQuery {
   std::string name;
-  std::uint64_t after = 0;          ///< Only events after this sequence.
-  std::uint32_t kinds = ~0U;        ///< Only kinds k with bit k set; see KindBit.
-  std::size_t max_bytes = 1 << 18;  ///< About, decoded; at least one event is read.
+  /// Events with a larger sequence.
+  std::uint64_t after = 0;
+  /// Events of the kinds k whose bit k is set; see KindBit.
+  std::uint32_t kinds = ~0U;
+  /// About the bytes of a page, decoded. A page has at least one event, however large.
+  std::size_t max_bytes = 1 << 18;
 };
 
+/// The bit of a kind of event in EventQuery::kinds.
 inline std::uint32_t KindBit(v1::Event::PayloadCase kind) { return 1U << kind; }
 
+/// An event as it was read.
 struct StoredEvent {
   std::uint64_t sequence = 0;
   v1::Event::PayloadCase kind = v1::Event::PAYLOAD_NOT_SET;
   Coding coding = Coding::kPlain;
-  std::string bytes;   ///< As they are stored; empty if not intact.
-  bool intact = true;  ///< False: fails its checksum.
+  /// As they are stored; empty if not intact.
+  std::string bytes;
+  /// False if the event fails its checksum.
+  bool intact = true;
 
-  /// Decodes the event, without sequence. Takes a while for a frame chunk: not for the store's
-  /// thread. False if it is damaged.
-  bool Parse(v1::Event* event) const;
-  /// The same as a serialised message. Takes the bytes.
-  bool TakePayload(std::string* payload);
+  /// Decodes the event, which has no sequence. Takes long for a frame chunk: not for the store's
+  /// thread. Returns false if the event is damaged.
+  bool Parse(v1::Event* event) const { return intact && DecodeEvent(coding, bytes, event); }
+  /// As Parse, but gives the serialised message. Leaves no bytes behind.
+  bool TakePayload(std::string* payload) {
+    return intact && DecodePayload(coding, std::move(bytes), payload);
+  }
 };
 
+/// Some of the events that a query asks for.
 struct EventPage {
   std::vector<StoredEvent> events;
-  std::uint64_t position = 0;  ///< All events asked for up to here have been read.
-  std::uint64_t oldest = 1;    ///< From here on all are there; before it frame chunks were dropped.
+  /// All events asked for up to this sequence have been read: EventQuery::after of the next page.
+  std::uint64_t position = 0;
+  /// From this sequence on all events are there. Frame chunks before it were dropped.
+  std::uint64_t oldest = 1;
 };
 
 }  // namespace contact

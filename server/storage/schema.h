@@ -5,13 +5,15 @@
 
 namespace contact {
 
-/// Version of the tables below, kept in PRAGMA user_version. Meaning of each: README.md.
+/// Version of the tables below, kept in PRAGMA user_version of the database. A change of the tables
+/// raises it by 1 and adds a step to migration.cpp.
 inline constexpr int kSchemaVersion = 3;
 
-/// SQL condition on a row of jobs: the job has ended.
+/// SQL condition on a row of jobs: the job has ended, so its state is one of those below.
 inline constexpr char kEnded[] = "state IN (3,4,5)";
 static_assert(v1::Job::SUCCEEDED == 3 && v1::Job::FAILED == 4 && v1::Job::CANCELLED == 5);
 
+/// The tables of a new database, without those of kSchemaOfVersion3. Meaning of each: README.md.
 inline constexpr char kSchema[] = R"sql(
 CREATE TABLE jobs(
   number INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -65,7 +67,8 @@ CREATE TABLE removed(
 ) STRICT;
 )sql";
 
-/// What version 3 has added.
+/// The tables that version 3 added: for compacted jobs, and for the checkpoints of runs. Both new
+/// and migrated databases get them by this text.
 inline constexpr char kSchemaOfVersion3[] = R"sql(
 CREATE TABLE compacting(
   job INTEGER PRIMARY KEY REFERENCES jobs ON DELETE CASCADE,

@@ -7,6 +7,7 @@
 #include "storage/database.h"
 #include "storage/job_changes.h"
 #include "storage/job_queries.h"
+#include "storage/purge.h"
 
 namespace contact {
 namespace {
@@ -33,7 +34,6 @@ Store::Store(std::unique_ptr<Database> database, StoreOptions options)
 
 Store::~Store() = default;
 
-// `run` gives what `done` gets, once the transaction around it is committed.
 template <class T, class Run>
 void Store::Post(Run run, Callback<T> done) {
   const auto result = std::make_shared<std::optional<absl::StatusOr<T>>>();
@@ -52,9 +52,8 @@ void Store::Create(const NewJob& job, Callback<StoredJob> done) {
   JobInsert insert{job.job.name(), job.request_id,     job.job.state(), {},
                    Split(job.job), ToRows(job.events), job.may_create};
   insert.labels.assign(job.job.labels().begin(), job.job.labels().end());
-  Post<StoredJob>(
-      [insert = std::move(insert)](Database& database) { return Insert(database, insert); },
-      std::move(done));
+  Post([insert = std::move(insert)](Database& database) { return Insert(database, insert); },
+       std::move(done));
 }
 
 Store::Encoded Store::Encode(const JobUpdate& update) {
@@ -72,55 +71,52 @@ void Store::Update(const JobUpdate& update, Callback<std::uint64_t> done) {
 }
 
 void Store::Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done) {
-  Post<std::uint64_t>([change = std::move(change),
-                       epoch](Database& database) { return Change(database, *change, epoch); },
-                      std::move(done));
+  Post([change = std::move(change),
+        epoch](Database& database) { return Change(database, *change, epoch); },
+       std::move(done));
 }
 
 void Store::RequestCancel(std::string name, Callback<bool> done) {
-  Post<bool>([name = std::move(name)](
-                 Database& database) { return Done(MarkCancelRequested(database, name)); },
-             std::move(done));
+  Post([name = std::move(name)](
+           Database& database) { return Done(MarkCancelRequested(database, name)); },
+       std::move(done));
 }
 
 void Store::Read(std::string name, JobPart part, Callback<StoredJob> done) {
-  Post<StoredJob>([name = std::move(name),
-                   part](Database& database) { return contact::Read(database, name, part); },
-                  std::move(done));
+  Post([name = std::move(name),
+        part](Database& database) { return contact::Read(database, name, part); },
+       std::move(done));
 }
 
 void Store::List(JobQuery query, Callback<JobPage> done) {
-  Post<JobPage>(
-      [query = std::move(query)](Database& database) { return contact::List(database, query); },
-      std::move(done));
+  Post([query = std::move(query)](Database& database) { return contact::List(database, query); },
+       std::move(done));
 }
 
 void Store::ListUnfinished(Callback<std::vector<StoredJob>> done) {
-  Post<std::vector<StoredJob>>([](Database& database) { return contact::ListUnfinished(database); },
-                               std::move(done));
+  Post([](Database& database) { return contact::ListUnfinished(database); }, std::move(done));
 }
 
 void Store::Sizes(Callback<std::vector<JobSize>> done) {
-  Post<std::vector<JobSize>>([](Database& database) { return contact::Sizes(database); },
-                             std::move(done));
+  Post([](Database& database) { return contact::Sizes(database); }, std::move(done));
 }
 
 void Store::ReadEvents(EventQuery query, Callback<EventPage> done) {
-  Post<EventPage>([query = std::move(query)](
-                      Database& database) { return contact::ReadEvents(database, query); },
-                  std::move(done));
+  Post([query =
+            std::move(query)](Database& database) { return contact::ReadEvents(database, query); },
+       std::move(done));
 }
 
 void Store::Delete(std::string name, std::string expected_uid, Callback<bool> done) {
-  Post<bool>([name = std::move(name), uid = std::move(expected_uid)](
-                 Database& database) { return Done(Remove(database, name, uid)); },
-             std::move(done));
+  Post([name = std::move(name), uid = std::move(expected_uid)](
+           Database& database) { return Done(Remove(database, name, uid)); },
+       std::move(done));
 }
 
 void Store::Compact(std::string name, Callback<bool> done) {
-  Post<bool>([name = std::move(name)](
-                 Database& database) { return Done(contact::Compact(database, name)); },
-             std::move(done));
+  Post([name =
+            std::move(name)](Database& database) { return Done(contact::Compact(database, name)); },
+       std::move(done));
 }
 
 void Store::Backup(std::stop_token stop, Callback<std::unique_ptr<BackupFile>> done) {

@@ -22,6 +22,7 @@ namespace contact {
 class Database;
 struct JobChange;
 
+/// How a store is opened.
 struct StoreOptions {
   /// Largest size of the database in bytes; past it writes are RESOURCE_EXHAUSTED. 0: the disk's.
   std::int64_t max_bytes = 0;
@@ -44,6 +45,7 @@ struct StoreOptions {
 ///   UNAVAILABLE         the disk failed
 class Store {
  public:
+  /// What a call runs once with its answer.
   template <class T>
   using Callback = std::function<void(absl::StatusOr<T>)>;
 
@@ -56,31 +58,35 @@ class Store {
   ~Store();
 
   /// Stores a job with the first events of its log and answers its header; or, if `request_id` was
-  /// used before with the same spec and labels, answers all of that job. ALREADY_EXISTS: it was
-  /// used with others.
+  /// used before to ask for the same, answers all of that job. ALREADY_EXISTS: it was used to ask
+  /// for something else. See JobParts::spec.
   void Create(const NewJob& job, Callback<StoredJob> done);
 
   /// Changes a job and appends to its log in one transaction. Answers the sequence of the first
   /// event appended; the others follow without a hole. ABORTED: stale epoch. NOT_FOUND.
   void Update(const JobUpdate& update, Callback<std::uint64_t> done);
 
-  /// The same in two steps: the first serialises and compresses, on the caller's thread; the
-  /// second costs next to nothing, also on the store's, and may be done again after a failure.
+  /// An update that is serialised and compressed already.
   using Encoded = std::shared_ptr<const JobChange>;
+  /// The first step of an update, on the caller's thread: serialises and compresses.
   static Encoded Encode(const JobUpdate& update);
+  /// The second step. Costs little, also on the store's thread, and may be done again after a
+  /// failure. `epoch`: see JobUpdate.
   void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done);
 
   /// Remembers that a user wants a job cancelled, whoever runs it. NOT_FOUND.
   void RequestCancel(std::string name, Callback<bool> done);
 
-  /// NOT_FOUND.
+  /// Reads a job, or the parts of it that `part` names. NOT_FOUND.
   void Read(std::string name, JobPart part, Callback<StoredJob> done);
+  /// A page of the jobs that `query` asks for, newest first.
   void List(JobQuery query, Callback<JobPage> done);
   /// Headers of the jobs that are QUEUED or RUNNING, oldest first.
   void ListUnfinished(Callback<std::vector<StoredJob>> done);
-  /// Of the jobs that have ended, the oldest end first.
+  /// Sizes of the jobs that have ended, the oldest end first.
   void Sizes(Callback<std::vector<JobSize>> done);
-  /// NOT_FOUND. A page may be empty though more follows; go on from its position.
+  /// A page of a job's log. A page may be empty though more follows; go on from its position.
+  /// NOT_FOUND.
   void ReadEvents(EventQuery query, Callback<EventPage> done);
 
   /// Removes a job and its log. NOT_FOUND; FAILED_PRECONDITION: it has not ended. ABORTED, with the
@@ -103,6 +109,7 @@ class Store {
  private:
   Store(std::unique_ptr<Database> database, StoreOptions options);
 
+  // Runs `run` in a transaction, and gives `done` what it returned once that is committed.
   template <class T, class Run>
   void Post(Run run, Callback<T> done);
 

@@ -9,8 +9,11 @@ namespace contact {
 
 /// What the store has done since it was opened. Thread-safe.
 struct StoreMetrics {
-  Histogram commit_seconds{DecadeBounds(-4, 1)};    ///< Of one transaction, sync included.
-  Histogram commit_operations{DecadeBounds(0, 3)};  ///< That shared it.
+  /// Durations of the transactions [s], sync included.
+  Histogram commit_seconds{DecadeBounds(-4, 1)};
+  /// Operations that shared a transaction.
+  Histogram commit_operations{DecadeBounds(0, 3)};
+  /// Transactions that were rolled back.
   std::atomic<std::int64_t> failed_commits = 0;
 };
 

@@ -9,8 +9,10 @@ namespace contact {
 
 /// Name and unit of a column of a table. The views live as long as the contract's descriptors.
 struct ColumnName {
-  std::string_view name;  ///< Such as `approach_velocity`.
-  std::string_view unit;  ///< SI, such as `m/s`; `1` without dimension; empty for words.
+  /// Such as `approach_velocity`.
+  std::string_view name;
+  /// SI unit, such as `m/s`; `1` for a number without dimension; empty for words.
+  std::string_view unit;
 };
 
 /// The column of a field. The unit is that of its rule in the contract, such as `N·s/m^(n+1)`, else

@@ -16,61 +16,16 @@ const Contact& ContactAt(const Scenario& scenario, int index) {
   return scenario.contacts[static_cast<std::size_t>(index)];
 }
 
-v1::Cycle::Kind Encode(Cycle::Kind kind) {
-  return kind == Cycle::Kind::kCollision ? v1::Cycle::COLLISION : v1::Cycle::NIRV;
+// The enums of the contract have the order of the ledger's, after a first value for unspecified.
+template <class Value, class Enum>
+Value Next(Enum value) {
+  return static_cast<Value>(static_cast<int>(value) + 1);
 }
-
-v1::Cycle::End Encode(Cycle::End end) {
-  switch (end) {
-    case Cycle::End::kSeparation:
-      return v1::Cycle::SEPARATION;
-    case Cycle::End::kNonSeparation:
-      return v1::Cycle::NON_SEPARATION;
-    case Cycle::End::kRunEnd:
-      return v1::Cycle::RUN_END;
-  }
-  return v1::Cycle::END_UNSPECIFIED;
-}
-
-v1::Cycle::Status Encode(Cycle::Status status) {
-  switch (status) {
-    case Cycle::Status::kConverged:
-      return v1::Cycle::CONVERGED;
-    case Cycle::Status::kGivenLaw:
-      return v1::Cycle::GIVEN_LAW;
-    case Cycle::Status::kInfeasible:
-    case Cycle::Status::kJump:  // Until the contract has a name for it.
-      return v1::Cycle::INFEASIBLE;
-    case Cycle::Status::kSettled:
-      return v1::Cycle::SETTLED;
-    case Cycle::Status::kNotConverged:
-    case Cycle::Status::kUnfinished:
-      return v1::Cycle::NOT_CONVERGED;
-  }
-  return v1::Cycle::STATUS_UNSPECIFIED;
-}
-
-v1::Iteration::Update Encode(Iteration::Update update) {
-  switch (update) {
-    case Iteration::Update::kNothing:
-      return v1::Iteration::UPDATE_UNSPECIFIED;
-    case Iteration::Update::kNewton:
-      return v1::Iteration::NEWTON;
-    case Iteration::Update::kDampedNewton:
-      return v1::Iteration::DAMPED_NEWTON;
-    case Iteration::Update::kBisection:
-      return v1::Iteration::BISECTION;
-    case Iteration::Update::kZero:
-      return v1::Iteration::ZERO;
-    case Iteration::Update::kPaperNewton:
-      return v1::Iteration::PAPER_NEWTON;
-    case Iteration::Update::kPaperRatio:
-      return v1::Iteration::PAPER_RATIO;
-    case Iteration::Update::kBracketing:
-      return v1::Iteration::BRACKETING;
-  }
-  return v1::Iteration::UPDATE_UNSPECIFIED;
-}
+static_assert(static_cast<int>(Cycle::Kind::kNirv) + 1 == v1::Cycle::NIRV);
+static_assert(static_cast<int>(Cycle::End::kRunEnd) + 1 == v1::Cycle::RUN_END);
+static_assert(static_cast<int>(Cycle::Status::kNotConverged) + 1 == v1::Cycle::NOT_CONVERGED);
+// This one has a value for unspecified itself.
+static_assert(static_cast<int>(Iteration::Update::kBracketing) == v1::Iteration::BRACKETING);
 
 v1::FrameChunk::Column Channel(std::string_view owner, const char* quantity, const char* unit) {
   v1::FrameChunk::Column column;
@@ -99,9 +54,9 @@ v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle) {
   v1::Cycle message;
   message.set_contact(contact.name);
   message.set_number(cycle.number);
-  message.set_kind(Encode(cycle.kind));
-  message.set_end(Encode(cycle.end));
-  message.set_status(Encode(cycle.status));
+  message.set_kind(Next<v1::Cycle::Kind>(cycle.kind));
+  message.set_end(Next<v1::Cycle::End>(cycle.end));
+  message.set_status(Next<v1::Cycle::Status>(cycle.status));
   message.set_iterations(cycle.iterations);
   message.set_episode(cycle.episode);
   message.set_start_time_s(cycle.start_time);
@@ -146,7 +101,7 @@ v1::Iteration Encode(const Scenario& scenario, const Iteration& iteration) {
     out.set_residual(unknown.residual);
     out.set_bracket_low(unknown.bracket_low);
     out.set_bracket_high(unknown.bracket_high);
-    out.set_update(Encode(unknown.update));
+    out.set_update(static_cast<v1::Iteration::Update>(unknown.update));
   }
   return message;
 }

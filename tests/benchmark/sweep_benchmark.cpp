@@ -76,10 +76,10 @@ void AwaitEnd(JobManager& jobs, const std::string& name) {
   v1::WatchJobRequest request;
   request.set_name(name);
   request.add_kinds("state_changed");
-  Await<Result<JobManager::Watched>> opened;
-  jobs.Watch(
+  Await<Result<WatchedJob>> opened;
+  jobs.watches().WatchJob(
       request, [woken] { woken->release(); }, opened.callback());
-  const Result<JobManager::Watched> watched = opened.Get();
+  const Result<WatchedJob> watched = opened.Get();
   for (;;) {
     std::vector<LogRecord> records;
     const LogCursor::Next next = watched.value().cursor->Read(1 << 16, &records);
@@ -97,7 +97,7 @@ void SweepJob(benchmark::State& state) {
                   {.workers = static_cast<int>(state.range(0))});
   for (auto _ : state) {
     Await<Result<v1::Job>> created;
-    jobs.Create(Study(), created.callback());
+    jobs.creator().Create(Study(), created.callback());
     AwaitEnd(jobs, created.Get().value().name());
   }
   jobs.Stop();

@@ -25,34 +25,25 @@ class ArtifactTest : public JobsTest {
     request.set_name(job);
     request.set_artifact(name);
     request.set_offset(offset);
-    using Opened = Result<std::unique_ptr<ArtifactReader>>;
+    using Opened = Result<Recordings::Artifact>;
     const auto box = std::make_shared<std::promise<Opened>>();
     LogReader waiter;
-    manager_->ReadArtifact(request, waiter.wake(),
-                           [box](Opened opened) { box->set_value(std::move(opened)); });
+    manager_->recordings().ReadArtifact(
+        request, waiter.wake(), [box](Opened opened) { box->set_value(std::move(opened)); });
     Opened opened = box->get_future().get();
     Read read;
     if (!opened.ok()) {
       read.error = opened.error();
       return read;
     }
-    ArtifactReader& reader = *opened.value();
     for (;;) {
       v1::ReadArtifactResponse chunk;
-      switch (reader.Read(&chunk)) {
-        case ArtifactReader::Next::kData:
-          read.data += chunk.data();
-          break;
-        case ArtifactReader::Next::kWait:
-          waiter.Wait();
-          break;
-        case ArtifactReader::Next::kEnd:
-          read.artifact = chunk.artifact();
-          return read;
-        case ArtifactReader::Next::kFailed:
-          read.error = reader.error();
-          return read;
-      }
+      const StreamStep step = opened.value()->Read(&chunk);
+      read.data += chunk.data();
+      read.artifact = chunk.artifact();
+      read.error = step.error;
+      if (step.ended || step.error) return read;
+      if (!step.has_message) waiter.Wait();
     }
   }
   std::string ReasonOf(const std::string& job, const std::string& name, std::int64_t offset = 0) {

@@ -47,8 +47,7 @@ class DeliveryCursorTest : public testing::Test {
  protected:
   void Open(std::deque<std::string> words, DeliveryCursor::Rules rules) {
     cursor_ = std::make_unique<DeliveryCursor>(
-        std::make_unique<Script>(std::move(words)), [this] { return behind_; }, rules,
-        [this] { return now_; });
+        std::make_unique<Script>(std::move(words)), [this] { return behind_; }, clock_, rules);
   }
   // What one read delivers: `f3`, or `g1-2` for a gap.
   std::vector<std::string> Read() {
@@ -70,7 +69,7 @@ class DeliveryCursorTest : public testing::Test {
   }
 
   bool behind_ = false;
-  DeliveryCursor::Clock::time_point now_{};
+  FakeClock clock_;
   std::unique_ptr<DeliveryCursor> cursor_;
   LogCursor::Next last_ = LogCursor::Next::kWait;
 };
@@ -95,7 +94,7 @@ TEST_F(DeliveryCursorTest, NewestFrameComesWhenItIsTimeThoughNothingElseDoes) {
   EXPECT_THAT(Read(), ElementsAre("f1"));
   EXPECT_TRUE(Read().empty());
   EXPECT_EQ(cursor_->position(), 1U) << "what is held back was not delivered";
-  now_ += 1s;
+  clock_.Advance(1s);
   EXPECT_THAT(Read(), ElementsAre("g2-2x1", "f3"));
   EXPECT_EQ(cursor_->position(), 3U);
 }

@@ -28,7 +28,7 @@ TEST_F(JobsTest, CreateIsDurableBeforeItIsAnswered) {
   OpenWithFakeRun();
   Await<Result<v1::Job>> created;
   std::filesystem::path image = directory_.path() / "image";
-  manager_->Create(RequestFor(BouncingBall()), [&, done = created.callback()](auto job) {
+  manager_->creator().Create(RequestFor(BouncingBall()), [&, done = created.callback()](auto job) {
     // What a crash at this moment would leave.
     std::filesystem::create_directory(image);
     for (const char* file : {"contactd.db", "contactd.db-wal", "initialised"}) {
@@ -110,10 +110,10 @@ TEST_F(JobsTest, ValidateOnlyStoresNothing) {
 TEST_F(JobsTest, NothingIsStoredForACallerThatHasLeft) {
   OpenWithFakeRun();
   Await<Result<v1::Job>> left;
-  manager_->Create(RequestFor(BouncingBall()), left.callback(), [] { return true; });
+  manager_->creator().Create(RequestFor(BouncingBall()), left.callback(), [] { return true; });
   EXPECT_EQ(left.Get().error().reason, "DEADLINE_EXCEEDED");
   Await<Result<v1::Job>> stayed;
-  manager_->Create(RequestFor(BouncingBall()), stayed.callback(), [] { return false; });
+  manager_->creator().Create(RequestFor(BouncingBall()), stayed.callback(), [] { return false; });
   EXPECT_TRUE(stayed.Get().ok());
   EXPECT_EQ(List({}).value().jobs_size(), 1);
 }
@@ -134,7 +134,7 @@ TEST_F(JobsTest, RequestIdMakesOneJobHoweverOftenItIsSent) {
   constexpr int kTries = 200;
   std::vector<Await<Result<v1::Job>>> answers(kTries);
   for (auto& answer : answers) {
-    manager_->Create(RequestFor(BouncingBall(), "again"), answer.callback());
+    manager_->creator().Create(RequestFor(BouncingBall(), "again"), answer.callback());
   }
   std::set<std::string> names;
   for (auto& answer : answers) names.insert(answer.Get().value().name());
@@ -383,7 +383,7 @@ TEST_F(JobsTest, LedgerIsNotParsedOnTheStoresThread) {
   const std::string name = Create(BouncingBall());
   Ended(name);
   Await<std::string> thread;
-  manager_->Get(name, [told = thread.callback()](const Result<v1::Job>& job) {
+  manager_->reader().Get(name, [told = thread.callback()](const Result<v1::Job>& job) {
     EXPECT_EQ(job.value().cycles_size(), 1);
     std::array<char, 16> own{};
     pthread_getname_np(pthread_self(), own.data(), own.size());
@@ -530,7 +530,7 @@ TEST_F(JobsTest, WatchOfNoKindIsRefused) {
 TEST_F(JobsTest, DrainingManagerTakesNoJobs) {
   OpenWithFakeRun();
   const std::string name = Create();
-  manager_->Drain();
+  manager_->creator().Drain();
   EXPECT_EQ(Create(RequestFor(BouncingBall())).error().reason, "SERVER_DRAINING");
   EXPECT_TRUE(Get(name).ok());
   manager_->Stop();
@@ -544,8 +544,8 @@ TEST_F(JobsTest, EveryCallbackHasRunWhenStopReturns) {
   v1::CancelJobRequest cancel;
   cancel.set_name(Create());
   for (int i = 0; i < 100; ++i) {
-    manager_->Create(RequestFor(BouncingBall()), [&](const auto&) { ++answered; });
-    manager_->Get(cancel.name(), [&](const auto&) { ++answered; });
+    manager_->creator().Create(RequestFor(BouncingBall()), [&](const auto&) { ++answered; });
+    manager_->reader().Get(cancel.name(), [&](const auto&) { ++answered; });
     manager_->Cancel(cancel, [&](const auto&) { ++answered; });
   }
   manager_->Stop();

@@ -12,28 +12,23 @@ using testing::UnorderedElementsAre;
 /// One who watches the jobs of the manager.
 class JobsCursorTest : public JobsTest {
  protected:
-  std::unique_ptr<JobsCursor> Watch(v1::WatchJobsRequest request = {}) {
-    return std::move(manager_->Watch(request, reader_.wake()).value().cursor);
+  Watches::Jobs Watch(v1::WatchJobsRequest request = {}) {
+    request.mutable_bookmark_interval()->set_seconds(3600);
+    return std::move(manager_->watches().WatchJobs(request, reader_.wake()).value());
   }
   // The next message, waiting for it.
-  v1::WatchJobsResponse Next(JobsCursor& cursor) {
+  v1::WatchJobsResponse Next(StreamSource<v1::WatchJobsResponse>& cursor) {
     for (;;) {
       v1::WatchJobsResponse message;
-      switch (cursor.Read(&message)) {
-        case JobsCursor::Next::kMessage:
-          return message;
-        case JobsCursor::Next::kWait:
-          reader_.Wait();
-          break;
-        default:
-          ADD_FAILURE() << "the watch ended";
-          return message;
-      }
+      const StreamStep step = cursor.Read(&message);
+      EXPECT_FALSE(step.error) << step.error->reason;
+      if (step.has_message || step.error) return message;
+      reader_.Wait();
     }
   }
   // Reads until the job is told in that state, and returns all names told.
-  std::vector<std::string> UntilState(JobsCursor& cursor, const std::string& name,
-                                      v1::Job::State state) {
+  std::vector<std::string> UntilState(StreamSource<v1::WatchJobsResponse>& cursor,
+                                      const std::string& name, v1::Job::State state) {
     std::vector<std::string> names;
     for (;;) {
       const v1::WatchJobsResponse message = Next(cursor);
@@ -126,7 +121,39 @@ TEST_F(JobsCursorTest, WhoReadsLateHearsTheNewestOfEachJobOnce) {
   EXPECT_THAT(Names(message), UnorderedElementsAre(first, second));
   for (const v1::Job& job : message.jobs()) EXPECT_EQ(job.state(), v1::Job::SUCCEEDED);
   v1::WatchJobsResponse none;
-  EXPECT_EQ(cursor->Read(&none), JobsCursor::Next::kWait);
+  EXPECT_FALSE(cursor->Read(&none).has_message);
+}
+
+TEST_F(JobsCursorTest, MessageWithoutJobsComesOnceAnInterval) {
+  OpenWithFakeRun();
+  const auto cursor = Watch();
+  Next(*cursor);
+  v1::WatchJobsResponse message;
+  EXPECT_FALSE(cursor->IsDue(clock_.Elapsed()));
+  EXPECT_FALSE(cursor->Read(&message).has_message);
+  clock_.Advance(std::chrono::hours(1));
+  EXPECT_TRUE(cursor->IsDue(clock_.Elapsed()));
+  EXPECT_TRUE(cursor->Read(&message).has_message);
+  EXPECT_TRUE(message.snapshot_complete());
+  EXPECT_THAT(Names(message), IsEmpty());
+  EXPECT_FALSE(cursor->Read(&message).has_message);
+}
+
+TEST_F(JobsCursorTest, ReaderThatFallsBehindAllBoundsIsToldSo) {
+  OpenWithFakeRun();
+  JobFeed feed;
+  JobsCursor cursor(
+      *store_, feed, clock_, {{}, std::chrono::hours(1)}, [](StoredJob*) {}, reader_.wake(),
+      nullptr);
+  Next(cursor);
+  for (std::size_t i = 0; i <= JobFeed::kMostChanges; ++i) {
+    feed.Changed("jobs/" + std::to_string(i));
+  }
+  v1::WatchJobsResponse message;
+  const StreamStep step = cursor.Read(&message);
+  EXPECT_FALSE(step.has_message);
+  ASSERT_TRUE(step.error);
+  EXPECT_EQ(step.error->reason, "SLOW_WATCHER");
 }
 
 TEST(JobFeed, KeepsEachNameOnceAndNotTooMany) {

@@ -154,7 +154,7 @@ class JobsTest : public testing::Test {
 
   Result<v1::Job> Create(const v1::CreateJobRequest& request) {
     Await<Result<v1::Job>> result;
-    manager_->Create(request, result.callback());
+    manager_->creator().Create(request, result.callback());
     return result.Get();
   }
   /// Name of a new job.
@@ -163,7 +163,7 @@ class JobsTest : public testing::Test {
   }
   Result<v1::Job> Get(const std::string& name) {
     Await<Result<v1::Job>> result;
-    manager_->Get(name, result.callback());
+    manager_->reader().Get(name, result.callback());
     return result.Get();
   }
   Result<v1::Job> Cancel(const std::string& name, const std::string& expected_uid = "") {
@@ -184,12 +184,11 @@ class JobsTest : public testing::Test {
   }
   Result<v1::ListJobsResponse> List(const v1::ListJobsRequest& request) {
     Await<Result<v1::ListJobsResponse>> result;
-    manager_->List(request, result.callback());
+    manager_->reader().List(request, result.callback());
     return result.Get();
   }
-  Result<JobManager::Watched> Watch(const std::string& name, LogReader& reader,
-                                    std::uint64_t after = 0,
-                                    const std::vector<std::string>& kinds = {}) {
+  Result<WatchedJob> Watch(const std::string& name, LogReader& reader, std::uint64_t after = 0,
+                           const std::vector<std::string>& kinds = {}) {
     v1::WatchJobRequest request;
     request.set_name(name);
     request.set_after_sequence(after);
@@ -197,10 +196,10 @@ class JobsTest : public testing::Test {
     request.mutable_delivery()->set_overflow(v1::DeliveryOptions::LAG);
     return Watch(request, reader);
   }
-  Result<JobManager::Watched> Watch(const v1::WatchJobRequest& request, LogReader& reader) {
+  Result<WatchedJob> Watch(const v1::WatchJobRequest& request, LogReader& reader) {
     // A promise of what can only be moved.
-    auto box = std::make_shared<std::promise<Result<JobManager::Watched>>>();
-    manager_->Watch(request, reader.wake(), [box](Result<JobManager::Watched> result) {
+    auto box = std::make_shared<std::promise<Result<WatchedJob>>>();
+    manager_->watches().WatchJob(request, reader.wake(), [box](Result<WatchedJob> result) {
       box->set_value(std::move(result));
     });
     return box->get_future().get();

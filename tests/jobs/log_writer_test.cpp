@@ -156,9 +156,9 @@ TEST_F(LogWriterTest, NothingIsToldOfTheEndBeforeItIsStored) {
   Finish(*writer, v1::Job::SUCCEEDED, ended);
   EXPECT_FALSE(ended.ready());
   std::uint64_t seen = 0;
-  const auto waker = std::make_shared<const JobLog::Waker>([] {});
+  const auto waker = std::make_shared<const Wake>([] {});
   EXPECT_EQ(log_->After({2, ~0U, 1 << 20}, &seen, waker).found, JobLog::Tail::Found::kNothing);
-  EXPECT_TRUE(run_->reporting()) << "nor is it a stall";
+  EXPECT_TRUE(run_->held()) << "nor is it a stall";
   release.set_value();
   EXPECT_TRUE(ended.Get());
   EXPECT_EQ(Stored()->job.state(), v1::Job::SUCCEEDED);

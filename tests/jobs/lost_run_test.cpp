@@ -462,8 +462,8 @@ TEST_F(LostRunTest, RetriesOfManyThreadsMakeOneJob) {
   for (int thread = 0; thread < kThreads; ++thread) {
     threads.emplace_back([&, thread] {
       for (int i = thread; i < kCalls; i += kThreads) {
-        manager_->Create(RequestFor(BouncingBall(), "once"),
-                         answers[static_cast<std::size_t>(i)].callback());
+        manager_->creator().Create(RequestFor(BouncingBall(), "once"),
+                                   answers[static_cast<std::size_t>(i)].callback());
       }
     });
   }

@@ -155,7 +155,7 @@ TEST_F(RetentionTest, TrajectoriesGoAndResultsStay) {
   v1::GetSeriesRequest request;
   request.set_name(name);
   Await<Result<v1::Series>> series;
-  manager_->Series(request, series.callback());
+  manager_->recordings().GetSeries(request, series.callback());
   const Result<v1::Series> answer = series.Get();
   EXPECT_EQ(answer.error().code, absl::StatusCode::kOutOfRange);
   EXPECT_EQ(answer.error().reason, "EVENTS_COMPACTED");

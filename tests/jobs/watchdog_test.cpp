@@ -52,7 +52,7 @@ TEST_F(WatchdogTest, RunWithoutAStepIsStoppedAndThenGivenUp) {
 TEST_F(WatchdogTest, RunThatWaitsForTheDiskIsNotStalled) {
   RunControl run;
   {
-    const RunControl::Report report(run);
+    const RunControl::Hold hold(run);
     EXPECT_FALSE(Pass(seconds(600), run));
     run.Stop(StopCause::kUser);
     EXPECT_FALSE(Pass(seconds(600), run));
@@ -112,9 +112,9 @@ TEST(RunControl, JobGetsWhatItAsksForUpToTheLimit) {
 
 TEST(RunControl, NobodyListensToARunThatWasGivenUp) {
   RunControl run;
-  EXPECT_TRUE(RunControl::Report(run));
+  EXPECT_TRUE(RunControl::Hold(run));
   EXPECT_TRUE(run.GiveUp());
-  EXPECT_FALSE(RunControl::Report(run));
+  EXPECT_FALSE(RunControl::Hold(run));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "rpc/stream/job_sources.h"
 #include "test_server.h"
 
 namespace contact {

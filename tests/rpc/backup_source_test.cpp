@@ -26,7 +26,7 @@ class BackupSourceTest : public testing::Test {
     return {this, [this](const void*) { busy_ = false; }};
   }
 
-  std::shared_ptr<BackupFile> File(const std::string& bytes) {
+  std::unique_ptr<BackupFile> File(const std::string& bytes) {
     const std::string path = folder_.path() / "file";
     std::ofstream(path, std::ios::binary) << bytes;
     return BackupFile::Adopt(path).value();
@@ -52,7 +52,7 @@ TEST_F(BackupSourceTest, NothingIsSentBeforeTheCopyIsThere) {
   v1::BackupChunk chunk;
   const StreamStep step = source_->Read(&chunk);
   EXPECT_FALSE(step.has_message);
-  EXPECT_FALSE(step.end);
+  EXPECT_FALSE(step.ended || step.error);
 }
 
 TEST_F(BackupSourceTest, ChunksMakeUpTheFileAndTheLastOneEndsTheStream) {
@@ -65,7 +65,7 @@ TEST_F(BackupSourceTest, ChunksMakeUpTheFileAndTheLastOneEndsTheStream) {
     ASSERT_TRUE(step.has_message);
     EXPECT_EQ(chunk.offset(), static_cast<std::int64_t>(read.size()));
     read += chunk.data();
-    EXPECT_EQ(step.end.has_value(), i == 2);
+    EXPECT_EQ(step.ended, i == 2);
   }
   EXPECT_EQ(read, bytes);
 }
@@ -78,12 +78,12 @@ TEST_F(BackupSourceTest, OnlyOneChunkIsReadAhead) {
 }
 
 TEST_F(BackupSourceTest, FailedCopyEndsTheStreamWithItsError) {
-  reader_->Begin(Error{.code = absl::StatusCode::kUnavailable, .reason = "STORE_FAILED"});
+  reader_->Begin(absl::UnavailableError("the disk failed"));
   v1::BackupChunk chunk;
   const StreamStep step = Take(&chunk);
   EXPECT_FALSE(step.has_message);
-  ASSERT_TRUE(step.end);
-  EXPECT_EQ(Reason(*step.end), "STORE_FAILED");
+  ASSERT_TRUE(step.error);
+  EXPECT_EQ(step.error->reason, "STORE_FAILED");
 }
 
 TEST_F(BackupSourceTest, StreamThatEndsStopsTheCopyAndFreesTheServerWhenItHasStopped) {
@@ -91,14 +91,14 @@ TEST_F(BackupSourceTest, StreamThatEndsStopsTheCopyAndFreesTheServerWhenItHasSto
   source_.reset();
   EXPECT_TRUE(reader_->stop_token().stop_requested());
   EXPECT_TRUE(busy_) << "the store still copies";
-  reader_->Begin(Error{.code = absl::StatusCode::kCancelled});
+  reader_->Begin(absl::CancelledError());
   EXPECT_FALSE(busy_);
 }
 
 TEST_F(BackupSourceTest, ServerIsBusyUntilTheStreamHasEnded) {
   reader_->Begin(File("bytes"));
   v1::BackupChunk chunk;
-  EXPECT_TRUE(Take(&chunk).end);
+  EXPECT_TRUE(Take(&chunk).ended);
   EXPECT_TRUE(busy_);
   source_.reset();
   EXPECT_FALSE(busy_);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "read_config.h"
+#include "testing/temp_directory.h"
 
 namespace contact {
 namespace {
@@ -46,12 +47,13 @@ class ConfigTest : public testing::Test {
   }
 
   std::string File(const std::string& text) {
-    std::string path = testing::TempDir() + "contactd_config_test.conf";
+    std::string path = (folder_.path() / "contactd.conf").string();
     std::ofstream(path) << text;
     return path;
   }
 
  private:
+  const TempDirectory folder_;
   std::map<std::string, std::string> environment_;
 };
 

@@ -84,13 +84,13 @@ TEST(GrpcServerTest, ChannelzIsASwitchThatIsOff) {
 
 TEST(GrpcServerTest, TwoServersCannotShareAPort) {
   TestServer first;
-  GrpcServer second(first.jobs(), {}, {});
+  GrpcServer second(first.jobs(), first.store(), {}, {});
   EXPECT_FALSE(second.Start(first.address()));
 }
 
 TEST(GrpcServerTest, BadAddressIsAnError) {
   TestServer first;
-  GrpcServer second(first.jobs(), {}, {});
+  GrpcServer second(first.jobs(), first.store(), {}, {});
   EXPECT_FALSE(second.Start("256.0.0.1:0"));
 }
 
@@ -106,7 +106,7 @@ bool Answers(const std::string& target) {
 TEST(GrpcServerTest, ListensOnIpv6AndOnNames) {
   TestServer first;
   for (const std::string host : {"[::1]", "localhost"}) {
-    GrpcServer server(first.jobs(), {}, {});
+    GrpcServer server(first.jobs(), first.store(), {}, {});
     const auto port = server.Start(host + ":0");
     ASSERT_TRUE(port) << host;
     EXPECT_TRUE(Answers(host + ":" + std::to_string(*port)));
@@ -117,12 +117,12 @@ TEST(GrpcServerTest, SocketFileIsForOwnerAndGroupAndForOneServer) {
   TestServer first;
   const TempDirectory folder;
   const std::string file = folder.path() / "socket";
-  GrpcServer server(first.jobs(), {}, {});
+  GrpcServer server(first.jobs(), first.store(), {}, {});
   ASSERT_EQ(server.Start("unix:" + file), 0);
   struct stat status = {};
   ASSERT_EQ(stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777U, 0660U);
-  GrpcServer second(first.jobs(), {}, {});
+  GrpcServer second(first.jobs(), first.store(), {}, {});
   EXPECT_FALSE(second.Start("unix:" + file));
   EXPECT_TRUE(Answers("unix:" + file));
   server.Shutdown(std::chrono::seconds(1));

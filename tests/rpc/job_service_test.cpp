@@ -144,7 +144,7 @@ TEST(JobServiceTest, CompressedRequestIsRefused) {
 TEST(JobServiceTest, DrainingManagerRefusesNewJobsOnly) {
   TestServer server;
   server.Create(Collision());
-  server.jobs().Drain();
+  server.jobs().creator().Drain();
   v1::Job job;
   const grpc::Status status = Create(server, Request(Collision()), &job);
   EXPECT_EQ(status.error_code(), grpc::UNAVAILABLE);

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "rpc/stream/job_sources.h"
 #include "test_server.h"
 
 namespace contact {

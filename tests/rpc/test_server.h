@@ -27,7 +27,7 @@ class TestServer {
   explicit TestServer(GrpcServerOptions options = {}, JobOptions jobs = {.workers = 2})
       : store_(Store::Open(folder_.path()).value()),
         jobs_(*store_, SystemClock(), RandomIds(), std::move(jobs)),
-        server_(jobs_, options, {}),
+        server_(jobs_, *store_, options, {}),
         port_(server_.Start("127.0.0.1:0").value()),
         stub_(v1::JobService::NewStub(Connect())) {}
 
@@ -41,6 +41,7 @@ class TestServer {
 
   GrpcServer& grpc() { return server_; }
   JobManager& jobs() { return jobs_; }
+  Store& store() { return *store_; }
   v1::JobService::Stub& stub() { return *stub_; }
   int port() const { return port_; }
   std::string address() const { return "127.0.0.1:" + std::to_string(port_); }

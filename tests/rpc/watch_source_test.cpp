@@ -47,18 +47,19 @@ class WatchSourceTest : public testing::Test {
   WatchSourceTest() {
     auto cursor = std::make_unique<FakeCursor>();
     cursor_ = cursor.get();
-    JobManager::Watched watched;
+    WatchedJob watched;
     watched.snapshot.set_name("jobs/a");
     watched.cursor = std::move(cursor);
     watched.bookmark_interval = 10s;
-    source_ = MakeWatchSource(std::move(watched), "jobs/a", clock_, metrics_);
+    source_ = MakeWatchSource(std::move(watched), clock_, metrics_);
   }
 
   // The next message; nothing if there is none.
   std::optional<v1::WatchJobResponse> Read() {
     grpc::ByteBuffer bytes;
     StreamStep step = source_->Read(&bytes);
-    end_ = std::move(step.end);
+    ended_ = step.ended;
+    error_ = std::move(step.error);
     if (!step.has_message) return std::nullopt;
     v1::WatchJobResponse message;
     EXPECT_TRUE(
@@ -76,7 +77,8 @@ class WatchSourceTest : public testing::Test {
   StreamMetrics metrics_;
   FakeCursor* cursor_ = nullptr;
   std::unique_ptr<StreamSource<grpc::ByteBuffer>> source_;
-  std::optional<grpc::Status> end_;
+  bool ended_ = false;
+  std::optional<Error> error_;
 };
 
 TEST_F(WatchSourceTest, SnapshotComesFirstAndOnce) {
@@ -90,7 +92,7 @@ TEST_F(WatchSourceTest, SnapshotComesFirstAndOnce) {
   EXPECT_FALSE(second->has_snapshot());
   EXPECT_EQ(second->events(0).sequence(), 1U);
   EXPECT_FALSE(Read());
-  EXPECT_FALSE(end_);
+  EXPECT_FALSE(ended_ || error_);
 }
 
 TEST_F(WatchSourceTest, BookmarkTellsThePositionOnceAnInterval) {
@@ -109,24 +111,17 @@ TEST_F(WatchSourceTest, BookmarkTellsThePositionOnceAnInterval) {
   EXPECT_FALSE(Read()) << "the next interval has only begun";
 }
 
-TEST_F(WatchSourceTest, EventWithSequenceMakesABookmarkNeedless) {
+TEST_F(WatchSourceTest, BookmarkComesWithAnEventOnlyIfThatHasNoSequence) {
   Read();
-  clock_.Advance(10s);
-  Log(1);
-  const auto message = Read();
-  ASSERT_TRUE(message);
-  EXPECT_EQ(message->events_size(), 1);
-  EXPECT_FALSE(source_->IsDue(clock_.Elapsed()));
-}
-
-TEST_F(WatchSourceTest, EventWithoutSequenceGetsABookmarkWithIt) {
-  Read();
-  clock_.Advance(10s);
-  Log(0);
-  const auto message = Read();
-  ASSERT_TRUE(message);
-  ASSERT_EQ(message->events_size(), 2);
-  EXPECT_TRUE(message->events(1).has_bookmark());
+  for (const std::uint64_t sequence : {1, 0}) {
+    clock_.Advance(10s);
+    Log(sequence);
+    const auto message = Read();
+    ASSERT_TRUE(message);
+    ASSERT_EQ(message->events_size(), sequence > 0 ? 1 : 2);
+    EXPECT_NE(message->events(message->events_size() - 1).has_bookmark(), sequence > 0);
+    EXPECT_FALSE(source_->IsDue(clock_.Elapsed()));
+  }
 }
 
 TEST_F(WatchSourceTest, GapsAreCountedByTheEventsTheyStandFor) {
@@ -149,13 +144,13 @@ TEST_F(WatchSourceTest, EachEndOfTheCursorIsAStatusOfTheContract) {
   for (const auto& [next, reason] : cases) {
     cursor_->end = next;
     EXPECT_FALSE(Read());
-    ASSERT_TRUE(end_) << reason;
-    EXPECT_EQ(Reason(*end_), reason);
+    ASSERT_TRUE(error_) << reason;
+    EXPECT_EQ(error_->reason, reason);
   }
   cursor_->end = LogCursor::Next::kEnd;
   EXPECT_FALSE(Read());
-  ASSERT_TRUE(end_);
-  EXPECT_TRUE(end_->ok());
+  EXPECT_TRUE(ended_);
+  EXPECT_FALSE(error_);
 }
 
 }  // namespace

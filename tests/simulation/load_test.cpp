@@ -89,7 +89,7 @@ TEST(Load, TheOrderOfConvergenceIsKeptAcrossABreakpoint) {
   const auto error = [&](int steps) {
     Equations equations(s);
     RungeKutta rk;
-    rk.Resize(equations.size());
+    rk.Resize(equations.size(), equations.coupled());
     rk.y0 << 0, 0.3;
     double time = 0;
     while (time < 1) {

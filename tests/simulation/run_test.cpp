@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 
 #include "testing/cases.h"
 
@@ -318,6 +320,90 @@ TEST(Run, IndependentPairsDoNotDisturbEachOther) {
   ASSERT_EQ(both.cycles.size(), 2u);
   EXPECT_TRUE(both.outcome.all_converged);
   EXPECT_NEAR(both.outcome.velocities[1], alone.outcome.velocities[1], 1e-10);
+}
+
+// A scenario seen in a mirror has the mirrored solution.
+TEST(Run, AMirrorChangesNothingButSigns) {
+  Scenario s = testing::Chain({0.5, 0.9, 0.4}, {1e8, 5e7}, {0.8, 0.6}, 0.3, 4e-3);
+  s.loads = {{.body = 1, .begin = 1e-3, .end = 2e-3, .constant = 30}};
+  Scenario mirrored = s;
+  for (Body& body : mirrored.bodies) body.position *= -1, body.velocity *= -1;
+  for (Contact& contact : mirrored.contacts) std::swap(contact.left, contact.right);
+  mirrored.loads[0].constant *= -1;
+  const Record a = RunAndRecord(s), b = RunAndRecord(mirrored);
+  ASSERT_EQ(a.cycles.size(), b.cycles.size());
+  for (std::size_t i = 0; i < a.cycles.size(); ++i) {
+    EXPECT_NEAR(b.cycles[i].mu / a.cycles[i].mu, 1, 1e-8);
+    EXPECT_NEAR(b.cycles[i].work_compression / a.cycles[i].work_compression, 1, 1e-8);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(b.outcome.velocities[i], -a.outcome.velocities[i], 1e-9);
+  }
+}
+
+TEST(Run, AUniformMotionOfAllChangesNothingElse) {
+  Scenario s = testing::Chain({0.5, 0.9, 0.4}, {1e8, 5e7}, {0.8, 0.6}, 0.3, 4e-3);
+  const Record rest = RunAndRecord(s);
+  for (Body& body : s.bodies) body.velocity += 0.5;
+  const Record moving = RunAndRecord(s);
+  ASSERT_EQ(rest.cycles.size(), moving.cycles.size());
+  for (std::size_t i = 0; i < rest.cycles.size(); ++i) {
+    EXPECT_NEAR(moving.cycles[i].mu / rest.cycles[i].mu, 1, 1e-6);
+    EXPECT_NEAR(moving.cycles[i].end_time / rest.cycles[i].end_time, 1, 1e-7);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(moving.outcome.velocities[i] - 0.5, rest.outcome.velocities[i], 1e-8);
+  }
+}
+
+// Masses, stiffnesses and loads in other units of mass: the same motion, and works in these units.
+TEST(Run, UnitsOfMassDoNotMatter) {
+  Scenario s = testing::SpringWall();
+  const Record kilograms = RunAndRecord(s);
+  constexpr double kUnit = 1024;
+  for (Body& body : s.bodies) body.mass *= kUnit;
+  for (Contact& contact : s.contacts) contact.stiffness *= kUnit;
+  for (Support& support : s.supports) support.stiffness *= kUnit, support.damping *= kUnit;
+  for (Load& load : s.loads) load.constant *= kUnit, load.amplitude *= kUnit;
+  const Record other = RunAndRecord(s);
+  ASSERT_EQ(kilograms.cycles.size(), other.cycles.size());
+  for (std::size_t i = 0; i < other.cycles.size(); ++i) {
+    const Cycle &a = kilograms.cycles[i], &b = other.cycles[i];
+    EXPECT_NEAR(b.mu / a.mu, kUnit, 1e-6 * kUnit);
+    EXPECT_NEAR(b.work_compression / a.work_compression, kUnit, 1e-6 * kUnit);
+    EXPECT_NEAR(b.end_time, a.end_time, 1e-9);
+  }
+  EXPECT_NEAR(other.outcome.positions[0], kilograms.outcome.positions[0], 1e-9);
+}
+
+TEST(Run, LedgerIsInTheOrderOfEndTimes) {
+  const Record r =
+      RunAndRecord(testing::Chain(std::vector<double>(8, 0.5), std::vector<double>(7, 1e8),
+                                  std::vector<double>(7, 0.8), 0.2, 0.01));
+  ASSERT_GE(r.cycles.size(), 7u);
+  EXPECT_TRUE(std::ranges::is_sorted(r.cycles, {}, &Cycle::end_time));
+}
+
+TEST(Run, ThatMustConvergeEndsAtTheFirstCycleThatDoesNot) {
+  Scenario s = testing::SpringWall();
+  s.solver.max_iterations = 1;
+  s.solver.restitution_tolerance = 1e-14;
+  const Record tolerant = RunAndRecord(s);
+  ASSERT_FALSE(tolerant.outcome.all_converged);
+  EXPECT_EQ(tolerant.outcome.end, Outcome::End::kFinished);
+  s.solver.fail_if_not_converged = true;
+  const Record strict = RunAndRecord(s);
+  EXPECT_EQ(strict.outcome.end, Outcome::End::kNotConverged);
+  EXPECT_LT(strict.cycles.size(), tolerant.cycles.size());
+  EXPECT_NE(strict.outcome.message.find("contact wall, cycle"), std::string::npos)
+      << strict.outcome.message;
+}
+
+TEST(Run, AnExceptionOfTheObserverLeavesIt) {
+  struct Full : Observer {
+    void OnCycle(const Cycle& /*cycle*/) override { throw std::runtime_error("disk full"); }
+  } observer;
+  EXPECT_THROW(contact::Run(testing::TripleChain(), observer), std::runtime_error);
 }
 
 }  // namespace

@@ -9,14 +9,20 @@ namespace contact {
 namespace {
 
 // A pendulum of large swing: smooth, nonlinear, periodic.
-const auto kPendulum = [](double, const double* y, double* dy) {
-  dy[0] = y[1];
-  dy[1] = -std::sin(y[0]);
+const auto kPendulum = [](double, const double* y, double* dy, double pace = 1) {
+  dy[0] = pace * y[1];
+  dy[1] = -pace * std::sin(y[0]);
 };
 
+RungeKutta OfSize(Eigen::Index size,
+                  RungeKutta::Method method = RungeKutta::Method::kDormandPrince) {
+  RungeKutta rk(method);
+  rk.Resize(size, size);
+  return rk;
+}
+
 Eigen::ArrayXd Integrate(int steps, double until) {
-  RungeKutta rk;
-  rk.Resize(2);
+  RungeKutta rk = OfSize(2);
   rk.y0 << 2, 0;
   kPendulum(0, rk.y0.data(), rk.slope0.data());
   const double h = until / steps;
@@ -30,9 +36,10 @@ Eigen::ArrayXd Integrate(int steps, double until) {
 
 // y' = y cos t, whose solution is e^{sin t}.
 double Error(int steps, RungeKutta::Method method = RungeKutta::Method::kDormandPrince) {
-  const auto f = [](double t, const double* y, double* dy) { dy[0] = y[0] * std::cos(t); };
-  RungeKutta rk(method);
-  rk.Resize(1);
+  const auto f = [](double t, const double* y, double* dy, double pace = 1) {
+    dy[0] = pace * y[0] * std::cos(t);
+  };
+  RungeKutta rk = OfSize(1, method);
   rk.y0 << 1;
   f(0, rk.y0.data(), rk.slope0.data());
   const double h = 5.0 / steps;
@@ -55,8 +62,7 @@ TEST(RungeKutta, TheClassicalMethodHasOrderFour) {
 }
 
 double DenseError(double h) {
-  RungeKutta rk;
-  rk.Resize(2);
+  RungeKutta rk = OfSize(2);
   rk.y0 << 2, 0;
   kPendulum(0, rk.y0.data(), rk.slope0.data());
   rk.Step(kPendulum, {.start = 0, .h = h});
@@ -77,8 +83,7 @@ TEST(RungeKutta, DenseOutputHasOrderSeven) {
 }
 
 TEST(RungeKutta, InterpolantMeetsBothEnds) {
-  RungeKutta rk;
-  rk.Resize(2);
+  RungeKutta rk = OfSize(2);
   rk.y0 << 1, 0.5;
   kPendulum(0, rk.y0.data(), rk.slope0.data());
   rk.Step(kPendulum, {.start = 0, .h = 0.5});
@@ -105,9 +110,10 @@ TEST(StepTime, ThetaInvertsAt) {
 
 // y' = 3/2 √t from 0: smooth only in √t.
 TEST(StepTime, AWarpMakesAFractionalPowerSmooth) {
-  const auto f = [](double t, const double*, double* dy) { dy[0] = 1.5 * std::sqrt(t); };
-  RungeKutta rk;
-  rk.Resize(1);
+  const auto f = [](double t, const double*, double* dy, double pace = 1) {
+    dy[0] = pace * 1.5 * std::sqrt(t);
+  };
+  RungeKutta rk = OfSize(1);
   rk.y0 << 0;
   rk.slope0 << 0;
   rk.Step(f, {.start = 0, .h = 1, .warp = 1});
@@ -118,8 +124,7 @@ TEST(StepTime, AWarpMakesAFractionalPowerSmooth) {
 
 // The error estimate must not be smaller than the error by much, nor vanish.
 TEST(RungeKutta, ErrorEstimatesFollowTheError) {
-  RungeKutta rk;
-  rk.Resize(2);
+  RungeKutta rk = OfSize(2);
   for (const double h : {0.5, 1.0}) {
     rk.y0 << 2, 0;
     kPendulum(0, rk.y0.data(), rk.slope0.data());
@@ -143,29 +148,75 @@ TEST(StepTime, GoesOnWithTheSameClock) {
   EXPECT_EQ((StepTime{.start = 2, .h = h, .warp = 2}.Next(1)), 0);
 }
 
-// y'' = −y with the quadrature of y: stages that do not know the quadrature change nothing, and
-// neither does an f that goes by the step's clock itself.
+// y'' = −y with the quadrature of y: stages that do not know the quadrature change nothing.
 TEST(RungeKutta, StagesNeedNotKnowQuadratures) {
-  const auto slope = [](double, const double* y, double* dy) {
-    dy[0] = y[1];
-    dy[1] = -y[0];
-    dy[2] = y[0];
-  };
-  const auto paced = [&](double t, const double* y, double* dy, double pace) {
-    slope(t, y, dy);
-    for (int i = 0; i < 3; ++i) dy[i] *= pace;
+  const auto slope = [](double, const double* y, double* dy, double pace = 1) {
+    dy[0] = pace * y[1];
+    dy[1] = -pace * y[0];
+    dy[2] = pace * y[0];
   };
   const StepTime time{.start = 0, .h = 0.4, .warp = 0.6};
-  RungeKutta all, some;
-  all.Resize(3);
+  RungeKutta all = OfSize(3), some = OfSize(3);
   some.Resize(3, 2);
   for (RungeKutta* rk : {&all, &some}) {
     rk->y0 << 1, 0.5, 0;
     slope(0, rk->y0.data(), rk->slope0.data());
+    rk->Step(slope, time);
   }
-  all.Step(slope, time);
-  some.Step(paced, time);
   EXPECT_TRUE((all.y1 == some.y1).all());
+}
+
+// A quadrature of tᵖ: each method is exact up to p = order − 1, and no further.
+TEST(RungeKutta, PolynomialsUpToTheOrderAreExact) {
+  for (const auto method : {RungeKutta::Method::kDormandPrince, RungeKutta::Method::kClassical}) {
+    const int order = method == RungeKutta::Method::kDormandPrince ? 8 : 4;
+    for (int p = 0; p <= order; ++p) {
+      const auto f = [p](double t, const double*, double* dy, double pace = 1) {
+        dy[0] = pace * (p + 1) * std::pow(t, p);
+      };
+      RungeKutta rk = OfSize(1, method);
+      rk.y0 << 0;
+      f(0, rk.y0.data(), rk.slope0.data());
+      rk.Step(f, {.start = 0, .h = 1.5});
+      const double error = std::abs(rk.y1[0] / std::pow(1.5, p + 1) - 1);
+      EXPECT_EQ(error < 1e-14, p < order) << p << ' ' << error;
+    }
+  }
+}
+
+// What is linear in y and kept by f, as a momentum is, is kept by every step and inside it.
+TEST(RungeKutta, LinearInvariantsAreKept) {
+  const auto exchange = [](double t, const double* y, double* dy, double pace = 1) {
+    const double flow = pace * std::sin(t + y[0] * y[1]);
+    dy[0] = flow;
+    dy[1] = -flow;
+  };
+  for (const double warp : {0.0, 1.0, 1.7}) {
+    RungeKutta rk = OfSize(2);
+    rk.y0 << 3, 4;
+    exchange(0, rk.y0.data(), rk.slope0.data());
+    const StepTime time{.start = 0, .h = 0.7, .warp = warp};
+    rk.Step(exchange, time);
+    rk.FinishStep(exchange, time);
+    rk.PrepareInterpolation(exchange, time);
+    EXPECT_NEAR(rk.y1.sum(), 7, 1e-14);
+    for (const double theta : {0.2, 0.6, 0.95}) {
+      Eigen::ArrayXd y;
+      rk.Interpolate(theta, &y);
+      EXPECT_NEAR(y.sum(), 7, 1e-14) << theta;
+      EXPECT_GT(std::abs(y[0] - 3), 1e-3) << theta;  // Though both change.
+    }
+  }
+}
+
+TEST(RungeKutta, ResizeKeepsTheStart) {
+  RungeKutta rk = OfSize(2);
+  rk.y0 << 1, 2;
+  rk.slope0 << 3, 4;
+  rk.Resize(4, 2);
+  EXPECT_EQ(rk.size(), 4);
+  EXPECT_EQ(rk.y0[1], 2);
+  EXPECT_EQ(rk.slope0[1], 4);
 }
 
 }  // namespace

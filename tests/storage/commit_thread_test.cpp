@@ -1,10 +1,12 @@
 #include "storage/commit_thread.h"
 
 #include <latch>
+#include <numeric>
 #include <thread>
 
 #include "storage/store.h"
 #include "storage/store_fixture.h"
+#include "testing/fake_sources.h"
 
 namespace contact {
 namespace {
@@ -65,6 +67,40 @@ TEST_F(StoreTest, ManyWritersLoseNothing) {
   done.wait();
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 1U + 2U * kThreads * kAppends);
+}
+
+TEST_F(StoreTest, WhatWasAskedForIsDoneBeforeItCloses) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  const std::string name = "jobs/a";
+  const std::vector<v1::Event> events = {LogEvent("x")};
+  int done = 0;  // Of the store's thread until that has ended.
+  for (int i = 0; i < 500; ++i) {
+    store_->Update({.name = name, .epoch = 0, .events = events},
+                   [&done](const auto& first) { done += first.ok() ? 1 : 0; });
+  }
+  store_.reset();
+  EXPECT_EQ(done, 500);
+  Open();
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 501U);
+}
+
+TEST_F(StoreTest, CommitsAreCountedAndTimedByTheClock) {
+  const FakeClock clock(std::chrono::milliseconds(250));  // A commit reads it twice.
+  const auto metrics = std::make_shared<StoreMetrics>();
+  Open({.metrics = metrics, .clock = &clock});
+  for (const char* name : {"jobs/a", "jobs/b", "jobs/c"}) {
+    ASSERT_TRUE(Create(MakeJob(name)).ok());
+  }
+  EXPECT_TRUE(absl::IsNotFound(Append("jobs/none", {}).status()));
+  store_.reset();
+  const Histogram::Snapshot operations = metrics->commit_operations.Get();
+  EXPECT_EQ(operations.sum, 4) << "an operation that finds nothing to do shares a commit, too";
+  const auto commits =
+      std::accumulate(operations.counts.begin(), operations.counts.end(), std::int64_t{0});
+  EXPECT_EQ(commits, 4) << "each waited for the one before";
+  EXPECT_EQ(metrics->commit_seconds.Get().sum, 0.25 * static_cast<double>(commits));
+  EXPECT_EQ(metrics->failed_commits, 0);
 }
 
 TEST_F(StoreTest, LogIsFoldedIntoTheDatabaseBeforeItGrowsLarge) {

@@ -237,12 +237,12 @@ TEST(NumberField, WholeNumbersAreRead) {
 }
 
 TEST(NumberField, EachNumberOfAMessageIsFoundByItsFieldNumber) {
-  const NumberFields fields(v1::Solver::default_instance());
   for (int i = 0; i < v1::Solver::descriptor()->field_count(); ++i) {
     const FieldDescriptor* field = v1::Solver::descriptor()->field(i);
-    if (field->enum_type() != nullptr) continue;
-    EXPECT_EQ(fields[field->number()].descriptor, field);
+    EXPECT_EQ(NumberOf<v1::Solver>(field->number()).descriptor, field);
   }
+  const std::vector<NumberField> body = NumbersOf(*v1::Body::descriptor());
+  EXPECT_EQ(body[v1::Body::kNameFieldNumber].descriptor, nullptr) << "a text is no number";
 }
 
 TEST(Rules, ReadTakesTheValueOrElseTheDefault) {
@@ -273,6 +273,39 @@ TEST(Rules, ReadTellsAMissingNumberFromOneOutOfRange) {
                 "materials[2].poisson_ratio: is missing — steel has 0.3",
                 "materials[2].youngs_modulus_pa: is -1; must be in (0, 1e15]",
                 "materials[2].poisson_ratio: is -1; must be in (-1, 0.5]"}));
+}
+
+// A number that is read by its generated accessor is held to the same range, in the same words.
+TEST(Rules, CheckFindsWhatReadFinds) {
+  std::vector<Violation> checked, read;
+  v1::Body body;
+  for (const double value : {-1e30, -1e9, -0.0, 0.5, 1e9, 1e30, std::nan("")}) {
+    body.set_position_m(value);
+    Rules(&checked, "b").Check<v1::Body>(v1::Body::kPositionMFieldNumber, body.position_m());
+    Rules(&read, "b").Read(body, v1::Body::kPositionMFieldNumber);
+  }
+  EXPECT_EQ(Lines(checked), Lines(read));
+  EXPECT_EQ(checked.size(), 3U);
+}
+
+TEST(Rules, UnknownValueOfAnEnumIsTold) {
+  std::vector<Violation> violations;
+  const Rules rules(&violations);
+  for (int i = 0; i < v1::Contact::Damping_ARRAYSIZE; ++i) {
+    rules.RequireKnown("damping", static_cast<v1::Contact::Damping>(i));
+  }
+  EXPECT_TRUE(rules.empty());
+  rules.RequireKnown("damping", static_cast<v1::Contact::Damping>(99));
+  EXPECT_EQ(Lines(violations),
+            std::vector<std::string>{"damping: is 99, which is no value of Damping"});
+}
+
+TEST(Rules, ListMayBeAsLongAsItsLimit) {
+  std::vector<Violation> violations;
+  const Rules rules(&violations);
+  EXPECT_TRUE(rules.RequireAtMost("axes", 8, 8));
+  EXPECT_FALSE(rules.RequireAtMost("axes", 9, 8));
+  EXPECT_EQ(Lines(violations), std::vector<std::string>{"axes: holds 9; must hold at most 8"});
 }
 
 TEST(Rules, PathsNameEveryMessageAroundTheField) {

@@ -87,14 +87,21 @@ TEST(Encode, EveryWordOfACycleHasItsOwn) {
   EXPECT_THAT(statuses,
               ElementsAre(v1::Cycle::CONVERGED, v1::Cycle::GIVEN_LAW, v1::Cycle::INFEASIBLE,
                           v1::Cycle::SETTLED, v1::Cycle::NOT_CONVERGED));
-  EXPECT_EQ(Encode(TwoContacts(), Cycle{.end = Cycle::End::kSeparation}).end(),
-            v1::Cycle::SEPARATION);
+  using E = Cycle::End;
+  std::vector<int> ends;
+  for (const E end : {E::kSeparation, E::kNonSeparation, E::kRunEnd}) {
+    ends.push_back(Encode(TwoContacts(), Cycle{.end = end}).end());
+  }
+  EXPECT_THAT(ends,
+              ElementsAre(v1::Cycle::SEPARATION, v1::Cycle::NON_SEPARATION, v1::Cycle::RUN_END));
+  EXPECT_EQ(Encode(TwoContacts(), Cycle{.kind = Cycle::Kind::kNirv}).kind(), v1::Cycle::NIRV);
 }
 
 TEST(Encode, IterationKeepsEveryField) {
   Iteration iteration{.episode = 2, .number = 3, .start_time = 4, .accepted = true, .unknowns = {}};
   using U = Iteration::Update;
-  for (const U update : {U::kNothing, U::kNewton, U::kDampedNewton, U::kBisection, U::kZero}) {
+  for (const U update : {U::kNothing, U::kNewton, U::kDampedNewton, U::kBisection, U::kZero,
+                         U::kPaperNewton, U::kPaperRatio, U::kBracketing}) {
     iteration.unknowns.push_back({.contact = 1,
                                   .number = 5,
                                   .mu = 6,
@@ -115,7 +122,9 @@ TEST(Encode, IterationKeepsEveryField) {
             "bracket_low: 10 bracket_high: 11 update: NEWTON");
   std::vector<int> updates;
   for (const auto& unknown : message.unknowns()) updates.push_back(unknown.update());
-  EXPECT_THAT(updates, ElementsAre(0, 1, 2, 3, 4));
+  using V = v1::Iteration;
+  EXPECT_THAT(updates, ElementsAre(V::UPDATE_UNSPECIFIED, V::NEWTON, V::DAMPED_NEWTON, V::BISECTION,
+                                   V::ZERO, V::PAPER_NEWTON, V::PAPER_RATIO, V::BRACKETING));
 }
 
 TEST(Encode, SamplesBecomeColumnsInTheOrderOfTheContract) {

@@ -29,10 +29,13 @@ class CsvWriter {
   void Row(const std::vector<std::string>& words);
 
  private:
-  void Separate();  ///< Puts a comma before every field of a row but the first.
+  /// Puts a comma before every field of a row but the first.
+  void Separate();
 
+  /// Receives the rows; not owned.
   std::string* const text_;
   const int precision_;
+  /// True while a row has begun and not ended.
   bool row_has_fields_ = false;
 };
 

@@ -13,8 +13,10 @@ class DotCanvas {
   /// `columns` and `rows` are of characters, at least 1.
   DotCanvas(int columns, int rows, bool braille);
 
-  int width() const { return width_; }    ///< In dots.
-  int height() const { return height_; }  ///< In dots.
+  /// Width in dots: x runs from 0 to width() - 1.
+  int width() const { return width_; }
+  /// Height in dots: y runs from 0 to height() - 1.
+  int height() const { return height_; }
 
   /// Sets the dots of a straight line with both its ends. (0, 0) is at the top left, y points down;
   /// dots outside the canvas are ignored.
@@ -31,6 +33,7 @@ class DotCanvas {
   const bool braille_;
   const int width_;
   const int height_;
+  /// The dots of each character, row by row: bits of Braille, or 1.
   std::vector<std::uint8_t> cells_;
 };
 

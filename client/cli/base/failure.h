@@ -26,8 +26,10 @@ enum class ExitCode {
 /// Ends the command with a message for people and a code for the shell.
 class Failure : public std::runtime_error {
  public:
+  /// `message` is printed after `contactctl: `; it may have several lines and has no full stop.
   Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  ExitCode code() const { return code_; }  ///< What contactctl exits with.
+  /// What contactctl exits with.
+  ExitCode code() const { return code_; }
 
  private:
   ExitCode code_;

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "cli/base/escape.h"
+
 namespace contact::cli {
 namespace {
 
@@ -40,29 +42,6 @@ std::string Cell(std::string_view element, bool number, const std::string& text)
 }
 
 }  // namespace
-
-std::string HtmlText(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string HtmlTable(const std::vector<std::string>& headers, const std::vector<HtmlRow>& rows) {
   std::vector<bool> numbers;

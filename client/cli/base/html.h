@@ -6,15 +6,14 @@
 
 namespace contact::cli {
 
-/// Pieces of a page that needs nothing but itself: no scripts, nothing from elsewhere.
-
-/// `text` with the special characters of HTML escaped, so that it cannot become markup.
-std::string HtmlText(std::string_view text);
+/// Pieces of an HTML page that refers to nothing else: no scripts, style sheets, fonts or files.
 
 /// A row of a table.
 struct HtmlRow {
-  std::vector<std::string> cells;  ///< Plain text, one a column.
-  bool differs = false;            ///< The row is marked.
+  /// Plain text, one a column.
+  std::vector<std::string> cells;
+  /// True for a row with a coloured background, to be noticed.
+  bool differs = false;
 };
 
 /// A table. A column of which most cells begin with a digit or sign is aligned to the right.

@@ -21,6 +21,8 @@ namespace {
 OutputFile::OutputFile(const std::string& path)
     : path_(path), file_(path.empty() ? stdout : std::fopen(path.c_str(), "wb")) {
   if (file_ == nullptr) Fail(path_);
+  constexpr std::size_t kBuffer = 1 << 16;  // Writers of tables write row by row.
+  if (file_ != stdout) std::setvbuf(file_, nullptr, _IOFBF, kBuffer);
 }
 
 OutputFile::~OutputFile() {

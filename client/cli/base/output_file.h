@@ -23,6 +23,7 @@ class OutputFile {
 
  private:
   std::string path_;
+  /// Null once it is closed.
   std::FILE* file_;
 };
 

@@ -10,10 +10,14 @@ namespace contact::cli {
 
 /// How StartProcess sets up a program. Its other file descriptors and variables are ours.
 struct ProcessOptions {
-  bool ends_with_us = false;   ///< It receives SIGTERM when the thread that started it ends.
-  bool own_group = false;      ///< The terminal's Ctrl-C does not reach it.
-  bool silent_errors = false;  ///< Its standard error is /dev/null.
-  int output = -1;             ///< The descriptor that is its standard output; -1: ours.
+  /// It receives SIGTERM when the thread that started it ends.
+  bool ends_with_us = false;
+  /// It has a process group of its own, so that the terminal's Ctrl-C does not reach it.
+  bool own_group = false;
+  /// Its standard error is /dev/null.
+  bool silent_errors = false;
+  /// The descriptor that becomes its standard output; -1: it has ours.
+  int output = -1;
 };
 
 /// Starts a program without a shell; no signal is blocked in it. `command` is the program, a path

@@ -1,30 +1,8 @@
 #include "cli/base/scalar.h"
 
-#include <cstddef>
+#include <boost/locale/utf.hpp>
 
 namespace contact::cli {
-namespace {
-
-// Bytes of the character that begins with `lead`; 0 if none does.
-std::size_t CharacterSize(unsigned char lead) {
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead < 0xE0) return 2;
-  if (lead >= 0xE0 && lead < 0xF0) return 3;
-  if (lead >= 0xF0 && lead < 0xF5) return 4;
-  return 0;
-}
-
-// Refuses overlong forms, surrogates and what lies past U+10FFFF.
-bool SecondByteFits(unsigned char lead, unsigned char second) {
-  if (lead == 0xE0) return second >= 0xA0;
-  if (lead == 0xED) return second < 0xA0;
-  if (lead == 0xF0) return second >= 0x90;
-  if (lead == 0xF4) return second < 0x90;
-  return true;
-}
-
-}  // namespace
-
 std::optional<double> ParseNumber(std::string_view text) {
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
@@ -45,15 +23,10 @@ std::optional<bool> ParseBool(std::string_view text) {
 }
 
 bool IsUtf8(std::string_view text) {
-  const auto at = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t size = CharacterSize(at(i));
-    if (size == 0 || i + size > text.size()) return false;
-    if (size > 1 && !SecondByteFits(at(i), at(i + 1))) return false;
-    for (std::size_t k = 1; k < size; ++k) {
-      if ((at(i + k) & 0xC0U) != 0x80U) return false;
-    }
-    i += size;
+  namespace utf = boost::locale::utf;
+  for (auto at = text.begin(); at != text.end();) {
+    const utf::code_point point = utf::utf_traits<char>::decode(at, text.end());
+    if (point == utf::illegal || point == utf::incomplete) return false;
   }
   return true;
 }

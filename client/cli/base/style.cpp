@@ -20,25 +20,10 @@ bool WantsColor(bool terminal, const std::string& color) {
   return terminal && !dumb && (no_color == nullptr || *no_color == '\0');
 }
 
-std::string_view Code(Tone tone) {
-  switch (tone) {
-    case Tone::kPlain:
-      return "";
-    case Tone::kStrong:
-      return "1";
-    case Tone::kGood:
-      return "32";
-    case Tone::kWarning:
-      return "33";
-    case Tone::kBad:
-      return "31";
-    case Tone::kFaint:
-      return "2";
-  }
-  return "";
-}
+// Parameters of the escape sequence of each Tone, in its order.
+constexpr std::string_view kCodes[] = {"", "1", "32", "33", "31", "2"};
 
-// Each with the spaces that follow it.
+// The words of a line, each with the spaces that follow it.
 std::vector<std::string> Words(std::string_view line) {
   std::vector<std::string> words;
   while (!line.empty()) {
@@ -62,7 +47,7 @@ Style StyleOf(int descriptor, const std::string& color) {
 
 std::string Paint(std::string_view text, Tone tone, const Style& style) {
   if (!style.color || tone == Tone::kPlain) return std::string(text);
-  return fmt::format("\x1b[{}m{}\x1b[0m", Code(tone), text);
+  return fmt::format("\x1b[{}m{}\x1b[0m", kCodes[static_cast<std::size_t>(tone)], text);
 }
 
 int Width(std::string_view text) {

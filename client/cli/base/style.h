@@ -19,11 +19,16 @@ enum class ProgressForm {
 
 /// How to write to a stream.
 struct Style {
-  bool terminal = false;                  ///< The stream is a terminal.
-  bool color = false;                     ///< Texts have colours.
-  int width = 0;                          ///< Characters in a line; 0: no limit.
-  bool wide = false;                      ///< Tables have all their columns.
-  std::vector<std::string> columns = {};  ///< Tables have only these, in this order; empty: all.
+  /// True if the stream is a terminal.
+  bool terminal = false;
+  /// True if Paint colours texts.
+  bool color = false;
+  /// Width of the terminal in characters; 0: no limit.
+  int width = 0;
+  /// True if tables show the columns that only wide tables have.
+  bool wide = false;
+  /// Tables show only the columns with these names, in this order; empty: all.
+  std::vector<std::string> columns = {};
 };
 
 /// The style of an open file descriptor. `color` is auto, always or never; auto is in colour on

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cctype>
 #include <functional>
 #include <string_view>
@@ -28,18 +29,12 @@ std::vector<std::string> Parts(const std::string& header) {
   return parts;
 }
 
-bool SameLetters(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](unsigned char left, unsigned char right) {
-    return std::tolower(left) == std::tolower(right);
-  });
-}
-
 // The column of this name or header. Throws Failure (kUsage) if there is none.
 std::size_t Find(const std::vector<Table::Column>& columns, const std::string& name) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     known.push_back(columns[i].Name());
-    if (SameLetters(name, known.back()) || name == columns[i].header) return i;
+    if (boost::iequals(name, known.back()) || name == columns[i].header) return i;
   }
   const std::string hint = DidYouMean(name, {known.begin(), known.end()});
   throw Failure(ExitCode::kUsage,
@@ -47,7 +42,7 @@ std::size_t Find(const std::vector<Table::Column>& columns, const std::string& n
                             hint.empty() ? "" : ", " + hint, fmt::join(known, ", ")));
 }
 
-// Those of these names, in their order; all without names.
+// Indices of the columns with these names, in the order of the names; of all columns for no names.
 std::vector<std::size_t> Picked(const std::vector<Table::Column>& columns,
                                 const std::vector<std::string>& names) {
   std::vector<std::size_t> picked;

@@ -13,12 +13,15 @@ namespace contact::cli {
 /// a line.
 class Table {
  public:
-  static constexpr int kOnlyWide = -1;  ///< For Column::spare.
+  /// Value of Column::spare for a column that only wide tables have.
+  static constexpr int kOnlyWide = -1;
 
   /// How a column is shown.
   struct Column {
-    std::string header;  ///< May have a unit: `t [s]`.
-    bool right = false;  ///< Aligned to the right, as numbers are.
+    /// Text above the column, in brackets its unit if it has one: `t [s]`.
+    std::string header;
+    /// True if cells and header are aligned to the right, as numbers are.
+    bool right = false;
     /// > 0: left out on a narrow terminal, the highest first; kOnlyWide: shown in wide tables.
     int spare = 0;
     /// What --columns and CSV call it; empty: its header in small letters without its unit.
@@ -32,6 +35,7 @@ class Table {
   struct Cell {
     Cell(std::string words, Tone its_tone = Tone::kPlain)  // NOLINT(google-explicit-constructor)
         : text(std::move(words)), tone(its_tone) {}
+    /// In UTF-8, without a line break.
     std::string text;
     Tone tone;
   };
@@ -57,20 +61,26 @@ class Table {
  private:
   /// Which columns are shown and how wide they are, in characters.
   struct Layout {
-    std::vector<std::vector<std::string>> headers;  ///< Lines of the header of each column.
-    std::vector<int> widths;                        ///< Width of each column.
-    std::vector<std::size_t> shown;                 ///< Indices of the columns shown, in order.
+    /// The lines of the header of each column.
+    std::vector<std::vector<std::string>> headers;
+    /// Width of each column.
+    std::vector<int> widths;
+    /// Indices of the columns that are shown, in their order.
+    std::vector<std::size_t> shown;
 
     /// Width of a row, with the gaps between columns.
     int Total() const;
   };
 
+  /// Width of the widest cell of a column, 0 without rows.
   int WidestCell(std::size_t column) const;
   /// The layout without a limit on width.
   Layout Full(const Style& style) const;
   /// The layout with folded headers and without the columns that must be spared.
   Layout Narrow(const Style& style) const;
+  /// The headers, aligned at their last lines.
   std::string Header(const Layout& layout, const Style& style) const;
+  /// A row as one line.
   std::string Row(const Layout& layout, std::size_t row, const Style& style) const;
   /// A row as a block: header and cell of each column in a line.
   std::string Block(const Layout& layout, std::size_t row, const Style& style) const;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 #include <system_error>
 
 #include "cli/base/failure.h"
@@ -42,6 +43,13 @@ void WriteText(const std::string& text, const std::string& path) {
   OutputFile file(path);
   std::fwrite(text.data(), 1, text.size(), file.get());
   file.Close();
+}
+
+std::vector<std::string> LinesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
 }
 
 }  // namespace contact::cli

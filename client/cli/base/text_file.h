@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace contact::cli {
 
@@ -11,5 +12,8 @@ std::string ReadText(const std::string& path);
 /// Replaces the content of a file; an empty path is the standard output. Throws Failure (kLocal) if
 /// it cannot be written.
 void WriteText(const std::string& text, const std::string& path);
+
+/// The lines of a text without their ends. A last line without an end is one, too.
+std::vector<std::string> LinesOf(const std::string& text);
 
 }  // namespace contact::cli

@@ -12,8 +12,11 @@ namespace contact::cli {
 /// A column of a result: numbers with a unit, or words.
 struct DataColumn {
   std::string name;
-  std::string unit;         ///< SI; `1` for a number without dimension, empty for words.
-  std::string description;  ///< In words, for formats that have a place for it.
+  /// SI; `1` for a number without dimension, empty for words.
+  std::string unit;
+  /// What the column holds, in words, for formats that have a place for it.
+  std::string description;
+  /// One value a row. NaN where there is no number.
   std::variant<std::vector<double>, std::vector<std::string>> values;
 
   /// The header in text files; see ColumnHeader.
@@ -26,9 +29,11 @@ struct DataColumn {
 
 /// A part of a result as columns of equal length.
 struct DataTable {
-  std::string name;                 ///< series, cycles, iterations or bodies.
-  std::string row;                  ///< What tells rows apart: `cycle`, or the column `time`.
-  std::vector<DataColumn> columns;  ///< Of equal length.
+  std::string name;  ///< series, cycles, iterations or bodies.
+  /// What tells rows apart: `cycle`, or the column `time`.
+  std::string row;
+  /// All of the same length.
+  std::vector<DataColumn> columns;
 
   /// Number of rows.
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }

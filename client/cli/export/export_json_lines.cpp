@@ -1,16 +1,13 @@
-#include "cli/export/export_json_lines.h"
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/base/csv.h"
+#include "cli/export/writers.h"
 
 namespace contact::cli {
 namespace {
-
-constexpr std::size_t kBlock = 1 << 16;
 
 std::string Quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
@@ -27,6 +24,8 @@ void AppendValue(const DataColumn& column, std::size_t row, int precision, std::
 
 }  // namespace
 
+// An object a line and row. Keys are the headers of the columns; NaN and infinity, which JSON
+// lacks, are null.
 void WriteJsonLines(const DataTable& table, std::FILE* file, int precision) {
   std::vector<std::string> keys;  // Each with the punctuation around it.
   for (const DataColumn& column : table.columns) {
@@ -39,11 +38,9 @@ void WriteJsonLines(const DataTable& table, std::FILE* file, int precision) {
       AppendValue(table.columns[i], row, precision, &text);
     }
     text += "}\n";
-    if (text.size() < kBlock) continue;
     std::fwrite(text.data(), 1, text.size(), file);
     text.clear();
   }
-  std::fwrite(text.data(), 1, text.size(), file);
 }
 
 }  // namespace contact::cli

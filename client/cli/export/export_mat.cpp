@@ -1,5 +1,3 @@
-#include "cli/export/export_mat.h"
-
 #include <fmt/format.h>
 #include <matio.h>
 
@@ -12,6 +10,7 @@
 
 #include "cli/base/failure.h"
 #include "cli/export/matlab_names.h"
+#include "cli/export/writers.h"
 
 namespace contact::cli {
 namespace {
@@ -47,64 +46,46 @@ Variable Column(const std::vector<std::string>& words) {
   return Owned(Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, 2, size.data(), entries.data(), 0));
 }
 
-// A struct of one element, which owns its fields.
-class Struct {
- public:
-  Struct(const char* name, const std::vector<std::string>& fields) : fields_(fields) {
-    std::vector<const char*> texts;
-    texts.reserve(fields_.size());
-    for (const std::string& field : fields_) texts.push_back(field.c_str());
-    std::array<std::size_t, 2> size{1, 1};
-    variable_ = Owned(Mat_VarCreateStruct(name, 2, size.data(), texts.data(),
-                                          static_cast<unsigned>(texts.size())));
+// A struct of one element, in which the value of field i is value(i).
+Variable Struct(const char* name, const std::vector<std::string>& fields,
+                const std::function<Variable(std::size_t)>& value) {
+  std::vector<const char*> texts;
+  for (const std::string& field : fields) texts.push_back(field.c_str());
+  std::array<std::size_t, 2> size{1, 1};
+  Variable all = Owned(
+      Mat_VarCreateStruct(name, 2, size.data(), texts.data(), static_cast<unsigned>(texts.size())));
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    Mat_VarSetStructFieldByIndex(all.get(), i, 0, value(i).release());
   }
+  return all;
+}
 
-  void Set(std::size_t field, Variable value) {
-    Mat_VarSetStructFieldByName(variable_.get(), fields_[field].c_str(), 0, value.release());
-  }
-
-  Variable Take() { return std::move(variable_); }
-
- private:
-  std::vector<std::string> fields_;
-  Variable variable_;
-};
-
-std::vector<std::string> FieldsOf(const DataTable& table) {
+// The names of tables or of columns.
+template <class Part>
+std::vector<std::string> NamesOf(const std::vector<Part>& parts) {
   std::vector<std::string> names;
-  names.reserve(table.columns.size());
-  for (const DataColumn& column : table.columns) names.push_back(column.name);
-  return MatlabNames(names);
+  for (const Part& part : parts) names.push_back(part.name);
+  return names;
 }
 
 using Show = std::function<Variable(const DataColumn&)>;
 
 // A struct with a field for each column.
 Variable ForEachColumn(const char* name, const DataTable& table, const Show& show) {
-  Struct all(name, FieldsOf(table));
-  for (std::size_t i = 0; i < table.columns.size(); ++i) all.Set(i, show(table.columns[i]));
-  return all.Take();
+  return Struct(name, MatlabNames(NamesOf(table.columns)),
+                [&](std::size_t i) { return show(table.columns[i]); });
 }
 
 // The same of all tables, each in a field of its own.
 Variable ForEachTable(const char* name, const std::vector<DataTable>& tables, const Show& show) {
-  std::vector<std::string> names;
-  names.reserve(tables.size());
-  for (const DataTable& table : tables) names.push_back(table.name);
-  Struct all(name, names);
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    all.Set(i, ForEachColumn(nullptr, tables[i], show));
-  }
-  return all.Take();
+  return Struct(name, NamesOf(tables),
+                [&](std::size_t i) { return ForEachColumn(nullptr, tables[i], show); });
 }
 
 Variable Sources(const Provenance& provenance) {
   std::vector<std::string> names;
-  names.reserve(provenance.size());
   for (const auto& [name, text] : provenance) names.push_back(name);
-  Struct all("provenance", names);
-  for (std::size_t i = 0; i < provenance.size(); ++i) all.Set(i, Text(provenance[i].second));
-  return all.Take();
+  return Struct("provenance", names, [&](std::size_t i) { return Text(provenance[i].second); });
 }
 
 class MatFile {
@@ -136,6 +117,10 @@ class MatFile {
 
 }  // namespace
 
+// A MAT file of version 5: a struct for each table, in it a column vector for each column, words as
+// a cell array. The structs `units`, `descriptions` and `names` tell of each column what the table
+// has, `provenance` where it comes from. Names of columns become valid for MATLAB and stay apart:
+// `B1-B2.contact_force` is `B1_B2_contact_force`.
 void WriteMat(const std::vector<DataTable>& tables, const Provenance& provenance,
               const std::string& path) {
   MatFile file(path);

@@ -1,11 +1,10 @@
-#include "cli/export/export_netcdf.h"
-
 #include <fmt/format.h>
 #include <netcdf.h>
 
 #include <utility>
 
 #include "cli/base/failure.h"
+#include "cli/export/writers.h"
 
 namespace contact::cli {
 namespace {
@@ -76,6 +75,8 @@ class NetcdfFile {
 
 }  // namespace
 
+// A netCDF-4 file (which is HDF5): a group for each table, in it a variable for each column with
+// `units` and `long_name`; the provenance as global attributes.
 void WriteNetcdf(const std::vector<DataTable>& tables, const Provenance& provenance,
                  const std::string& path) {
   NetcdfFile file(path);

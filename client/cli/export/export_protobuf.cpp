@@ -1,6 +1,5 @@
 #include "cli/export/export_protobuf.h"
 
-#include <fmt/format.h>
 #include <google/protobuf/io/zero_copy_stream_impl.h>
 #include <google/protobuf/util/delimited_message_util.h>
 
@@ -45,10 +44,7 @@ class Writer final : public WatchObserver {
     if (!google::protobuf::util::SerializeDelimitedToZeroCopyStream(message, &stream_)) Fail();
   }
 
-  [[noreturn]] void Fail() const {
-    errno = stream_.GetErrno();
-    throw Failure(ExitCode::kLocal, "the file cannot be written");
-  }
+  [[noreturn]] static void Fail() { throw Failure(ExitCode::kLocal, "the file cannot be written"); }
 
   OutputFile file_;
   google::protobuf::io::FileOutputStream stream_;
@@ -68,14 +64,15 @@ std::int64_t WriteProtobuf(Client& client, const std::string& job, const Setting
   WatchToEnd(client, options, settings, silence);
   options.kinds.clear();
   options.overflow = v1::DeliveryOptions::LAG;
-  for (int tries = 0; tries < 2; ++tries) {
+  std::int64_t events = 0;
+  ReplayWhole(job, [&] {
     Writer writer(path, GetJob(client, job));
     WatchToEnd(client, options, settings, writer);
     writer.Close();
-    if (!writer.has_holes()) return writer.events();
-  }
-  throw Failure(ExitCode::kRunFailed,
-                fmt::format("parts of the trajectory of {} do not come; try again", job));
+    events = writer.events();
+    return !writer.has_holes();
+  });
+  return events;
 }
 
 }  // namespace contact::cli

@@ -16,14 +16,15 @@ using Provenance = std::vector<std::pair<std::string, std::string>>;
 /// and revision, the solver's options with every default spelt out, convergence.
 Provenance ProvenanceOf(const v1::Job& job);
 
-/// The part of it that fits into a picture: title, job, SHA-256, version, revision.
+/// The part of ProvenanceOf that fits into a figure: title, job, SHA-256, version, revision.
 Provenance SourceOf(const v1::Job& job);
 
-/// The sources of a picture in one line: `jobs/ID (1a2b3c4d5e6f), contactd 0.1.0 REVISION`, in
+/// The sources of a figure in one line: `jobs/ID (1a2b3c4d5e6f), contactd 0.1.0 REVISION`, in
 /// parentheses how the SHA-256 begins. Empty for none.
 std::string Caption(const std::vector<Provenance>& sources);
 
-/// A line `name: value` each, after `prefix`; an empty one between sources.
+/// The entries of all sources, each as a line `name: value` after `prefix`. An empty line stands
+/// between two sources.
 std::string Lines(const std::vector<Provenance>& sources, std::string_view prefix);
 
 /// The solver's options of a scenario that keeps the rules, every default spelt out.

@@ -10,11 +10,16 @@ namespace contact::cli {
 
 /// The part of a trajectory that is wanted; by default all of it.
 struct SeriesSelection {
-  std::vector<std::string> channels = {};  ///< Column names; `time` is always there. Empty: all.
-  std::optional<double> from = {};         ///< Start of the time range [s], included.
-  std::optional<double> to = {};           ///< End of the time range [s], included.
-  int every = 1;       ///< Keep one of `every` samples of the range, beginning with its first.
-  int max_points = 0;  ///< > 0: the server thins the range to that without losing a peak.
+  /// Names of columns. `time` is always there; empty: all.
+  std::vector<std::string> channels = {};
+  /// Start of the time range [s], included.
+  std::optional<double> from = {};
+  /// End of the time range [s], included.
+  std::optional<double> to = {};
+  /// Keep one of `every` samples of the range, beginning with its first.
+  int every = 1;
+  /// If not 0, the server thins the range to that many samples without losing a peak.
+  int max_points = 0;
 
   /// True if all of the trajectory is selected.
   bool empty() const;

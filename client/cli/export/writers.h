@@ -19,8 +19,8 @@ using TableWriter = void(const DataTable& table, std::FILE* file, int precision)
 using FileWriter = void(const std::vector<DataTable>& tables, const Provenance& provenance,
                         const std::string& path);
 
-/// The writers that formats.def names, each defined in a source of this folder. A new writer needs
-/// no header of its own.
+/// The writers that formats.def names. Each is defined in a source of this folder, which says how
+/// the format represents a table.
 #define TABLE_WRITER(enumerator, function) TableWriter function;
 #define FILE_WRITER(enumerator, function) FileWriter function;
 #include "cli/settings/formats.def"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/erase.hpp>
 #include <filesystem>
-#include <vector>
 
 #include "cli/base/output_file.h"
 #include "cli/base/scratch_folder.h"
@@ -15,12 +15,6 @@
 
 namespace contact::cli {
 namespace {
-
-void RemoveAll(std::string_view part, std::string* text) {
-  for (auto at = text->find(part); at != std::string::npos; at = text->find(part, at)) {
-    text->erase(at, part.size());
-  }
-}
 
 // What Draw writes to a file.
 std::string Drawn(const Figure& figure, OutputFormat format, int columns) {
@@ -40,16 +34,12 @@ int ColumnsOf(const Settings& settings) {
 }  // namespace
 
 OutputFormat FormatOfFigure(const std::string& path) {
-  return FormatOfFile(path, kPicture).value_or(OutputFormat::kSvg);
+  return FormatOfFile(path, kFigure).value_or(OutputFormat::kSvg);
 }
 
 OutputFormat FigureFormat(const std::string& file, const Settings& settings) {
   if (settings.output == OutputFormat::kTable) return FormatOfFigure(file);
-  std::vector<OutputFormat> figures;
-  for (const FormatInfo& info : Formats()) {
-    if ((info.uses & kPicture) != 0) figures.push_back(info.format);
-  }
-  settings.RequireOutput(figures);
+  settings.RequireUse(kFigure);
   return settings.output;
 }
 
@@ -96,8 +86,8 @@ std::string InlineSvg(std::string_view document) {
   const auto begin = document.find("<svg");
   std::string svg(begin == std::string_view::npos ? "" : document.substr(begin));
   // HTML knows both name spaces by itself.
-  RemoveAll(R"(xmlns="http://www.w3.org/2000/svg")", &svg);
-  RemoveAll(R"(xmlns:xlink="http://www.w3.org/1999/xlink")", &svg);
+  boost::erase_all(svg, R"(xmlns="http://www.w3.org/2000/svg")");
+  boost::erase_all(svg, R"(xmlns:xlink="http://www.w3.org/1999/xlink")");
   const auto title = svg.find("<title>");
   const auto end = svg.find("</title>");
   if (end != std::string::npos) svg.erase(title, end + 8 - title);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <set>
 #include <utility>
 
 #include "cli/base/csv.h"
@@ -15,16 +15,11 @@ namespace {
 // Of the points in [begin, end), those that Thin keeps, in order.
 void AddOutline(const Figure::Curve& curve, std::size_t begin, std::size_t end,
                 Figure::Curve* thinned) {
-  const auto y = curve.y.begin();
-  const auto first = static_cast<std::ptrdiff_t>(begin);
-  const auto last = static_cast<std::ptrdiff_t>(end);
-  const auto [low, high] = std::minmax_element(y + first, y + last);
-  std::array<std::ptrdiff_t, 4> kept{first, low - y, high - y, last - 1};
-  std::ranges::sort(kept);
-  const auto same = std::unique(kept.begin(), kept.end());
-  for (auto i = kept.begin(); i != same; ++i) {
-    thinned->x.push_back(curve.x[static_cast<std::size_t>(*i)]);
-    thinned->y.push_back(curve.y[static_cast<std::size_t>(*i)]);
+  const auto at = [&](std::size_t i) { return curve.y.begin() + static_cast<std::ptrdiff_t>(i); };
+  const auto [low, high] = std::minmax_element(at(begin), at(end));
+  for (const auto kept : std::set{at(begin), low, high, at(end - 1)}) {
+    thinned->x.push_back(curve.x[static_cast<std::size_t>(kept - curve.y.begin())]);
+    thinned->y.push_back(*kept);
   }
 }
 

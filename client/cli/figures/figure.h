@@ -10,7 +10,7 @@
 namespace contact::cli {
 
 /// What a figure shows: panels below each other with curves, marks and labels. Plain values, which
-/// gnuplot_script.h turns into a script and WriteCsv into points.
+/// gnuplot_script.h turns into a script and FigureCsv into points.
 struct Figure {
   /// How the points of a curve are drawn.
   enum class Mark {
@@ -24,18 +24,23 @@ struct Figure {
 
   /// Points (x, y) in the order in which they are joined; `x` and `y` have equal length.
   struct Curve {
-    std::string label = {};  ///< Its entry in the key; empty: none.
-    int colour = 0;          ///< Place in the palette, which starts again after its last colour.
+    /// Its entry in the key; empty: none.
+    std::string label = {};
+    /// Place in the palette, which starts again after its last colour.
+    int colour = 0;
     Mark mark = Mark::kLine;
-    std::vector<double> x = {};  ///< In the unit of the panel's `x_label`.
-    std::vector<double> y = {};  ///< In the unit of the panel's `y_label`.
+    /// In the unit of the panel's `x_label`.
+    std::vector<double> x = {};
+    /// In the unit of the panel's `y_label`.
+    std::vector<double> y = {};
   };
 
   /// A stretch of the x axis with a shade behind the curves.
   struct Band {
     double start = 0;  ///< On the x axis.
     double end = 0;    ///< On the x axis.
-    int colour = 0;    ///< As of a curve.
+    /// Place in the palette, which starts again after its last colour.
+    int colour = 0;
   };
 
   /// A text above a point.
@@ -47,20 +52,26 @@ struct Figure {
 
   /// One pair of axes.
   struct Panel {
-    std::string x_label;                  ///< Quantity and unit, such as `time [s]`.
-    std::string y_label;                  ///< Quantity and unit.
-    bool counted_x = false;               ///< True if x are whole numbers, such as passes.
-    bool log_y = false;                   ///< True if the y axis is logarithmic.
-    std::optional<double> lowest_y = {};  ///< Lower end of the y axis; none: that of the points.
+    std::string x_label;  ///< Quantity and unit, such as `time [s]`.
+    std::string y_label;  ///< Quantity and unit.
+    /// True if x are whole numbers, such as passes: tics and range are then whole.
+    bool counted_x = false;
+    /// True if the y axis is logarithmic.
+    bool log_y = false;
+    /// Lower end of the y axis; none: that of the points.
+    std::optional<double> lowest_y = {};
     std::vector<Curve> curves = {};
     std::vector<Band> bands = {};
     std::vector<Label> labels = {};
-    std::vector<double> dotted_lines = {};  ///< Values of y with a horizontal dotted line.
+    /// Values of y with a horizontal dotted line across the panel.
+    std::vector<double> dotted_lines = {};
   };
 
   std::string title = {};
-  std::vector<Panel> panels = {};        ///< From top to bottom.
-  std::vector<Provenance> sources = {};  ///< The runs it shows, for the caption.
+  /// From top to bottom.
+  std::vector<Panel> panels = {};
+  /// The runs that the figure shows, for the caption.
+  std::vector<Provenance> sources = {};
 };
 
 /// Reduces each curve to about `points` points. Of each stretch of points it keeps the first, the

@@ -3,56 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <set>
 #include <utility>
 
+#include "cli/figures/axis_commands.h"
 #include "cli/figures/curve_style.h"
 
 namespace contact::cli {
 namespace {
 
 constexpr std::size_t kMostLevelLabels = 4;  // More labels are written upright.
-constexpr std::size_t kMostCounted = 20;     // Above it, not every whole number has a tic.
 constexpr std::ptrdiff_t kMostKeys = 8;      // Above it, dashed curves are not in the key.
 
 constexpr char kMarksExplained[] = "o start, × end of a contact cycle";
-
-std::size_t Longest(const Figure::Panel& panel) {
-  std::size_t longest = 0;
-  for (const Figure::Curve& curve : panel.curves) longest = std::max(longest, curve.x.size());
-  return longest;
-}
-
-// The least and the largest number of an axis; the first is above the second without numbers.
-std::pair<double, double> Extent(const Figure::Panel& panel,
-                                 std::vector<double> Figure::Curve::*axis) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const Figure::Curve& curve : panel.curves) {
-    for (const double value : curve.*axis) {
-      if (std::isnan(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  return {low, high};
-}
-
-// The range of an axis that holds all points; `*` leaves a limit to gnuplot, which fails where all
-// points have the same value.
-std::string Range(const Figure::Panel& panel, std::vector<double> Figure::Curve::*axis,
-                  bool counted, bool log) {
-  const auto [low, high] = Extent(panel, axis);
-  if (counted) return fmt::format("[{}:{}]", low - 0.5, high + 0.5);
-  if (low < high) return "[*:*] noextend";
-  if (log) return fmt::format("[{}:{}]", low / 10, high * 10);
-  const double space = low == 0 ? 1 : std::abs(low) / 2;
-  return fmt::format("[{}:{}]", low - space, low + space);
-}
 
 bool HasUnnamedMarks(const Figure::Panel& panel) {
   bool marked = false;
@@ -140,7 +105,7 @@ class Script {
 
   void Draw(const Figure::Panel& panel) {
     AxisLabels(panel);
-    AxisRanges(panel);
+    text_ += AxisCommands(panel);
     if (!terminal_.characters()) Bands(panel);
     Labels(panel);
     DottedLines(panel);
@@ -157,15 +122,6 @@ class Script {
     } else {
       Line("set ylabel {}", terminal_.Text(panel.y_label));
     }
-  }
-
-  void AxisRanges(const Figure::Panel& panel) {
-    Line("{} logscale y", panel.log_y ? "set" : "unset");
-    Line("{}", panel.log_y ? "set format y '%.0e'" : "set format y '%g'");
-    Line("set xtics {}", panel.counted_x && Longest(panel) <= kMostCounted ? "1" : "autofreq");
-    Line("set xrange {}", Range(panel, &Figure::Curve::x, panel.counted_x, false));
-    Line("set yrange {}", Range(panel, &Figure::Curve::y, false, panel.log_y));
-    if (panel.lowest_y) Line("set yrange [{}:*]", *panel.lowest_y);
   }
 
   void Bands(const Figure::Panel& panel) {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/base/latex.h"
+#include "cli/base/escape.h"
 
 namespace contact::cli {
 

@@ -48,6 +48,7 @@ class GnuplotTerminal {
 
  private:
   OutputFormat format_;
+  /// Width of a txt figure in characters.
   int columns_;
 };
 

@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/crc.hpp>
+#include <boost/endian/conversion.hpp>
 #include <boost/locale/encoding_utf.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <regex>
-#include <sstream>
 #include <utility>
 
-#include "cli/base/html.h"
+#include "cli/base/escape.h"
 #include "cli/base/style.h"
 #include "cli/base/text_file.h"
 
@@ -34,11 +35,9 @@ std::string StampedSvg(std::string svg, const std::string& title, const std::str
 }
 
 std::string BigEndian(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) {
-    bytes += static_cast<char>((value >> static_cast<unsigned>(shift)) & 0xFFU);
-  }
-  return bytes;
+  std::array<unsigned char, sizeof value> bytes{};
+  boost::endian::store_big_u32(bytes.data(), value);
+  return {bytes.begin(), bytes.end()};
 }
 
 // An iTXt chunk of PNG: UTF-8, not compressed, in no named language.
@@ -96,8 +95,7 @@ std::string StampedPdf(std::string pdf, const std::string& title, const std::str
 // Leaves out the lines in which gnuplot tells its version and the time.
 std::string StampedTikz(const std::string& drawn, const std::vector<Provenance>& sources) {
   std::string stamped = Lines(sources, "% ") + "% \\usepackage{gnuplot-lua-tikz}\n";
-  std::istringstream lines(drawn);
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : LinesOf(drawn)) {
     if (!line.starts_with("%%")) stamped.append(line).append("\n");
   }
   return stamped;
@@ -106,8 +104,7 @@ std::string StampedTikz(const std::string& drawn, const std::vector<Provenance>&
 // Leaves out the form feed and the spaces with which gnuplot fills lines.
 std::string StampedCharacters(const std::string& drawn, const std::vector<Provenance>& sources) {
   std::string stamped;
-  std::istringstream lines(drawn);
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line : LinesOf(drawn)) {
     line.erase(0, line.starts_with('\f') ? 1 : 0);
     stamped.append(TrimRight(line)).append("\n");
   }

@@ -16,7 +16,9 @@ class RunCurves {
   /// `recording` must outlive this object.
   explicit RunCurves(const Recording& recording);
 
+  /// What the run recorded.
   const Recording& recording() const { return recording_; }
+  /// The scenario of the run with its defaults filled in.
   const Scenario& scenario() const { return scenario_; }
 
   /// The samples of a column, such as `B1.velocity`, in its unit.

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "cli/base/escape.h"
 #include "cli/base/html.h"
 #include "cli/base/number.h"
 #include "cli/export/provenance.h"

@@ -9,8 +9,10 @@ namespace contact::cli {
 
 /// What a report shows of one run.
 struct RunPart {
-  Recording recording;               ///< Its trajectory is not needed.
-  std::vector<std::string> figures;  ///< SVG.
+  /// The job and its iterations; the trajectory is not needed.
+  Recording recording;
+  /// SVG elements, in the order in which the page shows them.
+  std::vector<std::string> figures;
 };
 
 /// A page about one run, or about several and where they differ. Needs nothing but itself.

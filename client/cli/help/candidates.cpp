@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
-#include <optional>
 
 #include "cli/input/scenario_file.h"
 #include "cli/input/settable_fields.h"
@@ -23,34 +23,47 @@
 namespace contact::cli {
 namespace {
 
-Candidates Words(const CommandLine& line, const CLI::Option& option) {
-  Candidates words;
-  for (const std::string& word : line.WordsOf(option)) words.push_back({word, ""});
-  return words;
+// A candidate for each item, without a description. `name` makes the text of an item.
+template <class Items, class Name = std::identity>
+Candidates Named(const Items& items, Name name = {}) {
+  Candidates candidates;
+  for (const auto& item : items) {
+    candidates.push_back({std::string(std::invoke(name, item)), ""});
+  }
+  return candidates;
 }
 
-// A call that takes at most 300 ms and may fail.
+// A call that takes at most 300 ms. Returns an empty message if it fails.
 template <class Request, class Response>
-std::optional<Response> Ask(const Settings& settings,
-                            grpc::Status (Client::Stub::*method)(grpc::ClientContext*,
-                                                                 const Request&, Response*),
-                            const Request& request) {
+Response Ask(const Settings& settings,
+             grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+             const Request& request) {
   constexpr std::chrono::milliseconds kPatience{300};
   Client client(settings.server, kPatience);
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kPatience);
   Response response;
-  if (!(client.stub().*method)(&context, request, &response).ok()) return std::nullopt;
-  return response;
+  const bool answered = (client.stub().*method)(&context, request, &response).ok();
+  return answered ? response : Response();
+}
+
+// Asks about the job that the words name; an empty message without one.
+template <class Request, class Response>
+Response AskOfJob(const Settings& settings, const TypedWords& typed,
+                  grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&,
+                                                       Response*)) {
+  if (typed.positionals.empty()) return {};
+  Request request;
+  request.set_name(JobName(typed.positionals.front()));
+  return Ask(settings, method, request);
 }
 
 Candidates Jobs(const Settings& settings, const TypedWords&) {
   v1::ListJobsRequest request;
   request.set_page_size(100);
+  const v1::ListJobsResponse answer = Ask(settings, &Client::Stub::ListJobs, request);
   Candidates jobs;
-  const auto answer = Ask(settings, &Client::Stub::ListJobs, request);
-  if (!answer) return jobs;
-  for (const v1::Job& job : answer->jobs()) {
+  for (const v1::Job& job : answer.jobs()) {
     jobs.push_back(
         {job.name().substr(job.name().find('/') + 1),
          fmt::format("{} {}", v1::Job::State_Name(job.state()), job.scenario().title())});
@@ -59,65 +72,37 @@ Candidates Jobs(const Settings& settings, const TypedWords&) {
 }
 
 Candidates Channels(const Settings& settings, const TypedWords& typed) {
+  const v1::Series series = AskOfJob(settings, typed, &Client::Stub::GetSeries);
   Candidates channels;
-  if (typed.positionals.empty()) return channels;
-  v1::GetSeriesRequest request;
-  request.set_name(JobName(typed.positionals.front()));
-  const auto answer = Ask(settings, &Client::Stub::GetSeries, request);
-  if (!answer) return channels;
-  for (const auto& column : answer->columns()) {
+  for (const auto& column : series.columns()) {
     if (column.name() != "time") channels.push_back({column.name(), column.unit()});
   }
   return channels;
 }
 
-std::optional<v1::Job> JobOf(const Settings& settings, const TypedWords& typed) {
-  if (typed.positionals.empty()) return std::nullopt;
-  v1::GetJobRequest request;
-  request.set_name(JobName(typed.positionals.front()));
-  return Ask(settings, &Client::Stub::GetJob, request);
-}
-
 Candidates Artifacts(const Settings& settings, const TypedWords& typed) {
-  Candidates artifacts;
-  const auto job = JobOf(settings, typed);
-  if (!job) return artifacts;
-  for (const v1::Artifact& artifact : job->artifacts()) artifacts.push_back({artifact.name(), ""});
-  return artifacts;
+  return Named(AskOfJob(settings, typed, &Client::Stub::GetJob).artifacts(), &v1::Artifact::name);
 }
 
 Candidates Metrics(const Settings& settings, const TypedWords& typed) {
-  Candidates metrics;
-  const auto job = JobOf(settings, typed);
-  if (!job) return metrics;
-  for (const std::string& metric : job->sweep().metrics()) metrics.push_back({metric, ""});
-  return metrics;
+  return Named(AskOfJob(settings, typed, &Client::Stub::GetJob).sweep().metrics());
 }
 
 Candidates TemplateNames(const Settings&, const TypedWords&) {
-  Candidates names;
-  for (const Template& scenario : Templates()) names.push_back({std::string(scenario.name), ""});
-  return names;
+  return Named(Templates(), &Template::name);
 }
 
 Candidates Laws(const Settings&, const TypedWords&) {
   Candidates laws;
   for (const LawEntry& law : LawCatalogue()) {
-    std::string name(law.name);
-    std::ranges::transform(name, name.begin(), [](unsigned char c) {
-      return c == '_' ? '-' : static_cast<char>(std::tolower(c));
-    });
+    std::string name = boost::to_lower_copy(std::string(law.name));
+    std::ranges::replace(name, '_', '-');
     laws.push_back({name, std::string(law.source)});
   }
   return laws;
 }
 
-Candidates States(const Settings&, const TypedWords&) {
-  Candidates states;
-  const auto& type = *v1::Job::State_descriptor();
-  for (int i = 1; i < type.value_count(); ++i) states.push_back({type.value(i)->name(), ""});
-  return states;
-}
+Candidates States(const Settings&, const TypedWords&) { return Named(JobStates()); }
 
 Candidates EventKinds(const Settings&, const TypedWords&) {
   Candidates kinds;
@@ -127,8 +112,8 @@ Candidates EventKinds(const Settings&, const TypedWords&) {
 }
 
 Candidates Items(const Settings&, const TypedWords&) {
-  Candidates items = {{"all", ""}};
-  for (const std::string& item : PaperItems()) items.push_back({item, ""});
+  Candidates items = Named(PaperItems());
+  items.insert(items.begin(), {"all", ""});
   return items;
 }
 
@@ -138,9 +123,9 @@ const CLI::App& RootOf(const TypedWords& typed) {
   return *root;
 }
 
-// What `help` takes.
+// The words that `help` takes.
 Candidates Commands(const Settings&, const TypedWords& typed) {
-  Candidates commands = {{"tutorial", "the way through all of them"}};
+  Candidates commands = {{"tutorial", "the way from a server to a report"}};
   for (const CLI::App* command : RootOf(typed).get_subcommands({})) {
     commands.push_back({command->get_name(), command->get_description()});
   }
@@ -153,7 +138,7 @@ Candidates ConfigKeyNames(const Settings&, const TypedWords& typed) {
   return keys;
 }
 
-// Profiles are sections of files, whatever else these hold.
+// The profiles of all config files.
 Candidates ProfileNames(const Settings& settings, const TypedWords& typed) {
   std::vector<std::string> keys;
   for (const Candidate& key : ConfigKeyNames(settings, typed)) keys.push_back(key.text);
@@ -166,6 +151,13 @@ Candidates ProfileNames(const Settings& settings, const TypedWords& typed) {
 
 }  // namespace
 
+std::vector<std::string_view> JobStates() {
+  std::vector<std::string_view> states;
+  const auto& type = *v1::Job::State_descriptor();
+  for (int i = 1; i < type.value_count(); ++i) states.push_back(type.value(i)->name());
+  return states;
+}
+
 Candidates Assignments(const TypedWords& typed, const std::string& word) {
   v1::Scenario scenario;
   if (!typed.positionals.empty() && std::filesystem::is_regular_file(typed.positionals.front())) {
@@ -176,7 +168,9 @@ Candidates Assignments(const TypedWords& typed, const std::string& word) {
   for (const SettableField& field : SettableFields(scenario)) {
     if (path.size() == word.size()) assignments.push_back({field.path + "=", ""});
     if (path != field.path) continue;
-    for (const std::string& value : field.words) assignments.push_back({path + "=" + value, ""});
+    for (const std::string& value : field.words) {
+      assignments.push_back({fmt::format("{}={}", path, value), ""});
+    }
   }
   return assignments;
 }
@@ -196,7 +190,8 @@ Candidates Values(const CommandLine& line, const CLI::Option& option, const Type
                                                        {ValueKind::kProfile, ProfileNames},
                                                        {ValueKind::kCommand, Commands}};
   const auto source = kSources.find(line.KindOf(option));
-  return source == kSources.end() ? Words(line, option) : source->second(line.settings(), typed);
+  return source == kSources.end() ? Named(line.WordsOf(option))
+                                  : source->second(line.settings(), typed);
 }
 
 }  // namespace contact::cli

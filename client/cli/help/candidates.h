@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/settings/command_line.h"
@@ -9,17 +10,25 @@ namespace contact::cli {
 
 /// What a shell may offer for a word.
 struct Candidate {
-  std::string text;   ///< The word.
-  std::string about;  ///< What it is; may be empty.
+  /// The word.
+  std::string text;
+  /// What it is; may be empty. Shells show the first line.
+  std::string about;
 };
 using Candidates = std::vector<Candidate>;
 
 /// The words that stand before the one that is completed. Its pointers are into the parser.
 struct TypedWords {
-  CLI::App* command = nullptr;           ///< The innermost command that they name.
-  std::vector<std::string> positionals;  ///< Words that are neither commands, flags nor values.
-  CLI::Option* open = nullptr;           ///< The flag whose value comes next; null: none.
+  /// The innermost command that they name.
+  CLI::App* command = nullptr;
+  /// Words that are neither commands, flags nor values of flags.
+  std::vector<std::string> positionals;
+  /// The flag whose value comes next; null: none.
+  CLI::Option* open = nullptr;
 };
+
+/// The names of the states that a job can have, in the order of the contract.
+std::vector<std::string_view> JobStates();
 
 /// The values that `option` may have after these words, by its kind. Asks the server for those of
 /// a job. Empty if they cannot be told.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cli/help/candidates.h"
 #include "cli/settings/resolve.h"
@@ -28,17 +29,19 @@ CLI::App* FindVerb(CLI::App* command, const std::string& name) {
   return nullptr;
 }
 
-// Follows the words as the parser would. Values of global flags are kept, for the server.
+// Gives the option its value if it is a global flag, such as --server, for the calls that
+// completion makes.
+void KeepGlobal(const CLI::App& app, CLI::Option* option, const std::string& value) {
+  const auto global = app.get_options();
+  if (std::ranges::find(global, option) != global.end()) option->add_result(value);
+}
+
+// Reads the words as the parser would.
 TypedWords Follow(CLI::App& app, const std::vector<std::string>& words) {
   TypedWords typed{.command = &app, .positionals = {}, .open = nullptr};
-  const auto give = [&app](CLI::Option* option, const std::string& value) {
-    const auto global = app.get_options();
-    if (std::ranges::find(global, option) != global.end()) option->add_result(value);
-  };
   for (const std::string& word : words) {
     if (typed.open != nullptr) {
-      give(typed.open, word);
-      typed.open = nullptr;
+      KeepGlobal(app, std::exchange(typed.open, nullptr), word);
     } else if (word.starts_with("-") && word.size() > 1) {
       const std::size_t equals = word.find('=');
       CLI::Option* option = FindFlag(typed.command, word.substr(0, equals));
@@ -46,7 +49,7 @@ TypedWords Follow(CLI::App& app, const std::vector<std::string>& words) {
       if (equals == std::string::npos) {
         typed.open = option;
       } else {
-        give(option, word.substr(equals + 1));
+        KeepGlobal(app, option, word.substr(equals + 1));
       }
     } else if (CLI::App* next = FindVerb(typed.command, word); next != nullptr) {
       typed.command = next;
@@ -100,17 +103,16 @@ std::string Directive(const CommandLine& line, const CLI::Option& option) {
 }
 
 const CLI::Option* Positional(const TypedWords& typed) {
-  std::vector<const CLI::Option*> positionals;
-  for (const CLI::Option* option : typed.command->get_options()) {
-    if (option->get_positional()) positionals.push_back(option);
-  }
+  const auto positionals = typed.command->get_options(
+      [](const CLI::Option* option) { return option->get_positional(); });
   const std::size_t given = typed.positionals.size();
   if (given < positionals.size()) return positionals[given];
   const bool many = !positionals.empty() && positionals.back()->get_items_expected_max() > 1;
   return many ? positionals.back() : nullptr;
 }
 
-// `prefix` is what the shell takes for part of the word.
+// A line for each candidate that begins with `begin`. `prefix` precedes each, because the shell
+// takes it for part of the word.
 std::string Print(const Candidates& candidates, const std::string& prefix,
                   const std::string& begin) {
   std::string text;
@@ -121,7 +123,8 @@ std::string Print(const Candidates& candidates, const std::string& prefix,
   return text;
 }
 
-// The values of an option; of a list those for its last entry, without what stands before it.
+// The values of an option. Those of a list are for its last entry; entries that stand before it
+// are left out.
 std::string PrintValues(const CommandLine& line, const CLI::Option& option, const TypedWords& typed,
                         const std::string& prefix, const std::string& word) {
   Candidates values = Values(line, option, typed);
@@ -134,16 +137,13 @@ std::string PrintValues(const CommandLine& line, const CLI::Option& option, cons
          Directive(line, option);
 }
 
-// The words as they were before bash split them at `=`.
+// Joins words that bash has split at `=`.
 std::vector<std::string> Joined(const std::vector<std::string>& words) {
   std::vector<std::string> joined;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool part = !joined.empty() && (words[i] == "=" || words[i - 1] == "=");
-    if (part) {
-      joined.back() += words[i];
-    } else {
-      joined.push_back(words[i]);
-    }
+    if (!part) joined.emplace_back();
+    joined.back() += words[i];
   }
   return joined;
 }
@@ -161,6 +161,7 @@ std::string PrintAssignments(const TypedWords& typed, const std::string& word,
 
 // What may follow the words if it is neither a flag nor the value of one.
 std::string PrintNext(const CommandLine& line, const TypedWords& typed, const std::string& word) {
+  if (word.starts_with("-")) return Print(Flags(*typed.command), "", word) + ":none\n";
   if (const CLI::Option* positional = Positional(typed)) {
     return PrintValues(line, *positional, typed, "", word);
   }
@@ -173,7 +174,8 @@ std::string PrintNext(const CommandLine& line, const TypedWords& typed, const st
 std::string Complete(CommandLine& line, const std::vector<std::string>& split) try {
   if (split.empty()) return ":none\n";
   const std::vector<std::string> words = Joined(split);
-  const bool after_equals = split.back() != words.back();  // All that the shell replaces.
+  const bool after_equals =
+      split.back() != words.back();  // Then the shell replaces only the value.
   TypedWords typed = Follow(line.app(), {words.begin(), words.end() - 1});
   std::string word = words.back();
   std::string prefix;
@@ -185,15 +187,12 @@ std::string Complete(CommandLine& line, const std::vector<std::string>& split) t
     if (typed.open == nullptr) return ":none\n";
   }
   ResolveSettings(line.app(), &line.settings());
-  if (typed.open == nullptr && word.starts_with("-")) {
-    return Print(Flags(*typed.command), "", word) + ":none\n";
-  }
   if (typed.open == nullptr) return PrintNext(line, typed, word);
   if (line.KindOf(*typed.open) != ValueKind::kAssignment) {
     return PrintValues(line, *typed.open, typed, prefix, word);
   }
   return PrintAssignments(typed, word, prefix, after_equals) + Directive(line, *typed.open);
-} catch (const Failure&) {  // Such as an address that is none: nothing to offer.
+} catch (const Failure&) {  // Such as a wrong address: there is nothing to offer.
   return ":none\n";
 }
 

@@ -18,10 +18,12 @@ namespace contact::cli {
 /// answer; without an answer there are none. Never throws Failure.
 std::string Complete(CommandLine& line, const std::vector<std::string>& words);
 
-/// A script that teaches a shell to ask this program, from the folder shells.
+/// A script with which a shell asks this program for candidates; a file of the folder shells.
 struct ShellScript {
-  std::string_view shell;  ///< Its name, such as `bash`.
-  std::string_view text;   ///< The script.
+  /// The name of the shell, such as `bash`.
+  std::string_view shell;
+  /// The whole script.
+  std::string_view text;
 };
 
 /// The scripts of all shells that are known.

@@ -8,14 +8,14 @@
 #include <string_view>
 
 #include "cli/base/failure.h"
-#include "cli/base/output_file.h"
 #include "cli/base/process.h"
+#include "cli/base/text_file.h"
 #include "cli/help/contract/reference.h"
 
 namespace contact::cli {
 namespace {
 
-// Text as scdoc takes it; `code` becomes bold, lines that stand for themselves stay as they are.
+// Text with the special characters of scdoc escaped; `code` becomes bold.
 std::string Inline(std::string_view text) {
   constexpr std::string_view kAtBegin = "[]|#-.:";
   std::string escaped;
@@ -46,7 +46,7 @@ std::string Paragraphs(const std::string& text) {
     end_code();
     if (line.empty()) {
       page += "\n\n";
-    } else {  // A line of its own could begin with what troff takes for a request.
+    } else {  // Joined, because a line could begin with a request of troff.
       page += (page.empty() || page.back() == '\n' ? "" : " ") + Inline(line);
     }
   }
@@ -59,8 +59,8 @@ std::string Usage(const CLI::App& command, const std::string& name) {
   if (!command.get_subcommands({}).empty()) usage += " COMMAND";
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_positional()) continue;
-    const std::string more = option->get_items_expected_max() > 1 ? "..." : "";
-    const std::string word = "_" + Inline(option->get_name()) + "_" + more;
+    const bool many = option->get_items_expected_max() > 1;
+    const std::string word = fmt::format("_{}_{}", Inline(option->get_name()), many ? "..." : "");
     usage += option->get_required() ? " " + word : " [" + word + "]";
   }
   return usage;
@@ -170,21 +170,18 @@ std::string ServerPage(const std::string& program) {
          "3 data directory or address is in use\n\n# SEE ALSO\n\n*contactctl*(1)\n";
 }
 
-void Write(const std::string& folder, const std::string& page, const std::string& text) {
-  OutputFile file(fmt::format("{}/{}.scd", folder, page));
-  fmt::print(file.get(), "{}", text);
-  file.Close();
-}
-
 }  // namespace
 
 void WriteManual(const CommandLine& line, const std::string& folder, const std::string& contactd) {
-  Write(folder, "contactctl.1", MainPage(line));
+  const auto write = [&folder](const std::string& page, const std::string& text) {
+    WriteText(text, fmt::format("{}/{}.scd", folder, page));
+  };
+  write("contactctl.1", MainPage(line));
   for (const CLI::App* command : line.app().get_subcommands({})) {
-    Write(folder, fmt::format("contactctl-{}.1", command->get_name()), VerbPage(line, *command));
+    write(fmt::format("contactctl-{}.1", command->get_name()), VerbPage(line, *command));
   }
-  Write(folder, "contact-scenario.5", ScenarioPage());
-  Write(folder, "contactd.8", ServerPage(contactd));
+  write("contact-scenario.5", ScenarioPage());
+  write("contactd.8", ServerPage(contactd));
 }
 
 }  // namespace contact::cli

@@ -24,7 +24,7 @@ std::vector<std::string> Known(const CLI::App& app, bool flags) {
   return names;
 }
 
-// The command that the words named, as far as they name one.
+// The innermost command that the parsed words name.
 const CLI::App& Innermost(const CLI::App& app) {
   const CLI::App* scope = &app;
   while (!scope->get_subcommands().empty()) scope = scope->get_subcommands().front();

@@ -6,20 +6,17 @@
 
 namespace contact::cli {
 
-void RequireNoMistakes(const ScenarioFile& file) { RequireNone(file.diagnostics()); }
-
 void TellAdvice(const ScenarioFile& file) {
   for (const Diagnostic& advice : file.advice()) {
     fmt::print(stderr, "{}\n", Format(advice, "warning"));
   }
 }
 
-ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides,
-                         const ScenarioLimits& limits, const VariableValues& variables) {
-  ScenarioFile file = ScenarioFile::Open(path, variables);
+ScenarioFile Checked(ScenarioFile file, const std::vector<std::string>& overrides,
+                     const ScenarioLimits& limits) {
   for (const std::string& assignment : overrides) file.Set(assignment);
   file.Check(limits);
-  RequireNoMistakes(file);
+  RequireNone(file.diagnostics());
   return file;
 }
 

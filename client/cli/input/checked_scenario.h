@@ -7,13 +7,10 @@
 
 namespace contact::cli {
 
-/// Reads a scenario file with these values of its variables, applies the overrides and checks the
-/// rules. Throws Failure (kInvalidScenario) that lists every mistake.
-ScenarioFile OpenChecked(const std::string& path, const std::vector<std::string>& overrides,
-                         const ScenarioLimits& limits = {}, const VariableValues& variables = {});
-
-/// Throws Failure (kInvalidScenario) if the file has mistakes.
-void RequireNoMistakes(const ScenarioFile& file);
+/// The scenario with the overrides, such as `end_time_s=1e-3`, and its rules checked. Throws
+/// Failure (kInvalidScenario) that lists every mistake.
+ScenarioFile Checked(ScenarioFile file, const std::vector<std::string>& overrides,
+                     const ScenarioLimits& limits = {});
 
 /// Tells on the standard error what Check advises.
 void TellAdvice(const ScenarioFile& file);

@@ -8,12 +8,18 @@ namespace contact::cli {
 
 /// A mistake in a scenario or sweep, and where it stands.
 struct Diagnostic {
-  std::string source;  ///< The file, or the flag.
-  int line = 0;        ///< From 1; 0 if there is no line.
-  int column = 0;      ///< From 1.
-  std::string field;   ///< Path; may be empty.
-  std::string what;    ///< What is wrong.
-  std::string hint;    ///< May be empty.
+  /// The file, or the flag, such as --set.
+  std::string source;
+  /// Line in the file, from 1; 0 if there is no line.
+  int line = 0;
+  /// Column in the line, from 1.
+  int column = 0;
+  /// Path of the field, such as `bodies[0].mass_kg`; empty if it is about no field.
+  std::string field;
+  /// What is wrong, without a full stop.
+  std::string what;
+  /// What to do about it; may be empty.
+  std::string hint;
 };
 
 /// `file:line:col: field: what — hint`, or `file:line:col: kind: field: …`.

@@ -1,4 +1,5 @@
 # Writes OUTPUT, the C++ source that holds the scenarios FILES as templates.
+include(${CMAKE_CURRENT_LIST_DIR}/../../../deploy/embed.cmake)
 set(entries "")
 foreach(file IN LISTS FILES)
   get_filename_component(name ${file} NAME_WE)
@@ -12,17 +13,4 @@ foreach(file IN LISTS FILES)
   endif()
   string(APPEND entries "    {\"${name}\", \"${shows}\", R\"yaml(${text})yaml\"},\n")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"cli/input/templates.h\"
-
-namespace contact::cli {
-namespace {
-
-constexpr Template kTemplates[] = {
-${entries}};
-
-}  // namespace
-
-std::span<const Template> Templates() { return kTemplates; }
-
-}  // namespace contact::cli
-")
+contact_embed(${OUTPUT} cli/input/templates.h Template Templates "${entries}")

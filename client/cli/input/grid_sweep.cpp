@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/erase.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <cmath>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "cli/base/failure.h"
@@ -24,14 +25,9 @@ namespace {
 }
 
 std::vector<std::string> Split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else if (c != ' ') {
-      parts.back() += c;
-    }
-  }
+  const std::string packed = boost::erase_all_copy(text, " ");
+  std::vector<std::string> parts;
+  boost::split(parts, packed, [separator](char c) { return c == separator; });
   return parts;
 }
 
@@ -71,15 +67,8 @@ v1::Sweep::Axis ReadAxis(const std::string& text, bool drawn) {
   return axis;
 }
 
-// Where the field of a broken rule was written: in the scenario, or in one of the axes.
-Diagnostic Place(const Violation& violation, const ScenarioFile& base,
-                 const std::vector<std::string>& axes) {
-  constexpr std::string_view kBase = "base.";
-  if (violation.field.starts_with(kBase)) {
-    Violation of_base = violation;
-    of_base.field.erase(0, kBase.size());
-    return base.Place(of_base);
-  }
+// A broken rule at the axis that its field belongs to, if it belongs to one.
+Diagnostic Place(const Violation& violation, const std::vector<std::string>& axes) {
   std::string source = "--grid";
   const std::vector<PathStep> path = ParsePath(violation.field);
   if (!path.empty() && path.front().name == "axes" && path.front().index) {
@@ -107,8 +96,8 @@ v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& 
   const ScenarioFile base = ScenarioFile::Open(scenario, variables);
   RequireNone(base.diagnostics());
   *sweep.mutable_base() = base.scenario();
-  RequireNone(
-      CheckSweep(sweep, [&](const Violation& violation) { return Place(violation, base, axes); }));
+  RequireNone(CheckSweep(sweep, &base,
+                         [&axes](const Violation& violation) { return Place(violation, axes); }));
   return sweep;
 }
 

@@ -11,9 +11,12 @@ namespace contact::cli {
 
 /// Cells with values drawn at random, instead of every combination of the values.
 struct DrawnCells {
-  int count = 0;                 ///< 0: none are drawn.
-  bool latin_hypercube = false;  ///< Every axis is covered evenly.
-  std::int64_t seed = 0;         ///< The same seed gives the same cells.
+  /// How many cells are drawn; 0: the cells are all combinations of the values.
+  int count = 0;
+  /// True to cover every axis evenly; false to draw each value independently.
+  bool latin_hypercube = false;
+  /// Seed of the random numbers: the same seed gives the same cells.
+  std::int64_t seed = 0;
 };
 
 /// The sweep of a scenario file over some fields. Each axis is `FIELD=FIRST:LAST:COUNT`, in equal

@@ -7,10 +7,11 @@
 
 namespace contact::cli {
 
-/// Limits for checks in the client, which leave limits on size to the server.
+/// Limits for checks in the client. What is too large is for the server to say; but the cells of a
+/// sweep are laid out here, and must fit into memory.
 inline constexpr ScenarioLimits kNoLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
                                           .max_contacts = std::numeric_limits<std::int32_t>::max(),
                                           .max_samples = std::numeric_limits<std::int64_t>::max(),
-                                          .max_cells = std::numeric_limits<std::int32_t>::max()};
+                                          .max_cells = 1'000'000};
 
 }  // namespace contact::cli

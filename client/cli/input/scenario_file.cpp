@@ -4,12 +4,14 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <utility>
 
 #include "cli/base/scalar.h"
 #include "cli/base/text_file.h"
 #include "cli/input/override.h"
+#include "cli/input/yaml_place.h"
 #include "cli/input/yaml_reader.h"
 #include "wire/rules/field_path.h"
 #include "wire/scenario_advice.h"
@@ -50,10 +52,7 @@ void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& v
   if (documents.size() > 1) {
     AddAt(documents[1].Mark(), "", "holds a second document", "a file is one scenario");
   }
-  const YamlReader::Report report = [this](const YAML::Mark& mark, const std::string& field,
-                                           const std::string& what, const std::string& hint) {
-    AddAt(mark, field, what, hint);
-  };
+  const YamlReader::Report report = std::bind_front(&ScenarioFile::AddAt, this);
   RequireKnown(variables, ResolveVariables(variables, report, &root_));
   YamlReader(report).ReadMessage(root_, "", &scenario_);
 }
@@ -80,21 +79,13 @@ void ScenarioFile::Check(const ScenarioLimits& limits) {
 void ScenarioFile::Add(const Violation& violation) { diagnostics_.push_back(Place(violation)); }
 
 Diagnostic ScenarioFile::Place(const Violation& violation) const {
-  Diagnostic diagnostic{.source = name_,
-                        .field = violation.field,
-                        .what = violation.description,
-                        .hint = violation.hint};
-  const auto overridden = [&violation](const std::string& path) {
-    return Within(violation.field, path);
-  };
-  if (std::ranges::any_of(overridden_, overridden)) {
-    diagnostic.source = kOverride;
-    return diagnostic;
+  const auto& [field, what, hint] = violation;
+  for (const std::string& path : overridden_) {
+    if (Within(field, path)) {
+      return {.source = std::string(kOverride), .field = field, .what = what, .hint = hint};
+    }
   }
-  const YAML::Mark mark = FindNode(root_, violation.field).node.Mark();
-  diagnostic.line = mark.line + 1;
-  diagnostic.column = mark.column + 1;
-  return diagnostic;
+  return DiagnosticAt(name_, FindNode(root_, field).node.Mark(), field, what, hint);
 }
 
 // A number out of its range is so whatever else is wrong, unless in the same message.
@@ -113,12 +104,8 @@ bool ScenarioFile::MayFollowFrom(const std::vector<Diagnostic>& mistakes,
 
 void ScenarioFile::AddAt(const YAML::Mark& mark, std::string field, std::string what,
                          std::string hint) {
-  diagnostics_.push_back({.source = name_,
-                          .line = mark.line + 1,
-                          .column = mark.column + 1,
-                          .field = std::move(field),
-                          .what = std::move(what),
-                          .hint = std::move(hint)});
+  diagnostics_.push_back(
+      DiagnosticAt(name_, mark, std::move(field), std::move(what), std::move(hint)));
 }
 
 std::vector<Diagnostic> ScenarioFile::diagnostics() const {

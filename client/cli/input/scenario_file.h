@@ -54,10 +54,13 @@ class ScenarioFile {
   /// True if one of the mistakes may be the reason why the rule is broken.
   bool MayFollowFrom(const std::vector<Diagnostic>& mistakes, const Violation& violation) const;
 
+  /// What mistakes call the file.
   std::string name_;
+  /// The document, whose nodes know their places.
   YAML::Node root_;
   v1::Scenario scenario_;
-  std::vector<std::string> overridden_;  // paths
+  /// Paths of the fields that Set has replaced: they have no place in the file.
+  std::vector<std::string> overridden_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<Diagnostic> advice_;
 };

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "cli/input/yaml_reader.h"
+
 namespace contact::cli {
 namespace {
 
@@ -15,12 +17,8 @@ constexpr int kMostEntries = 20;  // Of a list one by one.
 
 std::vector<std::string> Words(const FieldDescriptor& field) {
   if (field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) return {"true", "false"};
-  std::vector<std::string> words;
-  if (field.cpp_type() != FieldDescriptor::CPPTYPE_ENUM) return words;
-  for (int i = 1; i < field.enum_type()->value_count(); ++i) {  // 0 is unspecified.
-    words.push_back(field.enum_type()->value(i)->name());
-  }
-  return words;
+  const bool is_enum = field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM;
+  return is_enum ? EnumWords(*field.enum_type()) : std::vector<std::string>();
 }
 
 void AddFields(const Message& message, const std::string& prefix,

@@ -9,8 +9,10 @@ namespace contact::cli {
 
 /// A field that `--set` can override.
 struct SettableField {
-  std::string path;                ///< Such as `contacts[0].restitution`.
-  std::vector<std::string> words;  ///< What an enum or a flag may be; otherwise empty.
+  /// Such as `contacts[0].restitution`.
+  std::string path;
+  /// The values that an enum or a flag may have; empty for other fields.
+  std::vector<std::string> words;
 };
 
 /// The fields of a scenario, those of the first entries of each list, and with `[*]` those of all

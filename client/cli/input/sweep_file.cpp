@@ -1,8 +1,8 @@
 #include "cli/input/sweep_file.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,6 +10,7 @@
 #include "cli/base/text_file.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
+#include "cli/input/yaml_place.h"
 #include "cli/input/yaml_reader.h"
 
 namespace contact::cli {
@@ -36,11 +37,8 @@ class SweepFile {
  private:
   void ReadRoot() {
     if (root_.IsNull()) return AddAt(root_.Mark(), "", "is empty", "a sweep has base and axes");
-    const VariableValues own = ResolveVariables(
-        variables_,
-        [this](const YAML::Mark& mark, const std::string& field, const std::string& what,
-               const std::string& hint) { AddAt(mark, field, what, hint); },
-        &root_);
+    const VariableValues own =
+        ResolveVariables(variables_, std::bind_front(&SweepFile::AddAt, this), &root_);
     if (!mistakes_.empty()) return;  // A text that names an unknown variable has no value.
     std::erase_if(variables_, [&own](const auto& given) { return own.contains(given.first); });
     YAML::Node rest = YAML::Clone(root_);
@@ -83,32 +81,15 @@ class SweepFile {
     if (!sweep_.has_base()) {
       return AddAt(root_.Mark(), "base", "is missing", "name a scenario file, or write one here");
     }
-    mistakes_ = CheckSweep(sweep_, [this](const Violation& rule) { return Place(rule); });
-  }
-
-  // In the sweep, or in the file of its base.
-  Diagnostic Place(Violation violation) const {
-    constexpr std::string_view kBase = "base.";
-    if (base_ && violation.field.starts_with(kBase)) {
-      violation.field.erase(0, kBase.size());
-      return base_->Place(violation);
-    }
-    const YAML::Mark mark = FindNode(root_, violation.field).node.Mark();
-    return {.source = name(),
-            .line = mark.line + 1,
-            .column = mark.column + 1,
-            .field = violation.field,
-            .what = violation.description,
-            .hint = violation.hint};
+    mistakes_ = CheckSweep(sweep_, base_ ? &*base_ : nullptr, [this](const Violation& rule) {
+      const YAML::Mark mark = FindNode(root_, rule.field).node.Mark();
+      return DiagnosticAt(name(), mark, rule.field, rule.description, rule.hint);
+    });
   }
 
   void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint) {
-    mistakes_.push_back({.source = name(),
-                         .line = mark.line + 1,
-                         .column = mark.column + 1,
-                         .field = std::move(field),
-                         .what = std::move(what),
-                         .hint = std::move(hint)});
+    mistakes_.push_back(
+        DiagnosticAt(name(), mark, std::move(field), std::move(what), std::move(hint)));
   }
 
   std::string name() const { return path_ == "-" ? "<stdin>" : path_; }

@@ -4,21 +4,16 @@
 #include <google/protobuf/descriptor.h>
 
 #include <cstdio>
-#include <limits>
+#include <string_view>
 
 #include "cli/base/scalar.h"
+#include "cli/input/no_limits.h"
 #include "wire/rules/field_path.h"
 #include "wire/scenario_advice.h"
 #include "wire/sweep/sweep_codec.h"
 
 namespace contact::cli {
 namespace {
-
-// How much is too much is for the server to say; it has to fit into memory here, though.
-constexpr ScenarioLimits kLimits{.max_bodies = std::numeric_limits<std::int32_t>::max(),
-                                 .max_contacts = std::numeric_limits<std::int32_t>::max(),
-                                 .max_samples = std::numeric_limits<std::int64_t>::max(),
-                                 .max_cells = 1'000'000};
 
 // The type of the field at a path in a scenario, if it is an enum.
 const google::protobuf::EnumDescriptor* EnumAt(const std::string& path) {
@@ -40,14 +35,20 @@ std::optional<double> AxisValue(const std::string& path, const std::string& text
   return word == nullptr ? ParseNumber(text) : word->number();
 }
 
-std::vector<Diagnostic> CheckSweep(const v1::Sweep& sweep,
+std::vector<Diagnostic> CheckSweep(const v1::Sweep& sweep, const ScenarioFile* base,
                                    const std::function<Diagnostic(const Violation&)>& place) {
-  const DecodedSweep plan = DecodeSweep(sweep, kLimits);
+  const auto place_anywhere = [&](Violation violation) {
+    constexpr std::string_view kBase = "base.";
+    if (base == nullptr || !violation.field.starts_with(kBase)) return place(violation);
+    violation.field.erase(0, kBase.size());
+    return base->Place(violation);
+  };
+  const DecodedSweep plan = DecodeSweep(sweep, kNoLimits);
   std::vector<Diagnostic> mistakes;
-  for (const Violation& violation : plan.violations) mistakes.push_back(place(violation));
+  for (const Violation& violation : plan.violations) mistakes.push_back(place_anywhere(violation));
   if (!mistakes.empty()) return mistakes;
   for (const Violation& advice : Advise(sweep, plan)) {
-    fmt::print(stderr, "{}\n", Format(place(advice), "warning"));
+    fmt::print(stderr, "{}\n", Format(place_anywhere(advice), "warning"));
   }
   return {};
 }

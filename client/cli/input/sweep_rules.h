@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/input/diagnostic.h"
+#include "cli/input/scenario_file.h"
 #include "contact/v1/scenario.pb.h"
 #include "wire/rules/violation.h"
 
@@ -16,8 +17,9 @@ namespace contact::cli {
 std::optional<double> AxisValue(const std::string& path, const std::string& text);
 
 /// Checks the rules of the contract for a sweep and prints on the standard error what they advise.
-/// `place` finds where the field of a broken rule was written. Returns the broken rules.
-std::vector<Diagnostic> CheckSweep(const v1::Sweep& sweep,
+/// Returns the broken rules. Those within the base are told where `base` has the field, if it is
+/// not null: it must then be the scenario of the sweep. `place` finds the places of the others.
+std::vector<Diagnostic> CheckSweep(const v1::Sweep& sweep, const ScenarioFile* base,
                                    const std::function<Diagnostic(const Violation&)>& place);
 
 }  // namespace contact::cli

@@ -8,8 +8,11 @@ namespace contact::cli {
 
 /// A scenario or sweep that is shipped with the program, from client/scenarios.
 struct Template {
-  std::string_view name;   ///< That of its file, without `.yaml`.
-  std::string_view shows;  ///< Its title.
+  /// The name of its file, without `.yaml`.
+  std::string_view name;
+  /// Its title, or what it sweeps.
+  std::string_view shows;
+  /// The whole file.
   std::string_view text;
 };
 

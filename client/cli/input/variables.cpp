@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/spelling.h"
+#include "cli/base/assignments.h"
 #include "cli/base/failure.h"
 
 namespace contact::cli {
@@ -132,17 +133,7 @@ void AddVariableFlag(CLI::App& command, std::vector<std::string>* assignments) {
 }
 
 VariableValues ParseVariables(const std::vector<std::string>& assignments) {
-  VariableValues values;
-  for (const std::string& text : assignments) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw Failure(
-          ExitCode::kUsage,
-          fmt::format("--var {}: expected VARIABLE=VALUE, such as restitution=0.7", text));
-    }
-    values[text.substr(0, equals)] = text.substr(equals + 1);
-  }
-  return values;
+  return ParseAssignments(assignments, "--var", "VARIABLE=VALUE, such as restitution=0.7");
 }
 
 VariableValues ResolveVariables(const VariableValues& given, const YamlReader::Report& report,

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <span>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -44,15 +44,6 @@ std::string EnumName(std::string text) {
   return text;
 }
 
-// The values a user may choose: all but the one that stands for none.
-std::vector<std::string_view> Choices(const EnumDescriptor& type) {
-  std::vector<std::string_view> choices;
-  for (int i = 0; i < type.value_count(); ++i) {
-    if (type.value(i)->number() != 0) choices.push_back(type.value(i)->name());
-  }
-  return choices;
-}
-
 // The field of the same oneof that is set already; null if there is none.
 const FieldDescriptor* Rival(const FieldDescriptor& field, const Message& message) {
   const OneofDescriptor* oneof = field.real_containing_oneof();
@@ -71,28 +62,14 @@ void Store(const FieldDescriptor& field, Message* message, Value value, Set set,
   }
 }
 
-YAML::Node Child(const YAML::Node& node, const std::string& name) {
-  if (!node.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
-  for (const auto& entry : node) {
-    if (entry.first.IsScalar() && entry.first.Scalar() == name) return entry.second;
-  }
-  return YAML::Node(YAML::NodeType::Undefined);
-}
-
-FoundNode Find(const YAML::Node& node, std::span<const PathStep> path) {
-  if (path.empty()) return {node, true};
-  const YAML::Node child = Child(node, path.front().name);
-  if (!child.IsDefined()) return {node, false};
-  if (!path.front().index) return Find(child, path.subspan(1));
-  const auto index = static_cast<std::size_t>(*path.front().index);
-  if (!child.IsSequence() || index >= child.size()) return {child, false};
-  return Find(child[index], path.subspan(1));
-}
-
 }  // namespace
 
-FoundNode FindNode(const YAML::Node& root, const std::string& path) {
-  return Find(root, ParsePath(path));
+std::vector<std::string> EnumWords(const EnumDescriptor& type) {
+  std::vector<std::string> words;
+  for (int i = 0; i < type.value_count(); ++i) {
+    if (type.value(i)->number() != 0) words.push_back(type.value(i)->name());
+  }
+  return words;
 }
 
 void YamlReader::ReadMessage(const YAML::Node& node, const std::string& path,
@@ -167,34 +144,28 @@ void YamlReader::ReadScalar(const YAML::Node& node, const std::string& path,
                             const FieldDescriptor& field, Message* message) const {
   using google::protobuf::Reflection;
   const std::string text = node.IsScalar() ? node.Scalar() : std::string();
+  const auto store = [&](const auto& value, const char* expected, auto set, auto add) {
+    const bool comma =
+        field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE && text.find(',') != std::string::npos;
+    if (!value)
+      return Refuse(node, path, expected, comma ? "decimals are written with a point" : "");
+    Store(field, message, *value, set, add);
+  };
   switch (field.cpp_type()) {
-    case FieldDescriptor::CPPTYPE_DOUBLE: {
-      const auto value = node.IsScalar() ? ParseNumber(text) : std::nullopt;
-      if (!value) {
-        const bool comma = text.find(',') != std::string::npos;
-        return Refuse(node, path, "a number", comma ? "decimals are written with a point" : "");
-      }
-      return Store(field, message, *value, &Reflection::SetDouble, &Reflection::AddDouble);
-    }
-    case FieldDescriptor::CPPTYPE_INT32: {
-      const auto value = node.IsScalar() ? ParseInteger<std::int32_t>(text) : std::nullopt;
-      if (!value) return Refuse(node, path, "a whole number");
-      return Store(field, message, *value, &Reflection::SetInt32, &Reflection::AddInt32);
-    }
-    case FieldDescriptor::CPPTYPE_INT64: {
-      const auto value = node.IsScalar() ? ParseInteger<std::int64_t>(text) : std::nullopt;
-      if (!value) return Refuse(node, path, "a whole number");
-      return Store(field, message, *value, &Reflection::SetInt64, &Reflection::AddInt64);
-    }
-    case FieldDescriptor::CPPTYPE_BOOL: {
-      const auto value = node.IsScalar() ? ParseBool(text) : std::nullopt;
-      if (!value) return Refuse(node, path, "true or false");
-      return Store(field, message, *value, &Reflection::SetBool, &Reflection::AddBool);
-    }
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return store(ParseNumber(text), "a number", &Reflection::SetDouble, &Reflection::AddDouble);
+    case FieldDescriptor::CPPTYPE_INT32:
+      return store(ParseInteger<std::int32_t>(text), "a whole number", &Reflection::SetInt32,
+                   &Reflection::AddInt32);
+    case FieldDescriptor::CPPTYPE_INT64:
+      return store(ParseInteger<std::int64_t>(text), "a whole number", &Reflection::SetInt64,
+                   &Reflection::AddInt64);
+    case FieldDescriptor::CPPTYPE_BOOL:
+      return store(ParseBool(text), "true or false", &Reflection::SetBool, &Reflection::AddBool);
     case FieldDescriptor::CPPTYPE_STRING:
-      if (!node.IsScalar()) return Refuse(node, path, "a text");
       if (!IsUtf8(text)) return report_(node.Mark(), path, "is not in UTF-8", "");
-      return Store(field, message, text, &Reflection::SetString, &Reflection::AddString);
+      return store(node.IsScalar() ? std::optional(text) : std::nullopt, "a text",
+                   &Reflection::SetString, &Reflection::AddString);
     case FieldDescriptor::CPPTYPE_ENUM:
       return ReadEnum(node, path, field, message);
     default:
@@ -205,15 +176,15 @@ void YamlReader::ReadScalar(const YAML::Node& node, const std::string& path,
 void YamlReader::ReadEnum(const YAML::Node& node, const std::string& path,
                           const FieldDescriptor& field, Message* message) const {
   const EnumDescriptor& type = *field.enum_type();
-  const std::vector<std::string_view> choices = Choices(type);
-  const std::string all = fmt::format("one of {}", fmt::join(choices, ", "));
+  const std::vector<std::string> words = EnumWords(type);
+  const std::string all = fmt::format("one of {}", fmt::join(words, ", "));
   if (!node.IsScalar()) return Refuse(node, path, all);
   const EnumValueDescriptor* value = type.FindValueByName(EnumName(node.Scalar()));
   if (value != nullptr) {
     return Store(field, message, value->number(), &google::protobuf::Reflection::SetEnumValue,
                  &google::protobuf::Reflection::AddEnumValue);
   }
-  const std::string_view nearest = Nearest(EnumName(node.Scalar()), choices);
+  const std::string_view nearest = Nearest(EnumName(node.Scalar()), {words.begin(), words.end()});
   report_(node.Mark(), path, fmt::format("unknown value {}", Quoted(node.Scalar())),
           nearest.empty() ? all : fmt::format("did you mean {}? {}", nearest, all));
 }

@@ -1,21 +1,19 @@
 #pragma once
 
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 #include <yaml-cpp/yaml.h>
 
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace contact::cli {
 
-/// Where a field stands in a document, or would stand.
-struct FoundNode {
-  YAML::Node node;  ///< The innermost node on the way to the field that the document has.
-  bool exact;       ///< True if `node` is the field itself.
-};
-
-/// Finds the field with a path such as `bodies[0].mass_kg` in a document.
-FoundNode FindNode(const YAML::Node& root, const std::string& path);
+/// The words that the value of an enum may be: all but the one with the number 0, which stands for
+/// an unset field.
+std::vector<std::string> EnumWords(const google::protobuf::EnumDescriptor& type);
 
 /// Reads YAML nodes into messages by reflection: keys are field names, enum values their names in
 /// either case. Goes on after a mistake, so that all are reported. A key without a value leaves

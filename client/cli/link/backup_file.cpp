@@ -75,7 +75,7 @@ class Receiver {
   bool complete_ = false;
 };
 
-// The pages of the database, as they are in the file.
+// Runs SQLite's check. The file is immutable for it, so that no journal is made beside it.
 void CheckDatabase(const std::string& file) {
   try {
     std::string escaped;

@@ -19,9 +19,12 @@ class CallFailure : public Failure {
   /// Exit code and message follow from `status` and its error details; `server` is HOST:PORT.
   CallFailure(const grpc::Status& status, const std::string& server);
 
-  grpc::StatusCode status() const { return status_; }    ///< Code of gRPC.
-  const std::string& reason() const { return reason_; }  ///< ErrorInfo.reason; may be empty.
-  const std::vector<Violation>& violations() const { return violations_; }  ///< Of a request.
+  /// The code of gRPC.
+  grpc::StatusCode status() const { return status_; }
+  /// ErrorInfo.reason, such as `JOB_NOT_FOUND`; empty if the server gave none.
+  const std::string& reason() const { return reason_; }
+  /// The rules that the request breaks; empty if it breaks none.
+  const std::vector<Violation>& violations() const { return violations_; }
 
   /// A failure with the same exit code whose message has all violations, a line each; without
   /// violations the message stays.
@@ -37,6 +40,7 @@ class CallFailure : public Failure {
 /// tried again a few times while the server is UNAVAILABLE.
 class Client {
  public:
+  /// The service whose methods Call takes.
   using Stub = v1::JobService::Stub;
 
   /// Connects to HOST:PORT in the background. Throws Failure (kUsage) for any other text.
@@ -66,15 +70,19 @@ class Client {
     }
   }
 
-  Stub& stub() { return *stub_; }  ///< For streams; Call is better for unary calls.
-  const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }  ///< Never null.
-  const std::string& server() const { return server_; }                       ///< HOST:PORT
+  /// For streams. Unary calls go through Call, which has a deadline and tries again.
+  Stub& stub() { return *stub_; }
+  /// For stubs of other services; never null.
+  const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
+  /// HOST:PORT, for messages.
+  const std::string& server() const { return server_; }
 
  private:
   /// Makes a call until it succeeds, at most three times. Throws CallFailure.
   void Try(const std::function<grpc::Status(grpc::ClientContext*)>& call);
 
   std::string server_;
+  /// Deadline of each try of a unary call.
   std::chrono::milliseconds call_timeout_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<Stub> stub_;

@@ -55,8 +55,8 @@ class PartFile {
       throw Failure(ExitCode::kRunFailed,
                     fmt::format("{} is not what the server has; it was removed, try again", path_));
     }
-    if (const std::error_code error = MoveIntoPlace(path_, path))
-      throw Failure(ExitCode::kLocal, fmt::format("{}: {}", path, error.message()));
+    const std::error_code error = MoveIntoPlace(path_, path);
+    if (error) throw Failure(ExitCode::kLocal, fmt::format("{}: {}", path, error.message()));
   }
 
  private:

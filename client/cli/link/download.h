@@ -14,13 +14,19 @@ namespace contact::cli {
 
 /// What Download fetches, and for how long it tries.
 struct DownloadOptions {
-  std::string job;       ///< `jobs/ID`.
-  std::string artifact;  ///< Its name, such as `trajectory.csv`.
-  std::string path;      ///< The file; meanwhile `path`.part.
+  /// `jobs/ID`.
+  std::string job;
+  /// The name of the artifact, such as `trajectory.csv`.
+  std::string artifact;
+  /// The file to write. What has come so far is in `path`.part.
+  std::string path;
+  /// When to give up; never, if unset.
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  std::function<bool()> stopped = [] { return false; };  ///< Asked about ten times a second.
+  /// Asked about ten times a second; true ends the download.
+  std::function<bool()> stopped = [] { return false; };
   /// Called when the connection is lost, before another attempt.
   std::function<void(const std::string& why)> lost = [](const std::string&) {};
+  /// With a server that cannot be reached.
   Patience patience = {};
 };
 

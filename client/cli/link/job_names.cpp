@@ -1,11 +1,9 @@
 #include "cli/link/job_names.h"
 
-#include <fmt/format.h>
-
-#include <random>
 #include <string_view>
 
-#include "cli/base/failure.h"
+#include "base/ids.h"
+#include "cli/base/assignments.h"
 
 namespace contact::cli {
 
@@ -18,21 +16,10 @@ std::string ShortName(const std::string& name) {
   return name.starts_with(kCollection) ? name.substr(kCollection.size()) : name;
 }
 
-std::string RandomRequestId() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
-}
+std::string RandomRequestId() { return RandomIds().NextUuid(); }
 
 std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts) {
-  std::map<std::string, std::string> labels;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw Failure(ExitCode::kUsage, fmt::format("--label {}: expected KEY=VALUE", text));
-    }
-    labels[text.substr(0, equals)] = text.substr(equals + 1);
-  }
-  return labels;
+  return ParseAssignments(texts, "--label", "KEY=VALUE");
 }
 
 }  // namespace contact::cli

@@ -12,7 +12,7 @@ std::string JobName(const std::string& job);
 /// `ID` for `jobs/ID`.
 std::string ShortName(const std::string& name);
 
-/// 32 random hexadecimal digits, to be the request_id of one CreateJob call and its retries.
+/// A random UUID, to be the request_id of one CreateJob call and its retries.
 std::string RandomRequestId();
 
 /// Reads KEY=VALUE texts of --label; the last value of a key counts. Throws Failure (kUsage) for a

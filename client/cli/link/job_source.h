@@ -27,7 +27,8 @@ class JobSource {
 
  private:
   const Settings& settings_;
-  std::optional<Client> client_;  ///< Once it is needed.
+  /// None until a job of the server is asked for.
+  std::optional<Client> client_;
 };
 
 }  // namespace contact::cli

@@ -19,13 +19,16 @@ class LocalServer {
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;
 
-  const std::string& address() const { return address_; }  ///< HOST:PORT
-  pid_t process() const { return process_; }               ///< Only this object waits for its end.
+  /// HOST:PORT.
+  const std::string& address() const { return address_; }
+  /// For signals and waitid with WNOWAIT: only this object may wait for its end.
+  pid_t process() const { return process_; }
 
  private:
   /// The port that the server has written to `port_file`; empty if it ended before, or is too slow.
   std::string WaitForPort(const std::string& port_file) const;
 
+  /// Holds the store and the file with the port.
   ScratchFolder folder_;
   pid_t process_ = -1;
   std::string address_;

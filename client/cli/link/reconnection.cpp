@@ -1,6 +1,7 @@
 #include "cli/link/reconnection.h"
 
 #include <algorithm>
+#include <iterator>
 #include <thread>
 
 namespace contact::cli {
@@ -9,22 +10,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::milliseconds;
 
-// Ends of a stream after which the same question may be asked again.
-bool MayTryAgain(grpc::StatusCode code) {
-  switch (code) {
-    case grpc::StatusCode::OK:  // Without the final event: a proxy or a dying server.
-    case grpc::StatusCode::UNAVAILABLE:
-    case grpc::StatusCode::CANCELLED:
-    case grpc::StatusCode::UNKNOWN:
-    case grpc::StatusCode::INTERNAL:
-    case grpc::StatusCode::ABORTED:
-    case grpc::StatusCode::DEADLINE_EXCEEDED:
-    case grpc::StatusCode::RESOURCE_EXHAUSTED:
-      return true;
-    default:
-      return false;
-  }
-}
+// Ends of a stream after which the same question may be asked again. OK is one: the final event is
+// missing, because of a proxy or a dying server.
+constexpr grpc::StatusCode kMayPass[] = {
+    grpc::OK,       grpc::UNAVAILABLE, grpc::CANCELLED,         grpc::UNKNOWN,
+    grpc::INTERNAL, grpc::ABORTED,     grpc::DEADLINE_EXCEEDED, grpc::RESOURCE_EXHAUSTED};
 
 bool Unreached(const grpc::Status& status) {
   return status.error_code() == grpc::StatusCode::UNAVAILABLE && status.error_details().empty();
@@ -39,8 +29,10 @@ void Reconnection::Heard() {
 }
 
 Milliseconds Reconnection::Lost(const grpc::Status& status) {
-  const bool overload = status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
-  if (!MayTryAgain(status.error_code()) || (!connected_ && (overload || Unreached(status)))) {
+  const grpc::StatusCode code = status.error_code();
+  const bool may_pass = std::ranges::find(kMayPass, code) != std::end(kMayPass);
+  const bool hopeless = code == grpc::RESOURCE_EXHAUSTED || Unreached(status);
+  if (!may_pass || (!connected_ && hopeless)) {
     throw CallFailure(status, server_);
   }
   if (!lost_since_) lost_since_ = Clock::now();

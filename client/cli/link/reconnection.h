@@ -15,11 +15,21 @@ namespace contact::cli {
 /// How often a stream is looked at while it brings nothing.
 inline constexpr std::chrono::milliseconds kStreamTick{100};
 
+/// Why a watch ended.
+enum class WatchEnd {
+  kFinished,  ///< The job ended, and all its events came.
+  kStopped,   ///< `stopped` returned true.
+  kTimedOut,  ///< The deadline passed.
+};
+
 /// When to ask again after a stream has ended early, and when to give up.
 struct Patience {
-  std::chrono::milliseconds first_pause{200};  ///< Before trying again; doubles, with jitter.
+  /// Before the first new attempt. The pause doubles with each, and has jitter.
+  std::chrono::milliseconds first_pause{200};
+  /// The pause does not grow beyond this one.
   std::chrono::milliseconds longest_pause{10'000};
-  std::chrono::milliseconds give_up_after{300'000};  ///< Without any connection.
+  /// How long there may be no message before Lost throws.
+  std::chrono::milliseconds give_up_after{300'000};
 };
 
 /// Decides when a stream is opened again, over all its connections.
@@ -40,9 +50,12 @@ class Reconnection {
  private:
   const std::string server_;
   const Patience patience_;
+  /// Upper end of the next pause.
   std::chrono::milliseconds pause_;
+  /// When the stream was first lost since the last message; none while it is not.
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
-  bool connected_ = false;  ///< Ever.
+  /// True once a message has come on any connection.
+  bool connected_ = false;
   std::mt19937 random_{std::random_device{}()};
 };
 

@@ -1,9 +1,8 @@
 #include "cli/link/recording.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
+#include <ranges>
 #include <utility>
 
 #include "cli/base/interrupt.h"
@@ -70,33 +69,27 @@ std::vector<SampleColumn> Recorder::Columns() const {
 }
 
 std::vector<v1::Iteration> Recorder::Iterations() const {
-  std::vector<v1::Iteration> all;
-  all.reserve(iterations_.size());
-  for (const auto& [key, iteration] : iterations_) all.push_back(iteration);
-  return all;
+  const auto all = iterations_ | std::views::values;
+  return {all.begin(), all.end()};
 }
 
 std::vector<v1::Cycle> Recorder::Cycles() const {
-  std::vector<v1::Cycle> all;
-  all.reserve(cycles_.size());
-  for (const auto& [sequence, cycle] : cycles_) all.push_back(cycle);
-  return all;
+  const auto all = cycles_ | std::views::values;
+  return {all.begin(), all.end()};
 }
 
 Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
                         bool trajectory) {
   const Interrupt interrupt;
   Recorder recorder;
-  Replay(client, JobName(job), settings, trajectory, &recorder);
-  if (recorder.has_holes()) Replay(client, JobName(job), settings, trajectory, &recorder);
-  if (recorder.has_holes()) {
-    throw Failure(ExitCode::kRunFailed,
-                  fmt::format("parts of the trajectory of {} do not come; try again", job));
-  }
+  ReplayWhole(job, [&] {
+    Replay(client, JobName(job), settings, trajectory, &recorder);
+    return !recorder.has_holes();
+  });
   Recording recording{.job = GetJob(client, job),
                       .columns = recorder.Columns(),
                       .iterations = recorder.Iterations()};
-  // An answer has not the end of a long ledger.
+  // GetJob leaves out the end of a long ledger; the events have all of it.
   const std::vector<v1::Cycle> cycles = recorder.Cycles();
   if (static_cast<std::size_t>(recording.job.cycles_size()) < cycles.size()) {
     recording.job.mutable_cycles()->Assign(cycles.begin(), cycles.end());

@@ -13,17 +13,24 @@ namespace contact::cli {
 
 /// One quantity of the trajectory, at all samples.
 struct SampleColumn {
-  std::string name;            ///< Such as `B1.velocity`, or `time`.
-  std::string quantity;        ///< Such as `velocity`; see FrameChunk.Column.
-  std::string unit;            ///< SI, such as `m/s`.
-  std::vector<double> values;  ///< One a sample; as many in all columns of a recording.
+  /// Such as `B1.velocity`, or `time`.
+  std::string name;
+  /// Such as `velocity`; see FrameChunk.Column.
+  std::string quantity;
+  /// SI, such as `m/s`.
+  std::string unit;
+  /// One value a sample. All columns of a recording have as many.
+  std::vector<double> values;
 };
 
 /// What the last attempt of an ended job recorded.
 struct Recording {
-  v1::Job job;                            ///< As GetJob returns it, with the whole ledger.
-  std::vector<SampleColumn> columns;      ///< `time` first. Empty if no trajectory was recorded.
-  std::vector<v1::Iteration> iterations;  ///< In order of episode and pass.
+  /// As GetJob returns it, with the whole ledger.
+  v1::Job job;
+  /// `time` comes first. Empty if no trajectory was recorded.
+  std::vector<SampleColumn> columns;
+  /// In order of episode and pass.
+  std::vector<v1::Iteration> iterations;
 
   /// The column with this name; null if there is none.
   const SampleColumn* Find(const std::string& name) const;
@@ -38,14 +45,20 @@ class Recorder : public WatchObserver {
   /// True if chunks are missing between those that came: a slow watcher is spared some.
   bool has_holes() const;
 
-  std::vector<SampleColumn> Columns() const;      ///< Of all chunks that came, joined.
-  std::vector<v1::Iteration> Iterations() const;  ///< In order of episode and pass.
-  std::vector<v1::Cycle> Cycles() const;          ///< In order of their events.
+  /// The columns of all chunks that came, joined.
+  std::vector<SampleColumn> Columns() const;
+  /// The iterations in order of episode and pass.
+  std::vector<v1::Iteration> Iterations() const;
+  /// The cycles in order of their events.
+  std::vector<v1::Cycle> Cycles() const;
 
  private:
-  std::map<std::int64_t, v1::FrameChunk> chunks_;            // By first sample.
-  std::map<std::pair<int, int>, v1::Iteration> iterations_;  // By episode and pass.
-  std::map<std::uint64_t, v1::Cycle> cycles_;                // By sequence.
+  /// By the number of the first sample.
+  std::map<std::int64_t, v1::FrameChunk> chunks_;
+  /// By episode and pass.
+  std::map<std::pair<int, int>, v1::Iteration> iterations_;
+  /// By the sequence number of the event.
+  std::map<std::uint64_t, v1::Cycle> cycles_;
 };
 
 /// Waits for the end of a job and fetches all that it recorded; without `trajectory` the recording

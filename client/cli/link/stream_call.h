@@ -13,6 +13,7 @@ namespace contact::cli {
 template <class Message>
 class StreamCall {
  public:
+  /// What Read has found.
   enum class Next {
     kMessage,  ///< `message` holds one.
     kNothing,  ///< None came in time.
@@ -46,8 +47,11 @@ class StreamCall {
   grpc::ClientContext context_;
   grpc::CompletionQueue queue_;
   std::unique_ptr<grpc::ClientAsyncReaderInterface<Message>> stream_;
+  /// kNone once the stream has ended.
   Pending pending_ = Pending::kStart;
+  /// Filled by the read that is pending.
   Message response_;
+  /// Filled by Finish.
   grpc::Status status_;
 };
 

@@ -6,31 +6,17 @@
 #include <utility>
 
 #include "cli/link/stream_call.h"
+#include "cli/link/stream_watch.h"
 
 namespace contact::cli {
 namespace {
 
-// One watch over all its connections.
-class Watcher {
+class Watcher final : public StreamWatch<WatchOptions, WatchObserver> {
  public:
   Watcher(Client& client, const WatchOptions& options, WatchObserver& observer)
-      : client_(client),
-        options_(options),
-        observer_(observer),
-        reconnection_(client.server(), options.patience),
+      : StreamWatch(client, options, observer),
         position_(options.after_sequence),
         live_only_(options.live_only) {}
-
-  WatchEnd Follow() {
-    while (true) {
-      const grpc::Status status = Connect();
-      if (end_) return *end_;
-      const std::chrono::milliseconds pause = reconnection_.Lost(status);
-      observer_.OnLost(WhyLost(status), pause);
-      Rest(pause, [this] { return GoOn(); });
-      if (end_) return *end_;
-    }
-  }
 
  private:
   using Call = StreamCall<v1::WatchJobResponse>;
@@ -48,8 +34,7 @@ class Watcher {
     return request;
   }
 
-  // Reads one stream until it ends or the watch does.
-  grpc::Status Connect() {
+  grpc::Status Connect() override {
     const v1::WatchJobRequest request = Request();
     Call call([&](auto* context, auto* queue, void* tag) {
       return client_.stub().AsyncWatchJob(context, request, queue, tag);
@@ -90,26 +75,8 @@ class Watcher {
     final_event_ |= event.has_state_changed() && IsFinal(event.state_changed().state());
   }
 
-  // False when the watch ends; tells the observer the time otherwise.
-  bool GoOn() {
-    if (end_) return false;
-    if (options_.stopped()) {
-      end_ = WatchEnd::kStopped;
-    } else if (options_.deadline && std::chrono::steady_clock::now() >= *options_.deadline) {
-      end_ = WatchEnd::kTimedOut;
-    } else {
-      observer_.OnTick();
-    }
-    return !end_;
-  }
-
-  Client& client_;
-  const WatchOptions& options_;
-  WatchObserver& observer_;
-  Reconnection reconnection_;
   std::uint64_t position_;
-  bool live_only_;  // Has not begun yet.
-  std::optional<WatchEnd> end_;
+  bool live_only_;            // Has not begun yet.
   bool heard_all_ = false;    // The snapshot shows an ended job without later events.
   bool final_event_ = false;  // The state_changed event of a final state came.
 };

@@ -19,33 +19,37 @@ namespace contact::cli {
 class WatchObserver {
  public:
   virtual ~WatchObserver() = default;
-  virtual void OnSnapshot(const v1::Job&) {}  ///< At every connection.
-  virtual void OnEvent(const v1::Event&) {}   ///< Each event once, in order.
+  /// The job as it is when a connection begins, at every connection.
+  virtual void OnSnapshot(const v1::Job&) {}
+  /// Each event once, in order.
+  virtual void OnEvent(const v1::Event&) {}
   /// The connection was lost; another try follows.
   virtual void OnLost(const std::string& /*why*/, std::chrono::milliseconds /*pause*/) {}
-  virtual void OnTick() {}  ///< About ten times a second.
+  /// Called about ten times a second.
+  virtual void OnTick() {}
 };
 
 /// Which events Watch asks for, and for how long.
 struct WatchOptions {
-  std::string name;                  ///< `jobs/ID`.
-  std::uint64_t after_sequence = 0;  ///< Only events after this one.
-  std::vector<std::string> kinds;    ///< Empty: all.
+  /// `jobs/ID`.
+  std::string name;
+  /// Only events with a higher sequence number come.
+  std::uint64_t after_sequence = 0;
+  /// Only events of these kinds come, such as `cycle`; empty: all.
+  std::vector<std::string> kinds;
+  /// When to stop; never, if unset.
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  std::function<bool()> stopped = [] { return false; };  ///< Asked about ten times a second.
+  /// Asked about ten times a second; true ends the watch.
+  std::function<bool()> stopped = [] { return false; };
 
   /// What the server does with frame chunks for which this client is too slow.
   v1::DeliveryOptions::OverflowPolicy overflow = v1::DeliveryOptions::CONFLATE;
-  std::chrono::milliseconds min_frame_interval{0};  ///< 0: no frame chunk is left out.
-  bool live_only = false;  ///< Begin after the newest event; only with `after_sequence` 0.
-  Patience patience = {};  ///< With a server that cannot be reached.
-};
-
-/// Why a watch ended.
-enum class WatchEnd {
-  kFinished,  ///< The job ended, and all its events came.
-  kStopped,   ///< `stopped` returned true.
-  kTimedOut,  ///< The deadline passed.
+  /// The server leaves out frame chunks that follow sooner; 0: none.
+  std::chrono::milliseconds min_frame_interval{0};
+  /// Begin after the newest event; only with `after_sequence` 0.
+  bool live_only = false;
+  /// With a server that cannot be reached.
+  Patience patience = {};
 };
 
 /// Follows the log of a job to its end, across connections: no event is missed or heard twice.

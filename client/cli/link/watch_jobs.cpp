@@ -5,34 +5,19 @@
 #include <utility>
 
 #include "cli/link/stream_call.h"
+#include "cli/link/stream_watch.h"
 
 namespace contact::cli {
 namespace {
 
-// One watch over all its connections.
-class JobsWatcher {
+class JobsWatcher final : public StreamWatch<JobsWatchOptions, JobsObserver> {
  public:
-  JobsWatcher(Client& client, const JobsWatchOptions& options, JobsObserver& observer)
-      : client_(client),
-        options_(options),
-        observer_(observer),
-        reconnection_(client.server(), options.patience) {}
-
-  WatchEnd Follow() {
-    while (!end_) {
-      const grpc::Status status = Connect();
-      if (end_) break;
-      const std::chrono::milliseconds pause = reconnection_.Lost(status);
-      observer_.OnLost(WhyLost(status), pause);
-      Rest(pause, [this] { return GoOn(); });
-    }
-    return *end_;
-  }
+  using StreamWatch::StreamWatch;
 
  private:
   using Call = StreamCall<v1::WatchJobsResponse>;
 
-  grpc::Status Connect() {
+  grpc::Status Connect() override {
     Call call([this](auto* context, auto* queue, void* tag) {
       return client_.stub().AsyncWatchJobs(context, options_.request, queue, tag);
     });
@@ -64,20 +49,6 @@ class JobsWatcher {
     if (known_.erase(name) > 0) observer_.OnGone(name);
   }
 
-  bool GoOn() {
-    if (options_.stopped()) {
-      end_ = WatchEnd::kStopped;
-    } else if (options_.deadline && std::chrono::steady_clock::now() >= *options_.deadline) {
-      end_ = WatchEnd::kTimedOut;
-    }
-    return !end_;
-  }
-
-  Client& client_;
-  const JobsWatchOptions& options_;
-  JobsObserver& observer_;
-  Reconnection reconnection_;
-  std::optional<WatchEnd> end_;
   std::map<std::string, std::pair<v1::Job::State, int>> known_;  // State and attempt of each job.
   std::set<std::string> unconfirmed_;  // Known before this connection, and not in its snapshot yet.
 };

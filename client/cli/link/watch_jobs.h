@@ -15,19 +15,26 @@ namespace contact::cli {
 class JobsObserver {
  public:
   virtual ~JobsObserver() = default;
-  virtual void OnJob(const v1::Job&) {}  ///< A job that is new, or has another state than before.
-  virtual void OnGone(const std::string& /*name*/) {}  ///< A job that was told of was deleted.
+  /// A job that is new, or has another state or attempt than before.
+  virtual void OnJob(const v1::Job&) {}
+  /// A job that OnJob has told of was deleted.
+  virtual void OnGone(const std::string& /*name*/) {}
   /// The connection was lost; another attempt follows after `pause`.
   virtual void OnLost(const std::string& /*why*/, std::chrono::milliseconds /*pause*/) {}
+  /// Called about ten times a second.
+  virtual void OnTick() {}
 };
 
 /// What WatchJobs follows, and for how long.
 struct JobsWatchOptions {
-  v1::WatchJobsRequest request;  ///< The filter.
+  /// The filter.
+  v1::WatchJobsRequest request;
   /// When to stop; never, if unset.
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  std::function<bool()> stopped = [] { return false; };  ///< Asked about ten times a second.
-  Patience patience = {};                                ///< With a server that cannot be reached.
+  /// Asked about ten times a second; true ends the watch.
+  std::function<bool()> stopped = [] { return false; };
+  /// With a server that cannot be reached.
+  Patience patience = {};
 };
 
 /// Follows the jobs of a filter across connections, until it is stopped or the deadline. After a

@@ -18,4 +18,10 @@ void WatchToEnd(Client& client, WatchOptions options, const Settings& settings,
                             interrupted ? "interrupted" : "time is up", options.name));
 }
 
+void ReplayWhole(const std::string& job, const std::function<bool()>& replay) {
+  if (replay() || replay()) return;
+  throw Failure(ExitCode::kRunFailed,
+                fmt::format("parts of the trajectory of {} do not come; try again", job));
+}
+
 }  // namespace contact::cli

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "cli/link/watch.h"
 #include "cli/settings/settings.h"
 
@@ -11,5 +14,9 @@ namespace contact::cli {
 /// kInterrupted) if the watch ends before the job.
 void WatchToEnd(Client& client, WatchOptions options, const Settings& settings,
                 WatchObserver& observer);
+
+/// Calls `replay` until it returns true for a recording without holes, at most twice. Throws
+/// Failure (kRunFailed), which names `job`, if both recordings have holes.
+void ReplayWhole(const std::string& job, const std::function<bool()>& replay);
 
 }  // namespace contact::cli

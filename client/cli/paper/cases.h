@@ -20,8 +20,10 @@ v1::Scenario SpringWall();
 /// wall of kStudyStiffness. The contact of restitution i is named `i`. Records the ledger only.
 v1::Scenario Collisions(const std::vector<double>& restitutions, v1::Contact::Damping damping);
 
-inline constexpr double kStudyVelocity = 0.5;       ///< [m/s]
-inline constexpr double kStudyStiffness = 2.41e10;  ///< [N/m^1.5]
+/// Speed of the balls of section 3 [m/s].
+inline constexpr double kStudyVelocity = 0.5;
+/// Stiffness of their contacts [N/m^1.5].
+inline constexpr double kStudyStiffness = 2.41e10;
 
 /// Makes a scenario be solved by the process of the paper: Runge-Kutta with steps of 1 µs, this
 /// update of μ, and `tolerance` (the paper's ξ) for the restitution, relative.

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kVelocity = 0.2;  // Of the first ball [m/s].
 constexpr const char* kContacts[] = {"B1-B2", "B2-B3"};
+constexpr char kRuns[] =
+    "run 0 is Hunt and Crossley, 1 Flores et al., 2 the described method as published, "
+    "3 the same converged";
 
 // A model of Figs. 10 to 12 and Table 2. The named laws give both contacts the factor for 0.8.
 struct Model {
@@ -42,37 +45,16 @@ v1::Scenario Converged(const Model& model) {
   return scenario;
 }
 
-// The columns of all runs, one run after the other: each model as the paper solves it, and the
-// described one converged.
-Data Rows(const std::string& name, const std::vector<std::string>& columns,
-          const std::vector<std::string>& headers, const std::vector<Solved>& runs) {
-  Data data{name, {"run", "time [s]"}, {}};
-  data.columns.insert(data.columns.end(), headers.begin(), headers.end());
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    for (std::size_t i = 0; i < runs[run]["time"].size(); ++i) {
-      data.rows.push_back({static_cast<double>(run), runs[run]["time"][i]});
-      for (const std::string& column : columns) data.rows.back().push_back(runs[run][column][i]);
-    }
-  }
-  data.note =
-      "run 0 is Hunt and Crossley, 1 Flores et al., 2 the described method as published, "
-      "3 the same converged";
-  return data;
-}
-
-struct Published {
-  double restitution[3][2] = {{0.8453, 0.8661}, {0.8020, 0.8306}, {0.8067, 0.7059}};
-  double passes = 6;
-};
+// Restitution that the paper's Table 2 prints for each model and contact.
+constexpr double kPublished[3][2] = {{0.8453, 0.8661}, {0.8020, 0.8306}, {0.8067, 0.7059}};
 
 PaperItem Table2(const std::vector<Solved>& published, const std::vector<Solved>& converged) {
-  const Published paper;
   PaperItem item{"table2", "Restitution that each model delivers", {}, {}};
   for (std::size_t m = 0; m < std::size(kModels); ++m) {
     for (std::size_t c = 0; c < std::size(kContacts); ++c) {
       item.numbers.push_back(
           {.what = fmt::format("{}, ε_out {}", kModels[m].name, kContacts[c]),
-           .published = paper.restitution[m][c],
+           .published = kPublished[m][c],
            .process = published[m].Cycles(kContacts[c]).at(0).restitution_out(),
            .converged = converged[m].Cycles(kContacts[c]).at(0).restitution_out(),
            .limit = 7e-4,
@@ -80,7 +62,7 @@ PaperItem Table2(const std::vector<Solved>& published, const std::vector<Solved>
     }
   }
   item.numbers.push_back({.what = "Described method, passes",
-                          .published = paper.passes,
+                          .published = 6,
                           .process = 1.0 + published[2].Cycles("B1-B2").at(0).iterations(),
                           .converged = 1.0 + converged[2].Cycles("B1-B2").at(0).iterations(),
                           .limit = 0});
@@ -161,7 +143,9 @@ std::vector<PaperItem> MakeChainFigures(Lab& lab) {
                         const std::vector<std::string>& columns,
                         const std::vector<std::string>& headers) {
     drawn.title = title;
-    return PaperItem{id, title, {}, {Rows(id, columns, headers, runs)}, std::move(drawn)};
+    Data samples = SampleData(id, columns, headers, runs);
+    samples.note = kRuns;
+    return PaperItem{id, title, {}, {std::move(samples)}, std::move(drawn)};
   };
   const auto models = [&](const std::string& preset) {
     return ModelsFigure(preset, {&runs[0], &runs[1], &runs[2]},

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <cmath>
 #include <utility>
 
@@ -12,25 +13,15 @@
 namespace contact::cli {
 namespace {
 
-struct Law {
-  v1::Contact::Damping damping;
-  const char* name;
-};
-constexpr Law kLaws[] = {{v1::Contact::HUNT_CROSSLEY, "hunt_crossley"},
-                         {v1::Contact::LANKARANI_NIKRAVESH, "lankarani_nikravesh"},
-                         {v1::Contact::FLORES, "flores"},
-                         {v1::Contact::HU_GUO, "hu_guo"},
-                         {v1::Contact::PAPER_EQ23, "paper_eq23"}};
+constexpr v1::Contact::Damping kLaws[] = {v1::Contact::HUNT_CROSSLEY,
+                                          v1::Contact::LANKARANI_NIKRAVESH, v1::Contact::FLORES,
+                                          v1::Contact::HU_GUO, v1::Contact::PAPER_EQ23};
 
 // ε from 0.05 to 0.95.
 std::vector<double> Grid() {
   std::vector<double> grid;
   for (int i = 1; i <= 19; ++i) grid.push_back(i * 0.05);
   return grid;
-}
-
-double RelativeMiss(const v1::Cycle& cycle, double restitution) {
-  return std::abs(cycle.restitution_out() / restitution - 1);
 }
 
 v1::Cycle CycleOf(const Solved& solved, std::size_t contact) {
@@ -42,7 +33,7 @@ double LargestMiss(const Solved& solved, const std::vector<double>& grid, double
   double largest = 0;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (grid[i] < from - 1e-9 || grid[i] > to + 1e-9) continue;
-    largest = std::max(largest, RelativeMiss(CycleOf(solved, i), grid[i]));
+    largest = std::max(largest, std::abs(CycleOf(solved, i).restitution_out() / grid[i] - 1));
   }
   return largest;
 }
@@ -114,7 +105,10 @@ Figure DrawPostRestitution(const Data& data) {
 
 PaperItem PostRestitution(const std::vector<double>& grid, const std::vector<Solved>& laws) {
   Data data{"fig4", {"restitution_in"}, {}};
-  for (const Law& law : kLaws) data.columns.push_back(fmt::format("restitution_out_{}", law.name));
+  for (const v1::Contact::Damping law : kLaws) {
+    data.columns.push_back("restitution_out_" +
+                           boost::to_lower_copy(v1::Contact::Damping_Name(law)));
+  }
   for (std::size_t i = 0; i < grid.size(); ++i) {
     data.rows.push_back({grid[i]});
     for (const Solved& law : laws) {
@@ -157,7 +151,7 @@ PaperItem Coefficients(const std::vector<double>& grid, const std::vector<Solved
 std::vector<PaperItem> MakeDampingStudy(Lab& lab) {
   const std::vector<double> grid = Grid();
   std::vector<v1::Scenario> scenarios;
-  for (const Law& law : kLaws) scenarios.push_back(Collisions(grid, law.damping));
+  for (const v1::Contact::Damping law : kLaws) scenarios.push_back(Collisions(grid, law));
   const std::vector<Solved> laws = lab.Solve(scenarios);
   return {DeformationVelocity(lab), PostRestitution(grid, laws), Coefficients(grid, laws),
           Exponent(grid, lab)};

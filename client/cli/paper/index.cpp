@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "cli/base/escape.h"
 #include "cli/base/html.h"
 #include "cli/base/number.h"
 
@@ -19,16 +20,13 @@ constexpr char kReading[] =
     "definition of the phases. <b>Converged</b> is ours by the default solver, to 1e-8. A "
     "deviation of process from print beyond the documented limit is marked.</p>\n";
 
-std::string Deviation(const Comparison& number) {
-  return std::isnan(number.limit) ? "" : fmt::format("{:+.1e}", number.deviation());
-}
-
-std::string Limit(const Comparison& number) {
-  return std::isnan(number.limit) ? "" : fmt::format("{:.1g}", number.limit);
-}
-
 std::vector<std::string> Cells(const Comparison& n) {
-  return {n.what, Short(n.published), Short(n.process), Short(n.converged), Deviation(n), Limit(n),
+  return {n.what,
+          Short(n.published),
+          Short(n.process),
+          Short(n.converged),
+          DeviationText(n),
+          LimitText(n),
           n.why};
 }
 

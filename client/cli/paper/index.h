@@ -10,9 +10,12 @@ namespace contact::cli {
 
 /// What made the items.
 struct Origin {
-  std::string server;   ///< Version and revision of the server.
-  std::string solver;   ///< Options of the solver of the converged numbers, as JSON.
-  std::string command;  ///< The command that makes the page again.
+  /// Version and revision of the server.
+  std::string server;
+  /// Options of the solver of the converged numbers, as JSON.
+  std::string solver;
+  /// The command that makes the page again.
+  std::string command;
 };
 
 /// One HTML page with the numbers and figures of all items, links to their data, and how to make it

@@ -19,10 +19,6 @@ const std::vector<Group>& Groups() {
   return groups;
 }
 
-bool Contains(const std::vector<std::string>& ids, const std::string& id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
 }  // namespace
 
 const std::vector<std::string>& PaperItems() {
@@ -37,14 +33,14 @@ const std::vector<std::string>& PaperItems() {
 }
 
 std::vector<PaperItem> MakePaperItems(const std::vector<std::string>& ids, Lab& lab) {
+  const auto is_asked = [&ids](const std::string& id) {
+    return std::ranges::find(ids, id) != ids.end();
+  };
   std::vector<PaperItem> wanted;
   for (const Group& group : Groups()) {
-    if (std::none_of(group.ids.begin(), group.ids.end(),
-                     [&](const std::string& id) { return Contains(ids, id); })) {
-      continue;
-    }
+    if (std::ranges::none_of(group.ids, is_asked)) continue;
     for (PaperItem& item : group.make(lab)) {
-      if (Contains(ids, item.id)) wanted.push_back(std::move(item));
+      if (is_asked(item.id)) wanted.push_back(std::move(item));
     }
   }
   return wanted;

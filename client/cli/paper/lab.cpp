@@ -27,6 +27,22 @@ std::vector<v1::Cycle> Solved::Cycles(const std::string& contact) const {
   return cycles;
 }
 
+Data SampleData(const std::string& name, const std::vector<std::string>& columns,
+                const std::vector<std::string>& headers, std::span<const Solved> runs) {
+  Data data{name, {"time [s]"}, {}};
+  if (runs.size() > 1) data.columns.insert(data.columns.begin(), "run");
+  data.columns.insert(data.columns.end(), headers.begin(), headers.end());
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    for (std::size_t i = 0; i < runs[run]["time"].size(); ++i) {
+      std::vector<double>& row = data.rows.emplace_back();
+      if (runs.size() > 1) row.push_back(static_cast<double>(run));
+      row.push_back(runs[run]["time"][i]);
+      for (const std::string& column : columns) row.push_back(runs[run][column][i]);
+    }
+  }
+  return data;
+}
+
 std::vector<Solved> ServerLab::Solve(const std::vector<v1::Scenario>& scenarios) {
   std::vector<Solved> all;
   std::vector<std::string> waiting;

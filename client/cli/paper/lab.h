@@ -1,9 +1,11 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cli/link/recording.h"
+#include "cli/paper/report.h"
 
 namespace contact::cli {
 
@@ -16,6 +18,11 @@ struct Solved : Recording {
   /// The cycles of a contact, in order.
   std::vector<v1::Cycle> Cycles(const std::string& contact) const;
 };
+
+/// The samples of runs, one run after the other: the number of the run from 0, if there are
+/// several, the time, then these columns below these headers. Throws as Solved::operator[] does.
+Data SampleData(const std::string& name, const std::vector<std::string>& columns,
+                const std::vector<std::string>& headers, std::span<const Solved> runs);
 
 /// Runs scenarios. The items of the paper are made of nothing but what a lab returns.
 class Lab {
@@ -41,9 +48,9 @@ class ServerLab : public Lab {
   std::vector<Solved> Solve(const std::vector<v1::Scenario>& scenarios) override;
 
  private:
-  // Creates a job; returns its name.
+  /// Creates a job; returns its name.
   std::string Submit(const v1::Scenario& scenario);
-  // Awaits the end of a job, reads its recording and deletes the job.
+  /// Awaits the end of a job, reads its recording and deletes the job.
   Solved Collect(const std::string& name);
 
   Client& client_;

@@ -25,12 +25,7 @@ std::string Csv(const Data& data) {
   return text;
 }
 
-// JSON has no NaN.
-nlohmann::ordered_json Number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return value;
-}
-
+// NaN, which JSON lacks, is null.
 std::string Json(const PaperItem& item) {
   nlohmann::ordered_json json;
   json["id"] = item.id;
@@ -39,11 +34,11 @@ std::string Json(const PaperItem& item) {
   json["numbers"] = nlohmann::ordered_json::array();
   for (const Comparison& n : item.numbers) {
     json["numbers"].push_back({{"what", n.what},
-                               {"published", Number(n.published)},
-                               {"process", Number(n.process)},
-                               {"deviation", Number(n.deviation())},
-                               {"documented_deviation", Number(n.limit)},
-                               {"converged", Number(n.converged)},
+                               {"published", n.published},
+                               {"process", n.process},
+                               {"deviation", n.deviation()},
+                               {"documented_deviation", n.limit},
+                               {"converged", n.converged},
                                {"holds", n.holds()},
                                {"why", n.why}});
   }
@@ -57,10 +52,8 @@ Table::Cell Verdict(const Comparison& n) {
 
 void AddRows(const PaperItem& item, Table* table) {
   for (const Comparison& n : item.numbers) {
-    table->Add({item.id, n.what, Short(n.published), Short(n.process),
-                std::isnan(n.limit) ? "" : fmt::format("{:+.1e}", n.deviation()),
-                std::isnan(n.limit) ? "" : fmt::format("{:.1g}", n.limit), Verdict(n),
-                Short(n.converged), n.why});
+    table->Add({item.id, n.what, Short(n.published), Short(n.process), DeviationText(n),
+                LimitText(n), Verdict(n), Short(n.converged), n.why});
   }
 }
 
@@ -82,11 +75,17 @@ bool Comparison::holds() const {
   return std::isnan(limit) || std::abs(deviation()) <= limit * (1 + 1e-12);
 }
 
-bool PaperItem::holds() const {
-  return std::all_of(numbers.begin(), numbers.end(), [](const Comparison& n) { return n.holds(); });
-}
+bool PaperItem::holds() const { return std::ranges::all_of(numbers, &Comparison::holds); }
 
 std::string Short(double value) { return std::isnan(value) ? "" : fmt::format("{:.5g}", value); }
+
+std::string DeviationText(const Comparison& number) {
+  return std::isnan(number.limit) ? "" : fmt::format("{:+.1e}", number.deviation());
+}
+
+std::string LimitText(const Comparison& number) {
+  return std::isnan(number.limit) ? "" : fmt::format("{:.1g}", number.limit);
+}
 
 void Write(const PaperItem& item, const std::filesystem::path& directory) {
   for (const Data& data : item.data) WriteText(Csv(data), directory / (data.name + ".csv"));

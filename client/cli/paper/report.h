@@ -11,17 +11,23 @@
 
 namespace contact::cli {
 
-/// The value of a number that there is not.
+/// Stands for a number that the paper does not print, or that is not compared.
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// A number of the paper beside ours, all in the same unit.
 struct Comparison {
-  std::string what;              ///< What the number is, with its unit.
-  double published = kNoNumber;  ///< As printed; NaN: the print cannot be read.
-  double process = kNoNumber;    ///< Ours by the published process and definition.
-  double converged = kNoNumber;  ///< Ours by the default solver, to its tolerance.
-  double limit = kNoNumber;      ///< Documented |process − published|; NaN: not compared.
-  std::string why{};             ///< Why they differ, in a line; empty where they do not.
+  /// What the number is, with its unit.
+  std::string what;
+  /// As printed; NaN: the print cannot be read.
+  double published = kNoNumber;
+  /// Ours by the published process and definition.
+  double process = kNoNumber;
+  /// Ours by the default solver, to its tolerance.
+  double converged = kNoNumber;
+  /// Documented |process − published|; NaN: not compared.
+  double limit = kNoNumber;
+  /// Why they differ, in a line; empty where they do not.
+  std::string why{};
 
   /// process − published.
   double deviation() const { return process - published; }
@@ -41,7 +47,9 @@ struct Data {
 struct PaperItem {
   std::string id;     ///< Such as `fig12`.
   std::string title;  ///< What it shows.
+  /// Its numbers beside those of the paper; empty if none are shown.
   std::vector<Comparison> numbers;
+  /// What its curves or cells are drawn from.
   std::vector<Data> data;
   std::optional<Figure> figure = {};  ///< None for tables.
 
@@ -55,6 +63,13 @@ void Write(const PaperItem& item, const std::filesystem::path& directory);
 
 /// A number with five significant digits; empty for NaN.
 std::string Short(double value);
+
+/// The deviation with its sign, such as `+1.2e-04`; empty for a number that is not compared.
+std::string DeviationText(const Comparison& number);
+
+/// The documented limit of the deviation, such as `0.0007`; empty for a number that is not
+/// compared.
+std::string LimitText(const Comparison& number);
 
 /// The numbers of all items as one table; empty if there are none.
 std::string Summary(const std::vector<PaperItem>& items, const Style& style);

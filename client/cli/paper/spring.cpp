@@ -88,16 +88,14 @@ void NameCurves(Figure* figure) {
 PaperItem MakeItem(const std::string& id, const std::string& preset, const std::string& title,
                    const Solved& run, const std::vector<std::string>& columns,
                    const std::vector<std::string>& headers) {
-  Data data{id, {"time [s]"}, {}};
-  data.columns.insert(data.columns.end(), headers.begin(), headers.end());
-  for (std::size_t i = 0; i < run["time"].size(); ++i) {
-    data.rows.push_back({run["time"][i]});
-    for (const std::string& column : columns) data.rows.back().push_back(run[column][i]);
-  }
   Figure figure = PresetFigure(preset, run);
   figure.title = title;
   NameCurves(&figure);
-  return {id, title, {}, {data, Marks(id + "_cycles", run)}, std::move(figure)};
+  return {id,
+          title,
+          {},
+          {SampleData(id, columns, headers, {&run, 1}), Marks(id + "_cycles", run)},
+          std::move(figure)};
 }
 
 }  // namespace

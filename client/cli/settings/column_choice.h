@@ -26,6 +26,7 @@ class ColumnChoice {
   Style OutputStyle(const Settings& settings) const;
 
  private:
+  /// The values of --columns; empty without the flag.
   std::vector<std::string> names_;
 };
 

@@ -47,8 +47,8 @@ void AddPrinting(CommandLine& line) {
   CLI::Option* output = app.add_option_function<std::string>(
       "-o,--output", [&settings](const std::string& name) { settings.SetOutput(name); },
       fmt::format("How to print: {}. export writes {}; plot draws {}", FormatHelp(kPrinted),
-                  FormatHelp(kData), FormatHelp(kPicture)));
-  line.SetWords(output, FormatNames(kPrinted | kData | kPicture))
+                  FormatHelp(kData), FormatHelp(kFigure)));
+  line.SetWords(output, FormatNames(kPrinted | kData | kFigure))
       ->type_name("FORMAT")
       ->default_str(std::string(NameOf(settings.output)));
   CLI::Option* color =

@@ -86,6 +86,7 @@ class CommandLine {
   const std::vector<std::string>& WordsOf(const CLI::Option& option) const;
 
  private:
+  /// What was declared about the values of an option.
   struct Values {
     ValueKind kind = ValueKind::kAny;
     std::vector<std::string> words;
@@ -94,7 +95,8 @@ class CommandLine {
   CLI::App app_;
   Settings settings_;
   Action action_;
-  std::map<const CLI::Option*, Values> values_;  ///< Options are app_'s, which outlives them.
+  /// By option. The options are those of app_, which outlives this map.
+  std::map<const CLI::Option*, Values> values_;
 };
 
 /// True if an option takes several values with commas between.

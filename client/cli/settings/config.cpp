@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <sstream>
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
@@ -16,9 +15,6 @@
 namespace contact::cli {
 namespace {
 
-constexpr char kProfile[] = "profile";
-constexpr char kUse[] = "use_profile";  // TOML has no room for both profile = and [profile.lab].
-
 // Reads the tables of one file, up to its first mistake.
 class Reader {
  public:
@@ -27,12 +23,13 @@ class Reader {
   void Read(const toml::table& root) {
     for (const auto& [key, value] : root) {
       const toml::table* profiles = value.as_table();
-      if (key == kProfile && profiles != nullptr) {
+      if (key == kProfileKey && profiles != nullptr) {
         ReadProfiles(*profiles);
-      } else if (key == kProfile) {
-        Refuse(value, fmt::format("a profile is a section, [profile.NAME]; {} chooses one", kUse));
-      } else if (key == kUse) {
-        ReadValue(kProfile, value, &file_->values);
+      } else if (key == kProfileKey) {
+        Refuse(value, fmt::format("a profile is a section, [profile.NAME]; {} chooses one",
+                                  kUseProfileKey));
+      } else if (key == kUseProfileKey) {
+        ReadValue(kProfileKey, value, &file_->values);
       } else {
         ReadValue(std::string(key.str()), value, &file_->values);
       }
@@ -73,53 +70,6 @@ class Reader {
   const std::vector<std::string_view>& keys_;
   ConfigFile* file_;
 };
-
-// The key that a line sets; empty for other lines.
-std::string KeyOf(const std::string& line) {
-  const std::size_t begin = line.find_first_not_of(" \t");
-  const std::size_t end = line.find_first_of(" \t=", begin);
-  const std::size_t equals = line.find('=');
-  if (begin == std::string::npos || equals == std::string::npos || end > equals) return "";
-  return line.substr(begin, end - begin);
-}
-
-bool IsSection(const std::string& line) {
-  const std::size_t begin = line.find_first_not_of(" \t");
-  return begin != std::string::npos && line[begin] == '[';
-}
-
-std::string Trimmed(const std::string& line) {
-  const std::size_t begin = line.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
-}
-
-using Lines = std::vector<std::string>;
-
-Lines LinesOf(const std::string& text) {
-  Lines lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-// The line after the header of the section of `profile`, which is added at the end if missing.
-Lines::iterator BeginOf(const std::string& profile, Lines* lines) {
-  const std::string header = fmt::format("[profile.{}]", profile);
-  auto begin = std::ranges::find(*lines, header, Trimmed);
-  if (begin == lines->end()) {
-    if (!lines->empty()) lines->emplace_back();
-    lines->push_back(header);
-    begin = lines->end() - 1;
-  }
-  return begin + 1;
-}
-
-std::string Joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
 
 }  // namespace
 
@@ -172,32 +122,6 @@ std::optional<ConfigValue> FindValue(const std::vector<ConfigFile>& files, const
     if (found != file.values.end()) return found->second;
   }
   return std::nullopt;
-}
-
-std::string WithValue(const std::string& text, const std::string& profile, const std::string& key,
-                      const std::string& value) {
-  std::vector<std::string> lines = LinesOf(text);
-  const std::string name = key == kProfile ? kUse : key;
-  const char quote = value.find('\'') == std::string::npos ? '\'' : '"';
-  const std::string setting = fmt::format("{} = {}{}{}", name, quote, value, quote);
-  const auto begin = profile.empty() ? lines.begin() : BeginOf(profile, &lines);
-  const auto end = std::find_if(begin, lines.end(), IsSection);
-  const auto old = std::ranges::find(begin, end, name, KeyOf);
-  if (old != end) {
-    *old = setting;
-  } else {
-    auto last = end;  // After the values of the section, before the blank lines.
-    while (last != begin && Trimmed(*(last - 1)).empty()) --last;
-    lines.insert(last, setting);
-  }
-  const std::string changed = Joined(lines);
-  const ConfigFile file = ReadConfig("the changed file", changed, {key, kProfile});
-  const auto now = FindValue({file}, key, profile);
-  const bool other_keys = file.mistake.find("unknown key") != std::string::npos;
-  if ((!file.mistake.empty() && !other_keys) || !now || now->text != value) {
-    throw Failure(ExitCode::kLocal, "cannot change it line by line; edit the file by hand");
-  }
-  return changed;
 }
 
 }  // namespace contact::cli

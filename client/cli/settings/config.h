@@ -10,11 +10,19 @@ namespace contact::cli {
 
 /// A value in a config file.
 struct ConfigValue {
-  std::string text;    ///< The value as a flag would have it.
-  std::string origin;  ///< `path:line`.
+  /// The value as a flag would have it.
+  std::string text;
+  /// Where it stands: `path:line`.
+  std::string origin;
 };
 
-/// Values by key, such as `server`. The value of `use_profile` has the key `profile`.
+/// The key of the profile in use, as that of the flag --profile.
+inline constexpr char kProfileKey[] = "profile";
+
+/// What config files call kProfileKey: TOML does not take `profile = …` beside `[profile.lab]`.
+inline constexpr char kUseProfileKey[] = "use_profile";
+
+/// Values by key, such as `server`. The profile in use has the key kProfileKey.
 using ConfigSection = std::map<std::string, ConfigValue>;
 
 /// A config file in TOML:
@@ -23,10 +31,14 @@ using ConfigSection = std::map<std::string, ConfigValue>;
 ///   [profile.lab]
 ///   server = "lab.example:7070"
 struct ConfigFile {
-  std::string path;                               ///< As messages name the file.
-  ConfigSection values;                           ///< Values outside of profiles.
-  std::map<std::string, ConfigSection> profiles;  ///< Values of each profile.
-  std::string mistake;  ///< Where and why it cannot be read; empty if it can.
+  /// The file, as messages name it.
+  std::string path;
+  /// Values outside of profiles.
+  ConfigSection values;
+  /// The values of each profile, by its name.
+  std::map<std::string, ConfigSection> profiles;
+  /// Where and why the file cannot be read; empty if it can.
+  std::string mistake;
 };
 
 /// Reads a config file with the content `text`. A key that is not among `keys` is a mistake of the
@@ -45,11 +57,5 @@ std::string UserConfigPath();
 /// profiles. An empty `profile` has no sections.
 std::optional<ConfigValue> FindValue(const std::vector<ConfigFile>& files, const std::string& key,
                                      const std::string& profile);
-
-/// The content `text` of a config file, changed to have `key = 'value'` in the section of
-/// `profile`, or before all sections if `profile` is empty. All other lines stay, comments too.
-/// Throws Failure (kLocal) if that cannot be done line by line.
-std::string WithValue(const std::string& text, const std::string& profile, const std::string& key,
-                      const std::string& value);
 
 }  // namespace contact::cli

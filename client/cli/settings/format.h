@@ -18,16 +18,21 @@ enum class OutputFormat {
 enum FormatUse : unsigned {
   kPrinted = 1,  ///< Commands print it to the standard output.
   kData = 2,     ///< `export` writes the numbers of a job in it.
-  kPicture = 4,  ///< `plot` draws in it.
+  kFigure = 4,   ///< `plot` draws in it.
 };
 
 /// One row of the registry.
 struct FormatInfo {
+  /// The format that the row describes.
   OutputFormat format;
-  std::string_view name;    ///< The value of -o.
-  std::string_view ending;  ///< Of file names, with its dot; empty: no file name tells the format.
-  unsigned uses;            ///< Bits of FormatUse.
-  std::string_view about;   ///< For the help; may be empty.
+  /// The value of -o.
+  std::string_view name;
+  /// How its files end, with the dot; empty: no file name tells the format.
+  std::string_view ending;
+  /// Bits of FormatUse.
+  unsigned uses;
+  /// What it is, for the help; empty if the name says it.
+  std::string_view about;
 };
 
 /// All formats, in the order of formats.def.

@@ -19,11 +19,16 @@ class JobOptions {
   void Apply(v1::Job* job) const;
 
  private:
-  std::int32_t priority_ = 0;       // From -100 to 100; the server checks it.
-  std::string wall_time_;           // A duration such as `10s`; empty: no budget.
-  std::string steps_;               // A number such as `1e6`; empty: no budget.
-  std::uint64_t output_bytes_ = 0;  // 0: no budget.
-  std::string time_to_live_;        // A duration; empty: the default of the server.
+  /// From -100 to 100; the server checks it.
+  std::int32_t priority_ = 0;
+  /// A duration such as `10s`; empty: no budget.
+  std::string wall_time_;
+  /// A number such as `1e6`; empty: no budget.
+  std::string steps_;
+  /// In bytes; 0: no budget.
+  std::uint64_t output_bytes_ = 0;
+  /// A duration; empty: the default of the server.
+  std::string time_to_live_;
 };
 
 }  // namespace contact::cli

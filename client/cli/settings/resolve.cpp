@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <cstdlib>
 #include <set>
 
@@ -13,15 +13,13 @@
 namespace contact::cli {
 namespace {
 
-constexpr char kProfile[] = "profile";
-
 std::string KeyOf(const CLI::Option& option) {
   std::string key = option.get_lnames().empty() ? "" : option.get_lnames().front();
   std::ranges::replace(key, '-', '_');
   return key;
 }
 
-// Where else but on the command line a value stands.
+// The value of a key outside of the command line: in the environment, else in a config file.
 std::optional<ConfigValue> Elsewhere(const std::string& key, const std::vector<ConfigFile>& files,
                                      const std::string& profile) {
   const std::string variable = VariableOf(key);
@@ -57,7 +55,8 @@ void RequireProfile(const std::vector<ConfigFile>& files, Settings* settings) {
   if (settings->profile.empty() || known.contains(settings->profile)) return;
   settings->problems.push_back(
       {ExitCode::kUsage,
-       fmt::format("{}: there is no profile '{}'{}", settings->origins[kProfile], settings->profile,
+       fmt::format("{}: there is no profile '{}'{}", settings->origins[kProfileKey],
+                   settings->profile,
                    known.empty() ? "; see contactctl config --help"
                                  : fmt::format("; there are {}", fmt::join(known, ", ")))});
 }
@@ -72,12 +71,7 @@ std::vector<std::string> ConfigKeys(const CLI::App& app) {
   return keys;
 }
 
-std::string VariableOf(const std::string& key) {
-  std::string name = "CONTACT_" + key;
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return name;
-}
+std::string VariableOf(const std::string& key) { return "CONTACT_" + boost::to_upper_copy(key); }
 
 void ResolveSettings(CLI::App& app, Settings* settings) {
   const std::vector<std::string> keys = ConfigKeys(app);
@@ -89,7 +83,7 @@ void ResolveSettings(CLI::App& app, Settings* settings) {
   RequireProfile(files, settings);
   for (CLI::Option* option : app.get_options()) {
     const std::string key = KeyOf(*option);
-    if (option != app.get_help_ptr() && !key.empty() && key != kProfile) {
+    if (option != app.get_help_ptr() && !key.empty() && key != kProfileKey) {
       Resolve(option, files, settings);
     }
   }

@@ -21,21 +21,19 @@ void Settings::SetOutput(std::string_view name) {
 
 void Settings::RequireOutput(const std::vector<OutputFormat>& formats) const {
   if (std::ranges::find(formats, output) != formats.end()) return;
-  std::vector<std::string_view> known;
+  std::vector<std::string> known;
   for (const OutputFormat format : formats) {
-    known.push_back(NameOf(format));
-    if (format == OutputFormat::kJson) known.push_back(NameOf(OutputFormat::kYaml));
+    known.emplace_back(NameOf(format));
+    if (format == OutputFormat::kJson) known.emplace_back(NameOf(OutputFormat::kYaml));
   }
   RefuseOutput(known);
 }
 
 void Settings::RequireUse(FormatUse use) const {
-  if ((InfoOf(output).uses & use) != 0) return;
-  const std::vector<std::string> names = FormatNames(use);
-  RefuseOutput({names.begin(), names.end()});
+  if ((InfoOf(output).uses & use) == 0) RefuseOutput(FormatNames(use));
 }
 
-void Settings::RefuseOutput(const std::vector<std::string_view>& known) const {
+void Settings::RefuseOutput(const std::vector<std::string>& known) const {
   const auto origin = origins.find("output");
   const bool flag = origin == origins.end() || origin->second == "--output";
   throw Failure(

@@ -16,25 +16,36 @@ namespace contact::cli {
 
 /// What is wrong with a setting from a variable or a config file.
 struct Problem {
-  ExitCode code;     ///< With which a command that needs the settings ends.
-  std::string text;  ///< With the variable, or file and line.
+  /// The exit code of a command that needs the settings.
+  ExitCode code;
+  /// What is wrong, with the name of the variable, or file and line.
+  std::string text;
 };
 
 /// The values of the flags that every command has, and where they come from.
 struct Settings {
-  std::string profile;                         ///< Section of the config files; empty: none.
-  std::string server = "127.0.0.1:7070";       ///< HOST:PORT.
-  OutputFormat output = OutputFormat::kTable;  ///< Never kWide or kYaml: see the next two.
-  bool wide = false;                           ///< With kTable: print all columns.
-  bool yaml = false;                           ///< With kJson: print it as YAML.
-  std::string color = "auto";                  ///< auto, always or never.
-  std::string progress = "auto";               ///< auto, bar, plain, json or none.
-  std::string timeout;  ///< A duration such as `10s`; empty: the default of the command.
+  /// The section of config files that is used; empty: none.
+  std::string profile;
+  /// The address of the server, HOST:PORT.
+  std::string server = "127.0.0.1:7070";
+  /// Never kWide or kYaml: those are kTable with `wide` and kJson with `yaml`.
+  OutputFormat output = OutputFormat::kTable;
+  /// True to print all columns of a table.
+  bool wide = false;
+  /// True to print JSON as YAML.
+  bool yaml = false;
+  /// When to colour texts: auto, always or never; auto is on a terminal.
+  std::string color = "auto";
+  /// How to tell how far a job is: auto, bar, plain, json or none.
+  std::string progress = "auto";
+  /// A duration such as `10s`; empty: the default of the command.
+  std::string timeout;
 
   /// The origin of each value by its key in config files: a flag, a variable, or `path:line`. A
   /// value without an entry is the default.
   std::map<std::string, std::string> origins;
-  std::vector<Problem> problems;  ///< Of variables and config files.
+  /// What is wrong with variables and config files.
+  std::vector<Problem> problems;
 
   /// Takes the value of -o: sets `output`, `wide` and `yaml`. Without effect for an unknown name.
   void SetOutput(std::string_view name);
@@ -64,7 +75,7 @@ struct Settings {
 
  private:
   /// Throws what RequireOutput throws, with the names of the formats that would do.
-  [[noreturn]] void RefuseOutput(const std::vector<std::string_view>& known) const;
+  [[noreturn]] void RefuseOutput(const std::vector<std::string>& known) const;
 };
 
 /// What the command line asks for: runs the command and returns the exit code. May throw Failure.

@@ -21,7 +21,7 @@ std::string Bracket(const v1::Iteration::Unknown& unknown) {
   return fmt::format("[{}, {}]", side(unknown.bracket_low()), side(unknown.bracket_high()));
 }
 
-// What stands to the right of a row in wide tables.
+// The row with the bracket to its right in a wide table, else the row alone.
 std::string WithBracket(const std::string& row, const std::string& bracket, const Style& style) {
   constexpr int kRow = 82;
   return style.wide ? Pad(row, kRow) + bracket : row;

@@ -47,7 +47,8 @@ JsonProgress::~JsonProgress() {
 }
 
 void JsonProgress::Update(const v1::Progress& progress, Clock::time_point now) {
-  if (progress.cells() == 0 && progress.end_time_s() <= 0) return;  // Nothing is known yet.
+  if (progress.cells() == 0 && progress.end_time_s() <= 0)
+    return;  // The length of the job is not known yet.
   if (last_ && google::protobuf::util::MessageDifferencer::Equals(*last_, progress)) return;
   last_ = pending_ = progress;
   if (!written_ || now - *written_ >= kInterval) Write(now);

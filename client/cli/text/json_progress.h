@@ -28,15 +28,15 @@ class JsonProgress {
   void Update(const v1::Progress& progress, Clock::time_point now = Clock::now());
 
  private:
-  // Writes the pending progress.
+  /// Writes the pending progress.
   void Write(Clock::time_point now);
 
   std::FILE* const stream_;
   const std::string job_;
   const Clock::time_point start_ = Clock::now();
-  std::optional<Clock::time_point> written_;  // When the last line was.
-  std::optional<v1::Progress> last_;
-  std::optional<v1::Progress> pending_;  // No line has told it.
+  std::optional<Clock::time_point> written_;  // When the last line was written.
+  std::optional<v1::Progress> last_;          // The newest progress.
+  std::optional<v1::Progress> pending_;       // The newest progress while no line has told it.
 };
 
 /// One line of JSON: kind, job, done; for a run time_s, end_time_s, steps, cycles, iterations, for

@@ -1,6 +1,7 @@
 #include "cli/text/live_plot.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -28,8 +29,8 @@ int Scaled(double value, double low, double high, int dots) {
   return static_cast<int>(std::lround(part * (dots - 1)));
 }
 
-// One channel: a title, and the curve below it. Its axes are those of all that has come, so that
-// a replay does not jump.
+// Adds the lines of one channel: a title, and the first `shown` samples as a curve below it. The
+// axes are those of all samples, so that a replay does not rescale them.
 void AddPanel(const std::vector<double>& time, const SampleColumn& column, std::size_t shown,
               int columns, int rows, bool braille, std::vector<std::string>* lines) {
   const auto [low, high] = std::ranges::minmax(column.values);
@@ -43,8 +44,7 @@ void AddPanel(const std::vector<double>& time, const SampleColumn& column, std::
   for (std::size_t i = 0; i < shown; ++i) {
     const int x = Scaled(time[i], time.front(), time.back(), canvas.width());
     const int y = canvas.height() - 1 - Scaled(column.values[i], low, high, canvas.height());
-    if (i == 0) canvas.Line(x, y, x, y);
-    if (i > 0) canvas.Line(last_x, last_y, x, y);
+    canvas.Line(i == 0 ? x : last_x, i == 0 ? y : last_y, x, y);
     last_x = x;
     last_y = y;
   }
@@ -86,15 +86,10 @@ std::vector<std::string> RenderLivePlot(const std::vector<SampleColumn>& columns
 
 LivePlot::LivePlot(std::FILE* terminal, Options options)
     : terminal_(terminal), options_(std::move(options)) {
-  fmt::print(terminal_, "\x1b[?1049h\x1b[?25l");  // A screen of its own, no cursor.
+  fmt::print(terminal_, "\x1b[?1049h\x1b[?25l");  // Second screen, no cursor.
 }
 
-LivePlot::~LivePlot() {
-  std::string text = "\x1b[?25h\x1b[?1049l";
-  for (const std::string& line : Plot()) text += line + "\n";
-  std::fwrite(text.data(), 1, text.size(), terminal_);
-  std::fflush(terminal_);
-}
+LivePlot::~LivePlot() { Write(fmt::format("\x1b[?25h\x1b[?1049l{}\n", fmt::join(Plot(), "\n"))); }
 
 void LivePlot::OnEvent(const v1::Event& event) {
   Recorder::OnEvent(event);
@@ -113,14 +108,11 @@ void LivePlot::OnTick() {
   if (stale_ && !has_holes()) columns_ = Columns();
   stale_ = false;
   if (!start_ && !columns_.empty()) start_ = std::chrono::steady_clock::now();
-  std::string text = "\x1b[H";
-  std::string_view separator;
-  for (const std::string& line : Plot()) {
-    text.append(separator).append(line).append("\x1b[K");
-    separator = "\r\n";
-  }
-  text += "\x1b[J";
-  std::fwrite(text.data(), 1, text.size(), terminal_);
+  Write(fmt::format("\x1b[H{}\x1b[K\x1b[J", fmt::join(Plot(), "\x1b[K\r\n")));
+}
+
+void LivePlot::Write(const std::string& text) {
+  std::fputs(text.c_str(), terminal_);
   std::fflush(terminal_);
 }
 

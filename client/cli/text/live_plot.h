@@ -12,7 +12,9 @@ namespace contact::cli {
 
 /// Size in characters of the part of a terminal that is drawn on.
 struct PlotSize {
+  /// Characters in a line.
   int columns = 80;
+  /// Lines.
   int rows = 24;
 };
 
@@ -27,10 +29,14 @@ std::vector<std::string> RenderLivePlot(const std::vector<SampleColumn>& columns
 /// OnTick. Not thread-safe.
 class LivePlot : public Recorder {
  public:
+  /// What is drawn, and how.
   struct Options {
-    std::vector<std::string> channels;  ///< Such as `B1.velocity`; at least one.
-    double replay = 0;                  ///< Simulated seconds a second; 0: as samples come.
-    bool braille = true;                ///< Draw with Braille dots, else with `*`.
+    /// Channels such as `B1.velocity`; at least one.
+    std::vector<std::string> channels;
+    /// Speed of the replay in simulated seconds a second; 0: samples are shown as they come.
+    double replay = 0;
+    /// Draw with Braille dots, else with `*`.
+    bool braille = true;
   };
 
   /// Switches `terminal`, which must outlive this object, to its second screen.
@@ -38,8 +44,9 @@ class LivePlot : public Recorder {
   /// Switches back and leaves the last plot below what stood on the terminal.
   ~LivePlot() override;
 
+  /// Takes samples; a chunk without one of the channels sets mistake().
   void OnEvent(const v1::Event& event) override;
-  /// Draws anew.
+  /// Draws the plot again.
   void OnTick() override;
 
   /// What to tell of a channel that the job does not have; none until that is known.
@@ -48,9 +55,12 @@ class LivePlot : public Recorder {
   bool replaying() const;
 
  private:
-  // The end of what is shown now [s]; infinite without a replay.
+  /// The end of what is shown now [s]; infinite without a replay.
   double Until() const;
+  /// The lines of the plot as they are now.
   std::vector<std::string> Plot() const;
+  /// Writes to the terminal at once; never throws for a terminal that is gone.
+  void Write(const std::string& text);
 
   std::FILE* const terminal_;
   const Options options_;

@@ -16,23 +16,22 @@ namespace {
 
 using google::protobuf::util::TimeUtil;
 
-constexpr std::string_view kNoLimit = "-";
-
-// Two digits are more than an estimate knows.
+// A number with two significant digits, which is all that an estimate can promise.
 std::string About(double value) {
   if (value >= 1e9) return fmt::format("{:.1e}", value);
   const double unit = value < 100 ? 1 : std::pow(10, std::floor(std::log10(value)) - 1);
   return fmt::format("{:.0f}", std::round(value / unit) * unit);
 }
 
-std::string Bytes(double bytes) {
+std::string Bytes(std::int64_t count) {
   constexpr std::array<const char*, 5> kUnits = {"B", "kB", "MB", "GB", "TB"};
+  auto bytes = static_cast<double>(count);
   std::size_t unit = 0;
   for (; bytes >= 999.5 && unit + 1 < kUnits.size(); ++unit) bytes /= 1000;
   return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
 }
 
-// The lower of those that are set.
+// The lowest limit that is set (> 0); 0 if none is.
 std::int64_t Least(std::initializer_list<std::int64_t> limits) {
   std::int64_t least = 0;
   for (const std::int64_t limit : limits) {
@@ -43,7 +42,7 @@ std::int64_t Least(std::initializer_list<std::int64_t> limits) {
 
 std::int64_t MaxSteps(const v1::Job& job) {
   constexpr std::int64_t kDefault = 100'000'000;
-  if (job.has_sweep()) return 0;  // Its cells have it each.
+  if (job.has_sweep()) return 0;  // Each cell has a limit of its own.
   return job.scenario().solver().has_max_steps() ? job.scenario().solver().max_steps() : kDefault;
 }
 
@@ -57,23 +56,21 @@ std::string RenderEstimate(const v1::Job& job, const v1::ServerLimits& limits, c
   if (!job.has_estimate()) return "";
   const v1::Estimate& estimate = job.estimate();
   const v1::Budget& most = limits.max_budget();
-  Table table({{"TAKES"}, {"ABOUT", true}, {"AT MOST", true}});
-  const auto add = [&table](const char* what, std::string about, bool limited, std::string limit) {
-    table.Add(
-        {std::string(what), std::move(about), limited ? std::move(limit) : std::string(kNoLimit)});
-  };
-  const std::int64_t steps = Least({job.budget().steps(), most.steps(), MaxSteps(job)});
-  add("steps", About(static_cast<double>(estimate.steps())), steps > 0, fmt::format("{}", steps));
-  add("samples", fmt::format("{}", estimate.samples()), limits.max_samples() > 0,
-      fmt::format("{}", limits.max_samples()));
-  const std::int64_t output = Least({job.budget().output_bytes(), most.output_bytes()});
-  add("output", Bytes(static_cast<double>(estimate.output_bytes())), output > 0,
-      Bytes(static_cast<double>(output)));
-  add("memory", Bytes(static_cast<double>(estimate.memory_bytes())), false, "");
-  const google::protobuf::Duration& wall =
+  const google::protobuf::Duration& most_wall =
       job.budget().has_wall_time() ? job.budget().wall_time() : most.wall_time();
-  add("wall time", Seconds(SecondsOf(estimate.wall_time())), SecondsOf(wall) > 0,
-      Seconds(SecondsOf(wall)));
+  const double wall = SecondsOf(most_wall);
+  const std::int64_t steps = Least({job.budget().steps(), most.steps(), MaxSteps(job)});
+  const std::int64_t output = Least({job.budget().output_bytes(), most.output_bytes()});
+  const auto number = [](std::int64_t value) { return value > 0 ? fmt::to_string(value) : "-"; };
+  Table table({{"TAKES"}, {"ABOUT", true}, {"AT MOST", true}});
+  const auto add = [&table](std::string what, std::string about, std::string limit) {
+    table.Add({std::move(what), std::move(about), std::move(limit)});
+  };
+  add("steps", About(static_cast<double>(estimate.steps())), number(steps));
+  add("samples", fmt::to_string(estimate.samples()), number(limits.max_samples()));
+  add("output", Bytes(estimate.output_bytes()), output > 0 ? Bytes(output) : "-");
+  add("memory", Bytes(estimate.memory_bytes()), "-");
+  add("wall time", Seconds(SecondsOf(estimate.wall_time())), wall > 0 ? Seconds(wall) : "-");
   return table.Text(style);
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostRows = 40;
 
-// How far the job is, in parts that each stay in one line.
+// How far the job is, in parts that are not broken between lines.
 std::vector<std::string> Extent(const v1::Job& job) {
   const v1::Progress& progress = job.progress();
   if (job.has_summary()) {
@@ -37,11 +37,8 @@ std::vector<std::string> Extent(const v1::Job& job) {
 }
 
 std::string Title(const v1::Job& job, const Style& style) {
-  const std::string reason =
-      job.state_reason().empty() ? "" : fmt::format(" ({})", job.state_reason());
-  std::vector<std::string> parts = {
-      Paint(job.name(), Tone::kStrong, style) + "  ",
-      Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style) + reason};
+  std::vector<std::string> parts = {Paint(job.name(), Tone::kStrong, style) + "  ",
+                                    StateText(job.state(), job.state_reason(), style)};
   const std::vector<std::string> extent = Extent(job);
   if (!extent.empty()) parts.back() += "  ";
   parts.insert(parts.end(), extent.begin(), extent.end());
@@ -54,7 +51,7 @@ double InSeconds(const google::protobuf::Duration& span) {
   return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
 }
 
-// What the user has asked for beside the run itself: priority, budget, time to live.
+// A line with priority, budget and time to live, as far as the user set them.
 std::string RequestedOptions(const v1::Job& job) {
   std::vector<std::string> parts;
   if (job.priority() != 0) parts.push_back(fmt::format("priority {}", job.priority()));
@@ -104,11 +101,9 @@ std::string Balances(const v1::Job& job, const Style& style) {
 }  // namespace
 
 std::string RenderJob(const v1::Job& job, const Style& style) {
-  std::string text = Title(job, style) + Wrap(RequestedOptions(job), style);
-  if (job.has_error()) {
-    text += Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
-  }
-  text += RenderLedger(job, style) + Bodies(job, style) + Balances(job, style);
+  std::string text = Title(job, style) + Wrap(RequestedOptions(job), style) +
+                     ErrorLine(job, style) + RenderLedger(job, style) + Bodies(job, style) +
+                     Balances(job, style);
   if (job.has_sweep()) {
     text += fmt::format("cells: contactctl sweep watch {}\n", job.name());
   }
@@ -118,17 +113,20 @@ std::string RenderJob(const v1::Job& job, const Style& style) {
   return text;
 }
 
+std::string StateText(v1::Job::State state, const std::string& reason, const Style& style) {
+  const std::string painted = Paint(v1::Job::State_Name(state), ToneOf(state), style);
+  return reason.empty() ? painted : fmt::format("{} ({})", painted, reason);
+}
+
+std::string ErrorLine(const v1::Job& job, const Style& style) {
+  if (!job.has_error()) return "";
+  return Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
+}
+
 Tone ToneOf(v1::Job::State state) {
-  switch (state) {
-    case v1::Job::SUCCEEDED:
-      return Tone::kGood;
-    case v1::Job::FAILED:
-      return Tone::kBad;
-    case v1::Job::CANCELLED:
-      return Tone::kWarning;
-    default:
-      return Tone::kPlain;
-  }
+  if (state == v1::Job::SUCCEEDED) return Tone::kGood;
+  if (state == v1::Job::FAILED) return Tone::kBad;
+  return state == v1::Job::CANCELLED ? Tone::kWarning : Tone::kPlain;
 }
 
 }  // namespace contact::cli

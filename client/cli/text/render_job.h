@@ -11,6 +11,12 @@ namespace contact::cli {
 /// columns of the ledger; the table of bodies always has all.
 std::string RenderJob(const v1::Job& job, const Style& style);
 
+/// A state in its colour, and in parentheses the reason for it unless that is empty.
+std::string StateText(v1::Job::State state, const std::string& reason, const Style& style);
+
+/// `error: ` and why the job failed, as a line; empty for a job without an error.
+std::string ErrorLine(const v1::Job& job, const Style& style);
+
 /// The colour in which the state of a job is shown.
 Tone ToneOf(v1::Job::State state);
 

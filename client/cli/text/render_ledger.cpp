@@ -56,16 +56,9 @@ std::string RenderLedger(const v1::Job& job, const Style& style) {
 }
 
 Tone ToneOf(v1::Cycle::Status status) {
-  switch (status) {
-    case v1::Cycle::CONVERGED:
-      return Tone::kGood;
-    case v1::Cycle::NOT_CONVERGED:
-      return Tone::kBad;
-    case v1::Cycle::INFEASIBLE:
-      return Tone::kWarning;
-    default:
-      return Tone::kPlain;
-  }
+  if (status == v1::Cycle::CONVERGED) return Tone::kGood;
+  if (status == v1::Cycle::NOT_CONVERGED) return Tone::kBad;
+  return status == v1::Cycle::INFEASIBLE ? Tone::kWarning : Tone::kPlain;
 }
 
 std::string AlphaOrRatio(const v1::Cycle& cycle) {

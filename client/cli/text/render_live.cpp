@@ -16,18 +16,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kBeforeProgress = 200ms;  // Most runs are over by then.
+constexpr auto kBeforeProgress = 200ms;  // Most runs end sooner and need no bar.
 
 }  // namespace
 
-LiveView::LiveView(std::FILE* rows, const Style& rows_style, std::FILE* messages,
-                   const Style& messages_style, Options options)
-    : rows_(rows),
-      rows_style_(rows_style),
-      messages_(messages),
-      messages_style_(messages_style),
-      options_(std::move(options)) {
-  if (options_.progress == ProgressForm::kJson) json_.emplace(messages_, options_.job);
+LiveView::LiveView(Options options) : options_(std::move(options)) {
+  if (options_.progress == ProgressForm::kJson) json_.emplace(options_.messages, options_.job);
 }
 
 LiveView::~LiveView() { EraseProgress(); }
@@ -59,11 +53,9 @@ void LiveView::OnEvent(const v1::Event& event) {
 }
 
 void LiveView::OnLost(const std::string& why, std::chrono::milliseconds pause) {
-  Write(messages_, fmt::format("connection lost ({}); trying again in {}", why,
-                               Seconds(static_cast<double>(pause.count()) / 1e3)));
+  Write(options_.messages, fmt::format("connection lost ({}); trying again in {}", why,
+                                       Seconds(static_cast<double>(pause.count()) / 1e3)));
 }
-
-void LiveView::OnTick() { DrawProgress(); }
 
 void LiveView::Write(std::FILE* stream, const std::string& line) {
   EraseProgress();
@@ -76,60 +68,64 @@ void LiveView::ShowIteration(const v1::Iteration& iteration) {
     ++iterations_;
     if (options_.most_iterations > 0 && iterations_ > options_.most_iterations) {
       if (iterations_ == options_.most_iterations + 1) {
-        Write(rows_, fmt::format("… more iterations; contactctl watch {} shows all", options_.job));
+        Write(options_.rows,
+              fmt::format("… more iterations; contactctl watch {} shows all", options_.job));
       }
       continue;
     }
     if (!std::exchange(header_shown_, true)) {
-      Write(rows_, Paint(IterationHeader(rows_style_), Tone::kFaint, rows_style_));
+      Write(options_.rows,
+            Paint(IterationHeader(options_.rows_style), Tone::kFaint, options_.rows_style));
     }
-    Write(rows_, Paint(IterationRow(iteration, unknown, rows_style_),
-                       iteration.accepted() ? Tone::kStrong : Tone::kPlain, rows_style_));
+    Write(options_.rows,
+          Paint(IterationRow(iteration, unknown, options_.rows_style),
+                iteration.accepted() ? Tone::kStrong : Tone::kPlain, options_.rows_style));
   }
 }
 
 void LiveView::ShowCycle(const v1::Cycle& cycle) {
   if (!options_.cycles) return;
-  Write(rows_,
-        fmt::format(
-            "{} cycle {}: {} to {}, {} from {} s to {} s, ε {}", cycle.contact(), cycle.number(),
-            v1::Cycle::Kind_Name(cycle.kind()), v1::Cycle::End_Name(cycle.end()),
-            Paint(v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status()), rows_style_),
-            Digits(cycle.start_time_s(), 7), Digits(cycle.end_time_s(), 7),
-            Digits(cycle.restitution_out(), 8)));
+  Write(options_.rows,
+        fmt::format("{} cycle {}: {} to {}, {} from {} s to {} s, ε {}", cycle.contact(),
+                    cycle.number(), v1::Cycle::Kind_Name(cycle.kind()),
+                    v1::Cycle::End_Name(cycle.end()),
+                    Paint(v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status()),
+                          options_.rows_style),
+                    Digits(cycle.start_time_s(), 7), Digits(cycle.end_time_s(), 7),
+                    Digits(cycle.restitution_out(), 8)));
 }
 
 void LiveView::ShowState(const v1::StateChanged& change) {
-  if (!options_.cycles) return;  // The result that follows says it.
-  std::string line =
-      Paint(v1::Job::State_Name(change.state()), ToneOf(change.state()), rows_style_);
-  if (!change.state_reason().empty()) line += fmt::format(" ({})", change.state_reason());
+  if (!options_.cycles) return;  // The result that is printed at the end says it.
+  std::string line = StateText(change.state(), change.state_reason(), options_.rows_style);
   if (change.convergence() == v1::Job::PARTIAL) line += ", convergence PARTIAL";
   if (!change.message().empty()) line += ": " + change.message();
-  Write(rows_, line);
+  Write(options_.rows, line);
 }
 
 void LiveView::ShowLogEntry(const v1::LogEntry& entry) {
   const bool warning = entry.severity() == v1::LogEntry::WARNING;
   const Tone tone = warning ? Tone::kWarning : Tone::kFaint;
-  Write(rows_, Paint(warning ? "warning: " : "note: ", tone, rows_style_) + entry.message());
+  Write(options_.rows,
+        Paint(warning ? "warning: " : "note: ", tone, options_.rows_style) + entry.message());
 }
 
 void LiveView::ShowAttempt(const v1::AttemptStarted& start) {
-  if (start.attempt() > 1) Write(rows_, fmt::format("attempt {} starts anew", start.attempt()));
+  if (start.attempt() > 1)
+    Write(options_.rows, fmt::format("attempt {} starts anew", start.attempt()));
 }
 
-void LiveView::DrawProgress() {
+void LiveView::OnTick() {
   const auto elapsed = std::chrono::steady_clock::now() - start_;
   if (!progress_ || elapsed < kBeforeProgress) return;
   const double seconds = std::chrono::duration<double>(elapsed).count();
   if (options_.progress == ProgressForm::kLines) WriteProgressLine(seconds);
   if (options_.progress != ProgressForm::kBar) return;
-  const int width = StyleOf(fileno(messages_), "never").width;  // It may have been resized.
+  const int width = StyleOf(fileno(options_.messages), "never").width;  // It may have been resized.
   const std::string line =
       RenderProgress(*progress_, seconds, std::max(width - 1, 0), TerminalHasUtf8());
-  std::fputs(("\r\x1b[K" + line).c_str(), messages_);
-  std::fflush(messages_);
+  std::fputs(("\r\x1b[K" + line).c_str(), options_.messages);
+  std::fflush(options_.messages);
   drawn_ = true;
 }
 
@@ -137,13 +133,13 @@ void LiveView::WriteProgressLine(double elapsed_s) {
   const int tenths = static_cast<int>(10 * PartDone(*progress_));
   if (tenths <= written_tenths_) return;
   written_tenths_ = tenths;
-  Write(messages_, ProgressWords(*progress_, elapsed_s));
+  Write(options_.messages, ProgressWords(*progress_, elapsed_s));
 }
 
 void LiveView::EraseProgress() {
   if (!std::exchange(drawn_, false)) return;
-  std::fputs("\r\x1b[K", messages_);
-  std::fflush(messages_);
+  std::fputs("\r\x1b[K", options_.messages);
+  std::fflush(options_.messages);
 }
 
 }  // namespace contact::cli

@@ -16,45 +16,58 @@ namespace contact::cli {
 /// warnings, and how far the job is. Not thread-safe.
 class LiveView : public WatchObserver {
  public:
+  /// Where and how to write. Both streams may be the same; they must outlive the view.
   struct Options {
-    bool cycles = true;       ///< Show state changes and the cycles of the ledger, too.
-    int most_iterations = 0;  ///< Rows of the table of the μ-iteration; 0: all.
-    std::string job;          ///< For the command that shows the rest, and for JSON.
+    /// Receives events: rows of the iteration, cycles, states, warnings.
+    std::FILE* rows = stdout;
+    /// How to write to `rows`.
+    Style rows_style = {};
+    /// Receives progress and lost connections.
+    std::FILE* messages = stderr;
+    /// How to write to `messages`.
+    Style messages_style = {};
+    /// Show state changes and the cycles of the ledger, too.
+    bool cycles = true;
+    /// Rows of the table of the μ-iteration that are shown; 0: all.
+    int most_iterations = 0;
+    /// ID of the job, for the command that shows the rest, and for JSON.
+    std::string job = {};
+    /// How progress is shown.
     ProgressForm progress = ProgressForm::kNone;
   };
 
-  /// Events go to `rows`, progress and lost connections to `messages`. Both may be the same stream
-  /// and must outlive this object.
-  LiveView(std::FILE* rows, const Style& rows_style, std::FILE* messages,
-           const Style& messages_style, Options options);
+  explicit LiveView(Options options);
   /// Erases the progress bar.
   ~LiveView() override;
 
+  /// Takes the progress of the job.
   void OnSnapshot(const v1::Job& job) override;
+  /// Shows an event; frames and kinds that are unknown here are left out.
   void OnEvent(const v1::Event& event) override;
+  /// Says that the connection was lost, and when the next attempt is.
   void OnLost(const std::string& why, std::chrono::milliseconds pause) override;
-  /// Draws the progress again.
+  /// Draws the bar again or writes the line of progress, if either is wanted; not in the first
+  /// 0.2 s.
   void OnTick() override;
 
  private:
-  // Writes a line in the place of the progress bar.
+  /// Writes a line in the place of the progress bar.
   void Write(std::FILE* stream, const std::string& line);
+  /// Shows a row for each unknown, up to the limit of rows.
   void ShowIteration(const v1::Iteration& iteration);
+  /// Shows a cycle in one line, if cycles are wanted.
   void ShowCycle(const v1::Cycle& cycle);
+  /// Shows a change of state, if cycles are wanted; else the result that follows shows it.
   void ShowState(const v1::StateChanged& change);
+  /// Shows a warning or a note.
   void ShowLogEntry(const v1::LogEntry& entry);
-  // Shows the start of an attempt that is not the first.
+  /// Shows the start of an attempt that is not the first.
   void ShowAttempt(const v1::AttemptStarted& start);
-  // Draws the bar or writes the line of progress, if either is wanted; not in the first 0.2 s.
-  void DrawProgress();
-  // Writes a line for each tenth of the job that is done.
+  /// Writes a line for each tenth of the job that is done.
   void WriteProgressLine(double elapsed_s);
+  /// Erases the bar if it stands on the terminal.
   void EraseProgress();
 
-  std::FILE* rows_;
-  Style rows_style_;
-  std::FILE* messages_;
-  Style messages_style_;
   Options options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<v1::Progress> progress_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -16,15 +17,12 @@ using Json = nlohmann::ordered_json;
 
 bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-// Whether some reader may take a text without quotes for a number, a flag, a date or nothing.
+// True if some reader may take the text without quotes for a number, a flag, a date or null.
 bool NeedsQuotes(const std::string& text) {
   constexpr std::array<std::string_view, 11> kWords = {
       "true", "false", "yes", "no", "on", "off", "y", "n", "null", "nan", "infinity"};
   if (text.empty() || !IsLetter(text.front())) return true;
-  const auto same = [&text](std::string_view word) {
-    return std::ranges::equal(text, word, {}, [](unsigned char c) { return std::tolower(c); });
-  };
-  return std::ranges::any_of(kWords, same);
+  return std::ranges::find(kWords, boost::to_lower_copy(text)) != kWords.end();
 }
 
 // `1e-08` is a text to readers of YAML 1.1, `1.0e-08` is not.

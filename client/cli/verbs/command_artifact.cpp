@@ -11,6 +11,8 @@
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/text/render_json.h"
+#include "cli/verbs/job/follow.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -27,11 +29,8 @@ ExitCode ListArtifacts(const ArtifactArguments& arguments, const Settings& setti
   Client client = Connect(settings);
   const v1::Job job = GetJob(client, arguments.job);
   for (const v1::Artifact& artifact : job.artifacts()) {
-    if (settings.output == OutputFormat::kJsonLines) {
-      fmt::print("{}", ToJsonLine(artifact));
-    } else {
-      fmt::print("{}\n", artifact.name());
-    }
+    const bool json = settings.output == OutputFormat::kJsonLines;
+    fmt::print("{}", json ? ToJsonLine(artifact) : artifact.name() + "\n");
   }
   return ExitCode::kOk;
 }
@@ -42,14 +41,12 @@ ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& setting
   const std::string path = arguments.file.empty()
                                ? std::filesystem::path(arguments.artifact).filename().string()
                                : arguments.file;
-  DownloadOptions options{.job = JobName(arguments.job),
-                          .artifact = arguments.artifact,
-                          .path = path,
-                          .deadline = settings.Deadline(),
-                          .stopped = Interrupt::raised,
-                          .lost = [](const std::string& why) {
-                            fmt::print(stderr, "connection lost ({}); trying again\n", why);
-                          }};
+  const DownloadOptions options{.job = JobName(arguments.job),
+                                .artifact = arguments.artifact,
+                                .path = path,
+                                .deadline = settings.Deadline(),
+                                .stopped = Interrupt::raised,
+                                .lost = TellLost};
   const Interrupt interrupt;
   const v1::Artifact artifact = Download(client, options);
   fmt::print(stderr, "{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
@@ -68,12 +65,11 @@ void AddArtifact(CommandLine& line, CLI::App& group) {
   CLI::App* get =
       group.add_subcommand("get", "Fetch one, going on where an earlier try has left a part of it");
   AddJob(line, *get, &arguments->job);
-  line.SetKind(get->add_option("ARTIFACT", arguments->artifact, "Such as trajectory.csv"),
-               ValueKind::kArtifact)
+  AddOption(line, *get, "ARTIFACT", &arguments->artifact, ValueKind::kArtifact,
+            "Such as trajectory.csv")
       ->required();
-  line.SetKind(
-      get->add_option("-f,--file", arguments->file, "Where to. Default: the last part of its name"),
-      ValueKind::kFile);
+  AddOption(line, *get, "-f,--file", &arguments->file, ValueKind::kFile,
+            "Where to. Default: the last part of its name");
   line.SetAction(*get, arguments, GetArtifact);
 }
 

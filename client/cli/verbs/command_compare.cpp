@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
@@ -11,7 +10,7 @@
 #include "cli/text/comparison/comparison_data.h"
 #include "cli/text/comparison/render_comparison.h"
 #include "cli/text/print_job.h"
-#include "cli/text/render_yaml.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -21,11 +20,11 @@ struct CompareArguments {
   std::vector<std::string> jobs;
   Tolerance tolerance;
   std::string format;
-  std::string plot;  ///< File to draw the runs to.
+  std::string plot;  // File to draw the runs to.
   std::vector<std::string> channels;
 };
 
-// --format is an older flag for the format, which wins over -o.
+// The settings with the format of --format, an older flag that wins over -o.
 Settings WithFormat(const CompareArguments& arguments, Settings settings) {
   if (!arguments.format.empty()) settings.SetOutput(arguments.format);
   settings.RequireOutput(
@@ -82,40 +81,31 @@ ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) 
 }
 
 void AddTolerance(CLI::App& command, Tolerance* tolerance) {
-  command.add_option("--abs", tolerance->absolute, "Deviation that does not matter")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command
-      .add_option("--rel", tolerance->relative,
-                  "The same relative to the baseline; the larger one counts")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  const auto add = [&command](const char* name, double* value, const char* about) {
+    command.add_option(name, *value, about)->check(CLI::NonNegativeNumber)->capture_default_str();
+  };
+  add("--abs", &tolerance->absolute, "Deviation that does not matter");
+  add("--rel", &tolerance->relative, "The same relative to the baseline; the larger one counts");
 }
 
 }  // namespace
 
 void AddCompare(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<CompareArguments>();
-  line.SetKind(command.add_option("JOB", arguments->jobs,
-                                  "Two or more: IDs, or files with what describe -o json printed; "
-                                  "the first is the baseline"),
-               ValueKind::kJob)
+  AddOption(line, command, "JOB", &arguments->jobs, ValueKind::kJob,
+            "Two or more: IDs, or files with what describe -o json printed; the first is the "
+            "baseline")
       ->required()
       ->expected(2, 1000);
   AddTolerance(command, &arguments->tolerance);
-  line.SetWords(command.add_option("--format", arguments->format, "The same as -o"),
-                {"table", "json", "yaml", "csv", "latex"})
+  AddOption(line, command, "--format", &arguments->format,
+            {"table", "json", "yaml", "csv", "latex"}, "The same as -o")
       ->type_name("FORMAT");
-  line.SetKind(command.add_option("--plot", arguments->plot,
-                                  "Draw the runs over each other to this file too: .svg, .png, "
-                                  ".pdf, .txt, .tex, .gp or .csv"),
-               ValueKind::kFile);
-  line.SetKind(command
-                   .add_option("--channels", arguments->channels,
-                               "What --plot draws, such as B1.velocity. Default: the contact "
-                               "forces")
-                   ->delimiter(','),
-               ValueKind::kChannel);
+  AddOption(line, command, "--plot", &arguments->plot, ValueKind::kFile,
+            "Draw the runs over each other to this file too: .svg, .png, .pdf, .txt, .tex, .gp or "
+            ".csv");
+  AddListOption(line, command, "--channels", &arguments->channels, ValueKind::kChannel,
+                "What --plot draws, such as B1.velocity. Default: the contact forces");
   line.SetAction(command, arguments, CompareJobs);
 }
 

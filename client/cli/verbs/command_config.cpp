@@ -12,14 +12,17 @@
 #include "cli/base/table.h"
 #include "cli/base/text_file.h"
 #include "cli/settings/config.h"
+#include "cli/settings/config_edit.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
 
 struct ConfigArguments {
+  CLI::App* app = nullptr;  // Of the whole command line.
   std::string key;
   std::string value;
   bool show_origin = false;
@@ -27,7 +30,7 @@ struct ConfigArguments {
 
 using Keys = std::vector<std::string>;
 
-// Mistakes of the files are no reason not to show the rest.
+// Prints what is wrong with config files, after the settings that could be read.
 ExitCode TellProblems(const Settings& settings) {
   for (const Problem& problem : settings.problems) {
     fmt::print(stderr, "contactctl: {}\n", problem.text);
@@ -35,9 +38,15 @@ ExitCode TellProblems(const Settings& settings) {
   return settings.problems.empty() ? ExitCode::kOk : settings.problems.front().code;
 }
 
-std::string ValueOf(const CLI::App& app, std::string key) {
+// The global flag of a key.
+CLI::Option& FlagOf(CLI::App& app, std::string key) {
   std::ranges::replace(key, '_', '-');
-  const CLI::Option* option = app.get_option("--" + key);
+  return *app.get_option("--" + key);
+}
+
+// The value in use, as it was written.
+std::string ValueOf(CLI::App& app, const std::string& key) {
+  const CLI::Option* option = &FlagOf(app, key);
   return option->count() > 0 ? option->results().back() : option->get_default_str();
 }
 
@@ -46,13 +55,14 @@ std::string OriginOf(const Settings& settings, const std::string& key) {
   return found == settings.origins.end() ? "default" : found->second;
 }
 
-ExitCode View(const CLI::App& app, const ConfigArguments& arguments, const Settings& settings) {
+ExitCode View(const ConfigArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   nlohmann::ordered_json json;
-  Table table(arguments.show_origin ? std::vector<Table::Column>{{"KEY"}, {"VALUE"}, {"FROM"}}
-                                    : std::vector<Table::Column>{{"KEY"}, {"VALUE"}});
-  for (const std::string& key : ConfigKeys(app)) {
-    const std::string value = ValueOf(app, key);
+  std::vector<Table::Column> columns{{"KEY"}, {"VALUE"}};
+  if (arguments.show_origin) columns.push_back({"FROM"});
+  Table table(std::move(columns));
+  for (const std::string& key : ConfigKeys(*arguments.app)) {
+    const std::string value = ValueOf(*arguments.app, key);
     const std::string origin = OriginOf(settings, key);
     std::vector<Table::Cell> row = {key, value.empty() ? "-" : value};
     if (arguments.show_origin) row.emplace_back(origin);
@@ -67,7 +77,8 @@ ExitCode View(const CLI::App& app, const ConfigArguments& arguments, const Setti
   return TellProblems(settings);
 }
 
-void RequireKey(const std::string& key, const Keys& keys) {
+void RequireKey(const std::string& key, const CLI::App& app) {
+  const Keys keys = ConfigKeys(app);
   if (std::ranges::find(keys, key) != keys.end()) return;
   throw Failure(ExitCode::kUsage,
                 WithHint(fmt::format("unknown key {}", Quoted(key)),
@@ -75,21 +86,18 @@ void RequireKey(const std::string& key, const Keys& keys) {
                                     fmt::format("there are {}", fmt::join(keys, ", ")))));
 }
 
-ExitCode Get(const CLI::App& app, const std::string& key, const Settings& settings) {
+ExitCode Get(const ConfigArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable});
-  RequireKey(key, ConfigKeys(app));
-  fmt::print("{}\n", ValueOf(app, key));
+  RequireKey(arguments.key, *arguments.app);
+  fmt::print("{}\n", ValueOf(*arguments.app, arguments.key));
   return TellProblems(settings);
-}
-
-std::string TextOf(const std::string& path) {
-  return std::filesystem::exists(path) ? ReadText(path) : "";
 }
 
 void Store(const std::string& profile, const std::string& key, const std::string& value) {
   const std::filesystem::path path = UserConfigPath();
   if (path.empty()) throw Failure(ExitCode::kLocal, "there is no home for a config file: set HOME");
-  const std::string text = WithValue(TextOf(path), profile, key, value);
+  const std::string old = std::filesystem::exists(path) ? ReadText(path) : "";
+  const std::string text = WithValue(old, profile, key, value);
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   error = ReplaceFile(path, text);
@@ -100,17 +108,15 @@ void Store(const std::string& profile, const std::string& key, const std::string
   fmt::print(stderr, "{}\n", path.string());
 }
 
-// Where the profile is named on the command line, the value becomes one of its.
-ExitCode Set(CLI::App& app, const ConfigArguments& arguments, const Settings& settings) {
-  RequireKey(arguments.key, ConfigKeys(app));
+// With --profile on the command line, stores the value in that profile.
+ExitCode Set(const ConfigArguments& arguments, const Settings& settings) {
+  RequireKey(arguments.key, *arguments.app);
   const bool profile = OriginOf(settings, "profile") == "--profile";
-  std::string flag = arguments.key;
-  std::ranges::replace(flag, '_', '-');
-  CLI::Option* option = app.get_option("--" + flag);
-  option->clear();
-  option->add_result(arguments.value);
+  CLI::Option& flag = FlagOf(*arguments.app, arguments.key);
+  flag.clear();
+  flag.add_result(arguments.value);
   try {
-    option->run_callback();  // A value that no command would take is not stored.
+    flag.run_callback();  // Refuses a value that no command would take.
   } catch (const CLI::Error& error) {
     throw Failure(ExitCode::kUsage, error.what());
   }
@@ -118,17 +124,22 @@ ExitCode Set(CLI::App& app, const ConfigArguments& arguments, const Settings& se
   return ExitCode::kOk;
 }
 
-std::set<std::string> Profiles(const Keys& keys) {
+std::vector<ConfigFile> Files(const CLI::App& app) {
+  const Keys keys = ConfigKeys(app);
+  return ReadConfigFiles({keys.begin(), keys.end()});
+}
+
+std::set<std::string> Profiles(const std::vector<ConfigFile>& files) {
   std::set<std::string> names;
-  for (const ConfigFile& file : ReadConfigFiles({keys.begin(), keys.end()})) {
+  for (const ConfigFile& file : files) {
     for (const auto& [name, section] : file.profiles) names.insert(name);
   }
   return names;
 }
 
-ExitCode Use(const CLI::App& app, const std::string& profile) {
-  const std::set<std::string> known = Profiles(ConfigKeys(app));
-  if (!profile.empty() && !known.contains(profile)) {
+ExitCode Use(const ConfigArguments& arguments, const Settings&) {
+  const std::string& profile = arguments.value;
+  if (!profile.empty() && !Profiles(Files(*arguments.app)).contains(profile)) {
     throw Failure(ExitCode::kUsage,
                   fmt::format("there is no profile {0}; make one: contactctl config set server "
                               "HOST:PORT --profile {1}",
@@ -138,12 +149,11 @@ ExitCode Use(const CLI::App& app, const std::string& profile) {
   return ExitCode::kOk;
 }
 
-ExitCode ListProfiles(const CLI::App& app, const Settings& settings) {
+ExitCode ListProfiles(const ConfigArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
-  const Keys keys = ConfigKeys(app);
-  const auto files = ReadConfigFiles({keys.begin(), keys.end()});
+  const std::vector<ConfigFile> files = Files(*arguments.app);
   Table table({{"PROFILE"}, {"SERVER"}, {"IN USE"}});
-  for (const std::string& name : Profiles(keys)) {
+  for (const std::string& name : Profiles(files)) {
     if (settings.output == OutputFormat::kName) fmt::print("{}\n", name);
     const auto server = FindValue(files, "server", name);
     table.Add(
@@ -160,40 +170,37 @@ CONTACT_SERVER and server = "HOST:PORT". The first of these wins: the flag, the 
 the values of a profile, which --profile lab, CONTACT_PROFILE=lab or use_profile = "lab" chooses.)";
 
 void AddKey(CommandLine& line, CLI::App& command, std::string* key) {
-  line.SetKind(command.add_option("KEY", *key, "Such as server"), ValueKind::kConfigKey)
-      ->required();
+  AddOption(line, command, "KEY", key, ValueKind::kConfigKey, "Such as server")->required();
 }
 
 }  // namespace
 
 void AddConfig(CommandLine& line, CLI::App& config) {
   auto arguments = std::make_shared<ConfigArguments>();
-  CLI::App& app = line.app();
-  const Settings& settings = line.settings();
+  arguments->app = &line.app();
   config.footer(kAbout);
   config.require_subcommand(1);
   CLI::App* view = config.add_subcommand("view", "Show all settings as they are now");
   view->add_flag("--show-origin", arguments->show_origin, "Show where each comes from");
-  line.SetAction(*view, [&app, arguments, &settings] { return View(app, *arguments, settings); });
+  line.SetAction(*view, arguments, View);
 
   CLI::App* get = config.add_subcommand("get", "Print one setting");
   AddKey(line, *get, &arguments->key);
-  line.SetAction(*get, [&app, arguments, &settings] { return Get(app, arguments->key, settings); });
+  line.SetAction(*get, arguments, Get);
 
   CLI::App* set = config.add_subcommand(
       "set", "Change a setting in the user's file; with --profile, one of that profile");
   AddKey(line, *set, &arguments->key);
-  set->add_option("VALUE", arguments->value, "What it shall be")->required();
-  line.SetAction(*set, [&app, arguments, &settings] { return Set(app, *arguments, settings); });
+  set->add_option("VALUE", arguments->value, "The new value")->required();
+  line.SetAction(*set, arguments, Set);
 
-  CLI::App* list = config.add_subcommand("list", "List the profiles");
-  line.SetAction(*list, [&app, &settings] { return ListProfiles(app, settings); });
+  line.SetAction(*config.add_subcommand("list", "List the profiles"), arguments, ListProfiles);
 
   CLI::App* use = config.add_subcommand("use", "Choose a profile from now on");
-  line.SetKind(use->add_option("PROFILE", arguments->value, "Its name; '' chooses none"),
-               ValueKind::kProfile)
+  AddOption(line, *use, "PROFILE", &arguments->value, ValueKind::kProfile,
+            "Its name; '' chooses none")
       ->required();
-  line.SetAction(*use, [&app, arguments] { return Use(app, arguments->value); });
+  line.SetAction(*use, arguments, Use);
 }
 
 }  // namespace contact::cli

@@ -9,6 +9,7 @@
 
 #include "cli/base/process.h"
 #include "cli/link/local_server.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -21,7 +22,8 @@ struct DevArguments {
   std::vector<std::string> command;
 };
 
-// Blocked from before the server starts, so that none is lost; taken by sigwait.
+// Blocks the signals that end the command, for sigwait. Called before the server starts, so that
+// no signal is lost.
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -39,7 +41,8 @@ int Next(const sigset_t& signals) {
 
 bool HasEnded(pid_t process, int* status) { return waitpid(process, status, WNOHANG) == process; }
 
-// The code of `command`, which the terminal's Ctrl-C reaches by itself; other signals we pass on.
+// Runs the command and returns its exit code. SIGTERM and SIGHUP are passed on to the command; the
+// terminal sends it Ctrl-C by itself.
 ExitCode RunCommand(const DevArguments& arguments, const LocalServer& server,
                     const sigset_t& signals) {
   setenv("CONTACT_SERVER", server.address().c_str(), 1);
@@ -52,7 +55,7 @@ ExitCode RunCommand(const DevArguments& arguments, const LocalServer& server,
     }
     return static_cast<ExitCode>(ExitCodeOf(status));
   } catch (const std::system_error& error) {
-    constexpr int kNoSuchCommand = 127;  // As a shell says it.
+    constexpr int kNoSuchCommand = 127;  // The code of a shell.
     fmt::print(stderr, "contactctl: cannot run {}\n", error.what());
     return static_cast<ExitCode>(kNoSuchCommand);
   }
@@ -93,12 +96,11 @@ ExitCode Dev(const DevArguments& arguments, const Settings& settings) {
 
 void AddDev(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<DevArguments>();
-  line.SetKind(command.add_option("--contactd", arguments->contactd,
-                                  "The server's program. Default: beside contactctl, else in the "
-                                  "PATH"),
-               ValueKind::kFile);
-  command.add_option("CMD", arguments->command,
-                     "Command, after --; finds the server in CONTACT_SERVER, and its code is ours");
+  AddOption(line, command, "--contactd", &arguments->contactd, ValueKind::kFile,
+            "The server's program. Default: beside contactctl, else in the PATH");
+  command.add_option(
+      "CMD", arguments->command,
+      "Command, after --; CONTACT_SERVER names the server to it, and its exit code is returned");
   line.SetAction(command, arguments, Dev);
 }
 

@@ -2,6 +2,7 @@
 #include <google/protobuf/util/time_util.h>
 #include <langinfo.h>
 
+#include <algorithm>
 #include <clocale>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,12 +19,12 @@
 namespace contact::cli {
 namespace {
 
-// What was looked at, how it is, and what mends it.
+// The outcome of one check.
 struct Finding {
-  std::string what;
-  std::string found;
-  std::string fix;  ///< Empty: all is well.
-  ExitCode code = ExitCode::kOk;
+  std::string what;               // What was checked, such as `clock`.
+  std::string found;              // What was found, for people.
+  std::string fix = {};           // What repairs it; empty: nothing is wrong.
+  ExitCode code = ExitCode::kOk;  // With a fix: the exit code of the command.
 };
 using Findings = std::vector<Finding>;
 
@@ -33,23 +34,22 @@ std::string Minor(const std::string& version) { return version.substr(0, version
 Finding ClockSkew(const v1::ServerInfo& info) {
   using google::protobuf::util::TimeUtil;
   const auto ahead = TimeUtil::DurationToSeconds(info.start_time() - TimeUtil::GetCurrentTime());
-  if (ahead <= 2) return {"clock", "the server's is not ahead", "", ExitCode::kOk};
+  if (ahead <= 2) return {"clock", "the server's is not ahead"};
   return {"clock", fmt::format("the server started {} s in the future", ahead),
           "set the clocks of both machines, such as with NTP", ExitCode::kLocal};
 }
 
-// The last finding is of the clock, if there is a server.
+// Adds findings about the server, its version and its clock; without a server only the first.
 void LookAtServer(const Settings& settings, Findings* findings) {
   try {
     Client client(settings.server, std::chrono::seconds(3));
     const v1::ServerInfo info =
         client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
-    findings->push_back({"server", settings.server + " answers", "", ExitCode::kOk});
+    findings->push_back({"server", settings.server + " answers"});
     const bool same = Minor(info.version()) == Minor(kVersion);
     findings->push_back({"version",
                          fmt::format("contactctl {}, contactd {}", kVersion, info.version()),
-                         same ? "" : "install the same version on both sides",
-                         same ? ExitCode::kOk : ExitCode::kLocal});
+                         same ? "" : "install the same version on both sides", ExitCode::kLocal});
     findings->push_back(ClockSkew(info));
   } catch (const Failure& failure) {
     const std::string text = failure.what();
@@ -63,10 +63,10 @@ void LookAtServer(const Settings& settings, Findings* findings) {
 Finding LookAtGnuplot() {
   std::string version = OutputOf({"gnuplot", "--version"}, {.silent_errors = true}).value_or("");
   version.erase(version.find_last_not_of('\n') + 1);
-  if (version.starts_with("gnuplot 5")) return {"gnuplot", version, "", ExitCode::kOk};
-  return {"gnuplot",
-          version.empty() ? "not found, so plot draws nothing" : version + ", made for 5",
-          "apt-get install gnuplot-nox", ExitCode::kLocal};
+  const bool good = version.starts_with("gnuplot 5");
+  if (!good)
+    version = version.empty() ? "not found, so plot draws nothing" : version + ", made for 5";
+  return {"gnuplot", version, good ? "" : "apt-get install gnuplot-nox", ExitCode::kLocal};
 }
 
 Finding LookAtTerminal(const Settings& settings) {
@@ -76,12 +76,12 @@ Finding LookAtTerminal(const Settings& settings) {
   std::string found = style.terminal ? fmt::format("{} columns", style.width) : "not a terminal";
   found += style.color ? ", colour" : ", no colour";
   found += utf8 ? ", UTF-8" : ", not UTF-8";
-  if (!utf8) return {"terminal", found, "export LC_CTYPE=C.UTF-8", ExitCode::kLocal};
-  if (style.terminal && style.width > 0 && style.width < 60) {
-    return {"terminal", found, "make it wider: below 60 columns, tables leave some out",
-            ExitCode::kLocal};
-  }
-  return {"terminal", found, "", ExitCode::kOk};
+  const bool narrow = style.terminal && style.width > 0 && style.width < 60;
+  return {"terminal", found,
+          !utf8    ? "export LC_CTYPE=C.UTF-8"
+          : narrow ? "make it wider: below 60 columns, tables leave some out"
+                   : "",
+          ExitCode::kLocal};
 }
 
 void LookAtConfig(const CLI::App& app, const Settings& settings, Findings* findings) {
@@ -95,7 +95,7 @@ void LookAtConfig(const CLI::App& app, const Settings& settings, Findings* findi
                          "edit the file, or contactctl config set KEY VALUE", problem.code});
   }
   if (settings.problems.empty()) {
-    findings->push_back({"config", read.empty() ? "no files" : read, "", ExitCode::kOk});
+    findings->push_back({"config", read.empty() ? "no files" : read});
   }
 }
 
@@ -134,10 +134,8 @@ ExitCode Doctor(const CLI::App& app, const Settings& settings) {
   } else {
     fmt::print("{}", Text(findings, settings.OutputStyle()));
   }
-  for (const Finding& finding : findings) {
-    if (!finding.fix.empty()) return finding.code;
-  }
-  return ExitCode::kOk;
+  const auto bad = std::ranges::find_if(findings, [](const Finding& f) { return !f.fix.empty(); });
+  return bad == findings.end() ? ExitCode::kOk : bad->code;
 }
 
 }  // namespace

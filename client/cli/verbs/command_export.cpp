@@ -10,6 +10,7 @@
 #include "cli/export/writers.h"
 #include "cli/link/connect.h"
 #include "cli/link/recording.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -20,7 +21,7 @@ struct ExportArguments {
   std::string file;
   std::string table = "series";
   bool comments = false;
-  int precision = 0;  ///< Significant digits; 0: those that give the same double back.
+  int precision = 0;  // Significant digits; 0: those that give the same double back.
   SeriesSelection part;
 };
 
@@ -48,9 +49,9 @@ void WriteTable(const DataTable& table, const Provenance& source, TableWriter* w
   file.Close();
 }
 
-// All tables in one file. Returns how much it holds, in words.
+// Writes all tables to one file. Returns in words how many samples and cycles it holds.
 std::string WriteAll(Recording&& recording, FileWriter* write, const std::string& path) {
-  const OutputFile writable(path);  // An error has our words, before those of the library.
+  const OutputFile writable(path);  // Fails with our message before the library does.
   const Provenance provenance = ProvenanceOf(recording.job);
   std::vector<DataTable> tables{CyclesTable(recording.job), IterationsTable(recording.iterations),
                                 BodiesTable(recording.job)};
@@ -76,25 +77,17 @@ Recording Read(const ExportArguments& arguments, const Settings& settings) {
   return recording;
 }
 
+// Which part of the series is written.
 void AddPart(CommandLine& line, CLI::App& command, SeriesSelection* part) {
-  line.SetKind(command
-                   .add_option("--channels", part->channels,
-                               "Only these columns of the series, such as "
-                               "B1.velocity,B1-B2.contact_force")
-                   ->delimiter(','),
-               ValueKind::kChannel);
+  AddListOption(line, command, "--channels", &part->channels, ValueKind::kChannel,
+                "Only these columns of the series, such as B1.velocity,B1-B2.contact_force");
   command.add_option("--from,--t0", part->from, "Only samples from this simulated time on")
       ->type_name("SECONDS");
   command.add_option("--to,--t1", part->to, "Only samples up to this simulated time")
       ->type_name("SECONDS");
-  command.add_option("--every", part->every, "Only the first of so many samples")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  command
-      .add_option("--max-points", part->max_points,
-                  "At most so many samples, chosen by the server without losing a peak")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
+  AddCount(command, "--every", &part->every, "Keep one of N samples, beginning with the first");
+  AddCount(command, "--max-points", &part->max_points,
+           "At most N samples; the server chooses them so that no peak is lost");
 }
 
 void RequireUse(const ExportArguments& arguments, OutputFormat format) {
@@ -113,11 +106,11 @@ void RequireUse(const ExportArguments& arguments, OutputFormat format) {
   require(text || arguments.precision == 0, "--precision is of csv and jsonl");
 }
 
-// Writes the job in the format. Returns how much that was, in words.
+// Writes the job in the format. Returns in words how much that was.
 std::string Write(const ExportArguments& arguments, OutputFormat format, const Settings& settings) {
   TableWriter* const table_writer = TableWriterOf(format);
   FileWriter* const file_writer = FileWriterOf(format);
-  if (table_writer == nullptr && file_writer == nullptr) {  // No tables, but the events.
+  if (table_writer == nullptr && file_writer == nullptr) {  // protobuf: events instead of tables.
     Client client = Connect(settings);
     return Count(WriteProtobuf(client, arguments.job, settings, arguments.file), "event", "events");
   }
@@ -142,19 +135,16 @@ ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
 void AddExport(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<ExportArguments>();
   AddJob(line, command, &arguments->job);
-  line.SetKind(command.add_option("-f,--file", arguments->file,
-                                  fmt::format("Where to; without -o its ending tells the format: "
-                                              "{}. Default: the standard output",
-                                              FormatEndings(kData))),
-               ValueKind::kFile);
-  line.SetWords(command.add_option("--table", arguments->table,
-                                   "For csv and jsonl: series, cycles, iterations or bodies; the "
-                                   "others have them all"),
-                {"series", "cycles", "iterations", "bodies"})
+  AddOption(line, command, "-f,--file", &arguments->file, ValueKind::kFile,
+            fmt::format("Where to; without -o its ending tells the format: {}. Default: the "
+                        "standard output",
+                        FormatEndings(kData)));
+  AddOption(line, command, "--table", &arguments->table,
+            {"series", "cycles", "iterations", "bodies"},
+            "For csv and jsonl: series, cycles, iterations or bodies; the others have them all")
       ->type_name("TABLE")
       ->capture_default_str();
-  command.add_flag("--comments", arguments->comments,
-                   "Begin csv with where it comes from, in lines that start with #");
+  command.add_flag("--comments", arguments->comments, kCommentsAbout);
   command
       .add_option("--precision", arguments->precision,
                   "Significant digits of csv and jsonl. Default: those that give the same number "

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "cli/help/completion.h"
 #include "cli/help/usage.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -34,12 +38,23 @@ constexpr char kTutorial[] =
 
 void AddHelp(CommandLine& line, CLI::App& command) {
   auto words = std::make_shared<std::vector<std::string>>();
-  line.SetKind(
-      command.add_option("COMMAND", *words, "Such as run, or sweep run; tutorial shows the way"),
-      ValueKind::kCommand);
+  AddOption(line, command, "COMMAND", words.get(), ValueKind::kCommand,
+            "Such as run, or sweep run; tutorial shows the way");
   line.SetAction(command, [words, &app = line.app()] {
     const bool tutorial = words->size() == 1 && words->front() == "tutorial";
     fmt::print("{}", tutorial ? kTutorial : HelpOf(app, *words));
+    return ExitCode::kOk;
+  });
+}
+
+void AddCompletion(CommandLine& line, CLI::App& command) {
+  std::vector<std::string> shells;
+  for (const ShellScript& script : ShellScripts()) shells.emplace_back(script.shell);
+  auto shell = std::make_shared<std::string>();
+  AddOption(line, command, "SHELL", shell.get(), shells, "Which")->type_name("")->required();
+  line.SetAction(command, [shell] {
+    const auto script = std::ranges::find(ShellScripts(), *shell, &ShellScript::shell);
+    fmt::print("{}", script->text);
     return ExitCode::kOk;
   });
 }

@@ -1,155 +1,23 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cctype>
 #include <memory>
-#include <string_view>
 
-#include "base/spelling.h"
-#include "cli/base/number.h"
-#include "cli/base/table.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/settings/column_choice.h"
 #include "cli/text/print_job.h"
-#include "cli/text/render_job.h"
-#include "cli/text/render_json.h"
 #include "cli/text/render_ledger.h"
-#include "cli/verbs/list_watch.h"
+#include "cli/verbs/job/follow.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
 
-struct ListArguments {
-  std::vector<std::string> states;
-  std::vector<std::string> labels;
-  int limit = 50;
-  bool watch = false;
-  ColumnChoice columns;
-};
-
 struct DescribeArguments {
   std::string job;
   ColumnChoice columns;
 };
-
-v1::Job::State ParseState(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
-  if (v1::Job::State_Parse(text, &state) && state != v1::Job::STATE_UNSPECIFIED) return state;
-  std::vector<std::string_view> states;
-  const auto& type = *v1::Job::State_descriptor();
-  for (int i = 1; i < type.value_count(); ++i) states.push_back(type.value(i)->name());
-  throw Failure(ExitCode::kUsage, WithHint(fmt::format("--state {}: one of {}", Quoted(text),
-                                                       fmt::join(states, ", ")),
-                                           DidYouMean(text, states)));
-}
-
-// All pages, up to the limit.
-v1::ListJobsResponse ListAll(Client& client, const ListArguments& arguments) {
-  constexpr int kPage = 500;
-  v1::ListJobsRequest request;
-  for (const std::string& state : arguments.states) request.add_states(ParseState(state));
-  for (const auto& [key, value] : ParseLabels(arguments.labels)) {
-    (*request.mutable_labels())[key] = value;
-  }
-  v1::ListJobsResponse all;
-  do {
-    const int missing = arguments.limit - all.jobs_size();
-    request.set_page_size(arguments.limit > 0 ? std::min(kPage, missing) : kPage);
-    const v1::ListJobsResponse page = client.Call(&Client::Stub::ListJobs, request);
-    all.MergeFrom(page);
-    all.set_next_page_token(page.next_page_token());
-    request.set_page_token(page.next_page_token());
-  } while (!all.next_page_token().empty() &&
-           (arguments.limit <= 0 || all.jobs_size() < arguments.limit));
-  return all;
-}
-
-std::string Labels(const v1::Job& job) {
-  std::vector<std::string> labels;
-  for (const auto& [key, value] : job.labels()) labels.push_back(fmt::format("{}={}", key, value));
-  std::ranges::sort(labels);
-  return fmt::format("{}", fmt::join(labels, ", "));
-}
-
-std::string Convergence(const v1::Job& job) {
-  return job.convergence() == v1::Job::CONVERGENCE_UNSPECIFIED
-             ? "-"
-             : v1::Job::Convergence_Name(job.convergence());
-}
-
-v1::WatchJobsRequest WatchRequest(const ListArguments& arguments) {
-  v1::WatchJobsRequest request;
-  for (const std::string& state : arguments.states) request.add_states(ParseState(state));
-  for (const auto& [key, value] : ParseLabels(arguments.labels)) {
-    (*request.mutable_labels())[key] = value;
-  }
-  return request;
-}
-
-std::vector<Table::Column> ListColumns() {
-  return {{"JOB"},
-          {"STATE"},
-          {"REASON", false, 2},
-          {"CONVERGENCE", false, 3},
-          {"CREATED (UTC)", false, 1},
-          {"ENDED (UTC)", false, 4},
-          {"LABELS", false, 5},
-          {"CYCLES", true, Table::kOnlyWide},
-          {"ATTEMPT", true, Table::kOnlyWide}};
-}
-
-std::vector<Table::Cell> ListRow(const v1::Job& job) {
-  return {ShortName(job.name()),
-          {v1::Job::State_Name(job.state()), ToneOf(job.state())},
-          job.state_reason().empty() ? "-" : job.state_reason(),
-          Convergence(job),
-          Instant(job.create_time()),
-          Instant(job.end_time()),
-          Labels(job),
-          fmt::to_string(job.progress().cycles()),
-          fmt::to_string(job.attempt())};
-}
-
-Table ListTable(const v1::ListJobsResponse& all) {
-  Table table(ListColumns());
-  for (const v1::Job& job : all.jobs()) table.Add(ListRow(job));
-  return table;
-}
-
-void PrintList(const v1::ListJobsResponse& all, const ColumnChoice& columns,
-               const Settings& settings) {
-  switch (settings.output) {
-    case OutputFormat::kJson:
-      return PrintJson(ToJson(all), settings);
-    case OutputFormat::kCsv:
-      return fmt::print("{}", ListTable(all).Csv(columns.names()));
-    case OutputFormat::kTable:
-      fmt::print("{}", ListTable(all).Text(columns.OutputStyle(settings)));
-      if (!all.next_page_token().empty()) fmt::print(stderr, "… and more; --limit 0 lists all\n");
-      return;
-    default:
-      for (const v1::Job& job : all.jobs()) {
-        const bool name = settings.output == OutputFormat::kName;
-        fmt::print("{}", name ? job.name() + "\n" : ToJsonLine(job));
-      }
-  }
-}
-
-ExitCode List(const ListArguments& arguments, const Settings& settings) {
-  if (arguments.watch) return ListAndWatch(WatchRequest(arguments), settings);
-  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kJsonLines,
-                          OutputFormat::kCsv, OutputFormat::kName});
-  arguments.columns.Check(ListColumns(), settings);
-  Client client = Connect(settings);
-  PrintList(ListAll(client, arguments), arguments.columns, settings);
-  return ExitCode::kOk;
-}
 
 ExitCode Describe(const DescribeArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
@@ -161,9 +29,8 @@ ExitCode Describe(const DescribeArguments& arguments, const Settings& settings) 
 
 ExitCode Cancel(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
-  v1::CancelJobRequest request;
-  request.set_name(JobName(job));
-  const v1::Job answer = Connect(settings).Call(&Client::Stub::CancelJob, request);
+  Client client = Connect(settings);
+  const v1::Job answer = CancelJob(client, JobName(job));
   if (settings.output != OutputFormat::kTable) {
     PrintJob(answer, settings);
   } else if (answer.state() == v1::Job::RUNNING) {
@@ -183,18 +50,7 @@ ExitCode Delete(const std::string& job, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-void AddFilter(CommandLine& line, CLI::App& list, ListArguments* arguments) {
-  line.SetKind(list.add_option("--state", arguments->states, "Only jobs in this state; repeatable"),
-               ValueKind::kState)
-      ->take_all()
-      ->allow_extra_args(false);
-  list.add_option("--label", arguments->labels, "Only jobs with this label; repeatable")
-      ->take_all()
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
-}
-
-// A command whose one argument is a job.
+// Makes `act` the action of a command whose only argument is a job.
 void AddJobAction(CommandLine& line, CLI::App& command,
                   ExitCode (*act)(const std::string&, const Settings&)) {
   auto job = std::make_shared<std::string>();
@@ -203,19 +59,6 @@ void AddJobAction(CommandLine& line, CLI::App& command,
 }
 
 }  // namespace
-
-void AddList(CommandLine& line, CLI::App& list) {
-  auto arguments = std::make_shared<ListArguments>();
-  AddFilter(line, list, arguments.get());
-  list.add_option("--limit", arguments->limit, "At most so many; 0 is all")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N")
-      ->capture_default_str();
-  list.add_flag("--watch", arguments->watch,
-                "All of them, and then a line for each change; -o jsonl for programs");
-  arguments->columns.AddTo(line, list, ListColumns());
-  line.SetAction(list, arguments, List);
-}
 
 void AddDescribe(CommandLine& line, CLI::App& describe) {
   auto arguments = std::make_shared<DescribeArguments>();

@@ -16,6 +16,7 @@
 #include "cli/paper/index.h"
 #include "cli/paper/items.h"
 #include "cli/text/render_json.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -26,14 +27,14 @@ namespace fs = std::filesystem;
 struct PaperArguments {
   std::vector<std::string> items;
   std::string directory = "paper";
-  std::string format;  ///< Empty: svg if gnuplot is there.
+  std::string format;  // Empty: svg if gnuplot is there.
 };
 
 std::vector<std::string> Chosen(const std::vector<std::string>& asked) {
   const std::vector<std::string>& all = PaperItems();
-  if (asked.empty() || std::find(asked.begin(), asked.end(), "all") != asked.end()) return all;
+  if (asked.empty() || std::ranges::find(asked, "all") != asked.end()) return all;
   for (const std::string& id : asked) {
-    if (std::find(all.begin(), all.end(), id) == all.end()) {
+    if (std::ranges::find(all, id) == all.end()) {
       throw Failure(ExitCode::kUsage,
                     fmt::format("unknown item '{}' — one of {} or all", id, fmt::join(all, ", ")));
     }
@@ -41,8 +42,8 @@ std::vector<std::string> Chosen(const std::vector<std::string>& asked) {
   return asked;
 }
 
-// Draws the figures beside their data; returns them as SVG for the page. A drawing that nobody
-// asked for may fail: the note tells it.
+// Draws the figures beside their data. Returns them as SVG, by item, for the page. Without --format
+// a failure to draw is only told.
 std::map<std::string, std::string> DrawAll(const std::vector<PaperItem>& items,
                                            const PaperArguments& arguments) {
   const OutputFormat format = FindFormat(arguments.format).value_or(OutputFormat::kSvg);
@@ -81,7 +82,7 @@ void MakeFolder(const std::string& directory) {
   }
 }
 
-// What shows no single run is at least of this server.
+// Writes the data of the items. A figure of no single run names this server as its source.
 void WriteAll(const v1::ServerInfo& server, const PaperArguments& arguments,
               std::vector<PaperItem>* items) {
   const Provenance here = {{"version", server.version()}, {"revision", server.revision()}};
@@ -110,24 +111,20 @@ ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
   fmt::print(stderr, "{}, {} drawn, index.html in {}, in {}\n",
              Count(static_cast<std::int64_t>(items.size()), "item", "items"), figures.size(),
              arguments.directory, Seconds(took.count()));
-  const bool holds =
-      std::all_of(items.begin(), items.end(), [](const PaperItem& item) { return item.holds(); });
-  return holds ? ExitCode::kOk : ExitCode::kDiffers;
+  return std::ranges::all_of(items, &PaperItem::holds) ? ExitCode::kOk : ExitCode::kDiffers;
 }
 
 }  // namespace
 
 void AddPaper(CommandLine& line, CLI::App& paper) {
   auto arguments = std::make_shared<PaperArguments>();
-  line.SetKind(paper.add_option("ITEM", arguments->items,
-                                fmt::format("{}, or all (default)", fmt::join(PaperItems(), " "))),
-               ValueKind::kPaperItem);
+  AddOption(line, paper, "ITEM", &arguments->items, ValueKind::kPaperItem,
+            fmt::format("{}, or all (default)", fmt::join(PaperItems(), " ")));
   CLI::Option* directory = AddDestination(line, paper, "-d,--directory", &arguments->directory,
                                           "Where to write data, tables, figures and index.html");
   line.SetKind(directory, ValueKind::kDirectory)->capture_default_str();
-  line.SetWords(paper.add_option("--format", arguments->format,
-                                 "How to draw the figures. Default: svg, if gnuplot is there"),
-                {"svg", "png", "pdf", "tikz"})
+  AddOption(line, paper, "--format", &arguments->format, {"svg", "png", "pdf", "tikz"},
+            "How to draw the figures. Default: svg, if gnuplot is there")
       ->type_name("FORMAT");
   line.SetAction(paper, arguments, Paper);
 }

@@ -10,6 +10,7 @@
 #include "cli/figures/presets.h"
 #include "cli/figures/sampling.h"
 #include "cli/link/connect.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -56,16 +57,14 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
 void AddPlot(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<PlotArguments>();
   AddJob(line, command, &arguments->job);
-  line.SetWords(command.add_option("PRESET", arguments->preset, "What to draw"), PresetNames())
+  AddOption(line, command, "PRESET", &arguments->preset, PresetNames(), "What to draw")
       ->type_name("")
       ->required();
-  line.SetKind(command.add_option("-f,--file", arguments->file,
-                                  "Where to; without -o its ending tells the format, .tex being "
-                                  "tikz. Default: PRESET.svg; txt is printed"),
-               ValueKind::kFile);
-  line.SetKind(command.add_option("--keep", arguments->keep,
-                                  "Keep gnuplot's script and the data as CSV in this folder"),
-               ValueKind::kDirectory);
+  AddOption(line, command, "-f,--file", &arguments->file, ValueKind::kFile,
+            "Where to; without -o its ending tells the format, .tex being tikz. Default: "
+            "PRESET.svg; txt is printed");
+  AddOption(line, command, "--keep", &arguments->keep, ValueKind::kDirectory,
+            "Keep gnuplot's script and the data as CSV in this folder");
   line.SetAction(command, arguments, Plot);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cli/base/text_file.h"
@@ -10,6 +11,7 @@
 #include "cli/figures/presets.h"
 #include "cli/figures/run_report.h"
 #include "cli/link/connect.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -20,40 +22,41 @@ struct ReportArguments {
   std::string file = "report.html";
 };
 
-// So that no peak and no corner is lost, and a page stays small however long the run.
+// Draws with few points, so that the page of a long run stays small; no peak or corner is lost.
 std::string DrawThinned(Figure figure) {
   constexpr std::size_t kPoints = 1000;
   Thin(kPoints, &figure);
-  figure.sources.clear();  // The page tells them.
+  figure.sources.clear();  // The page names them.
   return DrawInline(figure);
 }
 
-// Presets that a run has nothing for are left out.
+// The figure that `make` makes; none if the runs have no data for it.
+template <class Make>
+std::optional<Figure> TryFigure(Make make) {
+  try {
+    return make();
+  } catch (const Failure&) {
+    return std::nullopt;
+  }
+}
+
+// The figures of all presets for which the run has data.
 std::vector<std::string> DrawAll(const Recording& recording) {
   std::vector<std::string> figures;
   for (const std::string& preset : PresetNames()) {
-    Figure figure;
-    try {
-      figure = PresetFigure(preset, recording);
-    } catch (const Failure&) {
-      continue;
-    }
-    figure.title = preset;
-    figures.push_back(DrawThinned(std::move(figure)));
+    std::optional<Figure> figure = TryFigure([&] { return PresetFigure(preset, recording); });
+    if (!figure) continue;
+    figure->title = preset;
+    figures.push_back(DrawThinned(std::move(*figure)));
   }
   return figures;
 }
 
-// Nothing for runs that have not the same contacts.
+// The contact forces of all runs in one figure; empty for one run or for different contacts.
 std::string DrawTogether(const std::vector<Recording>& runs) {
-  Figure figure;
   if (runs.size() == 1) return "";
-  try {
-    figure = OverlayFigure(runs, {});
-  } catch (const Failure&) {
-    return "";
-  }
-  return DrawThinned(std::move(figure));
+  std::optional<Figure> figure = TryFigure([&] { return OverlayFigure(runs, {}); });
+  return figure ? DrawThinned(std::move(*figure)) : "";
 }
 
 Recording Read(Client& client, const std::string& job, const Settings& settings) {
@@ -62,44 +65,35 @@ Recording Read(Client& client, const std::string& job, const Settings& settings)
   throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep; see sweep export", job));
 }
 
-// All that is still to be drawn once a run has its own figures, which may be long.
+// Drops what only the figures of a run alone need, because trajectories may be long.
 void KeepContactForces(Recording* recording) {
   std::erase_if(recording->columns, [](const SampleColumn& column) {
     return column.name != "time" && !column.name.ends_with(".contact_force");
   });
 }
 
-// Draws until a drawing fails, such as without gnuplot; then says so once and draws no more.
-class Drawer {
- public:
-  template <class Make>
-  void Draw(Make make) {
-    if (failed_) return;
-    try {
-      make();
-    } catch (const Failure& failure) {
-      failed_ = true;
-      fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
-    }
-  }
-
- private:
-  bool failed_ = false;
-};
-
-// The runs with their figures, and the figure of all of them together.
+// The runs with their figures, and the figure of all of them together. Without gnuplot the page
+// has no figures; a message says so once.
 std::string MakePage(Client& client, const std::vector<std::string>& jobs,
                      const Settings& settings) {
-  Drawer drawer;
+  bool failed = false;
+  const auto draw = [&failed](auto make) {
+    try {
+      if (!failed) make();
+    } catch (const Failure& failure) {
+      failed = true;
+      fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
+    }
+  };
   std::vector<RunPart> runs(jobs.size());
   std::vector<Recording> recordings;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     recordings.push_back(Read(client, jobs[i], settings));
-    drawer.Draw([&] { runs[i].figures = DrawAll(recordings[i]); });
+    draw([&] { runs[i].figures = DrawAll(recordings[i]); });
     KeepContactForces(&recordings[i]);
   }
   std::string overlay;
-  drawer.Draw([&] { overlay = DrawTogether(recordings); });
+  draw([&] { overlay = DrawTogether(recordings); });
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].recording = std::move(recordings[i]);
   return ReportPage(runs, overlay, client.server());
 }
@@ -117,9 +111,8 @@ ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
 
 void AddReport(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<ReportArguments>();
-  line.SetKind(
-          command.add_option("JOB", arguments->jobs, "One or more IDs; the first is the baseline"),
-          ValueKind::kJob)
+  AddOption(line, command, "JOB", &arguments->jobs, ValueKind::kJob,
+            "One or more IDs; the first is the baseline")
       ->required();
   AddDestination(line, command, "-f,--file", &arguments->file, "Where to")->capture_default_str();
   line.SetAction(command, arguments, Report);

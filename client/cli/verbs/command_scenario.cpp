@@ -17,6 +17,7 @@
 #include "cli/input/templates.h"
 #include "cli/link/connect.h"
 #include "cli/text/render_estimate.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 #include "wire/scenario/contact_codec.h"
 #include "wire/sweep/sweep_codec.h"
@@ -27,7 +28,7 @@ namespace {
 struct ValidateArguments {
   std::string file;
   std::vector<std::string> overrides;
-  std::vector<std::string> variables;  ///< --var
+  std::vector<std::string> variables;  // --var
   bool on_server = false;
 };
 
@@ -38,9 +39,9 @@ struct InitArguments {
   bool force = false;
 };
 
-// Limits are the server's own, and may be narrower than those that are checked here. What it
-// advises was told already.
-ExitCode ValidateOnServer(const v1::Job& job, const Settings& settings) {
+// Asks the server, whose limits may be narrower than those that are checked here. Its advice is
+// not shown, because the check here has shown the same.
+void ValidateOnServer(const v1::Job& job, const Settings& settings) {
   v1::CreateJobRequest request;
   *request.mutable_job() = job;
   request.set_validate_only(true);
@@ -49,11 +50,10 @@ ExitCode ValidateOnServer(const v1::Job& job, const Settings& settings) {
   const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
   fmt::print("contactd at {} would take it\n{}", client.server(),
              RenderEstimate(checked, info.limits(), settings.OutputStyle()));
-  return ExitCode::kOk;
 }
 
-ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& text,
-                       const Settings& settings) {
+// Checks a sweep and prints what it has. Returns a job with it.
+v1::Job ValidateSweep(const ValidateArguments& arguments, const std::string& text) {
   if (!arguments.overrides.empty()) {
     throw Failure(ExitCode::kUsage, "--set is for scenarios; a sweep has axes");
   }
@@ -64,21 +64,16 @@ ExitCode ValidateSweep(const ValidateArguments& arguments, const std::string& te
           DecodeSweep(sweep, {.max_cells = std::numeric_limits<std::int32_t>::max()}).axes.cells(),
           "cell", "cells"),
       Count(sweep.axes_size(), "axis", "axes"), Count(sweep.metrics_size(), "metric", "metrics"));
-  if (!arguments.on_server) return ExitCode::kOk;
   v1::Job job;
   *job.mutable_sweep() = sweep;
-  return ValidateOnServer(job, settings);
+  return job;
 }
 
-ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) {
-  settings.RequireOutput({OutputFormat::kTable});
-  const std::string text = ReadText(arguments.file);
-  if (IsSweep(text)) return ValidateSweep(arguments, text, settings);
-  ScenarioFile file(arguments.file == "-" ? "<stdin>" : arguments.file, text,
-                    ParseVariables(arguments.variables));
-  for (const std::string& assignment : arguments.overrides) file.Set(assignment);
-  file.Check();
-  RequireNoMistakes(file);
+// Checks a scenario and prints what it has. Returns a job with it.
+v1::Job ValidateScenario(const ValidateArguments& arguments, const std::string& text) {
+  const ScenarioFile file = Checked({arguments.file == "-" ? "<stdin>" : arguments.file, text,
+                                     ParseVariables(arguments.variables)},
+                                    arguments.overrides);
   TellAdvice(file);
   const v1::Scenario& scenario = file.scenario();
   fmt::print("{}: valid; {}, {}, {}, {}, {}\n", arguments.file,
@@ -86,10 +81,18 @@ ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) 
              Count(CountContacts(scenario), "contact", "contacts"),
              Count(scenario.supports_size(), "support", "supports"),
              Count(scenario.loads_size(), "load", "loads"), Seconds(scenario.end_time_s()));
-  if (!arguments.on_server) return ExitCode::kOk;
   v1::Job job;
   *job.mutable_scenario() = scenario;
-  return ValidateOnServer(job, settings);
+  return job;
+}
+
+ExitCode Validate(const ValidateArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable});
+  const std::string text = ReadText(arguments.file);
+  const v1::Job job =
+      IsSweep(text) ? ValidateSweep(arguments, text) : ValidateScenario(arguments, text);
+  if (arguments.on_server) ValidateOnServer(job, settings);
+  return ExitCode::kOk;
 }
 
 void WriteFile(const std::string& path, std::string_view text, bool force) {
@@ -105,7 +108,7 @@ void WriteFile(const std::string& path, std::string_view text, bool force) {
   }
 }
 
-// The scenario that a sweep names, unless there is a file of this name beside it.
+// Writes the scenario that a sweep names beside it, unless a file of this name exists.
 void WriteBase(const Template& sweep, const std::string& path) {
   for (const Template& scenario : Templates()) {
     const std::string name = std::string(scenario.name) + ".yaml";
@@ -158,15 +161,11 @@ ExitCode Init(const InitArguments& arguments, const Settings& settings) {
 
 void AddValidate(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<ValidateArguments>();
-  line.SetKind(command.add_option("FILE", arguments->file,
-                                  "Scenario or sweep in YAML or JSON; - is the standard input"),
-               ValueKind::kScenarioFile)
+  AddOption(line, command, "FILE", &arguments->file, ValueKind::kScenarioFile,
+            "Scenario or sweep in YAML or JSON; - is the standard input")
       ->required();
-  line.SetKind(
-          command.add_option("--set", arguments->overrides, "Override a field first; repeatable"),
-          ValueKind::kAssignment)
-      ->take_all()
-      ->allow_extra_args(false);
+  Repeatable(AddOption(line, command, "--set", &arguments->overrides, ValueKind::kAssignment,
+                       "Override a field first; repeatable"));
   AddVariableFlag(command, &arguments->variables);
   command.add_flag("--on-server", arguments->on_server,
                    "Ask the server too: whether it would take it, and what that would take");
@@ -175,10 +174,10 @@ void AddValidate(CommandLine& line, CLI::App& command) {
 
 void AddInit(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<InitArguments>();
-  line.SetKind(command.add_option("TEMPLATE", arguments->name, "Which; without it they are listed"),
-               ValueKind::kTemplate);
-  line.SetKind(command.add_option("--file", arguments->file, "Where to; - is the standard output"),
-               ValueKind::kFile);
+  AddOption(line, command, "TEMPLATE", &arguments->name, ValueKind::kTemplate,
+            "Its name; without it all are listed");
+  AddOption(line, command, "--file", &arguments->file, ValueKind::kFile,
+            "Where to; - is the standard output");
   command.add_flag("--list", arguments->list, "List the templates");
   command.add_flag("--force", arguments->force, "Replace a file that exists");
   line.SetAction(command, arguments, Init);

@@ -5,6 +5,7 @@
 #include "cli/help/contract/json_schema.h"
 #include "cli/help/contract/reference.h"
 #include "cli/text/print_job.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -30,9 +31,8 @@ ExitCode Schema(const SchemaArguments& arguments, const Settings& settings) {
 
 void AddSchema(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<SchemaArguments>();
-  line.SetWords(
-          command.add_option("KIND", arguments->kind, "What of: a file, or what -o json prints"),
-          {"scenario", "sweep", "job"})
+  AddOption(line, command, "KIND", &arguments->kind, {"scenario", "sweep", "job"},
+            "What to describe: a scenario file, a sweep file, or the job that -o json prints")
       ->type_name("")
       ->capture_default_str();
   command.add_flag("--markdown", arguments->markdown,

@@ -9,6 +9,7 @@
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_series.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -27,7 +28,7 @@ struct SeriesArguments {
 v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
   v1::GetSeriesRequest request;
   request.set_name(JobName(arguments.job));
-  for (const std::string& channel : arguments.channels) request.add_channels(channel);
+  request.mutable_channels()->Assign(arguments.channels.begin(), arguments.channels.end());
   if (arguments.from) request.set_start_time_s(*arguments.from);
   if (arguments.to) request.set_end_time_s(*arguments.to);
   request.set_max_points(arguments.points);
@@ -35,7 +36,7 @@ v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
   return request;
 }
 
-// Where the motion comes from, in lines that readers of CSV skip.
+// With --comments the source of the series, in lines that begin with #.
 std::string Comments(Client& client, const SeriesArguments& arguments) {
   if (!arguments.comments) return "";
   return Lines({SourceOf(GetJob(client, arguments.job))}, "# ");
@@ -60,23 +61,15 @@ ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
 void AddSeries(CommandLine& line, CLI::App& series) {
   auto arguments = std::make_shared<SeriesArguments>();
   AddJob(line, series, &arguments->job);
-  line.SetKind(series.add_option("--channel", arguments->channels,
-                                 "Such as B1.velocity or B1-B2.contact_force; repeatable. "
-                                 "Default: all"),
-               ValueKind::kChannel)
-      ->take_all()
-      ->allow_extra_args(false);
+  Repeatable(AddOption(line, series, "--channel", &arguments->channels, ValueKind::kChannel,
+                       "Such as B1.velocity or B1-B2.contact_force; repeatable. Default: all"));
   series.add_option("--from", arguments->from, "Only from this simulated time on")
       ->type_name("SECONDS");
   series.add_option("--to", arguments->to, "Only up to this simulated time")->type_name("SECONDS");
-  series
-      .add_option("--points", arguments->points,
-                  "At most so many samples, without losing a peak. Default: 1000")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
+  AddCount(series, "--points", &arguments->points,
+           "At most N samples; no peak is lost. Default: 1000");
   series.add_flag("--raw", arguments->raw, "Every sample");
-  series.add_flag("--comments", arguments->comments,
-                  "Begin csv with where it comes from, in lines that start with #");
+  series.add_flag("--comments", arguments->comments, kCommentsAbout);
   line.SetAction(series, arguments, Series);
 }
 

@@ -55,7 +55,7 @@ ExitCode Backup(const std::string& path, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-// The page as Prometheus reads it.
+// Prints the metrics in the text format of Prometheus.
 ExitCode Metrics(const std::string& address, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable});
   constexpr std::chrono::seconds kTimeout{10};
@@ -94,7 +94,8 @@ void AddServer(CommandLine& line, CLI::App& server) {
   CLI::App* metrics = server.add_subcommand(
       "metrics", "Print the metrics of a server that was started with --metrics-listen");
   auto address = std::make_shared<std::string>("127.0.0.1:9464");
-  metrics->add_option("--metrics", *address, "Where the server tells them")
+  metrics
+      ->add_option("--metrics", *address, "The address that --metrics-listen of the server names")
       ->type_name("HOST:PORT")
       ->capture_default_str();
   line.SetAction(*metrics, address, Metrics);

@@ -1,12 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
-#include <optional>
-#include <utility>
 
 #include "cli/base/interrupt.h"
 #include "cli/export/provenance.h"
@@ -16,14 +13,13 @@
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
-#include "cli/link/watch.h"
 #include "cli/settings/column_choice.h"
-#include "cli/settings/job_options.h"
 #include "cli/text/print_job.h"
-#include "cli/text/render_live.h"
-#include "cli/text/render_progress.h"
 #include "cli/text/sweep/render_sweep.h"
-#include "cli/verbs/follow.h"
+#include "cli/verbs/job/follow.h"
+#include "cli/verbs/job/options.h"
+#include "cli/verbs/job/submission.h"
+#include "cli/verbs/sweep/cell_watcher.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -32,68 +28,16 @@ namespace {
 struct SweepArguments {
   std::string file;
   std::string job;
-  std::vector<std::string> variables;  ///< --var
-  std::vector<std::string> labels;
-  std::string request_id;
-  JobOptions settings;
+  std::vector<std::string> variables;  // --var
+  Submission submission;
   HeatMapOptions map;
-  std::string heat_map;  ///< File to draw it to.
+  std::string heat_map;  // File to draw it to.
   bool comments = false;
-  std::vector<std::string> grid;        ///< Axes over a scenario, instead of a sweep file.
-  int random = 0, latin_hypercube = 0;  ///< Cells to draw from the axes.
+  std::vector<std::string> grid;        // Axes over a scenario, instead of a sweep file.
+  int random = 0, latin_hypercube = 0;  // Cells to draw from the axes.
   std::int64_t seed = 0;
   bool cancel_on_interrupt = false;
   ColumnChoice columns;
-};
-
-// Gathers cells, and tells how far the sweep is.
-class CellWatcher final : public WatchObserver {
- public:
-  CellWatcher(const std::string& job, const Settings& settings) : form_(settings.Progress()) {
-    if (form_ == ProgressForm::kJson) json_progress_.emplace(stderr, ShortName(job));
-  }
-  ~CellWatcher() override { Erase(); }
-
-  void OnSnapshot(const v1::Job& job) override {
-    if (job.has_progress() && json_progress_) json_progress_->Update(job.progress());
-  }
-  void OnEvent(const v1::Event& event) override {
-    if (event.has_sweep_cell()) cells_[event.sweep_cell().index()] = event.sweep_cell();
-    if (event.has_progress()) Show(event.progress());
-  }
-  void OnLost(const std::string& why, std::chrono::milliseconds /*pause*/) override {
-    Erase();
-    fmt::print(stderr, "connection lost ({}); trying again\n", why);
-  }
-  const SweepCells& cells() const { return cells_; }
-
- private:
-  void Show(const v1::Progress& progress) {
-    if (json_progress_) json_progress_->Update(progress);
-    const double done = PartDone(progress);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    const std::string words = fmt::format(
-        "{} of {} cells, {} failed, {} not converged{}", progress.cells_done(), progress.cells(),
-        progress.cells_failed(), progress.cells_not_converged(), TimeLeft(done, elapsed.count()));
-    const int tenths = static_cast<int>(10 * done);
-    if (form_ == ProgressForm::kLines && tenths > std::exchange(told_tenths_, tenths)) {
-      fmt::print(stderr, "{}\n", words);
-    }
-    if (form_ != ProgressForm::kBar) return;
-    fmt::print(stderr, "\r\x1b[K{}", words);
-    std::fflush(stderr);
-    shown_ = true;
-  }
-  void Erase() {
-    if (std::exchange(shown_, false)) fmt::print(stderr, "\r\x1b[K");
-  }
-
-  const ProgressForm form_;
-  std::optional<JsonProgress> json_progress_;  ///< With ProgressForm::kJson.
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  SweepCells cells_;
-  int told_tenths_ = 0;
-  bool shown_ = false;
 };
 
 // Throws Failure (kUsage) unless the sweep has the metric and the columns that are named.
@@ -120,24 +64,7 @@ void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& ar
   }
 }
 
-// Gathers the cells of a sweep until it ends or the wait does. At the end `job` is the ended one.
-WatchEnd Gather(Client& client, v1::Job* job, const Settings& settings, SweepCells* cells) {
-  WatchOptions options;
-  options.name = job->name();
-  options.kinds = {"sweep_cell", "progress"};
-  options.deadline = settings.Deadline();
-  options.stopped = Interrupt::raised;
-  CellWatcher watcher(job->name(), settings);
-  const WatchEnd end = Watch(client, options, watcher);
-  if (end == WatchEnd::kFinished) {
-    *job = GetJob(client, job->name());
-    watcher.OnSnapshot(*job);  // The last progress is always told.
-  }
-  *cells = watcher.cells();
-  return end;
-}
-
-// Follows a sweep to its end, from its first cell on, and prints it.
+// Follows a sweep to its end and prints all its cells.
 ExitCode Follow(Client& client, const std::string& name, const SweepArguments& arguments,
                 const Settings& settings) {
   const bool submitted = arguments.job.empty();
@@ -150,7 +77,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
     if (submitted && settings.output == OutputFormat::kTable) {
       fmt::print(stderr, "{} submitted\n", name);
     }
-    end = Gather(client, &job, settings, &cells);
+    end = GatherCells(client, &job, settings, &cells);
   }
   if (end != WatchEnd::kFinished) {
     return submitted ? DetachOrCancel(client, end, name, arguments.cancel_on_interrupt, settings)
@@ -161,7 +88,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   return CodeOf(job);
 }
 
-// The sweep of the file, or the scenario of the file with the axes of --grid.
+// The sweep of a sweep file, or with --grid the scenario of the file with these axes.
 v1::Sweep Open(const SweepArguments& arguments) {
   const VariableValues variables = ParseVariables(arguments.variables);
   if (arguments.grid.empty()) return OpenSweep(arguments.file, variables);
@@ -171,22 +98,13 @@ v1::Sweep Open(const SweepArguments& arguments) {
   return MakeGrid(arguments.file, arguments.grid, arguments.map.metric(), drawn, variables);
 }
 
-v1::CreateJobRequest Request(const SweepArguments& arguments) {
-  v1::CreateJobRequest request;
-  *request.mutable_job()->mutable_sweep() = Open(arguments);
-  request.set_request_id(arguments.request_id.empty() ? RandomRequestId() : arguments.request_id);
-  for (const auto& [key, value] : ParseLabels(arguments.labels)) {
-    (*request.mutable_job()->mutable_labels())[key] = value;
-  }
-  arguments.settings.Apply(request.mutable_job());
-  return request;
-}
-
 ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput(
       {OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson, OutputFormat::kName});
-  const v1::CreateJobRequest request = Request(arguments);
-  CheckNames(request.job().sweep(), arguments, settings);
+  const v1::Sweep sweep = Open(arguments);
+  v1::CreateJobRequest request = arguments.submission.Request();
+  *request.mutable_job()->mutable_sweep() = sweep;
+  CheckNames(sweep, arguments, settings);
   Client client = Connect(settings);
   const std::string name = client.CallTellingAll(&Client::Stub::CreateJob, request).name();
   const ExitCode code = Follow(client, name, arguments, settings);
@@ -203,75 +121,63 @@ ExitCode Show(const SweepArguments& arguments, const Settings& settings) {
   return Follow(client, JobName(arguments.job), arguments, settings);
 }
 
-// Whatever became of the cells, they were printed.
+// Succeeds once the cells are printed, even if some failed or did not converge.
 ExitCode Export(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson});
-  Client client = Connect(settings);
-  const ExitCode code = Follow(client, JobName(arguments.job), arguments, settings);
+  const ExitCode code = Show(arguments, settings);
   return code == ExitCode::kNotConverged || code == ExitCode::kRunFailed ? ExitCode::kOk : code;
 }
 
-// What the commands that print the cells of a sweep have in common.
+// Adds the flags of the commands that print the cells of a sweep.
 void AddShowing(CommandLine& line, CLI::App& command,
                 const std::shared_ptr<SweepArguments>& arguments,
                 ExitCode (*act)(const SweepArguments&, const Settings&)) {
   arguments->map.AddTo(line, command);
-  line.SetKind(command.add_option("--heatmap", arguments->heat_map,
-                                  "Draw it to this file too, through gnuplot: .svg, .png, .pdf or "
-                                  ".tex"),
-               ValueKind::kFile);
+  AddOption(line, command, "--heatmap", &arguments->heat_map, ValueKind::kFile,
+            "Draw it to this file too, through gnuplot: .svg, .png, .pdf or .tex");
   arguments->columns.AddTo(line, command);
-  command.add_flag("--comments", arguments->comments,
-                   "Begin csv with where it comes from, in lines that start with #");
+  command.add_flag("--comments", arguments->comments, kCommentsAbout);
   line.SetAction(command, arguments, act);
 }
 
-// Axes on the command line, instead of a sweep file.
-void AddAxes(CLI::App& run, SweepArguments* arguments) {
-  CLI::Option* grid =
-      run.add_option("--grid", arguments->grid,
-                     "Every value of this field with every one of the others, such as "
-                     "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is "
-                     "then what is computed, iterations unless given")
-          ->type_name("FIELD=VALUES")
-          ->take_all()
-          ->allow_extra_args(false);
-  CLI::Option* random =
-      run.add_option("--random", arguments->random,
-                     "So many cells with values drawn by chance, each axis of --grid as "
-                     "FIELD=LOW:HIGH or FIELD=A,B,C")
-          ->type_name("CELLS")
-          ->check(CLI::Range(1, 1'000'000))
-          ->needs(grid);
-  run.add_option("--lhs", arguments->latin_hypercube,
-                 "The same as a Latin hypercube, which covers every axis evenly")
+// A flag for the number of cells that are drawn at random from the axes of `grid`.
+CLI::Option* AddDrawn(CLI::App& run, const char* name, int* cells, CLI::Option* grid,
+                      const char* about) {
+  return run.add_option(name, *cells, about)
       ->type_name("CELLS")
       ->check(CLI::Range(1, 1'000'000))
-      ->needs(grid)
-      ->excludes(random);
-  run.add_option("--seed", arguments->seed,
-                 "Of the drawn values: the same seed, the same cells (default 0)")
       ->needs(grid);
 }
 
-void AddSubmission(CommandLine& line, CLI::App& run, SweepArguments* arguments) {
-  line.SetKind(run.add_option("FILE", arguments->file,
-                              "Sweep in YAML or JSON; - is the standard input. With --grid a "
-                              "scenario"),
-               ValueKind::kScenarioFile)
+// Adds the flags for axes on the command line, instead of a sweep file.
+void AddAxes(CLI::App& run, SweepArguments* arguments) {
+  CLI::Option* grid =
+      Repeatable(
+          run.add_option("--grid", arguments->grid,
+                         "An axis; its values are combined with those of all other axes, such as "
+                         "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is "
+                         "then what is computed, by default iterations"))
+          ->type_name("FIELD=VALUES");
+  CLI::Option* random = AddDrawn(
+      run, "--random", &arguments->random, grid,
+      "Number of cells with random values; each axis of --grid is FIELD=LOW:HIGH or FIELD=A,B,C");
+  AddDrawn(run, "--lhs", &arguments->latin_hypercube, grid,
+           "Like --random, but a Latin hypercube, which covers every axis evenly")
+      ->excludes(random);
+  run.add_option("--seed", arguments->seed,
+                 "Seed of --random and --lhs; the same seed gives the same cells. Default: 0")
+      ->needs(grid);
+}
+
+void AddSource(CommandLine& line, CLI::App& run, SweepArguments* arguments) {
+  AddOption(line, run, "FILE", &arguments->file, ValueKind::kScenarioFile,
+            "Sweep in YAML or JSON; - is the standard input. With --grid a scenario")
       ->required();
   AddVariableFlag(run, &arguments->variables);
   AddAxes(run, arguments);
   run.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
                "A first Ctrl-C cancels the sweep instead of leaving it to the server");
-  run.add_option("--label", arguments->labels, "Label of the job; repeatable")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->allow_extra_args(false);
-  run.add_option("--request-id", arguments->request_id,
-                 "The same id and sweep make one job, however often submitted")
-      ->type_name("ID");
-  arguments->settings.AddTo(run);
+  arguments->submission.AddTo(run, "sweep");
 }
 
 }  // namespace
@@ -281,7 +187,7 @@ void AddSweep(CommandLine& line, CLI::App& sweep) {
   auto arguments = std::make_shared<SweepArguments>();
   CLI::App* run = sweep.add_subcommand("run", "Submit a sweep, watch it, show its cells");
   AddShowing(line, *run, arguments, Run);
-  AddSubmission(line, *run, arguments.get());
+  AddSource(line, *run, arguments.get());
 
   CLI::App* watch = sweep.add_subcommand("watch", "Follow a sweep to its end, show its cells");
   AddShowing(line, *watch, arguments, Show);

@@ -8,8 +8,9 @@
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/follow.h"
-#include "cli/verbs/sweep_cell.h"
+#include "cli/verbs/job/follow.h"
+#include "cli/verbs/sweep/cell_watcher.h"
+#include "cli/verbs/sweep/sweep_cell.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -31,26 +32,21 @@ struct HeatMapArguments {
 ExitCode RunCell(Client& client, const v1::Job& sweep, const v1::SweepCell& cell,
                  const Settings& settings) {
   v1::CreateJobRequest request;
-  *request.mutable_job()->mutable_scenario() = ScenarioOf(sweep.sweep(), cell);
-  (*request.mutable_job()->mutable_labels())["sweep"] = ShortName(sweep.name());
-  (*request.mutable_job()->mutable_labels())["cell"] = fmt::to_string(cell.index());
+  v1::Job& job = *request.mutable_job();
+  *job.mutable_scenario() = ScenarioOf(sweep.sweep(), cell);
+  (*job.mutable_labels())["sweep"] = ShortName(sweep.name());
+  (*job.mutable_labels())["cell"] = fmt::to_string(cell.index());
   request.set_request_id(RandomRequestId());
-  v1::Job job = client.CallTellingAll(&Client::Stub::CreateJob, request);
+  const std::string name = client.CallTellingAll(&Client::Stub::CreateJob, request).name();
   const WatchEnd end =
-      FollowRun(client, job.name(), settings.Deadline(), IterationRows::kFirst, settings);
-  if (end != WatchEnd::kFinished) return Detach(end, job.name());
-  job = GetJob(client, job.name());
-  PrintJob(job, settings);
-  if (settings.output == OutputFormat::kTable) fmt::print(stderr, "{}", NextSteps(job));
-  return CodeOf(job);
+      FollowRun(client, name, settings.Deadline(), IterationRows::kFirst, settings);
+  return end == WatchEnd::kFinished ? PrintResult(client, name, settings) : Detach(end, name);
 }
 
 ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
-  if (arguments.run) {
-    settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
-  } else {
-    settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
-  }
+  std::vector<OutputFormat> formats = {OutputFormat::kTable, OutputFormat::kJson};
+  if (arguments.run) formats.push_back(OutputFormat::kName);
+  settings.RequireOutput(formats);
   Client client = Connect(settings);
   const v1::Job job = GetSweep(client, arguments.job);
   const SweepCells cells = ReadCells(client, job, settings);
@@ -73,15 +69,15 @@ ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
   const SweepCells cells = ReadCells(client, job, settings);
   if (!arguments.file.empty()) {
     arguments.map.Draw(job, cells, arguments.file);
-  } else {
-    const std::string text = arguments.map.Text(job.sweep(), cells, settings.OutputStyle());
-    if (text.empty()) {
-      throw Failure(ExitCode::kUsage,
-                    "a heat map is of a grid of two axes that fits into the terminal; -f draws a "
-                    "larger one");
-    }
-    fmt::print("{}", text.substr(1));  // Nothing stands above it.
+    return ExitCode::kOk;
   }
+  const std::string text = arguments.map.Text(job.sweep(), cells, settings.OutputStyle());
+  if (text.empty()) {
+    throw Failure(ExitCode::kUsage,
+                  "a heat map is of a grid of two axes that fits into the terminal; -f draws a "
+                  "larger one");
+  }
+  fmt::print("{}", text.substr(1));  // Without the empty line that separates it from a table.
   return ExitCode::kOk;
 }
 

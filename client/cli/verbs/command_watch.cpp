@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "cli/base/interrupt.h"
 #include "cli/base/number.h"
+#include "cli/base/scalar.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
@@ -20,7 +20,8 @@
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
 #include "cli/text/render_live.h"
-#include "cli/verbs/follow.h"
+#include "cli/verbs/job/follow.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -36,48 +37,42 @@ struct WatchArguments {
   std::string replay;
 };
 
-// One event a line, for programs.
+// Prints each event as a line of JSON, for programs.
 class JsonLines : public WatchObserver {
  public:
   void OnEvent(const v1::Event& event) override {
     fmt::print("{}", ToJsonLine(event));
     std::fflush(stdout);
   }
-  void OnLost(const std::string& why, std::chrono::milliseconds) override {
-    fmt::print(stderr, "connection lost ({}); trying again\n", why);
-  }
+  void OnLost(const std::string& why, std::chrono::milliseconds) override { TellLost(why); }
 };
 
 WatchOptions Options(const std::string& job, const Settings& settings) {
-  WatchOptions options;
-  options.name = JobName(job);
-  options.deadline = settings.Deadline();
-  options.stopped = Interrupt::raised;
-  return options;
+  return {.name = JobName(job),
+          .kinds = {},
+          .deadline = settings.Deadline(),
+          .stopped = Interrupt::raised};
 }
 
 std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
   if (settings.output == OutputFormat::kJsonLines) return std::make_unique<JsonLines>();
-  return std::make_unique<LiveView>(
-      stdout, settings.OutputStyle(), stderr, settings.MessageStyle(),
-      LiveView::Options{.job = ShortName(arguments.job), .progress = settings.Progress()});
+  return std::make_unique<LiveView>(LiveView::Options{.rows_style = settings.OutputStyle(),
+                                                      .messages_style = settings.MessageStyle(),
+                                                      .job = ShortName(arguments.job),
+                                                      .progress = settings.Progress()});
 }
 
-// `1e-3x`: simulated seconds in a second.
-double ParseReplay(const std::string& text) {
+// The speed of a replay in simulated seconds a second, such as `1e-3x`; 0 for an empty text.
+double ParseReplay(std::string_view text) {
   if (text.empty()) return 0;
-  char* end = nullptr;
-  const double speed = std::strtod(text.c_str(), &end);
-  const std::string_view rest = end;
-  if (!std::isfinite(speed) || speed <= 0 || (!rest.empty() && rest != "x")) {
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("--replay {}: must be a speed > 0 such as 1e-3x", text));
-  }
-  return speed;
+  const auto speed = ParseNumber(text.substr(0, text.size() - (text.ends_with('x') ? 1 : 0)));
+  if (speed && std::isfinite(*speed) && *speed > 0) return *speed;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("--replay {}: must be a speed > 0 such as 1e-3x", text));
 }
 
-// Draws until the job ends, its replay is over or the user stops it. `mistake` says why nothing
-// can be drawn; none if all is well.
+// Draws until the job ends, its replay is over or the user stops it. `mistake` receives why
+// nothing can be drawn; none if something can.
 WatchEnd DrawLive(Client& client, WatchOptions options, const WatchArguments& arguments,
                   double replay, std::optional<std::string>* mistake) {
   LivePlot plot(stdout, {arguments.plot, replay, TerminalHasUtf8()});
@@ -130,39 +125,22 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   const WatchEnd end = Watch(client, options, *observer);
   if (end != WatchEnd::kFinished) return Detach(end, options.name);
   const v1::Job job = GetJob(client, arguments.job);
-  observer->OnSnapshot(job);  // How far it came.
+  observer->OnSnapshot(job);  // The last progress.
   return CodeOf(job);
 }
 
 ExitCode Wait(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
-  WatchOptions options = Options(job, settings);
-  options.kinds = {"state_changed"};
-  const Interrupt interrupt;
-  WatchObserver silence;
-  const WatchEnd end = Watch(client, options, silence);
-  if (end != WatchEnd::kFinished) return Detach(end, options.name);
+  const WatchEnd end = AwaitEnd(client, JobName(job), settings);
+  if (end != WatchEnd::kFinished) return Detach(end, JobName(job));
   const v1::Job result = GetJob(client, job);
   if (settings.output == OutputFormat::kTable) {
-    const std::string state = v1::Job::State_Name(result.state());
-    fmt::print("{}  {}\n", result.name(),
-               Paint(state, ToneOf(result.state()), settings.OutputStyle()));
+    fmt::print("{}  {}\n", result.name(), StateText(result.state(), "", settings.OutputStyle()));
   } else {
     PrintJob(result, settings);
   }
   return CodeOf(result);
-}
-
-void AddPlotting(CommandLine& line, CLI::App& watch, WatchArguments* arguments) {
-  line.SetKind(watch
-                   .add_option("--plot", arguments->plot,
-                               "Draw these channels on the terminal, such as "
-                               "B1.velocity,B1-B2.contact_force")
-                   ->delimiter(','),
-               ValueKind::kChannel);
-  watch.add_option("--replay", arguments->replay, "With --plot: simulated seconds in a second")
-      ->type_name("SPEEDx");
 }
 
 }  // namespace
@@ -172,16 +150,18 @@ void AddWatch(CommandLine& line, CLI::App& watch) {
   AddJob(line, watch, &arguments->job);
   watch.add_option("--after-sequence", arguments->after_sequence, "Only later events")
       ->type_name("N");
-  line.SetKind(watch.add_option("--kinds", arguments->kinds, "Only these, such as cycle,iteration")
-                   ->delimiter(','),
-               ValueKind::kEventKind);
+  AddListOption(line, watch, "--kinds", &arguments->kinds, ValueKind::kEventKind,
+                "Only these, such as cycle,iteration");
   watch.add_flag("--live", arguments->live_only, "Only what happens from now on")
       ->excludes("--after-sequence");
   watch
       .add_option("--min-frame-interval", arguments->min_frame_interval,
-                  "Of frame chunks that follow each other sooner only the newest, and a gap")
+                  "Leave out frame chunks that follow sooner than this; a gap tells of them")
       ->type_name("DURATION");
-  AddPlotting(line, watch, arguments.get());
+  AddListOption(line, watch, "--plot", &arguments->plot, ValueKind::kChannel,
+                "Draw these channels on the terminal, such as B1.velocity,B1-B2.contact_force");
+  watch.add_option("--replay", arguments->replay, "With --plot: simulated seconds in a second")
+      ->type_name("SPEEDx");
   line.SetAction(watch, arguments, WatchEvents);
 }
 

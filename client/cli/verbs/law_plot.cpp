@@ -7,7 +7,8 @@
 
 #include "cli/figures/draw.h"
 #include "cli/paper/figures.h"
-#include "cli/verbs/law_study.h"
+#include "cli/verbs/job/options.h"
+#include "cli/verbs/laws/law_study.h"
 
 namespace contact::cli {
 namespace {
@@ -17,17 +18,6 @@ struct ModelPlotArguments {
   std::vector<std::string> laws;
   std::string file;
 };
-
-// The laws named, else all whose curve needs no run.
-std::vector<const LawEntry*> Chosen(const ModelPlotArguments& arguments) {
-  std::vector<const LawEntry*> laws;
-  for (const std::string& name : arguments.laws) laws.push_back(&FindLaw(name));
-  if (!laws.empty()) return laws;
-  for (const LawEntry& law : LawCatalogue()) {
-    if (law.closed_form()) laws.push_back(&law);
-  }
-  return laws;
-}
 
 std::vector<double> Restitutions() {
   std::vector<double> all;
@@ -47,12 +37,7 @@ std::vector<double> Coefficients(const LawEntry& law) {
 
 std::vector<double> Delivered(const LawEntry& law, const Settings& settings) {
   std::vector<LawPoint> points;
-  for (const double e : Restitutions()) {
-    points.push_back({.law = &law,
-                      .requested = e,
-                      .delivered = law.closed_form() ? law.Delivered(e) : 0,
-                      .method = {}});
-  }
+  for (const double e : Restitutions()) points.push_back(PointOf(law, e));
   Simulate(&points, settings);
   std::vector<double> all;
   for (const LawPoint& point : points) all.push_back(point.delivered);
@@ -72,14 +57,12 @@ Data Curves(const std::vector<const LawEntry*>& laws, bool alpha, const Settings
 }
 
 ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
-  FigureFormat(arguments.file, settings);  // Told before anything is run.
-  const std::vector<const LawEntry*> laws = Chosen(arguments);
+  FigureFormat(arguments.file, settings);  // Refuses a wrong format before anything is run.
   const bool alpha = arguments.what == "alpha";
-  std::vector<std::string> names;
-  for (const LawEntry* law : laws) names.emplace_back(law->name);
+  const Data curves = Curves(ChooseLaws(arguments.laws, true), alpha, settings);
   Figure figure = ColumnsFigure(
-      Curves(laws, alpha, settings),
-      alpha ? "hysteresis damping factor coefficient α" : "post-restitution coefficient", names);
+      curves, alpha ? "hysteresis damping factor coefficient α" : "post-restitution coefficient",
+      {curves.columns.begin() + 1, curves.columns.end()});
   figure.title = alpha ? "Coefficient α of the damping factor"
                        : "Restitution that each law delivers; ideal dotted";
   if (!alpha) AddIdeal(&figure);
@@ -95,20 +78,16 @@ void AddLawPlot(CommandLine& line, CLI::App& model) {
       "Draw damping laws over the restitution asked for: -o svg, png, pdf, txt, tikz, gp "
       "or csv");
   auto arguments = std::make_shared<ModelPlotArguments>();
-  line.SetWords(plot->add_option("WHAT", arguments->what,
-                                 "alpha, the coefficient of each law, or restitution, what it "
-                                 "gives back"),
-                {"alpha", "restitution"})
+  AddOption(line, *plot, "WHAT", &arguments->what, {"alpha", "restitution"},
+            "alpha, the coefficient of each law, or restitution, what it gives back")
       ->type_name("")
       ->required();
-  line.SetKind(plot->add_option("LAW", arguments->laws,
-                                "Laws to draw, such as hunt-crossley. Default: all with a closed "
-                                "form, for which no server is needed"),
-               ValueKind::kLaw);
-  line.SetKind(plot->add_option("-f,--file", arguments->file,
-                                "Where to; without -o its ending tells the format, .tex being "
-                                "tikz. Default: WHAT.svg; txt is printed"),
-               ValueKind::kFile);
+  AddOption(line, *plot, "LAW", &arguments->laws, ValueKind::kLaw,
+            "Laws to draw, such as hunt-crossley. Default: all with a closed form, for which no "
+            "server is needed");
+  AddOption(line, *plot, "-f,--file", &arguments->file, ValueKind::kFile,
+            "Where to; without -o its ending tells the format, .tex being tikz. Default: WHAT.svg; "
+            "txt is printed");
   line.SetAction(*plot, arguments, Plot);
 }
 

@@ -11,26 +11,24 @@
 #include "cli/link/watch_jobs.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/follow.h"
+#include "cli/verbs/job/follow.h"
 
 namespace contact::cli {
 namespace {
 
-// A line for each job that is new or has changed.
+// Prints a line for each job that is new, has changed or was deleted.
 class JobLines : public JobsObserver {
  public:
   explicit JobLines(const Settings& settings) : settings_(settings) {}
 
   void OnJob(const v1::Job& job) override {
     if (settings_.output == OutputFormat::kJsonLines) return Print(ToJsonLine(job));
-    const Style style = settings_.OutputStyle();
-    const std::string state = v1::Job::State_Name(job.state());
     const auto& time = job.has_end_time()     ? job.end_time()
                        : job.has_start_time() ? job.start_time()
                                               : job.create_time();
-    std::string line = fmt::format("{}  {}  {}", Instant(time), ShortName(job.name()),
-                                   Paint(state, ToneOf(job.state()), style));
-    if (!job.state_reason().empty()) line += fmt::format(" ({})", job.state_reason());
+    std::string line =
+        fmt::format("{}  {}  {}", Instant(time), ShortName(job.name()),
+                    StateText(job.state(), job.state_reason(), settings_.OutputStyle()));
     if (job.convergence() == v1::Job::PARTIAL) line += ", convergence PARTIAL";
     Print(line + "\n");
   }
@@ -42,9 +40,7 @@ class JobLines : public JobsObserver {
                                                        : ShortName(name) + "  gone\n");
   }
 
-  void OnLost(const std::string& why, std::chrono::milliseconds) override {
-    fmt::print(stderr, "connection lost ({}); trying again\n", why);
-  }
+  void OnLost(const std::string& why, std::chrono::milliseconds) override { TellLost(why); }
 
  private:
   static void Print(const std::string& text) {

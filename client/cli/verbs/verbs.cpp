@@ -6,44 +6,11 @@
 namespace contact::cli {
 
 const std::vector<Verb>& Verbs() {
-  constexpr bool kNoSettings = false;
   static const std::vector<Verb> kVerbs = {
-      {"run", "Submit a scenario, watch it, show its result", AddRun},
-      {"submit", "Submit a scenario and leave", AddSubmit},
-      {"watch", "Show what happened to a job from its start, and what happens until its end",
-       AddWatch},
-      {"wait", "Wait for the end of a job", AddWait},
-      {"list", "List jobs, newest first", AddList},
-      {"describe", "Show a job with its ledger (also: result)", AddDescribe},
-      {"cancel", "Ask a job to stop; what it recorded is kept", AddCancel},
-      {"delete", "Remove an ended job and its events", AddDelete},
-      {"artifact", "Files that an ended job leaves: list, get", AddArtifact},
-      {"export",
-       "Write what a job recorded, once it has ended: -o csv, jsonl, netcdf, mat or protobuf",
-       AddExport},
-      {"plot", "Draw a job that has ended, through gnuplot: -o svg, png, pdf, txt, tikz, gp or csv",
-       AddPlot},
-      {"compare", "Show where runs differ: parameters, then results; exit code 8 if these do",
-       AddCompare},
-      {"report", "Write one page about ended runs: ledgers, figures, balances, how to repeat them",
-       AddReport},
-      {"validate", "Check a scenario or sweep file, without a server", AddValidate},
-      {"init", "Write an example scenario or sweep to start from", AddInit},
-      {"schema", "Print the JSON Schema of a scenario file, for editors", AddSchema, kNoSettings},
-      {"series", "Print the recorded motion of a job", AddSeries},
-      {"sweep", "Solve a scenario for many values of its fields", AddSweep},
-      {"version", "Show the version of contactctl", AddVersion, kNoSettings},
-      {"server", "Ask about the server, back it up", AddServer},
-      {"paper", "Make the paper's figures and tables again, each number beside the published one",
-       AddPaper},
-      {"model", "Show and compare damping laws", AddModel},
-      {"config", "Show and change the settings of contactctl", AddConfig, kNoSettings},
-      {"completion", "Print what teaches a shell to complete contactctl's words", AddCompletion,
-       kNoSettings},
-      {"dev", "Start a private server to try things; dev -- CMD… runs one command with it", AddDev},
-      {"doctor", "Look for what is wrong around here, and say what mends it", AddDoctor,
-       kNoSettings},
-      {"help", "Show the help of a command, or a tutorial", AddHelp, kNoSettings}};
+#define VERB(function, name, needs_settings, about) {name, about, function, needs_settings},
+#include "cli/verbs/verbs.def"
+#undef VERB
+  };
   return kVerbs;
 }
 

@@ -53,28 +53,13 @@ constexpr bool StandInOrder(std::span<const ReasonInfo> rows) {
 }
 static_assert(StandInOrder(kReasons));
 
-Error MakeJobError(Reason reason, std::string message, const std::string& name) {
-  Error error = MakeError(reason, std::move(message));
-  error.metadata["name"] = name;
-  return error;
-}
-
-// Why an operation of the store failed.
+// Why an operation of the store failed with this code.
 Reason ReasonOf(absl::StatusCode code) {
-  switch (code) {
-    case kNotFound:
-      return Reason::kJobNotFound;
-    case kAlreadyExists:
-      return Reason::kRequestIdReused;
-    case kFailedPrecondition:
-      return Reason::kInvalidState;
-    case kResourceExhausted:
-      return Reason::kStoreFull;
-    case kDataLoss:
-      return Reason::kDataLoss;
-    default:
-      return Reason::kStoreFailed;
-  }
+  constexpr std::array kOfStore = {Reason::kJobNotFound, Reason::kRequestIdReused,
+                                   Reason::kInvalidState, Reason::kStoreFull, Reason::kDataLoss};
+  const auto found =
+      std::ranges::find(kOfStore, code, [](Reason reason) { return InfoOf(reason).code; });
+  return found == kOfStore.end() ? Reason::kStoreFailed : *found;
 }
 
 bool IsOfTheDisk(Reason reason) {
@@ -94,6 +79,12 @@ Error MakeError(Reason reason, std::string message) {
           .reason = info.name,
           .message = message.empty() ? info.message : std::move(message),
           .retry_after = info.retry_after};
+}
+
+Error JobError(Reason reason, const std::string& name, const std::string& what) {
+  Error error = MakeError(reason, name + ' ' + what);
+  error.metadata["name"] = name;
+  return error;
 }
 
 Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec) {
@@ -127,34 +118,25 @@ Error Unreadable(const std::string& what) {
 }
 
 Error UidMismatch(const std::string& name, const std::string& uid) {
-  Error error = MakeJobError(Reason::kUidMismatch,
-                             fmt::format("{} is another job than the one expected", name), name);
+  Error error = JobError(Reason::kUidMismatch, name, "is another job than the one expected");
   error.metadata["uid"] = uid;
   return error;
 }
 
 Error EventsCompacted(const std::string& name, std::uint64_t oldest_sequence) {
-  Error error = MakeJobError(Reason::kEventsCompacted,
-                             fmt::format("the trajectory of {} was dropped some time after its "
-                                         "end, as the server is set; ledger, result and other "
-                                         "events are there",
-                                         name),
-                             name);
+  Error error = MakeError(Reason::kEventsCompacted,
+                          fmt::format("the trajectory of {} was dropped some time after its end, "
+                                      "as the server is set; ledger, result and other events are "
+                                      "there",
+                                      name));
+  error.metadata["name"] = name;
   error.metadata["oldest_sequence"] = fmt::format("{}", oldest_sequence);
   return error;
 }
 
-Error NotEnded(const std::string& name) {
-  return MakeJobError(Reason::kInvalidState, fmt::format("{} has not ended", name), name);
-}
-
-Error Deleted(const std::string& name) {
-  return MakeJobError(Reason::kJobNotFound, name + " was deleted", name);
-}
-
 Error NoArtifact(const std::string& name, const std::string& artifact) {
-  return MakeJobError(Reason::kArtifactNotFound,
-                      fmt::format("{} has no artifact '{}'", name, artifact.substr(0, 64)), name);
+  return JobError(Reason::kArtifactNotFound, name,
+                  fmt::format("has no artifact '{}'", artifact.substr(0, 64)));
 }
 
 Error OffsetOutOfRange(std::int64_t offset, std::int64_t size) {
@@ -163,10 +145,6 @@ Error OffsetOutOfRange(std::int64_t offset, std::int64_t size) {
                 fmt::format("offset is {}; must be in [0, the size of the artifact]", offset));
   if (size >= 0) error.metadata["size_bytes"] = fmt::format("{}", size);
   return error;
-}
-
-Error NoTrajectory(const std::string& name) {
-  return MakeJobError(Reason::kNoTrajectory, name + " records no trajectory", name);
 }
 
 Error SeriesTooLarge(std::size_t most) {

@@ -45,10 +45,14 @@ enum class Reason {
 /// What all errors of one reason have in common.
 struct ReasonInfo {
   Reason reason;
-  const char* name;                       ///< UPPER_SNAKE_CASE, for programs.
-  absl::StatusCode code;                  ///< The canonical code, as gRPC has it.
-  std::chrono::milliseconds retry_after;  ///< When to try again; 0: trying again is no use.
-  const char* message;  ///< The words for an error that has none of its own; may be empty.
+  /// Its name for programs, in UPPER_SNAKE_CASE.
+  const char* name;
+  /// The canonical code; gRPC has the same numbers.
+  absl::StatusCode code;
+  /// Time after which the caller may try again; 0: trying again is no use.
+  std::chrono::milliseconds retry_after;
+  /// The words for an error that has none of its own; may be empty.
+  const char* message;
 };
 
 /// The table of all reasons, in the order of the enumeration. The only place with their names.
@@ -61,11 +65,16 @@ const ReasonInfo& InfoOf(Reason reason);
 /// people. rpc/ turns it into a gRPC status with details.
 struct Error {
   absl::StatusCode code = absl::StatusCode::kInternal;
-  std::string reason = {};                           ///< Its name, see ReasonInfo.
-  std::string message = {};                          ///< For people; without a full stop.
-  std::vector<Violation> violations = {};            ///< Become BadRequest.
-  std::map<std::string, std::string> metadata = {};  ///< Becomes the metadata of ErrorInfo.
-  std::chrono::milliseconds retry_after{0};          ///< Above 0 it becomes RetryInfo.
+  /// Name of the reason, see ReasonInfo.
+  std::string reason = {};
+  /// The words for people; without a full stop.
+  std::string message = {};
+  /// Rules that the request breaks; they become BadRequest.
+  std::vector<Violation> violations = {};
+  /// Facts for programs; they become the metadata of ErrorInfo.
+  std::map<std::string, std::string> metadata = {};
+  /// As in ReasonInfo; above 0 it becomes RetryInfo.
+  std::chrono::milliseconds retry_after{0};
 };
 
 /// A value, or the error that explains why there is none.
@@ -74,10 +83,13 @@ class Result {
  public:
   Result(T value) : state_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
   Result(Error error) : state_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
+  /// True if there is a value.
   bool ok() const { return std::holds_alternative<T>(state_); }
-  T& value() { return std::get<T>(state_); }  ///< Only if ok().
+  /// The value. Only if ok().
+  T& value() { return std::get<T>(state_); }
   const T& value() const { return std::get<T>(state_); }
-  const Error& error() const { return std::get<Error>(state_); }  ///< Only if not ok().
+  /// Why there is no value. Only if not ok().
+  const Error& error() const { return std::get<Error>(state_); }
 
  private:
   std::variant<T, Error> state_;
@@ -85,6 +97,9 @@ class Result {
 
 /// An error with code and retry delay of its reason, and its words unless `message` has others.
 Error MakeError(Reason reason, std::string message = {});
+
+/// An error of the job called `name`, with the words "`name` `what`", such as "jobs/a was deleted".
+Error JobError(Reason reason, const std::string& name, const std::string& what);
 
 /// The error of a request that breaks rules of the contract: kScenarioInvalid if it breaks some of
 /// those for scenarios and sweeps, else kFieldInvalid. Lists all violations; at least one is given.
@@ -103,17 +118,11 @@ Error Unreadable(const std::string& what);
 Error UidMismatch(const std::string& name, const std::string& uid);
 /// Frame chunks before `oldest_sequence` were asked for, and have been dropped (kEventsCompacted).
 Error EventsCompacted(const std::string& name, std::uint64_t oldest_sequence);
-/// The job has not ended, and the call is only for those that have (kInvalidState).
-Error NotEnded(const std::string& name);
-/// The job was deleted while it was watched (kJobNotFound).
-Error Deleted(const std::string& name);
 /// The job has no such artifact (kArtifactNotFound).
 Error NoArtifact(const std::string& name, const std::string& artifact);
 /// An artifact cannot be read from this offset (kOffsetOutOfRange). `size`: bytes of the artifact;
 /// negative if not known.
 Error OffsetOutOfRange(std::int64_t offset, std::int64_t size);
-/// The job records no trajectory (kNoTrajectory).
-Error NoTrajectory(const std::string& name);
 /// More samples were selected than the `most` that an answer can have (kSeriesTooLarge).
 Error SeriesTooLarge(std::size_t most);
 /// What is stored of the job fails its checksum (kDataLoss). Writes a line to the log.

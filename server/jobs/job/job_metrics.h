@@ -20,14 +20,20 @@ class JobMetrics {
 
   /// How often a job came into a state, by state and reason.
   using Moves = std::map<std::pair<v1::Job::State, std::string>, std::int64_t>;
+  /// What Moved has counted so far.
   Moves moves() const;
 
-  Histogram wait_seconds{DecadeBounds(-3, 4)};  ///< From creation to the first start.
-  Histogram run_seconds{DecadeBounds(-3, 4)};   ///< From the last start to the end.
-  Histogram iterations{DecadeBounds(0, 2)};     ///< Of μ, one value a cycle.
-  std::atomic<std::int64_t> steps = 0;          ///< Of integration, of the jobs that have ended.
+  /// Time from the creation of a job to its first start, in seconds.
+  Histogram wait_seconds{DecadeBounds(-3, 4)};
+  /// Time from the last start of a job to its end, in seconds.
+  Histogram run_seconds{DecadeBounds(-3, 4)};
+  /// Iterations of μ, one value for each cycle of the jobs that have ended.
+  Histogram iterations{DecadeBounds(0, 2)};
+  /// Integration steps of the jobs that have ended.
+  std::atomic<std::int64_t> steps = 0;
 
  private:
+  /// Counts what a job that has just ended has taken.
   void Ended(const v1::Job& job);
 
   mutable Mutex mutex_;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stop_token>
 
+#include "contact/v1/job_service.pb.h"
 #include "jobs/job/budget.h"
 #include "jobs/job/job_metrics.h"
 #include "simulation/run.h"
@@ -25,16 +26,25 @@ struct RetentionLimits {
 
 /// How the server treats jobs: what it takes, how long it lets them run, what it keeps of them.
 struct JobOptions {
-  int workers = 1;               ///< Threads that run simulations, ≥ 1.
-  int max_queued_jobs = 10'000;  ///< Past it CreateJob answers QUEUE_FULL.
-  int max_watchers = 10'000;     ///< Past it Watch answers WATCHER_LIMIT.
+  /// Threads that run simulations, at least 1.
+  int workers = 1;
+  /// Jobs that may wait for a worker. Past it CreateJob answers QUEUE_FULL.
+  int max_queued_jobs = 10'000;
+  /// Streams that may watch jobs or read artifacts. Past it they end with WATCHER_LIMIT.
+  int max_watchers = 10'000;
+  /// What a scenario or sweep may hold.
   ScenarioLimits scenario_limits = {};
-  RunBudget max_budget = {};  ///< Largest budget of a job; also that of a job that asks for none.
-  int max_attempts = 3;       ///< A job that is running whenever the server dies fails then.
-  std::chrono::milliseconds step_timeout = std::chrono::minutes(1);  ///< See Watchdog; 0: never.
-  std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);  ///< See Watchdog.
+  /// Largest budget of a job; also that of a job that asks for none.
+  RunBudget max_budget = {};
+  /// Attempts of a job that is running whenever the server dies; then it fails.
+  int max_attempts = 3;
+  /// Time without a step after which a run is stopped, see Watchdog; 0: none.
+  std::chrono::milliseconds step_timeout = std::chrono::minutes(1);
+  /// Time that a run may take to react to a stop before it is given up, see Watchdog.
+  std::chrono::milliseconds stop_timeout = std::chrono::seconds(5);
   /// Real time between two looks at the running jobs, see Watchdog.
   std::chrono::milliseconds look_interval{50};
+  /// What is kept of ended jobs.
   RetentionLimits retention = {};
   /// Least time between two checkpoints of a run; 0: no checkpoints.
   std::chrono::milliseconds checkpoint_interval{0};
@@ -46,5 +56,8 @@ struct JobOptions {
   std::function<Outcome(const Scenario&, const RunState&, Observer&, std::stop_token)> resume =
       Resume;
 };
+
+/// The limits of jobs as GetServerInfo tells them. Limits that do not concern jobs are not set.
+v1::ServerLimits LimitsOf(const JobOptions& options);
 
 }  // namespace contact

@@ -52,10 +52,14 @@ inline constexpr char kInternal[] = "INTERNAL";
 
 /// The state that a job enters next, and why.
 struct Transition {
+  /// The next state.
   v1::Job::State to;
+  /// A value of `reason`; empty for SUCCEEDED and RUNNING.
   std::string state_reason = {};
-  std::string message = {};                       ///< For people; may be empty.
-  absl::StatusCode code = absl::StatusCode::kOk;  ///< Of Job.error, for FAILED.
+  /// The words for people; may be empty.
+  std::string message = {};
+  /// Code of Job.error. Only for FAILED.
+  absl::StatusCode code = absl::StatusCode::kOk;
 };
 
 /// The transition of a job whose run has ended. A run that was stopped counts as cancelled by the

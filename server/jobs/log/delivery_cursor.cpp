@@ -5,8 +5,8 @@
 namespace contact {
 
 DeliveryCursor::DeliveryCursor(std::unique_ptr<LogCursor> cursor, std::function<bool()> behind,
-                               Rules rules, std::function<Clock::time_point()> now)
-    : cursor_(std::move(cursor)), behind_(std::move(behind)), rules_(rules), now_(std::move(now)) {}
+                               const Clock& clock, Rules rules)
+    : cursor_(std::move(cursor)), behind_(std::move(behind)), clock_(clock), rules_(rules) {}
 
 LogCursor::Next DeliveryCursor::Read(std::size_t max_bytes, std::vector<LogRecord>* out) {
   for (;;) {
@@ -16,7 +16,8 @@ LogCursor::Next DeliveryCursor::Read(std::size_t max_bytes, std::vector<LogRecor
     if (behind && rules_.overflow == v1::DeliveryOptions::DISCONNECT) return Next::kSlow;
     const bool conflate = behind && rules_.overflow == v1::DeliveryOptions::CONFLATE;
     const auto due = [&] {
-      return !conflate && (!last_frame_ || now_() - *last_frame_ >= rules_.min_frame_interval);
+      return !conflate &&
+             (!last_frame_ || clock_.Elapsed() - *last_frame_ >= rules_.min_frame_interval);
     };
     for (LogRecord& record : records) Pass(std::move(record), due(), out);
     if (next == Next::kWait && held_ && due()) Release(out);
@@ -50,7 +51,7 @@ void DeliveryCursor::Pass(LogRecord record, bool due, std::vector<LogRecord>* ou
 void DeliveryCursor::Release(std::vector<LogRecord>* out) {
   TellGap(out);
   out->push_back(*std::exchange(held_, std::nullopt));
-  last_frame_ = now_();
+  last_frame_ = clock_.Elapsed();
 }
 
 void DeliveryCursor::LeaveOut() {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "base/clock.h"
 #include "contact/v1/job_service.pb.h"
 #include "jobs/log/log_cursor.h"
-#include "jobs/log/tail_cursor.h"
 
 namespace contact {
 
@@ -21,34 +21,43 @@ namespace contact {
 /// again.
 class DeliveryCursor final : public LogCursor {
  public:
-  using Clock = std::chrono::steady_clock;
+  /// How the watcher wants its frame chunks.
   struct Rules {
+    /// Least time between two chunks.
     std::chrono::milliseconds min_frame_interval{0};
+    /// What happens while the reader is behind.
     v1::DeliveryOptions::OverflowPolicy overflow = v1::DeliveryOptions::CONFLATE;
   };
 
-  /// `cursor`, and whether its reader is behind.
-  DeliveryCursor(std::unique_ptr<LogCursor> cursor, std::function<bool()> behind, Rules rules,
-                 std::function<Clock::time_point()> now = Clock::now);
+  /// `behind` tells whether the reader of `cursor` is behind. The clock outlives this.
+  DeliveryCursor(std::unique_ptr<LogCursor> cursor, std::function<bool()> behind,
+                 const Clock& clock, Rules rules);
 
   Next Read(std::size_t max_bytes, std::vector<LogRecord>* out) override;
   std::uint64_t position() const override;
   std::uint64_t oldest() const override;
 
  private:
+  /// Passes a record on, or holds it back if it is a chunk and none is `due`.
   void Pass(LogRecord record, bool due, std::vector<LogRecord>* out);
+  /// Passes on what is held back.
   void Release(std::vector<LogRecord>* out);
+  /// Moves what is held back into the gap.
   void LeaveOut();
+  /// Passes the gap on, if it is not empty.
   void TellGap(std::vector<LogRecord>* out);
 
   const std::unique_ptr<LogCursor> cursor_;
   const std::function<bool()> behind_;
+  const Clock& clock_;
   const Rules rules_;
-  const std::function<Clock::time_point()> now_;
 
-  std::optional<Clock::time_point> last_frame_;  ///< When one was passed on.
-  std::optional<LogRecord> held_;                ///< The newest chunk, not passed on.
-  v1::Gap gap_;                                  ///< Left out before it; empty if none.
+  /// When a chunk was passed on last.
+  std::optional<std::chrono::steady_clock::time_point> last_frame_;
+  /// The newest chunk, if it is held back.
+  std::optional<LogRecord> held_;
+  /// The chunks left out before it; empty if there are none.
+  v1::Gap gap_;
 };
 
 }  // namespace contact

@@ -29,12 +29,15 @@ class JobFeed {
 
    private:
     friend class JobFeed;
+    /// Notes a change, and wakes the reader if it waits.
     void Add(const std::string& name);
 
     const std::function<void()> wake_;
     mutable Mutex mutex_;
+    /// Empty once overflown_.
     std::set<std::string> names_ ABSL_GUARDED_BY(mutex_);
     bool overflown_ ABSL_GUARDED_BY(mutex_) = false;
+    /// True if the last Take found nothing, and `wake` was not called since.
     bool waiting_ ABSL_GUARDED_BY(mutex_) = true;
   };
 
@@ -46,6 +49,7 @@ class JobFeed {
 
  private:
   Mutex mutex_;
+  /// May hold readers that are gone.
   std::vector<std::weak_ptr<Reader>> readers_ ABSL_GUARDED_BY(mutex_);
 };
 

@@ -17,10 +17,6 @@ bool Ends(const LogRecord& record) {
          IsFinal(event.state_changed().state());
 }
 
-void Call(const std::set<std::shared_ptr<const JobLog::Waker>>& wakers) {
-  for (const auto& waker : wakers) (*waker)();
-}
-
 }  // namespace
 
 LogRecord ToRecord(std::uint64_t sequence, v1::Event event) {
@@ -29,31 +25,37 @@ LogRecord ToRecord(std::uint64_t sequence, v1::Event event) {
           std::make_shared<const std::string>(event.SerializeAsString())};
 }
 
-std::vector<LogRecord> ToRecords(const std::vector<v1::Event>& events) {
+std::vector<LogRecord> ToRecords(std::vector<v1::Event> events) {
   std::vector<LogRecord> records;
   records.reserve(events.size());
-  for (const v1::Event& event : events) {
-    records.push_back(
-        {0, event.payload_case(), std::make_shared<const std::string>(event.SerializeAsString())});
-  }
+  for (v1::Event& event : events) records.push_back(ToRecord(0, std::move(event)));
   return records;
 }
 
-void JobLog::Append(std::uint64_t first, std::vector<LogRecord> records) {
+template <class Change>
+void JobLog::Tell(Change change) {
   Wakers wakers;
   bool moved = false;
   {
     const MutexLock lock(mutex_);
+    moved = change();
+    wakers = std::exchange(waiting_, {});
+  }
+  if (moved && on_state_) on_state_();
+  for (const auto& waker : wakers) (*waker)();
+}
+
+void JobLog::Append(std::uint64_t first, std::vector<LogRecord> records) {
+  Tell([&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    bool moved = false;
     for (LogRecord& record : records) {
       record.sequence = first++;
       moved |= record.kind == v1::Event::kStateChanged;
       const bool ended = Ends(record);
       Push(std::move(record), ended);
     }
-    wakers = TakeWaiting();
-  }
-  if (moved && on_state_) on_state_();
-  Call(wakers);
+    return moved;
+  });
 }
 
 void JobLog::Push(LogRecord record, bool ended) {
@@ -68,28 +70,22 @@ void JobLog::Push(LogRecord record, bool ended) {
 }
 
 void JobLog::SetProgress(v1::Event progress) {
-  Wakers wakers;
-  {
-    const MutexLock lock(mutex_);
+  Tell([&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     progress_ = ToRecord(0, std::move(progress));
     ++progress_count_;
-    wakers = TakeWaiting();
-  }
-  Call(wakers);
+    return false;
+  });
 }
 
 void JobLog::Fail() {
-  Wakers wakers;
-  {
-    const MutexLock lock(mutex_);
+  Tell([this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     failed_ = true;
-    wakers = TakeWaiting();
-  }
-  Call(wakers);
+    return false;
+  });
 }
 
 JobLog::Tail JobLog::After(const Want& want, std::uint64_t* progress_seen,
-                           std::shared_ptr<const Waker> waker) {
+                           std::shared_ptr<const Wake> waker) {
   const MutexLock lock(mutex_);
   Tail tail{Tail::Found::kEvents, want.position};
   if (IsBeforeRing(want.position)) {
@@ -131,11 +127,9 @@ void JobLog::Collect(const Want& want, Tail* tail) {
   }
 }
 
-void JobLog::Forget(const std::shared_ptr<const Waker>& waker) {
+void JobLog::Forget(const std::shared_ptr<const Wake>& waker) {
   const MutexLock lock(mutex_);
   waiting_.erase(waker);
 }
-
-JobLog::Wakers JobLog::TakeWaiting() { return std::exchange(waiting_, {}); }
 
 }  // namespace contact

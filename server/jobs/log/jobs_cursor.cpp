@@ -11,73 +11,83 @@ constexpr int kMostJobs = 100;
 
 }  // namespace
 
-JobsCursor::JobsCursor(Store& store, JobFeed& feed, JobQuery filter, Complete complete,
-                       std::function<void()> wake, std::shared_ptr<std::atomic<int>> watchers)
+JobsCursor::JobsCursor(Store& store, JobFeed& feed, const Clock& clock, Rules rules,
+                       Complete complete, Wake wake, Places::Place place)
     : store_(store),
-      filter_(std::move(filter)),
+      clock_(clock),
+      rules_(std::move(rules)),
       complete_(std::move(complete)),
-      wake_(std::make_shared<const std::function<void()>>(std::move(wake))),
-      watchers_(std::move(watchers)),
-      changes_(feed.Subscribe(*wake_)) {  // Before the snapshot, so that nothing falls between.
-  filter_.limit = kMostJobs;
+      wake_(std::make_shared<const Wake>(std::move(wake))),
+      place_(std::move(place)),
+      changes_(feed.Subscribe(*wake_)),  // Before the snapshot, so that nothing falls between.
+      last_sent_(clock.Elapsed()) {
+  rules_.filter.limit = kMostJobs;
 }
 
-JobsCursor::~JobsCursor() { --*watchers_; }
+StreamStep JobsCursor::Read(v1::WatchJobsResponse* out) {
+  const auto now = clock_.Elapsed();
+  StreamStep step = ReadJobs(out);
+  if (!step.has_message && !step.error && IsDue(now)) {
+    out->set_snapshot_complete(listed_);
+    step.has_message = true;
+  }
+  if (step.has_message) last_sent_ = now;
+  return step;
+}
 
-JobsCursor::Next JobsCursor::Read(v1::WatchJobsResponse* out) {
+StreamStep JobsCursor::ReadJobs(v1::WatchJobsResponse* out) {
   for (;;) {
-    if (changes_->overflown()) return Next::kSlow;
+    if (changes_->overflown()) return {.error = SlowWatcher("jobs")};
     if (fetch_) {
       const bool snapshot = !listed_;
-      const Next next = Take(out);
-      if (next != Next::kMessage || snapshot || out->jobs_size() + out->gone_size() > 0) {
-        return next;
-      }
+      StreamStep step = TakeFetched(out);
+      if (!step.has_message || snapshot || out->jobs_size() + out->gone_size() > 0) return step;
     }
     if (!listed_) {
       FetchPage();
       continue;
     }
     const std::vector<std::string> names = changes_->Take(kMostJobs);
-    if (names.empty()) return Next::kWait;
+    if (names.empty()) return {};
     FetchChanged(names);
   }
 }
 
 void JobsCursor::FetchPage() {
   fetch_ = std::make_shared<Fetch>();
-  const std::weak_ptr<Fetch> weak = fetch_;  // Gone if the reader leaves first.
-  store_.List(filter_, [weak, wake = wake_](absl::StatusOr<JobPage> page) {
+  // Gone if the reader leaves first.
+  store_.List(rules_.filter, [weak = std::weak_ptr(fetch_)](absl::StatusOr<JobPage> page) {
     const auto fetch = weak.lock();
     if (!fetch) return;
-    {
-      const MutexLock lock(fetch->mutex);
-      fetch->done = true;
-      fetch->status = page.status();
-      if (page.ok()) fetch->page = *std::move(page);
-    }
-    (*wake)();
+    const MutexLock lock(fetch->mutex);
+    fetch->status = page.status();
+    if (page.ok()) fetch->page = *std::move(page);
   });
+  WakeWhenFetched();
 }
 
 void JobsCursor::FetchChanged(const std::vector<std::string>& names) {
   fetch_ = std::make_shared<Fetch>();
-  const std::weak_ptr<Fetch> weak = fetch_;
   for (const std::string& name : names) {
-    store_.Read(name, JobPart::kHeader, [weak, name](absl::StatusOr<StoredJob> stored) {
-      const auto fetch = weak.lock();
-      if (!fetch) return;
-      const MutexLock lock(fetch->mutex);
-      if (stored.ok()) {
-        fetch->page.jobs.push_back(*std::move(stored));
-      } else if (absl::IsNotFound(stored.status())) {
-        fetch->gone.push_back(name);
-      } else if (!absl::IsDataLoss(stored.status())) {
-        fetch->status = stored.status();
-      }
-    });
+    store_.Read(name, JobPart::kHeader,
+                [weak = std::weak_ptr(fetch_), name](absl::StatusOr<StoredJob> stored) {
+                  const auto fetch = weak.lock();
+                  if (!fetch) return;
+                  const MutexLock lock(fetch->mutex);
+                  if (stored.ok()) {
+                    fetch->page.jobs.push_back(*std::move(stored));
+                  } else if (absl::IsNotFound(stored.status())) {
+                    fetch->gone.push_back(name);
+                  } else if (!absl::IsDataLoss(stored.status())) {
+                    fetch->status = stored.status();
+                  }
+                });
   }
-  store_.Flush([weak, wake = wake_] {
+  WakeWhenFetched();
+}
+
+void JobsCursor::WakeWhenFetched() {
+  store_.Flush([weak = std::weak_ptr(fetch_), wake = wake_] {
     const auto fetch = weak.lock();
     if (!fetch) return;
     {
@@ -88,12 +98,12 @@ void JobsCursor::FetchChanged(const std::vector<std::string>& names) {
   });
 }
 
-JobsCursor::Next JobsCursor::Take(v1::WatchJobsResponse* out) {
+StreamStep JobsCursor::TakeFetched(v1::WatchJobsResponse* out) {
   JobPage page;
   {
     const MutexLock lock(fetch_->mutex);
-    if (!fetch_->done) return Next::kWait;
-    if (!fetch_->status.ok()) return Next::kFailed;
+    if (!fetch_->done) return {};
+    if (!fetch_->status.ok()) return {.error = Unreadable("jobs")};
     page = std::move(fetch_->page);
     out->mutable_gone()->Add(fetch_->gone.begin(), fetch_->gone.end());
   }
@@ -107,19 +117,19 @@ JobsCursor::Next JobsCursor::Take(v1::WatchJobsResponse* out) {
       out->add_gone(stored.job.name());
     }
   }
-  filter_.before = page.next;
+  rules_.filter.before = page.next;
   listed_ |= page.next == 0;
   out->set_snapshot_complete(listed_);
-  return Next::kMessage;
+  return {.has_message = true};
 }
 
 bool JobsCursor::HasState(const v1::Job& job) const {
-  return filter_.states.empty() ||
-         std::ranges::find(filter_.states, job.state()) != filter_.states.end();
+  return rules_.filter.states.empty() ||
+         std::ranges::find(rules_.filter.states, job.state()) != rules_.filter.states.end();
 }
 
 bool JobsCursor::HasLabels(const v1::Job& job) const {
-  return std::ranges::all_of(filter_.labels, [&job](const auto& label) {
+  return std::ranges::all_of(rules_.filter.labels, [&job](const auto& label) {
     const auto found = job.labels().find(label.first);
     return found != job.labels().end() && found->second == label.second;
   });

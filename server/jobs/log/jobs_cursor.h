@@ -1,48 +1,51 @@
 #pragma once
 
-#include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/clock.h"
+#include "base/mutex.h"
 #include "contact/v1/job_service.pb.h"
+#include "jobs/job/callback.h"
 #include "jobs/log/job_feed.h"
+#include "jobs/log/places.h"
+#include "jobs/log/stream_source.h"
 #include "storage/store.h"
 
 namespace contact {
 
 /// Follows all jobs of a filter: a snapshot, page by page, then each job again when it has changed.
 /// Headers are read from the store when they are wanted, so the newest is what is told, and nothing
-/// but names is kept for a reader.
+/// but names is kept for a reader. A message without jobs comes whenever nothing was sent for the
+/// bookmark interval.
 ///
 /// Not thread-safe: one reader. Destroying it ends the watch.
-class JobsCursor {
+class JobsCursor final : public StreamSource<v1::WatchJobsResponse> {
  public:
-  enum class Next {
-    kMessage,  ///< `out` holds one.
-    kWait,     ///< Nothing now; `wake` will be called.
-    kSlow,     ///< More has changed than is kept in mind.
-    kFailed,   ///< The store could not read; watch again.
-  };
-
   /// Fills in what the store does not know of a running job.
   using Complete = std::function<void(StoredJob*)>;
 
-  /// `wake` as for JobManager::Watch. `watchers` counts the cursors alive; the caller has counted
-  /// this one already.
-  JobsCursor(Store& store, JobFeed& feed, JobQuery filter, Complete complete,
-             std::function<void()> wake, std::shared_ptr<std::atomic<int>> watchers);
-  ~JobsCursor();
-  JobsCursor(const JobsCursor&) = delete;
-  JobsCursor& operator=(const JobsCursor&) = delete;
+  /// What the reader wants.
+  struct Rules {
+    /// The jobs to follow. Its `before` and `limit` are set by the cursor.
+    JobQuery filter;
+    /// Longest time without a message.
+    std::chrono::milliseconds bookmark_interval{0};
+  };
 
-  /// Never blocks.
-  Next Read(v1::WatchJobsResponse* out);
+  /// `place` is kept until the cursor is destroyed. Store, feed and clock outlive the cursor.
+  JobsCursor(Store& store, JobFeed& feed, const Clock& clock, Rules rules, Complete complete,
+             Wake wake, Places::Place place);
 
-  /// True once the whole snapshot has been read.
-  bool listed() const { return listed_; }
+  /// Ends with SLOW_WATCHER if more has changed than is kept in mind, and with STORE_FAILED if the
+  /// store cannot read.
+  StreamStep Read(v1::WatchJobsResponse* out) override;
+  bool IsDue(std::chrono::steady_clock::time_point now) const override {
+    return now - last_sent_ >= rules_.bookmark_interval;
+  }
 
  private:
   /// What is on its way from the store; the store's thread puts it here.
@@ -50,23 +53,38 @@ class JobsCursor {
     Mutex mutex;
     bool done ABSL_GUARDED_BY(mutex) = false;
     absl::Status status ABSL_GUARDED_BY(mutex);
-    JobPage page ABSL_GUARDED_BY(mutex);                   ///< Jobs found.
-    std::vector<std::string> gone ABSL_GUARDED_BY(mutex);  ///< Names of jobs that are not there.
+    /// Jobs found.
+    JobPage page ABSL_GUARDED_BY(mutex);
+    /// Names of jobs that are not there.
+    std::vector<std::string> gone ABSL_GUARDED_BY(mutex);
   };
 
+  /// The next message of jobs, without bookmarks.
+  StreamStep ReadJobs(v1::WatchJobsResponse* out);
+  /// Asks the store for the next page of the snapshot.
   void FetchPage();
+  /// Asks the store for these jobs.
   void FetchChanged(const std::vector<std::string>& names);
-  Next Take(v1::WatchJobsResponse* out);
+  /// Wakes the reader once the store has answered all that was asked of it.
+  void WakeWhenFetched();
+  /// Makes a message of what was fetched, if it is there.
+  StreamStep TakeFetched(v1::WatchJobsResponse* out);
   bool HasState(const v1::Job& job) const;
   bool HasLabels(const v1::Job& job) const;
 
   Store& store_;
-  JobQuery filter_;  ///< `before` moves with the snapshot.
+  const Clock& clock_;
+  /// `filter.before` moves with the snapshot.
+  Rules rules_;
   const Complete complete_;
-  const std::shared_ptr<const std::function<void()>> wake_;
-  const std::shared_ptr<std::atomic<int>> watchers_;
+  /// Shared with the callbacks of the store, which may come after the cursor is destroyed.
+  const std::shared_ptr<const Wake> wake_;
+  const Places::Place place_;
   const std::shared_ptr<JobFeed::Reader> changes_;
-  bool listed_ = false;  ///< The snapshot is complete.
+  /// True once the snapshot is complete.
+  bool listed_ = false;
+  std::chrono::steady_clock::time_point last_sent_;
+  /// Null while nothing is under way.
   std::shared_ptr<Fetch> fetch_;
 };
 

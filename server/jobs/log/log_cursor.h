@@ -12,15 +12,17 @@ namespace contact {
 
 /// An event as it goes to watchers. All of them share its bytes.
 struct LogRecord {
+  /// Place in the log; 0: not part of it, as progress.
   std::uint64_t sequence = 0;
   v1::Event::PayloadCase kind = v1::Event::PAYLOAD_NOT_SET;
-  std::shared_ptr<const std::string> event;  ///< A serialised v1::Event without sequence.
+  /// A serialised v1::Event without sequence.
+  std::shared_ptr<const std::string> event;
 };
 
 /// Serialises an event; its own sequence is left out.
 LogRecord ToRecord(std::uint64_t sequence, v1::Event event);
-/// The same for events that have no sequence yet.
-std::vector<LogRecord> ToRecords(const std::vector<v1::Event>& events);
+/// Serialises events that have no sequence yet.
+std::vector<LogRecord> ToRecords(std::vector<v1::Event> events);
 
 /// A place in the log of one job, moving forward. Reads what is committed, from memory or the
 /// store, so replay and live view are one path and a slow reader costs a number, not a queue.
@@ -29,13 +31,20 @@ std::vector<LogRecord> ToRecords(const std::vector<v1::Event>& events);
 class LogCursor {
  public:
   enum class Next {
-    kEvents,     ///< `out` holds at least one event.
-    kWait,       ///< Nothing now; `wake` will be called.
-    kEnd,        ///< The final state_changed event has been read.
-    kDeleted,    ///< The job was deleted.
-    kCompacted,  ///< Frame chunks were asked for that have been dropped; see oldest().
-    kSlow,       ///< The reader fell behind, and wanted to be told.
-    kFailed,     ///< The store could not read; watch again.
+    /// `out` holds at least one event.
+    kEvents,
+    /// Nothing now; `wake` will be called.
+    kWait,
+    /// The final state_changed event has been read.
+    kEnd,
+    /// The job was deleted.
+    kDeleted,
+    /// Frame chunks were asked for that have been dropped; see oldest().
+    kCompacted,
+    /// The reader fell behind, and wanted to be told.
+    kSlow,
+    /// The store could not read; watch again.
+    kFailed,
   };
 
   virtual ~LogCursor() = default;

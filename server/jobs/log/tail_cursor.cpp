@@ -8,9 +8,7 @@
 namespace contact {
 namespace {
 
-// So many readers read pages so large, and the next while they hand out one. What stalled readers
-// keep is bounded by it; reading a page costs several threads a turn, whatever its size.
-constexpr int kMostAhead = 16;
+// Bytes of a page of a reader that reads ahead.
 constexpr std::size_t kPageBytes = 1 << 20;
 
 // The reader learns in place of a damaged event that there was one.
@@ -26,20 +24,16 @@ LogRecord ReportDamage(const std::string& name, std::uint64_t sequence) {
 }  // namespace
 
 TailCursor::TailCursor(EventSource source, std::string name, std::shared_ptr<JobLog> log,
-                       std::uint64_t position, std::uint32_t kinds, JobLog::Waker wake,
-                       std::shared_ptr<std::atomic<int>> watchers)
+                       std::uint64_t position, std::uint32_t kinds, Wake wake, Places::Place place)
     : source_(std::move(source)),
       name_(std::move(name)),
       log_(std::move(log)),
       kinds_(kinds),
-      waker_(std::make_shared<const JobLog::Waker>(std::move(wake))),
-      watchers_(std::move(watchers)),
+      waker_(std::make_shared<const Wake>(std::move(wake))),
+      place_(std::move(place)),
       position_(position) {}
 
-TailCursor::~TailCursor() {
-  log_->Forget(waker_);
-  --*watchers_;
-}
+TailCursor::~TailCursor() { log_->Forget(waker_); }
 
 LogCursor::Next TailCursor::Read(std::size_t max_bytes, Events* out) {
   for (;;) {
@@ -67,7 +61,7 @@ LogCursor::Next TailCursor::Read(std::size_t max_bytes, Events* out) {
       case JobLog::Tail::Found::kFailed:
         return Next::kFailed;
       case JobLog::Tail::Found::kOlder:
-        EnterAhead();
+        if (!ahead_) ahead_ = source_.ahead.Take();
         page_ = {{}, {}, position_, oldest_};
         handed_out_ = 0;
         StartFetch(max_bytes);
@@ -75,17 +69,6 @@ LogCursor::Next TailCursor::Read(std::size_t max_bytes, Events* out) {
   }
 }
 
-void TailCursor::EnterAhead() {
-  if (ahead_) return;
-  const auto count = source_.ahead;
-  if (++*count <= kMostAhead) {
-    ahead_ = {count.get(), [count](const void*) { --*count; }};
-  } else {
-    --*count;
-  }
-}
-
-// On the decoder's thread.
 TailCursor::Page TailCursor::Decode(const std::string& name, absl::StatusOr<EventPage> stored) {
   if (!stored.ok()) return {stored.status(), {}};
   Page page{{}, {}, stored->position, stored->oldest};
@@ -101,7 +84,6 @@ TailCursor::Page TailCursor::Decode(const std::string& name, absl::StatusOr<Even
   return page;
 }
 
-// Of what follows page_.
 void TailCursor::StartFetch(std::size_t max_bytes) {
   fetch_ = std::make_shared<Fetch>();
   const std::weak_ptr<Fetch> weak = fetch_;  // Gone if the reader leaves first.
@@ -124,7 +106,6 @@ void TailCursor::StartFetch(std::size_t max_bytes) {
       });
 }
 
-// Nothing if there is a page to hand out, or one that held no event that was asked for.
 std::optional<LogCursor::Next> TailCursor::TakeFetched(std::size_t max_bytes) {
   {
     const MutexLock lock(fetch_->mutex);

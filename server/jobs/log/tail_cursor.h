@@ -1,14 +1,17 @@
 #pragma once
 
-#include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/executor.h"
+#include "base/mutex.h"
 #include "jobs/log/job_log.h"
 #include "jobs/log/log_cursor.h"
+#include "jobs/log/places.h"
 #include "storage/store.h"
 
 namespace contact {
@@ -18,19 +21,21 @@ namespace contact {
 struct EventSource {
   Store& store;
   Executor& decoder;
-  /// Readers that read ahead, in large pages.
-  std::shared_ptr<std::atomic<int>> ahead = std::make_shared<std::atomic<int>>(0);
+  /// Readers that read large pages, and the next while they hand out one. What stalled readers keep
+  /// is bounded by their number; reading a page costs several threads a turn, whatever its size.
+  Places ahead{16};
 };
 
-/// The cursor of JobManager: reads the newest events from memory, older ones from the store. A
-/// reader that falls behind the memory goes on from the store, so nothing is kept for it, but for
-/// a few readers two pages.
+/// Reads a log: the newest events from memory, older ones from the store. A reader that falls
+/// behind the memory goes on from the store, so nothing is kept for it, but for a few readers two
+/// pages.
 class TailCursor final : public LogCursor {
  public:
-  /// `watchers` counts the cursors alive; the caller has counted this one already.
+  /// Starts after the event with sequence `position` and reads events of these `kinds`, see
+  /// KindBit. `place` is kept until the cursor is destroyed. The source's store and decoder outlive
+  /// the cursor.
   TailCursor(EventSource source, std::string name, std::shared_ptr<JobLog> log,
-             std::uint64_t position, std::uint32_t kinds, JobLog::Waker wake,
-             std::shared_ptr<std::atomic<int>> watchers);
+             std::uint64_t position, std::uint32_t kinds, Wake wake, Places::Place place);
   ~TailCursor() override;
   TailCursor(const TailCursor&) = delete;
   TailCursor& operator=(const TailCursor&) = delete;
@@ -47,40 +52,56 @@ class TailCursor final : public LogCursor {
   using Events = std::vector<LogRecord>;
   static constexpr std::size_t kMostLag = 4 << 20;
 
+  /// A decoded page of the stored log.
   struct Page {
     absl::Status status;
     Events events;
+    /// All that was asked for up to this sequence is in the page or before it.
     std::uint64_t position = 0;
+    /// See EventPage.
     std::uint64_t oldest = 1;
   };
   /// A page on its way from the store; the decoder puts it here.
   struct Fetch {
     Mutex mutex;
+    /// Nothing until it is there.
     std::optional<Page> page ABSL_GUARDED_BY(mutex);
   };
 
+  /// Runs on the decoder's thread. Puts a warning in place of each damaged event.
   static Page Decode(const std::string& name, absl::StatusOr<EventPage> stored);
-  void EnterAhead();
+  /// Asks the store for what follows page_: a large page if the reader reads ahead, else about
+  /// `max_bytes`.
   void StartFetch(std::size_t max_bytes);
+  /// Takes the page that was asked for. Nothing if there is a page to hand out, or one that held no
+  /// event that was asked for.
   std::optional<Next> TakeFetched(std::size_t max_bytes);
+  /// Moves events of page_ to `out`. False if there are none left.
   bool HandOut(std::size_t max_bytes, Events* out);
 
   const EventSource source_;
   const std::string name_;
   const std::shared_ptr<JobLog> log_;
   const std::uint32_t kinds_;
-  const std::shared_ptr<const JobLog::Waker> waker_;
-  const std::shared_ptr<std::atomic<int>> watchers_;
+  const std::shared_ptr<const Wake> waker_;
+  const Places::Place place_;
 
   std::uint64_t position_;
   std::uint64_t oldest_ = 1;
+  /// See JobLog::After.
   std::uint64_t progress_seen_ = 0;
-  bool live_ = false;                  ///< Has once read all there was.
-  std::size_t lag_ = 0;                ///< Bytes read from the store since it was last in memory.
-  Page page_;                          ///< The last one from the store.
-  std::size_t handed_out_ = 0;         ///< Events of it.
-  std::shared_ptr<Fetch> fetch_;       ///< The one after it; none while none is under way.
-  std::shared_ptr<const void> ahead_;  ///< A place among those who read ahead, if it has one.
+  /// True once the reader has read all there was.
+  bool live_ = false;
+  /// Bytes read from the store since the reader was last in memory.
+  std::size_t lag_ = 0;
+  /// The last page from the store.
+  Page page_;
+  /// Events of page_ that were handed out.
+  std::size_t handed_out_ = 0;
+  /// The page after page_. Null while none is under way.
+  std::shared_ptr<Fetch> fetch_;
+  /// Place among those who read ahead. Null if it has none.
+  Places::Place ahead_;
 };
 
 }  // namespace contact

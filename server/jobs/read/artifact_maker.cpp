@@ -5,10 +5,10 @@
 #include <string_view>
 #include <utility>
 
-#include "base/digest.h"
 #include "base/executor.h"
 #include "jobs/job/errors.h"
 #include "jobs/read/csv_text.h"
+#include "jobs/read/frame_values.h"
 
 namespace contact {
 namespace {
@@ -16,17 +16,25 @@ namespace {
 constexpr std::size_t kChunkBytes = 1 << 18;
 constexpr std::size_t kPageBytes = 1 << 18;
 
-bool IsWhole(const v1::FrameChunk& chunk) {
-  const std::size_t bytes = static_cast<std::size_t>(chunk.samples()) * sizeof(double);
-  return std::ranges::all_of(
-      chunk.columns(), [bytes](const auto& column) { return column.values().size() == bytes; });
-}
-
 }  // namespace
 
-ArtifactMaker::ArtifactMaker(Store& store, Executor& executor, ArtifactPlan plan,
-                             std::function<void()> wake)
-    : store_(store), executor_(executor), plan_(std::move(plan)), wake_(std::move(wake)) {}
+ArtifactMaker::ArtifactMaker(Store& store, Executor& executor, ArtifactPlan plan, Wake wake)
+    : store_(store), executor_(executor), wake_(std::move(wake)), plan_(std::move(plan)) {}
+
+StreamStep ArtifactMaker::Take(v1::ReadArtifactResponse* out) {
+  {
+    const MutexLock lock(mutex_);
+    if (!chunks_.empty()) {
+      *out = std::move(chunks_.front());
+      chunks_.pop_front();
+      return {.has_message = true, .ended = out->has_artifact()};
+    }
+    if (error_) return {.error = error_};
+    if (std::exchange(working_, true)) return {};
+  }
+  Continue();
+  return {};
+}
 
 void ArtifactMaker::Continue() {
   if (plan_.kind == ArtifactPlan::Kind::kCycles) {
@@ -42,7 +50,6 @@ void ArtifactMaker::Continue() {
            &ArtifactMaker::Look);
 }
 
-// Runs it on the executor, unless the reader has left by then.
 void ArtifactMaker::Post(std::function<void(ArtifactMaker&)> work) {
   const bool posted = executor_.Post([weak = weak_from_this(), work = std::move(work)] {
     if (const auto self = weak.lock()) work(*self);
@@ -51,23 +58,20 @@ void ArtifactMaker::Post(std::function<void(ArtifactMaker&)> work) {
 }
 
 void ArtifactMaker::ReadPage(std::uint32_t kinds, void (ArtifactMaker::*take)(const Page&)) {
-  store_.ReadEvents({plan_.stored.job.name(), position_, kinds, kPageBytes},
-                    [weak = weak_from_this(), take](Page page) {
-                      const auto self = weak.lock();
-                      if (!self) return;
-                      const auto shared = std::make_shared<const Page>(std::move(page));
-                      self->Post([shared, take](ArtifactMaker& maker) { (maker.*take)(*shared); });
-                    });
+  store_.ReadEvents(
+      {plan_.stored.job.name(), position_, kinds, kPageBytes},
+      [weak = weak_from_this(), take](Page page) {
+        const auto self = weak.lock();
+        if (!self) return;
+        self->Post([take, page = std::move(page)](ArtifactMaker& maker) { (maker.*take)(page); });
+      });
 }
 
-// Looks for the samples of the last attempt, or for those that stand before the cell.
 void ArtifactMaker::Look(const Page& page) {
   if (!page.ok()) return Fail(ToError(page.status(), plan_.stored.job.name()));
   for (const StoredEvent& event : page->events) {
     v1::Event content;
-    if (!event.Parse(&content)) {
-      return Fail(Damaged(plan_.stored.job.name()));
-    }
+    if (!event.Parse(&content)) return Fail(Damaged(plan_.stored.job.name()));
     Note(event, content);
   }
   position_ = page->position;
@@ -99,7 +103,10 @@ void ArtifactMaker::Write(const Page& page) {
   position_ = page->position;
   if (position_ >= end_) return Finish();
   bool nothing = true;
-  Do([&nothing](const Made& made) { nothing = made.chunks.empty(); });
+  {
+    const MutexLock lock(mutex_);
+    nothing = chunks_.empty();
+  }
   if (nothing) return Continue();
   Pause();
 }
@@ -114,7 +121,6 @@ bool ArtifactMaker::Write(const StoredEvent& stored) {
   return true;
 }
 
-// Adds text: all of it counts, what lies behind the offset is sent.
 void ArtifactMaker::Emit(const std::string& text) {
   digest_.Add(text);
   std::int64_t place = size_;
@@ -131,7 +137,7 @@ void ArtifactMaker::Emit(const std::string& text) {
     chunk.set_offset(place);
     chunk.set_data(data.data(), data.size());
     chunk.set_crc32c(Crc32c(data));
-    Do([&chunk](Made& made) { made.chunks.push_back(std::move(chunk)); });
+    Add(std::move(chunk));
     place += static_cast<std::int64_t>(data.size());
     rest.remove_prefix(data.size());
   }
@@ -147,17 +153,28 @@ void ArtifactMaker::Finish() {
   artifact.set_media_type("text/csv");
   artifact.set_size_bytes(size_);
   artifact.set_sha256(digest_.Finish());
-  Do([&last](Made& made) { made.chunks.push_back(std::move(last)); });
+  Add(std::move(last));
   Pause();
 }
 
+void ArtifactMaker::Add(v1::ReadArtifactResponse chunk) {
+  const MutexLock lock(mutex_);
+  chunks_.push_back(std::move(chunk));
+}
+
 void ArtifactMaker::Fail(Error error) {
-  Do([&error](Made& made) { made.error = std::move(error); });
+  {
+    const MutexLock lock(mutex_);
+    error_ = std::move(error);
+  }
   Pause();
 }
 
 void ArtifactMaker::Pause() {
-  Do([](Made& made) { made.working = false; });
+  {
+    const MutexLock lock(mutex_);
+    working_ = false;
+  }
   wake_();
 }
 

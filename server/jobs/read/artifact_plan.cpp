@@ -39,7 +39,9 @@ void AddArtifacts(v1::Job* job) {
 
 Result<ArtifactPlan> PlanArtifact(StoredJob stored, const v1::ReadArtifactRequest& request) {
   const v1::Job& job = stored.job;
-  if (!IsFinal(job.state())) return NotEnded(job.name());
+  if (!IsFinal(job.state())) {
+    return JobError(Reason::kInvalidState, job.name(), "has not ended");
+  }
   ArtifactPlan plan;
   plan.artifact = request.artifact();
   plan.offset = request.offset();

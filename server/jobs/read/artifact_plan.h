@@ -14,14 +14,20 @@ void AddArtifacts(v1::Job* job);
 
 /// An artifact that is to be made.
 struct ArtifactPlan {
+  /// What the artifact is made of.
   enum class Kind { kCycles, kTrajectory, kCellTrajectory };
-  StoredJob stored;  ///< With its result for kCycles, not merged.
+  /// The job; for kCycles with its result, which is not merged.
+  StoredJob stored;
+  /// Its name.
   std::string artifact;
+  /// Bytes that the reader has already.
   std::int64_t offset = 0;
   Kind kind = Kind::kCycles;
-  std::int32_t cell = 0;  ///< For kCellTrajectory.
+  /// The cell of the sweep; only for kCellTrajectory.
+  std::int32_t cell = 0;
 };
-/// ARTIFACT_NOT_FOUND, INVALID_STATE. Asks for a job read as a whole.
+/// Plans the artifact that is asked for; ARTIFACT_NOT_FOUND or INVALID_STATE if the job does not
+/// have it. `stored` is read with JobPart::kAll.
 Result<ArtifactPlan> PlanArtifact(StoredJob stored, const v1::ReadArtifactRequest& request);
 
 }  // namespace contact

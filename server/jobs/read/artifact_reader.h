@@ -1,48 +1,29 @@
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <functional>
 #include <memory>
-#include <string>
+#include <utility>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/errors.h"
-#include "jobs/read/artifact_plan.h"
-#include "storage/store.h"
+#include "jobs/log/places.h"
+#include "jobs/log/stream_source.h"
+#include "jobs/read/artifact_maker.h"
 
 namespace contact {
 
-class ArtifactMaker;
-class Executor;
-
-/// Reads an artifact: it is made from the log piece by piece, on the thread that checks scenarios,
-/// no faster than it is read. Not thread-safe: one reader. Destroying it ends the making.
-class ArtifactReader {
+/// Reads an artifact: it is made from the log piece by piece, no faster than it is read. Not
+/// thread-safe: one reader. Destroying it ends the making.
+class ArtifactReader final : public StreamSource<v1::ReadArtifactResponse> {
  public:
-  enum class Next {
-    kData,    ///< `out` holds a chunk.
-    kWait,    ///< Nothing now; `wake` will be called.
-    kEnd,     ///< `out` holds the artifact with size and SHA-256.
-    kFailed,  ///< See error().
-  };
+  /// `place` is kept until the reader is destroyed.
+  ArtifactReader(std::shared_ptr<ArtifactMaker> maker, Places::Place place)
+      : maker_(std::move(maker)), place_(std::move(place)) {}
 
-  /// `wake` as for JobManager::Watch. `readers` counts the readers alive; the caller has counted
-  /// this one already. Store and executor outlive it.
-  ArtifactReader(Store& store, Executor& executor, ArtifactPlan plan, std::function<void()> wake,
-                 std::shared_ptr<std::atomic<int>> readers);
-  ~ArtifactReader();
-  ArtifactReader(const ArtifactReader&) = delete;
-  ArtifactReader& operator=(const ArtifactReader&) = delete;
-
-  /// Never blocks.
-  Next Read(v1::ReadArtifactResponse* out);
-  const Error& error() const { return error_; }
+  /// The last message has the artifact with size and SHA-256.
+  StreamStep Read(v1::ReadArtifactResponse* out) override { return maker_->Take(out); }
 
  private:
-  const std::shared_ptr<std::atomic<int>> readers_;
   const std::shared_ptr<ArtifactMaker> maker_;
-  Error error_;
+  const Places::Place place_;
 };
 
 }  // namespace contact

@@ -5,33 +5,31 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <string>
 
 #include "jobs/read/label_rules.h"
+#include "wire/rules/rules.h"
 
 namespace contact {
 namespace {
 
-constexpr std::size_t kMaxRequestIdLength = 64;
-constexpr int kMaxPriority = 100;
-
-// Well-formed, and at least 0 or `least`, whichever the field says is nothing.
-bool IsSpan(const google::protobuf::Duration& span, std::int64_t least_ms) {
-  constexpr std::int64_t kCenturySeconds = 100LL * 366 * 24 * 3600;
-  if (span.seconds() < 0 || span.seconds() > kCenturySeconds) return false;
-  if (span.nanos() < 0 || span.nanos() >= 1'000'000'000) return false;
-  const std::int64_t milliseconds = span.seconds() * 1000 + span.nanos() / 1'000'000;
-  return milliseconds >= least_ms || (span.seconds() == 0 && span.nanos() == 0);
+double Seconds(const google::protobuf::Duration& span) {
+  return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
 }
 
-void CheckSpan(const char* field, const google::protobuf::Duration& span, std::int64_t least_ms,
-               const char* range, std::vector<Violation>* violations) {
-  if (IsSpan(span, least_ms)) return;
+// `span`, the field of Message with this number, must be well-formed and either 0, which leaves it
+// to the server, or in the range that the contract states. Returns whether it is.
+template <class Message>
+bool CheckSpan(const char* field, int number, const google::protobuf::Duration& span,
+               std::vector<Violation>* violations) {
+  const Range range = RangeOf(*Message::descriptor()->FindFieldByNumber(number));
+  const bool well_formed = span.nanos() >= 0 && span.nanos() < 1'000'000'000;
+  if (well_formed && (range.Contains(Seconds(span)) || Seconds(span) == 0)) return true;
   violations->push_back({field,
-                         fmt::format("is {} s and {} ns; must be in {}, or 0 for the server's",
-                                     span.seconds(), span.nanos(), range),
+                         fmt::format("is {} s and {} ns; must be {}, or 0 for the server's",
+                                     span.seconds(), span.nanos(), range.text),
                          ""});
+  return false;
 }
 
 // `limit`: of the server; 0: none.
@@ -49,11 +47,9 @@ void CheckAmount(const char* field, double amount, double limit, const char* uni
 
 void CheckBudget(const v1::Budget& budget, const RunBudget& most,
                  std::vector<Violation>* violations) {
-  const google::protobuf::Duration& wall_time = budget.wall_time();
-  CheckSpan("budget.wall_time", wall_time, 1, "[1 ms, 100 years]", violations);
-  if (IsSpan(wall_time, 1)) {
-    CheckAmount("budget.wall_time",
-                static_cast<double>(wall_time.seconds()) + wall_time.nanos() / 1e9,
+  if (CheckSpan<v1::Budget>("budget.wall_time", v1::Budget::kWallTimeFieldNumber,
+                            budget.wall_time(), violations)) {
+    CheckAmount("budget.wall_time", Seconds(budget.wall_time()),
                 std::chrono::duration<double>(most.wall_time).count(), " s", violations);
   }
   CheckAmount("budget.steps", static_cast<double>(budget.steps()), static_cast<double>(most.steps),
@@ -70,18 +66,17 @@ std::vector<Violation> CheckCreate(const v1::CreateJobRequest& request,
                                    const RunBudget& max_budget) {
   std::vector<Violation> violations;
   const std::string& id = request.request_id();
-  if (id.size() > kMaxRequestIdLength || !std::all_of(id.begin(), id.end(), IsPrintable)) {
-    violations.push_back({"request_id", "must be at most 64 printable ASCII characters", ""});
+  const auto longest =
+      RuleOf<v1::CreateJobRequest>(v1::CreateJobRequest::kRequestIdFieldNumber).max_characters();
+  if (id.size() > static_cast<std::size_t>(longest) || !std::ranges::all_of(id, IsPrintable)) {
+    violations.push_back(
+        {"request_id", fmt::format("must be at most {} printable ASCII characters", longest), ""});
   }
   CheckLabels(request.job().labels(), &violations);
-  const std::int32_t priority = request.job().priority();
-  if (priority < -kMaxPriority || priority > kMaxPriority) {
-    violations.push_back(
-        {"priority",
-         fmt::format("is {}; must be in [-{}, {}]", priority, kMaxPriority, kMaxPriority), ""});
-  }
+  Rules(&violations).Check<v1::Job>(v1::Job::kPriorityFieldNumber, request.job().priority());
   CheckBudget(request.job().budget(), max_budget, &violations);
-  CheckSpan("time_to_live", request.job().time_to_live(), 1000, "[1 s, 100 years]", &violations);
+  CheckSpan<v1::Job>("time_to_live", v1::Job::kTimeToLiveFieldNumber, request.job().time_to_live(),
+                     &violations);
   if (request.job().spec_case() == v1::Job::SPEC_NOT_SET) {
     violations.push_back({"scenario", "is missing", "say what to compute"});
   }

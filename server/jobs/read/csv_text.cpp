@@ -4,9 +4,8 @@
 
 #include <array>
 #include <charconv>
-#include <cstddef>
-#include <cstring>
 
+#include "jobs/read/frame_values.h"
 #include "wire/column_name.h"
 
 namespace contact {
@@ -50,11 +49,9 @@ std::string CsvHeader(const v1::FrameChunk& chunk) {
 
 std::string CsvRows(const v1::FrameChunk& chunk) {
   std::string text;
-  for (std::size_t row = 0; row < static_cast<std::size_t>(chunk.samples()); ++row) {
+  for (int row = 0; row < chunk.samples(); ++row) {
     for (const auto& column : chunk.columns()) {
-      double value;
-      std::memcpy(&value, column.values().data() + row * sizeof value, sizeof value);
-      Append(value, &text);
+      Append(ValueAt(column, row), &text);
       text += ',';
     }
     text.back() = '\n';

@@ -25,21 +25,32 @@ class MinMaxDecimator {
   std::vector<double> Rows() const;
 
  private:
-  using Values = std::vector<double>;  ///< Whole rows.
+  /// Whole rows, one after the other.
+  using Values = std::vector<double>;
 
+  /// Ends the stretch that is being filled.
   void Close();
+  /// Makes one stretch of every two. The last one without a partner is open again.
   void Widen();
+  /// The rows in which some channel is smallest or largest; also the first or last one if asked.
   Values Extremes(std::span<const double> rows, bool first, bool last) const;
   std::size_t closed_rows() const { return closed_.size() / columns_; }
 
   const std::size_t columns_;
-  const std::size_t budget_;       ///< Rows that stretches may keep.
-  const std::size_t most_;         ///< Rows that one stretch keeps at most, beside the very first.
-  std::size_t width_ = 1;          ///< Rows in a stretch.
-  Values closed_;                  ///< What full stretches keep.
-  std::vector<std::size_t> ends_;  ///< Where each of them ends in `closed_`.
-  Values open_;                    ///< Of the stretch that is being filled; ends with the last row.
-  std::size_t filled_ = 0;         ///< Rows that came into it.
+  /// Rows that stretches may keep.
+  const std::size_t budget_;
+  /// Rows that one stretch keeps at most, beside the very first.
+  const std::size_t most_;
+  /// Rows in a stretch.
+  std::size_t width_ = 1;
+  /// Rows that the full stretches keep.
+  Values closed_;
+  /// Where the rows of each full stretch end in closed_.
+  std::vector<std::size_t> ends_;
+  /// Rows of the stretch that is being filled; the last one is the newest of all.
+  Values open_;
+  /// Rows that came into the stretch that is being filled.
+  std::size_t filled_ = 0;
 };
 
 }  // namespace contact

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "contact/v1/job.pb.h"
+#include "wire/rules/field_rule.h"
+
 namespace contact {
 namespace {
 
-constexpr int kMaxLabels = 16;
 constexpr std::size_t kMaxLabelLength = 63;
 
 bool IsLabelCharacter(char c) {
@@ -23,10 +25,11 @@ bool IsLabelText(const std::string& text) {
 }  // namespace
 
 void CheckLabels(const Labels& labels, std::vector<Violation>* violations) {
-  if (labels.size() > kMaxLabels) {
+  const auto most =
+      static_cast<std::size_t>(RuleOf<v1::Job>(v1::Job::kLabelsFieldNumber).max_entries());
+  if (labels.size() > most) {
     violations->push_back(
-        {"labels", fmt::format("has {} entries; must have at most {}", labels.size(), kMaxLabels),
-         ""});
+        {"labels", fmt::format("has {} entries; must have at most {}", labels.size(), most), ""});
   }
   for (const auto& [key, value] : labels) {
     if (!key.empty() && IsLabelText(key) && IsLabelText(value)) continue;
@@ -34,7 +37,7 @@ void CheckLabels(const Labels& labels, std::vector<Violation>* violations) {
                            "key and value must be at most 63 letters, digits, '_', '.' and '-', "
                            "and the key not empty",
                            ""});
-    if (violations->size() > kMaxLabels) return;
+    if (violations->size() > most) return;
   }
 }
 

@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "jobs/read/label_rules.h"
+#include "wire/rules/rules.h"
 
 namespace contact {
 namespace {
-
-constexpr int kDefaultPageSize = 50;
-constexpr int kMaxPageSize = 1000;
 
 // The number that PageToken has written; negative if it did not write this.
 std::int64_t NumberOf(const std::string& token) {
@@ -29,11 +27,11 @@ std::int64_t NumberOf(const std::string& token) {
 Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
   std::vector<Violation> violations;
   JobQuery query;
-  query.limit = request.page_size() == 0 ? kDefaultPageSize : request.page_size();
-  if (query.limit < 0 || query.limit > kMaxPageSize) {
-    violations.push_back(
-        {"page_size", fmt::format("is {}; must be in [0, {}]", request.page_size(), kMaxPageSize),
-         ""});
+  const int page_size = v1::ListJobsRequest::kPageSizeFieldNumber;
+  Rules(&violations).Check<v1::ListJobsRequest>(page_size, request.page_size());
+  query.limit = request.page_size();
+  if (query.limit == 0) {
+    query.limit = static_cast<int>(RuleOf<v1::ListJobsRequest>(page_size).default_number());
   }
   if (!request.page_token().empty()) query.before = NumberOf(request.page_token());
   if (query.before < 0) {

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <absl/status/statusor.h>
+
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/job/errors.h"
-#include "jobs/read/decimation.h"
-#include "jobs/read/series_rules.h"
+#include "jobs/job/callback.h"
+#include "jobs/read/series_builder.h"
 #include "storage/store.h"
 #include "wire/scenario/scenario_codec.h"
 
@@ -16,80 +18,68 @@ namespace contact {
 
 class Executor;
 
-/// Makes the answer of GetSeries of the frame chunks of a trajectory, given in order.
-class SeriesBuilder {
- public:
-  SeriesBuilder(SeriesSelection selection, std::vector<v1::FrameChunk::Column> channels);
-
-  /// Forgets the chunks so far: another attempt begins.
-  void Restart();
-  /// True if the chunk is one of this trajectory.
-  bool Fits(const v1::FrameChunk& chunk) const;
-  /// Adds the samples of a chunk that lie in the time range. False if the chunk does not fit.
-  bool Add(const v1::FrameChunk& chunk);
-  /// True if the time range ends before the chunk.
-  bool IsPast(const v1::FrameChunk& chunk) const;
-  /// The series of all chunks added; SERIES_TOO_LARGE if it has more samples than may be answered.
-  Result<v1::Series> Finish() const;
-
- private:
-  void AddRow(const v1::FrameChunk& chunk, int row);
-
-  const SeriesSelection selection_;
-  const std::vector<v1::FrameChunk::Column> channels_;
-  std::optional<MinMaxDecimator> decimator_;  ///< None for RAW.
-  std::vector<double> rows_;                  ///< For RAW; stops growing when it is too large.
-  std::int64_t recorded_ = 0;
-};
-
 /// Reads recorded motion from the log of a job, page by page. Waits for nothing: between the pages
-/// other work of the executor has its turn. Owns itself until `done` is called.
+/// other work of the executor has its turn. Owns itself until it has answered.
 ///
 /// Of a time range only the chunks in it are read: times grow along the log of an attempt, so the
 /// place where the range begins is found by halving.
 class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
  public:
-  /// Who waits for the answer.
-  struct Caller {
-    std::function<void(Result<v1::Series>)> done;
-    std::function<bool()> abandoned;  ///< Nobody does any more; may be empty.
-  };
-
   /// Store and executor outlive the reading.
-  static void Read(Store& store, Executor& executor, const ScenarioLimits& limits,
-                   const v1::GetSeriesRequest& request, Caller caller);
+  SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
+               v1::GetSeriesRequest request, Callback<v1::Series> done, Abandoned abandoned);
+
+  /// Starts to read. To be called once.
+  void Start();
 
  private:
-  SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
-               v1::GetSeriesRequest request, Caller caller);
   using Page = absl::StatusOr<EventPage>;
 
+  /// Checks the request against the job, and begins with its log.
   void Open(const absl::StatusOr<StoredJob>& stored);
-  void ReadEvents(EventQuery query, void (SeriesReader::*take)(const Page&));
+  /// Runs the work on the executor; answers SERVER_DRAINING if that has stopped.
+  void Post(std::function<void()> work);
+  /// Reads the events of these kinds after position_, and posts `take` with them.
+  void ReadEvents(std::uint32_t kinds, std::size_t max_bytes,
+                  void (SeriesReader::*take)(const Page&));
+  /// Reads the next page of the trajectory.
   void ReadPage();
   void Take(const Page& page);
+  /// Adds one event of the trajectory. False if it is damaged.
   bool Take(const StoredEvent& stored);
 
+  /// Looks for the last attempt, which begins the log that counts.
   void FindAttempt();
   void TakeAttempts(const Page& page);
+  /// Probes the middle between low_ and high_, or begins to read if there is none.
   void Halve();
+  /// Reads the first chunk after position_.
+  void Probe();
   void TakeProbe(const Page& page);
 
   Store& store_;
   Executor& executor_;
   const ScenarioLimits limits_;
   const v1::GetSeriesRequest request_;
-  const Caller caller_;
-  std::optional<SeriesBuilder> builder_;
-  std::uint64_t position_ = 0;
-  std::uint64_t last_ = 0;  ///< Last sequence when the reading began; later events are left out.
-  bool past_end_ = false;   ///< A chunk began after the time range.
+  const Callback<v1::Series> done_;
+  const Abandoned abandoned_;
 
-  // Bisection of the log for the first chunk of the time range.
-  double start_time_ = 0;    ///< [s] Start of the time range.
-  std::uint64_t low_ = 0;    ///< Chunks up to this sequence end before start_time_.
-  std::uint64_t high_ = 0;   ///< Chunks after this sequence end at start_time_ or later.
-  std::uint64_t probe_ = 0;  ///< The sequence that is being probed, between low_ and high_.
+  // Owned by the executor task that is running.
+
+  /// Nothing before Open.
+  std::optional<SeriesBuilder> builder_;
+  /// Sequence of the last event that was read.
+  std::uint64_t position_ = 0;
+  /// Last sequence when the reading began; later events are left out.
+  std::uint64_t last_ = 0;
+  /// True once a chunk has begun after the time range.
+  bool past_end_ = false;
+  /// Chunks up to this sequence end before the time range.
+  std::uint64_t low_ = 0;
+  /// Chunks after this sequence do not end before the time range.
+  std::uint64_t high_ = 0;
+  /// The sequence that is being probed, between low_ and high_.
+  std::uint64_t probe_ = 0;
 };
 
 }  // namespace contact

@@ -10,11 +10,16 @@ namespace contact {
 
 /// What GetSeries is to return of a trajectory.
 struct SeriesSelection {
-  std::vector<int> columns;  ///< Among those of the trajectory; the first is the time.
-  double start_time = 0;     ///< [s], itself included.
-  double end_time = 0;       ///< [s], itself included.
+  /// Indices of columns of the trajectory; the first is the time.
+  std::vector<int> columns;
+  /// Earliest time of a sample [s].
+  double start_time = 0;
+  /// Latest time of a sample [s].
+  double end_time = 0;
+  /// Samples in the answer, at most.
   std::size_t max_rows = 0;
-  bool raw = false;  ///< Every sample; else thinned so that no peak is lost.
+  /// True for every sample; else the series is thinned so that no peak is lost.
+  bool raw = false;
 };
 /// Reads the request for a trajectory with these columns; FIELD_INVALID if it breaks a rule of
 /// job_service.proto, SERIES_TOO_LARGE if not even the fewest points would fit into an answer.

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "jobs/read/list_rules.h"
+#include "wire/rules/field_rule.h"
 
 namespace contact {
 namespace {
-
-constexpr std::chrono::milliseconds kDefaultBookmarkInterval{10'000};
 
 // The set of kinds, state_changed among them; all if there are none.
 std::uint32_t KindSet(const v1::WatchJobRequest& request, std::vector<Violation>* violations) {
@@ -31,18 +30,17 @@ std::uint32_t KindSet(const v1::WatchJobRequest& request, std::vector<Violation>
   return set;
 }
 
-// The lengths that an interval may have: from `least_s` to an hour.
-struct IntervalRange {
-  std::int64_t least_s;
-  const char* text;
-};
-std::chrono::milliseconds Interval(const std::string& field,
+// `interval`, the field of Message with this number, which must be in the range that the contract
+// states.
+template <class Message>
+std::chrono::milliseconds Interval(const std::string& field, int number,
                                    const google::protobuf::Duration& interval,
-                                   const IntervalRange& range, std::vector<Violation>* violations) {
-  constexpr std::int64_t kMostNanos = 999'999'999;
-  if (interval.seconds() < range.least_s || interval.nanos() < 0 || interval.nanos() > kMostNanos ||
-      interval.seconds() > 3600 || (interval.seconds() == 3600 && interval.nanos() > 0)) {
-    violations->push_back({field, fmt::format("must be in {}", range.text), ""});
+                                   std::vector<Violation>* violations) {
+  const Range range = RangeOf(*Message::descriptor()->FindFieldByNumber(number));
+  const double seconds = static_cast<double>(interval.seconds()) + interval.nanos() / 1e9;
+  const bool well_formed = interval.nanos() >= 0 && interval.nanos() < 1'000'000'000;
+  if (!well_formed || !range.Contains(seconds)) {
+    violations->push_back({field, "must be " + range.text, ""});
     return {};
   }
   return std::chrono::milliseconds{interval.seconds() * 1000 + interval.nanos() / 1'000'000};
@@ -51,8 +49,12 @@ std::chrono::milliseconds Interval(const std::string& field,
 template <class Request>
 std::chrono::milliseconds BookmarkInterval(const Request& request,
                                            std::vector<Violation>* violations) {
-  if (!request.has_bookmark_interval()) return kDefaultBookmarkInterval;
-  return Interval("bookmark_interval", request.bookmark_interval(), {1, "[1 s, 1 h]"}, violations);
+  const int number = Request::kBookmarkIntervalFieldNumber;
+  if (!request.has_bookmark_interval()) {
+    return std::chrono::seconds(
+        static_cast<std::int64_t>(RuleOf<Request>(number).default_number()));
+  }
+  return Interval<Request>("bookmark_interval", number, request.bookmark_interval(), violations);
 }
 
 }  // namespace
@@ -64,8 +66,9 @@ Result<WatchRules> ToRules(const v1::WatchJobRequest& request) {
   rules.bookmark_interval = BookmarkInterval(request, &violations);
   const v1::DeliveryOptions& delivery = request.delivery();
   if (delivery.has_min_frame_interval()) {
-    rules.delivery.min_frame_interval = Interval(
-        "delivery.min_frame_interval", delivery.min_frame_interval(), {0, "[0, 1 h]"}, &violations);
+    rules.delivery.min_frame_interval = Interval<v1::DeliveryOptions>(
+        "delivery.min_frame_interval", v1::DeliveryOptions::kMinFrameIntervalFieldNumber,
+        delivery.min_frame_interval(), &violations);
   }
   if (!v1::DeliveryOptions::OverflowPolicy_IsValid(delivery.overflow())) {
     violations.push_back({"delivery.overflow", "is neither CONFLATE nor DISCONNECT nor LAG", ""});
@@ -80,14 +83,14 @@ Result<WatchRules> ToRules(const v1::WatchJobRequest& request) {
   return rules;
 }
 
-Result<JobsRules> ToRules(const v1::WatchJobsRequest& request) {
+Result<JobsCursor::Rules> ToRules(const v1::WatchJobsRequest& request) {
   v1::ListJobsRequest list;
   *list.mutable_states() = request.states();
   *list.mutable_labels() = request.labels();
   Result<JobQuery> filter = ToQuery(list);
   if (!filter.ok()) return filter.error();
   std::vector<Violation> violations;
-  JobsRules rules{std::move(filter.value()), BookmarkInterval(request, &violations)};
+  JobsCursor::Rules rules{std::move(filter.value()), BookmarkInterval(request, &violations)};
   if (!violations.empty()) return Invalid(std::move(violations));
   return rules;
 }

@@ -6,25 +6,23 @@
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job/errors.h"
 #include "jobs/log/delivery_cursor.h"
-#include "storage/records.h"
+#include "jobs/log/jobs_cursor.h"
 
 namespace contact {
 
 /// How a job is to be watched.
 struct WatchRules {
-  std::uint32_t kinds = 0;  ///< See KindBit. state_changed is among them.
+  /// See KindBit. state_changed is among them.
+  std::uint32_t kinds = 0;
+  /// Longest time without a sequence to resume from.
   std::chrono::milliseconds bookmark_interval{0};
+  /// Which frame chunks are left out.
   DeliveryCursor::Rules delivery;
 };
 /// Reads the request; FIELD_INVALID if it breaks a rule of job_service.proto.
 Result<WatchRules> ToRules(const v1::WatchJobRequest& request);
 
-/// How jobs are to be watched.
-struct JobsRules {
-  JobQuery filter;
-  std::chrono::milliseconds bookmark_interval{0};
-};
 /// Reads the request; FIELD_INVALID if it breaks a rule of job_service.proto.
-Result<JobsRules> ToRules(const v1::WatchJobsRequest& request);
+Result<JobsCursor::Rules> ToRules(const v1::WatchJobsRequest& request);
 
 }  // namespace contact

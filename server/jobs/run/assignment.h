@@ -17,14 +17,22 @@ class SweepRun;
 
 /// A job handed to a worker.
 struct Assignment {
-  v1::Job job;                            ///< Header, RUNNING now.
-  std::shared_ptr<const StoredJob> spec;  ///< Null: to be read from the store.
-  v1::Event event;                        ///< That tells it; not stored yet.
-  std::uint64_t epoch;                    ///< Of the stored job.
+  /// The header, in state RUNNING.
+  v1::Job job;
+  /// The job with its spec. Null: to be read from the store.
+  std::shared_ptr<const StoredJob> spec;
+  /// The state_changed event of RUNNING. Not stored yet.
+  v1::Event event;
+  /// Epoch of the stored job.
+  std::uint64_t epoch;
+  /// The log in memory, for watchers.
   std::shared_ptr<JobLog> log;
+  /// Takes what the run brings.
   std::shared_ptr<RunRecord> record;
+  /// Tells the run when to stop.
   std::shared_ptr<RunControl> control;
-  std::function<void(std::shared_ptr<SweepRun>)> offer;  ///< Lets idle workers help with a sweep.
+  /// Lets idle workers help with a sweep.
+  std::function<void(std::shared_ptr<SweepRun>)> offer;
 };
 
 }  // namespace contact

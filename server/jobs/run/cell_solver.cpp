@@ -72,10 +72,6 @@ std::optional<SolvedCell> CellSolver::Solve(std::int32_t index, RunControl& cont
   return solved;
 }
 
-bool CellSolver::Keeps(std::int32_t cell) const {
-  return std::ranges::find(sweep_.keep_trajectories(), cell) != sweep_.keep_trajectories().end();
-}
-
 bool CellSolver::Compute(RunControl& control, const std::function<void()>& write,
                          SolvedCell* solved) {
   v1::SweepCell* const cell = &solved->cell;
@@ -88,7 +84,8 @@ bool CellSolver::Compute(RunControl& control, const std::function<void()>& write
     for (const double metric : plan_.metrics.Of({})) cell->add_metrics(metric);
     return true;
   }
-  if (!Keeps(cell->index())) decoded.scenario.sample_interval = 0;  // No trajectory.
+  const auto& kept = sweep_.keep_trajectories();
+  if (std::ranges::find(kept, cell->index()) == kept.end()) decoded.scenario.sample_interval = 0;
   return Run(decoded.scenario, control, write, solved);
 }
 

@@ -15,8 +15,10 @@ namespace contact {
 
 /// A computed cell of a sweep.
 struct SolvedCell {
-  v1::SweepCell cell;                      ///< Values, state and metrics.
-  std::vector<v1::FrameChunk> trajectory;  ///< Empty unless the sweep keeps the cell's trajectory.
+  /// Values, state and metrics.
+  v1::SweepCell cell;
+  /// Empty unless the sweep keeps the cell's trajectory.
+  std::vector<v1::FrameChunk> trajectory;
 };
 
 /// Computes cells of a sweep, one at a time. Holds a copy of the base scenario. Not thread-safe:
@@ -37,13 +39,13 @@ class CellSolver {
   /// Solves the scenario of a cell and takes over its result. False if the run was stopped.
   bool Run(const Scenario& scenario, RunControl& control, const std::function<void()>& write,
            SolvedCell* solved) const;
-  /// True if the sweep keeps the trajectory of the cell.
-  bool Keeps(std::int32_t cell) const;
 
   const v1::Sweep& sweep_;
   const DecodedSweep& plan_;
   const JobOptions& options_;
-  std::vector<Violation> none_;  ///< The fields were checked when the sweep was.
+  /// Stays empty: the fields were checked when the sweep was.
+  std::vector<Violation> none_;
+  /// Sets the values of a cell in a copy of the base scenario.
   SweepFields fields_;
 };
 

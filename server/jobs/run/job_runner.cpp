@@ -39,7 +39,7 @@ std::future<Spec> ReadSpec(Store& store, const Assignment& assignment) {
 }
 
 Spec AwaitSpec(std::future<Spec> spec, RunControl& control) {
-  const RunControl::Report report(control);
+  const RunControl::Hold hold(control);
   return spec.get();
 }
 
@@ -77,8 +77,8 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
   const Spec spec = AwaitSpec(std::move(reading), control);
   Transition transition = spec.ok() ? Solve(**spec, assignment, *writer)
                                     : TransitionAfterFault(std::string(spec.status().message()));
-  const RunControl::Report report(control);
-  if (!report) return;
+  const RunControl::Hold hold(control);
+  if (!hold) return;
   const bool stopped = Stopped(transition, control.cause());
   if (stopped && control.cause() == StopCause::kServer) {
     transition = BackToQueue(assignment, &job);
@@ -141,8 +141,7 @@ Transition JobRunner::SolveScenario(const StoredJob& spec, const Assignment& ass
 Outcome JobRunner::RunScenario(const Scenario& scenario, const StoredJob& spec,
                                const Assignment& assignment, LogWriter& writer) const {
   const auto start = clock_.Elapsed();
-  RunRecorder recorder(scenario, clock_, *assignment.control, writer, *assignment.log,
-                       *assignment.record, options_.checkpoint_interval);
+  RunRecorder recorder(scenario, clock_, assignment, writer, options_.checkpoint_interval);
   const Outcome outcome = RunOrResume(scenario, spec, assignment, writer, recorder);
   const std::chrono::duration<double> wall = clock_.Elapsed() - start;
   assignment.record->Do([&](v1::Job& job) {

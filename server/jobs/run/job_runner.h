@@ -23,6 +23,8 @@ class RunRecorder;
 /// thread; may wait for the store.
 class JobRunner {
  public:
+  /// All outlive the runner, except that a run that was given up touches none of them any more.
+  /// `shutdown` is requested when the server stops.
   JobRunner(Store& store, const Clock& clock, const JobOptions& options, EndingRuns& endings,
             std::stop_token shutdown)
       : store_(store),
@@ -37,19 +39,25 @@ class JobRunner {
   void Run(Assignment assignment, std::function<void()> ended);
 
  private:
+  /// Hands the end of the job over to the store, and waits only while that is far behind.
   void End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer,
            std::function<void()> ended);
+  /// Runs the scenario or sweep. An exception becomes a failure of the job.
   Transition Solve(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
+  /// Decodes the scenario, runs it, and adds advice on its time to the record.
   Transition SolveScenario(const StoredJob& spec, const Assignment& assignment,
                            LogWriter& writer) const;
+  /// Runs the scenario and puts its outcome into the record.
   Outcome RunScenario(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
                       LogWriter& writer) const;
+  /// Goes on from the checkpoint of an earlier attempt, if there is one.
   Outcome RunOrResume(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
                       LogWriter& writer, RunRecorder& recorder) const;
 
   Store& store_;
   const Clock& clock_;
-  const JobOptions options_;  ///< A copy: a thread that hangs may outlive its manager.
+  /// A copy: a thread that hangs may outlive its manager.
+  const JobOptions options_;
   EndingRuns& endings_;
   const std::stop_token shutdown_;
 };

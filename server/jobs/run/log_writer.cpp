@@ -42,9 +42,9 @@ void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
 }
 
 bool LogWriter::Add(v1::Event event) {
-  const RunControl::Report report(*run_);
+  const RunControl::Hold hold(*run_);
   const std::size_t bytes = event.ByteSizeLong();
-  if (!report || !run_->CountOutput(static_cast<std::int64_t>(bytes))) return false;
+  if (!hold || !run_->CountOutput(static_cast<std::int64_t>(bytes))) return false;
   pending_.bytes += bytes + kEventBytes;
   pending_.events.push_back(std::move(event));
   WriteDueBatch();
@@ -52,15 +52,15 @@ bool LogWriter::Add(v1::Event event) {
 }
 
 void LogWriter::AddCheckpoint(std::string state) {
-  const RunControl::Report report(*run_);
-  if (!report) return;
+  const RunControl::Hold hold(*run_);
+  if (!hold) return;
   pending_.bytes += state.size();
   pending_.checkpoint = Checkpoint{pending_.events.size(), std::move(state)};
   Advance(clock_.Elapsed());
 }
 
 void LogWriter::WriteIfDue() {
-  if (const RunControl::Report report(*run_); report) WriteDueBatch();
+  if (const RunControl::Hold hold(*run_); hold) WriteDueBatch();
 }
 
 void LogWriter::WriteDueBatch() {
@@ -72,8 +72,8 @@ void LogWriter::WriteDueBatch() {
 }
 
 bool LogWriter::Finish(v1::Job job, v1::Event event, Ended ended) {
-  report_.emplace(*run_);
-  if (!*report_) return false;
+  hold_.emplace(*run_);
+  if (!*hold_) return false;
   pending_.job = std::move(job);
   pending_.events.push_back(std::move(event));
   pending_.ended = std::move(ended);
@@ -155,7 +155,7 @@ void LogWriter::Written(const absl::StatusOr<std::uint64_t>& first) {
   batch_.encoded = nullptr;
   if (batch_.ended) {
     batch_.ended(&*batch_.job);
-    report_.reset();
+    hold_.reset();
   }
   if (SetDisk(Disk::kIdle)) Advance(clock_.Elapsed());
 }
@@ -176,7 +176,7 @@ void LogWriter::Failed(const absl::Status& status) {
 void LogWriter::GiveUpStoring() {
   const Ended& ended = batch_.ended ? batch_.ended : pending_.ended;
   ended(nullptr);
-  report_.reset();
+  hold_.reset();
 }
 
 bool LogWriter::SetDisk(Disk disk) {

@@ -37,8 +37,11 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
  public:
   /// The log that the writer appends to.
   struct Place {
+    /// Of the job.
     std::string name;
-    std::uint64_t epoch;  ///< The stored epoch of the job before this writer takes it.
+    /// The stored epoch of the job before this writer takes it.
+    std::uint64_t epoch;
+    /// The log in memory. Never null while events are added.
     std::shared_ptr<JobLog> log;
   };
   /// Must be owned by a shared_ptr. Store and clock outlive the writer. The writer stops `run` when
@@ -74,7 +77,7 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   /// it cannot be stored. On the store's thread, or in Finish if the store had failed before.
   using Ended = std::function<void(const v1::Job*)>;
   /// Stores the job with the last event, after all that was added. Does not wait; until `ended` is
-  /// called the run counts as reporting. False: it was given up, and `ended` is not called.
+  /// called the run is held. False: it was given up, and `ended` is not called.
   bool Finish(v1::Job job, v1::Event event, Ended ended);
   /// Tries again what there was no space for, if it is time. To be called now and then after
   /// Finish, on any thread.
@@ -82,22 +85,35 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
 
  private:
   enum class Disk {
-    kIdle,     ///< Nothing is being written.
-    kWriting,  ///< batch_ belongs to the store's thread.
-    kFull,     ///< batch_ is to be tried again.
-    kLost,     ///< Nothing can be stored any more.
+    /// Nothing is being written.
+    kIdle,
+    /// batch_ belongs to the store's thread.
+    kWriting,
+    /// batch_ is to be tried again.
+    kFull,
+    /// Nothing can be stored any more.
+    kLost,
   };
   /// What one operation of the store writes.
   struct Batch {
-    std::vector<v1::Event> events;  ///< Empty once the batch is encoded.
-    std::size_t bytes = 0;          ///< Memory, about.
-    bool take = false;              ///< Raises the epoch of the job.
-    bool failed = false;            ///< A write of it has failed before.
+    /// The events to store. Empty once the batch is encoded.
+    std::vector<v1::Event> events;
+    /// Bytes of memory that the batch takes, about.
+    std::size_t bytes = 0;
+    /// True: raises the epoch of the job.
+    bool take = false;
+    /// True once a write of the batch has failed.
+    bool failed = false;
+    /// The job in its new state, if it has one.
     std::optional<v1::Job> job;
+    /// A state to resume from, if there is one.
     std::optional<Checkpoint> checkpoint;
+    /// To be called once the batch is stored; empty if it is not the last.
     Ended ended;
-    std::shared_ptr<const JobChange> encoded;  ///< Null until the batch is complete.
-    std::vector<LogRecord> records;            ///< The encoded events, for the log in memory.
+    /// Null until the batch is complete.
+    std::shared_ptr<const JobChange> encoded;
+    /// The encoded events, for the log in memory.
+    std::vector<LogRecord> records;
   };
   using Time = std::chrono::steady_clock::time_point;
 
@@ -109,11 +125,14 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   void Advance(Time now);
   /// Puts what is to be written next into batch_. True: the caller, and nobody else, must Send it.
   bool BeginWriting(Time now);
-  void Send();  ///< Hands batch_ to the store.
+  /// Hands batch_ to the store.
+  void Send();
   /// Waits until no batch is being written or to be tried again: kIdle, or kLost.
   Disk AwaitIdle();
-  void Written(const absl::StatusOr<std::uint64_t>& first);  ///< On the store's thread.
-  void Failed(const absl::Status& status);                   ///< On the store's thread.
+  /// Goes on after a batch was stored, or not. On the store's thread.
+  void Written(const absl::StatusOr<std::uint64_t>& first);
+  /// Waits for space, or ends the run. On the store's thread.
+  void Failed(const absl::Status& status);
   /// Tells the caller of Finish that the end of the job cannot be stored.
   void GiveUpStoring();
   /// True if the worker has called Finish, so that whoever calls this must go on writing.
@@ -127,18 +146,25 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   const std::stop_token shutdown_;
 
   // Used by the worker's thread up to Finish, and after it by whoever got true from BeginWriting.
+  /// What was added and not handed to the store.
   Batch pending_;
+  /// When the last batch was sent.
   Time last_write_ = {};
-  std::optional<RunControl::Report> report_;  ///< Set by Finish, held until the end is stored.
+  /// Keeps the run from being given up from Finish until its end is stored.
+  std::optional<RunControl::Hold> hold_;
 
   // Used by the store's thread while disk_ is kWriting, else as above.
+  /// What is being written, or to be tried again.
   Batch batch_;
+  /// Epoch of the stored job.
   std::uint64_t epoch_;
 
   mutable Mutex mutex_;
+  /// Notified when disk_ changes.
   std::condition_variable_any changed_;
   Disk disk_ ABSL_GUARDED_BY(mutex_) = Disk::kIdle;
-  bool finishing_ ABSL_GUARDED_BY(mutex_) = false;  ///< Finish was called.
+  /// True once Finish was called.
+  bool finishing_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace contact

@@ -1,6 +1,5 @@
 #include "jobs/run/replay.h"
 
-#include <optional>
 #include <utility>
 
 #include "base/future.h"
@@ -14,14 +13,17 @@ namespace {
 constexpr std::size_t kPageBytes = 1 << 20;
 
 absl::StatusOr<EventPage> ReadPage(Store& store, EventQuery query, RunControl& control) {
-  const RunControl::Report report(control);
+  const RunControl::Hold hold(control);
+  if (!hold) return absl::CancelledError("the run was given up");
   return Await<absl::StatusOr<EventPage>>(
       [&](auto done) { store.ReadEvents(std::move(query), std::move(done)); });
 }
 
-// Calls `take` with each event after `begin` and up to `end`, until it answers false.
-template <class Take>
-bool ForEach(Store& store, EventQuery query, std::uint64_t end, RunControl& control, Take take) {
+}  // namespace
+
+bool ForEachEvent(Store& store, EventQuery query, std::uint64_t end, RunControl& control,
+                  const std::function<bool(const StoredEvent&)>& take) {
+  query.max_bytes = kPageBytes;
   while (query.after < end && !control.stopping()) {
     const absl::StatusOr<EventPage> page = ReadPage(store, query, control);
     if (!page.ok()) return false;
@@ -34,24 +36,22 @@ bool ForEach(Store& store, EventQuery query, std::uint64_t end, RunControl& cont
   return true;
 }
 
-}  // namespace
-
 bool Replay(Store& store, const std::string& job, std::uint64_t sequence, RunControl& control,
             RunRecorder& recorder) {
   std::uint64_t begin = 0;  // Of the attempt.
-  const EventQuery attempts{job, 0, KindBit(v1::Event::kAttemptStarted), kPageBytes};
-  const bool found = ForEach(store, attempts, sequence, control, [&](const StoredEvent& event) {
+  const EventQuery attempts{.name = job, .kinds = KindBit(v1::Event::kAttemptStarted)};
+  const bool found = ForEachEvent(store, attempts, sequence, control, [&](const auto& event) {
     begin = event.sequence;
     return event.intact;
   });
   if (!found) return false;
-  return ForEach(store, {.name = job, .after = begin, .max_bytes = kPageBytes}, sequence, control,
-                 [&](const StoredEvent& stored) {
-                   v1::Event event;
-                   if (!stored.Parse(&event)) return false;
-                   recorder.Keep(std::move(event));
-                   return true;
-                 });
+  return ForEachEvent(store, {.name = job, .after = begin}, sequence, control,
+                      [&](const auto& stored) {
+                        v1::Event event;
+                        if (!stored.Parse(&event)) return false;
+                        recorder.Keep(std::move(event));
+                        return true;
+                      });
 }
 
 }  // namespace contact

@@ -32,31 +32,29 @@ bool RunControl::CountOutput(std::int64_t bytes) {
   return false;
 }
 
-bool RunControl::reporting() const {
-  const MutexLock lock(mutex_);
-  return reports_ > 0;
-}
+RunControl::Hold::Hold(RunControl& run) : run_(run), held_(run.Enter()) {}
 
-bool RunControl::GiveUp() {
-  const MutexLock lock(mutex_);
-  given_up_ = given_up_ || reports_ == 0;
-  return given_up_;
-}
-
-bool RunControl::given_up() const {
-  const MutexLock lock(mutex_);
-  return given_up_;
+RunControl::Hold::~Hold() {
+  if (!held_) return;
+  const MutexLock lock(run_.mutex_);
+  --run_.holds_;
 }
 
 bool RunControl::Enter() {
   const MutexLock lock(mutex_);
-  if (!given_up_) ++reports_;
+  if (!given_up_) ++holds_;
   return !given_up_;
 }
 
-void RunControl::Leave() {
+bool RunControl::held() const {
   const MutexLock lock(mutex_);
-  --reports_;
+  return holds_ > 0;
+}
+
+bool RunControl::GiveUp() {
+  const MutexLock lock(mutex_);
+  given_up_ = given_up_ || holds_ == 0;
+  return given_up_;
 }
 
 Transition TransitionAfterStop(StopCause cause, const RunBudget& budget) {

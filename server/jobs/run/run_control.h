@@ -13,57 +13,69 @@
 namespace contact {
 
 /// Why a run is asked to stop before its end.
-enum class StopCause { kServer, kUser, kWallTime, kSteps, kOutput, kStalled };
+enum class StopCause {
+  /// The server ends. Every other cause replaces this one.
+  kServer,
+  /// CancelJob.
+  kUser,
+  /// The wall time of the budget is spent.
+  kWallTime,
+  /// The steps of the budget are spent.
+  kSteps,
+  /// The output bytes of the budget are spent.
+  kOutput,
+  /// The run made no step for too long.
+  kStalled,
+};
 
-/// What there is between one attempt of a job and those who watch over it: why it is to stop, its
-/// signs of life, what it has used, and whether it is still listened to. Thread-safe.
+/// Connects one attempt of a job with those who watch over it: why it is to stop, its signs of
+/// life, what it has used, and whether it was given up. Thread-safe.
 class RunControl {
  public:
   explicit RunControl(RunBudget budget = {}) : budget_(budget) {}
 
-  /// Asks the run to stop. Of several causes the first counts; kServer, that it is about to end,
-  /// the least.
+  /// Asks the run to stop. Of several causes the first counts, except for kServer.
   void Stop(StopCause cause = StopCause::kServer);
+  /// Why the run is asked to stop. Only if `stopping()`.
   StopCause cause() const { return cause_; }
   bool stopping() const { return stop_.stop_requested(); }
+  /// The token that the solver polls.
   std::stop_token token() const { return stop_.get_token(); }
   const RunBudget& budget() const { return budget_; }
 
-  /// One more step begins, or so many that an earlier attempt has made count too. Stops the run if
-  /// that is too many.
+  /// Counts a step that begins. Stops the run if that is too many.
   void CountStep() { CountSteps(1); }
+  /// Counts several steps, such as those of an earlier attempt.
   void CountSteps(std::int64_t steps);
-  /// So many bytes are to be recorded. False: that is too many; the run is stopped.
+  /// Counts bytes that are to be recorded. False: that is too many; the run is stopped.
   bool CountOutput(std::int64_t bytes);
   /// A number that changes while the run makes progress.
   std::int64_t signs() const { return steps_ + output_bytes_; }
 
-  /// For a scope in which the run reports to the rest of the server, and may wait for the disk.
-  /// False: the run was given up, and nobody wants to hear of it any more.
-  class Report {
+  /// Keeps the run from being given up, for a scope in which it hands something to the rest of the
+  /// server and may wait for the disk. False: the run was given up before, and must not hand over
+  /// anything.
+  class Hold {
    public:
-    explicit Report(RunControl& control) : control_(control), heard_(control.Enter()) {}
-    ~Report() {
-      if (heard_) control_.Leave();
-    }
-    Report(const Report&) = delete;
-    Report& operator=(const Report&) = delete;
-    explicit operator bool() const { return heard_; }
+    explicit Hold(RunControl& run);
+    ~Hold();
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+    explicit operator bool() const { return held_; }
 
    private:
-    RunControl& control_;
-    const bool heard_;
+    RunControl& run_;
+    const bool held_;
   };
-  /// True while someone reports.
-  bool reporting() const;
+  /// True while a Hold exists.
+  bool held() const;
 
-  /// Stops to listen to the run, for ever. False: it reports just now.
+  /// Gives the run up, for ever. False: it is held just now.
   bool GiveUp();
-  bool given_up() const;
 
  private:
+  /// Begins a hold. False: the run was given up.
   bool Enter();
-  void Leave();
 
   const RunBudget budget_;
   std::stop_source stop_;
@@ -72,7 +84,8 @@ class RunControl {
   std::atomic<std::int64_t> output_bytes_ = 0;
 
   mutable Mutex mutex_;
-  int reports_ ABSL_GUARDED_BY(mutex_) = 0;
+  /// Number of holds.
+  int holds_ ABSL_GUARDED_BY(mutex_) = 0;
   bool given_up_ ABSL_GUARDED_BY(mutex_) = false;
 };
 

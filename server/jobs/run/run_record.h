@@ -27,7 +27,7 @@ class RunRecord {
     return job;
   }
 
-  /// Empties it.
+  /// Empties it, and returns what it was.
   v1::Job Take() {
     const MutexLock lock(mutex_);
     return std::exchange(job_, {});

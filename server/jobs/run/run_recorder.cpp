@@ -33,14 +33,13 @@ void RunRecorder::OnCycle(const Cycle& cycle) {
   Keep(std::move(event));
 }
 
-// Adds an event to the log, and what the ledger has of it to the record.
 void RunRecorder::Keep(v1::Event event) {
   v1::Job row;
   if (event.has_cycle()) *row.add_cycles() = event.cycle();
   if (event.has_log_entry()) row.add_warnings(event.log_entry().message());
   const bool kept = event.has_cycle() || event.has_log_entry();
   if (!writer_.Add(std::move(event)) || !kept) return;
-  record_.Do([&](v1::Job& job) { job.MergeFrom(row); });
+  assignment_.record->Do([&](v1::Job& job) { job.MergeFrom(row); });
 }
 
 std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples) {
@@ -65,14 +64,14 @@ void RunRecorder::OnSamples(const Samples& samples) {
 
 void RunRecorder::OnProgress(const Progress& progress) {
   const v1::Progress message = Encode(scenario_, progress);
-  record_.Do([&](v1::Job& job) { *job.mutable_progress() = message; });
+  assignment_.record->Do([&](v1::Job& job) { *job.mutable_progress() = message; });
   writer_.WriteIfDue();
   const auto now = clock_.Elapsed();
   if (now - last_progress_ < kProgressTime) return;
   last_progress_ = now;
   v1::Event event = Event();
   *event.mutable_progress() = message;
-  log_.SetProgress(std::move(event));
+  assignment_.log->SetProgress(std::move(event));
 }
 
 void RunRecorder::OnWarning(const std::string& warning) {
@@ -81,8 +80,6 @@ void RunRecorder::OnWarning(const std::string& warning) {
   event.mutable_log_entry()->set_message(warning);
   Keep(std::move(event));
 }
-
-void RunRecorder::OnStep() { control_.CountStep(); }
 
 void RunRecorder::OnBoundary(const std::function<RunState()>& state) {
   const auto now = clock_.Elapsed();

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "jobs/log/job_log.h"
+#include "jobs/run/assignment.h"
 #include "jobs/run/log_writer.h"
-#include "jobs/run/run_control.h"
-#include "jobs/run/run_record.h"
 #include "simulation/run.h"
 
 namespace contact {
@@ -22,14 +20,12 @@ std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& sa
 class RunRecorder final : public Observer {
  public:
   /// Everything outlives the recorder. `checkpoint_interval`: see JobOptions.
-  RunRecorder(const Scenario& scenario, const Clock& clock, RunControl& control, LogWriter& writer,
-              JobLog& log, RunRecord& record, std::chrono::milliseconds checkpoint_interval)
+  RunRecorder(const Scenario& scenario, const Clock& clock, const Assignment& assignment,
+              LogWriter& writer, std::chrono::milliseconds checkpoint_interval)
       : scenario_(scenario),
         clock_(clock),
-        control_(control),
+        assignment_(assignment),
         writer_(writer),
-        log_(log),
-        record_(record),
         checkpoint_interval_(checkpoint_interval),
         last_checkpoint_(clock.Elapsed()) {}
 
@@ -40,20 +36,21 @@ class RunRecorder final : public Observer {
   void OnIteration(const Iteration& iteration) override;
   void OnCycle(const Cycle& cycle) override;
   void OnSamples(const Samples& samples) override;
+  /// Publishes the progress, at most every 100 ms, and writes events that have waited long enough.
   void OnProgress(const Progress& progress) override;
   void OnWarning(const std::string& warning) override;
-  void OnStep() override;
+  void OnStep() override { assignment_.control->CountStep(); }
+  /// Stores a checkpoint if it is time for one and it is not too large.
   void OnBoundary(const std::function<RunState()>& state) override;
 
  private:
+  /// An event of now, without payload.
   v1::Event Event() const;
 
   const Scenario& scenario_;
   const Clock& clock_;
-  RunControl& control_;
+  const Assignment& assignment_;
   LogWriter& writer_;
-  JobLog& log_;
-  RunRecord& record_;
   const std::chrono::milliseconds checkpoint_interval_;
   std::chrono::steady_clock::time_point last_checkpoint_;
   std::chrono::steady_clock::time_point last_progress_ = {};

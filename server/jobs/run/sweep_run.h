@@ -24,8 +24,10 @@ class SweepRun {
   /// Receives what the computing threads produce. Both functions are called by several threads at
   /// a time.
   struct Sink {
-    std::function<void(SolvedCell)> store;  ///< Takes each cell as soon as it is computed.
-    std::function<void()> write;            ///< Called now and then while a cell is computed.
+    /// Takes each cell as soon as it is computed.
+    std::function<void(SolvedCell)> store;
+    /// Called now and then while a cell is computed.
+    std::function<void()> write;
   };
 
   /// Cells for which `done` is true have been computed before. Clock and options outlive the run.
@@ -33,6 +35,7 @@ class SweepRun {
   SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done, const Clock& clock,
            const JobOptions& options, std::shared_ptr<RunControl> control, Sink sink);
 
+  /// The control of the attempt that runs the sweep.
   const std::shared_ptr<RunControl>& control() const { return control_; }
 
   /// True while there is a cell that nobody has begun.
@@ -46,13 +49,16 @@ class SweepRun {
  private:
   /// The cell that the calling thread is to compute; none if there is none left.
   std::optional<std::int32_t> Claim();
-  void Release();  ///< The sink has the claimed cell.
+  /// Says that the sink has the claimed cell.
+  void Release();
   /// Moves next_ past the cells that were computed before.
   void SkipDone() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// As HasWork.
   bool HasWorkLocked() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const v1::Sweep sweep_;
   const DecodedSweep plan_;
+  /// Cells that were computed before.
   const std::vector<bool> done_;
   const Clock& clock_;
   const JobOptions& options_;
@@ -60,11 +66,12 @@ class SweepRun {
   const Sink sink_;
 
   mutable Mutex mutex_;
+  /// Notified when a cell was released.
   std::condition_variable_any released_;
-  std::int32_t next_ ABSL_GUARDED_BY(mutex_) =
-      0;  ///< The next cell to begin, or the number of cells.
-  int begun_ ABSL_GUARDED_BY(mutex_) =
-      0;  ///< Cells that were begun and that the sink has not taken.
+  /// The next cell to begin, or the number of cells.
+  std::int32_t next_ ABSL_GUARDED_BY(mutex_) = 0;
+  /// Cells that were begun and that the sink has not taken.
+  int begun_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace contact

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/future.h"
+#include "jobs/run/replay.h"
 #include "wire/scenario_advice.h"
 
 namespace contact {
@@ -15,15 +15,8 @@ constexpr std::chrono::milliseconds kSlice{1000};
 // How often what was handed to the log is written while its owner only waits for helpers.
 constexpr std::chrono::milliseconds kWriteTime{20};
 constexpr std::chrono::milliseconds kProgressTime{100};
-constexpr std::size_t kPageBytes = 1 << 20;
 // Cells that may be finished while somebody else is at the log, a few milliseconds' worth.
 constexpr std::size_t kMaxFinished = 64;
-
-absl::StatusOr<EventPage> ReadPage(Store& store, const std::string& name, std::uint64_t after) {
-  return Await<absl::StatusOr<EventPage>>([&](auto done) {
-    store.ReadEvents({name, after, KindBit(v1::Event::kSweepCell), kPageBytes}, std::move(done));
-  });
-}
 
 }  // namespace
 
@@ -51,33 +44,27 @@ Transition SweepRunner::Run(const v1::Sweep& sweep) {
                             [this] { WriteIfDue(); }};
   const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), clock_,
                                               options_, assignment_.control, sink);
-  if (const RunControl::Report report(*assignment_.control); report) assignment_.offer(run);
+  if (const RunControl::Hold hold(*assignment_.control); hold) assignment_.offer(run);
   while (run->Work(kSlice)) {
   }
   while (!run->AwaitIdle(kWriteTime)) WriteIfDue();
   return Conclude(advice);
 }
 
-// What is stored already. A damaged cell is computed again.
 bool SweepRunner::ReadDone(std::vector<bool>* done) {
-  const RunControl::Report report(*assignment_.control);
-  if (!report) return false;
   const MutexLock lock(log_mutex_);
-  const std::uint64_t last = assignment_.job.last_sequence();
-  for (std::uint64_t position = 0; position < last;) {
-    const absl::StatusOr<EventPage> page = ReadPage(store_, assignment_.job.name(), position);
-    if (!page.ok()) return false;
-    position = page->position;
-    for (const StoredEvent& stored : page->events) {
-      v1::Event event;
-      if (!stored.Parse(&event)) continue;
-      const auto index = static_cast<std::size_t>(event.sweep_cell().index());
-      if (index >= done->size() || (*done)[index]) continue;
-      (*done)[index] = true;
-      Count(event.sweep_cell().state(), event.sweep_cell().convergence());
-    }
-  }
-  return true;
+  const v1::Job& job = assignment_.job;
+  const EventQuery cells{.name = job.name(), .kinds = KindBit(v1::Event::kSweepCell)};
+  return ForEachEvent(store_, cells, job.last_sequence(), *assignment_.control,
+                      [&](const StoredEvent& stored) ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_) {
+                        v1::Event event;
+                        const auto index = static_cast<std::size_t>(
+                            stored.Parse(&event) ? event.sweep_cell().index() : -1);
+                        if (index >= done->size() || (*done)[index]) return true;
+                        (*done)[index] = true;
+                        Count(event.sweep_cell().state(), event.sweep_cell().convergence());
+                        return true;
+                      });
 }
 
 void SweepRunner::Count(v1::Job::State state, v1::Job::Convergence convergence) {

@@ -31,17 +31,28 @@ class SweepRunner {
   Transition Run(const v1::Sweep& sweep);
 
  private:
+  /// Notes which cells an earlier attempt has stored. A damaged one is computed again. False: the
+  /// log cannot be read.
   bool ReadDone(std::vector<bool>* done);
+  /// Counts a cell that is in the log.
   void Count(v1::Job::State state, v1::Job::Convergence convergence)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
+  /// Takes a computed cell, on any computing thread. If another thread holds the log, the cell
+  /// stays in finished_: the holder stores what is there before it releases the log.
   void TakeCell(SolvedCell solved);
+  /// Adds to finished_. True if so much is finished that the caller must store it.
   bool PutFinished(SolvedCell solved);
+  /// True if finished_ is not empty.
   bool SomeFinished();
+  /// Empties finished_ into the log.
   void StoreFinished() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
+  /// Adds a cell to the log, directly after the chunks of its trajectory.
   void StoreCell(SolvedCell solved) ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
   /// Writes what was handed to the log, unless another thread is at it.
   void WriteIfDue();
+  /// Tells the progress to the record and to watchers.
   void Publish() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
+  /// Stores what is left, and puts what the sweep amounts to into the record.
   Transition Conclude(const std::vector<Violation>& advice);
 
   Store& store_;
@@ -49,13 +60,18 @@ class SweepRunner {
   const JobOptions& options_;
   const Assignment& assignment_;
 
-  Mutex log_mutex_;  ///< Held while the writer waits for the disk.
+  /// Guards the log. Held while the writer waits for the disk.
+  Mutex log_mutex_;
   LogWriter& writer_ ABSL_GUARDED_BY(log_mutex_);
+  /// Counts of cells.
   v1::Progress progress_ ABSL_GUARDED_BY(log_mutex_);
+  /// When progress was published last.
   std::chrono::steady_clock::time_point last_progress_ ABSL_GUARDED_BY(log_mutex_) = {};
 
-  Mutex mutex_ ABSL_ACQUIRED_AFTER(log_mutex_);               ///< Held for an instant.
-  std::vector<SolvedCell> finished_ ABSL_GUARDED_BY(mutex_);  ///< And not in the log yet.
+  /// Guards what is finished. Held for an instant.
+  Mutex mutex_ ABSL_ACQUIRED_AFTER(log_mutex_);
+  /// Computed cells that are not in the log yet.
+  std::vector<SolvedCell> finished_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace contact

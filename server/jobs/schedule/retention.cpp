@@ -6,6 +6,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <condition_variable>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 
@@ -39,18 +41,6 @@ std::unordered_map<std::string, std::int64_t> ReadBytes(Store& store) {
   if (!read.ok()) return bytes;
   for (const JobSize& size : *read) bytes.emplace(size.name, size.bytes);
   return bytes;
-}
-
-bool Delete(Store& store, const std::string& name) {
-  const auto deleted =
-      Await<absl::StatusOr<bool>>([&](auto done) { store.Delete(name, "", std::move(done)); });
-  return deleted.ok();  // An error: another call has deleted it before.
-}
-
-bool Compact(Store& store, const std::string& name) {
-  const auto compacted =
-      Await<absl::StatusOr<bool>>([&](auto done) { store.Compact(name, std::move(done)); });
-  return compacted.ok();  // An error: it was deleted meanwhile.
 }
 
 }  // namespace
@@ -102,30 +92,20 @@ Retention::~Retention() { Stop(); }
 void Retention::Start() {
   thread_ = std::thread([this] {
     pthread_setname_np(pthread_self(), "retention");
-    Loop();
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any never;
+    while (!stopped()) {
+      const int deleted = Purge();
+      if (deleted > 0) spdlog::info("deleted {} expired jobs", deleted);
+      never.wait_for(lock, stop_.get_token(), kPeriod, [] { return false; });
+    }
   });
 }
 
 void Retention::Stop() {
-  {
-    const MutexLock lock(mutex_);
-    stopped_ = true;
-    changed_.notify_all();
-  }
+  stop_.request_stop();
   if (thread_.joinable()) thread_.join();
-}
-
-bool Retention::stopped() const {
-  const MutexLock lock(mutex_);
-  return stopped_;
-}
-
-void Retention::Loop() {
-  while (!stopped()) {
-    if (const int deleted = Purge(); deleted > 0) spdlog::info("deleted {} expired jobs", deleted);
-    const MutexLock lock(mutex_);
-    if (!stopped_) changed_.wait_for(mutex_, kPeriod);
-  }
 }
 
 int Retention::Purge() {
@@ -135,11 +115,14 @@ int Retention::Purge() {
   return deleted;
 }
 
+// An error means in both that another call has deleted the job meanwhile.
 int Retention::Delete(const std::vector<EndedJob>& jobs) {
   int deleted = 0;
   for (const std::string& name : Expired(jobs, clock_.Now(), limits_)) {
     if (stopped()) break;
-    if (!contact::Delete(store_, name)) continue;
+    const auto done = Await<absl::StatusOr<bool>>(
+        [&](auto callback) { store_.Delete(name, "", std::move(callback)); });
+    if (!done.ok()) continue;
     feed_.Changed(name);
     ++deleted;
   }
@@ -149,11 +132,13 @@ int Retention::Delete(const std::vector<EndedJob>& jobs) {
 void Retention::Compact(const std::vector<EndedJob>& jobs) {
   for (const EndedJob& job : jobs) {
     if (stopped()) break;
-    if (job.to_compact && contact::Compact(store_, job.name)) feed_.Changed(job.name);
+    if (!job.to_compact) continue;
+    const auto done = Await<absl::StatusOr<bool>>(
+        [&](auto callback) { store_.Compact(job.name, std::move(callback)); });
+    if (done.ok()) feed_.Changed(job.name);
   }
 }
 
-// Oldest end first.
 std::vector<EndedJob> Retention::ListEnded() {
   std::vector<std::pair<std::int64_t, EndedJob>> found;
   const auto bytes =

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "base/mutex.h"
 #include "contact/v1/job.pb.h"
 #include "jobs/job/job_options.h"
 
@@ -26,14 +25,17 @@ std::optional<WallTime> ExpiryOf(const v1::Job& job, const RetentionLimits& limi
 /// True if the frame chunks of an ended job are not kept any more.
 bool IsToCompact(const v1::Job& job, WallTime now, const RetentionLimits& limits);
 
-/// Sets `expire_time`.
+/// Sets `expire_time` of an ended job that is not kept for ever.
 void SetExpireTime(const RetentionLimits& limits, v1::Job* job);
 
 /// What decides how long an ended job is kept.
 struct EndedJob {
   std::string name;
+  /// See ExpiryOf.
   std::optional<WallTime> expiry;
+  /// What it takes in the store.
   std::int64_t bytes = 0;
+  /// See IsToCompact.
   bool to_compact = false;
 };
 /// Names of the jobs that are not kept any more. `jobs`: all that have ended, oldest end first.
@@ -49,17 +51,20 @@ class Retention {
   Retention(Store& store, const Clock& clock, RetentionLimits limits, JobFeed& feed);
   ~Retention();
 
-  void Start();  ///< Starts the thread. Once only.
+  /// Starts the thread, named `retention`. Once only.
+  void Start();
   /// Deletes and compacts what is due now; waits for it. Returns how many jobs were deleted.
   int Purge();
-  /// Ends the thread. Idempotent.
+  /// Ends the thread. Idempotent; by one thread.
   void Stop();
 
  private:
-  void Loop();  ///< The thread: purges each minute until Stop.
+  /// Deletes those that are due. Returns their number.
   int Delete(const std::vector<EndedJob>& jobs);
+  /// Drops the frame chunks of those that are to be compacted.
   void Compact(const std::vector<EndedJob>& jobs);
-  bool stopped() const;
+  /// True once Stop was called: what is due can wait for the next start.
+  bool stopped() const { return stop_.stop_requested(); }
   /// All ended jobs, oldest end first; fewer if the store fails.
   std::vector<EndedJob> ListEnded();
 
@@ -67,9 +72,7 @@ class Retention {
   const Clock& clock_;
   const RetentionLimits limits_;
   JobFeed& feed_;
-  mutable Mutex mutex_;
-  std::condition_variable_any changed_;
-  bool stopped_ ABSL_GUARDED_BY(mutex_) = false;
+  std::stop_source stop_;
   std::thread thread_;  // Last: it uses all of the above.
 };
 

@@ -1,13 +1,12 @@
 #include "jobs/schedule/scheduler.h"
 
 #include <fmt/format.h>
-#include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <future>
 #include <utility>
 
+#include "base/future.h"
 #include "jobs/job/lifecycle.h"
 #include "storage/job_queries.h"
 #include "version.h"
@@ -17,8 +16,6 @@ namespace {
 
 // After so long a helper looks whether a job has come that needs a worker.
 constexpr std::chrono::milliseconds kHelpTime{10};
-// Specs of waiting jobs that are kept in memory, so that their workers need not wait for the store.
-constexpr std::size_t kMostSpecBytes = 16 << 20;
 // What the runs have to end in when the server does.
 constexpr std::chrono::seconds kEndTime{2};
 
@@ -31,6 +28,11 @@ Transition TransitionAfterCrash(const StoredJob& stored, int max_attempts) {
           absl::StatusCode::kAborted};
 }
 
+// True if the job was running when the server died, and may be run only once more.
+bool IsLastAttempt(const v1::Job& job, int max_attempts) {
+  return job.attempt() > 0 && job.attempt() + 1 >= max_attempts;
+}
+
 }  // namespace
 
 Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed)
@@ -38,13 +40,12 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options
       clock_(clock),
       options_(options),
       feed_(feed),
-      workers_([this](Worker& worker) { Work(worker); }) {
+      workers_([this](Worker& worker) { Work(worker); }),
+      supervisor_(clock, options, endings_, [this](const std::string& job, const RunControl& run) {
+        FailLostRun(job, run);
+      }) {
   Recover();
   workers_.Start(options_.workers);
-  watch_ = std::thread([this] {
-    pthread_setname_np(pthread_self(), "watchdog");
-    Watch();
-  });
 }
 
 Scheduler::~Scheduler() { Stop(); }
@@ -54,36 +55,44 @@ std::shared_ptr<JobLog> Scheduler::NewLog(const std::string& name, std::uint64_t
 }
 
 void Scheduler::Recover() {
-  std::promise<void> recovered;
-  store_.ListUnfinished([this](absl::StatusOr<std::vector<StoredJob>> jobs) {
-    if (!jobs.ok()) {
-      return spdlog::error("cannot find the unfinished jobs: {}", jobs.status().ToString());
-    }
-    for (StoredJob& job : *jobs) Recover(std::move(job));
-  });
-  // Two rounds: the first callback asks for more.
-  store_.Flush([&] { store_.Flush([&] { recovered.set_value(); }); });
-  recovered.get_future().wait();
+  auto jobs = Await<absl::StatusOr<std::vector<StoredJob>>>(
+      [this](auto done) { store_.ListUnfinished(std::move(done)); });
+  if (!jobs.ok()) {
+    return spdlog::error("cannot find the unfinished jobs: {}", jobs.status().ToString());
+  }
+  for (StoredJob& job : *jobs) Recover(std::move(job));
+  Await<bool>([this](const auto& done) { store_.Flush([done] { done(true); }); });
 }
 
-// A job that was running has lost its worker.
 void Scheduler::Recover(StoredJob stored) {
   if (!stored.intact) spdlog::error("job={} fails its checksum in the store", stored.job.name());
   const Transition transition = TransitionAfterCrash(stored, options_.max_attempts);
   Active active;
   active.log = NewLog(stored.job.name(), stored.job.last_sequence());
   active.epoch = stored.epoch;
-  v1::Job& job = active.job = std::move(stored.job);
-  if (job.state() == v1::Job::RUNNING) {
-    const std::vector<v1::Event> events = {Apply(transition, clock_.Now(), &job)};
-    options_.metrics->Moved(v1::Job::RUNNING, job);
-    store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
-                  [log = active.log, events](const absl::StatusOr<std::uint64_t>& first) {
-                    if (first.ok()) log->Append(*first, events);
-                  });
+  active.job = std::move(stored.job);
+  if (active.job.state() == v1::Job::RUNNING) {
+    active.job = Commit(active, transition, false, [](const absl::Status& /*stored*/) {});
   }
   const MutexLock lock(mutex_);
-  if (!IsFinal(job.state())) Add(std::move(active));
+  if (!IsFinal(active.job.state())) Add(std::move(active));
+}
+
+v1::Job Scheduler::Commit(Active active, const Transition& transition, bool take, Done stored) {
+  v1::Job& job = active.job;
+  const v1::Job::State from = job.state();
+  const std::vector<v1::Event> events = {Apply(transition, clock_.Now(), &job)};
+  store_.Update(
+      {.name = job.name(), .epoch = active.epoch, .take = take, .job = &job, .events = events},
+      [this, from, events, job, log = active.log,
+       stored = std::move(stored)](const absl::StatusOr<std::uint64_t>& first) {
+        if (first.ok()) {
+          options_.metrics->Moved(from, job);
+          log->Append(*first, events);
+        }
+        stored(first.status());
+      });
+  return std::move(job);
 }
 
 void Scheduler::Add(Active active) {
@@ -95,13 +104,8 @@ void Scheduler::Add(Active active) {
 
 void Scheduler::Queue(const Active& active) {
   const v1::Job& job = active.job;
-  queue_.Push({job.name(), job.priority(), active.number, LastAttempt(job)});
+  queue_.Push(job.name(), job.priority(), active.number, IsLastAttempt(job, options_.max_attempts));
   changed_.notify_one();
-}
-
-// True if it has been running when the server died, and may be only once more.
-bool Scheduler::LastAttempt(const v1::Job& job) const {
-  return job.attempt() > 0 && job.attempt() + 1 >= options_.max_attempts;
 }
 
 bool Scheduler::Reserve() {
@@ -126,23 +130,8 @@ void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
   active.log->Append(1, std::move(events));
   const MutexLock lock(mutex_);
   --reserved_;
-  KeepSpec(&active);
+  specs_.Keep(&active.job);
   Add(std::move(active));
-}
-
-// Takes the spec out of the job, and keeps it if there is room.
-void Scheduler::KeepSpec(Active* active) {
-  v1::Job& job = active->job;
-  if (const std::size_t bytes = job.ByteSizeLong(); spec_bytes_ + bytes <= kMostSpecBytes) {
-    spec_bytes_ += bytes;
-    active->spec = std::make_shared<const StoredJob>(StoredJob{.job = job});
-  }
-  job.clear_spec();
-}
-
-std::shared_ptr<const StoredJob> Scheduler::TakeSpec(Active* active) {
-  if (active->spec) spec_bytes_ -= active->spec->job.ByteSizeLong();
-  return std::exchange(active->spec, nullptr);
 }
 
 void Scheduler::Work(Worker& worker) {
@@ -158,13 +147,13 @@ void Scheduler::Work(Worker& worker) {
   }
 }
 
-// Waits for something to do.
 Scheduler::Task Scheduler::Next(Worker& worker) {
   const MutexLock lock(mutex_);
   for (;;) {
     if (shutdown_.stop_requested()) return {};
-    if (const auto name = NextJob()) {
-      Task task{Assign(active_.at(*name)), nullptr};
+    const bool careful = std::ranges::any_of(running_, [](const auto& job) { return job.second; });
+    if (const auto next = queue_.Pop(careful)) {
+      Task task{Assign(active_.at(*next)), nullptr};
       worker.Begin(task.job->control);
       return task;
     }
@@ -176,24 +165,22 @@ Scheduler::Task Scheduler::Next(Worker& worker) {
   }
 }
 
-std::optional<std::string> Scheduler::NextJob() {
-  const bool careful =
-      std::ranges::any_of(running_, [](const auto& job) { return job.second.last_attempt; });
-  const auto next = queue_.Pop(careful);
-  return next ? std::optional(next->name) : std::nullopt;
-}
-
 Assignment Scheduler::Assign(Active& active) {
-  if (running_.empty()) started_.notify_one();
-  running_.emplace(active.job.name(), Running{Watchdog(clock_.Elapsed()), LastAttempt(active.job)});
-  active.control = std::make_shared<RunControl>(BudgetOf(active.job, options_.max_budget));
-  active.job.set_attempt(active.job.attempt() + 1);
-  v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &active.job);
-  options_.metrics->Moved(v1::Job::QUEUED, active.job);
-  return {active.job,       TakeSpec(&active),
-          std::move(event), active.epoch,
-          active.log,       active.record,
-          active.control,   [this](std::shared_ptr<SweepRun> sweep) { Offer(std::move(sweep)); }};
+  v1::Job& job = active.job;
+  active.control = std::make_shared<RunControl>(BudgetOf(job, options_.max_budget));
+  running_.emplace(job.name(), IsLastAttempt(job, options_.max_attempts));
+  supervisor_.Add(job.name(), active.control);
+  job.set_attempt(job.attempt() + 1);
+  v1::Event event = Apply({v1::Job::RUNNING}, clock_.Now(), &job);
+  options_.metrics->Moved(v1::Job::QUEUED, job);
+  return {job,
+          specs_.Take(job.name()),
+          std::move(event),
+          active.epoch,
+          active.log,
+          active.record,
+          active.control,
+          [this](std::shared_ptr<SweepRun> sweep) { Offer(std::move(sweep)); }};
 }
 
 void Scheduler::Offer(std::shared_ptr<SweepRun> sweep) {
@@ -202,7 +189,6 @@ void Scheduler::Offer(std::shared_ptr<SweepRun> sweep) {
   changed_.notify_all();
 }
 
-// The oldest sweep that has a cell to compute.
 std::shared_ptr<SweepRun> Scheduler::FindSweep() {
   std::erase_if(sweeps_, [](const auto& sweep) {
     const auto run = sweep.lock();
@@ -212,6 +198,7 @@ std::shared_ptr<SweepRun> Scheduler::FindSweep() {
 }
 
 void Scheduler::Remove(const std::string& name) {
+  supervisor_.Remove(name);
   const MutexLock lock(mutex_);
   active_.erase(name);
   running_.erase(name);
@@ -233,7 +220,7 @@ void Scheduler::Cancel(const std::string& name, const std::string& expected_uid,
       found->second.control->Stop(StopCause::kUser);
     } else if (found != active_.end() &&
                queue_.Remove(found->second.job.priority(), found->second.number)) {
-      TakeSpec(&found->second);
+      specs_.Take(name);
       queued = found->second;  // From here on no worker finds it.
     }
   }
@@ -246,26 +233,18 @@ void Scheduler::Cancel(const std::string& name, const std::string& expected_uid,
 }
 
 void Scheduler::Withdraw(const Active& active, Done done) {
-  v1::Job job = active.job;
-  const std::vector<v1::Event> events = {
-      Apply({v1::Job::CANCELLED, reason::kUserRequest}, clock_.Now(), &job)};
-  store_.Update({.name = job.name(), .epoch = active.epoch, .job = &job, .events = events},
-                [this, events, job, active,
-                 done = std::move(done)](const absl::StatusOr<std::uint64_t>& first) {
-                  if (first.ok()) {
-                    options_.metrics->Moved(v1::Job::QUEUED, job);
-                    active.log->Append(*first, events);
-                  }
-                  {
-                    const MutexLock lock(mutex_);
-                    if (first.ok()) {
-                      active_.erase(active.job.name());
-                    } else {
-                      Queue(active);
-                    }
-                  }
-                  done(first.status());
-                });
+  Commit(active, {v1::Job::CANCELLED, reason::kUserRequest}, false,
+         [this, active, done = std::move(done)](const absl::Status& stored) {
+           {
+             const MutexLock lock(mutex_);
+             if (stored.ok()) {
+               active_.erase(active.job.name());
+             } else {
+               Queue(active);
+             }
+           }
+           done(stored);
+         });
 }
 
 std::shared_ptr<JobLog> Scheduler::Log(const std::string& name) const {
@@ -291,65 +270,27 @@ int Scheduler::running() const {
   return static_cast<int>(running_.size());
 }
 
-void Scheduler::Watch() {
-  while (!shutdown_.stop_requested()) {
-    std::vector<Active> lost;
-    {
-      const MutexLock lock(mutex_);
-      if (shutdown_.stop_requested()) return;
-      if (running_.empty()) {
-        started_.wait(mutex_);
-      } else {
-        started_.wait_for(mutex_, options_.look_interval);
-      }
-      lost = FindLost();
-    }
-    for (const Active& active : lost) FailLostRun(active);
-    endings_.Retry();
+void Scheduler::FailLostRun(const std::string& name, const RunControl& run) {
+  workers_.Replace(run);
+  Active active;
+  {
+    const MutexLock lock(mutex_);
+    running_.erase(name);
+    active = active_.at(name);
   }
-}
-
-// Gives up the runs that do not hear, and has their workers replaced.
-std::vector<Scheduler::Active> Scheduler::FindLost() {
-  std::vector<Active> lost;
-  const Watchdog::Patience patience{options_.step_timeout, options_.stop_timeout};
-  for (auto& [name, running] : running_) {
-    const Active& active = active_.at(name);
-    if (!running.watchdog.Look(*active.control, clock_.Elapsed(), patience)) continue;
-    if (!active.control->GiveUp()) continue;
-    workers_.Replace(*active.control);
-    lost.push_back(active);
-  }
-  for (const Active& active : lost) running_.erase(active.job.name());
-  return lost;
-}
-
-// Ends a job whose run was given up, and takes it away from its worker in the store too.
-void Scheduler::FailLostRun(const Active& active) {
-  store_.Read(
-      active.job.name(), JobPart::kHeader, [this, active](absl::StatusOr<StoredJob> stored) {
-        if (!stored.ok() || IsFinal(stored->job.state())) return;
-        v1::Job job = active.job;
-        job.MergeFrom(active.record->Get(true));
-        job.set_server_version(kVersion);
-        const Transition transition =
-            TransitionAfterStop(active.control->cause(), active.control->budget());
-        const std::vector<v1::Event> events = {Apply(transition, clock_.Now(), &job)};
-        store_.Update({.name = job.name(),
-                       .epoch = stored->epoch,
-                       .take = true,
-                       .job = &job,
-                       .events = events},
-                      [this, events, active, job](const absl::StatusOr<std::uint64_t>& first) {
-                        if (!first.ok()) {
-                          return spdlog::error("job={} cannot store its end: {}", active.job.name(),
-                                               first.status().ToString());
-                        }
-                        options_.metrics->Moved(v1::Job::RUNNING, job);
-                        active.log->Append(*first, events);
-                        Remove(active.job.name());
-                      });
-      });
+  store_.Read(name, JobPart::kHeader,
+              [this, name, active = std::move(active)](absl::StatusOr<StoredJob> stored) mutable {
+                if (!stored.ok() || IsFinal(stored->job.state())) return;
+                active.epoch = stored->epoch;
+                active.job.MergeFrom(active.record->Get(true));
+                active.job.set_server_version(kVersion);
+                const RunControl& control = *active.control;
+                const Transition failed = TransitionAfterStop(control.cause(), control.budget());
+                Commit(std::move(active), failed, true, [this, name](const absl::Status& end) {
+                  if (end.ok()) return Remove(name);
+                  spdlog::error("job={} cannot store its end: {}", name, end.ToString());
+                });
+              });
 }
 
 void Scheduler::Stop() {
@@ -360,9 +301,8 @@ void Scheduler::Stop() {
       if (active.control) active.control->Stop();
     }
     changed_.notify_all();
-    started_.notify_all();
   }
-  if (watch_.joinable()) watch_.join();
+  supervisor_.Stop();
   workers_.Stop(kEndTime);
 }
 

@@ -10,7 +10,6 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "jobs/log/job_feed.h"
@@ -18,7 +17,8 @@
 #include "jobs/run/job_runner.h"
 #include "jobs/run/sweep_run.h"
 #include "jobs/schedule/job_queue.h"
-#include "jobs/schedule/watchdog.h"
+#include "jobs/schedule/run_supervisor.h"
+#include "jobs/schedule/spec_cache.h"
 #include "jobs/schedule/worker_pool.h"
 
 namespace contact {
@@ -56,8 +56,10 @@ class Scheduler {
   /// What the run of the job has brought so far, if it is running; else null.
   std::shared_ptr<const RunRecord> Record(const v1::Job& job) const;
 
-  int queued() const;   ///< Jobs that wait for a worker.
-  int running() const;  ///< Jobs that a worker runs, or whose end is being stored.
+  /// Number of jobs that wait for a worker.
+  int queued() const;
+  /// Number of jobs that a worker runs, or whose end is being stored.
+  int running() const;
 
   /// Puts running jobs back into the queue, in the store, and joins the workers. Idempotent.
   void Stop();
@@ -65,43 +67,41 @@ class Scheduler {
  private:
   /// A job that has not ended.
   struct Active {
-    v1::Job job;                            ///< Header.
-    std::shared_ptr<const StoredJob> spec;  ///< The spec of a waiting job; null: read it later.
+    /// Header.
+    v1::Job job;
+    /// Of the stored job.
     std::uint64_t epoch = 0;
-    std::uint64_t number = 0;  ///< Counts the jobs in the order in which they came.
+    /// Counts the jobs in the order in which they came.
+    std::uint64_t number = 0;
     std::shared_ptr<JobLog> log;
     std::shared_ptr<RunRecord> record = std::make_shared<RunRecord>();
-    std::shared_ptr<RunControl> control;  ///< Null until a worker has the job.
-  };
-  /// A job that a worker runs.
-  struct Running {
-    Watchdog watchdog;
-    bool last_attempt;  ///< See the class comment.
+    /// Null until a worker has the job.
+    std::shared_ptr<RunControl> control;
   };
   using Done = std::function<void(const absl::Status&)>;
 
   /// Queues the unfinished jobs of the store, or ends them; waits until that is done.
   void Recover();
-  /// Decides about one of them. On the store's thread.
+  /// Decides about one of them: a job that was running has lost its worker.
   void Recover(StoredJob stored);
   /// A log in memory whose changes of state are told to feed_.
   std::shared_ptr<JobLog> NewLog(const std::string& name, std::uint64_t last);
+  /// Takes in a job that waits for a worker.
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  /// Takes the spec out of the job, and keeps it in memory if there is room.
-  void KeepSpec(Active* active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  /// Gives the kept spec away; null if there is none.
-  std::shared_ptr<const StoredJob> TakeSpec(Active* active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Queue(const Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  /// True if the job was running when the server died, and may be run only once more.
-  bool LastAttempt(const v1::Job& job) const;
-  void Work(Worker& worker);  ///< The loop of a worker thread.
+  /// Moves a job that no worker has into its next state: in the store, then in its log. `take`
+  /// raises the epoch, so that a lost worker can store nothing more. `stored` is called on the
+  /// store's thread. Returns the job in its next state.
+  v1::Job Commit(Active active, const Transition& transition, bool take, Done stored);
+  /// The loop of a worker thread.
+  void Work(Worker& worker);
   /// What a worker does next: a job, or help; neither when it is time to stop.
   struct Task {
     std::optional<Assignment> job;
     std::shared_ptr<SweepRun> sweep;
   };
-  Task Next(Worker& worker);  ///< Waits for a task.
-  std::optional<std::string> NextJob() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Waits for a task.
+  Task Next(Worker& worker);
   /// Hands a queued job to the calling worker: it is RUNNING from here on.
   Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Lets idle workers help with a sweep.
@@ -112,11 +112,8 @@ class Scheduler {
   void Remove(const std::string& name);
   /// Stores the end of a cancelled job that was taken from the queue.
   void Withdraw(const Active& active, Done done);
-  void Watch();  ///< The watchdog thread: looks at the running jobs until Stop.
-  /// Looks at all running jobs; gives up those that do not react, and replaces their workers.
-  std::vector<Active> FindLost() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  /// Ends a job whose run was given up, and takes it away from its worker in the store too.
-  void FailLostRun(const Active& active);
+  /// Replaces the workers of a run that was given up, and ends its job.
+  void FailLostRun(const std::string& name, const RunControl& run);
 
   Store& store_;
   const Clock& clock_;
@@ -125,19 +122,25 @@ class Scheduler {
   std::stop_source shutdown_;
 
   mutable Mutex mutex_;
-  std::condition_variable_any changed_;  ///< The queue or the sweeps have changed, or the end.
+  /// Notified when the queue or the sweeps have changed, and at the end.
+  std::condition_variable_any changed_;
+  /// By the names of the jobs.
   std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
   JobQueue queue_ ABSL_GUARDED_BY(mutex_);
+  /// Specs of jobs in the queue.
+  SpecCache specs_ ABSL_GUARDED_BY(mutex_);
+  /// Number of the newest job.
   std::uint64_t numbers_ ABSL_GUARDED_BY(mutex_) = 0;
-  std::map<std::string, Running> running_ ABSL_GUARDED_BY(mutex_);
+  /// Jobs that a worker runs, by name; true: on the last attempt, see the class comment.
+  std::map<std::string, bool> running_ ABSL_GUARDED_BY(mutex_);
+  /// Sweeps that were offered, oldest first.
   std::vector<std::weak_ptr<SweepRun>> sweeps_ ABSL_GUARDED_BY(mutex_);
+  /// Places in the queue that are kept.
   int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
-  std::size_t spec_bytes_ ABSL_GUARDED_BY(mutex_) = 0;  ///< Of the specs in memory.
-  std::condition_variable_any started_;                 ///< A job where none ran, or the end.
   EndingRuns endings_;
   // Last: they use all of the above.
   WorkerPool workers_;
-  std::thread watch_;
+  RunSupervisor supervisor_;
 };
 
 }  // namespace contact

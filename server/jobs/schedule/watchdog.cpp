@@ -19,7 +19,7 @@ bool Watchdog::Look(RunControl& control, Time now, const Patience& patience) {
   const std::int64_t signs = control.signs();
   const bool stopping = control.stopping();
   const bool alive = signs != std::exchange(signs_, signs) ||
-                     stopping != std::exchange(stopping_, stopping) || control.reporting();
+                     stopping != std::exchange(stopping_, stopping) || control.held();
   idle_ = alive ? std::chrono::nanoseconds(0) : idle_ + passed;
   if (stopping) return idle_ >= patience.stop;
   if (patience.step.count() > 0 && idle_ >= patience.step) control.Stop(StopCause::kStalled);

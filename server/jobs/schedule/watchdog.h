@@ -12,21 +12,29 @@ namespace contact {
 class Watchdog {
  public:
   using Time = std::chrono::steady_clock::time_point;
+  /// What a run may take.
   struct Patience {
-    std::chrono::milliseconds step;  ///< With a run that makes no step; 0: for ever.
-    std::chrono::milliseconds stop;  ///< With one that was asked to stop and does nothing more.
+    /// Longest time without a step before the run is stopped; 0: any time.
+    std::chrono::milliseconds step;
+    /// Longest time without a sign of life after the run was asked to stop.
+    std::chrono::milliseconds stop;
   };
 
+  /// The run begins at `start`.
   explicit Watchdog(Time start) : start_(start), last_look_(start) {}
 
-  /// True: the run does not hear, and is to be given up.
+  /// Looks at the run, and stops it if its time is spent. True: the run does not react to a stop,
+  /// and is to be given up.
   bool Look(RunControl& control, Time now, const Patience& patience);
 
  private:
   const Time start_;
   Time last_look_;
-  std::chrono::nanoseconds idle_{0};  ///< Time without a sign of life.
+  /// Time without a sign of life, as far as the process itself was running.
+  std::chrono::nanoseconds idle_{0};
+  /// RunControl::signs at the last look.
   std::int64_t signs_ = 0;
+  /// RunControl::stopping at the last look.
   bool stopping_ = false;
 };
 

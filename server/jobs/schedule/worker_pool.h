@@ -29,14 +29,19 @@ class Worker {
   /// Gives it up if it works for this run, which was given up.
   bool Abandon(const RunControl& run);
   /// Waits for its end, and takes the time that takes from `patience`. Once that is used up it
-  /// gives the run up, as soon as the run does not report, and returns false.
+  /// gives the run up, as soon as the run is not held, and returns false.
   bool AwaitFinish(std::chrono::milliseconds* patience);
+  /// Says that the loop has returned.
   void Finish();
 
   Mutex mutex_;
+  /// Notified by Finish.
   std::condition_variable_any changed_;
-  std::shared_ptr<RunControl> run_ ABSL_GUARDED_BY(mutex_);  ///< Null: none.
+  /// The run that it works for; null: none.
+  std::shared_ptr<RunControl> run_ ABSL_GUARDED_BY(mutex_);
+  /// True once it was given up.
   bool lost_ ABSL_GUARDED_BY(mutex_) = false;
+  /// True once its loop has returned.
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
 };
 

@@ -35,15 +35,9 @@ CallGuard::CallGuard(CallLimits limits, std::shared_ptr<const PeerCounts> stream
 
 std::optional<Error> CallGuard::Check(const grpc::ServerContextBase& context, CallKind kind) {
   if (auto refusal = CheckMetadata(context)) return refusal;
-  switch (kind) {
-    case CallKind::kUnary:
-      return std::nullopt;
-    case CallKind::kCreateJob:
-      return CheckRate(PeerOf(context.peer()));
-    case CallKind::kStream:
-      return CheckStreams(PeerOf(context.peer()));
-  }
-  return std::nullopt;
+  if (kind == CallKind::kUnary) return std::nullopt;
+  const std::string peer = PeerOf(context.peer());
+  return kind == CallKind::kStream ? CheckStreams(peer) : CheckRate(peer);
 }
 
 std::optional<Error> CallGuard::CheckMetadata(const grpc::ServerContextBase& context) const {

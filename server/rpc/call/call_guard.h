@@ -18,17 +18,24 @@ namespace contact {
 
 /// Limits of calls. A peer is one address of the network.
 struct CallLimits {
-  int max_metadata_bytes = 8192;         ///< Of one call: names, values, and 32 for each entry.
-  double max_creates_per_second = 1000;  ///< CreateJob calls of a peer, on average. 0: any number.
-  int max_create_burst = 10'000;         ///< CreateJob calls of a peer at once, after a rest.
-  int max_watchers_per_peer = 10'000;    ///< Streams that a peer may have open.
+  /// Bytes of metadata of a call: names, values, and 32 for each entry.
+  int max_metadata_bytes = 8192;
+  /// CreateJob calls of a peer, on average. 0: any number.
+  double max_creates_per_second = 1000;
+  /// CreateJob calls of a peer at once, after a rest.
+  int max_create_burst = 10'000;
+  /// Streams that a peer may have open.
+  int max_watchers_per_peer = 10'000;
 };
 
 /// What the limits tell apart.
 enum class CallKind {
-  kUnary,      ///< A unary call other than CreateJob.
-  kCreateJob,  ///< A CreateJob call.
-  kStream,     ///< A call that streams.
+  /// A unary call other than CreateJob.
+  kUnary,
+  /// A CreateJob call.
+  kCreateJob,
+  /// A call that streams.
+  kStream,
 };
 
 /// Refuses calls before anything is done for them. Thread-safe.
@@ -48,15 +55,19 @@ class CallGuard {
   /// gRPC limits metadata too, but a client that does not confirm the server's HTTP/2 settings
   /// gets around that.
   std::optional<Error> CheckMetadata(const grpc::ServerContextBase& context) const;
+  /// Takes a token from the bucket of the peer.
   std::optional<Error> CheckRate(const std::string& peer);
+  /// Counts the streams of the peer.
   std::optional<Error> CheckStreams(const std::string& peer) const;
   /// An error of this reason, which is counted.
   Error Refuse(Reason reason, std::string message) const;
 
   const CallLimits limits_;
   const Clock& clock_;
+  /// Open streams of each peer.
   const std::shared_ptr<const PeerCounts> streams_;
   const std::shared_ptr<RpcMetrics> metrics_;
+  /// Buckets of CreateJob calls.
   RateLimit creates_;
 };
 

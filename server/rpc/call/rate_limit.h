@@ -27,7 +27,9 @@ class RateLimit {
 
  private:
   struct Bucket {
-    double tokens;  ///< At the time `at`.
+    /// Tokens at the time `at`.
+    double tokens;
+    /// When the peer took a token last.
     Time at;
   };
   /// Tokens of the bucket at `now`, at most burst_.
@@ -35,11 +37,15 @@ class RateLimit {
   /// Forgets the buckets that are full at `now`.
   void ForgetFull(Time now) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
+  /// Tokens that a bucket gains in a second; 0: no limit.
   const double per_second_;
+  /// Tokens in a full bucket.
   const int burst_;
   mutable Mutex mutex_;
-  std::map<std::string, Bucket> buckets_ ABSL_GUARDED_BY(mutex_);  ///< By peer; missing: full.
-  std::size_t forget_at_ ABSL_GUARDED_BY(mutex_) = 1024;  ///< Number of buckets for ForgetFull.
+  /// By peer. A missing bucket is full.
+  std::map<std::string, Bucket> buckets_ ABSL_GUARDED_BY(mutex_);
+  /// Number of buckets at which ForgetFull is called next.
+  std::size_t forget_at_ ABSL_GUARDED_BY(mutex_) = 1024;
 };
 
 }  // namespace contact

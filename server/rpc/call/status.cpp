@@ -1,5 +1,7 @@
 #include "rpc/call/status.h"
 
+#include <google/protobuf/util/time_util.h>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -63,11 +65,9 @@ google::rpc::ResourceInfo Missing(const Error& error) {
 }
 
 google::rpc::RetryInfo Retry(std::chrono::milliseconds delay) {
+  using google::protobuf::util::TimeUtil;
   google::rpc::RetryInfo retry;
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(delay);
-  retry.mutable_retry_delay()->set_seconds(seconds.count());
-  retry.mutable_retry_delay()->set_nanos(
-      static_cast<std::int32_t>(std::chrono::nanoseconds(delay - seconds).count()));
+  *retry.mutable_retry_delay() = TimeUtil::MillisecondsToDuration(delay.count());
   return retry;
 }
 

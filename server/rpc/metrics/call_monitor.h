@@ -24,6 +24,7 @@ class CallMonitor final : public grpc::experimental::ServerInterceptorFactoryInt
 
  private:
   const std::shared_ptr<RpcMetrics> metrics_;
+  /// Open streams of each peer.
   const std::shared_ptr<PeerCounts> streams_;
 };
 

@@ -1,6 +1,7 @@
 #include "rpc/metrics/metrics_page.h"
 
-#include <array>
+#include <absl/status/status.h>
+
 #include <limits>
 #include <string>
 #include <utility>
@@ -13,16 +14,10 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using Labels = std::vector<ClientMetric::Label>;
 
-// Names of grpc::StatusCode, from 0 on.
-constexpr std::array<const char*, 17> kCodes = {
-    "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
-    "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
-    "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
-    "DATA_LOSS", "UNAUTHENTICATED"};
-
+// gRPC and absl share the numbers of codes and their names.
 std::string CodeName(int code) {
-  const auto index = static_cast<std::size_t>(code);
-  return index < kCodes.size() ? kCodes[index] : "UNKNOWN";
+  const std::string name = absl::StatusCodeToString(static_cast<absl::StatusCode>(code));
+  return name.empty() ? "UNKNOWN" : name;
 }
 
 // Builds the families one after the other: Gauge, Counter or Distribution begins a family, and Add
@@ -108,19 +103,10 @@ void AddStore(const StoreMetrics& store, Page* page) {
       .Add(store.failed_commits.load());
 }
 
-// One family with a number for each method.
-template <class Value>
-void AddByMethod(const std::map<std::string, RpcMetrics::Method>& methods, Value value,
-                 Page* page) {
-  for (const auto& [name, calls] : methods) page->Add(value(calls), {{"method", name}});
-}
-
 void AddCalls(const RpcMetrics& rpc, Page* page) {
-  using Method = RpcMetrics::Method;
   const auto methods = rpc.methods();
   page->Gauge("contactd_rpc_open", "Calls that are open");
-  AddByMethod(
-      methods, [](const Method& calls) { return calls.open; }, page);
+  for (const auto& [name, calls] : methods) page->Add(calls.open, {{"method", name}});
   page->Counter("contactd_rpc_ended_total", "Calls that have ended, by code");
   for (const auto& [name, calls] : methods) {
     for (const auto& [code, count] : calls.ended) {
@@ -128,11 +114,9 @@ void AddCalls(const RpcMetrics& rpc, Page* page) {
     }
   }
   page->Distribution("contactd_rpc_seconds", "From the start of a call to its status");
-  AddByMethod(
-      methods, [](const Method& calls) -> auto& { return *calls.seconds; }, page);
+  for (const auto& [name, calls] : methods) page->Add(*calls.seconds, {{"method", name}});
   page->Counter("contactd_rpc_streamed_bytes_total", "Bytes of the messages of streams");
-  AddByMethod(
-      methods, [](const Method& calls) { return calls.streamed_bytes; }, page);
+  for (const auto& [name, calls] : methods) page->Add(calls.streamed_bytes, {{"method", name}});
   page->Counter("contactd_rpc_refused_total", "Calls refused at once, by reason");
   for (const auto& [reason, count] : rpc.refused()) page->Add(count, {{"reason", reason}});
 }

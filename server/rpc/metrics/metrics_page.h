@@ -20,15 +20,23 @@ namespace contact {
 struct MetricsSources {
   /// The numbers that are counted nowhere and are taken when they are asked for.
   struct Now {
-    int workers = 0;                       ///< Threads that run simulations.
-    int queued_jobs = 0;                   ///< Jobs in state QUEUED.
-    int running_jobs = 0;                  ///< Jobs in state RUNNING.
-    std::size_t watchers = 0;              ///< Streams that are open.
-    std::size_t connections = 0;           ///< Connections that are open.
-    std::int64_t refused_connections = 0;  ///< Connections past a limit, since the start.
-    std::int64_t stored_bytes = 0;         ///< Size of the database files.
+    /// Threads that run simulations.
+    int workers = 0;
+    /// Jobs in state QUEUED.
+    int queued_jobs = 0;
+    /// Jobs in state RUNNING.
+    int running_jobs = 0;
+    /// Streams that are open.
+    std::size_t watchers = 0;
+    /// Connections that are open.
+    std::size_t connections = 0;
+    /// Connections past a limit, since the start.
+    std::int64_t refused_connections = 0;
+    /// Size of the database files.
+    std::int64_t stored_bytes = 0;
   };
-  std::function<Now()> now;  ///< Thread-safe.
+  /// Takes them. Thread-safe.
+  std::function<Now()> now;
   std::shared_ptr<const JobMetrics> jobs;
   std::shared_ptr<const StoreMetrics> store;
   std::shared_ptr<const RpcMetrics> rpc;

@@ -27,6 +27,7 @@ class MetricsServer {
   /// Throws if the address cannot be had.
   MetricsServer(const std::string& address, MetricsSources sources);
 
+  /// Shared with the exposer, which has a weak reference only.
   const std::shared_ptr<MetricsPage> page_;
   const std::unique_ptr<prometheus::Exposer> exposer_;
 };

@@ -25,9 +25,12 @@ class RpcMetrics {
 
   /// Counters of one method.
   struct Method {
-    std::int64_t open = 0;              ///< Calls that have not ended.
-    std::map<int, std::int64_t> ended;  ///< Calls that have ended, by code.
-    std::int64_t streamed_bytes = 0;    ///< Bytes of the messages that were sent.
+    /// Calls that have not ended.
+    std::int64_t open = 0;
+    /// Calls that have ended, by code.
+    std::map<int, std::int64_t> ended;
+    /// Bytes of the messages that were sent.
+    std::int64_t streamed_bytes = 0;
     /// Durations of ended calls.
     std::shared_ptr<Histogram> seconds = std::make_shared<Histogram>(DecadeBounds(-4, 2));
   };
@@ -38,7 +41,9 @@ class RpcMetrics {
 
  private:
   mutable Mutex mutex_;
+  /// By name.
   std::map<std::string, Method> methods_ ABSL_GUARDED_BY(mutex_);
+  /// By reason.
   std::map<std::string, std::int64_t> refused_ ABSL_GUARDED_BY(mutex_);
 };
 

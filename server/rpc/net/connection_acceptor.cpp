@@ -173,7 +173,7 @@ bool ConnectionAcceptor::Admit(int fd, const std::string& peer) {
 
 bool ConnectionAcceptor::Full(const std::string& peer) const {
   return connections_.size() >= static_cast<std::size_t>(limits_.in_all) ||
-         connections_.CountOf(peer) >= static_cast<std::size_t>(limits_.per_peer);
+         connections_.CountOf(peer) >= limits_.per_peer;
 }
 
 bool ConnectionAcceptor::StoppedWithin(milliseconds time) const {

@@ -17,8 +17,10 @@ namespace contact {
 
 /// Limits of connections.
 struct ConnectionLimits {
-  int in_all = 4096;    ///< Connections that are open.
-  int per_peer = 4096;  ///< Of these, from one address of the network.
+  /// Connections that are open.
+  int in_all = 4096;
+  /// Connections that are open from one address of the network.
+  int per_peer = 4096;
   /// A connection whose peer's system takes none of the sent bytes for this time is cut.
   std::chrono::milliseconds stall{30'000};
 };
@@ -69,21 +71,29 @@ class ConnectionAcceptor {
   bool Accept(int listener);
   /// Adds the connection to connections_. False: there are too many.
   bool Admit(int fd, const std::string& peer);
+  /// True if no more connection of the peer may be open.
   bool Full(const std::string& peer) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Waits for `time`. True: Close was called.
   bool StoppedWithin(std::chrono::milliseconds time) const;
 
   Listener listener_;
   const ConnectionLimits limits_;
+  /// Gives connections to gRPC.
   const HandOver hand_over_;
-  const FileDescriptor stop_;        ///< An eventfd; readable once Close was called.
-  bool out_of_descriptors_ = false;  ///< Read and written by the thread only.
+  /// An eventfd; readable once Close was called.
+  const FileDescriptor stop_;
+  /// True while there is no descriptor for a connection. Only for the thread.
+  bool out_of_descriptors_ = false;
+  /// Connections that were closed at once.
   std::atomic<std::int64_t> refused_ = 0;
 
   mutable Mutex mutex_;
+  /// Mutable, because counting forgets those that gRPC has closed.
   mutable OpenConnections connections_ ABSL_GUARDED_BY(mutex_);
-  std::chrono::steady_clock::time_point forgot_ ABSL_GUARDED_BY(mutex_);  ///< Last ForgetClosed.
-  std::chrono::steady_clock::time_point looked_ ABSL_GUARDED_BY(mutex_);  ///< Last CutStalled.
+  /// Time of the last ForgetClosed.
+  std::chrono::steady_clock::time_point forgot_ ABSL_GUARDED_BY(mutex_);
+  /// Time of the last CutStalled.
+  std::chrono::steady_clock::time_point looked_ ABSL_GUARDED_BY(mutex_);
   std::thread thread_;  // Last: it uses all of the above.
 };
 

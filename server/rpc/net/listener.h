@@ -9,9 +9,12 @@ namespace contact {
 
 /// Sockets that listen on one port at every address of a host name, or on one socket file.
 struct Listener {
-  std::vector<FileDescriptor> sockets;  ///< Non-blocking. Empty: the address cannot be had.
-  int port = 0;                         ///< The port of all sockets; 0 for a socket file.
-  std::string file = {};                ///< Socket file to remove at the end; empty: none.
+  /// Non-blocking sockets. Empty: the address cannot be had.
+  std::vector<FileDescriptor> sockets;
+  /// The port of all sockets; 0 for a socket file.
+  int port = 0;
+  /// Socket file to remove at the end; empty: none.
+  std::string file = {};
 };
 
 /// Listens on `HOST:PORT`, an IPv6 address in brackets; port 0 is any free one. Returns no sockets

@@ -17,19 +17,13 @@ ino_t InodeOf(int fd) {
 }  // namespace
 
 void OpenConnections::Add(int fd, const std::string& peer) {
-  if (const auto before = sockets_.find(fd); before != sockets_.end()) {
-    Leave(before->second.peer);  // gRPC closed it, and the system reused the descriptor.
-  }
-  sockets_.insert_or_assign(fd, Socket{.inode = InodeOf(fd), .peer = peer});
-  ++peers_[peer];
+  // If gRPC has closed a connection, the system reuses its descriptor.
+  sockets_.insert_or_assign(fd, Socket{.inode = InodeOf(fd), .lease = peers_->Enter(peer)});
 }
 
 void OpenConnections::ForgetClosed() {
-  std::erase_if(sockets_, [this](const auto& socket) {
-    if (InodeOf(socket.first) == socket.second.inode) return false;
-    Leave(socket.second.peer);
-    return true;
-  });
+  std::erase_if(sockets_,
+                [](const auto& socket) { return InodeOf(socket.first) != socket.second.inode; });
 }
 
 void OpenConnections::Cut() {
@@ -49,16 +43,6 @@ void OpenConnections::CutStalled(Time now, std::chrono::milliseconds stall) {
       shutdown(fd, SHUT_RDWR);
     }
   }
-}
-
-std::size_t OpenConnections::CountOf(const std::string& peer) const {
-  const auto found = peers_.find(peer);
-  return found == peers_.end() ? 0 : found->second;
-}
-
-void OpenConnections::Leave(const std::string& peer) {
-  const auto found = peers_.find(peer);
-  if (--found->second == 0) peers_.erase(found);
 }
 
 }  // namespace contact

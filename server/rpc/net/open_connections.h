@@ -5,7 +5,10 @@
 #include <chrono>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
+
+#include "rpc/net/peer.h"
 
 namespace contact {
 
@@ -32,21 +35,23 @@ class OpenConnections {
   /// Number of entries, with those that gRPC has closed since ForgetClosed.
   std::size_t size() const { return sockets_.size(); }
   /// Number of entries of one peer, likewise.
-  std::size_t CountOf(const std::string& peer) const;
+  int CountOf(const std::string& peer) const { return peers_->Of(peer); }
 
  private:
   struct Socket {
-    ino_t inode;       ///< Of the descriptor, when it was added.
-    std::string peer;  ///< As in peers_.
-    int waiting = 0;   ///< Bytes in the system's send queue when it was last looked at.
-    Time since = {};   ///< When `waiting` was first seen with this value.
+    /// Inode of the descriptor, when it was added.
+    ino_t inode;
+    /// Counts the connection of the peer.
+    PeerCounts::Lease lease;
+    /// Bytes in the system's send queue when it was last looked at.
+    int waiting = 0;
+    /// When `waiting` was first seen with this value.
+    Time since = {};
   };
 
-  /// Takes one connection from the peer's count.
-  void Leave(const std::string& peer);
-
-  std::map<int, Socket> sockets_;             ///< By descriptor.
-  std::map<std::string, std::size_t> peers_;  ///< Number of connections by peer; never 0.
+  const std::shared_ptr<PeerCounts> peers_ = std::make_shared<PeerCounts>();
+  /// By descriptor.
+  std::map<int, Socket> sockets_;
 };
 
 }  // namespace contact

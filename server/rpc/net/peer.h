@@ -29,7 +29,8 @@ class PeerCounts : public std::enable_shared_from_this<PeerCounts> {
   void Leave(const std::string& peer);
 
   mutable Mutex mutex_;
-  std::map<std::string, int> open_ ABSL_GUARDED_BY(mutex_);  ///< By peer; never 0.
+  /// Counts by peer; none is 0.
+  std::map<std::string, int> open_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace contact

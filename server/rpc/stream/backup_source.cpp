@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "jobs/job/errors.h"
-#include "rpc/call/status.h"
 
 namespace contact {
 namespace {
@@ -33,15 +32,17 @@ std::unique_ptr<StreamSource<v1::BackupChunk>> BackupReader::MakeSource() {
   return std::make_unique<Source>(shared_from_this());
 }
 
-void BackupReader::Begin(Result<std::shared_ptr<BackupFile>> file) {
+void BackupReader::Begin(absl::StatusOr<std::unique_ptr<BackupFile>> file) {
   busy_.reset();
   if (file.ok()) {
-    file_ = std::move(file.value());
+    file_ = *std::move(file);
     return Prepare();
   }
+  // Nobody asks any more, or the store is being closed.
+  const bool cancelled = absl::IsCancelled(file.status());
   {
     const MutexLock lock(mutex_);
-    step_ = {.end = ToGrpc(file.error())};
+    step_ = {.error = cancelled ? MakeError(Reason::kServerDraining) : ToError(file.status(), "")};
   }
   wake_();
 }
@@ -62,7 +63,7 @@ void BackupReader::Prepare() {
 
 StreamStep BackupReader::ReadChunk(v1::BackupChunk* chunk) {
   absl::StatusOr<std::string> bytes = file_->Read(offset_, kChunkBytes);
-  if (!bytes.ok()) return {.end = ToGrpc(ToError(bytes.status(), ""))};
+  if (!bytes.ok()) return {.error = ToError(bytes.status(), "")};
   chunk->set_offset(offset_);
   chunk->set_crc32c(Crc32c(*bytes));
   digest_.Add(*bytes);
@@ -71,7 +72,7 @@ StreamStep BackupReader::ReadChunk(v1::BackupChunk* chunk) {
   if (offset_ < file_->size()) return {.has_message = true};
   chunk->set_total_bytes(offset_);
   chunk->set_sha256(digest_.Finish());
-  return {.has_message = true, .end = grpc::Status::OK};
+  return {.has_message = true, .ended = true};
 }
 
 StreamStep BackupReader::Take(v1::BackupChunk* out) {
@@ -82,7 +83,7 @@ StreamStep BackupReader::Take(v1::BackupChunk* out) {
     step = *std::exchange(step_, std::nullopt);
     out->Swap(&chunk_);
   }
-  if (!step.end) Prepare();
+  if (!step.ended && !step.error) Prepare();
   return step;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <absl/status/statusor.h>
+
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -10,8 +11,8 @@
 #include "base/executor.h"
 #include "base/mutex.h"
 #include "contact/v1/admin_service.pb.h"
-#include "jobs/job/errors.h"
-#include "rpc/stream/stream_source.h"
+#include "jobs/job/callback.h"
+#include "jobs/log/stream_source.h"
 #include "storage/backup.h"
 
 namespace contact {
@@ -21,9 +22,9 @@ namespace contact {
 /// by its source.
 class BackupReader : public std::enable_shared_from_this<BackupReader> {
  public:
-  /// `wake`: see StreamReactor. `busy` is held until the copy is complete and, by the source, until
+  /// `busy` is held until the copy is complete and, by the source, until
   /// the stream ends. The executor outlives Begin.
-  BackupReader(Executor& executor, std::function<void()> wake, std::shared_ptr<const void> busy)
+  BackupReader(Executor& executor, Wake wake, std::shared_ptr<const void> busy)
       : executor_(executor), wake_(std::move(wake)), busy_(std::move(busy)) {}
 
   /// A source that reads from here. Its destruction stops the copy. To be called once, before
@@ -34,9 +35,10 @@ class BackupReader : public std::enable_shared_from_this<BackupReader> {
   std::stop_token stop_token() const { return stop_.get_token(); }
 
   /// Takes the copy, or the reason why there is none, and starts to read. Thread-safe, once.
-  void Begin(Result<std::shared_ptr<BackupFile>> file);
+  void Begin(absl::StatusOr<std::unique_ptr<BackupFile>> file);
 
  private:
+  /// The stream's end: its destruction stops the copy.
   class Source;
 
   /// Posts the reading of the next chunk.
@@ -47,19 +49,24 @@ class BackupReader : public std::enable_shared_from_this<BackupReader> {
   StreamStep Take(v1::BackupChunk* out);
 
   Executor& executor_;
-  const std::function<void()> wake_;
+  const Wake wake_;
+  /// Stopped when the stream ends.
   std::stop_source stop_;
-  std::shared_ptr<const void> busy_;  ///< Null from Begin on.
+  /// Held until the copy is complete. Null from Begin on.
+  std::shared_ptr<const void> busy_;
 
   // Of the executor's thread.
-  std::shared_ptr<BackupFile> file_;
-  std::int64_t offset_ = 0;  ///< Bytes read.
-  Sha256 digest_;            ///< Of the bytes read.
+  std::unique_ptr<BackupFile> file_;
+  /// Bytes read so far.
+  std::int64_t offset_ = 0;
+  /// Digest of the bytes read so far.
+  Sha256 digest_;
 
   Mutex mutex_;
-  v1::BackupChunk chunk_ ABSL_GUARDED_BY(mutex_);  ///< Empty while step_ is null.
-  std::optional<StreamStep> step_
-      ABSL_GUARDED_BY(mutex_);  ///< What Take gives next; null: not ready.
+  /// The next chunk. Empty while step_ is null.
+  v1::BackupChunk chunk_ ABSL_GUARDED_BY(mutex_);
+  /// What Take gives next. Nothing: it is not ready.
+  std::optional<StreamStep> step_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace contact

@@ -18,7 +18,9 @@ milliseconds TickOf(milliseconds write_stall) { return std::clamp(write_stall / 
 }  // namespace
 
 StreamLoop::StreamLoop(const Clock& clock, milliseconds write_stall)
-    : clock_(clock), write_stall_(write_stall), thread_([this] { Run(); }) {}
+    : clock_(clock),
+      write_stall_(write_stall),
+      thread_([this](const std::stop_token& stop) { Run(stop); }) {}
 
 void StreamLoop::Add(const std::shared_ptr<Stream>& stream) {
   bool draining = false;
@@ -46,11 +48,7 @@ void StreamLoop::Drain() {
 }
 
 void StreamLoop::Stop() {
-  {
-    const MutexLock lock(mutex_);
-    stopped_ = true;
-    changed_.notify_one();
-  }
+  thread_.request_stop();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -77,20 +75,20 @@ void StreamLoop::Tick(steady_clock::time_point now) {
   metrics_->slow = slow;
 }
 
-bool StreamLoop::Await(steady_clock::time_point end, Streams* woken) {
+StreamLoop::Streams StreamLoop::Await(const std::stop_token& stop, steady_clock::time_point end) {
   const MutexLock lock(mutex_);
-  while (!stopped_ && woken_.empty()) {
-    if (changed_.wait_until(mutex_, end) == std::cv_status::timeout) break;
-  }
-  *woken = std::exchange(woken_, {});
-  return !stopped_;
+  changed_.wait_until(mutex_, stop, end,
+                      [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return !woken_.empty(); });
+  return std::exchange(woken_, {});
 }
 
-void StreamLoop::Run() {
+void StreamLoop::Run(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), "streams");
   const milliseconds tick = TickOf(write_stall_);
   auto next_tick = steady_clock::now() + tick;
-  for (Streams woken; Await(next_tick, &woken);) {
+  for (;;) {
+    const Streams woken = Await(stop, next_tick);
+    if (stop.stop_requested()) return;
     for (const auto& stream : woken) {
       if (const auto strong = stream.lock()) strong->Poke();
     }

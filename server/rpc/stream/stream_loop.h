@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <set>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -62,9 +63,10 @@ class StreamLoop {
   using Streams = std::set<std::weak_ptr<Stream>, std::owner_less<>>;
 
   /// Body of the thread.
-  void Run();
-  /// Waits until a stream was woken, `end` has come or the loop was stopped. False: stopped.
-  bool Await(std::chrono::steady_clock::time_point end, Streams* woken);
+  void Run(const std::stop_token& stop);
+  /// Waits until a stream was woken, `end` has come or `stop` is requested. Returns the streams
+  /// that were woken.
+  Streams Await(const std::stop_token& stop, std::chrono::steady_clock::time_point end);
   /// Ticks all streams and counts the slow ones.
   void Tick(std::chrono::steady_clock::time_point now);
   /// The streams that have not been destroyed; forgets the others.
@@ -74,12 +76,15 @@ class StreamLoop {
   const std::chrono::milliseconds write_stall_;
   const std::shared_ptr<StreamMetrics> metrics_ = std::make_shared<StreamMetrics>();
   mutable Mutex mutex_;
+  /// Notified when a stream was woken where none was.
   std::condition_variable_any changed_;
-  Streams streams_ ABSL_GUARDED_BY(mutex_);        ///< May hold streams that are gone.
-  Streams woken_ ABSL_GUARDED_BY(mutex_);          ///< To be poked.
-  bool draining_ ABSL_GUARDED_BY(mutex_) = false;  ///< Drain was called.
-  bool stopped_ ABSL_GUARDED_BY(mutex_) = false;   ///< Stop was called.
-  std::thread thread_;                             // Last: it uses all of the above.
+  /// The streams that are ticked. May hold streams that are gone.
+  Streams streams_ ABSL_GUARDED_BY(mutex_);
+  /// The streams to be poked.
+  Streams woken_ ABSL_GUARDED_BY(mutex_);
+  /// True once Drain was called.
+  bool draining_ ABSL_GUARDED_BY(mutex_) = false;
+  std::jthread thread_;  // Last: it uses all of the above.
 };
 
 }  // namespace contact

@@ -28,8 +28,10 @@ class WatchMessage {
   /// Makes a slice of text_.
   void Flush();
 
-  std::string text_;                 ///< Bytes that are not in a slice yet.
-  std::vector<grpc::Slice> slices_;  ///< The message up to text_.
+  /// Bytes that are not in a slice yet.
+  std::string text_;
+  /// The message up to text_.
+  std::vector<grpc::Slice> slices_;
 };
 
 }  // namespace contact

@@ -4,12 +4,11 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "jobs/job/errors.h"
-#include "rpc/call/status.h"
 #include "rpc/stream/watch_message.h"
 
 namespace contact {
@@ -28,44 +27,42 @@ std::int64_t LeftOut(const LogRecord& record) {
 
 class WatchSource final : public StreamSource<grpc::ByteBuffer> {
  public:
-  WatchSource(JobManager::Watched watched, std::string name, const Clock& clock,
-              StreamMetrics& metrics)
-      : cursor_(std::move(watched.cursor)),
-        bookmark_interval_(watched.bookmark_interval),
-        paced_(watched.paced),
-        name_(std::move(name)),
+  WatchSource(WatchedJob watched, const Clock& clock, StreamMetrics& metrics)
+      : name_(watched.snapshot.name()),
+        watched_(std::move(watched)),
         clock_(clock),
         metrics_(metrics),
-        snapshot_(std::move(watched.snapshot)),
         last_told_(clock.Elapsed()) {}
 
   StreamStep Read(grpc::ByteBuffer* out) override {
-    if (snapshot_) return SendSnapshot(out);
+    if (!std::exchange(snapshot_sent_, true)) return SendSnapshot(out);
     std::vector<LogRecord> records;
-    switch (cursor_->Read(kMaxBatchBytes, &records)) {
+    switch (watched_.cursor->Read(kMaxBatchBytes, &records)) {
       case LogCursor::Next::kEvents:
       case LogCursor::Next::kWait:
         return {.has_message = Write(records, out)};
       case LogCursor::Next::kEnd:
-        return {.end = grpc::Status::OK};
+        return {.ended = true};
       case LogCursor::Next::kDeleted:
-        return {.end = ToGrpc(Deleted(name_))};
+        return {.error = JobError(Reason::kJobNotFound, name_, "was deleted")};
       case LogCursor::Next::kCompacted:
-        return {.end = ToGrpc(EventsCompacted(name_, cursor_->oldest()))};
+        return {.error = EventsCompacted(name_, watched_.cursor->oldest())};
       case LogCursor::Next::kSlow:
-        return {.end = ToGrpc(SlowWatcher(name_))};
+        return {.error = SlowWatcher(name_)};
       case LogCursor::Next::kFailed:
-        return {.end = ToGrpc(Unreadable(name_))};
+        return {.error = Unreadable(name_)};
     }
     return {};
   }
 
-  bool IsDue(steady_clock::time_point now) const override { return paced_ || NeedsBookmark(now); }
+  bool IsDue(steady_clock::time_point now) const override {
+    return watched_.paced || NeedsBookmark(now);
+  }
 
  private:
   StreamStep SendSnapshot(grpc::ByteBuffer* out) {
     WatchMessage message;
-    message.SetSnapshot(*std::exchange(snapshot_, std::nullopt));
+    message.SetSnapshot(std::exchange(watched_.snapshot, {}));  // It may be large.
     *out = message.Take();
     return {.has_message = true};
   }
@@ -84,7 +81,7 @@ class WatchSource final : public StreamSource<grpc::ByteBuffer> {
     if (bookmark) {
       v1::Event event;
       event.mutable_bookmark();
-      message.Add(ToRecord(cursor_->position(), std::move(event)));
+      message.Add(ToRecord(watched_.cursor->position(), std::move(event)));
     }
     if (told || bookmark) last_told_ = now;
     if (records.empty() && !bookmark) return false;
@@ -93,26 +90,23 @@ class WatchSource final : public StreamSource<grpc::ByteBuffer> {
   }
 
   bool NeedsBookmark(steady_clock::time_point now) const {
-    return now - last_told_ >= bookmark_interval_;
+    return now - last_told_ >= watched_.bookmark_interval;
   }
 
-  const std::unique_ptr<LogCursor> cursor_;
-  const std::chrono::milliseconds bookmark_interval_;
-  const bool paced_;
   const std::string name_;
+  WatchedJob watched_;  // Its snapshot is empty once it was sent.
   const Clock& clock_;
   StreamMetrics& metrics_;
-  std::optional<v1::Job> snapshot_;     // Until it is sent.
+  bool snapshot_sent_ = false;
   steady_clock::time_point last_told_;  // When a place to resume from was sent.
 };
 
 }  // namespace
 
-std::unique_ptr<StreamSource<grpc::ByteBuffer>> MakeWatchSource(JobManager::Watched watched,
-                                                                std::string name,
+std::unique_ptr<StreamSource<grpc::ByteBuffer>> MakeWatchSource(WatchedJob watched,
                                                                 const Clock& clock,
                                                                 StreamMetrics& metrics) {
-  return std::make_unique<WatchSource>(std::move(watched), std::move(name), clock, metrics);
+  return std::make_unique<WatchSource>(std::move(watched), clock, metrics);
 }
 
 }  // namespace contact

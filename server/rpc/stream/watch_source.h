@@ -3,12 +3,11 @@
 #include <grpcpp/support/byte_buffer.h>
 
 #include <memory>
-#include <string>
 
 #include "base/clock.h"
-#include "jobs/job_manager.h"
+#include "jobs/log/stream_source.h"
+#include "jobs/watches.h"
 #include "rpc/metrics/stream_metrics.h"
-#include "rpc/stream/stream_source.h"
 
 namespace contact {
 
@@ -17,10 +16,8 @@ namespace contact {
 /// nothing else has told a sequence to resume from for `watched.bookmark_interval`. An event is
 /// serialised once for all watchers.
 ///
-/// `name` is the job's, for errors. `clock` and `metrics`, which counts left out events, outlive
-/// the source.
-std::unique_ptr<StreamSource<grpc::ByteBuffer>> MakeWatchSource(JobManager::Watched watched,
-                                                                std::string name,
+/// `clock` and `metrics`, which counts left out events, outlive the source.
+std::unique_ptr<StreamSource<grpc::ByteBuffer>> MakeWatchSource(WatchedJob watched,
                                                                 const Clock& clock,
                                                                 StreamMetrics& metrics);
 

@@ -55,6 +55,7 @@ void EpisodeSolver::Save(RunState* state) const {
   state->growths = log_.growths;
   state->growths_no_progress = log_.growths_no_progress;
   state->solved_until = solved_until_;
+  state->unknowns.clear();
   for (const auto& [id, unknown] : problem_.groups.known()) state->unknowns.push_back(unknown);
   recorder_.Save(state);
 }

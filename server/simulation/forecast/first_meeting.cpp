@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/model/derived.h"
+
 namespace contact {
 namespace {
-
-// Two sides touch if their gap is below this part of their coordinates.
-constexpr double kTouch = 1e-12;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -68,7 +67,6 @@ struct Approach {
   double swinging = 0;      // Amplitude of the acceleration by sines that never end [m/s²].
   double passing = 0;       // Largest closing acceleration by loads that end [m/s²].
   double passing_time = 0;  // Total duration of the loads that end [s].
-  double touch = 0;         // A gap up to this counts as none [m].
   bool known = true;        // False where the motion depends on other bodies.
 };
 
@@ -82,8 +80,7 @@ class Forecast {
     FirstMeeting meeting{
         .swing = approach.stiffening > 0 ? std::numbers::pi / std::sqrt(approach.stiffening) : 0,
         .driven = approach.swinging > 0};
-    const bool touching = approach.gap <= approach.touch;
-    if (touching && approach.speed == 0) return Pressed(contact, approach, meeting);
+    if (approach.gap == 0 && approach.speed == 0) return Pressed(contact, approach, meeting);
     return Impact(contact, approach, meeting);
   }
 
@@ -91,8 +88,6 @@ class Forecast {
   // Adds a side that `sign` (1: from the left, −1: from the right) moves to close the contact.
   void AddSide(int index, double sign, Approach* approach) const {
     const Body& body = scenario_.bodies[At(index)];
-    approach->touch =
-        std::max({approach->touch, kTouch * std::abs(body.position), kTouch * body.radius});
     if (body.fixed) return;
     const Forces& forces = forces_[At(index)];
     approach->speed += sign * body.velocity;
@@ -107,14 +102,7 @@ class Forecast {
   }
 
   Approach ApproachOf(const Contact& contact) const {
-    Approach approach{.touch = kTouch * std::abs(contact.wall_position)};
-    const auto edge = [this](int index, double sign) {
-      const Body& body = scenario_.bodies[At(index)];
-      return body.position + sign * body.radius;
-    };
-    const double from = contact.left == kNone ? contact.wall_position : edge(contact.left, 1);
-    const double to = contact.right == kNone ? contact.wall_position : edge(contact.right, -1);
-    approach.gap = std::max(0.0, to - from);
+    Approach approach{.gap = std::max(0.0, InitialGap(scenario_, contact))};
     if (contact.left != kNone) AddSide(contact.left, 1, &approach);
     if (contact.right != kNone) AddSide(contact.right, -1, &approach);
     // What the supports of two sides that move do depends on how far each of them goes.

@@ -10,13 +10,20 @@ namespace contact {
 /// Forecast of how the two sides of a contact first meet. It follows from velocities, gaps,
 /// supports to the ground and loads; what other contacts do is not known.
 struct FirstMeeting {
-  double start = 0;     ///< Time of the meeting [s], ≥ 0.
-  double speed = 0;     ///< Speed of the impact [m/s], ≥ 0; 0: they touch at rest under a load.
-  double duration = 0;  ///< Duration of an elastic impact, or of a swing about the load [s], > 0.
-  double push = 0;      ///< Acceleration that closes the contact when they meet [m/s²].
-  double swing = 0;     ///< Half a period of the support that carries them [s]; 0: no support.
-  double pressed = 0;   ///< If speed is 0: for how long a load presses them together [s]; else 0.
-  bool driven = false;  ///< Whether a sine load that never ends acts on one of the two.
+  /// Time of the meeting [s], ≥ 0.
+  double start = 0;
+  /// Speed of the impact [m/s], ≥ 0; 0: they touch at rest under a load.
+  double speed = 0;
+  /// Duration of an elastic impact, or of a swing about the load if speed is 0 [s], > 0.
+  double duration = 0;
+  /// Acceleration that closes the contact when they meet [m/s²]; negative: one that opens it.
+  double push = 0;
+  /// Half a period of the supports that carry the side that moves [s]; 0: no support.
+  double swing = 0;
+  /// If speed is 0: for how long a load presses them together [s]; else 0.
+  double pressed = 0;
+  /// Whether a sine load that never ends acts on one of the two.
+  bool driven = false;
 };
 
 /// The forecast for each contact, in the order of Scenario::contacts. Empty where nothing known

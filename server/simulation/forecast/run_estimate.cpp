@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulation/forecast/first_meeting.h"
+#include "simulation/model/derived.h"
 #include "simulation/model/observer.h"
 #include "simulation/model/window.h"
 
@@ -29,7 +30,6 @@ constexpr double kBodySeconds = 0.2e-6;   // A body with a contact, in a step.
 constexpr double kFixedStepShare = 0.45;  // Four evaluations instead of twelve.
 constexpr double kValueSeconds = 0.1e-6;  // Of a sample: interpolated, encoded and stored.
 
-constexpr double kChunkRows = kSamplesPerChunk;  // Samples in an event.
 constexpr double kColumnBytes = 60;    // Name, quantity and unit of a column, in such an event.
 constexpr double kCycleBytes = 300;    // A row of the ledger as an event.
 constexpr double kUnknownBytes = 110;  // A cycle in a row of the iteration.
@@ -114,27 +114,13 @@ std::vector<Cycles> Expect(const Scenario& scenario) {
   return all;
 }
 
-// The fastest load or support, of which no step takes more than half a radian [1/s].
-double Rate(const Scenario& scenario) {
-  double rate = 0;
-  for (const Load& load : scenario.loads) {
-    if (load.amplitude != 0) rate = std::max(rate, load.angular_frequency);
-  }
-  for (const Support& support : scenario.supports) {
-    double inverse = 1 / scenario.bodies[static_cast<std::size_t>(support.body)].mass;
-    if (support.other != kNone) {
-      inverse += 1 / scenario.bodies[static_cast<std::size_t>(support.other)].mass;
-    }
-    rate = std::max({rate, std::sqrt(support.stiffness * inverse), support.damping * inverse});
-  }
-  return rate;
-}
-
-//   fixed step      end/step, and for each pass that looks for μ the time in cycles once more;
-//   error control   the steps of each cycle's passes, and those of the time beside.
+// With a fixed step they are end/step, and for each pass that looks for μ the time in cycles once
+// more. With error control they are the steps of each cycle's passes, and those of the time beside:
+// no step takes more than half a radian of the fastest load or support.
 double Steps(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   const double step = scenario.solver.fixed_step;
-  double steps = step > 0 ? scenario.end_time / step : 1 + 2 * scenario.end_time * Rate(scenario);
+  double steps = step > 0 ? scenario.end_time / step
+                          : 1 + 2 * scenario.end_time * ForcingRate(scenario, scenario.loads);
   if (step > 0) {
     double again = 0;  // They overlap in time, and are solved together then.
     double passes = 1;
@@ -162,7 +148,7 @@ double Rows(const Scenario& scenario) {
 double SampleBytes(const Scenario& scenario) {
   const double samples = Rows(scenario);
   return Columns(scenario) *
-         (samples * sizeof(double) + std::ceil(samples / kChunkRows) * kColumnBytes);
+         (samples * sizeof(double) + std::ceil(samples / kSamplesPerChunk) * kColumnBytes);
 }
 
 double LedgerBytes(const std::vector<Cycles>& cycles) {
@@ -182,7 +168,8 @@ double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   const double state = 2 * static_cast<double>(scenario.bodies.size()) +
                        5 * static_cast<double>(scenario.contacts.size());
   const double columns = std::min<double>(unknowns, MostWindowCycles(scenario.contacts.size()));
-  return sizeof(double) * (kStages * state * (1 + columns) + 2 * kChunkRows * Columns(scenario)) +
+  return sizeof(double) *
+             (kStages * state * (1 + columns) + 2 * kSamplesPerChunk * Columns(scenario)) +
          ledger;
 }
 

@@ -8,7 +8,8 @@
 namespace contact {
 
 /// How the damping factor μ of a cycle, in F = k δⁿ + μ δᵖ δ̇, is found. The numbers are those of
-/// contact.v1.Contact.Damping and never change; checkpoints hold them.
+/// contact.v1.Contact.Damping and never change; checkpoints hold them. Formula and source of each
+/// are in its row of DampingLaws().
 enum class DampingLaw {
   kEnergyRestitution = 1,  ///< μ is iterated until ε_out = ε_in.
   kExact = 2,
@@ -30,23 +31,34 @@ enum class DampingLaw {
 
 /// How μ follows from the dimensionless α(ε) of a law.
 enum class DampingScale {
-  kVelocity,  ///< μ = α k/δ̇⁻, p = n: (L1) to (L3) tell what α delivers in an isolated collision.
-  kMass,  ///< μ = α √(k m_e): no approach velocity is needed.
-  kNone,  ///< There is no α: μ is given.
+  /// μ = α k/δ̇⁻, p = n: (L1) to (L3) tell what α delivers in an isolated collision.
+  kVelocity,
+  /// μ = α √(k m_e): no approach velocity is needed.
+  kMass,
+  /// There is no α: μ is given.
+  kNone,
 };
 
 /// All that is known of a damping law. A law is added by its number in the contract, its
 /// enumerator, its row in damping_law.cpp, and its row in README.md of simulation/.
 struct DampingLawRow {
   DampingLaw law;
-  std::string_view name;  ///< As in scenarios, such as `HUNT_CROSSLEY`.
+  /// As in scenarios, such as `HUNT_CROSSLEY`.
+  std::string_view name;
+  /// How μ follows from α.
   DampingScale scale;
-  double (*alpha)(double restitution);  ///< α(ε) [-] for ε in (0, 1]; null for kNone.
-  double contact_exponent;              ///< The n that the law is made for [-]; 0: any.
-  double damping_exponent;              ///< p [-]; negative: p = n.
-  std::string_view formula;             ///< α(ε) or μ(ε) as text.
-  std::string_view source;              ///< Authors and year.
-  std::string_view range;               ///< The ε that it is made for, and what it needs.
+  /// α(ε) [-] for ε in (0, 1]; null for kNone.
+  double (*alpha)(double restitution);
+  /// The n that the law is made for [-]; 0: any.
+  double contact_exponent;
+  /// p [-]; negative: p = n.
+  double damping_exponent;
+  /// α(ε) or μ(ε) as text.
+  std::string_view formula;
+  /// Authors and year.
+  std::string_view source;
+  /// The ε that the law is made for, and what it needs, as text.
+  std::string_view range;
 
   /// Whether what an isolated collision gives back is known without a simulation, by (L2).
   bool closed_form() const {

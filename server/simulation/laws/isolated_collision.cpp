@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "simulation/laws/power.h"
+
 namespace contact {
 namespace {
 
@@ -68,10 +70,7 @@ double MaximumDeformation(double effective_mass, double velocity, double stiffne
 }
 
 double ElasticEnergy(double stiffness, double exponent, double deformation) {
-  if (deformation <= 0) return 0;
-  const double root =
-      exponent == 1.5 ? std::sqrt(deformation) : std::pow(deformation, exponent - 1);
-  return stiffness * (deformation * root) * deformation / (exponent + 1);
+  return stiffness * Power(deformation, exponent).value * deformation / (exponent + 1);
 }
 
 }  // namespace contact

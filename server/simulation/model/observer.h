@@ -14,7 +14,7 @@ struct RunState;
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// A pass of the search for μ has ended.
+  /// A pass of the search for μ has ended; those of an episode come before its cycles.
   virtual void OnIteration(const Iteration&) {}
   /// A cycle enters the ledger. Cycles come in the order of their end times.
   virtual void OnCycle(const Cycle&) {}
@@ -22,7 +22,7 @@ class Observer {
   virtual void OnGrowth(const Group&) {}
   /// The next rows of the recorded trajectory, 1 to kSamplesPerChunk of them.
   virtual void OnSamples(const Samples&) {}
-  /// Called after each episode and now and then within one.
+  /// Called after each episode and each flight between two of them.
   virtual void OnProgress(const Progress&) {}
   /// A sentence for people, without full stop.
   virtual void OnWarning(const std::string&) {}

@@ -9,9 +9,10 @@
 
 namespace contact {
 
-/// What to simulate: plain values in SI units, already checked by wire/.
+// What to simulate: plain values in SI units, already checked by wire/.
 
-inline constexpr int kNone = -1;  ///< "No body": the ground, or a wall.
+/// "None", for indices. As a body: the ground, or a wall.
+inline constexpr int kNone = -1;
 
 /// A sphere on the x axis.
 struct Body {
@@ -35,8 +36,10 @@ struct Contact {
   double stiffness = 0;      ///< k [N/mⁿ], > 0.
   double exponent = 1.5;     ///< n [-], ≥ 1.
   double restitution = 1;    ///< ε_in [-], in (0, 1]. Not used by DampingLaw::kGiven.
-  DampingLaw damping = DampingLaw::kEnergyRestitution;  ///< How μ is found.
-  double mu = 0;  ///< μ [N·s/mⁿ⁺¹], ≥ 0. Only used by DampingLaw::kGiven.
+  /// How μ is found.
+  DampingLaw damping = DampingLaw::kEnergyRestitution;
+  /// μ [N·s/mⁿ⁺¹], ≥ 0. Only used by DampingLaw::kGiven.
+  double mu = 0;
   /// Approach velocity from which a named law makes μ [m/s], > 0; 0: that of the cycle.
   double reference_velocity = 0;
 };
@@ -87,22 +90,34 @@ enum class PhaseSplit {
 
 /// How a scenario is solved.
 struct SolverOptions {
-  double fixed_step = 0;  ///< Step of the classical Runge-Kutta method [s]; 0: error control.
-  UpdateRule update = UpdateRule::kNewtonCoupled;                ///< How μ is corrected.
-  PhaseSplit phase_split = PhaseSplit::kPeakDeformation;         ///< Where compression ends.
-  RestitutionScope restitution_scope = RestitutionScope::kAuto;  ///< What shares one μ.
-  int encounter_cycles = 8;           ///< Cycles in a group of RestitutionScope::kEncounter, ≥ 1.
-  double relative_tolerance = 1e-11;  ///< Local error of a step, relative to the contact's scale.
-  double restitution_tolerance = 1e-8;  ///< ξ = |ε_out − ε_in|/ε_in that is accepted [-], > 0.
-  int max_iterations = 50;              ///< Most corrections of μ in an episode, ≥ 1.
+  /// Step of the classical Runge-Kutta method [s]; 0: Dormand and Prince's with error control.
+  double fixed_step = 0;
+  /// How μ is corrected between passes.
+  UpdateRule update = UpdateRule::kNewtonCoupled;
+  /// Where the works W_c and W_r are cut.
+  PhaseSplit phase_split = PhaseSplit::kPeakDeformation;
+  /// Which cycles share one μ and one balance.
+  RestitutionScope restitution_scope = RestitutionScope::kAuto;
+  /// Cycles in a group of RestitutionScope::kEncounter, ≥ 1.
+  int encounter_cycles = 8;
+  /// Local error of a step that is accepted, relative to the contact's scale [-], > 0. Without
+  /// effect with a fixed step.
+  double relative_tolerance = 1e-11;
+  /// ξ = |ε_out − ε_in|/ε_in that is accepted [-], > 0.
+  double restitution_tolerance = 1e-8;
+  /// Most corrections of μ in an episode, ≥ 1.
+  int max_iterations = 50;
   /// A cycle that begins with a collision is settled, so not iterated, if its W_c is at most this
   /// part of the largest W_c of its contact [-].
   double settled_fraction = 1e-9;
   /// The same part for a cycle without initial relative velocity [-].
   double settled_nirv_fraction = 1e-4;
-  std::int64_t max_steps = 100'000'000;  ///< Steps after which a run ends, in all passes.
-  bool fail_if_not_converged = false;    ///< Whether a cycle without ε_in ends the run.
-  bool clip_tension = false;             ///< Whether a contact force below 0 counts as 0.
+  /// Steps after which a run ends, rejected ones and those of all passes included.
+  std::int64_t max_steps = 100'000'000;
+  /// Whether the first cycle that is kNotConverged or kInfeasible ends the run.
+  bool fail_if_not_converged = false;
+  /// Whether a contact force below 0 counts as 0.
+  bool clip_tension = false;
 };
 
 /// All that a run depends on. Indices in it are valid, and names unique.

@@ -41,7 +41,7 @@ std::optional<double> FirstPositive(F f, double at_end, double from = 0) {
 // Where touching bodies that are closer at the end of the step begin to close: at once, or, if they
 // part first, where they come back to the deformation at which they began.
 double StartOfClosing(const DeformationPath& path) {
-  const double level = std::max(0.0, path.start_value());
+  const double level = std::max(0.0, path.start.value);
   const auto above = [&](double theta) { return path.Value(theta) - level; };
   for (int i = kPieces - 1; i > 0; --i) {
     const double theta = static_cast<double>(i) / kPieces;
@@ -52,28 +52,27 @@ double StartOfClosing(const DeformationPath& path) {
 
 std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise) {
   // What plainly moves apart is not at rest; it may come back in the step.
-  if (std::abs(path.start_value()) <= noise && path.start_slope() >= -noise) {
-    if (path.end_value() <= noise) return std::nullopt;
+  if (std::abs(path.start.value) <= noise && path.start.slope >= -noise) {
+    if (path.end.value <= noise) return std::nullopt;
     const double theta = StartOfClosing(path);
     const bool at_rest = path.Slope(theta) <= kFast * noise;
     return ContactEvent{at_rest ? EventKind::kRestTouch : EventKind::kTouch, theta};
   }
-  const bool peaks = path.start_slope() > 0 && path.end_slope() < 0;
-  if (path.end_value() <= noise && !peaks) return std::nullopt;
+  const bool peaks = path.start.slope > 0 && path.end.slope < 0;
+  if (path.end.value <= noise && !peaks) return std::nullopt;
   const auto value = [&](double theta) { return path.Value(theta); };
-  if (auto theta = FirstPositive(value, path.end_value())) {
+  if (auto theta = FirstPositive(value, path.end.value)) {
     return ContactEvent{EventKind::kTouch, *theta};
   }
   const auto falling = [&](double theta) { return -path.Slope(theta); };
-  const auto peak = FirstPositive(falling, -path.end_slope());
+  const auto peak = FirstPositive(falling, -path.end.slope);
   if (!peak || path.Value(*peak) <= noise) return std::nullopt;
   return ContactEvent{EventKind::kTouch, Root(value, 0, *peak)};
 }
 
 }  // namespace
 
-DeformationPath::DeformationPath(End start, End end)
-    : end_value_(end.value), end_slope_(end.slope) {
+DeformationPath::DeformationPath(End from, End to) : start(from), end(to) {
   c_[0] = start.value;
   c_[1] = start.slope;
   c_[2] = start.curvature / 2;
@@ -98,25 +97,19 @@ std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path,
                                        double noise) {
   if (phase == Phase::kOpen) return FirstTouch(path, noise);
   if (phase == Phase::kStarting) return std::nullopt;
+  const auto first = [&](EventKind kind, auto f, double at_end) -> std::optional<ContactEvent> {
+    const auto theta = FirstPositive(f, at_end, from);
+    if (!theta) return std::nullopt;
+    return ContactEvent{kind, *theta};
+  };
   const auto rising = [&](double theta) { return path.Slope(theta); };
   const auto falling = [&](double theta) { return -path.Slope(theta); };
-  if (phase == Phase::kCompression) {
-    const auto turn = FirstPositive(falling, -path.end_slope(), from);
-    if (!turn) return std::nullopt;
-    return ContactEvent{EventKind::kTurn, *turn};
-  }
   const auto outside = [&](double theta) { return -path.Value(theta); };
-  const auto separation = FirstPositive(outside, -path.end_value(), from);
-  if (separation && phase == Phase::kResting) {
-    return ContactEvent{EventKind::kSeparation, *separation};
-  }
-  if (phase == Phase::kResting) return std::nullopt;
-  const auto rest = FirstPositive(rising, path.end_slope(), from);
-  if (separation && (!rest || *separation <= *rest)) {
-    return ContactEvent{EventKind::kSeparation, *separation};
-  }
-  if (rest) return ContactEvent{EventKind::kNonSeparation, *rest};
-  return std::nullopt;
+  if (phase == Phase::kCompression) return first(EventKind::kTurn, falling, -path.end.slope);
+  const auto separation = first(EventKind::kSeparation, outside, -path.end.value);
+  if (phase == Phase::kResting) return separation;
+  const auto rest = first(EventKind::kNonSeparation, rising, path.end.slope);
+  return separation && (!rest || separation->theta <= rest->theta) ? separation : rest;
 }
 
 }  // namespace contact

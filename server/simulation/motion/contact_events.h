@@ -13,6 +13,9 @@ enum class Phase {
   kResting,      ///< Settled: in touch, with motion too weak to be told apart in cycles.
 };
 
+/// Whether a contact in this phase may exert a force: its cycle runs, or it rests.
+inline bool InTouch(Phase phase) { return phase != Phase::kOpen && phase != Phase::kStarting; }
+
 /// What ends a phase.
 enum class EventKind {
   kTouch,          ///< Open, δ rises through 0: a collision begins.
@@ -22,21 +25,26 @@ enum class EventKind {
   kNonSeparation,  ///< Restitution, δ̇ rises through 0 with δ > 0.
 };
 
+/// The end of a contact's phase inside a step.
 struct ContactEvent {
   EventKind kind = EventKind::kTouch;
-  double theta = 0;  ///< Where in the step, in [0, 1]. 0: at once.
+  /// Where in the step the event lies, in [0, 1]; 0: at its start.
+  double theta = 0;
 };
 
 /// Deformation along a step from θ = 0 to 1: the quintic through value, slope and curvature at
-/// both ends, all in [m]: derivatives by θ.
+/// both ends.
 class DeformationPath {
  public:
+  /// δ, dδ/dθ and d²δ/dθ² at an end of the step, all in [m].
   struct End {
     double value, slope, curvature;
   };
   DeformationPath(End start, End end);
 
+  /// δ at θ [m].
   double Value(double theta) const;
+  /// dδ/dθ at θ [m].
   double Slope(double theta) const;
   /// True if a contact in this phase plainly has no event between these ends: that of a cycle whose
   /// δ̇ keeps its sign, or an open one that does not come near.
@@ -48,14 +56,12 @@ class DeformationPath {
     return ends_in_phase && !may_dip;
   }
 
-  double start_value() const { return c_[0]; }
-  double start_slope() const { return c_[1]; }
-  double end_value() const { return end_value_; }
-  double end_slope() const { return end_slope_; }
+  /// The ends that the path was made from.
+  const End start, end;
 
  private:
+  /// Coefficients of the powers of θ, from θ⁰ to θ⁵ [m].
   double c_[6];
-  double end_value_, end_slope_;
 };
 
 /// The first event of a contact after `from` in a step, if any. It finds crossings between eighths

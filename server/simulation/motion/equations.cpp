@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "simulation/model/derived.h"
 #include "simulation/motion/rows.h"
 
 namespace contact {
@@ -65,19 +66,11 @@ double Equations::effective_mass(int contact) const {
 }
 
 double Equations::ForcingTime() const {
-  double rate = 0;
-  for (const Load& load : acting_) {
-    if (load.amplitude != 0) rate = std::max(rate, load.angular_frequency);
-  }
-  for (const Support& s : scenario_.supports) {
-    double w = inverse_mass_[At(s.body)];
-    if (s.other != kNone) w += inverse_mass_[At(s.other)];
-    rate = std::max({rate, std::sqrt(s.stiffness * w), s.damping * w});
-  }
+  const double rate = ForcingRate(scenario_, acting_);
   return rate == 0 ? std::numeric_limits<double>::infinity() : 1 / rate;
 }
 
-double Equations::LoadForce(const Load& load, double t) const {
+double Equations::LoadForce(const Load& load, double t) {
   const double since = t - load.begin;
   double force = load.constant + load.slope * since;
   if (load.amplitude != 0) {
@@ -86,14 +79,14 @@ double Equations::LoadForce(const Load& load, double t) const {
   return force;
 }
 
-double Equations::SupportForce(const Support& s, const double* u, const double* v) const {
+double Equations::Stretch(const Support& s, const double* u) const {
   double x = base[At(s.body)] + u[s.body];
-  double rate = v[s.body];
-  if (s.other != kNone) {
-    x -= base[At(s.other)] + u[s.other];
-    rate -= v[s.other];
-  }
-  return -s.stiffness * (x - s.rest_position) - s.damping * rate;  // (M4)
+  if (s.other != kNone) x -= base[At(s.other)] + u[s.other];
+  return x - s.rest_position;
+}
+
+double Equations::SupportForce(const Support& s, const double* u, const double* v) const {
+  return -s.stiffness * Stretch(s, u) - s.damping * Relative(s, v);  // (M4)
 }
 
 ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
@@ -286,10 +279,7 @@ void Equations::AddSupports(const double* y, double* dy, double pace) const {
     add(SupportForce(s, y, y + n), dy + n);
     for (int column = 0; column < tangents(); ++column) {  // (S1)
       const double* u = y + tangent(column);
-      const double* v = u + n;
-      const double length = u[s.body] - (s.other == kNone ? 0 : u[s.other]);
-      const double rate = v[s.body] - (s.other == kNone ? 0 : v[s.other]);
-      add(-s.stiffness * length - s.damping * rate, dy + tangent(column) + n);
+      add(-s.stiffness * Relative(s, u) - s.damping * Relative(s, u + n), dy + tangent(column) + n);
     }
   }
 }
@@ -309,7 +299,7 @@ void Equations::AddRecord(double t, const double* y, double* dy, double pace) co
     dy[impulse()] += force * free(load.body);
   }
   for (const Support& s : scenario_.supports) {
-    const double rate = v[s.body] - (s.other == kNone ? 0 : v[s.other]);
+    const double rate = Relative(s, v);
     dy[support_loss()] += pace * s.damping * rate * rate;
     dy[impulse()] += pace * SupportForce(s, y, v) * (free(s.body) - free(s.other));
   }
@@ -322,8 +312,7 @@ double Equations::Energy(const double* y) const {
     if (inverse_mass_[At(i)] != 0) energy += 0.5 * y[n + i] * y[n + i] / inverse_mass_[At(i)];
   }
   for (const Support& s : scenario_.supports) {
-    const double x = base[At(s.body)] + y[s.body] -
-                     (s.other == kNone ? 0 : base[At(s.other)] + y[s.other]) - s.rest_position;
+    const double x = Stretch(s, y);
     energy += 0.5 * s.stiffness * x * x;
   }
   for (const ActiveContact& c : active) {

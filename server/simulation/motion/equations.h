@@ -7,29 +7,19 @@
 #include <cstddef>
 #include <vector>
 
+#include "simulation/laws/power.h"
 #include "simulation/model/scenario.h"
 
 namespace contact {
 
-/// δⁿ and its derivative n δⁿ⁻¹; both 0 for δ ≤ 0.
-struct Power {
-  double value = 0;
-  double slope = 0;
-
-  Power(double deformation, double exponent) {
-    if (deformation <= 0) return;
-    const double root =
-        exponent == 1.5 ? std::sqrt(deformation) : std::pow(deformation, exponent - 1);
-    value = deformation * root;
-    slope = exponent * root;
-  }
-};
-
 /// The bodies that a contact joins. A wall is body 0 that counts nothing.
 struct Sides {
+  /// Indices in Scenario::bodies; 0 for a wall.
   std::ptrdiff_t left = 0, right = 0;
-  double left_counts = 0, right_counts = 0;    ///< 1; 0 for a wall.
-  double left_inverse = 0, right_inverse = 0;  ///< 1/m [1/kg]; 0 for a wall or a fixed body.
+  /// 1 for a body, 0 for a wall.
+  double left_counts = 0, right_counts = 0;
+  /// 1/m [1/kg]; 0 for a wall or a fixed body.
+  double left_inverse = 0, right_inverse = 0;
 
   /// Difference left − right of a per-body quantity.
   double Relative(const double* of_bodies) const {
@@ -44,31 +34,43 @@ struct Sides {
 
 /// A contact with a running cycle, as the equations of motion see it.
 struct ActiveContact : Sides {
-  int contact = 0;     ///< Index in Scenario::contacts.
-  int column = kNone;  ///< Sensitivity column of its μ, or kNone.
-  double gap = 0;      ///< δ = u_left − u_right − gap [m].
+  /// Index in Scenario::contacts.
+  int contact = 0;
+  /// Sensitivity column of its μ, or kNone.
+  int column = kNone;
+  /// δ = u_left − u_right − gap [m].
+  double gap = 0;
+  /// k [N/mⁿ], n [-], p [-] and μ [N·s/mᵖ⁺¹] of (M2).
   double stiffness = 0, exponent = 1.5, damping_exponent = 1.5, mu = 0;
-  bool clipped = false;  ///< A force below 0 counts as 0.
-  bool plain = false;    ///< n = p = 1.5: what most are.
-  double outward = 0;  ///< Of F, what is no internal force: 1 or −1 against a wall or fixed body.
-  /// Accelerations of the bodies by a force of 1 N, where there are no more than these.
+  /// Whether a force below 0 counts as 0.
+  bool clipped = false;
+  /// Whether n = p = 1.5, as in most contacts.
+  bool plain = false;
+  /// The part of F that is no internal force of the bodies: 1 against a wall or fixed body on the
+  /// left, −1 on the right, else 0.
+  double outward = 0;
+  /// Accelerations of the bodies by a force of 1 N [1/kg]; zeros where there are more bodies.
   std::array<double, 3> response = {};
 
   /// F = k δⁿ + μ δᵖ δ̇ and its derivatives, (M2). δ⁰ is 1 also where round-off or a stage of the
   /// integrator takes δ past 0.
   struct Force {
-    double force, by_deformation, by_rate, damping;  ///< damping = ∂F/∂μ = δᵖ δ̇.
+    /// F [N], ∂F/∂δ [N/m], ∂F/∂δ̇ [N·s/m] and ∂F/∂μ = δᵖ δ̇.
+    double force, by_deformation, by_rate, damping;
   };
+  /// The force at δ [m] and δ̇ [m/s].
   Force At(double deformation, double rate) const {
     if (!plain || clipped) return General(deformation, rate);
     return Plain(deformation, rate);
   }
+  /// At(…) of a plain contact that is not clipped.
   Force Plain(double deformation, double rate) const {
     const double root = std::sqrt(std::max(deformation, 0.0));
     const double power = deformation * root;
     const double load = stiffness + mu * rate;
     return {power * load, 1.5 * root * load, mu * power, power * rate};
   }
+  /// At(…) of any contact.
   Force General(double deformation, double rate) const;
   /// At(…).force alone.
   double ForceAt(double deformation, double rate) const {
@@ -98,23 +100,33 @@ struct ActiveContact : Sides {
 ///   [E (C), load work, support loss, impulse]  when recording
 class Equations {
  public:
+  /// The scenario must outlive the equations.
   explicit Equations(const Scenario& scenario);
 
   int bodies() const { return bodies_; }
   int contacts() const { return contacts_; }
-  /// Where things are in y.
+  /// How many numbers y has. It changes with `columns` and `recording`, as do the places below.
   std::ptrdiff_t size() const {
     return work(contacts()) + (recording ? contacts() + 3 : tangents() * contacts());
   }
+  /// How many of them, from the first, slopes depend on: all but the quadratures.
   std::ptrdiff_t coupled() const { return 2 * std::ptrdiff_t{bodies()} * (1 + tangents()); }
+  /// Place of ∂u/∂μ of a column; ∂v/∂μ follows.
   std::ptrdiff_t tangent(int column) const { return 2 * std::ptrdiff_t{bodies()} * (1 + column); }
+  /// Place of the work W of a contact's running cycle [J], (W1).
   std::ptrdiff_t work(int contact) const { return coupled() + contact; }
+  /// Place of ∂W/∂μ of a contact for a column, (S2). Only when not recording.
   std::ptrdiff_t work_tangent(int contact, int column) const {
     return work(contact) + std::ptrdiff_t{contacts()} * (1 + column);
   }
+  /// Place of the work E of F_e in a contact's running cycle [J], (W3). This and the next three
+  /// only when recording.
   std::ptrdiff_t external_work(int contact) const { return work(contacts()) + contact; }
+  /// Place of the work of all loads [J], (B1).
   std::ptrdiff_t load_work() const { return external_work(contacts()); }
+  /// Place of what the supports dissipate [J], (B1).
   std::ptrdiff_t support_loss() const { return load_work() + 1; }
+  /// Place of the impulse of the external forces [N·s], (B2).
   std::ptrdiff_t impulse() const { return load_work() + 2; }
 
   /// dy = pace · f(t, y): slopes by a clock of which a second is 1/pace.
@@ -128,13 +140,15 @@ class Equations {
     return sides(contact).Relative(of_bodies);
   }
 
-  double effective_mass(int contact) const;  ///< m_e [kg].
+  /// m_e of a contact [kg], (M5); a wall or fixed body counts as infinitely heavy.
+  double effective_mass(int contact) const;
+  /// The contact for `active`, with δ = u_left − u_right − `gap`.
   ActiveContact Activate(int contact, double gap, double mu, int column) const;
-  double inverse_mass(int body) const { return inverse_mass_[static_cast<std::size_t>(body)]; }
-  const Scenario& scenario() const { return scenario_; }
 
-  double Energy(const double* y) const;    ///< Kinetic, springs, contacts: (B1) [J].
-  double Momentum(const double* y) const;  ///< Of the bodies that are not fixed [N·s].
+  /// Kinetic energy, and elastic energy of the supports and of the active contacts [J], (B1).
+  double Energy(const double* y) const;
+  /// Momentum of the bodies that are not fixed [N·s], (B2).
+  double Momentum(const double* y) const;
 
   /// Takes the loads that act from `time` on, until the instant returned, the next at which one
   /// begins or ends; infinite if none does. Each goes on as its formula does past that instant.
@@ -147,37 +161,62 @@ class Equations {
   /// Shortest time in which a selected load or a support changes [s]; infinite without any.
   double ForcingTime() const;
 
-  std::vector<double> base;           ///< Positions from which u is measured [m].
-  std::vector<ActiveContact> active;  ///< In order of Scenario::contacts.
+  /// Positions from which u is measured [m], one for each body.
+  std::vector<double> base;
+  /// The contacts that exert a force, in order of Scenario::contacts.
+  std::vector<ActiveContact> active;
+  /// How many μ the motion is differentiated by, when not recording.
   int columns = 0;
+  /// Whether y has the quadratures of the ledger instead of the sensitivities.
   bool recording = false;
 
  private:
   std::ptrdiff_t tangents() const { return recording ? 0 : columns; }
+  /// Adds the supports to the accelerations, and to their derivatives.
   void AddSupports(const double* y, double* dy, double pace) const;
+  /// Adds the active contacts to the accelerations, without sensitivities.
   template <class Count>
   void AddContacts(Count n, const double* y, double* dy, double* works, double pace) const;
+  /// Adds the active contacts to the accelerations and to their derivatives, (S1).
   template <class Count>
   void AddSensitiveContacts(Count n, const double* y, double* dy, double* works, double pace) const;
+  /// All slopes, for `n` bodies: a number or an integral constant.
   template <class Count>
   void Evaluate(Count n, double t, const double* y, double* dy, double pace) const;
+  /// Calls Evaluate with what is known of the number of bodies.
   void EvaluateMany(double t, const double* y, double* dy, double pace) const;
+  /// The slopes with n bodies, kCount active contacts and no loads or supports. kWalls: a side of
+  /// some contact may be a wall.
   template <std::ptrdiff_t n, std::size_t kCount, bool kWalls>
   static void EvaluateFew(const Equations& of, const double* y, double* dy, double pace);
+  /// Adds the quadratures that only a recording has.
   void AddRecord(double t, const double* y, double* dy, double pace) const;
-  double LoadForce(const Load& load, double t) const;
+  /// Force of a load that acts [N].
+  static double LoadForce(const Load& load, double t);
+  /// Force of a support on its first body [N], (M4).
   double SupportForce(const Support& s, const double* u, const double* v) const;
+  /// By how much a support is longer than without force [m].
+  double Stretch(const Support& s, const double* u) const;
+  /// Difference of a per-body quantity between the bodies of a support; the ground counts 0.
+  static double Relative(const Support& s, const double* of_bodies) {
+    return of_bodies[s.body] - (s.other == kNone ? 0 : of_bodies[s.other]);
+  }
 
   const Scenario& scenario_;
-  int bodies_, contacts_;             // Counts.
-  std::vector<double> inverse_mass_;  // 0 for a fixed body.
-  std::vector<Sides> sides_;          // Of every contact.
-  std::vector<Load> acting_;          // The loads selected.
-  std::vector<double> breakpoints_;   // Where loads begin and end; sorted.
-  void (*few_)(const Equations&, const double*, double*, double) = nullptr;  // The shorter way.
+  const int bodies_, contacts_;
+  // 1/m [1/kg]; 0 for a fixed body.
+  std::vector<double> inverse_mass_;
+  // One for every contact.
+  std::vector<Sides> sides_;
+  // The loads that SelectLoads found.
+  std::vector<Load> acting_;
+  // Instants at which loads begin or end [s], ascending.
+  std::vector<double> breakpoints_;
+  // EvaluateFew for what there is; null if Evaluate must do it.
+  void (*few_)(const Equations&, const double*, double*, double) = nullptr;
 };
 
-/// U = k δⁿ⁺¹/(n + 1) [J].
+/// Elastic energy U = k δⁿ⁺¹/(n + 1) of a contact [J], (W2); 0 for δ ≤ 0.
 double ElasticEnergy(const Contact& contact, double deformation);
 
 }  // namespace contact

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/model/derived.h"
+
 namespace contact {
 namespace {
 
@@ -28,7 +30,7 @@ bool IsPacking(const Scenario& scenario) {
 }
 
 bool InCycle(const State& state) {
-  return std::any_of(state.contacts.begin(), state.contacts.end(), [](const ContactState& c) {
+  return std::ranges::any_of(state.contacts, [](const ContactState& c) {
     return IsRunning(c) || (IsStarting(c) && !c.settled);
   });
 }
@@ -39,19 +41,13 @@ State InitialState(const Scenario& scenario) {
     state.positions.push_back(body.position);
     state.velocities.push_back(body.velocity);
   }
+  const auto velocity = [&](int body) {
+    return body == kNone ? 0 : scenario.bodies[At(body)].velocity;
+  };
   for (const Contact& c : scenario.contacts) {
-    const Body* left = c.left == kNone ? nullptr : &scenario.bodies[At(c.left)];
-    const Body* right = c.right == kNone ? nullptr : &scenario.bodies[At(c.right)];
-    const double left_face = left ? left->position + left->radius : c.wall_position;
-    const double right_face = right ? right->position - right->radius : c.wall_position;
     ContactState contact;
-    contact.gap = right_face - left_face;
-    // What decimal input leaves of a gap of zero is no gap.
-    const double size = std::max(std::abs(left_face), std::abs(right_face)) +
-                        (left ? left->radius : 0) + (right ? right->radius : 0);
-    if (std::abs(contact.gap) <= 1e-12 * size) contact.gap = 0;
-    const double rate = (left ? left->velocity : 0) - (right ? right->velocity : 0);
-    if (contact.gap <= 0 && rate > 0) {
+    contact.gap = InitialGap(scenario, c);
+    if (contact.gap <= 0 && velocity(c.left) - velocity(c.right) > 0) {
       contact.phase = Phase::kStarting;
       contact.cycle.kind = Cycle::Kind::kCollision;
     }
@@ -83,9 +79,9 @@ void Motion::Begin(const State& state, bool recording, double tolerance) {
   time_ = state.time;
   next_step_ = state.step;
   contacts_ = state.contacts;
-  totals_ = State{};
   totals_.load_work = state.load_work;
   totals_.support_loss = state.support_loss;
+  totals_.contact_loss = state.contact_loss;
   totals_.impulse = state.impulse;
   contact_loss_ = state.contact_loss;
   flight_length_ = flight_speed_ = 0;
@@ -114,32 +110,29 @@ void Motion::Begin(const State& state, bool recording, double tolerance) {
 
 State Motion::Save() const {
   const int n = equations_.bodies();
-  State state;
+  State state = totals_;
   state.time = time_;
   state.step = next_step_;
   state.contacts = contacts_;
-  state.positions.resize(At(n));
-  state.velocities.resize(At(n));
-  for (int i = 0; i < n; ++i) {
-    state.positions[At(i)] = equations_.base[At(i)] + rk_.y0[i];
-    state.velocities[At(i)] = rk_.y0[n + i];
-  }
+  state.positions = equations_.base;
+  for (int i = 0; i < n; ++i) state.positions[At(i)] += rk_.y0[i];
+  state.velocities.assign(rk_.y0.data() + n, rk_.y0.data() + 2 * n);
   for (int c = 0; c < equations_.contacts(); ++c) {
     ContactState& contact = state.contacts[At(c)];
     contact.gap = -Deformation(c, rk_.y0.data());
     contact.work = rk_.y0[equations_.work(c)];
     if (equations_.recording) contact.external_work = rk_.y0[equations_.external_work(c)];
   }
-  state.load_work = totals_.load_work;
-  state.support_loss = totals_.support_loss;
-  state.impulse = totals_.impulse;
-  state.contact_loss = contact_loss_;
   if (equations_.recording) {
     state.load_work += rk_.y0[equations_.load_work()];
     state.support_loss += rk_.y0[equations_.support_loss()];
     state.impulse += rk_.y0[equations_.impulse()];
   }
   return state;
+}
+
+double Motion::ExternalWork(int contact, const Eigen::ArrayXd& y) const {
+  return equations_.recording ? y[equations_.external_work(contact)] : 0;
 }
 
 double Motion::Deformation(int contact, const double* y) const {
@@ -183,14 +176,12 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (changes) {
       StartCycles(host, !Busy());
       if (busy && !Busy()) return Pause::kQuiet;
-      if (!busy && std::any_of(contacts_.begin(), contacts_.end(), IsStarting)) {
-        return Pause::kCycleStarts;
-      }
+      if (!busy && std::ranges::any_of(contacts_, IsStarting)) return Pause::kCycleStarts;
     }
   }
 }
 
-bool Motion::Busy() const { return std::any_of(contacts_.begin(), contacts_.end(), IsRunning); }
+bool Motion::Busy() const { return std::ranges::any_of(contacts_, IsRunning); }
 
 void Motion::SelectLoads() {
   breakpoint_ = equations_.SelectLoads(time_);
@@ -202,7 +193,7 @@ void Motion::RefreshActive() {
   resting_ = false;
   for (int c = 0; c < equations_.contacts(); ++c) {
     const ContactState& contact = contacts_[At(c)];
-    if (!IsRunning(contact) && contact.phase != Phase::kResting) continue;
+    if (!InTouch(contact.phase)) continue;
     resting_ |= contact.phase == Phase::kResting;
     equations_.active.push_back(
         equations_.Activate(c, contact.gap, contact.cycle.mu, contact.column));

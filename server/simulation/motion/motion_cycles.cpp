@@ -1,9 +1,11 @@
 // The part of Motion that takes contacts through their cycles; motion.cpp moves between events.
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "simulation/motion/cycle_works.h"
 #include "simulation/motion/motion.h"
 
 namespace contact {
@@ -55,27 +57,24 @@ void Motion::StartPushed(int collision, CycleHost& host) {
 void Motion::StartCycle(int contact, CycleHost& host) {
   const int n = equations_.bodies();
   ContactState& state = contacts_[At(contact)];
-  const Cycle::Kind kind = state.cycle.kind;
+  const bool collides = state.cycle.kind == Cycle::Kind::kCollision;
   const bool touches = state.cycles == 0 || state.cycle.end == Cycle::End::kSeparation;
   if (touches) ++state.encounter;
-  state.cycle = Cycle{};
-  state.cycle.contact = contact;
-  state.cycle.number = ++state.cycles;
-  state.cycle.kind = kind;
-  state.cycle.start_time = time_;
-  if (kind == Cycle::Kind::kNirv) {
-    state.cycle.start_deformation = std::max(0.0, Deformation(contact, rk_.y0.data()));
-  }
-  state.cycle.max_deformation = state.cycle.start_deformation;
+  const double deformation = collides ? 0 : std::max(0.0, Deformation(contact, rk_.y0.data()));
+  const double approach =
+      collides ? std::max(0.0, equations_.Relative(contact, rk_.y0.data() + n)) : 0;
+  state.cycle = {.contact = contact,
+                 .number = ++state.cycles,
+                 .kind = state.cycle.kind,
+                 .start_time = time_,
+                 .start_deformation = deformation,
+                 .max_deformation = deformation,
+                 .approach_velocity = approach};
   state.peak = {};
-  if (kind == Cycle::Kind::kCollision) {
-    state.cycle.approach_velocity = std::max(0.0, equations_.Relative(contact, rk_.y0.data() + n));
-  }
   const Contact& c = scenario_.contacts[At(contact)];
   const double mass = equations_.effective_mass(contact);
-  const double external_force =
-      mass * equations_.Relative(contact, rk_.slope0.data() + n) +
-      c.stiffness * Power(state.cycle.start_deformation, c.exponent).value;
+  const double external_force = mass * equations_.Relative(contact, rk_.slope0.data() + n) +
+                                c.stiffness * Power(deformation, c.exponent).value;
   const CycleHost::Factor factor = host.OnStart(state, mass, external_force);
   state.cycle.mu = factor.mu;
   state.column = factor.column;
@@ -89,13 +88,13 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
   start_gradient_[At(contact)] = WorkGradient(contact, rk_.y0);
   deformation_scale_[At(contact)] = factor.length;
-  velocity_scale_[At(contact)] = std::max(factor.speed, state.cycle.approach_velocity);
-  if (factor.length == 0 && kind == Cycle::Kind::kCollision) {
-    const double v = state.cycle.approach_velocity;
-    const double alpha = NeedsNoVelocity(c.damping) ? 0 : state.cycle.mu * v / c.stiffness;
-    deformation_scale_[At(contact)] = MaximumDeformation(mass, v, c.stiffness, c.exponent, alpha);
+  velocity_scale_[At(contact)] = std::max(factor.speed, approach);
+  if (factor.length == 0 && collides) {
+    const double alpha = NeedsNoVelocity(c.damping) ? 0 : factor.mu * approach / c.stiffness;
+    deformation_scale_[At(contact)] =
+        MaximumDeformation(mass, approach, c.stiffness, c.exponent, alpha);
   }
-  if (kind == Cycle::Kind::kCollision) touch_time_ = time_;
+  if (collides) touch_time_ = time_;
   ShiftAtJump(contact, 1);
   if (state.settled) SetRestingScale(contact);
   const double first = FirstStep(contact);
@@ -144,25 +143,17 @@ double Motion::FirstStep(int contact) const {
 
 void Motion::Apply(const Found& found, CycleHost& host) {
   ContactState& state = contacts_[At(found.contact)];
-  switch (found.event.kind) {
-    case EventKind::kTouch:
-    case EventKind::kRestTouch: {
-      const bool collides = found.event.kind == EventKind::kTouch;
-      state.phase = Phase::kStarting;
-      state.settled = false;
-      state.cycle.kind = collides ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
-      return;
-    }
-    case EventKind::kTurn:
-      return;  // Dealt with inside the step.
-    case EventKind::kSeparation:
-    case EventKind::kNonSeparation:
-      if (DoesNothing(state, time_)) return CancelCycle(state, host);
-      EndCycle(state,
-               found.event.kind == EventKind::kSeparation ? Cycle::End::kSeparation
-                                                          : Cycle::End::kNonSeparation,
-               host);
-      return;
+  const EventKind kind = found.event.kind;
+  assert(kind != EventKind::kTurn);  // PassTurns has dealt with it.
+  if (kind == EventKind::kTouch || kind == EventKind::kRestTouch) {
+    state.phase = Phase::kStarting;
+    state.settled = false;
+    state.cycle.kind = kind == EventKind::kTouch ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
+  } else if (DoesNothing(state, time_)) {
+    CancelCycle(state, host);
+  } else {
+    const bool separates = kind == EventKind::kSeparation;
+    EndCycle(state, separates ? Cycle::End::kSeparation : Cycle::End::kNonSeparation, host);
   }
 }
 
@@ -188,27 +179,9 @@ void Motion::Turn(ContactState& state, double time, const Eigen::ArrayXd& y) {
   state.phase = Phase::kRestitution;
   cycle.turn_time = time;
   cycle.max_deformation = Deformation(cycle.contact, y.data());
-  cycle.work_compression = y[equations_.work(cycle.contact)];  // (W1)
-  cycle.dissipated_compression = cycle.work_compression -
-                                 ElasticEnergy(contact, cycle.max_deformation) +
-                                 ElasticEnergy(contact, cycle.start_deformation);  // (W2)
-  if (equations_.recording) {
-    cycle.external_compression = y[equations_.external_work(cycle.contact)];
-  }
+  SetCompression(contact, cycle.max_deformation, y[equations_.work(cycle.contact)],
+                 ExternalWork(cycle.contact, y), &cycle);
   turn_gradient_[At(cycle.contact)] = WorkGradient(cycle.contact, y);
-}
-
-// Moves the end of compression to where F was largest. Returns the elastic energy there.
-double Motion::SplitAtPeakForce(ContactState& state) const {
-  Cycle& cycle = state.cycle;
-  const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  const double energy = ElasticEnergy(contact, state.peak.deformation);
-  cycle.turn_time = state.peak.time;
-  cycle.work_compression = state.peak.work;
-  cycle.external_compression = state.peak.external_work;
-  cycle.dissipated_compression =
-      state.peak.work - energy + ElasticEnergy(contact, cycle.start_deformation);
-  return energy;
 }
 
 void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
@@ -222,40 +195,37 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   cycle.end_time = time_;
   cycle.end_deformation = separates ? 0 : Deformation(cycle.contact, rk_.y0.data());
   cycle.separation_velocity = separates ? equations_.Relative(cycle.contact, rk_.y0.data() + n) : 0;
-  double split_energy = ElasticEnergy(contact, cycle.max_deformation);
-  double split_velocity = 0;
-  if (split_at_force_ && !std::isnan(state.peak.time)) {
-    split_energy = SplitAtPeakForce(state);
-    split_velocity = state.peak.velocity;
+  const ContactState::Peak& peak = state.peak;
+  const bool at_force = split_at_force_ && !std::isnan(peak.time);
+  if (at_force) {
+    cycle.turn_time = peak.time;
+    SetCompression(contact, peak.deformation, peak.work, peak.external_work, &cycle);
   }
-  cycle.work_restitution = rk_.y0[equations_.work(cycle.contact)] - cycle.work_compression;
-  cycle.dissipated_restitution =
-      cycle.work_restitution - ElasticEnergy(contact, cycle.end_deformation) + split_energy;
+  SetRestitution(contact, at_force ? peak.deformation : cycle.max_deformation,
+                 rk_.y0[equations_.work(cycle.contact)], ExternalWork(cycle.contact, rk_.y0),
+                 &cycle);
   const double ratio = -cycle.work_restitution / cycle.work_compression;
   cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
   if (equations_.recording) {
-    cycle.external_restitution =
-        rk_.y0[equations_.external_work(cycle.contact)] - cycle.external_compression;
+    const double split_velocity = at_force ? peak.velocity : 0;
     const double kinetic =
         0.5 * equations_.effective_mass(cycle.contact) *
         (cycle.approach_velocity * cycle.approach_velocity - split_velocity * split_velocity);
     cycle.identity_residual =
         std::abs(cycle.work_compression - kinetic - cycle.external_compression) /
         cycle.work_compression;  // (W4)
-    contact_loss_ += cycle.dissipated_compression + cycle.dissipated_restitution;
+    totals_.contact_loss += cycle.dissipated_compression + cycle.dissipated_restitution;
   }
-  // Up to here the gradients have the columns that existed then; later ones begin at zero.
-  const auto extended = [&](const Eigen::ArrayXd& gradient) {
-    Eigen::ArrayXd all = Eigen::ArrayXd::Zero(equations_.columns);
-    all.head(gradient.size()) = gradient;
-    return all;
-  };
-  const Eigen::ArrayXd start = extended(start_gradient_[At(cycle.contact)]);
-  const Eigen::ArrayXd turn = extended(turn_gradient_[At(cycle.contact)]);
+  // The gradients have the columns that existed then; later ones begin at zero.
+  Eigen::ArrayXd& start = start_gradient_[At(cycle.contact)];
+  Eigen::ArrayXd& turn = turn_gradient_[At(cycle.contact)];
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(equations_.columns);
+  start.conservativeResizeLike(none);
+  turn.conservativeResizeLike(none);
   if (separates) ShiftAtJump(cycle.contact, -1);
   state.phase = separates ? Phase::kOpen : Phase::kStarting;
   state.last_mu = cycle.mu;
-  host.OnEnd(state, turn - start, extended(WorkGradient(cycle.contact, rk_.y0)) - turn,
+  host.OnEnd(state, turn - start, WorkGradient(cycle.contact, rk_.y0) - turn,
              deformation_scale_[At(cycle.contact)], velocity_scale_[At(cycle.contact)]);
   state.largest_work = std::max(state.largest_work, cycle.work_compression);
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
@@ -349,12 +319,11 @@ void Motion::KeepPeak(int contact, double theta) {
   const int n = equations_.bodies();
   PrepareInterpolation();
   rk_.Interpolate(theta, &inside_);
-  contacts_[At(contact)].peak = {
-      .time = step_.At(theta),
-      .deformation = Deformation(contact, inside_.data()),
-      .velocity = equations_.Relative(contact, inside_.data() + n),
-      .work = inside_[equations_.work(contact)],
-      .external_work = equations_.recording ? inside_[equations_.external_work(contact)] : 0};
+  contacts_[At(contact)].peak = {.time = step_.At(theta),
+                                 .deformation = Deformation(contact, inside_.data()),
+                                 .velocity = equations_.Relative(contact, inside_.data() + n),
+                                 .work = inside_[equations_.work(contact)],
+                                 .external_work = ExternalWork(contact, inside_)};
 }
 
 }  // namespace contact

@@ -10,7 +10,6 @@ namespace contact {
 namespace {
 
 constexpr int kMaxRejections = 60;
-constexpr int kClassicalEvaluations = 4;  // In a step with its end.
 constexpr int kMaxLandings = 8;
 // A step that would go this far towards a separation goes for it,
 constexpr double kReach = 0.85;
@@ -83,9 +82,7 @@ double Motion::TimeToSeparation(const ActiveContact& active) const {
   const double bend = active.Relative(rk_.slope0.data() + n) +
                       kFade * force * (active.left_inverse + active.right_inverse);
   const double discriminant = speed * speed - 2 * deformation * bend;
-  if (speed <= 0 || deformation <= 0 || discriminant < 0) {
-    return kForever;
-  }
+  if (speed <= 0 || deformation <= 0 || discriminant < 0) return kForever;
   return 2 * deformation / (speed + std::sqrt(discriminant));
 }
 
@@ -119,11 +116,7 @@ void Motion::TakeFixedStep(double until) {
   const double left = std::min(until, breakpoint_) - time_;
   const bool last = left < (1 + 1e-6) * fixed_step_;  // Leave no sliver.
   separating_ = kNone;
-  step_ = {.start = time_, .h = last ? left : fixed_step_};
-  rk_.Step(equations_, step_);
-  rk_.FinishStep(equations_, step_);
-  ++steps_;
-  evaluations_ += kClassicalEvaluations;
+  ComputeStep(last ? left : fixed_step_, false);
 }
 
 bool Motion::TakeStep(double until) {
@@ -157,11 +150,9 @@ bool Motion::TakeStep(double until) {
       next_step_ = step_.h < next_step_ ? std::max(next, next_step_) : next;
       return true;
     }
-    if (separating_ != kNone) {
-      next_step_ = step_.Offset(0.6);  // Not near enough yet.
-    } else {
-      next_step_ = step_.Offset(std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1);
-    }
+    const double shorter = std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1;
+    // What was to end in a separation was not near enough to it yet.
+    next_step_ = step_.Offset(separating_ == kNone ? shorter : 0.6);
   }
   return false;
 }
@@ -219,14 +210,14 @@ bool Motion::Land(const Found& found) {
   if (separating_ == found.contact && step_.h - event <= nearby) {
     if (found.event.theta < 1) Shift(event - step_.h, false);
   } else if (found.event.theta < 1) {
-    Repeat(event, parting);
+    ComputeStep(event, parting);
   }
   for (int i = 0; i < kMaxLandings; ++i) {
     const double correction = Correction(found);
     const double h = step_.h + correction;
     if (!(h > 0) || h > 2 * planned.h) break;
     if (h > left) {  // The event is past a load's breakpoint, after which all is different.
-      Repeat(left, false);
+      ComputeStep(left, false);
       return false;
     }
     // So near that the tangent leads there: its error is of second order.
@@ -235,11 +226,11 @@ bool Motion::Land(const Found& found) {
       Shift(correction, there);
       if (there) return true;
     } else {
-      Repeat(h, parting);
+      ComputeStep(h, parting);
     }
   }
   if (!parting) return true;  // As near as it gets.
-  Repeat(planned.h, planned.warp == 2);
+  ComputeStep(planned.h, planned.warp == 2);
   return false;
 }
 
@@ -257,12 +248,12 @@ void Motion::Shift(double time, bool tangent) {
   ++evaluations_;
 }
 
-void Motion::Repeat(double h, bool parting) {
+void Motion::ComputeStep(double h, bool parting) {
   step_ = {.start = time_, .h = h, .warp = parting && fixed_step_ == 0 ? 2 : Warp(h)};
   rk_.Step(equations_, step_);
   rk_.FinishStep(equations_, step_);
   ++steps_;
-  evaluations_ += fixed_step_ > 0 ? kClassicalEvaluations : 12;
+  evaluations_ += fixed_step_ > 0 ? 4 : 12;
 }
 
 // By how much the step must be longer to end on the event, to first order.

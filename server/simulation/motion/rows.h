@@ -9,7 +9,9 @@ namespace contact {
 /// N numbers of an array, to be computed with at once.
 template <int N>
 struct Rows {
+  /// Holds values of N rows.
   using Array = Eigen::Array<double, N, 1>;
+  /// The N numbers from `first` on, to read or to write; does not copy.
   auto operator()(const double* first) const { return Eigen::Map<const Array>(first); }
   auto operator()(double* first) const { return Eigen::Map<Array>(first); }
 };

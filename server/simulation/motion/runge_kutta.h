@@ -9,13 +9,18 @@ namespace contact {
 /// w = 1 is plain. 0 crowds towards the start like t ~ θ², 2 towards the end like its mirror, so
 /// that a solution in powers of √(t − start), or √(end − t), is smooth in θ.
 struct StepTime {
+  /// Time at θ = 0 [s].
   double start = 0;
+  /// Length of the step [s], > 0.
   double h = 0;
+  /// w [-].
   double warp = 1;
 
+  /// Time from the start to θ [s].
   double Offset(double theta) const { return h * (theta * (warp + (1 - warp) * theta)); }
+  /// Time at θ [s].
   double At(double theta) const { return start + Offset(theta); }
-  /// dt/dθ in units of h.
+  /// dt/dθ at θ, in units of h [-].
   double Rate(double theta) const { return warp + 2 * (1 - warp) * theta; }
   /// Length of the step that goes on from the end with the same clock, to θ = 1 + `growth`; with
   /// w > 1 at most to where the clock stands still.
@@ -32,12 +37,14 @@ struct StepTime {
 /// with the cubic through both ends. Source: Hairer, Nørsett, Wanner, Solving Ordinary
 /// Differential Equations I, 2nd ed., Springer 1993, II.1, II.5 and II.6 (DOP853).
 ///
-/// Holds one step from y0 to y1 of y' = f(t, y), taken in θ. `f(t, y, dy)` gets arrays of
-/// `size` numbers; an f that takes a pace too gives dy by θ itself, `f(t, y, dy, dt/dθ/h)`. Does
-/// not allocate between calls of Resize.
+/// Holds one step from y0 to y1 of y' = f(t, y), taken in θ. `f(t, y, dy, pace)` gets arrays of
+/// `size` numbers and sets dy to pace · y'; without a pace, which is then 1, it sets dy to y'.
+/// Every f that is handed to the methods of one step must be the same. Does not allocate between
+/// calls of Resize.
 class RungeKutta {
  public:
   using Vector = Eigen::ArrayXd;
+  /// Which of the two methods.
   enum class Method { kDormandPrince, kClassical };
 
   explicit RungeKutta(Method method = Method::kDormandPrince) : method_(method) {}
@@ -45,10 +52,10 @@ class RungeKutta {
   /// Keeps what there is of y0 and slope0. f depends on the first `coupled` numbers of y only; the
   /// others are quadratures, which stages need not know.
   void Resize(Eigen::Index size, Eigen::Index coupled);
-  void Resize(Eigen::Index size) { Resize(size, size); }
+  /// How many numbers y has.
   Eigen::Index size() const { return y0.size(); }
 
-  /// Computes y1 from y0 and slope0.
+  /// Computes y1 from y0 and slope0. `time.start` is the time at y0.
   template <class F>
   void Step(F&& f, const StepTime& time);
 
@@ -71,35 +78,42 @@ class RungeKutta {
   /// y at θ, to order 7; to order 3 with the classical method.
   void Interpolate(double theta, Vector* y) const;
 
-  /// The two error estimates of the first rows in units of h, to be combined. Dormand and Prince
-  /// only.
+  /// The error estimates of order 5 and 3 of the first rows in units of h, to be combined. Call
+  /// after Step. Dormand and Prince only.
   void Errors(Eigen::Index rows, double* error5, double* error3) const;
 
+  /// y at both ends of the step.
   Vector y0, y1;
-  Vector slope0, slope1;  ///< dy/dt at the ends.
+  /// dy/dt at both ends of the step.
+  Vector slope0, slope1;
 
  private:
-  template <class F>
-  void Evaluate(F&& f, const StepTime& time, double theta, const double* y, int i);
-  struct Term {
-    double weight;
-    int slope;
-  };
-  /// out = y0 + h Σ weight · slope, in the first rows.
-  template <class Count, std::size_t N>
-  void Combine(Vector& out, Count rows, double h, const Term (&terms)[N]);
+  /// out = y0 + h Σ weight · slope, in the first `count` rows; kSlopes are columns of k_.
+  template <int... kSlopes, class Count>
+  void Combine(Vector& out, Count count, double h, const double (&weights)[sizeof...(kSlopes)]);
+  /// Computes slope i at θ, where y = y0 + h Σ weight · slope: a row of the method's table.
+  template <int... kSlopes, class F, class Count>
+  void Stage(F&& f, const StepTime& time, Count count, int i, double theta,
+             const double (&weights)[sizeof...(kSlopes)]);
+  /// The method of order 8; `coupled` is a number or an integral constant.
   template <class F, class Count>
   void DormandPrinceStep(F&& f, const StepTime& time, Count coupled);
+  /// The method of order 4.
   template <class F>
   void ClassicalStep(F&& f, const StepTime& time);
+  /// The part of the interpolant that values and slopes at both ends determine.
   void PrepareCubic(double h);
+  /// The terms of the interpolant above the cubic.
   void PrepareCoefficients(double h);
 
-  Method method_;
+  const Method method_;
   Eigen::Index coupled_ = 0;
-  Eigen::ArrayXXd k_;  // dy/dθ/h: 12 stages, the end, 3 for the dense output.
+  // dy/dθ/h, a column each: 12 stages, the end, 3 for the dense output.
+  Eigen::ArrayXXd k_;
+  // y at a stage.
   Vector stage_;
-  Eigen::ArrayXXd dense_;  // Coefficients of the interpolant.
+  // Coefficients of the interpolant, a column each.
+  Eigen::ArrayXXd dense_;
 };
 
 }  // namespace contact

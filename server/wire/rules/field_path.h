@@ -12,11 +12,15 @@ namespace contact {
 /// One step of a path to a field, such as `contacts[0].restitution` or
 /// `final_bodies[B1].position_m`.
 struct PathStep {
-  static constexpr int kEvery = -1;  ///< Index of `[*]`.
+  /// The index that `[*]` means: every entry of a list.
+  static constexpr int kEvery = -1;
 
-  std::string name;               ///< Name of the field.
-  std::optional<int> index = {};  ///< Index in brackets, ≥ 0 or kEvery; none without brackets.
-  std::string key = {};           ///< Text in brackets that is not an index; else empty.
+  /// Name of the field.
+  std::string name;
+  /// Index in brackets, ≥ 0 or kEvery; none without brackets.
+  std::optional<int> index = {};
+  /// Text in brackets that is not an index; else empty.
+  std::string key = {};
 };
 
 /// The steps of a path; empty if `text` is not a path. `keys`: brackets may hold a key instead of

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cassert>
 #include <charconv>
 #include <cmath>
 
@@ -15,12 +15,6 @@ using google::protobuf::FieldDescriptor;
 bool IsDuration(const FieldDescriptor& field) {
   return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE &&
          field.message_type()->full_name() == "google.protobuf.Duration";
-}
-
-bool IsNumber(const FieldDescriptor& field) {
-  return !field.is_repeated() && (field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ||
-                                  field.cpp_type() == FieldDescriptor::CPPTYPE_INT32 ||
-                                  field.cpp_type() == FieldDescriptor::CPPTYPE_INT64);
 }
 
 std::string Digits(double value, std::chars_format format) {
@@ -92,40 +86,44 @@ Range RangeOf(const FieldDescriptor& field) {
   return range;
 }
 
-std::optional<double> NumberField::Find(const google::protobuf::Message& message) const {
-  if (has_presence && !reflection->HasField(message, descriptor)) return std::nullopt;
-  switch (type) {
+bool IsNumber(const FieldDescriptor& field) {
+  return !field.is_repeated() && (field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ||
+                                  field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM ||
+                                  field.cpp_type() == FieldDescriptor::CPPTYPE_INT32 ||
+                                  field.cpp_type() == FieldDescriptor::CPPTYPE_INT64);
+}
+
+double NumberIn(const google::protobuf::Message& message, const FieldDescriptor& field) {
+  const auto& reflection = *message.GetReflection();
+  switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_INT32:
-      return reflection->GetInt32(message, descriptor);
+      return reflection.GetInt32(message, &field);
     case FieldDescriptor::CPPTYPE_INT64:
-      return static_cast<double>(reflection->GetInt64(message, descriptor));
+      return static_cast<double>(reflection.GetInt64(message, &field));
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return reflection.GetEnumValue(message, &field);
     default:
-      return reflection->GetDouble(message, descriptor);
+      return reflection.GetDouble(message, &field);
   }
 }
 
-NumberFields::NumberFields(const google::protobuf::Message& prototype) {
-  const google::protobuf::Descriptor& type = *prototype.GetDescriptor();
+std::optional<double> NumberField::Find(const google::protobuf::Message& message) const {
+  const auto& reflection = *message.GetReflection();
+  if (descriptor->has_presence() && !reflection.HasField(message, descriptor)) return std::nullopt;
+  return NumberIn(message, *descriptor);
+}
+
+std::vector<NumberField> NumbersOf(const google::protobuf::Descriptor& type) {
+  std::vector<NumberField> numbers;
   for (int i = 0; i < type.field_count(); ++i) {
     const FieldDescriptor& field = *type.field(i);
     if (!IsNumber(field)) continue;
     const auto number = static_cast<std::size_t>(field.number());
-    if (fields_.size() <= number) fields_.resize(number + 1);
+    numbers.resize(std::max(numbers.size(), number + 1));
     const v1::FieldRule& rule = RuleOf(field);
-    fields_[number] = {.descriptor = &field,
-                       .reflection = prototype.GetReflection(),
-                       .type = field.cpp_type(),
-                       .has_presence = field.has_presence(),
-                       .range = RangeOf(field),
-                       .default_value = rule.default_number(),
-                       .required = rule.required()};
+    numbers[number] = {&field, RangeOf(field), rule.default_number(), rule.required()};
   }
-}
-
-const NumberField& NumberFields::operator[](int number) const {
-  const NumberField& field = fields_[static_cast<std::size_t>(number)];
-  assert(field.descriptor != nullptr);
-  return field;
+  return numbers;
 }
 
 }  // namespace contact

@@ -2,6 +2,8 @@
 
 #include <google/protobuf/message.h>
 
+#include <cassert>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -34,8 +36,10 @@ std::string RangeText(const google::protobuf::FieldDescriptor& field);
 struct Range {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();
-  bool open = false;            ///< `low` itself is not allowed.
-  std::string text = "finite";  ///< The interval in words: `in (0, 1e12]`, `> 0`.
+  /// True if `low` itself is not allowed.
+  bool open = false;
+  /// The interval in words: `in (0, 1e12]`, `> 0`.
+  std::string text = "finite";
 
   /// False for NaN and the infinities.
   bool Contains(double value) const;
@@ -44,40 +48,39 @@ struct Range {
 /// The range that the contract states for a field; every finite number if it states none.
 Range RangeOf(const google::protobuf::FieldDescriptor& field);
 
-/// A field that holds a number, with all that is needed to read and check it. What descriptor and
-/// message know themselves is kept here for speed.
+/// True for a field that holds one number: a double, an integer, or an enum, which is its number.
+bool IsNumber(const google::protobuf::FieldDescriptor& field);
+
+/// The value of a field that IsNumber, or its default if it is unset.
+double NumberIn(const google::protobuf::Message& message,
+                const google::protobuf::FieldDescriptor& field);
+
+/// A field that holds a number, and its rules.
 struct NumberField {
+  /// Null if no number has this field number.
   const google::protobuf::FieldDescriptor* descriptor = nullptr;
-  const google::protobuf::Reflection* reflection = nullptr;  ///< That of the message type.
-  google::protobuf::FieldDescriptor::CppType type = {};
-  bool has_presence = false;  ///< A message distinguishes unset from 0.
   Range range;
-  double default_value = 0;  ///< 0 if the contract states none.
+  /// What the unset field means; 0 if the contract states nothing.
+  double default_value = 0;
+  /// True if every message must set the field.
   bool required = false;
 
   /// The value of the field; none if `message` can tell that the field is unset and it is.
   std::optional<double> Find(const google::protobuf::Message& message) const;
 };
 
-/// The numbers among the fields of a type of message, by field number.
-class NumberFields {
- public:
-  /// Reads the rules of all fields, which takes some microseconds: done once for each type.
-  /// `prototype` is any message of the type.
-  explicit NumberFields(const google::protobuf::Message& prototype);
+/// The numbers among the fields of a type of message, by field number. Reads the rules of all
+/// fields, which takes some microseconds.
+std::vector<NumberField> NumbersOf(const google::protobuf::Descriptor& type);
 
-  /// The field with this number, which exists and holds a double or an integer.
-  const NumberField& operator[](int number) const;
-
- private:
-  std::vector<NumberField> fields_;  // Without a descriptor where no number has the field number.
-};
-
-/// The number in `Message` with this field number. Safe to call from any thread.
+/// The number in `Message` with this field number, which exists. The rules are read at the first
+/// call for a type of message. Safe to call from any thread.
 template <class Message>
 const NumberField& NumberOf(int number) {
-  static const NumberFields fields(Message::default_instance());
-  return fields[number];
+  static const std::vector<NumberField> fields = NumbersOf(*Message::descriptor());
+  const NumberField& field = fields[static_cast<std::size_t>(number)];
+  assert(field.descriptor != nullptr);
+  return field;
 }
 
 }  // namespace contact

@@ -34,14 +34,15 @@ double Rules::Read(const google::protobuf::Message& message, const NumberField& 
   return value;
 }
 
-void Rules::BreakChoice(std::string_view field, const google::protobuf::EnumDescriptor& descriptor,
-                        int value) const {
-  const auto* known = descriptor.FindValueByNumber(value);
-  if (known == nullptr) {
-    Break(field, fmt::format("is {}, which is no value of {}", value, descriptor.name()));
-  } else {
-    Break(field, fmt::format("{} is not available in this version", known->name()));
-  }
+bool Rules::RequireAtMost(std::string_view field, std::int64_t entries, std::int64_t most) const {
+  if (entries > most) Break(field, fmt::format("holds {}; must hold at most {}", entries, most));
+  return entries <= most;
+}
+
+void Rules::RequireKnown(std::string_view field, int value,
+                         const google::protobuf::EnumDescriptor& type) const {
+  if (type.FindValueByNumber(value) != nullptr) return;
+  Break(field, fmt::format("is {}, which is no value of {}", value, type.name()));
 }
 
 std::string Rules::Path(std::string_view field) const {

@@ -2,8 +2,7 @@
 
 #include <google/protobuf/generated_enum_reflection.h>
 
-#include <algorithm>
-#include <initializer_list>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +38,20 @@ class Rules {
   /// `value` of `field` must lie in the range.
   void Require(std::string_view field, double value, const Range& range) const;
 
+  /// The list `field` must not have more entries than `most`. Returns whether it has not.
+  bool RequireAtMost(std::string_view field, std::int64_t entries, std::int64_t most) const;
+
+  /// Returns `value`, which must lie in the range that the contract states for the number in
+  /// `Message` with this field number. For messages of which a scenario has thousands: Read asks
+  /// the message by reflection, which takes several times as long. The caller sees to fields that
+  /// are unset.
+  template <class Message>
+  double Check(int number, double value) const {
+    const NumberField& field = NumberOf<Message>(number);
+    Require(field.descriptor->name(), value, field.range);
+    return value;
+  }
+
   /// The value of the number with this field number, or the default that the contract states while
   /// it is unset. Notes the rules of the contract that it breaks: it is required but missing, or
   /// out of its range. `hint`: what to do about a missing one.
@@ -47,13 +60,10 @@ class Rules {
     return Read(message, NumberOf<Message>(number), hint);
   }
 
-  /// `field` must have one of the values that this version can do, or be unset.
+  /// `field` must have one of the values of its enum. A newer client may send others.
   template <class Enum>
-  void RequireAvailable(std::string_view field, Enum value,
-                        std::initializer_list<Enum> available) const {
-    if (value == 0 || std::ranges::find(available, value) != available.end()) return;
-    const auto* descriptor = google::protobuf::GetEnumDescriptor<Enum>();
-    BreakChoice(field, *descriptor, value);
+  void RequireKnown(std::string_view field, Enum value) const {
+    RequireKnown(field, value, *google::protobuf::GetEnumDescriptor<Enum>());
   }
 
   /// True while no rule of the scenario is broken.
@@ -63,16 +73,18 @@ class Rules {
   bool full() const { return violations_->size() >= kMostViolations; }
 
  private:
+  // Read for a number of `message`.
   double Read(const google::protobuf::Message& message, const NumberField& number,
               std::string_view hint) const;
-  // Notes that `value` is none of this version, or none of the enum at all.
-  void BreakChoice(std::string_view field, const google::protobuf::EnumDescriptor& descriptor,
-                   int value) const;
+  // RequireKnown for an enum of this type.
+  void RequireKnown(std::string_view field, int value,
+                    const google::protobuf::EnumDescriptor& type) const;
   // The path of a field from the scenario, such as `loads[3].sine.phase_rad`.
   std::string Path(std::string_view field) const;
 
   std::vector<Violation>* violations_;
-  const Rules* parent_ = nullptr;  // Of the message around this one; none around the outermost.
+  // Rules of the message around this one; null for the outermost.
+  const Rules* parent_ = nullptr;
   std::string_view message_;
   int index_;
 };

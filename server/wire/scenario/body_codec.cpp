@@ -18,7 +18,8 @@ double SphereMass(double radius, double density) {
 }
 
 double MassFromDensity(const v1::Body& message, const Rules& rules) {
-  const double density = rules.Read(message, v1::Body::kDensityKgPerM3FieldNumber);
+  const double density =
+      rules.Check<v1::Body>(v1::Body::kDensityKgPerM3FieldNumber, message.density_kg_per_m3());
   if (message.has_mass_kg()) {
     rules.Break("density_kg_per_m3", "is given beside mass_kg", "give one of the two");
   }
@@ -41,9 +42,9 @@ double MassFromDensity(const v1::Body& message, const Rules& rules) {
 }
 
 double DecodeMass(const v1::Body& message, const Rules& rules) {
-  const double mass = rules.Read(message, v1::Body::kMassKgFieldNumber);
+  if (message.has_mass_kg()) rules.Check<v1::Body>(v1::Body::kMassKgFieldNumber, message.mass_kg());
   if (message.has_density_kg_per_m3()) return MassFromDensity(message, rules);
-  if (message.has_mass_kg()) return mass;
+  if (message.has_mass_kg()) return message.mass_kg();
   if (!message.fixed()) {
     rules.Break("mass_kg", "is missing", "give mass_kg, or density_kg_per_m3 and radius_m");
   }
@@ -58,9 +59,10 @@ Body DecodeBody(const v1::Body& message, const Rules& rules) {
   }
   Body body{.name = message.name(), .fixed = message.fixed()};
   body.mass = DecodeMass(message, rules);
-  body.radius = rules.Read(message, v1::Body::kRadiusMFieldNumber);
-  body.position = rules.Read(message, v1::Body::kPositionMFieldNumber);
-  body.velocity = rules.Read(message, v1::Body::kVelocityMPerSFieldNumber);
+  using Field = v1::Body;
+  body.radius = rules.Check<Field>(Field::kRadiusMFieldNumber, message.radius_m());
+  body.position = rules.Check<Field>(Field::kPositionMFieldNumber, message.position_m());
+  body.velocity = rules.Check<Field>(Field::kVelocityMPerSFieldNumber, message.velocity_m_per_s());
   if (message.has_material()) CheckMaterial(message.material(), rules.In("material"));
   if (body.fixed && body.velocity != 0) {
     rules.Break("velocity_m_per_s",

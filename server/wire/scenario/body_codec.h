@@ -37,6 +37,7 @@ class BodyNames {
   std::string Hint(std::string_view name) const;
 
   const std::vector<Body>& bodies_;
+  // Index in `bodies_` by name.
   std::unordered_map<std::string_view, int> index_;
 };
 

@@ -18,18 +18,18 @@
 namespace contact {
 namespace {
 
-// A number that the contract does not know is refused.
 DampingLaw DecodeDamping(const v1::Contact& message, const Rules& rules) {
   const v1::Contact::Damping damping = message.damping();
   if (damping == v1::Contact::DAMPING_UNSPECIFIED) return DampingLaw::kEnergyRestitution;
   if (v1::Contact::Damping_IsValid(damping)) return static_cast<DampingLaw>(damping);
-  rules.RequireAvailable("damping", damping, {});
+  rules.RequireKnown("damping", damping);
   return DampingLaw::kEnergyRestitution;
 }
 
 void DecodeRestitution(const v1::Contact& message, const Rules& rules, Contact* contact) {
   if (message.has_restitution()) {
-    contact->restitution = rules.Read(message, v1::Contact::kRestitutionFieldNumber);
+    contact->restitution =
+        rules.Check<v1::Contact>(v1::Contact::kRestitutionFieldNumber, message.restitution());
   } else if (message.damping() != v1::Contact::MU) {
     rules.Break("restitution", "is missing", "1 is elastic; damping MU with mu needs none");
   }
@@ -37,7 +37,7 @@ void DecodeRestitution(const v1::Contact& message, const Rules& rules, Contact* 
 
 double DecodeMu(const v1::Contact& message, const Rules& rules) {
   const bool given = message.damping() == v1::Contact::MU;
-  const double mu = rules.Read(message, v1::Contact::kMuFieldNumber);
+  const double mu = rules.Check<v1::Contact>(v1::Contact::kMuFieldNumber, message.mu());
   if (given && !message.has_mu()) rules.Break("mu", "is missing; damping MU needs it");
   if (!given && message.has_mu()) {
     rules.Break("mu", "is given, but goes only with damping MU", "remove mu, or set damping: MU");
@@ -59,13 +59,19 @@ double DecodeExponent(const v1::Contact& message, DampingLaw damping, const Rule
 
 // Everything about a contact but where it is.
 Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
+  using Field = v1::Contact;
   Contact contact;
-  contact.stiffness = rules.Read(message, v1::Contact::kStiffnessFieldNumber);
+  if (message.has_stiffness()) {
+    contact.stiffness = rules.Check<Field>(Field::kStiffnessFieldNumber, message.stiffness());
+  }
   contact.damping = DecodeDamping(message, rules);
   contact.exponent = DecodeExponent(message, contact.damping, rules);
   DecodeRestitution(message, rules, &contact);
   contact.mu = DecodeMu(message, rules);
-  contact.reference_velocity = rules.Read(message, v1::Contact::kReferenceVelocityMPerSFieldNumber);
+  if (message.has_reference_velocity_m_per_s()) {
+    contact.reference_velocity = rules.Check<Field>(Field::kReferenceVelocityMPerSFieldNumber,
+                                                    message.reference_velocity_m_per_s());
+  }
   return contact;
 }
 
@@ -119,7 +125,7 @@ class ContactDecoder {
     if (message.wall().side() == v1::Wall::SIDE_UNSPECIFIED) {
       rules.Break("side", "is missing", "LEFT or RIGHT of the body");
     } else {
-      rules.RequireAvailable("side", message.wall().side(), {v1::Wall::LEFT, v1::Wall::RIGHT});
+      rules.RequireKnown("side", message.wall().side());
     }
     if (!message.wall().has_material()) return;
     CheckMaterial(message.wall().material(), rules.In("material"));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iterator>
 #include <vector>
 
 #include "contact/v1/scenario.pb.h"
@@ -11,6 +12,7 @@ namespace contact {
 static_assert(v1::Contact::Damping_ARRAYSIZE == kDampingLaws + 1);
 static_assert(v1::Contact::ENERGY_RESTITUTION == static_cast<int>(DampingLaw::kEnergyRestitution));
 static_assert(v1::Contact::MU == static_cast<int>(DampingLaw::kGiven));
+static_assert(v1::Contact::MU == kDampingLaws, "LawCatalogue leaves out the last row");
 
 /// A damping law as clients list it: a row of the table in simulation/laws.
 using LawEntry = DampingLawRow;
@@ -18,11 +20,7 @@ using LawEntry = DampingLawRow;
 /// Every law that makes μ from ε, so all but MU, in the order of the contract. The rows live as
 /// long as the program.
 inline const std::vector<LawEntry>& LawCatalogue() {
-  static const std::vector<LawEntry> laws = [] {
-    std::vector<LawEntry> all(DampingLaws().begin(), DampingLaws().end());
-    std::erase_if(all, [](const LawEntry& law) { return law.law == DampingLaw::kGiven; });
-    return all;
-  }();
+  static const std::vector<LawEntry> laws(DampingLaws().begin(), std::prev(DampingLaws().end()));
   return laws;
 }
 

@@ -106,10 +106,11 @@ class LoadDecoder {
       return;
     }
     for (int i = 0; i < count && !rules.full(); ++i) {
-      const v1::Load::Table::Point& point = table.points(i);
+      using Point = v1::Load::Table::Point;
+      const Point& point = table.points(i);
       const Rules here = rules.In("points", i);
-      here.Read(point, v1::Load::Table::Point::kTimeSFieldNumber);
-      here.Read(point, v1::Load::Table::Point::kForceNFieldNumber);
+      here.Check<Point>(Point::kTimeSFieldNumber, point.time_s());
+      here.Check<Point>(Point::kForceNFieldNumber, point.force_n());
       if (i > 0) AddPiece(table.points(i - 1), point, here);
     }
   }

@@ -14,6 +14,11 @@ namespace {
 
 constexpr int kDefaultSamples = 1000;
 
+// By the number of v1::Solver::Update.
+constexpr UpdateRule kUpdates[v1::Solver::Update_ARRAYSIZE] = {
+    UpdateRule::kNewtonCoupled, UpdateRule::kNewtonCoupled, UpdateRule::kPaperNewton,
+    UpdateRule::kPaperRatio, UpdateRule::kPaperBisection};
+
 std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vector<Body>& bodies,
                                     const BodyNames& names, std::vector<Violation>* violations) {
   std::vector<Support> supports;
@@ -36,34 +41,18 @@ std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vect
   return supports;
 }
 
-UpdateRule DecodeUpdate(v1::Solver::Update update) {
-  switch (update) {
-    case v1::Solver::PAPER_NEWTON:
-      return UpdateRule::kPaperNewton;
-    case v1::Solver::PAPER_RATIO:
-      return UpdateRule::kPaperRatio;
-    case v1::Solver::PAPER_BISECTION:
-      return UpdateRule::kPaperBisection;
-    default:
-      return UpdateRule::kNewtonCoupled;
-  }
-}
-
 // The method, how μ is corrected, and what a cycle's phases are.
 void DecodeProcess(const v1::Solver& message, const Rules& rules, SolverOptions* options) {
-  rules.RequireAvailable("method", message.method(), {v1::Solver::ADAPTIVE, v1::Solver::RK4});
+  rules.RequireKnown("method", message.method());
   const double step = rules.Read(message, v1::Solver::kStepSFieldNumber);
   if (message.method() == v1::Solver::RK4) {
     options->fixed_step = step;
   } else if (message.has_step_s()) {
     rules.Break("step_s", "is given, but goes only with method RK4", "remove it");
   }
-  rules.RequireAvailable("update", message.update(),
-                         {v1::Solver::NEWTON_COUPLED, v1::Solver::PAPER_NEWTON,
-                          v1::Solver::PAPER_RATIO, v1::Solver::PAPER_BISECTION});
-  options->update = DecodeUpdate(message.update());
-  rules.RequireAvailable("phase_split", message.phase_split(),
-                         {v1::Solver::PEAK_DEFORMATION, v1::Solver::PEAK_FORCE});
+  rules.RequireKnown("update", message.update());
+  if (v1::Solver::Update_IsValid(message.update())) options->update = kUpdates[message.update()];
+  rules.RequireKnown("phase_split", message.phase_split());
   if (message.phase_split() == v1::Solver::PEAK_FORCE) {
     options->phase_split = PhaseSplit::kPeakForce;
   }
@@ -93,9 +82,8 @@ SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
   options.restitution_tolerance = rules.Read(message, v1::Solver::kRestitutionToleranceFieldNumber);
   options.max_iterations =
       static_cast<int>(rules.Read(message, v1::Solver::kMaxIterationsFieldNumber));
-  rules.RequireAvailable("tension", message.tension(), {v1::Solver::ALLOW, v1::Solver::CLIP});
-  rules.RequireAvailable("on_not_converged", message.on_not_converged(),
-                         {v1::Solver::REPORT, v1::Solver::FAIL});
+  rules.RequireKnown("tension", message.tension());
+  rules.RequireKnown("on_not_converged", message.on_not_converged());
   options.settled_fraction = rules.Read(message, v1::Solver::kSettledFractionFieldNumber);
   if (message.has_settled_fraction()) options.settled_nirv_fraction = options.settled_fraction;
   // Exact: 2^53 is above the largest number of steps.
@@ -127,14 +115,10 @@ double DecodeSampleInterval(const v1::Scenario& message, const ScenarioLimits& l
 void CheckCounts(const v1::Scenario& message, const ScenarioLimits& limits,
                  std::vector<Violation>* violations) {
   const Rules rules(violations);
-  const auto check = [&rules](std::string_view field, std::int64_t count, std::int64_t most) {
-    if (count <= most) return;
-    rules.Break(field, fmt::format("holds {}; must hold at most {}", count, most));
-  };
-  check("bodies", message.bodies_size(), limits.max_bodies);
-  check("contacts", CountContacts(message), limits.max_contacts);
-  check("supports", message.supports_size(), limits.max_contacts);
-  check("loads", message.loads_size(), limits.max_contacts);
+  rules.RequireAtMost("bodies", message.bodies_size(), limits.max_bodies);
+  rules.RequireAtMost("contacts", CountContacts(message), limits.max_contacts);
+  rules.RequireAtMost("supports", message.supports_size(), limits.max_contacts);
+  rules.RequireAtMost("loads", message.loads_size(), limits.max_contacts);
 }
 
 void CheckTitle(const std::string& title, const Rules& rules) {

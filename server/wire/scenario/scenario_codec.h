@@ -12,16 +12,20 @@ namespace contact {
 /// What a scenario may hold at most; checked before anything is allocated for it.
 struct ScenarioLimits {
   std::int32_t max_bodies = 20'000;
-  std::int32_t max_contacts =
-      20'000;  ///< After neighbours are expanded; the same for supports and loads.
-  std::int64_t max_samples = 10'000'000;  ///< Rows of the recorded trajectory.
-  std::int32_t max_cells = 100'000;       ///< Of a sweep.
+  /// Contacts after neighbours are expanded. Supports and loads have the same limit.
+  std::int32_t max_contacts = 20'000;
+  /// Rows of the recorded trajectory.
+  std::int64_t max_samples = 10'000'000;
+  /// Cells of a sweep.
+  std::int32_t max_cells = 100'000;
 };
 
 /// A scenario as values, and what is wrong with the message it was read from.
 struct DecodedScenario {
-  Scenario scenario;                  ///< Complete only if there are no violations.
-  std::vector<Violation> violations;  ///< All of them, in field order; at most 100.
+  /// Complete only if there are no violations.
+  Scenario scenario;
+  /// All rules broken, in the order of the fields; at most Rules::kMostViolations.
+  std::vector<Violation> violations;
 };
 
 /// Reads a scenario from the wire: fills defaults and checks every rule written in scenario.proto.

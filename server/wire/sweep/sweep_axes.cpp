@@ -78,6 +78,7 @@ std::vector<double> Listed(const v1::Sweep::Axis& axis) {
   if (!axis.values().empty()) return {axis.values().begin(), axis.values().end()};
   const int count = axis.has_linear() ? axis.linear().count() : axis.log().count();
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     values.push_back(Between(axis, count == 1 ? 0 : i / static_cast<double>(count - 1)));
   }
@@ -107,26 +108,25 @@ std::vector<double> Drawn(const v1::Sweep& sweep, const v1::Sweep::Axis& axis,
   return values;
 }
 
+void CheckAxes(const v1::Sweep& sweep, std::int32_t max_cells, std::vector<Violation>* violations) {
+  const Rules rules(violations);
+  rules.RequireKnown("combination", sweep.combination());
+  CheckDraw(sweep, max_cells, rules);
+  if (sweep.axes().empty()) rules.Break("axes", "are missing", "name a field and its values");
+  const int most = RuleOf<v1::Sweep>(v1::Sweep::kAxesFieldNumber).max_entries();
+  if (!rules.RequireAtMost("axes", sweep.axes_size(), most)) return;
+  for (int i = 0; i < sweep.axes_size(); ++i) {
+    CheckAxis(sweep.axes(i), IsDrawn(sweep), max_cells, Rules(violations, "axes", i));
+  }
+}
+
 }  // namespace
 
 SweepAxes::SweepAxes(const v1::Sweep& sweep, std::int32_t max_cells,
                      std::vector<Violation>* violations)
     : grid_(sweep.combination() != v1::Sweep::ZIP && !IsDrawn(sweep)) {
   const std::size_t before = violations->size();
-  const Rules rules(violations);
-  rules.RequireAvailable(
-      "combination", sweep.combination(),
-      {v1::Sweep::GRID, v1::Sweep::ZIP, v1::Sweep::RANDOM, v1::Sweep::LATIN_HYPERCUBE});
-  CheckDraw(sweep, max_cells, rules);
-  if (sweep.axes().empty()) rules.Break("axes", "are missing", "name a field and its values");
-  const int most = RuleOf<v1::Sweep>(v1::Sweep::kAxesFieldNumber).max_entries();
-  if (sweep.axes_size() > most) {
-    rules.Break("axes", fmt::format("holds {}; must hold at most {}", sweep.axes_size(), most));
-    return;
-  }
-  for (int i = 0; i < sweep.axes_size(); ++i) {
-    CheckAxis(sweep.axes(i), IsDrawn(sweep), max_cells, Rules(violations, "axes", i));
-  }
+  CheckAxes(sweep, max_cells, violations);
   if (violations->size() > before) return;
 
   std::mt19937_64 random(static_cast<std::uint64_t>(sweep.seed()));
@@ -143,7 +143,8 @@ SweepAxes::SweepAxes(const v1::Sweep& sweep, std::int32_t max_cells,
     }
   }
   if (cells > max_cells) {
-    rules.Break("axes", fmt::format("make {} cells; must make at most {}", cells, max_cells));
+    Rules(violations)
+        .Break("axes", fmt::format("make {} cells; must make at most {}", cells, max_cells));
   }
   if (violations->size() == before) cells_ = static_cast<std::int32_t>(cells);
 }

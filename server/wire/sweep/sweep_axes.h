@@ -26,7 +26,8 @@ class SweepAxes {
   std::vector<double> Values(std::int32_t cell) const;
 
  private:
-  bool grid_ = false;  // Every value of an axis with every value of the others.
+  // True if cells take every value of an axis with every value of the others.
+  bool grid_ = false;
   // The values of each axis: in a grid those of the axis, else one for each cell.
   std::vector<std::vector<double>> values_;
   std::int32_t cells_ = 0;

@@ -11,10 +11,14 @@ namespace contact {
 
 /// A sweep as values, and what is wrong with the message it was read from.
 struct DecodedSweep {
-  SweepAxes axes;                     ///< The cells and their values.
-  SweepMetrics metrics;               ///< The numbers to keep of each result.
-  Scenario first;                     ///< Scenario of the first cell; empty if that is invalid.
-  std::vector<Violation> violations;  ///< Paths from the sweep. With any, the rest is incomplete.
+  /// The cells and their values.
+  SweepAxes axes;
+  /// The numbers to keep of each result.
+  SweepMetrics metrics;
+  /// Scenario of the first cell; empty if that is invalid.
+  Scenario first;
+  /// All rules broken, with paths from the sweep. With any, the other members are incomplete.
+  std::vector<Violation> violations;
 };
 
 /// Reads a sweep and checks the rules written for Sweep in scenario.proto. Checks the base with the

@@ -33,14 +33,6 @@ double SetNumber(const FieldDescriptor& field, double value, google::protobuf::M
   return whole;
 }
 
-// An enum is its number.
-bool IsNumber(const FieldDescriptor& field) {
-  return !field.is_repeated() && (field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ||
-                                  field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM ||
-                                  field.cpp_type() == FieldDescriptor::CPPTYPE_INT32 ||
-                                  field.cpp_type() == FieldDescriptor::CPPTYPE_INT64);
-}
-
 }  // namespace
 
 SweepFields::SweepFields(const v1::Sweep& sweep, std::vector<Violation>* violations)

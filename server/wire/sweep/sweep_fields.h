@@ -49,9 +49,12 @@ class SweepFields {
   void AddTarget(const std::string& here, const google::protobuf::FieldDescriptor& field,
                  Message* message, const Rules& rules);
 
-  std::unique_ptr<v1::Scenario> scenario_;    // On the heap, since targets_ point into it.
-  std::vector<std::vector<Target>> targets_;  // The fields of each axis.
-  std::set<std::string> paths_;               // The paths of all fields in targets_.
+  // On the heap, since targets_ point into it.
+  std::unique_ptr<v1::Scenario> scenario_;
+  // The fields of each axis.
+  std::vector<std::vector<Target>> targets_;
+  // The paths of all fields in targets_.
+  std::set<std::string> paths_;
 };
 
 }  // namespace contact

@@ -45,45 +45,42 @@ std::string RootHint() {
 
 SweepMetrics::SweepMetrics(const v1::Sweep& sweep, std::vector<Violation>* violations) {
   const int most = RuleOf<v1::Sweep>(v1::Sweep::kMetricsFieldNumber).max_entries();
-  if (sweep.metrics_size() > most) {
-    Rules(violations)
-        .Break("metrics",
-               fmt::format("holds {}; must hold at most {}", sweep.metrics_size(), most));
-    return;
-  }
+  if (!Rules(violations).RequireAtMost("metrics", sweep.metrics_size(), most)) return;
   for (int i = 0; i < sweep.metrics_size(); ++i) {
-    const Rules rules(violations, "metrics", i);
-    const std::string& text = sweep.metrics(i);
-    const std::vector<PathStep> steps = Whole(ParsePath(text, true));
-    Path& path = paths_.emplace_back();
-    if (steps.empty() || std::ranges::find(kRoots, steps.front().name) == kRoots.end()) {
-      rules.Break("", fmt::format("{} is no number of a result", Quoted(text)), RootHint());
-      continue;
-    }
-    const Descriptor* type = v1::Job::descriptor();
-    for (const PathStep& step : steps) {
-      const FieldDescriptor* field = type == nullptr ? nullptr : type->FindFieldByName(step.name);
-      if (field == nullptr) {
-        rules.Break("", fmt::format("{}: unknown field {}", Quoted(text), Quoted(step.name)),
-                    type == nullptr ? "" : FieldHint(*type, step.name));
-        break;
-      }
-      const bool entry = step.index.has_value() || !step.key.empty();
-      if (field->is_repeated() != entry || step.index == PathStep::kEvery) {
-        rules.Break("",
-                    fmt::format("{}: {} {}", Quoted(text), step.name,
-                                field->is_repeated() ? "is a list" : "is no list"),
-                    field->is_repeated() ? "say which entry, by index or name" : "");
-        break;
-      }
-      type = field->message_type();
-      path.push_back({field, step.index, step.key});
-    }
-    if (path.size() == steps.size() &&
-        (type != nullptr || path.back().field->cpp_type() == FieldDescriptor::CPPTYPE_STRING)) {
-      rules.Break("", Quoted(text) + " is not a number", "name a number in it");
-    }
+    paths_.push_back(Find(sweep.metrics(i), Rules(violations, "metrics", i)));
   }
+}
+
+SweepMetrics::Path SweepMetrics::Find(const std::string& text, const Rules& rules) {
+  Path path;
+  const std::vector<PathStep> steps = Whole(ParsePath(text, true));
+  if (steps.empty() || std::ranges::find(kRoots, steps.front().name) == kRoots.end()) {
+    rules.Break("", fmt::format("{} is no number of a result", Quoted(text)), RootHint());
+    return path;
+  }
+  const Descriptor* type = v1::Job::descriptor();
+  for (const PathStep& step : steps) {
+    const FieldDescriptor* field = type == nullptr ? nullptr : type->FindFieldByName(step.name);
+    if (field == nullptr) {
+      rules.Break("", fmt::format("{}: unknown field {}", Quoted(text), Quoted(step.name)),
+                  type == nullptr ? "" : FieldHint(*type, step.name));
+      return path;
+    }
+    const bool entry = step.index.has_value() || !step.key.empty();
+    if (field->is_repeated() != entry || step.index == PathStep::kEvery) {
+      rules.Break("",
+                  fmt::format("{}: {} {}", Quoted(text), step.name,
+                              field->is_repeated() ? "is a list" : "is no list"),
+                  field->is_repeated() ? "say which entry, by index or name" : "");
+      return path;
+    }
+    type = field->message_type();
+    path.push_back({field, step.index, step.key});
+  }
+  if (!IsNumber(*path.back().field)) {
+    rules.Break("", Quoted(text) + " is not a number", "name a number in it");
+  }
+  return path;
 }
 
 void SweepMetrics::CheckNames(const Scenario& scenario, std::vector<Violation>* violations) const {
@@ -114,35 +111,27 @@ double SweepMetrics::Value(const Path& path, const Message& message) {
   const Message* at = &message;
   for (const Step& step : path) {
     const auto* reflection = at->GetReflection();
-    if (!step.field->is_repeated()) {
-      switch (step.field->cpp_type()) {
-        case FieldDescriptor::CPPTYPE_MESSAGE:
-          at = &reflection->GetMessage(*at, step.field);
-          continue;
-        case FieldDescriptor::CPPTYPE_INT32:
-          return reflection->GetInt32(*at, step.field);
-        case FieldDescriptor::CPPTYPE_INT64:
-          return static_cast<double>(reflection->GetInt64(*at, step.field));
-        case FieldDescriptor::CPPTYPE_ENUM:
-          return reflection->GetEnumValue(*at, step.field);
-        default:
-          return reflection->GetDouble(*at, step.field);
-      }
+    if (step.field->is_repeated()) {
+      at = Entry(step, *at);
+      if (at == nullptr) return kNaN;
+    } else if (IsNumber(*step.field)) {
+      return NumberIn(*at, *step.field);
+    } else {
+      at = &reflection->GetMessage(*at, step.field);
     }
-    const int size = reflection->FieldSize(*at, step.field);
-    const auto entry = [&](int i) { return &reflection->GetRepeatedMessage(*at, step.field, i); };
-    int index = step.index.value_or(0);
-    if (!step.key.empty()) {
-      const FieldDescriptor* name = NameField(*step.field->message_type());
-      const auto is_it = [&](int i) {
-        return entry(i)->GetReflection()->GetString(*entry(i), name) == step.key;
-      };
-      while (index < size && !is_it(index)) ++index;
-    }
-    if (index >= size) return kNaN;
-    at = entry(index);
   }
   return kNaN;
+}
+
+const Message* SweepMetrics::Entry(const Step& step, const Message& message) {
+  const auto* reflection = message.GetReflection();
+  const FieldDescriptor* name = step.key.empty() ? nullptr : NameField(*step.field->message_type());
+  const int size = reflection->FieldSize(message, step.field);
+  for (int i = step.index.value_or(0); i < size; ++i) {
+    const Message& entry = reflection->GetRepeatedMessage(message, step.field, i);
+    if (name == nullptr || entry.GetReflection()->GetString(entry, name) == step.key) return &entry;
+  }
+  return nullptr;
 }
 
 }  // namespace contact

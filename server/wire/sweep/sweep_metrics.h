@@ -9,6 +9,7 @@
 #include "contact/v1/job.pb.h"
 #include "contact/v1/scenario.pb.h"
 #include "simulation/model/scenario.h"
+#include "wire/rules/rules.h"
 #include "wire/scenario/scenario_codec.h"
 
 namespace contact {
@@ -29,17 +30,26 @@ class SweepMetrics {
   std::vector<double> Of(const v1::Job& result) const;
 
  private:
+  using Message = google::protobuf::Message;
   // One step of a path: a field, and the entry of a list.
   struct Step {
     const google::protobuf::FieldDescriptor* field;
-    std::optional<int> index;  // Index of the entry.
-    std::string key;           // Name of the entry if it has no index; else empty.
+    // Index of the entry.
+    std::optional<int> index;
+    // Name of the entry if it has no index; else empty.
+    std::string key;
   };
   using Path = std::vector<Step>;
 
+  // The path that `text` names from a Job. Notes if there is none, or if no number is at its end;
+  // the path is then incomplete.
+  static Path Find(const std::string& text, const Rules& rules);
   // The number at the end of the path from `message`; NaN if an entry is missing.
-  static double Value(const Path& path, const google::protobuf::Message& message);
+  static double Value(const Path& path, const Message& message);
+  // The entry of the list in `message` that the step means; null if there is none.
+  static const Message* Entry(const Step& step, const Message& message);
 
+  // One path for each metric.
   std::vector<Path> paths_;
 };
 

@@ -24,6 +24,12 @@ TEST(DotCanvas, ALineJoinsItsEndsWithoutGaps) {
   EXPECT_THAT(canvas.Rows(), ElementsAre("*    ", " **  ", "   **"));
 }
 
+TEST(DotCanvas, DownIsDownTheScreen) {
+  DotCanvas canvas(3, 3, false);
+  canvas.Line(0, 2, 2, 0);
+  EXPECT_THAT(canvas.Rows(), ElementsAre("  *", " * ", "*  "));
+}
+
 TEST(DotCanvas, ALineIsTheSameInBothDirectionsUpToItsSteps) {
   for (int x = 0; x < 8; ++x) {
     DotCanvas there(8, 8, false);

@@ -42,6 +42,26 @@ TEST(TextFile, WhatCannotBeReadIsALocalFailureWithThePath) {
   EXPECT_THAT(LocalFailure([] { ReadText("/tmp"); }), testing::HasSubstr("Is a directory"));
 }
 
+TEST(LinesOf, EachLineHasNoEndAndTheLastNeedsNone) {
+  EXPECT_THAT(LinesOf(""), testing::IsEmpty());
+  EXPECT_THAT(LinesOf("a\n\n b\r\n"), testing::ElementsAre("a", "", " b\r"));
+  EXPECT_EQ(LinesOf("a\nb"), LinesOf("a\nb\n"));
+}
+
+TEST(OutputFile, RowsWrittenOneByOneAreAllThere) {
+  const TempDirectory folder;
+  const std::string path = folder.path() / "rows";
+  std::string all;
+  OutputFile file(path);
+  for (int row = 0; row < 20'000; ++row) {
+    const std::string text = std::to_string(row) + "\n";
+    std::fwrite(text.data(), 1, text.size(), file.get());
+    all += text;
+  }
+  file.Close();
+  EXPECT_EQ(ReadText(path), all);
+}
+
 TEST(OutputFile, AFileThatCannotBeMadeIsALocalFailureWithThePath) {
   EXPECT_EQ(LocalFailure([] { OutputFile("/no/such/file"); }),
             "/no/such/file: No such file or directory");

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
+#include "cli/base/escape.h"
 #include "cli/base/html.h"
-#include "cli/base/latex.h"
 
 namespace contact::cli {
 namespace {
@@ -14,6 +14,35 @@ TEST(Html, TextCannotBecomeMarkup) {
   EXPECT_EQ(HtmlText("\u03b5 = 0.7"), "\u03b5 = 0.7");
   EXPECT_THAT(HtmlTable({"<h>"}, {{{"<c>"}}}), Not(HasSubstr("<c>")));
   EXPECT_THAT(HtmlPage("<t>", ""), Not(HasSubstr("<t>")));
+}
+
+// Every text can be read back, so nothing is lost or read twice.
+TEST(Html, EscapedTextIsTheTextAgainForABrowser) {
+  const std::pair<std::string, char> entities[] = {
+      {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&amp;", '&'}};
+  const std::string alphabet = "<>&\";am";
+  for (int seed = 0; seed < 4096; ++seed) {
+    std::string text;
+    for (int digits = seed; digits > 0; digits /= 8) {
+      text += alphabet[static_cast<std::size_t>(digits % 7)];
+    }
+    const std::string escaped = HtmlText(text);
+    std::string read;
+    for (std::size_t i = 0; i < escaped.size();) {
+      ASSERT_THAT(escaped.substr(i, 1), testing::AnyOf("&", ";", "a", "m")) << escaped;
+      std::size_t size = 1;
+      char character = escaped[i];
+      for (const auto& [entity, meaning] : entities) {
+        if (escaped.compare(i, entity.size(), entity) != 0) continue;
+        size = entity.size();
+        character = meaning;
+      }
+      ASSERT_TRUE(escaped[i] != '&' || size > 1) << escaped;
+      read += character;
+      i += size;
+    }
+    ASSERT_EQ(read, text);
+  }
 }
 
 TEST(Html, ColumnsOfNumbersStandToTheRight) {

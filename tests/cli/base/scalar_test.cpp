@@ -55,5 +55,31 @@ TEST(Scalar, Utf8IsWellFormedOrIsNot) {
   }
 }
 
+// The bytes of a code point, whether or not Unicode has it.
+std::string Encoded(std::uint32_t point) {
+  const auto byte = [](std::uint32_t value) { return static_cast<char>(value); };
+  const auto tail = [&](unsigned shift) { return byte(0x80 | ((point >> shift) & 0x3F)); };
+  if (point < 0x80) return {byte(point)};
+  if (point < 0x800) return {byte(0xC0 | point >> 6), tail(0)};
+  if (point < 0x10000) return {byte(0xE0 | point >> 12), tail(6), tail(0)};
+  return {byte(0xF0 | point >> 18), tail(12), tail(6), tail(0)};
+}
+
+TEST(Scalar, Utf8HasEveryCodePointButSurrogatesUpTo10FFFF) {
+  for (std::uint32_t point = 0; point < 0x200000; point += point < 0x11000 ? 1 : 37) {
+    const bool exists = point <= 0x10FFFF && (point < 0xD800 || point > 0xDFFF);
+    ASSERT_EQ(IsUtf8(Encoded(point)), exists) << point;
+  }
+}
+
+TEST(Scalar, Utf8EndsAtCharacters) {
+  const std::string text = Encoded(0x3B5) + Encoded(0x2212) + Encoded(0x1F3B1);
+  for (const std::size_t whole : {0, 2, 5, 9}) EXPECT_TRUE(IsUtf8(text.substr(0, whole)));
+  for (const std::size_t part : {1, 3, 4, 6, 7, 8}) EXPECT_FALSE(IsUtf8(text.substr(0, part)));
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(IsUtf8(text.substr(i)), i == 0 || i == 2 || i == 5) << i;
+  }
+}
+
 }  // namespace
 }  // namespace contact::cli

@@ -6,8 +6,7 @@
 #include <sstream>
 
 #include "cli/export/data_table.h"
-#include "cli/export/export_csv.h"
-#include "cli/export/export_json_lines.h"
+#include "cli/export/writers.h"
 
 namespace contact::cli {
 namespace {

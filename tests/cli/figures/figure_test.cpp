@@ -87,7 +87,7 @@ TEST(InlineSvg, HasNeitherDeclarationsNorTooltip) {
   EXPECT_EQ(InlineSvg("<?xml version=\"1.0\"?>\n<svg a=\"1\" xmlns=\"http://www.w3.org/2000/svg\">"
                       "<title>t</title><g/></svg>"),
             "<svg a=\"1\" ><g/></svg>");
-  EXPECT_EQ(InlineSvg("no picture"), "");
+  EXPECT_EQ(InlineSvg("no figure"), "");
 }
 
 TEST(Overlay, NamesRunsByTheOneParameterInWhichTheyDiffer) {

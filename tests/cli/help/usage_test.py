@@ -188,12 +188,8 @@ class Usage(unittest.TestCase):
                                  timeout=60)
         self.assertEqual(run.returncode, 11)
 
-    def test_version_is_quick(self):
-        def once():
-            start = time.monotonic()
-            self.assertRegex(self.run_it("version", code=0)[0], r"^contactctl \d+\.\d+\.\d+")
-            return time.monotonic() - start
-        self.assertLess(min(once() for _ in range(10)), 0.2)  # 0.02 without sanitizers
+    def test_version_is_three_numbers(self):
+        self.assertRegex(self.run_it("version", code=0)[0], r"^contactctl \d+\.\d+\.\d+")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,8 @@ class FakeServer : public v1::JobService::Service {
  public:
   using Writer = grpc::ServerWriter<v1::WatchJobResponse>;
   using WatchHandler = std::function<grpc::Status(const v1::WatchJobRequest&, Writer&)>;
+  using JobsWriter = grpc::ServerWriter<v1::WatchJobsResponse>;
+  using WatchJobsHandler = std::function<grpc::Status(const v1::WatchJobsRequest&, JobsWriter&)>;
   using CreateHandler = std::function<grpc::Status(const v1::CreateJobRequest&, v1::Job*)>;
 
   FakeServer() {
@@ -36,6 +38,10 @@ class FakeServer : public v1::JobService::Service {
     const std::scoped_lock lock(mutex_);
     on_watch_ = std::move(handler);
   }
+  void OnWatchJobs(WatchJobsHandler handler) {
+    const std::scoped_lock lock(mutex_);
+    on_watch_jobs_ = std::move(handler);
+  }
   void OnCreate(CreateHandler handler) {
     const std::scoped_lock lock(mutex_);
     on_create_ = std::move(handler);
@@ -50,6 +56,11 @@ class FakeServer : public v1::JobService::Service {
     const std::scoped_lock lock(mutex_);
     return on_watch_(*request, *writer);
   }
+  grpc::Status WatchJobs(grpc::ServerContext*, const v1::WatchJobsRequest* request,
+                         JobsWriter* writer) override {
+    const std::scoped_lock lock(mutex_);
+    return on_watch_jobs_(*request, *writer);
+  }
   grpc::Status CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request,
                          v1::Job* job) override {
     const std::scoped_lock lock(mutex_);
@@ -58,6 +69,7 @@ class FakeServer : public v1::JobService::Service {
 
   std::mutex mutex_;
   WatchHandler on_watch_;
+  WatchJobsHandler on_watch_jobs_;
   CreateHandler on_create_;
   std::string address_;
   std::unique_ptr<grpc::Server> server_;

@@ -21,7 +21,7 @@ TEST(JobNames, LongAndShortNamesAreOfTheSameJob) {
 }
 
 TEST(JobNames, RequestIdsDiffer) {
-  EXPECT_EQ(RandomRequestId().size(), 32U);
+  EXPECT_EQ(RandomRequestId().size(), 36U);
   EXPECT_NE(RandomRequestId(), RandomRequestId());
 }
 

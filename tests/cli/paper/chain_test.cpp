@@ -9,13 +9,9 @@
 namespace contact::cli {
 namespace {
 
-using testing::AllOf;
 using testing::Contains;
-using testing::Each;
 using testing::ElementsAre;
 using testing::Field;
-using testing::HasSubstr;
-using testing::Not;
 using testing::SizeIs;
 
 // A chain as one of its models is run.
@@ -87,7 +83,7 @@ TEST(ChainTables, EveryCellOfTable3IsRunBothWays) {
         paper ? 1 : 100;
   }
   EXPECT_THAT(runs, SizeIs(50));
-  EXPECT_THAT(runs, Each(testing::Pair(testing::_, 101)));
+  EXPECT_THAT(runs, testing::Each(testing::Pair(testing::_, 101)));
 }
 
 TEST(ChainFigures, DataHaveAllRunsOneAfterTheOther) {
@@ -99,8 +95,9 @@ TEST(ChainFigures, DataHaveAllRunsOneAfterTheOther) {
     EXPECT_EQ(data.name, item.id);
     EXPECT_THAT(data.rows, SizeIs(4 * 3));  // Four runs of three samples.
     EXPECT_TRUE(std::ranges::is_sorted(data.rows, {}, [](const auto& row) { return row[0]; }));
-    EXPECT_THAT(data.columns, AllOf(Contains("run"), Contains("time [s]")));
-    EXPECT_THAT(data.note, AllOf(HasSubstr("run 0 is Hunt"), HasSubstr("3 the same converged")));
+    EXPECT_THAT(data.columns, testing::AllOf(Contains("run"), Contains("time [s]")));
+    EXPECT_THAT(data.note, testing::AllOf(testing::HasSubstr("run 0 is Hunt"),
+                                          testing::HasSubstr("3 the same converged")));
   }
 }
 
@@ -133,7 +130,7 @@ TEST(SpringItems, CurvesAreNamedAsInThePaper) {
   EXPECT_THAT(curves, Contains(label("equivalent external force")).Times(1));
   EXPECT_THAT(curves, Contains(label("start of a cycle")).Times(1));
   EXPECT_THAT(curves, Contains(label("end of a cycle")).Times(1));
-  EXPECT_THAT(curves, Not(Contains(label("ball-wall"))));
+  EXPECT_THAT(curves, testing::Not(Contains(label("ball-wall"))));
 }
 
 TEST(SpringItems, CyclesStandBesideEachCurveAsData) {

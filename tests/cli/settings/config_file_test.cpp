@@ -4,6 +4,7 @@
 
 #include "cli/base/failure.h"
 #include "cli/settings/config.h"
+#include "cli/settings/config_edit.h"
 
 namespace contact::cli {
 namespace {

@@ -27,7 +27,7 @@ TEST(FormatTest, EachNameFindsItsFormat) {
 }
 
 TEST(FormatTest, AnEndingTellsOneFormatOfEachUse) {
-  for (const FormatUse use : {kPrinted, kData, kPicture}) {
+  for (const FormatUse use : {kPrinted, kData, kFigure}) {
     std::set<std::string_view> endings;
     for (const FormatInfo& info : Formats()) {
       if ((info.uses & use) == 0 || info.ending.empty()) continue;
@@ -38,7 +38,7 @@ TEST(FormatTest, AnEndingTellsOneFormatOfEachUse) {
 }
 
 TEST(FormatTest, TheEndingOfAnotherUseOrAFolderTellsNothing) {
-  EXPECT_EQ(FormatOfFile("chain.nc", kPicture), std::nullopt);
+  EXPECT_EQ(FormatOfFile("chain.nc", kFigure), std::nullopt);
   EXPECT_EQ(FormatOfFile("chain.svg", kData), std::nullopt);
   EXPECT_EQ(FormatOfFile("results.mat/chain", kData), std::nullopt);
   EXPECT_EQ(FormatOfFile("", kData), std::nullopt);

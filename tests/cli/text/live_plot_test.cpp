@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "cli/base/dot_canvas.h"
 #include "cli/base/style.h"
 
 namespace contact::cli {
@@ -14,27 +13,6 @@ using testing::SizeIs;
 
 std::vector<SampleColumn> Ramp() {
   return {{"time", "time", "s", {0, 1, 2, 3}}, {"B.velocity", "velocity", "m/s", {0, 1, 2, 3}}};
-}
-
-TEST(DotCanvas, HasEightDotsInACharacterOfBraille) {
-  DotCanvas canvas(2, 1, true);
-  EXPECT_EQ(canvas.width(), 4);
-  EXPECT_EQ(canvas.height(), 4);
-  canvas.Line(0, 0, 0, 3);
-  canvas.Line(3, 3, 3, 3);
-  EXPECT_THAT(canvas.Rows(), ElementsAre("⡇⢀"));
-}
-
-TEST(DotCanvas, DrawsADiagonalInAscii) {
-  DotCanvas canvas(3, 3, false);
-  canvas.Line(0, 2, 2, 0);
-  EXPECT_THAT(canvas.Rows(), ElementsAre("  *", " * ", "*  "));
-}
-
-TEST(DotCanvas, LeavesOutWhatLiesOutside) {
-  DotCanvas canvas(1, 1, false);
-  canvas.Line(-5, 0, 5, 0);
-  EXPECT_THAT(canvas.Rows(), ElementsAre("*"));
 }
 
 TEST(RenderLivePlot, FillsTheTerminalAndNoMore) {

@@ -33,7 +33,8 @@ template <class Show>
 std::string Shown(LiveView::Options options, Show show) {
   std::FILE* file = std::tmpfile();
   {
-    LiveView view(file, {}, file, {}, std::move(options));
+    options.rows = options.messages = file;
+    LiveView view(std::move(options));
     show(view);
   }
   std::string text(static_cast<std::size_t>(std::ftell(file)), '\0');

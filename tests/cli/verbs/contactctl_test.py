@@ -113,9 +113,9 @@ class SweepTest(CliTest):
                          "- {field: 'solver.max_iterations', values: [1, 50]}\n"
                          "metrics: ['iterations']\n")
         job = self.run_it("sweep", "run", path, "-o", "name", code=7)[0].strip()
-        picture = self.folder / "map.svg"
-        self.run_it("sweep", "export", job, "--heatmap", picture)
-        svg = picture.read_text("utf-8")
+        figure = self.folder / "map.svg"
+        self.run_it("sweep", "export", job, "--heatmap", figure)
+        svg = figure.read_text("utf-8")
         self.assertEqual(svg.count("<pattern"), 1)  # One cell did not converge.
         self.assertEqual(svg.count("rgb(176,   0,  32)"), 2)  # Two failed.
         self.assertIn("contacts[0].restitution", svg)

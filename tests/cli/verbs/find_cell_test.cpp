@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "cli/base/failure.h"
-#include "cli/verbs/follow.h"
-#include "cli/verbs/sweep_cell.h"
+#include "cli/verbs/job/follow.h"
+#include "cli/verbs/sweep/sweep_cell.h"
 
 namespace contact::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/verbs/law_study.h"
+#include "cli/verbs/laws/law_study.h"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@ namespace {
 std::vector<LawPoint> PointsOf(const std::vector<std::string>& laws, double restitution) {
   std::vector<LawPoint> points;
   for (const std::string& law : laws) {
-    points.push_back({.law = &FindLaw(law), .requested = restitution, .method = "simulation"});
+    points.push_back({.law = &FindLaw(law), .requested = restitution});
   }
   return points;
 }
@@ -38,7 +38,7 @@ TEST(FindLawTest, UnknownNameIsAUsageErrorWithTheNearestLaw) {
 }
 
 TEST(LawPointTest, MissIsRelativeToTheRestitutionAskedFor) {
-  const LawPoint point{.requested = 0.5, .delivered = 0.6, .method = "simulation"};
+  const LawPoint point{.requested = 0.5, .delivered = 0.6};
   EXPECT_DOUBLE_EQ(point.miss(), 0.2);
 }
 
@@ -78,7 +78,7 @@ TEST(CollisionsOfTest, LinearLawHasALinearSpring) {
 TEST(CollisionsOfTest, ScenarioObeysEveryRuleOfTheContract) {
   std::vector<LawPoint> points;
   for (const LawEntry& law : LawCatalogue()) {
-    points.push_back({.law = &law, .requested = 0.9, .method = "simulation"});
+    points.push_back({.law = &law, .requested = 0.9});
   }
   EXPECT_TRUE(DecodeScenario(CollisionsOf(points)).violations.empty());
 }

@@ -48,9 +48,9 @@ class SweepCellTest(CliTest):
         self.assertEqual(next(c.mu for c in job.cycles if c.contact == "B1-B2"), metric)
         self.assertEqual(job.scenario.bodies[0].velocity_m_per_s, 0.3)
         self.assertEqual(dict(job.labels), {"sweep": self.sweep.split("/")[1], "cell": "4"})
-        picture = self.folder / "force.svg"
-        self.run_it("plot", name, "force", "-f", picture)
-        self.assertIn("</svg>", picture.read_text("utf-8"))
+        figure = self.folder / "force.svg"
+        self.run_it("plot", name, "force", "-f", figure)
+        self.assertIn("</svg>", figure.read_text("utf-8"))
 
     def test_cell_that_breaks_a_rule_cannot_be_run(self):
         self.assertIn("must be in (0, 1]", self.cell(5, "--run", code=3)[1])

@@ -6,41 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/base/failure.h"
 #include "cli/base/scratch_folder.h"
-#include "cli/verbs/verbs.h"
+#include "cli/verbs/verb_case.h"
 
 namespace contact::cli {
 namespace {
 
 using testing::HasSubstr;
-
-struct End {
-  ExitCode code = ExitCode::kOk;
-  std::string told;     ///< What() of a failure.
-  std::string printed;  ///< To the standard output.
-};
-
-// The end of a command line.
-End EndOf(std::vector<std::string> words) {
-  CommandLine line("A program.");
-  AddGlobalFlags(line);
-  AddVerbs(line);
-  words.insert(words.begin(), {"--server", "127.0.0.1:1"});
-  std::reverse(words.begin(), words.end());
-  line.app().parse(words);
-  testing::internal::CaptureStdout();
-  End end;
-  try {
-    end.code = line.action()();
-  } catch (const Failure& failure) {
-    end.code = failure.code();
-    end.told = failure.what();
-  }
-  std::fflush(stdout);
-  end.printed = testing::internal::GetCapturedStdout();
-  return end;
-}
 
 void ExpectUsage(const std::vector<std::string>& words, const std::string& told) {
   const End end = EndOf(words);

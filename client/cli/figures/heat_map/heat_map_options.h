@@ -32,8 +32,11 @@ class HeatMapOptions {
   void Draw(const v1::Job& job, const SweepCells& cells, const std::string& path) const;
 
  private:
+  /// As in metric().
   std::string metric_;
+  /// linear or log.
   std::string scale_ = "linear";
+  /// True if Draw adds lines of equal value.
   bool contours_ = false;
 };
 

@@ -13,24 +13,9 @@ namespace {
 
 constexpr char kPackage[] = "contact.v1.";
 
-// Whether a line of a comment stands for itself, as formulas and lists do.
+// True if a line of a comment is not joined with its neighbours: a formula or an entry of a list.
 bool StandsAlone(const std::string& line) {
   return line.starts_with(" ") || line.starts_with("* ") || line.starts_with("- ");
-}
-
-std::string Unwrap(const std::string& comment) {
-  std::istringstream lines(comment);
-  std::string text;
-  std::string line;
-  bool open = false;  // The last line of `text` goes on.
-  while (std::getline(lines, line)) {
-    if (line.starts_with(" ")) line.erase(0, 1);
-    const bool alone = StandsAlone(line);
-    if (!text.empty()) text += open && !alone && !line.empty() ? " " : "\n";
-    text += line;
-    open = !alone && !line.empty();
-  }
-  return text.substr(0, text.find_last_not_of(" \n") + 1);
 }
 
 std::string DefaultText(const google::protobuf::FieldDescriptor& field, const v1::FieldRule& rule) {
@@ -73,17 +58,20 @@ const google::protobuf::Descriptor& Contract::Message(const std::string& name) c
   return *message;
 }
 
-template <class Element>
-std::string CommentOf(const Element& element) {
-  google::protobuf::SourceLocation location;
-  return element.GetSourceLocation(&location) ? Unwrap(location.leading_comments) : "";
+std::string Unwrap(const std::string& comment) {
+  std::istringstream lines(comment);
+  std::string text;
+  std::string line;
+  bool open = false;  // The next line continues the last one of `text`.
+  while (std::getline(lines, line)) {
+    if (line.starts_with(" ")) line.erase(0, 1);
+    const bool alone = StandsAlone(line);
+    if (!text.empty()) text += open && !alone && !line.empty() ? " " : "\n";
+    text += line;
+    open = !alone && !line.empty();
+  }
+  return text.substr(0, text.find_last_not_of(" \n") + 1);
 }
-
-template std::string CommentOf(const google::protobuf::Descriptor& element);
-template std::string CommentOf(const google::protobuf::FieldDescriptor& element);
-template std::string CommentOf(const google::protobuf::OneofDescriptor& element);
-template std::string CommentOf(const google::protobuf::EnumDescriptor& element);
-template std::string CommentOf(const google::protobuf::EnumValueDescriptor& element);
 
 std::string FieldText(const google::protobuf::FieldDescriptor& field) {
   return CommentOf(field) + RuleText(field);

@@ -26,10 +26,16 @@ class Contract {
   google::protobuf::DescriptorPool pool_;
 };
 
-/// The comment before `element`, a descriptor of a Contract; empty without one. Each paragraph is
-/// one line; an indented line of the comment, such as a formula, stays a line with its indentation.
+/// The text of a comment of the contract. Each paragraph is one line; an indented line of the
+/// comment, such as a formula, stays a line with its indentation.
+std::string Unwrap(const std::string& comment);
+
+/// The unwrapped comment before `element`, a descriptor of a Contract; empty without one.
 template <class Element>
-std::string CommentOf(const Element& element);
+std::string CommentOf(const Element& element) {
+  google::protobuf::SourceLocation location;
+  return element.GetSourceLocation(&location) ? Unwrap(location.leading_comments) : "";
+}
 
 /// The comment of a field, followed by its rules in words: `Mass. Range: (0, 1e12].`
 std::string FieldText(const google::protobuf::FieldDescriptor& field);

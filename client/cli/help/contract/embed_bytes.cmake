@@ -1,19 +1,7 @@
 # Writes OUTPUT, the C++ source that holds the bytes of INPUT.
+include(${CMAKE_CURRENT_LIST_DIR}/../../../../deploy/embed.cmake)
 file(READ ${INPUT} bytes HEX)
 string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
 string(REGEX REPLACE "(................................................................................)" "\\1\n"
   bytes "${bytes}")
-file(WRITE ${OUTPUT} "#include \"cli/help/contract/contract.h\"
-
-namespace contact::cli {
-namespace {
-
-constexpr unsigned char kBytes[] = {
-${bytes}};
-
-}  // namespace
-
-std::span<const unsigned char> ContractBytes() { return kBytes; }
-
-}  // namespace contact::cli
-")
+contact_embed(${OUTPUT} cli/help/contract/contract.h "unsigned char" ContractBytes "${bytes}")

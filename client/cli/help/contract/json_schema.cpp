@@ -14,7 +14,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::OneofDescriptor;
 using nlohmann::ordered_json;
 
-// Who writes the JSON.
+// Which JSON the schema describes.
 enum class Side {
   kWritten,  // By a user: ranges and required fields hold.
   kPrinted,  // By the server: unset fields have their zero, int64 is text, NaN may occur.
@@ -31,18 +31,13 @@ ordered_json Enum(const EnumDescriptor& type, Side side) {
   return {{"type", "string"}, {"enum", names}, {"enumDescriptions", meanings}};
 }
 
-ordered_json Integer64(Side side) {
-  if (side == Side::kWritten) return {{"type", "integer"}};
-  return {{"type", "string"}, {"pattern", "^-?[0-9]+$"}};
-}
-
 ordered_json Double(const FieldDescriptor& field, Side side) {
   ordered_json number = {{"type", "number"}};
   if (side == Side::kWritten || !RuleOf(field).may_be_nan()) return number;
   return {{"anyOf", {number, {{"enum", {"NaN", "Infinity", "-Infinity"}}}}}};
 }
 
-// A variable of the file, which may stand for any value.
+// The schema, or in a file also a variable in the place of the value.
 ordered_json OrVariable(const ordered_json& schema, Side side) {
   if (side == Side::kPrinted) return schema;
   return {{"anyOf", {schema, {{"$ref", "#/definitions/variable"}}}}};
@@ -54,7 +49,7 @@ void AddBounds(const v1::FieldRule& rule, ordered_json* schema) {
   if (rule.has_max()) (*schema)["maximum"] = rule.max();
 }
 
-// A default in words is left to the description.
+// Adds the default of a field unless it is a sentence, which the description has.
 void AddDefault(const FieldDescriptor& field, const v1::FieldRule& rule, ordered_json* schema) {
   if (rule.has_default_number()) {
     (*schema)["default"] = rule.default_number();
@@ -96,7 +91,7 @@ class Maker {
     }
     if (message.full_name() == "google.protobuf.Any") return {{"type", "object"}};
     if (!definitions_.contains(name)) {
-      definitions_[name] = nullptr;  // Keeps its place before what it needs.
+      definitions_[name] = nullptr;  // Stands before the definitions that it needs.
       definitions_[name] = Definition(message);
     }
     return {{"$ref", "#/definitions/" + name}};
@@ -135,7 +130,7 @@ class Maker {
     } else if (named_base_ && field.full_name() == "contact.v1.Sweep.base") {
       schema["anyOf"] = {{{"type", "string"}, {"minLength", 1}}, Single(field)};
     } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
-      schema["allOf"] = {Single(field)};  // Beside $ref a description is not seen.
+      schema["allOf"] = {Single(field)};  // Validators ignore a description beside $ref.
     } else {
       schema.update(Scalar(field, rule));
       AddDefault(field, rule, &schema);
@@ -165,7 +160,8 @@ class Maker {
         return {{"type", "integer"}};
       case FieldDescriptor::CPPTYPE_INT64:
       case FieldDescriptor::CPPTYPE_UINT64:
-        return Integer64(side_);
+        if (side_ == Side::kWritten) return {{"type", "integer"}};
+        return {{"type", "string"}, {"pattern", "^-?[0-9]+$"}};
       case FieldDescriptor::CPPTYPE_BOOL:
         return {{"type", "boolean"}};
       case FieldDescriptor::CPPTYPE_ENUM:
@@ -182,7 +178,7 @@ class Maker {
   ordered_json definitions_ = ordered_json::object();
 };
 
-// Lets the message `type`, which is the whole file, declare variables.
+// Lets the message `type`, which is the whole file, have a mapping `variables`.
 void AddVariables(const std::string& type, ordered_json* definitions) {
   (*definitions)[type]["properties"]["variables"] = {
       {"description", "Values by name, for ${name} in the file. --var NAME=VALUE gives others."},
@@ -201,11 +197,8 @@ std::string JsonSchema(const Contract& contract, const std::string& kind) {
   Maker maker(kind == "job" ? Side::kPrinted : Side::kWritten, kind == "sweep");
   ordered_json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                          {"title", "contactd " + kind}};
-  schema.update(maker.Message(contract.Message(type)));
-  // Beside $ref, draft-07 ignores every other word, so it has a place of its own.
-  const ordered_json reference = {{"$ref", schema["$ref"]}};
-  schema.erase("$ref");
-  schema["allOf"] = {reference};
+  // In an array of its own, because draft-07 ignores every word beside $ref.
+  schema["allOf"] = ordered_json::array({maker.Message(contract.Message(type))});
   schema["definitions"] = maker.definitions();
   if (kind != "job") AddVariables(type, &schema["definitions"]);
   return schema.dump(2) + "\n";

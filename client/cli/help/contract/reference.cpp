@@ -45,7 +45,7 @@ Term FieldTerm(const FieldDescriptor& field) {
   return term;
 }
 
-// A choice between fields.
+// What the reference says about a choice between fields.
 std::string ChoiceText(const google::protobuf::OneofDescriptor& choice) {
   std::vector<std::string> names;
   for (int i = 0; i < choice.field_count(); ++i) {
@@ -56,7 +56,7 @@ std::string ChoiceText(const google::protobuf::OneofDescriptor& choice) {
                      fmt::join(names, ", "), CommentOf(choice));
 }
 
-// A message, then those of its fields that are new.
+// Adds the chapter of a message, then those of the messages in its fields that are not `seen`.
 void Walk(const Descriptor& message, std::set<const Descriptor*>* seen,
           std::vector<Chapter>* chapters) {
   if (!seen->insert(&message).second) return;
@@ -74,7 +74,7 @@ void Walk(const Descriptor& message, std::set<const Descriptor*>* seen,
   }
 }
 
-// Stars are emphasis in Markdown, but for those in code.
+// Escapes stars outside of code, because Markdown takes them for emphasis.
 std::string Escape(std::string_view text) {
   std::string escaped;
   bool code = false;
@@ -86,7 +86,7 @@ std::string Escape(std::string_view text) {
   return escaped;
 }
 
-// Lines that stand for themselves become code.
+// Text as Markdown, each line after `indent`. Indented lines become code.
 std::string Paragraphs(const std::string& text, const std::string& indent) {
   std::istringstream lines(text);
   std::string page;

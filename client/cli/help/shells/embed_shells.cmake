@@ -1,4 +1,5 @@
 # Writes OUTPUT, the C++ source that holds the completion scripts FILES, each named contactctl.SHELL.
+include(${CMAKE_CURRENT_LIST_DIR}/../../../../deploy/embed.cmake)
 set(entries "")
 foreach(file IN LISTS FILES)
   get_filename_component(shell ${file} EXT)
@@ -6,17 +7,4 @@ foreach(file IN LISTS FILES)
   file(READ ${file} text)
   string(APPEND entries "    {\"${shell}\", R\"script(${text})script\"},\n")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"cli/help/completion.h\"
-
-namespace contact::cli {
-namespace {
-
-constexpr ShellScript kScripts[] = {
-${entries}};
-
-}  // namespace
-
-std::span<const ShellScript> ShellScripts() { return kScripts; }
-
-}  // namespace contact::cli
-")
+contact_embed(${OUTPUT} cli/help/completion.h ShellScript ShellScripts "${entries}")

@@ -25,7 +25,7 @@ std::string Shown(const Value& value, int digits) {
   return word == nullptr ? "-" : *word;
 }
 
-// In per cent from a thousandth on.
+// A relative deviation, from 0.001 on in per cent; empty for NaN.
 std::string Relative(double deviation) {
   if (std::isnan(deviation)) return "";
   if (deviation == 0) return "0";

@@ -7,11 +7,11 @@
 
 namespace contact::cli {
 
-/// What the tables of a comparison say, whatever they are written in.
-
-/// A table of texts; each row has as many cells as there are headers.
+/// A table of a comparison before it is written as text, LaTeX or HTML.
 struct ComparisonCells {
+  /// One header for each column.
   std::vector<std::string> headers;
+  /// Each row has as many cells as there are headers.
   std::vector<std::vector<std::string>> rows;
 };
 

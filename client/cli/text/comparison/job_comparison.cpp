@@ -1,92 +1,61 @@
 #include "cli/text/comparison/job_comparison.h"
 
 #include <fmt/format.h>
-#include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
-#include <set>
+#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "cli/text/render_json.h"
 
 namespace contact::cli {
 namespace {
 
-using google::protobuf::FieldDescriptor;
-using google::protobuf::Message;
-using Fields = std::map<std::string, std::string>;  // Values by path.
+using Json = nlohmann::json;
 
-std::string Text(const Message& message, const FieldDescriptor& field, int index) {
-  const auto& reflection = *message.GetReflection();
-  const bool many = field.is_repeated();
-  switch (field.cpp_type()) {
-    case FieldDescriptor::CPPTYPE_DOUBLE:
-      return fmt::to_string(many ? reflection.GetRepeatedDouble(message, &field, index)
-                                 : reflection.GetDouble(message, &field));
-    case FieldDescriptor::CPPTYPE_INT32:
-      return fmt::to_string(many ? reflection.GetRepeatedInt32(message, &field, index)
-                                 : reflection.GetInt32(message, &field));
-    case FieldDescriptor::CPPTYPE_INT64:
-      return fmt::to_string(many ? reflection.GetRepeatedInt64(message, &field, index)
-                                 : reflection.GetInt64(message, &field));
-    case FieldDescriptor::CPPTYPE_BOOL:
-      return reflection.GetBool(message, &field) ? "true" : "false";
-    case FieldDescriptor::CPPTYPE_ENUM:
-      return (many ? reflection.GetRepeatedEnum(message, &field, index)
-                   : reflection.GetEnum(message, &field))
-          ->name();
-    default:
-      return many ? reflection.GetRepeatedString(message, &field, index)
-                  : reflection.GetString(message, &field);
+// A JSON pointer as scenario files write paths: `/bodies/0/mass_kg` is `bodies[0].mass_kg`.
+std::string PathOf(const std::string& pointer) {
+  std::string path;
+  for (std::size_t begin = 1; begin <= pointer.size();) {
+    const std::size_t end = std::min(pointer.find('/', begin), pointer.size());
+    const std::string part = pointer.substr(begin, end - begin);
+    const bool index = std::isdigit(static_cast<unsigned char>(part.front())) != 0;
+    path += index ? fmt::format("[{}]", part) : (path.empty() ? "" : ".") + part;
+    begin = end + 1;
   }
+  return path;
 }
 
-void AddFields(const Message& message, const std::string& path, Fields* fields) {
-  const auto& reflection = *message.GetReflection();
-  std::vector<const FieldDescriptor*> set;
-  reflection.ListFields(message, &set);
-  for (const FieldDescriptor* field : set) {
-    const std::string here = path.empty() ? field->name() : path + "." + field->name();
-    const bool nested = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
-    if (!field->is_repeated() && nested) {
-      AddFields(reflection.GetMessage(message, field), here, fields);
-    } else if (!field->is_repeated()) {
-      (*fields)[here] = Text(message, *field, 0);
-    }
-    for (int i = 0; field->is_repeated() && i < reflection.FieldSize(message, field); ++i) {
-      const std::string entry = fmt::format("{}[{}]", here, i);
-      if (nested) {
-        AddFields(reflection.GetRepeatedMessage(message, field, i), entry, fields);
-      } else {
-        (*fields)[entry] = Text(message, *field, i);
-      }
-    }
-  }
+std::string TextOf(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? fmt::to_string(value.get<double>()) : value.dump();
 }
 
+// The fields that are set in at least one scenario and not equal in all. A message without fields
+// has none.
 std::vector<JobComparison::Parameter> Differing(const std::vector<v1::Job>& jobs) {
-  std::vector<Fields> all(jobs.size());
-  std::set<std::string> paths;
+  std::map<std::string, std::vector<std::string>> all;  // The values of all jobs by path.
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    AddFields(jobs[i].scenario(), "", &all[i]);
-    for (const auto& [path, value] : all[i]) paths.insert(path);
+    const Json fields = Json::parse(ToJsonLine(jobs[i].scenario())).flatten();
+    for (const auto& [pointer, value] : fields.items()) {
+      if (value.is_null()) continue;
+      all.try_emplace(PathOf(pointer), jobs.size()).first->second[i] = TextOf(value);
+    }
   }
   std::vector<JobComparison::Parameter> differing;
-  for (const std::string& path : paths) {
-    JobComparison::Parameter parameter{path, {}};
-    for (const Fields& fields : all) {
-      const auto found = fields.find(path);
-      parameter.values.push_back(found == fields.end() ? "" : found->second);
-    }
-    const std::string& first = parameter.values.front();
-    if (std::ranges::all_of(parameter.values, [&](const auto& v) { return v == first; })) continue;
-    differing.push_back(std::move(parameter));
+  for (const auto& [path, values] : all) {
+    const bool equal = std::ranges::adjacent_find(values, std::not_equal_to()) == values.end();
+    if (!equal) differing.push_back({path, values});
   }
   return differing;
 }
 
-// Gathers results of one job after the other, in the order in which they are first met.
+// Gathers results job by job. Results stand in the order in which the first job with each has it.
 class Results {
  public:
   explicit Results(std::size_t jobs) : jobs_(jobs) {}

@@ -11,7 +11,9 @@ namespace contact::cli {
 
 /// How far a number may be from that of the baseline: max(absolute, relative · |baseline|).
 struct Tolerance {
-  double absolute = 1e-12;  ///< In the unit of the number.
+  /// In the unit of the number.
+  double absolute = 1e-12;
+  /// A fraction of |baseline|.
   double relative = 1e-6;
 };
 
@@ -19,8 +21,10 @@ struct Tolerance {
 struct JobComparison {
   /// A field of the scenario that is not the same in all jobs.
   struct Parameter {
-    std::string path;                 ///< As in a scenario file, such as `bodies[0].mass_kg`.
-    std::vector<std::string> values;  ///< One for each job; empty where the field is not set.
+    /// As in a scenario file, such as `bodies[0].mass_kg`.
+    std::string path;
+    /// One value for each job; empty where the field is not set.
+    std::vector<std::string> values;
   };
 
   /// A number, a word such as a state, or nothing where a job has no such result.
@@ -28,10 +32,14 @@ struct JobComparison {
 
   /// One result of all jobs.
   struct Result {
-    std::string name;           ///< Such as `B1-B2 #1 peak force`.
-    std::string unit;           ///< Empty for words, `1` for numbers without dimension.
-    std::vector<Value> values;  ///< One for each job.
-    bool judged = true;         ///< False for what a run cost, which no tolerance applies to.
+    /// Such as `B1-B2 #1 peak force`.
+    std::string name;
+    /// Empty for words, `1` for numbers without dimension.
+    std::string unit;
+    /// One value for each job.
+    std::vector<Value> values;
+    /// False for what a run cost, such as its wall time, which is shown but not compared.
+    bool judged = true;
 
     /// True unless a judged value of this job is out of tolerance. Words must be equal, and NaN
     /// equals NaN.
@@ -41,14 +49,18 @@ struct JobComparison {
     double Deviation(std::size_t job) const;
   };
 
-  std::vector<std::string> names;     ///< The jobs, `jobs/ID`.
-  std::vector<Parameter> parameters;  ///< In the order of their paths.
-  std::vector<Result> results;        ///< In the order in which the jobs have them.
-  Tolerance tolerance;                ///< Of the verdicts.
+  /// The jobs, `jobs/ID`.
+  std::vector<std::string> names;
+  /// In the order of their paths.
+  std::vector<Parameter> parameters;
+  /// In the order in which the jobs have them.
+  std::vector<Result> results;
+  /// What decides whether a result holds.
+  Tolerance tolerance;
 
   /// True if a result is within the tolerance in all jobs.
   bool Holds(const Result& result) const;
-  /// True if all results are.
+  /// True if all results are within the tolerance in all jobs.
   bool Holds() const;
 };
 

@@ -1,13 +1,15 @@
 #include "cli/text/comparison/render_comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "cli/base/escape.h"
 #include "cli/base/html.h"
-#include "cli/base/latex.h"
 #include "cli/base/table.h"
 #include "cli/text/comparison/comparison_cells.h"
 
@@ -49,10 +51,9 @@ std::string ResultTable(const JobComparison& comparison, const Style& style) {
   return table.Text(style, kMostRows, "… {} more results; -o csv prints all");
 }
 
-std::string LatexRow(const std::vector<std::string>& cells) {
-  std::string row;
-  for (const std::string& cell : cells) row += (row.empty() ? "" : " & ") + LatexText(cell);
-  return row + " \\\\\n";
+std::string LatexRow(std::vector<std::string> cells) {
+  std::ranges::transform(cells, cells.begin(), LatexText);
+  return fmt::format("{} \\\\\n", fmt::join(cells, " & "));
 }
 
 std::string Tabular(const ComparisonCells& cells) {

@@ -36,7 +36,7 @@ class HeatScale {
   int unshown() const { return unshown_; }
 
  private:
-  // The value of a cell whatever the scale; NaN if it failed or has none.
+  /// The value of a cell whatever the scale; NaN if the cell failed or has none.
   double Value(const v1::SweepCell& cell) const;
 
   int metric_;

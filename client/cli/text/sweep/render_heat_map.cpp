@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMostMapRows = 60;
 
-// Two characters for a cell.
+// The two characters of a cell; null: the cell has not been computed.
 std::string Glyph(const v1::SweepCell* cell, const HeatScale& scale, const Style& style) {
   constexpr std::array<std::string_view, 4> kShades{"░", "▒", "▓", "█"};
   if (cell == nullptr) return "··";

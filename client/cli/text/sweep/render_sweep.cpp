@@ -20,11 +20,9 @@ constexpr std::size_t kMostRows = 40;
 
 std::string Title(const v1::Job& job, const Style& style) {
   const v1::Progress& progress = job.progress();
-  std::string line =
-      fmt::format("{}  {}", Paint(job.name(), Tone::kStrong, style),
-                  Paint(v1::Job::State_Name(job.state()), ToneOf(job.state()), style));
-  if (!job.state_reason().empty()) line += fmt::format(" ({})", job.state_reason());
-  line += fmt::format("  {} of {} cells", progress.cells_done(), progress.cells());
+  std::string line = fmt::format("{}  {}  {} of {} cells", Paint(job.name(), Tone::kStrong, style),
+                                 StateText(job.state(), job.state_reason(), style),
+                                 progress.cells_done(), progress.cells());
   if (progress.cells_failed() > 0) line += fmt::format(", {} failed", progress.cells_failed());
   if (progress.cells_not_converged() > 0) {
     line += fmt::format(", {} not converged", progress.cells_not_converged());
@@ -32,14 +30,14 @@ std::string Title(const v1::Job& job, const Style& style) {
   return Wrap(line + "\n", style);
 }
 
-// What became of a cell: its convergence, or why it failed.
+// The last column of a cell: its convergence, or why it failed.
 Table::Cell Verdict(const v1::SweepCell& cell) {
   if (cell.state() == v1::Job::FAILED) return {cell.state_reason(), Tone::kBad};
   const bool full = cell.convergence() == v1::Job::FULL;
   return {v1::Job::Convergence_Name(cell.convergence()), full ? Tone::kGood : Tone::kWarning};
 }
 
-// The columns of cell, axes and metrics. Metrics are the first to be left out.
+// The columns of cell, axes and metrics. A narrow terminal leaves out metrics first.
 std::vector<Table::Column> Quantities(const v1::Sweep& sweep) {
   std::vector<Table::Column> columns{{"CELL", true}};
   for (const auto& axis : sweep.axes()) columns.push_back({axis.field(), true, 0, axis.field()});
@@ -62,11 +60,8 @@ std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style
     row.push_back(Verdict(cell));
     table.Add(std::move(row));
   }
-  std::string text = Title(job, style);
-  if (job.has_error()) {
-    text += Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
-  }
-  return text + "\n" + table.Text(style, kMostRows, "… {} more cells; -o csv prints all");
+  return Title(job, style) + ErrorLine(job, style) + "\n" +
+         table.Text(style, kMostRows, "… {} more cells; -o csv prints all");
 }
 
 std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells,

@@ -34,13 +34,15 @@ class SweepGrid {
   }
 
  private:
-  // The distinct values of an axis, and the place of each.
+  /// The distinct values of an axis, and the place of each among them.
   struct Axis {
+    /// Gathers the values that cells have on the axis with this index.
     Axis(const SweepCells& cells, int axis);
     std::vector<double> values;
     std::map<double, std::size_t> places;
   };
 
+  /// `cells` are those of a grid over two axes; at least one.
   explicit SweepGrid(const SweepCells& cells);
 
   Axis rows_;

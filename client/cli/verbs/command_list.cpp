@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <memory>
+#include <string_view>
+
+#include "base/spelling.h"
+#include "cli/base/number.h"
+#include "cli/base/table.h"
+#include "cli/help/candidates.h"
+#include "cli/link/connect.h"
+#include "cli/link/job_names.h"
+#include "cli/settings/column_choice.h"
+#include "cli/text/print_job.h"
+#include "cli/text/render_job.h"
+#include "cli/text/render_json.h"
+#include "cli/verbs/job/options.h"
+#include "cli/verbs/list_watch.h"
+#include "cli/verbs/verbs.h"
+
+namespace contact::cli {
+namespace {
+
+struct ListArguments {
+  std::vector<std::string> states;
+  std::vector<std::string> labels;
+  int limit = 50;
+  bool watch = false;
+  ColumnChoice columns;
+};
+
+v1::Job::State ParseState(std::string text) {
+  boost::to_upper(text);
+  v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
+  if (v1::Job::State_Parse(text, &state) && state != v1::Job::STATE_UNSPECIFIED) return state;
+  const std::vector<std::string_view> states = JobStates();
+  throw Failure(ExitCode::kUsage, WithHint(fmt::format("--state {}: one of {}", Quoted(text),
+                                                       fmt::join(states, ", ")),
+                                           DidYouMean(text, states)));
+}
+
+// A request with the filter of the arguments.
+template <class Request>
+Request Filtered(const ListArguments& arguments) {
+  Request request;
+  for (const std::string& state : arguments.states) request.add_states(ParseState(state));
+  const auto labels = ParseLabels(arguments.labels);
+  request.mutable_labels()->insert(labels.begin(), labels.end());
+  return request;
+}
+
+// The jobs of all pages, up to the limit; with a page token if there are more.
+v1::ListJobsResponse ListAll(Client& client, const ListArguments& arguments) {
+  constexpr int kPage = 500;
+  auto request = Filtered<v1::ListJobsRequest>(arguments);
+  v1::ListJobsResponse all;
+  do {
+    const int missing = arguments.limit - all.jobs_size();
+    request.set_page_size(arguments.limit > 0 ? std::min(kPage, missing) : kPage);
+    const v1::ListJobsResponse page = client.Call(&Client::Stub::ListJobs, request);
+    all.MergeFrom(page);
+    all.set_next_page_token(page.next_page_token());
+    request.set_page_token(page.next_page_token());
+  } while (!all.next_page_token().empty() &&
+           (arguments.limit <= 0 || all.jobs_size() < arguments.limit));
+  return all;
+}
+
+std::string Labels(const v1::Job& job) {
+  std::vector<std::string> labels;
+  for (const auto& [key, value] : job.labels()) labels.push_back(fmt::format("{}={}", key, value));
+  std::ranges::sort(labels);
+  return fmt::format("{}", fmt::join(labels, ", "));
+}
+
+std::string Convergence(const v1::Job& job) {
+  return job.convergence() == v1::Job::CONVERGENCE_UNSPECIFIED
+             ? "-"
+             : v1::Job::Convergence_Name(job.convergence());
+}
+
+std::vector<Table::Column> ListColumns() {
+  return {{"JOB"},
+          {"STATE"},
+          {"REASON", false, 2},
+          {"CONVERGENCE", false, 3},
+          {"CREATED (UTC)", false, 1},
+          {"ENDED (UTC)", false, 4},
+          {"LABELS", false, 5},
+          {"CYCLES", true, Table::kOnlyWide},
+          {"ATTEMPT", true, Table::kOnlyWide}};
+}
+
+std::vector<Table::Cell> ListRow(const v1::Job& job) {
+  return {ShortName(job.name()),
+          {v1::Job::State_Name(job.state()), ToneOf(job.state())},
+          job.state_reason().empty() ? "-" : job.state_reason(),
+          Convergence(job),
+          Instant(job.create_time()),
+          Instant(job.end_time()),
+          Labels(job),
+          fmt::to_string(job.progress().cycles()),
+          fmt::to_string(job.attempt())};
+}
+
+Table ListTable(const v1::ListJobsResponse& all) {
+  Table table(ListColumns());
+  for (const v1::Job& job : all.jobs()) table.Add(ListRow(job));
+  return table;
+}
+
+void PrintList(const v1::ListJobsResponse& all, const ColumnChoice& columns,
+               const Settings& settings) {
+  switch (settings.output) {
+    case OutputFormat::kJson:
+      return PrintJson(ToJson(all), settings);
+    case OutputFormat::kCsv:
+      return fmt::print("{}", ListTable(all).Csv(columns.names()));
+    case OutputFormat::kTable:
+      fmt::print("{}", ListTable(all).Text(columns.OutputStyle(settings)));
+      if (!all.next_page_token().empty()) fmt::print(stderr, "… and more; --limit 0 lists all\n");
+      return;
+    default:
+      for (const v1::Job& job : all.jobs()) {
+        const bool name = settings.output == OutputFormat::kName;
+        fmt::print("{}", name ? job.name() + "\n" : ToJsonLine(job));
+      }
+  }
+}
+
+ExitCode List(const ListArguments& arguments, const Settings& settings) {
+  if (arguments.watch) return ListAndWatch(Filtered<v1::WatchJobsRequest>(arguments), settings);
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kJsonLines,
+                          OutputFormat::kCsv, OutputFormat::kName});
+  arguments.columns.Check(ListColumns(), settings);
+  Client client = Connect(settings);
+  PrintList(ListAll(client, arguments), arguments.columns, settings);
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddList(CommandLine& line, CLI::App& list) {
+  auto arguments = std::make_shared<ListArguments>();
+  Repeatable(AddOption(line, list, "--state", &arguments->states, ValueKind::kState,
+                       "Only jobs in this state; repeatable"));
+  Repeatable(list.add_option("--label", arguments->labels, "Only jobs with this label; repeatable"))
+      ->type_name("KEY=VALUE");
+  list.add_option("--limit", arguments->limit, "Most jobs to list; 0: all")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N")
+      ->capture_default_str();
+  list.add_flag("--watch", arguments->watch,
+                "All of them, and then a line for each change; -o jsonl for programs");
+  arguments->columns.AddTo(line, list, ListColumns());
+  line.SetAction(list, arguments, List);
+}
+
+}  // namespace contact::cli

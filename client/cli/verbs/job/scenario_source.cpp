@@ -1,0 +1,79 @@
+#include "cli/verbs/job/scenario_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "cli/input/checked_scenario.h"
+#include "cli/input/no_limits.h"
+#include "cli/input/sweep_file.h"
+#include "cli/input/templates.h"
+#include "cli/link/job_source.h"
+#include "cli/text/render_json.h"
+#include "cli/verbs/job/options.h"
+
+namespace contact::cli {
+namespace {
+
+// Says so if a server of another version made the job: only the same version repeats it bit for
+// bit.
+void TellOfOtherServer(Client& client, const v1::Job& job) {
+  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  if (job.server_version().empty() ||
+      (job.server_version() == info.version() && job.server_revision() == info.revision())) {
+    return;
+  }
+  fmt::print(stderr, "{} was made by contactd {} {}, this one is {} {}: last digits may differ\n",
+             job.name(), job.server_version(), job.server_revision(), info.version(),
+             info.revision());
+}
+
+}  // namespace
+
+void ScenarioSource::AddTo(CommandLine& line, CLI::App& command) {
+  AddOption(line, command, "FILE", &file_, ValueKind::kScenarioFile,
+            "Scenario in YAML or JSON; - is the standard input");
+  AddOption(line, command, "--like", &like_, ValueKind::kJob,
+            "Repeat this job instead of a file; on the same server bit for bit");
+  AddOption(line, command, "-t,--template", &template_, ValueKind::kTemplate,
+            "Take a scenario that init would write, instead of a file");
+  Repeatable(AddOption(line, command, "--set", &overrides_, ValueKind::kAssignment,
+                       "Override a field, such as contacts[0].restitution=0.7; repeatable"));
+  AddVariableFlag(command, &variables_);
+}
+
+ScenarioFile ScenarioSource::Open(Client& client) const {
+  return Checked(Read(client), overrides_, kNoLimits);
+}
+
+ScenarioFile ScenarioSource::Read(Client& client) const {
+  const std::array sources = {file_.empty(), like_.empty(), template_.empty()};
+  if (std::ranges::count(sources, false) != 1) {
+    throw Failure(ExitCode::kUsage, "give a FILE, --template NAME or --like JOB, one of them");
+  }
+  if (!template_.empty()) return ReadTemplate();
+  if (!like_.empty()) return ReadJob(client);
+  return ScenarioFile::Open(file_, ParseVariables(variables_));
+}
+
+ScenarioFile ScenarioSource::ReadJob(Client& client) const {
+  const v1::Job job = GetJob(client, like_);
+  if (job.has_sweep()) {
+    throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
+  }
+  TellOfOtherServer(client, job);
+  return {job.name(), ToJsonLine(job.scenario()), ParseVariables(variables_)};
+}
+
+ScenarioFile ScenarioSource::ReadTemplate() const {
+  const std::string text(FindTemplate(template_).text);
+  if (IsSweep(text)) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{0} is a sweep; contactctl init {0} writes it", template_));
+  }
+  return {template_, text, ParseVariables(variables_)};
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/settings/settings.h"
+#include "wire/scenario/law_catalogue.h"
+
+namespace contact::cli {
+
+/// The restitution that a law delivers in an isolated collision.
+struct LawPoint {
+  /// In the catalogue, which is never destroyed.
+  const LawEntry* law = nullptr;
+  /// Restitution asked for, in (0, 1].
+  double requested = 0;
+  /// Restitution that results; 0: not known yet.
+  double delivered = 0;
+
+  /// Deviation relative to the restitution asked for.
+  double miss() const { return delivered / requested - 1; }
+  /// Where `delivered` comes from: `closed form` or `simulation`.
+  std::string_view method() const { return law->closed_form() ? "closed form" : "simulation"; }
+};
+
+/// A point of a law. `delivered` is filled if the law has a closed form, else left to Simulate.
+/// `requested` is in (0, 1].
+LawPoint PointOf(const LawEntry& law, double requested);
+
+/// The law with this name, written as HUNT_CROSSLEY or hunt-crossley. Throws Failure (kUsage) with
+/// the nearest name if there is no such law.
+const LawEntry& FindLaw(const std::string& text);
+
+/// The laws with these names, as FindLaw finds them, in this order. Without names all laws of the
+/// catalogue, or with `closed_form` those that need no run.
+std::vector<const LawEntry*> ChooseLaws(const std::vector<std::string>& names, bool closed_form);
+
+/// A scenario with a ball and a wall for each point. The balls hit their walls one after the other.
+/// Contact i is point i.
+v1::Scenario CollisionsOf(const std::vector<LawPoint>& points);
+
+/// Fills `delivered` of the points whose law has no closed form, from one run on the server. The
+/// job is deleted afterwards. Without such points no server is asked. Throws Failure and
+/// CallFailure.
+void Simulate(std::vector<LawPoint>* points, const Settings& settings);
+
+}  // namespace contact::cli

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "base/clock.h"
+#include "base/executor.h"
+#include "base/ids.h"
+#include "contact/v1/job_service.pb.h"
+#include "jobs/job/callback.h"
+#include "jobs/job/job_options.h"
+#include "jobs/job_reader.h"
+#include "jobs/schedule/scheduler.h"
+#include "storage/store.h"
+
+namespace contact {
+
+/// Takes jobs in: checks them, stores them, and hands them to the scheduler. Thread-safe; no call
+/// waits.
+class JobCreator {
+ public:
+  /// What a creator needs. All of it outlives the creator.
+  struct Parts {
+    Store& store;
+    const Clock& clock;
+    IdSource& ids;
+    const JobOptions& options;
+    Scheduler& scheduler;
+    /// Answers requests that were accepted before.
+    const JobReader& reader;
+    /// Checks scenarios, which takes too long for the callers' threads.
+    Executor& executor;
+  };
+  explicit JobCreator(const Parts& parts) : parts_(parts) {}
+
+  /// Checks and stores a job; `done` gets it in state QUEUED. A request with a `request_id` that
+  /// was used before gets the job of that request.
+  void Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned = {});
+
+  /// Refuses new jobs with SERVER_DRAINING from now on.
+  void Drain() { draining_ = true; }
+
+ private:
+  /// One CreateJob on its way: it is checked, then stored. Every step may refuse it.
+  struct Creation;
+
+  /// Checks the request. On the executor.
+  void Check(const std::shared_ptr<Creation>& creation) const;
+  /// Gives the job its name and stores it.
+  void Commit(const std::shared_ptr<Creation>& creation) const;
+  /// Queues the stored job and answers with it. On the store's thread.
+  void Accept(Creation& creation, StoredJob stored) const;
+  /// Answers with an error, and gives the place in the queue back.
+  void Refuse(const Creation& creation, Error error) const;
+
+  const Parts parts_;
+  std::atomic<bool> draining_ = false;
+};
+
+}  // namespace contact

@@ -1,0 +1,86 @@
+#include "jobs/job_reader.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+#include "jobs/read/artifact_plan.h"
+#include "jobs/read/list_rules.h"
+#include "jobs/schedule/retention.h"
+
+namespace contact {
+namespace {
+
+// Leaves out the end of a ledger that would be too large for an answer, and says so.
+void ShortenLedger(v1::Job* job) {
+  constexpr std::size_t kMostBytes = 2 << 20;
+  std::size_t bytes = 0;
+  int kept = 0;
+  while (kept < job->cycles_size() && bytes < kMostBytes) {
+    bytes += job->cycles(kept++).ByteSizeLong();
+  }
+  if (kept == job->cycles_size()) return;
+  job->add_warnings(fmt::format(
+      "only the first {} of {} cycles are in this answer; the artifact cycles.csv and the job's "
+      "events have all",
+      kept, job->cycles_size()));
+  job->mutable_cycles()->DeleteSubrange(kept, job->cycles_size() - kept);
+}
+
+}  // namespace
+
+void JobReader::Get(const std::string& name, Callback<v1::Job> done) const {
+  store_.Read(name, JobPart::kAll,
+              [this, name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
+                if (!stored.ok()) return done(ToError(stored.status(), name));
+                Answer(*std::move(stored), done);
+              });
+}
+
+void JobReader::List(const v1::ListJobsRequest& request,
+                     Callback<v1::ListJobsResponse> done) const {
+  Result<JobQuery> query = ToQuery(request);
+  if (!query.ok()) return done(query.error());
+  store_.List(std::move(query.value()),
+              [this, done = std::move(done)](absl::StatusOr<JobPage> page) {
+                if (!page.ok()) return done(ToError(page.status(), ""));
+                v1::ListJobsResponse response;
+                for (StoredJob& stored : page->jobs) {
+                  Complete(&stored);
+                  *response.add_jobs() = std::move(stored.job);
+                }
+                response.set_next_page_token(PageToken(page->next));
+                done(std::move(response));
+              });
+}
+
+void JobReader::Complete(StoredJob* stored) const {
+  v1::Job& job = stored->job;
+  if (!stored->intact) {
+    job.mutable_error()->set_code(static_cast<int>(absl::StatusCode::kDataLoss));
+    job.mutable_error()->set_message("the stored job fails its checksum");
+  }
+  if (const auto record = scheduler_.Record(job)) job.MergeFrom(record->Get(false));
+  SetExpireTime(options_.retention, &job);
+}
+
+void JobReader::Answer(StoredJob stored, Callback<v1::Job> done) const {
+  // Asked for here, because on the store's thread the record exists exactly while the job has not
+  // ended.
+  const auto record = scheduler_.Record(stored.job);
+  const auto whole = std::make_shared<StoredJob>(std::move(stored));
+  const auto answer = [this, record, whole, done = std::move(done)] {
+    v1::Job& job = whole->job;
+    if (!whole->MergeResult()) return done(Damaged(job.name()));
+    if (record) job.MergeFrom(record->Get(true));
+    SetExpireTime(options_.retention, &job);
+    ShortenLedger(&job);
+    AddArtifacts(&job);
+    done(std::move(job));
+  };
+  if (!executor_.Post(answer)) answer();  // At the end nobody has to be spared.
+}
+
+}  // namespace contact

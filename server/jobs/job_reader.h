@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "base/executor.h"
+#include "contact/v1/job_service.pb.h"
+#include "jobs/job/callback.h"
+#include "jobs/job/job_options.h"
+#include "jobs/schedule/scheduler.h"
+#include "storage/store.h"
+
+namespace contact {
+
+/// Answers what jobs are: reads them from the store, and adds what only the scheduler and the
+/// settings know. Thread-safe; no call waits.
+class JobReader {
+ public:
+  /// All outlive it. Results are parsed on the executor, because a ledger may be long.
+  JobReader(Store& store, const JobOptions& options, const Scheduler& scheduler, Executor& executor)
+      : store_(store), options_(options), scheduler_(scheduler), executor_(executor) {}
+
+  /// The job with ledger and artifacts; of a running job, what its run has brought so far.
+  void Get(const std::string& name, Callback<v1::Job> done) const;
+  /// A page of job headers, newest first.
+  void List(const v1::ListJobsRequest& request, Callback<v1::ListJobsResponse> done) const;
+
+  /// Adds to a stored header what is not stored, or that it is damaged.
+  void Complete(StoredJob* stored) const;
+  /// Answers with all of a stored job. To be called on the store's thread.
+  void Answer(StoredJob stored, Callback<v1::Job> done) const;
+
+ private:
+  Store& store_;
+  const JobOptions& options_;
+  const Scheduler& scheduler_;
+  Executor& executor_;
+};
+
+}  // namespace contact

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "base/executor.h"
+#include "contact/v1/job_service.pb.h"
+#include "jobs/job/callback.h"
+#include "jobs/log/places.h"
+#include "jobs/log/stream_source.h"
+#include "storage/store.h"
+#include "wire/scenario/scenario_codec.h"
+
+namespace contact {
+
+/// Answers requests for what jobs have recorded. Thread-safe; no call waits.
+class Recordings {
+ public:
+  /// Store and executor outlive it. What takes long is done on the executor. `readers` are the
+  /// places of those who read artifacts.
+  Recordings(Store& store, Executor& executor, const ScenarioLimits& limits, Places readers)
+      : store_(store), executor_(executor), limits_(limits), readers_(std::move(readers)) {}
+
+  /// The recorded trajectory of a job, decimated to what the request allows.
+  void GetSeries(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
+                 Abandoned abandoned = {});
+
+  /// Opens an artifact of an ended job. The source must not outlive the store.
+  using Artifact = std::unique_ptr<StreamSource<v1::ReadArtifactResponse>>;
+  void ReadArtifact(const v1::ReadArtifactRequest& request, Wake wake, Callback<Artifact> done);
+
+ private:
+  Store& store_;
+  Executor& executor_;
+  const ScenarioLimits limits_;
+  const Places readers_;
+};
+
+}  // namespace contact

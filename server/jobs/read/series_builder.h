@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "contact/v1/job_service.pb.h"
+#include "jobs/job/errors.h"
+#include "jobs/read/decimation.h"
+#include "jobs/read/series_rules.h"
+
+namespace contact {
+
+/// Makes the answer of GetSeries of the frame chunks of a trajectory, given in order.
+class SeriesBuilder {
+ public:
+  /// `channels` are all columns of the trajectory.
+  SeriesBuilder(SeriesSelection selection, std::vector<v1::FrameChunk::Column> channels);
+
+  /// Forgets the chunks so far: another attempt begins.
+  void Restart();
+  /// True if the chunk is one of this trajectory.
+  bool Fits(const v1::FrameChunk& chunk) const;
+  /// Adds the samples of a chunk that lie in the time range. False if the chunk does not fit.
+  bool Add(const v1::FrameChunk& chunk);
+  /// True if the chunk, which fits, ends before the time range.
+  bool IsBefore(const v1::FrameChunk& chunk) const;
+  /// True if the chunk, which fits, begins after the time range.
+  bool IsPast(const v1::FrameChunk& chunk) const;
+  /// The series of all chunks added; SERIES_TOO_LARGE if it has more samples than may be answered.
+  Result<v1::Series> Finish() const;
+
+ private:
+  /// Adds one sample.
+  void AddRow(const v1::FrameChunk& chunk, int row);
+
+  const SeriesSelection selection_;
+  const std::vector<v1::FrameChunk::Column> channels_;
+  /// Nothing for RAW.
+  std::optional<MinMaxDecimator> decimator_;
+  /// Rows of selected columns, one after the other. Only for RAW; stops growing when it is too
+  /// large.
+  std::vector<double> rows_;
+  /// Samples in the time range.
+  std::int64_t recorded_ = 0;
+};
+
+}  // namespace contact

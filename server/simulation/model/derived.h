@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "simulation/model/scenario.h"
+
+namespace contact {
+
+// What follows from a scenario at once.
+
+/// The distance of the two sides of a contact at t = 0, −δ [m]; negative in overlap. What decimal
+/// input leaves of a distance of 0 is 0.
+inline double InitialGap(const Scenario& scenario, const Contact& contact) {
+  double radii = 0;
+  const auto face = [&](int index, double sign) {
+    if (index == kNone) return contact.wall_position;
+    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    radii += body.radius;
+    return body.position + sign * body.radius;
+  };
+  const double left = face(contact.left, 1);
+  const double right = face(contact.right, -1);
+  const double size = std::max(std::abs(left), std::abs(right)) + radii;
+  return std::abs(right - left) <= 1e-12 * size ? 0 : right - left;
+}
+
+/// Fastest rate at which one of the loads, or a support, changes its force [1/s]: ω of a sine,
+/// √(k/m) or c/m of a support, for which the ground and fixed bodies count 1/m = 0. 0: none does.
+inline double ForcingRate(const Scenario& scenario, std::span<const Load> loads) {
+  double rate = 0;
+  for (const Load& load : loads) {
+    if (load.amplitude != 0) rate = std::max(rate, load.angular_frequency);
+  }
+  const auto inverse_mass = [&](int index) {
+    if (index == kNone) return 0.0;
+    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    return body.fixed ? 0 : 1 / body.mass;
+  };
+  for (const Support& s : scenario.supports) {
+    const double w = inverse_mass(s.body) + inverse_mass(s.other);
+    rate = std::max({rate, std::sqrt(s.stiffness * w), s.damping * w});
+  }
+  return rate;
+}
+
+}  // namespace contact

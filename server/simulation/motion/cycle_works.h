@@ -1,0 +1,23 @@
+#pragma once
+
+#include "simulation/model/ledger.h"
+#include "simulation/model/scenario.h"
+
+namespace contact {
+
+/// Writes into `cycle`, whose δ_s is known, the works of its compression: (W1) to (W3).
+///
+/// `deformation` [m] is δ where the compression ends. `work` W and `external_work` E [J] are those
+/// from the start of the cycle to there.
+void SetCompression(const Contact& contact, double deformation, double work, double external_work,
+                    Cycle* cycle);
+
+/// Writes into `cycle`, whose compression and δ_o are known, the works of its restitution: (W1) to
+/// (W3).
+///
+/// `deformation` [m] is δ where the restitution begins. `work` W and `external_work` E [J] are
+/// those from the start of the cycle to its end.
+void SetRestitution(const Contact& contact, double deformation, double work, double external_work,
+                    Cycle* cycle);
+
+}  // namespace contact

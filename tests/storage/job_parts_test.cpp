@@ -1,0 +1,111 @@
+#include "storage/job_parts.h"
+
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace contact {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::util::MessageDifferencer;
+
+void FillField(const FieldDescriptor& field, Message* message);
+
+// Sets every field, also of the messages inside; of a oneof the last.
+void Fill(Message* message) {
+  for (int i = 0; i < message->GetDescriptor()->field_count(); ++i) {
+    FillField(*message->GetDescriptor()->field(i), message);
+  }
+}
+
+void FillField(const FieldDescriptor& field, Message* message) {
+  const auto& set = *message->GetReflection();
+  const bool many = field.is_repeated();
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_MESSAGE:
+      return Fill(many ? set.AddMessage(message, &field) : set.MutableMessage(message, &field));
+    case FieldDescriptor::CPPTYPE_STRING:
+      return many ? set.AddString(message, &field, field.name())
+                  : set.SetString(message, &field, field.name());
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return many ? set.AddDouble(message, &field, 2.5) : set.SetDouble(message, &field, 2.5);
+    case FieldDescriptor::CPPTYPE_INT32:
+      return many ? set.AddInt32(message, &field, 3) : set.SetInt32(message, &field, 3);
+    case FieldDescriptor::CPPTYPE_INT64:
+      return set.SetInt64(message, &field, 4);
+    case FieldDescriptor::CPPTYPE_UINT64:
+      return set.SetUInt64(message, &field, 5);
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return set.SetEnumValue(message, &field, 1);
+    case FieldDescriptor::CPPTYPE_BOOL:
+      return set.SetBool(message, &field, true);
+    default:
+      FAIL() << "no value for " << field.full_name();
+  }
+}
+
+TEST(Split, PiecesGiveTheWholeJobInAnyOrder) {
+  v1::Job job;
+  Fill(&job);
+  const JobParts parts = Split(job);
+  EXPECT_EQ(parts.end_time, job.end_time().seconds());
+  std::array<std::string, 3> pieces{parts.header, parts.spec, parts.result};
+  std::sort(pieces.begin(), pieces.end());
+  do {
+    v1::Job merged;
+    for (const std::string& piece : pieces) ASSERT_TRUE(merged.MergeFromString(piece));
+    EXPECT_TRUE(MessageDifferencer::Equals(merged, job));
+  } while (std::next_permutation(pieces.begin(), pieces.end()));
+}
+
+TEST(Split, LargeFieldsStandInOnePieceOnly) {
+  v1::Job job;
+  Fill(&job);
+  const JobParts parts = Split(job);
+  v1::Job header, spec, result;
+  ASSERT_TRUE(header.ParseFromString(parts.header) && spec.ParseFromString(parts.spec) &&
+              result.ParseFromString(parts.result));
+  EXPECT_EQ(header.spec_case(), v1::Job::SPEC_NOT_SET);
+  EXPECT_EQ(header.cycles_size() + header.final_bodies_size(), 0);
+  EXPECT_EQ(spec.cycles_size() + spec.final_bodies_size(), 0);
+  EXPECT_EQ(result.spec_case(), v1::Job::SPEC_NOT_SET);
+}
+
+TEST(Split, SpecDependsOnWhatTheClientSentAlone) {
+  v1::Job one, other;
+  for (int i = 0; i < 20; ++i) (*one.mutable_labels())["key" + std::to_string(i)] = "value";
+  for (int i = 20; i-- > 0;) (*other.mutable_labels())["key" + std::to_string(i)] = "value";
+  one.mutable_scenario()->set_title("one");
+  other.mutable_scenario()->set_title("one");
+  other.set_name("jobs/other");
+  other.set_state(v1::Job::RUNNING);
+  other.add_cycles();
+  EXPECT_EQ(Split(one).spec, Split(other).spec);
+  EXPECT_TRUE(Split(one).result.empty());
+  other.set_priority(1);
+  EXPECT_NE(Split(one).spec, Split(other).spec);
+}
+
+TEST(ToRows, KindIsTheFieldNumberOfThePayload) {
+  std::vector<v1::Event> events;
+  const auto& payload = *v1::Event::descriptor()->FindOneofByName("payload");
+  for (int i = 0; i < payload.field_count(); ++i) {
+    FillField(*payload.field(i), &events.emplace_back());
+  }
+  const std::vector<EventRow> rows = ToRows(events);
+  ASSERT_EQ(rows.size(), events.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].kind, payload.field(static_cast<int>(i))->number());
+    v1::Event event;
+    ASSERT_TRUE(DecodeEvent(rows[i].event.coding, rows[i].event.bytes, &event));
+    EXPECT_TRUE(MessageDifferencer::Equals(event, events[i]));
+  }
+}
+
+}  // namespace
+}  // namespace contact
