@@ -8,6 +8,9 @@ function(contact_precompile name)
   add_library(${name} STATIC ${PROJECT_BINARY_DIR}/precompiled/${name}.cpp)
   target_link_libraries(${name} PUBLIC ${P_LINK} PRIVATE contact_options)
   target_precompile_headers(${name} PRIVATE ${P_HEADERS})
+  # ccache takes two precompiled headers with the time of their making in them for different.
+  target_compile_options(${name} PRIVATE
+    "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endfunction()
 
 function(contact_reuse_headers target precompiled)

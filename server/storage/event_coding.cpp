@@ -149,11 +149,11 @@ bool TakeApart(std::string_view bytes, Parts* parts) {
 }
 
 // The event, serialised, with these planes as its values.
-std::string Compose(const Parts& parts, std::string_view planes) {
+std::string Compose(Parts parts, std::string_view planes) {
   const std::size_t size = parts.samples * kDouble;
   std::vector<std::string> heads;  // Of each column: all but the values.
   std::size_t chunk = parts.chunk.size() + planes.size();
-  for (std::string rest : parts.columns) {
+  for (std::string& rest : parts.columns) {
     AppendHead(v1::FrameChunk::Column::kValuesFieldNumber, size, &rest);
     std::string& head = heads.emplace_back();
     AppendHead(v1::FrameChunk::kColumnsFieldNumber, rest.size() + size, &head);
@@ -186,7 +186,7 @@ bool Restore(std::string_view bytes, std::string* payload) {
       bytes.size() / kDouble != parts.samples * parts.columns.size()) {
     return false;
   }
-  *payload = Compose(parts, bytes);
+  *payload = Compose(std::move(parts), bytes);
   return true;
 }
 

@@ -18,14 +18,35 @@ const Contact& ContactAt(const Scenario& scenario, int index) {
 
 // The enums of the contract have the order of the ledger's, after a first value for unspecified.
 template <class Value, class Enum>
-Value Next(Enum value) {
+constexpr Value Next(Enum value) {
   return static_cast<Value>(static_cast<int>(value) + 1);
 }
-static_assert(static_cast<int>(Cycle::Kind::kNirv) + 1 == v1::Cycle::NIRV);
-static_assert(static_cast<int>(Cycle::End::kRunEnd) + 1 == v1::Cycle::RUN_END);
-static_assert(static_cast<int>(Cycle::Status::kNotConverged) + 1 == v1::Cycle::NOT_CONVERGED);
+constexpr auto WireKind = Next<v1::Cycle::Kind, Cycle::Kind>;
+static_assert(WireKind(Cycle::Kind::kCollision) == v1::Cycle::COLLISION);
+static_assert(WireKind(Cycle::Kind::kNirv) == v1::Cycle::NIRV);
+constexpr auto WireEnd = Next<v1::Cycle::End, Cycle::End>;
+static_assert(WireEnd(Cycle::End::kSeparation) == v1::Cycle::SEPARATION);
+static_assert(WireEnd(Cycle::End::kNonSeparation) == v1::Cycle::NON_SEPARATION);
+static_assert(WireEnd(Cycle::End::kRunEnd) == v1::Cycle::RUN_END);
+constexpr auto WireStatus = Next<v1::Cycle::Status, Cycle::Status>;
+static_assert(WireStatus(Cycle::Status::kConverged) == v1::Cycle::CONVERGED);
+static_assert(WireStatus(Cycle::Status::kGivenLaw) == v1::Cycle::GIVEN_LAW);
+static_assert(WireStatus(Cycle::Status::kInfeasible) == v1::Cycle::INFEASIBLE);
+static_assert(WireStatus(Cycle::Status::kSettled) == v1::Cycle::SETTLED);
+static_assert(WireStatus(Cycle::Status::kNotConverged) == v1::Cycle::NOT_CONVERGED);
+
 // This one has a value for unspecified itself.
-static_assert(static_cast<int>(Iteration::Update::kBracketing) == v1::Iteration::BRACKETING);
+constexpr v1::Iteration::Update WireUpdate(Iteration::Update update) {
+  return static_cast<v1::Iteration::Update>(update);
+}
+static_assert(WireUpdate(Iteration::Update::kNothing) == v1::Iteration::UPDATE_UNSPECIFIED);
+static_assert(WireUpdate(Iteration::Update::kNewton) == v1::Iteration::NEWTON);
+static_assert(WireUpdate(Iteration::Update::kDampedNewton) == v1::Iteration::DAMPED_NEWTON);
+static_assert(WireUpdate(Iteration::Update::kBisection) == v1::Iteration::BISECTION);
+static_assert(WireUpdate(Iteration::Update::kZero) == v1::Iteration::ZERO);
+static_assert(WireUpdate(Iteration::Update::kPaperNewton) == v1::Iteration::PAPER_NEWTON);
+static_assert(WireUpdate(Iteration::Update::kPaperRatio) == v1::Iteration::PAPER_RATIO);
+static_assert(WireUpdate(Iteration::Update::kBracketing) == v1::Iteration::BRACKETING);
 
 v1::FrameChunk::Column Channel(std::string_view owner, const char* quantity, const char* unit) {
   v1::FrameChunk::Column column;
@@ -54,9 +75,9 @@ v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle) {
   v1::Cycle message;
   message.set_contact(contact.name);
   message.set_number(cycle.number);
-  message.set_kind(Next<v1::Cycle::Kind>(cycle.kind));
-  message.set_end(Next<v1::Cycle::End>(cycle.end));
-  message.set_status(Next<v1::Cycle::Status>(cycle.status));
+  message.set_kind(WireKind(cycle.kind));
+  message.set_end(WireEnd(cycle.end));
+  message.set_status(WireStatus(cycle.status));
   message.set_iterations(cycle.iterations);
   message.set_episode(cycle.episode);
   message.set_start_time_s(cycle.start_time);
@@ -101,7 +122,7 @@ v1::Iteration Encode(const Scenario& scenario, const Iteration& iteration) {
     out.set_residual(unknown.residual);
     out.set_bracket_low(unknown.bracket_low);
     out.set_bracket_high(unknown.bracket_high);
-    out.set_update(static_cast<v1::Iteration::Update>(unknown.update));
+    out.set_update(WireUpdate(unknown.update));
   }
   return message;
 }

@@ -43,7 +43,7 @@ double Error(const double* velocities) {
 void OdeintPass(benchmark::State& state) {
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   Chain y;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     y = {0, 0, 0, 0.2, 0, 0};
     const auto stepper = boost::numeric::odeint::make_controlled(
         tolerance * 1e-4, tolerance, boost::numeric::odeint::runge_kutta_dopri5<Chain>());
@@ -74,7 +74,7 @@ void Pass(benchmark::State& state) {
   const State start = InitialState(scenario);
   Motion motion(scenario);
   FixedFactors host;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     motion.Begin(start, false);
     benchmark::DoNotOptimize(motion.Advance(1, host, nullptr, {}, 1'000'000'000));
   }
@@ -89,7 +89,7 @@ void Solve(benchmark::State& state) {
   scenario.solver.restitution_tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   scenario.solver.relative_tolerance = std::pow(10.0, -static_cast<double>(state.range(1)));
   testing::Record record;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     record = {};
     record.outcome = Run(scenario, record);
   }
@@ -112,7 +112,7 @@ void PaperProcess(benchmark::State& state) {
   scenario.solver.restitution_tolerance = 0.01;
   for (Contact& c : scenario.contacts) c.reference_velocity = 0.2;
   testing::Record record;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     record = {};
     record.outcome = Run(scenario, record);
   }
@@ -129,7 +129,7 @@ void Row(benchmark::State& state) {
                      std::vector<double>(balls - 1, 1), 0.2, 2e-3);
   for (Contact& c : scenario.contacts) c.damping = DampingLaw::kGiven;
   testing::Record record;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     record = {};
     record.outcome = Run(scenario, record);
   }

@@ -26,7 +26,7 @@ constexpr int kCells = 10'000;
 double RestitutionOf(int cell) { return 0.5 + 0.4 * cell / (kCells - 1); }
 
 void BareLoop(benchmark::State& state) {
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     std::atomic<int> next = 0;
     std::vector<std::thread> threads;
     for (int i = 0; i < state.range(0); ++i) {
@@ -95,7 +95,7 @@ void SweepJob(benchmark::State& state) {
   const auto store = *Store::Open(folder.path());
   JobManager jobs(*store, SystemClock(), RandomIds(),
                   {.workers = static_cast<int>(state.range(0))});
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     Await<Result<v1::Job>> created;
     jobs.creator().Create(Study(), created.callback());
     AwaitEnd(jobs, created.Get().value().name());

@@ -44,7 +44,7 @@ v1::Event FrameEvent() {
     column.set_name("B1.velocity");
     column.set_quantity("velocity");
     column.set_unit("m/s");
-    column.set_values(std::string(256 * 8, '\1'));
+    column.set_values(std::string(std::size_t{256} * 8, '\1'));
   }
   return event;
 }
@@ -57,7 +57,7 @@ std::vector<v1::Event> Batch(bool frames) {
 
 void Typed(benchmark::State& state, bool frames) {
   const std::vector<v1::Event> batch = Batch(frames);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     std::vector<std::shared_ptr<const v1::Event>> log;
     for (const v1::Event& event : batch) log.push_back(std::make_shared<const v1::Event>(event));
     for (std::int64_t watcher = 0; watcher < state.range(0); ++watcher) {
@@ -75,7 +75,7 @@ void Typed(benchmark::State& state, bool frames) {
 
 void Shared(benchmark::State& state, bool frames) {
   const std::vector<v1::Event> batch = Batch(frames);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     std::vector<LogRecord> log;
     for (const v1::Event& event : batch) log.push_back(ToRecord(log.size() + 1, event));
     for (std::int64_t watcher = 0; watcher < state.range(0); ++watcher) {

@@ -264,7 +264,7 @@ TEST_F(LostRunTest, RunThatDoesNotFitIntoMemoryFailsItsJobOnly) {
   EXPECT_THAT(Ended(names[1]).error().message(), StartsWith("std::bad_alloc"));
   EXPECT_EQ(Ended(names[2]).error().message(), "unknown exception");
   EXPECT_EQ(Ended(names[3]).error().message(), "std::out_of_range: index 7");
-  for (const int i : {1, 2, 3}) EXPECT_EQ(Ended(names[i]).state_reason(), "INTERNAL");
+  for (const std::size_t i : {1U, 2U, 3U}) EXPECT_EQ(Ended(names[i]).state_reason(), "INTERNAL");
 }
 
 TEST_F(LostRunTest, DeadlyJobIsSetAsideAfterThreeCrashes) {

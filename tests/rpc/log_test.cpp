@@ -31,7 +31,7 @@ TEST(LogTest, JsonHoldsAnyMessageInOneLine) {
     EXPECT_EQ(object["time"].get<std::string>().at(10), 'T');
     EXPECT_EQ(object.size(), 3U);
   }
-  EXPECT_NO_THROW(nlohmann::json::parse(Line(LogFormat::kJson, "\xff\xfe no UTF-8")));
+  EXPECT_TRUE(nlohmann::json::accept(Line(LogFormat::kJson, "\xff\xfe no UTF-8")));
 }
 
 TEST(LogTest, TextIsTimeLevelMessage) {

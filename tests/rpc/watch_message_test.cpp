@@ -17,7 +17,7 @@ TEST(WatchMessageTest, ParsesToWhatWasPutIn) {
   expected.mutable_snapshot()->set_name("jobs/a");
   WatchMessage message;
   message.SetSnapshot(expected.snapshot());
-  for (const std::size_t size : {0, 1, 100, 127, 128, 4095, 4096, 4097, 300'000}) {
+  for (const std::size_t size : {0U, 1U, 100U, 127U, 128U, 4095U, 4096U, 4097U, 300'000U}) {
     for (const std::uint64_t sequence : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}}) {
       v1::Event& event = *expected.add_events();
       event.mutable_event_time()->set_seconds(7);

@@ -113,7 +113,7 @@ TEST_F(WatchSourceTest, BookmarkTellsThePositionOnceAnInterval) {
 
 TEST_F(WatchSourceTest, BookmarkComesWithAnEventOnlyIfThatHasNoSequence) {
   Read();
-  for (const std::uint64_t sequence : {1, 0}) {
+  for (const std::uint64_t sequence : {1U, 0U}) {
     clock_.Advance(10s);
     Log(sequence);
     const auto message = Read();

@@ -111,6 +111,16 @@ TEST(Sampler, StretchesMakeNoDifferenceToTheTimes) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-13);
 }
 
+// Both fly on until t = 1; `straight`, which has not begun, makes a stretch until `time` first.
+void ExpectSameAtTheEnd(Flight& flight, Flight& straight, double time) {
+  flight.FlyUntil(1);
+  flight.sampler.Flush();
+  straight.FlyUntil(time);
+  straight.FlyUntil(1);
+  straight.sampler.Flush();
+  EXPECT_EQ(flight.observer.Values(), straight.observer.Values());
+}
+
 TEST(Sampler, WhatIsTakenBackIsTakenAgain) {
   Flight flight(1e-3), straight(1e-3);
   flight.FlyUntil(0.2);
@@ -121,12 +131,7 @@ TEST(Sampler, WhatIsTakenBackIsTakenAgain) {
   flight.sampler.TakeBack();
   EXPECT_EQ(flight.sampler.pending().rows(), 201);
   flight.motion.Begin(before, true);
-  flight.FlyUntil(1);
-  flight.sampler.Flush();
-  straight.FlyUntil(0.2);
-  straight.FlyUntil(1);
-  straight.sampler.Flush();
-  EXPECT_EQ(flight.observer.Values(), straight.observer.Values());
+  ExpectSameAtTheEnd(flight, straight, 0.2);
 }
 
 TEST(Sampler, WhatIsHeldComesInOrderWhenReleased) {
@@ -136,12 +141,7 @@ TEST(Sampler, WhatIsHeldComesInOrderWhenReleased) {
   EXPECT_TRUE(flight.observer.chunks.empty());
   flight.sampler.Release();
   EXPECT_EQ(flight.observer.chunks.size(), 3u);
-  flight.FlyUntil(1);
-  flight.sampler.Flush();
-  straight.FlyUntil(0.9);
-  straight.FlyUntil(1);
-  straight.sampler.Flush();
-  EXPECT_EQ(flight.observer.Values(), straight.observer.Values());
+  ExpectSameAtTheEnd(flight, straight, 0.9);
 }
 
 TEST(Sampler, AnotherOneGoesOnWithWhatWasPending) {

@@ -1,6 +1,5 @@
 #include "storage/job_parts.h"
 
-#include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,11 +11,11 @@ namespace {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
-using google::protobuf::util::MessageDifferencer;
 
 void FillField(const FieldDescriptor& field, Message* message);
 
-// Sets every field, also of the messages inside; of a oneof the last.
+// Sets every field but maps, also of the messages inside; of a oneof the last. Reflection on maps
+// breaks with ThreadSanitizer, for it changes the layout of protobuf's classes but not its library.
 void Fill(Message* message) {
   for (int i = 0; i < message->GetDescriptor()->field_count(); ++i) {
     FillField(*message->GetDescriptor()->field(i), message);
@@ -24,6 +23,7 @@ void Fill(Message* message) {
 }
 
 void FillField(const FieldDescriptor& field, Message* message) {
+  if (field.is_map()) return;
   const auto& set = *message->GetReflection();
   const bool many = field.is_repeated();
   switch (field.cpp_type()) {
@@ -49,9 +49,15 @@ void FillField(const FieldDescriptor& field, Message* message) {
   }
 }
 
-TEST(Split, PiecesGiveTheWholeJobInAnyOrder) {
+v1::Job FullJob() {
   v1::Job job;
   Fill(&job);
+  (*job.mutable_labels())["key"] = "value";
+  return job;
+}
+
+TEST(Split, PiecesGiveTheWholeJobInAnyOrder) {
+  const v1::Job job = FullJob();
   const JobParts parts = Split(job);
   EXPECT_EQ(parts.end_time, job.end_time().seconds());
   std::array<std::string, 3> pieces{parts.header, parts.spec, parts.result};
@@ -59,13 +65,12 @@ TEST(Split, PiecesGiveTheWholeJobInAnyOrder) {
   do {
     v1::Job merged;
     for (const std::string& piece : pieces) ASSERT_TRUE(merged.MergeFromString(piece));
-    EXPECT_TRUE(MessageDifferencer::Equals(merged, job));
+    EXPECT_EQ(merged.SerializeAsString(), job.SerializeAsString());
   } while (std::next_permutation(pieces.begin(), pieces.end()));
 }
 
 TEST(Split, LargeFieldsStandInOnePieceOnly) {
-  v1::Job job;
-  Fill(&job);
+  const v1::Job job = FullJob();
   const JobParts parts = Split(job);
   v1::Job header, spec, result;
   ASSERT_TRUE(header.ParseFromString(parts.header) && spec.ParseFromString(parts.spec) &&
@@ -103,7 +108,7 @@ TEST(ToRows, KindIsTheFieldNumberOfThePayload) {
     EXPECT_EQ(rows[i].kind, payload.field(static_cast<int>(i))->number());
     v1::Event event;
     ASSERT_TRUE(DecodeEvent(rows[i].event.coding, rows[i].event.bytes, &event));
-    EXPECT_TRUE(MessageDifferencer::Equals(event, events[i]));
+    EXPECT_EQ(event.SerializeAsString(), events[i].SerializeAsString());
   }
 }
 

@@ -83,7 +83,8 @@ struct Record final : Observer {
 
   int rows() const { return columns == 0 ? 0 : static_cast<int>(samples.size()) / columns; }
   double Sample(int row, int column) const {
-    return samples[static_cast<std::size_t>(row * columns + column)];
+    return samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(column)];
   }
 };
 

@@ -73,7 +73,7 @@ TEST(Estimate, ASweepTakesWhatItsCellsDoAndKeepsWhatItIsAskedTo) {
   sweep.add_keep_trajectories(1);
   const v1::Estimate kept = EstimateSweep(sweep, DecodeSweep(sweep));
   EXPECT_EQ(kept.samples(), 1001);
-  EXPECT_GT(kept.output_bytes(), none.output_bytes() + 1001 * 8);
+  EXPECT_GT(kept.output_bytes(), none.output_bytes() + 1001L * 8);
 }
 
 }  // namespace

@@ -32,7 +32,6 @@ inline v1::Scenario TwoBalls() {
 /// `field: description — hint` of each violation.
 inline std::vector<std::string> Lines(const std::vector<Violation>& violations) {
   std::vector<std::string> lines;
-  lines.reserve(violations.size());
   for (const Violation& v : violations) {
     lines.push_back(
         fmt::format("{}: {}{}{}", v.field, v.description, v.hint.empty() ? "" : " — ", v.hint));

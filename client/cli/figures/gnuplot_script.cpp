@@ -39,7 +39,7 @@ double BandOpacity(const Figure::Panel& panel) {
 // Writes a script piece by piece, in the order of the methods below Write.
 class Script {
  public:
-  explicit Script(GnuplotTerminal terminal) : terminal_(std::move(terminal)) {}
+  explicit Script(GnuplotTerminal terminal) : terminal_(terminal) {}
 
   std::string Write(const Figure& figure, const std::string& path) {
     text_ += Lines(figure.sources, "# ");

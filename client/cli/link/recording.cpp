@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
 #include <utility>
 
 #include "cli/base/interrupt.h"
@@ -22,6 +21,15 @@ void Replay(Client& client, const std::string& name, const Settings& settings, b
   if (trajectory) options.kinds.emplace_back("frame_chunk");
   options.overflow = v1::DeliveryOptions::LAG;
   WatchToEnd(client, std::move(options), settings, *recorder);
+}
+
+// In the order of their keys.
+template <class Key, class Value>
+std::vector<Value> ValuesOf(const std::map<Key, Value>& map) {
+  std::vector<Value> values;
+  values.reserve(map.size());
+  for (const auto& [key, value] : map) values.push_back(value);
+  return values;
 }
 
 }  // namespace
@@ -68,15 +76,9 @@ std::vector<SampleColumn> Recorder::Columns() const {
   return columns;
 }
 
-std::vector<v1::Iteration> Recorder::Iterations() const {
-  const auto all = iterations_ | std::views::values;
-  return {all.begin(), all.end()};
-}
+std::vector<v1::Iteration> Recorder::Iterations() const { return ValuesOf(iterations_); }
 
-std::vector<v1::Cycle> Recorder::Cycles() const {
-  const auto all = cycles_ | std::views::values;
-  return {all.begin(), all.end()};
-}
+std::vector<v1::Cycle> Recorder::Cycles() const { return ValuesOf(cycles_); }
 
 Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
                         bool trajectory) {

@@ -13,21 +13,16 @@
 namespace contact {
 namespace {
 
-double Seconds(const google::protobuf::Duration& span) {
-  return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
-}
-
-// `span`, the field of Message with this number, must be well-formed and either 0, which leaves it
-// to the server, or in the range that the contract states. Returns whether it is.
+// `span`, the field of Message with this number, must be 0, which leaves it to the server, or in
+// the range that the contract states. Returns whether it is.
 template <class Message>
-bool CheckSpan(const char* field, int number, const google::protobuf::Duration& span,
+bool CheckSpan(const char* name, int number, const google::protobuf::Duration& span,
                std::vector<Violation>* violations) {
-  const Range range = RangeOf(*Message::descriptor()->FindFieldByNumber(number));
-  const bool well_formed = span.nanos() >= 0 && span.nanos() < 1'000'000'000;
-  if (well_formed && (range.Contains(Seconds(span)) || Seconds(span) == 0)) return true;
-  violations->push_back({field,
+  const auto& field = *Message::descriptor()->FindFieldByNumber(number);
+  if (IsInRange(field, span) || (span.seconds() == 0 && span.nanos() == 0)) return true;
+  violations->push_back({name,
                          fmt::format("is {} s and {} ns; must be {}, or 0 for the server's",
-                                     span.seconds(), span.nanos(), range.text),
+                                     span.seconds(), span.nanos(), RangeOf(field).text),
                          ""});
   return false;
 }

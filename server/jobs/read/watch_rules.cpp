@@ -33,14 +33,12 @@ std::uint32_t KindSet(const v1::WatchJobRequest& request, std::vector<Violation>
 // `interval`, the field of Message with this number, which must be in the range that the contract
 // states.
 template <class Message>
-std::chrono::milliseconds Interval(const std::string& field, int number,
+std::chrono::milliseconds Interval(const std::string& name, int number,
                                    const google::protobuf::Duration& interval,
                                    std::vector<Violation>* violations) {
-  const Range range = RangeOf(*Message::descriptor()->FindFieldByNumber(number));
-  const double seconds = static_cast<double>(interval.seconds()) + interval.nanos() / 1e9;
-  const bool well_formed = interval.nanos() >= 0 && interval.nanos() < 1'000'000'000;
-  if (!well_formed || !range.Contains(seconds)) {
-    violations->push_back({field, "must be " + range.text, ""});
+  const auto& field = *Message::descriptor()->FindFieldByNumber(number);
+  if (!IsInRange(field, interval)) {
+    violations->push_back({name, "must be " + RangeOf(field).text, ""});
     return {};
   }
   return std::chrono::milliseconds{interval.seconds() * 1000 + interval.nanos() / 1'000'000};

@@ -46,6 +46,17 @@ std::string SpanText(double seconds) {
   return fmt::format("{} s", seconds);
 }
 
+// The range of a field without its text.
+Range BoundsOf(const FieldDescriptor& field) {
+  const v1::FieldRule& rule = RuleOf(field);
+  Range range;
+  if (rule.low_case() == v1::FieldRule::LOW_NOT_SET) return range;
+  range.open = rule.has_above();
+  range.low = range.open ? rule.above() : rule.min();
+  if (rule.has_max()) range.high = rule.max();
+  return range;
+}
+
 }  // namespace
 
 const v1::FieldRule& RuleOf(const FieldDescriptor& field) {
@@ -73,17 +84,20 @@ bool Range::Contains(double value) const {
 }
 
 Range RangeOf(const FieldDescriptor& field) {
-  const v1::FieldRule& rule = RuleOf(field);
-  Range range;
-  if (rule.low_case() == v1::FieldRule::LOW_NOT_SET) return range;
-  range.open = rule.has_above();
-  range.low = range.open ? rule.above() : rule.min();
-  range.text = RangeText(field);
-  if (rule.has_max()) {
-    range.high = rule.max();
-    range.text.insert(0, "in ");
+  Range range = BoundsOf(field);
+  if (RuleOf(field).low_case() != v1::FieldRule::LOW_NOT_SET) {
+    range.text = (RuleOf(field).has_max() ? "in " : "") + RangeText(field);
   }
   return range;
+}
+
+double Seconds(const google::protobuf::Duration& span) {
+  return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
+}
+
+bool IsInRange(const FieldDescriptor& field, const google::protobuf::Duration& span) {
+  return span.nanos() >= 0 && span.nanos() < 1'000'000'000 &&
+         BoundsOf(field).Contains(Seconds(span));
 }
 
 bool IsNumber(const FieldDescriptor& field) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <google/protobuf/duration.pb.h>
 #include <google/protobuf/message.h>
 
 #include <cassert>
@@ -47,6 +48,13 @@ struct Range {
 
 /// The range that the contract states for a field; every finite number if it states none.
 Range RangeOf(const google::protobuf::FieldDescriptor& field);
+
+/// The length of a span in seconds.
+double Seconds(const google::protobuf::Duration& span);
+
+/// True if `span`, the value of `field`, is well-formed and in the range that the contract states.
+bool IsInRange(const google::protobuf::FieldDescriptor& field,
+               const google::protobuf::Duration& span);
 
 /// True for a field that holds one number: a double, an integer, or an enum, which is its number.
 bool IsNumber(const google::protobuf::FieldDescriptor& field);

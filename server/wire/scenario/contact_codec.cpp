@@ -89,8 +89,7 @@ class ContactDecoder {
     CheckArity(message, rules);
     std::vector<int> touching;
     for (int i = 0; i < message.between_size(); ++i) {
-      const std::string field = fmt::format("between[{}]", i);
-      touching.push_back(names_.Find(message.between(i), field, rules));
+      touching.push_back(names_.Find(message.between(i), "", rules.In("between", i)));
     }
     if (message.has_wall()) CheckWall(message, rules.In("wall"));
     CheckStiffness(message, touching, rules);

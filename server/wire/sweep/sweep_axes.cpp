@@ -78,7 +78,6 @@ std::vector<double> Listed(const v1::Sweep::Axis& axis) {
   if (!axis.values().empty()) return {axis.values().begin(), axis.values().end()};
   const int count = axis.has_linear() ? axis.linear().count() : axis.log().count();
   std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     values.push_back(Between(axis, count == 1 ? 0 : i / static_cast<double>(count - 1)));
   }

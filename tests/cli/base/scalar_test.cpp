@@ -74,8 +74,9 @@ TEST(Scalar, Utf8HasEveryCodePointButSurrogatesUpTo10FFFF) {
 
 TEST(Scalar, Utf8EndsAtCharacters) {
   const std::string text = Encoded(0x3B5) + Encoded(0x2212) + Encoded(0x1F3B1);
-  for (const std::size_t whole : {0, 2, 5, 9}) EXPECT_TRUE(IsUtf8(text.substr(0, whole)));
-  for (const std::size_t part : {1, 3, 4, 6, 7, 8}) EXPECT_FALSE(IsUtf8(text.substr(0, part)));
+  for (const std::size_t whole : {0U, 2U, 5U, 9U}) EXPECT_TRUE(IsUtf8(text.substr(0, whole)));
+  for (const std::size_t part : {1U, 3U, 4U, 6U, 7U, 8U})
+    EXPECT_FALSE(IsUtf8(text.substr(0, part)));
   for (std::size_t i = 0; i < 9; ++i) {
     EXPECT_EQ(IsUtf8(text.substr(i)), i == 0 || i == 2 || i == 5) << i;
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "cli/link/loopback_server.h"
 #include "contact/v1/job_service.grpc.pb.h"
 
 namespace contact::cli {
@@ -21,17 +22,7 @@ class FakeServer : public v1::JobService::Service {
   using WatchJobsHandler = std::function<grpc::Status(const v1::WatchJobsRequest&, JobsWriter&)>;
   using CreateHandler = std::function<grpc::Status(const v1::CreateJobRequest&, v1::Job*)>;
 
-  FakeServer() {
-    int port = 0;
-    grpc::ServerBuilder builder;
-    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
-    builder.RegisterService(this);
-    server_ = builder.BuildAndStart();
-    address_ = "127.0.0.1:" + std::to_string(port);
-  }
-  ~FakeServer() override { server_->Shutdown(std::chrono::system_clock::now()); }
-
-  const std::string& address() const { return address_; }
+  const std::string& address() const { return server_.address(); }
 
   /// Handlers run one at a time.
   void OnWatch(WatchHandler handler) {
@@ -71,8 +62,7 @@ class FakeServer : public v1::JobService::Service {
   WatchHandler on_watch_;
   WatchJobsHandler on_watch_jobs_;
   CreateHandler on_create_;
-  std::string address_;
-  std::unique_ptr<grpc::Server> server_;
+  LoopbackServer server_{this};
 };
 
 }  // namespace contact::cli

@@ -42,7 +42,7 @@ TEST(ChainTables, PublishedRunsFollowThePaperAndConvergedOnesTheDefaults) {
     EXPECT_EQ(run.method, v1::Solver::METHOD_UNSPECIFIED);
     EXPECT_EQ(run.split, v1::Solver::PHASE_SPLIT_UNSPECIFIED);
   }
-  for (const std::size_t first : {0, 3}) {
+  for (const std::size_t first : {0U, 3U}) {
     const std::vector<Asked> runs = What(lab, first, 3);
     EXPECT_EQ(runs[0].damping, v1::Contact::HUNT_CROSSLEY);
     EXPECT_EQ(runs[1].damping, v1::Contact::FLORES);
@@ -53,13 +53,13 @@ TEST(ChainTables, PublishedRunsFollowThePaperAndConvergedOnesTheDefaults) {
 TEST(ChainTables, NamedLawsGiveBothContactsTheFactorOfTheFirst) {
   FakeLab lab;
   MakeChainTables(lab);
-  for (const std::size_t law : {0, 1, 3, 4}) {
+  for (const std::size_t law : {0U, 1U, 3U, 4U}) {
     for (const v1::Contact& contact : lab.asked.at(law).contacts()) {
       EXPECT_EQ(contact.restitution(), 0.8);
       EXPECT_EQ(contact.reference_velocity_m_per_s(), 0.2);
     }
   }
-  for (const std::size_t described : {2, 5}) {
+  for (const std::size_t described : {2U, 5U}) {
     EXPECT_EQ(lab.asked.at(described).contacts(1).restitution(), 0.7);
   }
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/base/failure.h"
+#include "cli/link/loopback_server.h"
 #include "cli/verbs/verbs.h"
 #include "contact/v1/job_service.grpc.pb.h"
 
@@ -63,17 +64,7 @@ inline End EndOf(std::vector<std::string> words, const std::string& address = "1
 /// and keeps the requests that it receives.
 class ScriptedServer final : public v1::JobService::Service {
  public:
-  ScriptedServer() {
-    int port = 0;
-    grpc::ServerBuilder builder;
-    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
-    builder.RegisterService(this);
-    server_ = builder.BuildAndStart();
-    address_ = "127.0.0.1:" + std::to_string(port);
-  }
-  ~ScriptedServer() override { server_->Shutdown(std::chrono::system_clock::now()); }
-
-  const std::string& address() const { return address_; }
+  const std::string& address() const { return server_.address(); }
 
   /// Adds a job after those that it has.
   v1::Job& Add(const std::string& name, v1::Job::State state) {
@@ -158,7 +149,7 @@ class ScriptedServer final : public v1::JobService::Service {
                         grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
     const auto lock = Keep(*request);
     v1::WatchJobResponse message;
-    const grpc::Status status = Find(request->name(), message.mutable_snapshot());
+    grpc::Status status = Find(request->name(), message.mutable_snapshot());
     if (!status.ok()) return status;
     message.mutable_snapshot()->set_last_sequence(events.size() + 1);
     for (const v1::Event& event : events) {
@@ -188,8 +179,7 @@ class ScriptedServer final : public v1::JobService::Service {
   mutable std::mutex mutex_;
   std::vector<v1::Job> jobs_;
   std::vector<std::unique_ptr<google::protobuf::Message>> requests_;
-  std::string address_;
-  std::unique_ptr<grpc::Server> server_;
+  LoopbackServer server_{this};
 };
 
 }  // namespace contact::cli

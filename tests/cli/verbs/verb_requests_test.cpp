@@ -182,7 +182,7 @@ TEST_F(VerbRequestsTest, RequestIdIsRandomUnlessItIsGiven) {
   for (int i = 0; i < 3; ++i) Run({"submit", "-t", "two-balls"});
   std::set<std::string> ids;
   for (const auto& asked : server_.Asked<v1::CreateJobRequest>()) {
-    EXPECT_THAT(asked.request_id(), MatchesRegex("[0-9a-f]{32}"));
+    EXPECT_THAT(asked.request_id(), MatchesRegex("[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}"));
     ids.insert(asked.request_id());
   }
   EXPECT_EQ(ids.size(), 3U);

@@ -130,7 +130,7 @@ class Maker {
     } else if (named_base_ && field.full_name() == "contact.v1.Sweep.base") {
       schema["anyOf"] = {{{"type", "string"}, {"minLength", 1}}, Single(field)};
     } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
-      schema["allOf"] = {Single(field)};  // Validators ignore a description beside $ref.
+      schema["allOf"].push_back(Single(field));  // Validators ignore a description beside $ref.
     } else {
       schema.update(Scalar(field, rule));
       AddDefault(field, rule, &schema);
