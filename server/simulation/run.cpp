@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "simulation/episode/episode.h"
@@ -76,9 +77,8 @@ class Runner {
   }
 
   void Accept(Motion::Pause pause) {
-    const Recorder& recorded = solver_.recorder();
-    for (const Cycle& cycle : recorded.cycles) Emit(cycle);
-    run_.outcome.groups.insert(run_.outcome.groups.end(), recorded.groups.begin(), recorded.groups.end());
+    for (const Cycle& cycle : solver_.recorder().cycles) Emit(cycle);
+    EmitGroups();
     Settle(pause);
   }
 
@@ -150,6 +150,25 @@ class Runner {
     }
   }
 
+  // The groups that ended with the cycles just told.
+  void EmitGroups() {
+    for (const Group& group : solver_.recorder().groups) {
+      observer_.OnGroup(group);
+      if (group.status == Cycle::Status::kJump) observer_.OnWarning(TextOfJump(group));
+    }
+  }
+
+  std::string TextOfJump(const Group& group) const {
+    std::ostringstream text;
+    text.precision(7);
+    text << "contact " << scenario_.contacts[static_cast<std::size_t>(group.contact)].name
+         << ", group " << group.number << ": no μ gives a restitution of " << group.restitution_in
+         << "; it jumps from " << group.too_much.restitution << " at μ = " << group.too_much.mu
+         << " to " << group.too_little.restitution << " at μ = " << group.too_little.mu
+         << ", and has " << group.restitution_out;
+    return text.str();
+  }
+
   // Cycles that the end of the run has cut get their rows too.
   void CutCycles() {
     solver_.recorder().groups.clear();
@@ -166,8 +185,7 @@ class Runner {
       CloseWorks(contact);
       Emit(cycle);
     }
-    const std::vector<Group>& cut = solver_.recorder().groups;
-    run_.outcome.groups.insert(run_.outcome.groups.end(), cut.begin(), cut.end());
+    EmitGroups();
   }
 
   void CloseWorks(ContactState& contact) const {

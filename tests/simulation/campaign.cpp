@@ -19,6 +19,11 @@ struct Tally {
   std::vector<double> seconds;
 };
 
+struct GroupKeeper final : Observer {
+  std::vector<Group> groups;
+  void OnGroup(const Group& group) override { groups.push_back(group); }
+};
+
 double Seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 bool IsBalanced(const Group& g) {
@@ -30,13 +35,13 @@ bool IsBalanced(const Group& g) {
 void RunOne(unsigned seed, int kind, RestitutionScope scope, Tally& tally) {
   Scenario scenario = testing::Dice(seed, static_cast<testing::Kind>(kind)).Roll();
   scenario.solver.restitution_scope = scope;
-  Observer nothing;
+  GroupKeeper kept;
   const double start = Seconds();
-  const Outcome outcome = Run(scenario, nothing);
+  const Outcome outcome = Run(scenario, kept);
   const double took = Seconds() - start;
   int jumps = 0, longest = 0;
   bool balanced = outcome.energy_residual < 1e-8;
-  for (const Group& g : outcome.groups) {
+  for (const Group& g : kept.groups) {
     jumps += g.status == Cycle::Status::kJump;
     longest = std::max(longest, g.cycles);
     tally.longer += g.cycles > 3;
@@ -45,14 +50,14 @@ void RunOne(unsigned seed, int kind, RestitutionScope scope, Tally& tally) {
   ++tally.runs;
   tally.full += outcome.all_converged;
   tally.jumps += jumps > 0;
-  tally.groups += static_cast<int>(outcome.groups.size());
+  tally.groups += static_cast<int>(kept.groups.size());
   tally.seconds.push_back(took);
   const bool bad = !balanced || outcome.end != Outcome::End::kFinished;
   std::cout << (bad ? "BAD " : "") << testing::kKindNames[kind] << ' ' << seed << " full "
-            << outcome.all_converged << " groups " << outcome.groups.size() << " longest "
-            << longest << " jumps " << jumps << " growths " << outcome.growths
-            << " without_progress " << outcome.growths_no_progress << " corrections "
-            << outcome.iterations << " steps " << outcome.steps << " seconds " << took << std::endl;
+            << outcome.all_converged << " groups " << kept.groups.size() << " longest " << longest
+            << " jumps " << jumps << " growths " << outcome.growths << " without_progress "
+            << outcome.growths_no_progress << " corrections " << outcome.iterations << " steps "
+            << outcome.steps << " seconds " << took << std::endl;
 }
 
 void Tell(int kind, Tally& tally) {

@@ -31,7 +31,7 @@ Scenario TwoBallsAndAWall() {
 
 // Works are those of its cycles, and give the restitution asked for.
 void ExpectBalanced(const Record& r) {
-  for (const Group& g : r.outcome.groups) {
+  for (const Group& g : r.groups) {
     double compression = 0, restitution = 0;
     int cycles = 0;
     for (const Cycle& c : r.cycles) {
@@ -57,10 +57,32 @@ TEST(Groups, TheWallOfTwoBallsNeedsTwoCycles) {
   EXPECT_TRUE(r.outcome.all_converged);
   ExpectBalanced(r);
   const auto wall = std::ranges::find_if(
-      r.outcome.groups, [](const Group& g) { return g.contact == 1 && g.cycles == 2; });
-  ASSERT_NE(wall, r.outcome.groups.end());
+      r.groups, [](const Group& g) { return g.contact == 1 && g.cycles == 2; });
+  ASSERT_NE(wall, r.groups.end());
   EXPECT_NEAR(wall->mu / 2.76e8, 1, 0.01);
   EXPECT_NE(wall->growth, Growth::kNotGrown);
+}
+
+// Each cycle that did not settle is in a group that is told once, the cut ones at the end included.
+TEST(Groups, AreToldInOrderOfTheirNumbers) {
+  Scenario s = TwoBallsAndAWall();
+  s.end_time = 1.2e-3;
+  for (const Scenario& scenario : {TwoBallsAndAWall(), s}) {
+    const Record r = RunAndRecord(scenario);
+    std::vector<int> number(scenario.contacts.size()), cycle(scenario.contacts.size());
+    for (const Group& g : r.groups) {
+      const auto contact = static_cast<std::size_t>(g.contact);
+      EXPECT_EQ(g.number, ++number[contact]);
+      EXPECT_GT(g.first_cycle, cycle[contact]);
+      EXPECT_GT(g.end_time, g.start_time);
+      cycle[contact] = g.first_cycle + g.cycles - 1;
+    }
+    for (const Cycle& c : r.cycles) {
+      EXPECT_LE(c.group, number[static_cast<std::size_t>(c.contact)]);
+      EXPECT_EQ(c.group == 0, c.status == Cycle::Status::kSettled);
+    }
+    EXPECT_EQ(r.outcome.growths, std::ssize(r.growths));
+  }
 }
 
 TEST(Groups, OfOneCycleEachTheWallHasNoSolutionAndSaysWhatItReached) {
@@ -68,8 +90,8 @@ TEST(Groups, OfOneCycleEachTheWallHasNoSolutionAndSaysWhatItReached) {
   s.solver.restitution_scope = RestitutionScope::kCycle;
   const Record r = RunAndRecord(s);
   EXPECT_FALSE(r.outcome.all_converged);
-  const auto lost = std::ranges::find(r.outcome.groups, Cycle::Status::kInfeasible, &Group::status);
-  ASSERT_NE(lost, r.outcome.groups.end());
+  const auto lost = std::ranges::find(r.groups, Cycle::Status::kInfeasible, &Group::status);
+  ASSERT_NE(lost, r.groups.end());
   EXPECT_FALSE(std::isnan(lost->too_much.mu) && std::isnan(lost->too_little.mu));
 }
 
@@ -79,7 +101,7 @@ TEST(Groups, OfAnEncounterHaveAllItsCycles) {
   const Record r = RunAndRecord(s);
   EXPECT_TRUE(r.outcome.all_converged);
   ExpectBalanced(r);
-  for (const Group& g : r.outcome.groups) EXPECT_EQ(g.end == Cycle::End::kNonSeparation, false);
+  for (const Group& g : r.groups) EXPECT_EQ(g.end == Cycle::End::kNonSeparation, false);
 }
 
 // A row that Newton alone did not solve from its coarse passes.
@@ -182,7 +204,7 @@ TEST(Groups, RandomScenariosOfEveryKindHaveAnAnswer) {
       EXPECT_LT(r.outcome.energy_residual, 1e-8);
       ExpectBalanced(r);
       full += r.outcome.all_converged;
-      jumps += std::ranges::any_of(r.outcome.groups,
+      jumps += std::ranges::any_of(r.groups,
                                    [](const Group& g) { return g.status == Cycle::Status::kJump; });
     }
   }

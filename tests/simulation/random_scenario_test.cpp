@@ -121,7 +121,7 @@ void ExpectSound(const Scenario& s, const testing::Record& r) {
     EXPECT_TRUE(std::isfinite(c.work_compression) && std::isfinite(c.peak_force));
     EXPECT_LE(c.iterations, s.solver.max_iterations);
   }
-  for (const Group& g : o.groups) {
+  for (const Group& g : r.groups) {
     if (g.status != Cycle::Status::kConverged || g.end == Cycle::End::kRunEnd) continue;
     if (g.restitution_in == 1) continue;
     EXPECT_NEAR(g.restitution_out / g.restitution_in, 1, s.solver.clip_tension ? 1e-5 : 2e-8)

@@ -68,6 +68,8 @@ inline Scenario Collision(double mass, double velocity, double stiffness, double
 struct Record final : Observer {
   std::vector<Iteration> iterations;
   std::vector<Cycle> cycles;
+  std::vector<Group> groups;
+  std::vector<Group> growths;
   std::vector<double> samples;
   int columns = 0;
   std::vector<std::string> warnings;
@@ -75,6 +77,8 @@ struct Record final : Observer {
 
   void OnIteration(const Iteration& i) override { iterations.push_back(i); }
   void OnCycle(const Cycle& c) override { cycles.push_back(c); }
+  void OnGroup(const Group& g) override { groups.push_back(g); }
+  void OnGrowth(const Group& g) override { growths.push_back(g); }
   void OnSamples(const Samples& s) override {
     columns = s.columns;
     samples.insert(samples.end(), s.values.begin(), s.values.end());

@@ -65,7 +65,7 @@ void serialize(Archive& archive, Outcome& o) {
   archive(o.end, o.message, o.time, o.all_converged, o.positions, o.velocities);
   archive(o.steps, o.evaluations, o.iterations, o.episodes);
   archive(o.worst_identity_residual, o.momentum_residual, o.energy_residual, o.kinetic_energy);
-  archive(o.growths, o.growths_no_progress, o.groups);
+  archive(o.growths, o.growths_no_progress);
 }
 
 template <class Archive>
@@ -81,7 +81,8 @@ void serialize(Archive& archive, GroupId& id) {
 template <class Archive>
 void serialize(Archive& archive, Unknown& u) {
   archive(u.id, u.mu, u.first_mu, u.lasts, u.start_time, u.restitution_out, u.settled_mu);
-  archive(u.length, u.speed, u.corrected, u.weak, u.reopened, u.flips, u.given_up, u.lowered, u.iterations);
+  archive(u.length, u.speed, u.corrected, u.weak, u.reopened, u.flips, u.given_up, u.lowered,
+          u.iterations);
   archive(u.growth, u.status, u.too_much, u.too_little);
 }
 

@@ -12,8 +12,7 @@ namespace contact {
 /// All that a run needs to go on from an instant between two episodes as if it had never stopped.
 struct RunState {
   State state;
-  Outcome
-      outcome;  ///< What is known of it so far: episodes, groups, convergence, identity residual.
+  Outcome outcome;  ///< What is known of it so far: episodes, convergence, identity residual.
   std::int64_t cycles = 0;
   std::int64_t steps = 0;
   std::int64_t evaluations = 0;

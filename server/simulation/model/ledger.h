@@ -178,7 +178,6 @@ struct Outcome {
   double kinetic_energy = 0;             ///< ½Σmv² at the end [J].
   std::int64_t growths = 0;              ///< Growths of groups in the search.
   std::int64_t growths_no_progress = 0;  ///< Those with Growth::kNoProgress.
-  std::vector<Group> groups;             ///< In order of end time.
 };
 
 }  // namespace contact
