@@ -34,6 +34,14 @@ static_assert(WireStatus(Cycle::Status::kGivenLaw) == v1::Cycle::GIVEN_LAW);
 static_assert(WireStatus(Cycle::Status::kInfeasible) == v1::Cycle::INFEASIBLE);
 static_assert(WireStatus(Cycle::Status::kSettled) == v1::Cycle::SETTLED);
 static_assert(WireStatus(Cycle::Status::kNotConverged) == v1::Cycle::NOT_CONVERGED);
+static_assert(WireStatus(Cycle::Status::kJump) == v1::Cycle::JUMP);
+static_assert(WireStatus(Cycle::Status::kUnfinished) == v1::Cycle::UNFINISHED);
+constexpr auto WireGrowth = Next<v1::Group::Growth, Growth>;
+static_assert(WireGrowth(Growth::kNotGrown) == v1::Group::NOT_GROWN);
+static_assert(WireGrowth(Growth::kTooLittle) == v1::Group::TOO_LITTLE);
+static_assert(WireGrowth(Growth::kTooMuch) == v1::Group::TOO_MUCH);
+static_assert(WireGrowth(Growth::kJump) == v1::Group::JUMP);
+static_assert(WireGrowth(Growth::kNoProgress) == v1::Group::NO_PROGRESS);
 
 // This one has a value for unspecified itself.
 constexpr v1::Iteration::Update WireUpdate(Iteration::Update update) {
@@ -103,6 +111,45 @@ v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle) {
   message.set_peak_force_n(cycle.peak_force);
   message.set_tension_time_s(cycle.tension_time);
   message.set_identity_residual(cycle.identity_residual);
+  message.set_group(cycle.group);
+  return message;
+}
+
+v1::Group Encode(const Scenario& scenario, const Group& group) {
+  v1::Group message;
+  message.set_contact(ContactAt(scenario, group.contact).name);
+  message.set_number(group.number);
+  message.set_first_cycle(group.first_cycle);
+  message.set_cycles(group.cycles);
+  message.set_encounter(group.encounter);
+  message.set_start_time_s(group.start_time);
+  message.set_end_time_s(group.end_time);
+  message.set_end(WireEnd(group.end));
+  message.set_mu(group.mu);
+  message.set_work_compression_j(group.work_compression);
+  message.set_work_restitution_j(group.work_restitution);
+  message.set_restitution_in(group.restitution_in);
+  message.set_restitution_out(group.restitution_out);
+  message.set_status(WireStatus(group.status));
+  message.set_growth(WireGrowth(group.growth));
+  message.set_residual(group.residual);
+  message.set_too_much_mu(group.too_much.mu);
+  message.set_too_much_restitution(group.too_much.restitution);
+  message.set_too_little_mu(group.too_little.mu);
+  message.set_too_little_restitution(group.too_little.restitution);
+  return message;
+}
+
+v1::GroupGrowth EncodeGrowth(const Scenario& scenario, const Group& group) {
+  v1::GroupGrowth message;
+  message.set_contact(ContactAt(scenario, group.contact).name);
+  message.set_encounter(group.encounter);
+  message.set_first_cycle(group.first_cycle);
+  message.set_cycles(group.cycles);
+  message.set_start_time_s(group.start_time);
+  message.set_restitution_in(group.restitution_in);
+  message.set_growth(WireGrowth(group.growth));
+  message.set_mu(group.mu);
   return message;
 }
 
@@ -183,6 +230,8 @@ void EncodeOutcome(const Scenario& scenario, const Outcome& outcome, v1::Job* jo
   summary.set_energy_residual(outcome.energy_residual);
   summary.set_kinetic_energy_j(outcome.kinetic_energy);
   summary.set_time_reached_s(outcome.time);
+  summary.set_growths(outcome.growths);
+  summary.set_growths_no_progress(outcome.growths_no_progress);
 }
 
 }  // namespace contact

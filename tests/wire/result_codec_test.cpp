@@ -28,6 +28,7 @@ std::vector<double> Values(const v1::FrameChunk::Column& column) {
 TEST(Encode, CycleKeepsEveryField) {
   const Cycle cycle{.contact = 1,
                     .number = 2,
+                    .group = 25,
                     .episode = 3,
                     .kind = Cycle::Kind::kCollision,
                     .end = Cycle::End::kNonSeparation,
@@ -61,7 +62,61 @@ TEST(Encode, CycleKeepsEveryField) {
             "work_compression_j: 14 work_restitution_j: -15 dissipated_compression_j: 16 "
             "dissipated_restitution_j: 17 external_work_compression_j: 18 "
             "external_work_restitution_j: 19 restitution_in: 20 restitution_out: 21 "
-            "peak_force_n: 22 tension_time_s: 23 identity_residual: 24");
+            "peak_force_n: 22 tension_time_s: 23 identity_residual: 24 group: 25");
+}
+
+Group FullGroup() {
+  return {.contact = 1,
+          .number = 2,
+          .encounter = 3,
+          .first_cycle = 4,
+          .cycles = 5,
+          .start_time = 6,
+          .end_time = 7,
+          .end = Cycle::End::kNonSeparation,
+          .status = Cycle::Status::kJump,
+          .growth = Growth::kTooMuch,
+          .mu = 8,
+          .work_compression = 9,
+          .work_restitution = -10,
+          .restitution_in = 11,
+          .restitution_out = 12,
+          .residual = 13,
+          .too_much = {.mu = 14, .restitution = 15},
+          .too_little = {.mu = 16, .restitution = 17}};
+}
+
+TEST(Encode, GroupKeepsEveryField) {
+  EXPECT_EQ(Encode(TwoContacts(), FullGroup()).ShortDebugString(),
+            "contact: \"b-wall\" number: 2 first_cycle: 4 cycles: 5 encounter: 3 start_time_s: 6 "
+            "end_time_s: 7 end: NON_SEPARATION mu: 8 work_compression_j: 9 "
+            "work_restitution_j: -10 restitution_in: 11 restitution_out: 12 status: JUMP "
+            "growth: TOO_MUCH residual: 13 too_much_mu: 14 too_much_restitution: 15 "
+            "too_little_mu: 16 too_little_restitution: 17");
+}
+
+TEST(Encode, GroupOfWhichNothingWasReachedHasNans) {
+  const v1::Group group = Encode(TwoContacts(), Group{});
+  for (const double reached : {group.too_much_mu(), group.too_much_restitution(),
+                               group.too_little_mu(), group.too_little_restitution()}) {
+    EXPECT_TRUE(std::isnan(reached));
+  }
+}
+
+TEST(Encode, GrowthKeepsWhatIsKnownOfTheGroup) {
+  EXPECT_EQ(EncodeGrowth(TwoContacts(), FullGroup()).ShortDebugString(),
+            "contact: \"b-wall\" encounter: 3 first_cycle: 4 cycles: 5 start_time_s: 6 "
+            "restitution_in: 11 growth: TOO_MUCH mu: 8");
+}
+
+TEST(Encode, EveryReasonToGrowHasItsWord) {
+  std::vector<int> growths;
+  for (const Growth growth : {Growth::kNotGrown, Growth::kTooLittle, Growth::kTooMuch,
+                              Growth::kJump, Growth::kNoProgress}) {
+    growths.push_back(Encode(TwoContacts(), Group{.growth = growth}).growth());
+  }
+  EXPECT_THAT(growths, ElementsAre(v1::Group::NOT_GROWN, v1::Group::TOO_LITTLE, v1::Group::TOO_MUCH,
+                                   v1::Group::JUMP, v1::Group::NO_PROGRESS));
 }
 
 TEST(Encode, NirvCycleHasNoAlpha) {
@@ -80,13 +135,14 @@ TEST(Encode, OpenCycleKeepsItsNans) {
 TEST(Encode, EveryWordOfACycleHasItsOwn) {
   using S = Cycle::Status;
   std::vector<int> statuses;
-  for (const S status :
-       {S::kConverged, S::kGivenLaw, S::kInfeasible, S::kSettled, S::kNotConverged}) {
+  for (const S status : {S::kConverged, S::kGivenLaw, S::kInfeasible, S::kSettled, S::kNotConverged,
+                         S::kJump, S::kUnfinished}) {
     statuses.push_back(Encode(TwoContacts(), Cycle{.status = status}).status());
   }
   EXPECT_THAT(statuses,
               ElementsAre(v1::Cycle::CONVERGED, v1::Cycle::GIVEN_LAW, v1::Cycle::INFEASIBLE,
-                          v1::Cycle::SETTLED, v1::Cycle::NOT_CONVERGED));
+                          v1::Cycle::SETTLED, v1::Cycle::NOT_CONVERGED, v1::Cycle::JUMP,
+                          v1::Cycle::UNFINISHED));
   using E = Cycle::End;
   std::vector<int> ends;
   for (const E end : {E::kSeparation, E::kNonSeparation, E::kRunEnd}) {
@@ -179,7 +235,9 @@ TEST(Encode, OutcomeFillsItsFieldsOfTheJobAndNoOthers) {
                         .worst_identity_residual = 9,
                         .momentum_residual = 10,
                         .energy_residual = 11,
-                        .kinetic_energy = 12};
+                        .kinetic_energy = 12,
+                        .growths = 14,
+                        .growths_no_progress = 15};
   v1::Job job;
   job.set_name("jobs/x");
   job.mutable_summary()->set_wall_time_s(13);
@@ -190,7 +248,7 @@ TEST(Encode, OutcomeFillsItsFieldsOfTheJobAndNoOthers) {
             "final_bodies { name: \"b\" position_m: 2 velocity_m_per_s: 4 } "
             "summary { steps: 5 evaluations: 6 iterations: 7 episodes: 8 wall_time_s: 13 "
             "worst_identity_residual: 9 momentum_residual: 10 energy_residual: 11 "
-            "kinetic_energy_j: 12 time_reached_s: 8 }");
+            "kinetic_energy_j: 12 time_reached_s: 8 growths: 14 growths_no_progress: 15 }");
 }
 
 }  // namespace
