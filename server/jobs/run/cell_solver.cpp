@@ -26,6 +26,7 @@ class CellObserver final : public Observer {
         trajectory_(trajectory) {}
 
   void OnCycle(const Cycle& cycle) override { *result_->add_cycles() = Encode(scenario_, cycle); }
+  void OnGroup(const Group& group) override { *result_->add_groups() = Encode(scenario_, group); }
   void OnSamples(const Samples& samples) override {
     std::ranges::move(ChunksOf(scenario_, samples), std::back_inserter(*trajectory_));
   }
