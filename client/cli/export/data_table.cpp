@@ -51,6 +51,30 @@ constexpr Meaning kCycle[] = {
     {"peak_force_n", "largest contact force"},
     {"tension_time_s", "time for which the contact force pulled"},
     {"identity_residual", "imbalance of energy over work_compression"},
+    {"group", "number of its group, 0 for none"},
+};
+
+constexpr Meaning kGroup[] = {
+    {"contact", "name of the contact"},
+    {"number", "place of the group among those of its contact"},
+    {"first_cycle", "number of its first cycle"},
+    {"cycles", "how many cycles it has"},
+    {"encounter", "place of its encounter among those of its contact"},
+    {"start_time_s", "time at which its first cycle began"},
+    {"end_time_s", "time at which its last cycle ended"},
+    {"end", "how its last cycle ended"},
+    {"mu", "hysteresis damping factor of all its cycles"},
+    {"work_compression_j", "work of the contact force in all its compressions"},
+    {"work_restitution_j", "work of the contact force in all its restitutions"},
+    {"restitution_in", "energy restitution coefficient asked for"},
+    {"restitution_out", "energy restitution coefficient of the group"},
+    {"status", "what became of the restitution asked for"},
+    {"growth", "why it took in its neighbour last"},
+    {"residual", "imbalance of energy over work_compression"},
+    {"too_much_mu", "nearest mu that gave too much restitution"},
+    {"too_much_restitution", "restitution at too_much_mu"},
+    {"too_little_mu", "nearest mu that gave too little restitution"},
+    {"too_little_restitution", "restitution at too_little_mu"},
 };
 
 constexpr Meaning kIteration[] = {
@@ -62,7 +86,7 @@ constexpr Meaning kIteration[] = {
 
 constexpr Meaning kUnknown[] = {
     {"contact", "name of the contact"},
-    {"number", "place of the cycle among those of its contact", "cycle"},
+    {"number", "place of its first cycle among those of its contact", "cycle"},
     {"mu", "hysteresis damping factor of this pass"},
     {"restitution_out", "energy restitution coefficient that it gave"},
     {"restitution_in", "energy restitution coefficient asked for"},
@@ -168,6 +192,12 @@ DataTable SeriesTable(Recording&& recording) {
 DataTable CyclesTable(const v1::Job& job) {
   DataTable table{"cycles", "cycle", Columns(*v1::Cycle::descriptor(), kCycle)};
   for (const v1::Cycle& cycle : job.cycles()) AddRow(cycle, kCycle, table.columns.data());
+  return table;
+}
+
+DataTable GroupsTable(const v1::Job& job) {
+  DataTable table{"groups", "group", Columns(*v1::Group::descriptor(), kGroup)};
+  for (const v1::Group& group : job.groups()) AddRow(group, kGroup, table.columns.data());
   return table;
 }
 
