@@ -5,7 +5,7 @@ import unittest
 
 import matplotlib.pyplot as plt
 import numpy as np
-from contactd import ServerTest
+from contactd import ServerTest, two_balls_and_a_wall
 from contactsim import Client
 from contactsim.plotting import PRESETS
 
@@ -53,6 +53,17 @@ class PlotsTest(ServerTest):
         total = fall.plot.energy().lines[-1].get_ydata()
         np.testing.assert_allclose(total[time < 0.44], 0.5 * 9.81 * 1.0, rtol=1e-9)
         self.assertLess(total[-1], 0.5 * total[0])
+
+    def test_band_of_a_group_spans_its_cycles(self):
+        result = self.client.run(two_balls_and_a_wall())
+        group = next(g for g in result.job.groups if g.cycles == 2)
+        cycles = [c for c in result.job.cycles
+                  if (c.contact, c.group) == (group.contact, group.number)]
+        self.assertEqual((group.start_time_s, group.end_time_s),
+                         (cycles[0].start_time_s, cycles[1].end_time_s))
+        alone = sum(not c.group for c in result.job.cycles)
+        bands = result.plot.force().patches
+        self.assertEqual(len(bands), len(result.job.groups) + alone)
 
     def test_marks_stand_where_cycles_start_and_end(self):
         ax = self.chain.plot.deformation_velocity()

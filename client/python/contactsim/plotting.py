@@ -146,9 +146,10 @@ class Plots:
 
     def _over_time(self, ax: Axes | None, label: str) -> Axes:
         ax = _axes(ax, "time [s]", label)
-        for cycle in self._result.job.cycles:
-            ax.axvspan(cycle.start_time_s, cycle.end_time_s, alpha=0.08, linewidth=0,
-                       color=self._contacts[cycle.contact])
+        alone = [cycle for cycle in self._result.job.cycles if not cycle.group]
+        for band in (*self._result.job.groups, *alone):
+            ax.axvspan(band.start_time_s, band.end_time_s, alpha=0.08, linewidth=0,
+                       color=self._contacts[band.contact])
         return ax
 
     def _bodies(self, ax: Axes | None, quantity: str, label: str) -> Axes:

@@ -17,7 +17,7 @@ from .recording import Recording
 if TYPE_CHECKING:
     import xarray
 
-_LEDGER = ("contact", "number", "kind", "end", "status", "mu", "restitution_in",
+_LEDGER = ("contact", "number", "group", "kind", "end", "status", "mu", "restitution_in",
            "restitution_out", "start_time_s", "end_time_s", "peak_force_n")
 
 
@@ -82,6 +82,11 @@ class Result:
     def cycles(self) -> pd.DataFrame:
         """The ledger: a row a cycle. `mu` is in N·s/m^(n+1), n the exponent of its contact."""
         return _frame(job_pb2.Cycle.DESCRIPTOR, self.job.cycles)
+
+    @functools.cached_property
+    def groups(self) -> pd.DataFrame:
+        """The groups of cycles that share one μ: a row a group. `mu` as in `cycles`."""
+        return _frame(job_pb2.Group.DESCRIPTOR, self.job.groups)
 
     @functools.cached_property
     def bodies(self) -> pd.DataFrame:
