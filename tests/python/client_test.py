@@ -195,7 +195,8 @@ class ClientTest(ServerTest):
 
     def test_artifact_is_fetched_and_a_part_of_it_gone_on_with(self):
         job = self.client.run(three_ball_chain()).job
-        self.assertEqual([a.name for a in job.artifacts], ["cycles.csv", "groups.csv", "trajectory.csv"])
+        self.assertEqual([a.name for a in job.artifacts],
+                         ["cycles.csv", "groups.csv", "trajectory.csv"])
         whole = self.client.download(job, "trajectory.csv", self.folder / "whole.csv")
         content = whole.read_bytes()
         frame = pandas.read_csv(whole)
