@@ -9,6 +9,7 @@
 #include "jobs/job/errors.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/run/run_recorder.h"
+#include "wire/ledger_codec.h"
 #include "wire/result_codec.h"
 
 namespace contact {

@@ -5,6 +5,7 @@
 
 #include "jobs/job/lifecycle.h"
 #include "jobs/run/run_state_codec.h"
+#include "wire/ledger_codec.h"
 #include "wire/result_codec.h"
 
 namespace contact {
