@@ -56,10 +56,10 @@ Root Bisection::Solve(const GroupSight& group) {
   group_ = group;
   coarse_ = true;
   Root root = Look();
-  if (root == Root::kFound || root == Root::kAborted) return root;
   coarse_ = false;
-  if (!Confirmed() && !problem_.Aborted()) root = Look();
-  return problem_.Aborted() ? Root::kAborted : Finish(root);
+  if (root != Root::kAborted && !Confirmed(root) && !problem_.Aborted()) root = Look();
+  if (problem_.Aborted()) return Root::kAborted;
+  return root == Root::kFound ? root : Finish(root);
 }
 
 Root Bisection::Look() {
@@ -72,9 +72,10 @@ Root Bisection::Look() {
   return bracket == Root::kFound && more_.there && less_.there ? Narrow() : bracket;
 }
 
-// Whether exact passes see what the coarse ones saw at both sides of the bracket.
-bool Bisection::Confirmed() {
+// Whether exact passes see what the coarse ones saw: at the root, or at both sides of the bracket.
+bool Bisection::Confirmed(Root root) {
   const double mu = problem_.groups.At(group_.id).mu;
+  if (root == Root::kFound) return std::abs(At(mu).excess) < kRoot;
   bool confirmed = true;
   for (Point* side : {&more_, &less_}) {
     if (!side->there || !confirmed) continue;

@@ -33,7 +33,7 @@ class Bisection {
   };
   Point At(double mu);
   Root Look();
-  bool Confirmed();
+  bool Confirmed(Root root);
   Root Bracket();
   Root Narrow();
   void Keep(const Point& point);

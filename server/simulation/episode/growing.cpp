@@ -51,17 +51,17 @@ bool Growing::JoinPrevious(const GroupId& id, Growth why) {
 
 bool Growing::Grow(const GroupId& id, Growth why) {
   if (problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle) return false;
-  if (why == Growth::kTooMuch) return JoinPrevious(id, why) || TakeNext(id, why);
-  if (TakeNext(id, why)) return true;
-  // The trough that comes and goes may be seen on the other side of the jump only.
+  if (why == Growth::kTooMuch && JoinPrevious(id, why)) return true;
+  // The trough that ends the group may be there on one side of what was sought only.
   Unknown& unknown = problem_.groups.At(id);
-  if (why == Growth::kJump && unknown.too_much.mu >= 0 && unknown.too_little.mu >= 0) {
-    const double here = unknown.mu;
-    unknown.mu = here == unknown.too_much.mu ? unknown.too_little.mu : unknown.too_much.mu;
+  const double here = unknown.mu;
+  for (const double mu : {here, unknown.too_little.mu, unknown.too_much.mu}) {
+    if (std::isnan(mu)) continue;
+    unknown.mu = mu;
     if (TakeNext(id, why)) return true;
-    unknown.mu = here;
   }
-  return JoinPrevious(id, why);
+  unknown.mu = here;
+  return why != Growth::kTooMuch && JoinPrevious(id, why);
 }
 
 // Whether the run ends before a group does, with its first guess; it then has that.

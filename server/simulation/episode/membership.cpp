@@ -1,5 +1,6 @@
 #include "simulation/episode/membership.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace contact {
@@ -22,7 +23,8 @@ bool Membership::IsWeak(const ContactState& state, double times) const {
   const SolverOptions& options = scenario_.solver;
   const double fraction = state.cycle.kind == Cycle::Kind::kNirv ? options.settled_nirv_fraction
                                                                  : options.settled_fraction;
-  return state.cycle.work_compression <= times * fraction * state.largest_work;
+  const double work = std::max(state.cycle.work_compression, -state.cycle.work_restitution);
+  return work <= times * fraction * state.largest_work;
 }
 
 double Membership::Start(ContactState& state, double effective_mass, double external_force) {

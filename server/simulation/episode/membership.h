@@ -25,7 +25,7 @@ class Membership {
   /// The cycle that started last is none after all. Returns whether its group is none either.
   bool Cancel(ContactState& state);
 
-  /// Whether the work of the cycle that has ended is negligible beside that of its contact; `times`
+  /// Whether the works of the cycle that has ended are negligible beside that of its contact; `times`
   /// what is negligible else.
   bool IsWeak(const ContactState& state, double times = 1) const;
   /// Whether the restitution of this contact is iterated.

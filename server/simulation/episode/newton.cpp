@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulation/episode/front.h"
 
@@ -31,6 +32,9 @@ constexpr std::size_t kFew = 4;
 constexpr double kSure = 0.1;
 // The curvature that is expected before it was seen.
 constexpr double kCurved = 1;
+// In so many corrections the merit has to fall by this factor: else the method only creeps.
+constexpr int kPace = 5;
+constexpr double kHeadway = 0.5;
 // How much longer than before a trial may last, in spans of the front.
 constexpr double kLonger = 4;
 
@@ -163,11 +167,16 @@ Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_cor
   curvature_ = kCurved;
   Sight now = seen != nullptr ? *seen : Look(front, true, 1, kForever);
   Take(front, now);
+  double merit = kForever;
   for (corrections_ = 0;; ++corrections_) {
     if (problem_.Aborted()) return Found::kAborted;
     if (now.pause == Motion::Pause::kNumeric) return Found::kStalled;
     if (Worst(front, now) <= goal) return Found::kSolved;
     if (corrections_ >= most_corrections) return Found::kLimit;
+    if (corrections_ % kPace == 0) {
+      const double before = std::exchange(merit, Merit(front, now));
+      if (merit > kHeadway * before) return Found::kStalled;
+    }
     if (coarse && now.exact && Expected(Worst(front, now)) <= kSure * goal) {
       Move(front, now, Step());
       Count(front, now, ++corrections_, false);

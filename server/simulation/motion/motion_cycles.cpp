@@ -18,10 +18,12 @@ constexpr double kRestingScale = 1e-3;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
-// Whether a cycle that ends at `time` is none: it has no duration, or its compression did no work.
+// Whether a cycle that ends at `time` is none: it has no duration, or began at δ = 0 and did no
+// work in compression, so that it has none to give back.
 bool DoesNothing(const ContactState& state, double time) {
-  const bool idle = state.phase == Phase::kRestitution && state.cycle.work_compression <= 0;
-  return idle || time == state.cycle.start_time;
+  const Cycle& cycle = state.cycle;
+  const bool idle = state.phase == Phase::kRestitution && cycle.work_compression <= 0;
+  return (idle && cycle.start_deformation == 0) || time == cycle.start_time;
 }
 
 }  // namespace
