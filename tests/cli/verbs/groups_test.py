@@ -5,33 +5,16 @@ import io
 import json
 import unittest
 
-from cli_case import CliTest
+from cli_case import SCENARIOS, CliTest
 
-SCENARIO = """
-bodies:
-- {name: B1, mass_kg: 3.0433, radius_m: 0.05, velocity_m_per_s: 1.535}
-- {name: B2, mass_kg: 1.0897, radius_m: 0.05, position_m: 0.1}
-contacts:
-- {name: pair, between: [B1, B2], stiffness: 5744379, restitution: 0.805}
-- name: wall
-  between: [B2]
-  wall: {position_m: 0.1506, side: RIGHT}
-  stiffness: 184680686.4
-  restitution: 0.678
-end_time_s: 0.02
-"""
+WALL = SCENARIOS / "two-balls-wall.yaml"
 CYCLE = ("--set", "solver.restitution_scope=CYCLE")
 
 
 class GroupsTest(CliTest):
 
-    def setUp(self):
-        super().setUp()
-        self.file = self.folder / "wall.yaml"
-        self.file.write_text(SCENARIO)
-
     def test_cycles_that_share_a_factor_are_solved_and_shown(self):
-        printed, said = self.run_it("run", self.file)
+        printed, said = self.run_it("run", WALL)
         self.assertIn("convergence FULL", printed)
         self.assertRegex(printed, r"(?m)^CONTACT +GROUP +CYCLES +END +STATUS")
         row = next(line for line in printed.splitlines() if " to " in line and "wall" in line)
@@ -40,7 +23,7 @@ class GroupsTest(CliTest):
         self.assertNotIn("Try:", said)
 
     def test_every_form_of_the_result_has_the_groups(self):
-        job = json.loads(self.run_it("run", self.file, "-o", "json")[0])
+        job = json.loads(self.run_it("run", WALL, "-o", "json")[0])
         self.assertEqual(job["convergence"], "FULL")
         wall, = [g for g in job["groups"] if g["contact"] == "wall" and g["cycles"] == 2]
         self.assertAlmostEqual(wall["mu"] / 2.76e8, 1, delta=0.01)
@@ -58,32 +41,32 @@ class GroupsTest(CliTest):
         self.assertTrue(any("group_growth" in e for e in events))
 
     def test_watch_tells_of_growths_and_groups(self):
-        name = self.run_it("run", self.file, "-o", "name")[0].strip()
+        name = self.run_it("run", WALL, "-o", "name")[0].strip()
         printed = self.run_it("watch", name)[0]
         self.assertIn("and the next share one μ: ", printed)
         self.assertRegex(printed, r"(?m)^wall group \d+, cycle \d+ to \d+: CONVERGED, μ 27\d+")
 
     def test_a_factor_for_each_cycle_is_7_and_tells_what_to_do(self):
-        printed, said = self.run_it("run", self.file, *CYCLE, code=7)
+        printed, said = self.run_it("run", WALL, *CYCLE, code=7)
         self.assertIn("INFEASIBLE", printed)
         self.assertIn("convergence PARTIAL", printed)
         self.assertRegex(printed, r"(?m)^wall group \d+: no μ gives a restitution of 0\.678: ")
         self.assertIn("Try:   --set solver.restitution_scope=AUTO", said)
-        advice = self.run_it("validate", self.file, *CYCLE)
+        advice = self.run_it("validate", WALL, *CYCLE)
         self.assertIn("solver.restitution_scope: is CYCLE", "".join(advice))
 
     def test_an_encounter_as_one_group_is_solved_too(self):
-        job = json.loads(self.run_it("run", self.file, "-o", "json", "--set",
+        job = json.loads(self.run_it("run", WALL, "-o", "json", "--set",
                                      "solver.restitution_scope=ENCOUNTER")[0])
         self.assertEqual(job["convergence"], "FULL")
         self.assertTrue(all(g["end"] != "NON_SEPARATION" for g in job["groups"]))
 
     def test_sweeps_and_comparisons_read_groups(self):
-        printed = self.run_it("sweep", "run", self.file, "--grid", "bodies[0].velocity_m_per_s=1.535",
+        printed = self.run_it("sweep", "run", WALL, "--grid", "bodies[0].velocity_m_per_s=1.535",
                               "--metric", "groups[wall].mu", "--metric", "groups[0].cycles",
                               "-o", "csv")[0]
         self.assertIn("groups[wall].mu", printed)
-        jobs = [self.run_it("run", self.file, *scope, "-o", "name", code=None)[0].strip()
+        jobs = [self.run_it("run", WALL, *scope, "-o", "name", code=None)[0].strip()
                 for scope in ((), CYCLE)]
         self.assertRegex(self.run_it("compare", *jobs, code=8)[0],
                          r"(?m)^wall group \d+ cycles +\d+ to \d+ +-")
