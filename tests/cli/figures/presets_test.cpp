@@ -122,6 +122,20 @@ TEST(Presets, BandOfAGroupSpansItsCycles) {
   EXPECT_EQ(panel.bands[1].end, 1);
 }
 
+TEST(Presets, CycleHasTheRestitutionOfItsGroup) {
+  Recording run = SampleRun();
+  run.job.mutable_cycles(1)->set_group(1);
+  v1::Group& group = *run.job.add_groups();
+  group.set_contact("W");
+  group.set_number(1);
+  group.set_restitution_out(0.8);
+  const Figure::Panel panel = PresetFigure("restitution", run).panels.at(0);
+  EXPECT_THAT(panel.curves,
+              Contains(AllOf(Field(&Curve::label, "W had"), Field(&Curve::y, ElementsAre(0.8)))));
+  EXPECT_THAT(panel.curves, Contains(AllOf(Field(&Curve::label, "A-B had"),
+                                           Field(&Curve::y, ElementsAre(0.79)))));
+}
+
 TEST(Presets, MarksLieOnTheirCurveBetweenSamples) {
   Recording run = SampleRun();
   run.job.mutable_cycles(0)->set_start_time_s(0.3);  // Position is twice the time.
