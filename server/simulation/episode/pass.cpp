@@ -66,6 +66,9 @@ bool Pass::IsOpen() const {
   });
 }
 
+// Cycles after the end of the run only show how those before it end.
+bool Pass::Counts(const Cycle& cycle) const { return cycle.start_time < plan_.end; }
+
 bool Pass::Matters(const Unknown& unknown) const {
   return unknown.start_time < plan_.end && !unknown.Decided();
 }
@@ -89,7 +92,8 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
   const double mu = membership_.Start(state, effective_mass, external_force);
   if (state.settled) return {.mu = mu};
   const Cycle& cycle = state.cycle;
-  if (++cycles_ >= plan_.most_cycles) enough_ = true;
+  cycles_ += Counts(cycle);
+  if (cycles_ >= plan_.most_cycles) enough_ = true;
   if (opens) {
     const Contact& contact = scenario_.contacts[At(cycle.contact)];
     const Unknown& unknown = *groups_.Find(Membership::IdOf(state));
@@ -111,7 +115,7 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
 }
 
 void Pass::OnCancel(ContactState& state) {
-  --cycles_;
+  cycles_ -= Counts(state.cycle);
   const GroupId id = Membership::IdOf(state);
   const Unknown* unknown = groups_.Find(id);
   if (!membership_.Cancel(state) || unknown == nullptr) return;

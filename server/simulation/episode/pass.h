@@ -46,6 +46,7 @@ class Pass final : public CycleHost {
   bool OnStep() override;
 
  private:
+  bool Counts(const Cycle& cycle) const;
   bool Matters(const Unknown& unknown) const;
   GroupSight* Seen(const ContactState& state);
   bool WantsColumn(const GroupId& id) const;
