@@ -1,16 +1,14 @@
 #include "wire/result_codec.h"
 
-#include <bit>
 #include <cstddef>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "wire/column_bytes.h"
+
 namespace contact {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "columns are little-endian");
 
 const Contact& ContactAt(const Scenario& scenario, int index) {
   return scenario.contacts[static_cast<std::size_t>(index)];
@@ -35,18 +33,6 @@ v1::FrameChunk::Column Channel(std::string_view owner, const char* quantity, con
   column.set_quantity(quantity);
   column.set_unit(unit);
   return column;
-}
-
-// One column of the samples.
-std::string ValuesOf(const Samples& samples, std::size_t column) {
-  const auto rows = static_cast<std::size_t>(samples.rows());
-  const auto stride = static_cast<std::size_t>(samples.columns);
-  std::string bytes(rows * sizeof(double), '\0');
-  for (std::size_t row = 0; row < rows; ++row) {
-    std::memcpy(&bytes[row * sizeof(double)], &samples.values[row * stride + column],
-                sizeof(double));
-  }
-  return bytes;
 }
 
 }  // namespace
@@ -78,7 +64,7 @@ v1::FrameChunk Encode(const Scenario& scenario, const Samples& samples) {
   message.set_samples(samples.rows());
   std::vector<v1::FrameChunk::Column> columns = Channels(scenario);
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    *columns[i].mutable_values() = ValuesOf(samples, i);
+    columns[i].set_values(ColumnBytes(samples.values, columns.size(), i));
     *message.add_columns() = std::move(columns[i]);
   }
   return message;

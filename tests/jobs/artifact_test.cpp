@@ -2,11 +2,12 @@
 #include <openssl/sha.h>
 
 #include <array>
+#include <bit>
 #include <charconv>
-#include <cstring>
 #include <functional>
 #include <sstream>
 
+#include "jobs/read/frame_values.h"
 #include "jobs_fixture.h"
 
 namespace contact {
@@ -85,11 +86,11 @@ TEST_F(ArtifactTest, TrajectoryIsTheLogToTheLastBit) {
     for (int row = 0; row < event.frame_chunk().samples(); ++row, ++line) {
       const char* text = lines[line].c_str();
       for (const auto& column : event.frame_chunk().columns()) {
-        double expected;
-        std::memcpy(&expected, &column.values()[static_cast<std::size_t>(row) * 8], 8);
+        const double expected = ValueAt(column, row);
         double value = 0;
         text = std::from_chars(text, lines[line].c_str() + lines[line].size(), value).ptr + 1;
-        ASSERT_EQ(std::memcmp(&value, &expected, 8), 0) << lines[line];
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(expected))
+            << lines[line];
       }
     }
   }

@@ -76,7 +76,7 @@ class CheckpointTest : public JobsTest {
   // Starts the job, and kills the server once a checkpoint after so many events is stored.
   std::string CutShort(std::uint64_t sequence) {
     Open(Options(60));
-    const std::string name = Create(Bouncing());
+    std::string name = Create(Bouncing());
     while (Stored(name).checkpoint_sequence < sequence) std::this_thread::yield();
     Crash();
     return name;

@@ -16,7 +16,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::StartsWith;
 
 v1::CreateJobRequest WithPriority(std::int32_t priority, double end_time_s) {
@@ -30,7 +29,7 @@ class LostRunTest : public JobsTest {
   // Moves the clock until the job has ended. A watchdog counts one second a look at most.
   v1::Job EndedInTime(const std::string& name) {
     for (;;) {
-      const v1::Job job = Get(name).value();
+      v1::Job job = Get(name).value();
       if (IsFinal(job.state())) return job;
       clock_.Advance(milliseconds(500));
       std::this_thread::yield();
@@ -119,7 +118,7 @@ TEST_F(LostRunTest, SpentOutputEndsARealRun) {
 
 TEST_F(LostRunTest, SpentOutputIsSeenAlsoWhenTheRunIsThrough) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
-    observer.OnSamples({.first = 0, .columns = 7, .values = std::vector<double>(7 * 200)});
+    observer.OnSamples({.first = 0, .columns = 7, .values = std::vector<double>(1400)});
     return Outcome{};
   });
   JobOptions options{.max_budget = {.output_bytes = 1000}};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <string>
 #include <utility>
@@ -56,7 +58,7 @@ class FakeLab : public Lab {
   static void AddColumns(const std::string& name, const std::vector<std::string>& quantities,
                          Solved* solved) {
     for (const std::string& quantity : quantities) {
-      solved->columns.push_back({name + "." + quantity, quantity, "", {0, 1, -1}});
+      solved->columns.push_back({fmt::format("{}.{}", name, quantity), quantity, "", {0, 1, -1}});
     }
   }
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "cli/link/columns.h"
 #include "cli/link/job_names.h"
+#include "wire/column_bytes.h"
 
 namespace contact::cli {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "cli/base/interrupt.h"
-#include "cli/link/columns.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/link/watch_to_end.h"
+#include "wire/column_bytes.h"
 
 namespace contact::cli {
 namespace {

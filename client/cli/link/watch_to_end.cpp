@@ -19,7 +19,10 @@ void WatchToEnd(Client& client, WatchOptions options, const Settings& settings,
 }
 
 void ReplayWhole(const std::string& job, const std::function<bool()>& replay) {
-  if (replay() || replay()) return;
+  constexpr int kTries = 2;
+  for (int i = 0; i < kTries; ++i) {
+    if (replay()) return;
+  }
   throw Failure(ExitCode::kRunFailed,
                 fmt::format("parts of the trajectory of {} do not come; try again", job));
 }

@@ -58,7 +58,7 @@ std::string WithValue(const std::string& text, const std::string& profile, const
     while (last != begin && Trimmed(*(last - 1)).empty()) --last;
     lines.insert(last, setting);
   }
-  const std::string changed = fmt::format("{}\n", fmt::join(lines, "\n"));
+  std::string changed = fmt::format("{}\n", fmt::join(lines, "\n"));
   const ConfigFile file = ReadConfig("the changed file", changed, {key, kProfileKey});
   const auto now = FindValue({file}, key, profile);
   const bool other_keys = file.mistake.find("unknown key") != std::string::npos;

@@ -11,7 +11,7 @@
 #include "cli/base/csv.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
-#include "cli/link/columns.h"
+#include "wire/column_bytes.h"
 #include "wire/column_name.h"
 
 namespace contact::cli {
@@ -39,7 +39,7 @@ std::string RenderSeries(const v1::Series& series, const Style& style) {
     for (const auto& column : columns) cells.emplace_back(Digits(column.at(row), 7));
     table.Add(std::move(cells));
   }
-  const std::string text = table.Text(style, kMostRows, "… {} more samples; -o csv prints all");
+  std::string text = table.Text(style, kMostRows, "… {} more samples; -o csv prints all");
   if (series.samples() == series.recorded_samples()) return text;
   return text + Wrap(fmt::format("{} of {} samples, no peak left out\n", series.samples(),
                                  series.recorded_samples()),

@@ -27,7 +27,7 @@ bool NeedsQuotes(const std::string& text) {
 
 // `1e-08` is a text to readers of YAML 1.1, `1.0e-08` is not.
 std::string Number(const Json& value) {
-  const std::string text = value.dump();
+  std::string text = value.dump();
   const std::size_t exponent = text.find('e');
   if (exponent == std::string::npos || text.find('.') != std::string::npos) return text;
   return fmt::format("{}.0{}", text.substr(0, exponent), text.substr(exponent));

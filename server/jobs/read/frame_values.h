@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 
 #include "contact/v1/event.pb.h"
+#include "wire/column_bytes.h"
 
 namespace contact {
 
@@ -17,10 +17,7 @@ inline bool IsWhole(const v1::FrameChunk& chunk) {
 
 /// The value of the sample `row` of a column, which must have one.
 inline double ValueAt(const v1::FrameChunk::Column& column, int row) {
-  double value;
-  std::memcpy(&value, column.values().data() + static_cast<std::size_t>(row) * sizeof value,
-              sizeof value);
-  return value;
+  return DoubleAt(column.values(), static_cast<std::size_t>(row));
 }
 
 }  // namespace contact

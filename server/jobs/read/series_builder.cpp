@@ -1,11 +1,9 @@
 #include "jobs/read/series_builder.h"
 
-#include <cstring>
-#include <span>
-#include <string>
 #include <utility>
 
 #include "jobs/read/frame_values.h"
+#include "wire/column_bytes.h"
 
 namespace contact {
 
@@ -67,11 +65,7 @@ Result<v1::Series> SeriesBuilder::Finish() const {
   for (std::size_t i = 0; i < width; ++i) {
     v1::FrameChunk::Column& column = *series.add_columns();
     column = channels_[static_cast<std::size_t>(selection_.columns[i])];
-    std::string& bytes = *column.mutable_values();
-    bytes.resize(rows.size() / width * sizeof(double));
-    for (std::size_t row = 0; row * width < rows.size(); ++row) {
-      std::memcpy(&bytes[row * sizeof(double)], &rows[row * width + i], sizeof(double));
-    }
+    column.set_values(ColumnBytes(rows, width, i));
   }
   return series;
 }

@@ -142,7 +142,7 @@ Outcome JobRunner::RunScenario(const Scenario& scenario, const StoredJob& spec,
                                const Assignment& assignment, LogWriter& writer) const {
   const auto start = clock_.Elapsed();
   RunRecorder recorder(scenario, clock_, assignment, writer, options_.checkpoint_interval);
-  const Outcome outcome = RunOrResume(scenario, spec, assignment, writer, recorder);
+  Outcome outcome = RunOrResume(scenario, spec, assignment, writer, recorder);
   const std::chrono::duration<double> wall = clock_.Elapsed() - start;
   assignment.record->Do([&](v1::Job& job) {
     EncodeOutcome(scenario, outcome, &job);

@@ -12,7 +12,7 @@ namespace contact {
 namespace {
 
 // Values in one frame chunk, so that the frames of a large scenario fit into a message: 1 MiB.
-constexpr std::ptrdiff_t kMaxChunkValues = 128 * 1024;
+constexpr std::ptrdiff_t kMaxChunkValues = std::ptrdiff_t{128} * 1024;
 constexpr std::chrono::milliseconds kProgressTime{100};
 // A larger checkpoint is not stored, because it would delay the commits of other jobs. Most of a
 // checkpoint is samples of an unfinished chunk, so the next one may be smaller.

@@ -180,7 +180,7 @@ Assignment Scheduler::Assign(Active& active) {
           active.log,
           active.record,
           active.control,
-          [this](std::shared_ptr<SweepRun> sweep) { Offer(std::move(sweep)); }};
+          [this](const std::shared_ptr<SweepRun>& sweep) { Offer(sweep); }};
 }
 
 void Scheduler::Offer(std::shared_ptr<SweepRun> sweep) {

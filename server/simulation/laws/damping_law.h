@@ -43,10 +43,10 @@ enum class DampingScale {
 /// enumerator, its row in damping_law.cpp, and its row in README.md of simulation/.
 struct DampingLawRow {
   DampingLaw law;
-  /// As in scenarios, such as `HUNT_CROSSLEY`.
-  std::string_view name;
   /// How μ follows from α.
   DampingScale scale;
+  /// As in scenarios, such as `HUNT_CROSSLEY`.
+  std::string_view name;
   /// α(ε) [-] for ε in (0, 1]; null for kNone.
   double (*alpha)(double restitution);
   /// The n that the law is made for [-]; 0: any.

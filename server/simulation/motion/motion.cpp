@@ -116,7 +116,7 @@ State Motion::Save() const {
   state.contacts = contacts_;
   state.positions = equations_.base;
   for (int i = 0; i < n; ++i) state.positions[At(i)] += rk_.y0[i];
-  state.velocities.assign(rk_.y0.data() + n, rk_.y0.data() + 2 * n);
+  state.velocities.assign(rk_.y0.begin() + n, rk_.y0.begin() + n + n);
   for (int c = 0; c < equations_.contacts(); ++c) {
     ContactState& contact = state.contacts[At(c)];
     contact.gap = -Deformation(c, rk_.y0.data());

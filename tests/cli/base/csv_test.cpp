@@ -11,8 +11,6 @@
 namespace contact::cli {
 namespace {
 
-using ::testing::ElementsAre;
-
 using Rows = std::vector<std::vector<std::string>>;
 
 // Reads CSV as RFC 4180 says.

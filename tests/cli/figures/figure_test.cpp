@@ -17,7 +17,6 @@ namespace {
 using testing::ElementsAre;
 using testing::Field;
 using testing::HasSubstr;
-using testing::Not;
 using testing::SizeIs;
 
 Figure OfCurve(std::vector<double> y) {

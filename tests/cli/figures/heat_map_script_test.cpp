@@ -99,7 +99,9 @@ TEST(LogLevels, Ascend) {
 TEST(FindContours, LinesOfAPlaneAreStraight) {
   const auto plane = [](double row, double column) { return 2 * row + 3 * column; };
   std::vector<double> values;
-  for (int i = 0; i < 30; ++i) values.push_back(plane(i / 6, i % 6));
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 6; ++column) values.push_back(plane(row, column));
+  }
   const std::vector<Point> points = Contours(values, 6, HeatScale(Grid(5, 6, plane), 0, false));
   ASSERT_GT(points.size(), 10U);
   for (const Point& point : points) {

@@ -1,16 +1,12 @@
 #include <gmock/gmock.h>
 
-#include <cstring>
-
 #include "cli/base/failure.h"
-#include "cli/link/columns.h"
 #include "cli/link/job_names.h"
 
 namespace contact::cli {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 using testing::Pair;
 
 TEST(JobNames, LongAndShortNamesAreOfTheSameJob) {
@@ -36,26 +32,6 @@ TEST(JobNames, LabelsAreSplitAtTheirFirstSign) {
       EXPECT_EQ(failure.code(), ExitCode::kUsage);
     }
   }
-}
-
-TEST(Columns, BytesAreDoubles) {
-  const std::vector<double> values = {0.1, -0.0, 1e300};
-  std::string bytes(values.size() * sizeof(double), '\0');
-  std::memcpy(bytes.data(), values.data(), bytes.size());
-  EXPECT_EQ(Doubles(bytes), values);
-  EXPECT_THAT(Doubles(""), IsEmpty());
-  EXPECT_THAT(Doubles(bytes.substr(0, 15)), ElementsAre(0.1));
-}
-
-TEST(Columns, ChunksAreJoined) {
-  const double one = 1;
-  std::string bytes(sizeof one, '\0');
-  std::memcpy(bytes.data(), &one, sizeof one);
-  std::vector<double> values = {0};
-  AppendDoubles(bytes, &values);
-  AppendDoubles("", &values);
-  AppendDoubles(bytes, &values);
-  EXPECT_THAT(values, ElementsAre(0, 1, 1));
 }
 
 }  // namespace

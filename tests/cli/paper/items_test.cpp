@@ -13,7 +13,6 @@
 namespace contact::cli {
 namespace {
 
-using testing::AllOf;
 using testing::Each;
 using testing::ElementsAre;
 using testing::Field;

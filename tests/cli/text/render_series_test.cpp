@@ -24,7 +24,7 @@ void Add(const std::string& name, const std::string& unit, const std::vector<dou
   column.set_values(values.data(), values.size() * sizeof(double));
 }
 
-v1::Series Series(std::vector<double> forces = {0.1, NAN}) {
+v1::Series Series(const std::vector<double>& forces = {0.1, NAN}) {
   v1::Series series;
   series.set_name("jobs/a");
   series.set_samples(static_cast<int>(forces.size()));

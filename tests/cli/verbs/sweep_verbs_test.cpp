@@ -129,9 +129,9 @@ TEST_F(SweepVerbsTest, RunIsNoSweep) {
 }
 
 TEST_F(SweepVerbsTest, GridOfTheCommandLineIsTheSweep) {
-  const End end =
-      Run({"sweep", "run", CONTACT_SOURCE_DIR "/client/scenarios/two-balls.yaml", "--grid",
-           "contacts[0].restitution=0.5,0.7", "--label", "a=b", "-o", "name"});
+  const std::string base = CONTACT_SOURCE_DIR "/client/scenarios/two-balls.yaml";
+  const End end = Run({"sweep", "run", base, "--grid", "contacts[0].restitution=0.5,0.7", "--label",
+                       "a=b", "-o", "name"});
   EXPECT_EQ(end.told, "");
   const auto asked = server_.Asked<v1::CreateJobRequest>();
   ASSERT_EQ(asked.size(), 1U);

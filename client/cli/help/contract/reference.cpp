@@ -95,7 +95,7 @@ std::string Paragraphs(const std::string& text, const std::string& indent) {
   while (std::getline(lines, line)) {
     if (line.starts_with(" ") != code) page += "\n";
     code = line.starts_with(" ");
-    if (!line.empty()) page += indent + (code ? "  " + line : Escape(line));
+    if (!line.empty()) page += fmt::format("{}{}", indent, code ? "  " + line : Escape(line));
     page += "\n";
   }
   return page;
