@@ -181,8 +181,8 @@ class Runner {
       cycle.end_deformation = -contact.gap;
       cycle.separation_velocity =
           motion_.equations().Relative(cycle.contact, y + motion_.equations().bodies());
-      solver_.recorder().FinishCut(contact);
       CloseWorks(contact);
+      solver_.recorder().FinishCut(contact);
       Emit(cycle);
     }
     EmitGroups();

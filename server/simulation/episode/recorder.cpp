@@ -186,6 +186,8 @@ void Recorder::FinishCut(ContactState& state) {
   cycle.restitution_out = group.cycles == 1 ? group.restitution_out : kNaN;
   group.end = Cycle::End::kRunEnd;
   group.end_time = cycle.end_time;
+  group.work_compression += cycle.work_compression;
+  group.work_restitution += cycle.work_restitution;
   groups.push_back(group);
 }
 

@@ -91,7 +91,7 @@ struct Group {
   Cycle::Status status = Cycle::Status::kNotConverged;
   Growth growth = Growth::kNotGrown;  ///< Why it grew last.
   double mu = 0;                      ///< μ [N·s/mⁿ⁺¹].
-  double work_compression = 0;        ///< Sum of W_c [J].
+  double work_compression = 0;        ///< Sum of W_c of its cycles, a cut one included [J].
   double work_restitution = 0;        ///< Sum of W_r [J], ≤ 0.
   double restitution_in = kNaN;
   double restitution_out = kNaN;  ///< √(−W_r/W_c).
