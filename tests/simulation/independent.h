@@ -121,8 +121,8 @@ class Independent {
     for (const double stop : stops) {
       if (stop <= begin_) continue;
       namespace odeint = boost::numeric::odeint;
-      const auto stepper = odeint::make_controlled(
-          1e-17, 1e-13, odeint::runge_kutta_fehlberg78<std::vector<double>>());
+      const auto stepper =
+          odeint::make_controlled(1e-18, 1e-13, odeint::runge_kutta_dopri5<std::vector<double>>());
       odeint::integrate_adaptive(stepper, std::cref(*this), state_, begin_, stop,
                                  std::min(1e-7, (stop - begin_) / 4));
       begin_ = stop;

@@ -68,14 +68,6 @@ TEST(Packing, SmallSwingsUnderALoadHaveTheFactorOfALinearOscillator) {
   }
 }
 
-// Solving the larger rows takes a hundred times longer in an unoptimized build, and minutes under a
-// sanitizer.
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr bool kOptimized = true;
-#else
-constexpr bool kOptimized = false;
-#endif
-
 struct Case {
   const char* name;
   Scenario scenario;
@@ -110,7 +102,7 @@ std::string NameOf(const ::testing::TestParamInfo<Case>& info) { return info.par
 class EveryCycle : public ::testing::TestWithParam<Case> {};
 
 TEST_P(EveryCycle, OfAPressedRowIsAnswered) {
-  if (GetParam().large && !kOptimized) GTEST_SKIP() << "takes minutes in this build";
+  if (GetParam().large && !testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
   const Scenario& s = GetParam().scenario;
   const Record r = RunAndRecord(s);
   ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << r.outcome.message;
@@ -147,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Most cycles of hard rows have no solution of their own, but none is left without an answer.
 TEST(Packing, NoCycleOfAHardRowOfTenIsLeftOpen) {
-  if (!kOptimized) GTEST_SKIP() << "takes minutes in this build";
+  if (!testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
   for (const Scenario& s : {Column(10, 0.9, 0.06), Struck(10, 0.9)}) {
     const Record r = RunAndRecord(s);
     const auto count = [&](Cycle::Status status) {

@@ -22,8 +22,9 @@ std::size_t At(int index) { return static_cast<std::size_t>(index); }
 // work in compression, so that it has none to give back.
 bool DoesNothing(const ContactState& state, double time) {
   const Cycle& cycle = state.cycle;
-  const bool idle = state.phase == Phase::kRestitution && cycle.work_compression <= 0;
-  return (idle && cycle.start_deformation == 0) || time == cycle.start_time;
+  const bool idle = cycle.work_compression <= 0 || cycle.max_deformation <= 0;
+  const bool turned = state.phase == Phase::kRestitution && cycle.start_deformation == 0;
+  return (turned && idle) || time == cycle.start_time;
 }
 
 }  // namespace
