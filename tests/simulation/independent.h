@@ -192,6 +192,7 @@ class Independent {
 
   void CompareVelocities(const Record& run) {
     double largest = 0, miss = 0;
+    for (const Cycle& c : run.cycles) largest = std::max(largest, c.approach_velocity);
     for (std::size_t i = 0; i < bodies_; ++i) {
       for (const double v : {s_.bodies[i].velocity, run.outcome.velocities[i]}) {
         largest = std::max(largest, std::abs(v));

@@ -30,7 +30,8 @@ constexpr int kPaperCycles = 120;
 
 // Whether no group ends where the next of its encounter begins, which may want to join it.
 bool IsApart(const Sight& sight) {
-  return std::ranges::all_of(sight.groups, [](const GroupSight& g) { return g.separated; });
+  return std::ranges::all_of(sight.groups,
+                             [](const GroupSight& g) { return g.separated || !g.sought; });
 }
 
 bool Within(const std::vector<GroupId>& front, const Sight& sight, double miss) {
@@ -83,12 +84,11 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
     rejected_ = false;
   }
   episode_ = episode;
-  const bool nothing_to_find = std::ranges::none_of(scenario_.contacts, [](const Contact& c) {
-    return c.damping == DampingLaw::kEnergyRestitution;
-  });
+  bool sought = false;
+  for (int c = 0; c < std::ssize(scenario_.contacts); ++c) sought |= IsSought(scenario_, c);
   record_until_ = end;
   tentative_ = false;
-  if (nothing_to_find || start.time < solved_until_) return Motion::Pause::kQuiet;
+  if (!sought || start.time < solved_until_) return Motion::Pause::kQuiet;
   problem_.Begin(start, end, stop, step_limit);
   if (scenario_.solver.update != UpdateRule::kNewtonCoupled) {
     const Found found = paper_.Solve(kPaperCycles, scenario_.solver.max_iterations);

@@ -23,7 +23,7 @@ void Widen(Span& span, const Sight& sight, double before) {
   for (bool wider = true; wider;) {
     wider = false;
     for (const GroupSight& g : sight.groups) {
-      if (g.weak || g.start_time >= before || !span.Meets(g)) continue;
+      if (g.weak || !g.sought || g.start_time >= before || !span.Meets(g)) continue;
       if (!g.ended) span.closed = false;
       if (g.start_time >= span.start && (!g.ended || g.end_time <= span.end)) continue;
       span.start = std::min(span.start, g.start_time);
@@ -85,7 +85,7 @@ double LastFinal(const Sight& sight, const std::vector<GroupId>& front) {
   const double front_starts = sight.Find(front.front())->start_time;
   double before = front_starts;
   for (const GroupSight& g : sight.groups) {
-    if (g.separated || g.start_time >= before) continue;
+    if (g.separated || !g.sought || g.start_time >= before) continue;
     const GroupSight* next = sight.Find({g.id.contact, g.id.encounter, g.id.place + 1});
     const bool joins_none = next != nullptr && next->ended && next->end_time <= front_starts;
     if (!joins_none) before = g.start_time;

@@ -10,13 +10,21 @@ std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
+bool IsUndamped(const Scenario& scenario, int contact) {
+  const Contact& c = scenario.contacts[At(contact)];
+  return c.damping == DampingLaw::kEnergyRestitution && c.restitution == 1 &&
+         scenario.solver.update == UpdateRule::kNewtonCoupled &&
+         scenario.solver.restitution_scope != RestitutionScope::kCycle;
+}
+
+bool IsSought(const Scenario& scenario, int contact) {
+  return scenario.contacts[At(contact)].damping == DampingLaw::kEnergyRestitution &&
+         !IsUndamped(scenario, contact);
+}
+
 void Membership::Begin(bool guess) {
   guessing_ = guess;
   guess_.Begin();
-}
-
-bool Membership::IsSought(int contact) const {
-  return scenario_.contacts[At(contact)].damping == DampingLaw::kEnergyRestitution;
 }
 
 bool Membership::IsWeak(const ContactState& state, double times) const {
@@ -52,7 +60,7 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
   member.group.start_time = cycle.start_time;
   Unknown& unknown = groups_.At(IdOf(state));
   unknown.start_time = cycle.start_time;
-  const bool law = !IsSought(cycle.contact);
+  const bool law = !IsSought(scenario_, cycle.contact);
   if (law || (!unknown.corrected && (guessing_ || unknown.first_mu == 0))) {
     double mu = guess_.Factor(state, effective_mass, external_force);
     if (std::isnan(mu)) mu = std::isnan(state.last_mu) ? 0 : state.last_mu;
@@ -84,8 +92,10 @@ bool Membership::End(ContactState& state) {
   group.work_compression += cycle.work_compression;
   group.work_restitution += cycle.work_restitution;
   const bool encounter = scenario_.solver.restitution_scope == RestitutionScope::kEncounter;
-  const int least = encounter && IsSought(cycle.contact) ? scenario_.solver.encounter_cycles : 1;
-  const bool lasts = cycle.end_time - group.start_time < member.lasts || group.cycles < least;
+  const int least =
+      encounter && IsSought(scenario_, cycle.contact) ? scenario_.solver.encounter_cycles : 1;
+  const bool lasts = cycle.end_time - group.start_time < member.lasts || group.cycles < least ||
+                     IsUndamped(scenario_, cycle.contact);
   member.open = cycle.end == Cycle::End::kNonSeparation && lasts;
   state.settled = !member.open && IsWeak(state);
   return !member.open;

@@ -5,6 +5,12 @@
 
 namespace contact {
 
+/// Whether the μ of this contact is known to be 0: an encounter without damping gives back all its
+/// work, ε = 1.
+bool IsUndamped(const Scenario& scenario, int contact);
+/// Whether the μ of this contact is to be found.
+bool IsSought(const Scenario& scenario, int contact);
+
 /// Puts the cycles of a pass into groups and gives them their μ. Whoever hosts a pass asks it at
 /// each start and end of a cycle.
 class Membership {
@@ -25,11 +31,9 @@ class Membership {
   /// The cycle that started last is none after all. Returns whether its group is none either.
   bool Cancel(ContactState& state);
 
-  /// Whether the works of the cycle that has ended are negligible beside that of its contact; `times`
-  /// what is negligible else.
+  /// Whether the works of the cycle that has ended are negligible beside that of its contact;
+  /// `times` what is negligible else.
   bool IsWeak(const ContactState& state, double times = 1) const;
-  /// Whether the restitution of this contact is iterated.
-  bool IsSought(int contact) const;
   static GroupId IdOf(const ContactState& state) {
     return {state.cycle.contact, state.encounter, state.member.place};
   }

@@ -35,6 +35,8 @@ constexpr double kCurved = 1;
 // In so many corrections the merit has to fall by this factor: else the method only creeps.
 constexpr int kPace = 5;
 constexpr double kHeadway = 0.5;
+// A miss that may be the error of a coarse pass.
+constexpr double kBlurred = 1e-5;
 // How much longer than before a trial may last, in spans of the front.
 constexpr double kLonger = 4;
 
@@ -183,8 +185,9 @@ Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_cor
       return Found::kSolved;
     }
     const Found moved = Correct(front, now);
-    if (moved == Found::kStalled && !true_) {  // By an updated Jacobian: a true one may do better.
-      now = Look(front, true, Worst(front, now), kForever);
+    const bool blurred = !now.exact && Worst(front, now) <= kBlurred;
+    if (moved == Found::kStalled && (!true_ || blurred)) {  // A better Jacobian may do better.
+      now = Look(front, true, blurred ? goal : Worst(front, now), kForever);
       Take(front, now);
     } else if (moved != Found::kSolved) {
       return moved;

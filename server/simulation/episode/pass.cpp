@@ -70,7 +70,8 @@ bool Pass::IsOpen() const {
 bool Pass::Counts(const Cycle& cycle) const { return cycle.start_time < plan_.end; }
 
 bool Pass::Matters(const Unknown& unknown) const {
-  return unknown.start_time < plan_.end && !unknown.Decided();
+  return unknown.start_time < plan_.end && !unknown.Decided() &&
+         IsSought(scenario_, unknown.id.contact);
 }
 
 GroupSight* Pass::Seen(const ContactState& state) {
@@ -100,7 +101,7 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
     GroupSight& made = sight_.groups.emplace_back();
     made.id = unknown.id;
     made.mu = mu;
-    made.sought = membership_.IsSought(cycle.contact);
+    made.sought = IsSought(scenario_, cycle.contact);
     made.update = unknown.update;
     if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
     made.first_cycle = cycle.number;
@@ -157,13 +158,13 @@ void Pass::Measure(GroupSight& group) const {
   group.squared = -group.work_restitution / group.work_compression;
   if (!group.sought) return;
   const double in = group.restitution_in;
-  const double goal = std::max(ExactCoefficient(in), kLeastGoal);
+  const double wanted = ExactCoefficient(in), scale = std::max(wanted, kLeastGoal);
   const double e = std::max(std::sqrt(std::max(group.squared, 0.0)), kLeastRestitution * in);
   const double a = ExactCoefficient(e);
   const double denominator = (1 - a * e) - e * e * (1 + a);
   const double slope = std::abs(1 - e) < 1e-5 ? -1.5 : a * e * (1 + a) / denominator;  // dA/dε
-  group.residual = a / goal - 1;
-  group.gradient = -slope / (2 * e) / goal / group.work_compression *
+  group.residual = (a - wanted) / scale;
+  group.gradient = -slope / (2 * e) / scale / group.work_compression *
                    (group.gradient_restitution + group.squared * group.gradient_compression);
 }
 

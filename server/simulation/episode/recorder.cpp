@@ -80,6 +80,7 @@ void Recorder::Open(ContactState& state, const Unknown& unknown) const {
   group.number = unknown.weak ? 0 : ++state.member.groups;
   group.status = unknown.status;
   if (contact.damping != DampingLaw::kEnergyRestitution) group.status = Cycle::Status::kGivenLaw;
+  if (IsUndamped(scenario_, state.cycle.contact)) group.status = Cycle::Status::kConverged;
   if (contact.damping != DampingLaw::kGiven) group.restitution_in = contact.restitution;
   group.restitution_out = unknown.restitution_out;
   group.growth = unknown.growth;

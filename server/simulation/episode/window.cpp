@@ -32,20 +32,22 @@ void Window::Begin(double start, int running, int known, int contacts, bool pack
 bool Window::Foreseen(const GroupSight& of, const Sight& sight) {
   double end = of.end_time;
   for (const GroupSight& g : sight.groups) {
-    if (g.start_time >= of.end_time) continue;
+    if (g.start_time >= of.end_time || !g.sought) continue;
     if (!g.ended) return false;
     end = std::max(end, g.end_time);
   }
-  return std::ranges::all_of(sight.groups,
-                             [&](const GroupSight& g) { return g.ended || g.start_time >= end; });
+  return std::ranges::all_of(sight.groups, [&](const GroupSight& g) {
+    return g.ended || !g.sought || g.start_time >= end;
+  });
 }
 
 bool Window::IsFinal(const GroupSight& g, const Sight& sight, Groups& groups, double change) const {
   Unknown& unknown = groups.At(g.id);
   const double before = std::exchange(unknown.settled_mu, g.mu);
+  if (!g.sought) return true;
   if (!g.ended) return false;
   const bool apart = std::ranges::any_of(sight.quiet, [&](double t) { return t >= g.end_time; });
-  const bool unchanged = !g.sought || g.weak || std::abs(g.mu - before) <= change * g.mu;
+  const bool unchanged = g.weak || std::abs(g.mu - before) <= change * g.mu;
   if (!apart && !(unchanged && (!packing_ || Foreseen(g, sight)))) return false;
   if (g.separated) return true;
   // The next group of the encounter may still want to join it.
@@ -58,7 +60,7 @@ double Window::FinalUntil(const Sight& sight, Groups& groups, double tolerance, 
   double final = sight.time, seen = sight.time;
   for (const GroupSight& g : sight.groups) {
     if (!IsFinal(g, sight, groups, kFinal * tolerance)) final = std::min(final, g.start_time);
-    if (!g.ended) seen = std::min(seen, g.start_time);
+    if (!g.ended && g.sought) seen = std::min(seen, g.start_time);
   }
   const auto advances = [&](double time) {
     return time > start_ && time - start_ > kLeastAdvance * (sight.time - start_);
