@@ -106,7 +106,7 @@ TEST_P(EveryCycle, OfAPressedRowIsAnswered) {
   const Scenario& s = GetParam().scenario;
   const Record r = RunAndRecord(s);
   ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << r.outcome.message;
-  EXPECT_LT(r.outcome.steps, 4'000'000);
+  EXPECT_LT(r.outcome.steps, 8'000'000);
   EXPECT_LT(r.outcome.energy_residual, 1e-9);
   EXPECT_LT(r.outcome.momentum_residual, 1e-8);
   EXPECT_LT(r.outcome.worst_identity_residual, 1e-8);

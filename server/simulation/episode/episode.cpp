@@ -193,6 +193,7 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   guessing_ = !part.empty();
   const bool whole = part.empty() || part.size() == front.size();
   const std::vector<GroupId>& now = whole ? front : part;
+  if (front == solved_) problem_.Distrust();
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;
   for (auto& [id, unknown] : problem_.groups.known()) unknown.update = Iteration::Update::kNothing;
@@ -202,6 +203,7 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
     if (found == Found::kSolved && newton_.corrections() == 0) found = Found::kStalled;
   }
   if (found == Found::kSolved && !whole) return Found::kStalled;  // The rest is still to be solved.
+  if (found == Found::kSolved) solved_ = front;
   if (found == Found::kSolved || found == Found::kAborted) return found;
   if (found == Found::kLimit) {
     GiveUp(sight, now);

@@ -63,10 +63,11 @@ class EpisodeSolver {
   double solved_until_ = 0;  // All that begins before has its answer.
   double record_until_ = 0;
   bool tentative_ = false;
-  bool rejected_ = false;  // A recording has shown that the episode is not solved.
-  GroupId last_;           // The first of the last front, and
-  bool guessing_ = true;   // The μ of neighbours may have changed what is to be guessed.
-  int sweeps_ = 0;         // how often its groups were bisected one by one.
+  bool rejected_ = false;        // A recording has shown that the episode is not solved.
+  std::vector<GroupId> solved_;  // The last front that was solved.
+  GroupId last_;                 // The first of the last front that was not, and
+  int sweeps_ = 0;               // how often its groups were bisected one by one.
+  bool guessing_ = true;         // The μ of neighbours may have changed what is to be guessed.
 };
 
 }  // namespace contact

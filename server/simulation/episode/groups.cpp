@@ -14,6 +14,12 @@ const GroupSight* Sight::Find(const GroupId& id) const {
   return nullptr;
 }
 
+bool HasBegun(const State& state, const GroupId& id) {
+  const ContactState& contact = state.contacts[static_cast<std::size_t>(id.contact)];
+  return id.encounter < contact.encounter ||
+         (id.encounter == contact.member.group.encounter && id.place <= contact.member.place);
+}
+
 Unknown& Groups::At(const GroupId& id) {
   Unknown& unknown = known_[id];
   unknown.id = id;
@@ -51,12 +57,7 @@ void Groups::Merge(const GroupSight& first, const GroupSight& next, Growth why) 
 }
 
 void Groups::ForgetBegun(const State& state) {
-  std::erase_if(known_, [&](const auto& entry) {
-    const GroupId& id = entry.first;
-    const ContactState& contact = state.contacts[static_cast<std::size_t>(id.contact)];
-    return id.encounter < contact.encounter ||
-           (id.encounter == contact.member.group.encounter && id.place <= contact.member.place);
-  });
+  std::erase_if(known_, [&](const auto& entry) { return HasBegun(state, entry.first); });
 }
 
 }  // namespace contact

@@ -7,6 +7,9 @@
 
 namespace contact {
 
+/// Whether a group has begun in this state, or is over.
+bool HasBegun(const State& state, const GroupId& id);
+
 /// The groups into which the cycles fall, and what is known of each. Groups only grow: nothing
 /// parts what Merge has joined.
 class Groups {

@@ -40,9 +40,10 @@ bool Growing::TakeNext(const GroupId& id, Growth why) {
 
 bool Growing::JoinPrevious(const GroupId& id, Growth why) {
   const GroupId before = Neighbour(id, -1);
-  const Sight sight = problem_.Evaluate({id}, false, kForever);
+  if (problem_.groups.Find(before) == nullptr) return false;  // It was recorded already.
+  const Sight sight = problem_.Evaluate({before, id}, false, kForever);
   const GroupSight* here = sight.Find(id);
-  const GroupSight* there = sight.Find(before);  // Not if it was recorded already.
+  const GroupSight* there = sight.Find(before);
   if (here == nullptr || here->cycles == 0 || there == nullptr || !there->sought) return false;
   problem_.groups.Merge(*there, *here, why);
   log_.Grow(sight, before, problem_.groups.At(before));

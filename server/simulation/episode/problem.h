@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <stop_token>
+#include <tuple>
 #include <vector>
 
 #include "simulation/episode/pass.h"
@@ -33,6 +34,10 @@ class Problem {
   /// turns any more.
   double MostMu(const GroupSight& group) const;
 
+  /// Until the next scan every pass begins at the start: what was kept in between may be why scans
+  /// and other passes disagree.
+  void Distrust() { trusting_ = false; }
+
   /// Whether the run was stopped or has spent its steps: no pass means anything any more.
   bool Aborted() const { return aborted_; }
   /// Whether no contact is about to begin a cycle.
@@ -48,13 +53,21 @@ class Problem {
   Groups groups;
 
  private:
-  Sight Look(Pass::Plan plan);
+  // What was known of a group when a state was kept.
+  using Held = std::tuple<GroupId, double, double, bool>;
+  Sight Look(const State& from, Pass::Plan plan);
+  const State& Before(const std::vector<GroupId>& front);
+  std::vector<Held> HeldIn(const State& state) const;
   double Tolerance(double wanted) const;
 
   const Scenario& scenario_;
   Motion& motion_;
   Pass pass_;
   const State* start_ = nullptr;
+  State near_;              // Shortly before the last front, if
+  std::vector<Held> held_;  // all that begins before is still this.
+  bool trusting_ = false;
+  double seen_ = 0;  // How far the last scan went [s].
   double end_ = 0;
   double horizon_ = 0;  // Passes go no further.
   std::stop_token stop_;
