@@ -1,5 +1,6 @@
 #include "wire/ledger_codec.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace contact {
@@ -93,10 +94,14 @@ v1::Group Encode(const Scenario& scenario, const Group& group) {
   message.set_status(WireStatus(group.status));
   message.set_growth(WireGrowth(group.growth));
   message.set_residual(group.residual);
-  message.set_too_much_mu(group.too_much.mu);
-  message.set_too_much_restitution(group.too_much.restitution);
-  message.set_too_little_mu(group.too_little.mu);
-  message.set_too_little_restitution(group.too_little.restitution);
+  if (!std::isnan(group.too_much.mu)) {
+    message.set_too_much_mu(group.too_much.mu);
+    message.set_too_much_restitution(group.too_much.restitution);
+  }
+  if (!std::isnan(group.too_little.mu)) {
+    message.set_too_little_mu(group.too_little.mu);
+    message.set_too_little_restitution(group.too_little.restitution);
+  }
   return message;
 }
 

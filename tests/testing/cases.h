@@ -73,7 +73,7 @@ inline Scenario Collision(double mass, double velocity, double stiffness, double
 }
 
 /// Keeps everything that a run reports.
-struct Record final : Observer {
+struct Record : Observer {
   std::vector<Iteration> iterations;
   std::vector<Cycle> cycles;
   std::vector<Group> groups;

@@ -89,11 +89,11 @@ TEST(Encode, GroupKeepsEveryField) {
             "too_little_mu: 16 too_little_restitution: 17");
 }
 
-TEST(Encode, GroupOfWhichNothingWasReachedHasNans) {
+TEST(Encode, GroupOfWhichNothingWasReachedTellsNoMu) {
   const v1::Group group = Encode(TwoContacts(), Group{});
-  for (const double reached : {group.too_much_mu(), group.too_much_restitution(),
-                               group.too_little_mu(), group.too_little_restitution()}) {
-    EXPECT_TRUE(std::isnan(reached));
+  for (const bool told : {group.has_too_much_mu(), group.has_too_much_restitution(),
+                          group.has_too_little_mu(), group.has_too_little_restitution()}) {
+    EXPECT_FALSE(told);
   }
 }
 

@@ -199,7 +199,7 @@ TEST(SweepAxes, MistakesAreToldTogether) {
           "you mean 'velocity_m_per_s'?",
           "metrics[3]: 'title': unknown field 'title' — fields are steps, evaluations, iterations, "
           "episodes, wall_time_s, worst_identity_residual, momentum_residual, energy_residual, "
-          "kinetic_energy_j, time_reached_s"));
+          "kinetic_energy_j, time_reached_s, growths, growths_no_progress"));
 }
 
 TEST(SweepBase, IsCheckedWithTheFirstCell) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -52,6 +53,8 @@ double Number(const Message& message, const FieldDescriptor& field) {
     case FieldDescriptor::CPPTYPE_BOOL:
       return reflection.GetBool(message, &field) ? 1 : 0;
     default:
+      if (field.has_presence() && !reflection.HasField(message, &field))
+        return std::numeric_limits<double>::quiet_NaN();
       return reflection.GetDouble(message, &field);
   }
 }

@@ -97,8 +97,8 @@ std::string Certificate(const v1::Group& group) {
   if (group.status() != v1::Cycle::JUMP && group.status() != v1::Cycle::INFEASIBLE) return "";
   const std::string much = At(group.too_much_restitution(), group.too_much_mu());
   const std::string little = At(group.too_little_restitution(), group.too_little_mu());
-  if (std::isnan(group.too_much_mu())) return "too little comes back at every μ: ε is " + little;
-  if (std::isnan(group.too_little_mu())) return "too much comes back at every μ: ε is " + much;
+  if (!group.has_too_much_mu()) return "too little comes back at every μ: ε is " + little;
+  if (!group.has_too_little_mu()) return "too much comes back at every μ: ε is " + much;
   if (group.too_little_restitution() > 0)
     return fmt::format("it jumps from {} to {}", much, little);
   return fmt::format("it is {}, and with μ = {} the contact stays closed", much,

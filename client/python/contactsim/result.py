@@ -135,6 +135,7 @@ class Result:
 
 def _row(message: Any) -> dict[str, Any]:
     return {field.name: _value(field, getattr(message, field.name))
+            if not field.has_presence or message.HasField(field.name) else float("nan")
             for field in message.DESCRIPTOR.fields}
 
 

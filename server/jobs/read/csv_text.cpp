@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <limits>
 
 #include "jobs/read/frame_values.h"
 #include "wire/column_name.h"
@@ -25,6 +26,8 @@ void Append(const Message& row, const FieldDescriptor& field, std::string* text)
   const auto& reflection = *row.GetReflection();
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
+      if (field.has_presence() && !reflection.HasField(row, &field))
+        return Append(std::numeric_limits<double>::quiet_NaN(), text);
       return Append(reflection.GetDouble(row, &field), text);
     case FieldDescriptor::CPPTYPE_ENUM:
       *text += reflection.GetEnum(row, &field)->name();

@@ -11,6 +11,9 @@ constexpr double kRoot = 1e-4;
 constexpr double kCoarse = 1e-6;
 constexpr double kGrow = 4;  // Factor between two μ in search of a bracket.
 constexpr int kMostGrows = 12;
+// A scan begins at this part of the first guess, goes on by this factor, so often at most.
+constexpr double kLowest = 1e-3, kFine = 1.25;
+constexpr int kMostScanned = 120;
 constexpr int kHalvings = 60;
 // A bracket so narrow, relative, in which ε² still differs so much holds a jump,
 constexpr double kNarrow = 1e-6, kApart = 3e-3;
@@ -60,6 +63,27 @@ Root Bisection::Solve(const GroupSight& group) {
   if (root != Root::kAborted && !Confirmed(root) && !problem_.Aborted()) root = Look();
   if (problem_.Aborted()) return Root::kAborted;
   return root == Root::kFound ? root : Finish(root);
+}
+
+bool Bisection::Scan(const GroupSight& group) {
+  group_ = group;
+  const Unknown kept = problem_.groups.At(group.id);
+  coarse_ = true;
+  Point last = At(0);
+  double mu = kLowest * (kept.first_mu > 0 ? kept.first_mu : group.mu);
+  for (int i = 0; i < kMostScanned && !problem_.Aborted(); ++i, mu *= kFine) {
+    const Point point = At(mu);
+    if (!point.there || (point.ended && mu > point.most)) break;
+    if ((point.excess > 0) != (last.excess > 0)) {
+      coarse_ = true;
+      Keep(last), Keep(point);
+      if (Narrow() == Root::kFound && (coarse_ = false, Confirmed(Root::kFound))) return true;
+      coarse_ = true;
+    }
+    last = point;
+  }
+  problem_.groups.At(group.id) = kept;
+  return false;
 }
 
 Root Bisection::Look() {

@@ -22,6 +22,9 @@ class Bisection {
   Bisection(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
 
   Root Solve(const GroupSight& group);
+  /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
+  /// none need not be the only one. Sets its μ to the root.
+  bool Scan(const GroupSight& group);
 
  private:
   struct Point {

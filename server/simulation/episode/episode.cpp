@@ -232,7 +232,9 @@ bool EpisodeSolver::Bisect(const Sight& sight, const std::vector<GroupId>& front
     const Root root = bisection_.Solve(*seen);
     if (root == Root::kAborted) return true;
     if (root == Root::kFound) continue;
-    growing_.Answer(*seen, root);
+    if (growing_.Answer(*seen, root)) return true;
+    if (bisection_.Scan(*seen)) continue;
+    growing_.Decide(id, root);
     return true;
   }
   return false;

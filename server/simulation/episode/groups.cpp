@@ -1,5 +1,6 @@
 #include "simulation/episode/groups.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,8 +17,9 @@ const GroupSight* Sight::Find(const GroupId& id) const {
 
 bool HasBegun(const State& state, const GroupId& id) {
   const ContactState& contact = state.contacts[static_cast<std::size_t>(id.contact)];
-  return id.encounter < contact.encounter ||
-         (id.encounter == contact.member.group.encounter && id.place <= contact.member.place);
+  const int encounter = contact.member.group.encounter;
+  return id.encounter < std::max(contact.encounter, encounter) ||
+         (id.encounter == encounter && id.place <= contact.member.place);
 }
 
 Unknown& Groups::At(const GroupId& id) {

@@ -76,16 +76,13 @@ bool Growing::IsCut(const GroupId& id) {
   return !ends;
 }
 
-void Growing::Answer(const GroupSight& group, Root root) {
-  if (root == Root::kFound || root == Root::kAborted) return;
+bool Growing::Answer(const GroupSight& group, Root root) {
   const Growth why = root == Root::kTooLittle ? Growth::kTooLittle
                      : root == Root::kTooMuch ? Growth::kTooMuch
                                               : Growth::kJump;
-  if (IsCut(group.id)) {
-    problem_.groups.At(group.id).status = Cycle::Status::kUnfinished;
-  } else if (!Grow(group.id, why) && !problem_.Aborted()) {
-    Decide(group.id, root);
-  }
+  if (!IsCut(group.id)) return Grow(group.id, why) || problem_.Aborted();
+  problem_.groups.At(group.id).status = Cycle::Status::kUnfinished;
+  return true;
 }
 
 // A group that has no solution keeps what comes nearest; one that gives back too much for every μ

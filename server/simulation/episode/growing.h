@@ -12,8 +12,11 @@ class Growing {
  public:
   Growing(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
 
-  /// Grows the group for what bisection has found; if it cannot, or may not, it is decided.
-  void Answer(const GroupSight& group, Root root);
+  /// Grows the group for what bisection has found, or finds that the run cuts it. False: it cannot
+  /// grow, or may not.
+  bool Answer(const GroupSight& group, Root root);
+  /// Says of a group that cannot grow what it is.
+  void Decide(const GroupId& id, Root root) const;
   /// Grows the earliest group of a front that misses, for lack of progress; false: none can.
   bool Force(const std::vector<GroupId>& front);
   /// A group that did not end in a scan: its μ is lowered until it does. False: nothing changes.
@@ -24,7 +27,6 @@ class Growing {
   bool Grow(const GroupId& id, Growth why);
   bool TakeNext(const GroupId& id, Growth why);
   bool JoinPrevious(const GroupId& id, Growth why);
-  void Decide(const GroupId& id, Root root) const;
   bool Lower(const GroupId& id);
 
   Problem& problem_;

@@ -36,7 +36,7 @@ constexpr double kCurved = 1;
 constexpr int kPace = 5;
 constexpr double kHeadway = 0.5;
 // A miss that may be the error of a coarse pass.
-constexpr double kBlurred = 1e-5;
+constexpr double kBlurred = 1e-2;
 // How much longer than before a trial may last, in spans of the front.
 constexpr double kLonger = 4;
 

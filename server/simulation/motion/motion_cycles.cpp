@@ -243,6 +243,11 @@ void Motion::CancelCycle(ContactState& state, CycleHost& host) {
   const int contact = state.cycle.contact;
   host.OnCancel(state);
   state.phase = state.cycle.start_deformation > 0 ? Phase::kStarting : Phase::kOpen;
+  const bool opened = state.cycles == 1 || state.cycle.start_deformation == 0;
+  if (opened) {  // There was no encounter: the next has its number.
+    --state.encounter;
+    state.cycle.end = Cycle::End::kSeparation;
+  }
   --state.cycles;
   rk_.y0[equations_.work(contact)] = 0;
   if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;

@@ -115,6 +115,8 @@ double SweepMetrics::Value(const Path& path, const Message& message) {
       at = Entry(step, *at);
       if (at == nullptr) return kNaN;
     } else if (IsNumber(*step.field)) {
+      const bool unset = step.field->has_presence() && !reflection->HasField(*at, step.field);
+      if (unset) return kNaN;
       return NumberIn(*at, *step.field);
     } else {
       at = &reflection->GetMessage(*at, step.field);

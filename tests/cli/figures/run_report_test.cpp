@@ -65,11 +65,13 @@ TEST(ReportPage, ShowsGroupsThatTheLedgerDoesNotTell) {
   EXPECT_THAT(ReportPage({part}, "", "s"), Not(HasSubstr("Groups of cycles")));
   group.set_cycles(2);
   group.set_status(v1::Cycle::JUMP);
+  group.set_too_much_mu(2);
   group.set_too_much_restitution(0.75);
+  group.set_too_little_mu(3);
   group.set_too_little_restitution(0.5);
   EXPECT_THAT(ReportPage({part}, "", "s"),
               AllOf(HasSubstr("Groups of cycles"), HasSubstr("<td>1 to 2"),
-                    HasSubstr("it jumps from 0.75 at μ = 0 to 0.5 at μ = 0")));
+                    HasSubstr("it jumps from 0.75 at μ = 2 to 0.5 at μ = 3")));
 }
 
 TEST(ReportPage, TellsHowToRepeatTheRun) {
