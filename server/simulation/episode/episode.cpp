@@ -151,6 +151,7 @@ Motion::Pause EpisodeSolver::Search() {
       if (!sight.crowded && !sight.quiet.empty() && IsApart(sight)) return Tentatively();
       continue;
     }
+    if (growing_.Reopen(sight)) continue;
     if (!sight.crowded && growing_.Close(sight)) continue;
     const double final =
         window_.FinalUntil(sight, problem_.groups, problem_.tolerance(), problem_.end());

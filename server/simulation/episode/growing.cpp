@@ -13,6 +13,8 @@ constexpr double kForever = 1e300;
 // Parts of its μ with which a group that does not end is tried.
 constexpr std::array<double, 5> kLower = {0.5, 0.2, 0.05, 1e-2, 1e-4};
 
+// A group without a solution is taken up again so often at most.
+constexpr int kMostReopened = 3;
 // A miss that rather is the cause of what others miss by than their effect.
 constexpr double kMuch = 1e-2;
 
@@ -112,6 +114,32 @@ bool Growing::Force(const std::vector<GroupId>& front) {
   }
   for (const GroupId& id : missing) problem_.groups.At(id).given_up = true;
   return !missing.empty();
+}
+
+// Whether with the μ of one side still too much, by the sign, or too little comes back.
+bool Growing::Holds(const GroupSight& group, const Group::Reached& side, double sign) {
+  if (std::isnan(side.mu)) return true;
+  Unknown& unknown = problem_.groups.At(group.id);
+  const double kept = std::exchange(unknown.mu, side.mu);
+  const Sight sight = problem_.Evaluate({group.id}, false, kForever);
+  unknown.mu = kept;
+  const GroupSight* seen = sight.Find(group.id);
+  const bool ended = seen != nullptr && seen->ended;
+  return sign * (ended ? seen->Miss() : -1) > 0;
+}
+
+bool Growing::Reopen(const Sight& scan) {
+  for (const GroupSight& g : scan.groups) {
+    Unknown& unknown = problem_.groups.At(g.id);
+    const bool without =
+        unknown.status == Cycle::Status::kJump || unknown.status == Cycle::Status::kInfeasible;
+    if (!without || unknown.reopened == kMostReopened || problem_.Aborted()) continue;
+    if (Holds(g, unknown.too_much, 1) && Holds(g, unknown.too_little, -1)) continue;
+    ++unknown.reopened;
+    unknown.status = Cycle::Status::kNotConverged;
+    return true;
+  }
+  return false;
 }
 
 bool Growing::Lower(const GroupId& id) {

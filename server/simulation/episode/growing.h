@@ -19,10 +19,14 @@ class Growing {
   void Decide(const GroupId& id, Root root) const;
   /// Grows the earliest group of a front that misses, for lack of progress; false: none can.
   bool Force(const std::vector<GroupId>& front);
+  /// Takes up again a group that was found to have no solution, where that no longer holds: those
+  /// around it have changed. False: there is none.
+  bool Reopen(const Sight& scan);
   /// A group that did not end in a scan: its μ is lowered until it does. False: nothing changes.
   bool Close(const Sight& scan);
 
  private:
+  bool Holds(const GroupSight& group, const Group::Reached& side, double sign);
   bool IsCut(const GroupId& id);
   bool Grow(const GroupId& id, Growth why);
   bool TakeNext(const GroupId& id, Growth why);
