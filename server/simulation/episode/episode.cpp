@@ -197,7 +197,6 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   if (front == solved_) problem_.Distrust();
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;
-  for (auto& [id, unknown] : problem_.groups.known()) unknown.update = Iteration::Update::kNothing;
   Found found = newton_.Solve(now, goal, most, true, sensitive ? &sight : nullptr);
   if (found == Found::kSolved && newton_.corrections() == 0) {  // A coarse pass sees what is not.
     found = newton_.Solve(front, problem_.tolerance(), most, false);

@@ -147,14 +147,13 @@ void Newton::Move(const std::vector<GroupId>& front, const Sight& from,
   }
 }
 
-void Newton::Count(const std::vector<GroupId>& front, const Sight& sight, int corrections,
-                   bool damped) {
-  log_.Correct(sight);
-  for (const GroupId& id : front) {
-    Unknown& unknown = problem_.groups.At(id);
-    unknown.update = damped ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
-    unknown.iterations = corrections;
+void Newton::Count(const std::vector<GroupId>& front, Sight& sight, int corrections, bool damped) {
+  for (GroupSight& g : sight.groups) {
+    if (std::ranges::find(front, g.id) == front.end()) continue;
+    g.update = damped ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
+    problem_.groups.At(g.id).iterations = corrections;
   }
+  log_.Correct(sight);
 }
 
 // The miss that a whole step leaves.

@@ -40,7 +40,7 @@ class Newton {
   static Eigen::VectorXd Residuals(const std::vector<GroupId>& front, const Sight& sight);
   double Merit(const std::vector<GroupId>& front, const Sight& sight) const;
   void Move(const std::vector<GroupId>& front, const Sight& from, const Eigen::VectorXd& step);
-  void Count(const std::vector<GroupId>& front, const Sight& sight, int corrections, bool damped);
+  void Count(const std::vector<GroupId>& front, Sight& sight, int corrections, bool damped);
   double Expected(double worst) const;
   double Worst(const std::vector<GroupId>& front, const Sight& sight) const;
   Sight Look(const std::vector<GroupId>& front, bool sensitive, double expected, double horizon);

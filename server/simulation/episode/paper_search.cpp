@@ -60,6 +60,12 @@ Found PaperSearch::Solve(int most_cycles, int most_corrections) {
     if (merit < best) best = merit, best_groups = problem_.groups;
     if (merit == 0 || corrections >= most_corrections) {
       problem_.groups = best_groups;
+      for (const GroupSight& g : sight.groups) {  // For those that the run cuts.
+        Unknown& unknown = problem_.groups.At(g.id);
+        if (!g.ended) continue;
+        unknown.restitution_out = std::sqrt(std::max(g.squared, 0.0));
+        if (Converged(g)) unknown.status = Cycle::Status::kConverged;
+      }
       log_.Accept(sight);
       return merit == 0 ? Found::kSolved : Found::kLimit;
     }

@@ -102,7 +102,6 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
     made.id = unknown.id;
     made.mu = mu;
     made.sought = IsSought(scenario_, cycle.contact);
-    made.update = unknown.update;
     if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
     made.first_cycle = cycle.number;
     made.start_time = cycle.start_time;

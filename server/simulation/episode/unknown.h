@@ -37,7 +37,6 @@ struct Unknown {
   bool given_up = false;          ///< As many corrections as are allowed did not solve it.
   bool lowered = false;           ///< It did not end, and its μ was lowered until it did.
   int iterations = 0;             ///< Corrections of μ by the search that found it.
-  Iteration::Update update = Iteration::Update::kNothing;  ///< The last change of μ.
   Growth growth = Growth::kNotGrown;
   /// kConverged, kJump, kInfeasible, kUnfinished: found. kNotConverged: still sought.
   Cycle::Status status = Cycle::Status::kNotConverged;
@@ -67,7 +66,7 @@ struct GroupSight {
   double frozen_slope = kNaN;  ///< Paper (30).
   double length = 0, speed = 0;
   double bracket_low = 0, bracket_high = 0;  ///< μ known to give too much, too little; 0: none.
-  Iteration::Update update = Iteration::Update::kNothing;
+  Iteration::Update update = Iteration::Update::kNothing;  ///< How μ is changed after the pass.
   int column = kNone;
   Eigen::ArrayXd gradient_compression, gradient_restitution;  ///< ∂W/∂μ of each column.
   Eigen::ArrayXd gradient;                                    ///< ∂residual/∂μ of each column.

@@ -58,7 +58,8 @@ class ExportFormsTest(CliTest):
                 if isinstance(values[0], str):  # Empty ones are read as empty arrays.
                     self.assertEqual([str(v) if np.size(v) else "" for v in values], list(texts))
                 else:
-                    np.testing.assert_array_equal(values, [float(t or "nan") for t in texts], name)
+                    texts = [text or "nan" for text in texts]  # What is not known has no text.
+                    np.testing.assert_array_equal(values, np.array(texts, float), name)
 
     def test_mat_tells_units_names_and_source(self):
         mat = scipy.io.loadmat(self.export("a.mat"), simplify_cells=True)

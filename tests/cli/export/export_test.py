@@ -64,6 +64,8 @@ class ExportTest(CliTest):
             for row, entry in zip(rows, entries):
                 for text, field in zip(row, fields):
                     value = getattr(entry, field.name)
+                    if field.has_presence and not entry.HasField(field.name):
+                        value = float("nan")
                     if field.enum_type:
                         value = field.enum_type.values_by_number[value].name
                     given = text if isinstance(value, str) else float(text)

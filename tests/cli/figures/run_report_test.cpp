@@ -70,7 +70,7 @@ TEST(ReportPage, ShowsGroupsThatTheLedgerDoesNotTell) {
   group.set_too_little_mu(3);
   group.set_too_little_restitution(0.5);
   EXPECT_THAT(ReportPage({part}, "", "s"),
-              AllOf(HasSubstr("Groups of cycles"), HasSubstr("<td>1 to 2"),
+              AllOf(HasSubstr("Groups of cycles"), HasSubstr(">1 to 2<"),
                     HasSubstr("it jumps from 0.75 at μ = 2 to 0.5 at μ = 3")));
 }
 
