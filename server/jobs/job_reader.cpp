@@ -13,20 +13,25 @@
 namespace contact {
 namespace {
 
-// Leaves out the end of a ledger that would be too large for an answer, and says so.
-void ShortenLedger(v1::Job* job) {
-  constexpr std::size_t kMostBytes = 2 << 20;
+// Leaves out what is past so many bytes of a list, and says so. `what` are its entries.
+template <class Entry>
+void Shorten(const char* what, std::size_t most_bytes,
+             google::protobuf::RepeatedPtrField<Entry>* list, v1::Job* job) {
   std::size_t bytes = 0;
   int kept = 0;
-  while (kept < job->cycles_size() && bytes < kMostBytes) {
-    bytes += job->cycles(kept++).ByteSizeLong();
-  }
-  if (kept == job->cycles_size()) return;
-  job->add_warnings(fmt::format(
-      "only the first {} of {} cycles are in this answer; the artifact cycles.csv and the job's "
-      "events have all",
-      kept, job->cycles_size()));
-  job->mutable_cycles()->DeleteSubrange(kept, job->cycles_size() - kept);
+  while (kept < list->size() && bytes < most_bytes) bytes += list->Get(kept++).ByteSizeLong();
+  if (kept == list->size()) return;
+  job->add_warnings(
+      fmt::format("only the first {0} of {1} {2} are in this answer; the artifact {2}.csv and the "
+                  "job's events have all",
+                  kept, list->size(), what));
+  list->DeleteSubrange(kept, list->size() - kept);
+}
+
+// Shortens what would make an answer too large.
+void ShortenLedger(v1::Job* job) {
+  Shorten("cycles", 2 << 20, job->mutable_cycles(), job);
+  Shorten("groups", 1 << 20, job->mutable_groups(), job);
 }
 
 }  // namespace

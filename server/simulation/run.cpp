@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "simulation/episode/episode.h"
@@ -49,7 +50,7 @@ class Runner {
       observer_.OnProgress({.time = run_.state.time,
                             .steps = motion_.steps(),
                             .cycles = run_.cycles,
-                            .iterations = solver_.iterations()});
+                            .iterations = solver_.log().total});
       if (run_.state.time < scenario_.end_time && run_.outcome.end == Outcome::End::kFinished) {
         observer_.OnBoundary([this] { return Save(); });
       }
@@ -72,22 +73,24 @@ class Runner {
 
   Motion::Pause Advance(double until) {
     motion_.Begin(run_.state, true);
-    solver_.BeginRecording();
-    return motion_.Advance(until, solver_, &sampler_, stop_, scenario_.solver.max_steps);
+    return motion_.Advance(until, solver_.Record(), &sampler_, stop_, scenario_.solver.max_steps);
   }
 
   void Accept(Motion::Pause pause) {
-    for (const Cycle& cycle : solver_.accepted) Emit(cycle);
+    for (const Cycle& cycle : solver_.recorder().cycles) Emit(cycle);
+    EmitGroups();
     Settle(pause);
   }
 
   void Episode() {
-    solver_.Begin(run_.state, static_cast<int>(++run_.outcome.episodes), scenario_.end_time);
+    ++run_.outcome.episodes;
     while (true) {
-      const Motion::Pause solved = solver_.Solve(run_.state, stop_, scenario_.solver.max_steps);
+      const Motion::Pause solved =
+          solver_.Solve(run_.state, static_cast<int>(run_.outcome.episodes), scenario_.end_time,
+                        stop_, scenario_.solver.max_steps);
       if (solved != Motion::Pause::kQuiet) return Settle(solved);
-      if (solver_.Tentative()) sampler_.Hold();
-      const Motion::Pause pause = Advance(solver_.SolvedUntil(scenario_.end_time));
+      if (solver_.tentative()) sampler_.Hold();
+      const Motion::Pause pause = Advance(solver_.record_until());
       if (solver_.Accepts(pause)) {
         sampler_.Release();
         return Accept(pause);
@@ -106,9 +109,8 @@ class Runner {
       case Motion::Pause::kTimeUp:
       case Motion::Pause::kCycleStarts:
       case Motion::Pause::kQuiet:
-      case Motion::Pause::kCrowded:
+      case Motion::Pause::kEnough:
         run_.state = motion_.Save();
-        solver_.HandOver(run_.state.contacts);
         Scale();
         return;
       case Motion::Pause::kStopped:
@@ -148,8 +150,28 @@ class Runner {
     }
   }
 
+  // The groups that ended with the cycles just told.
+  void EmitGroups() {
+    for (const Group& group : solver_.recorder().groups) {
+      observer_.OnGroup(group);
+      if (group.status == Cycle::Status::kJump) observer_.OnWarning(TextOfJump(group));
+    }
+  }
+
+  std::string TextOfJump(const Group& group) const {
+    std::ostringstream text;
+    text.precision(7);
+    text << "contact " << scenario_.contacts[static_cast<std::size_t>(group.contact)].name
+         << ", group " << group.number << ": no μ gives a restitution of " << group.restitution_in
+         << "; it jumps from " << group.too_much.restitution << " at μ = " << group.too_much.mu
+         << " to " << group.too_little.restitution << " at μ = " << group.too_little.mu
+         << ", and has " << group.restitution_out;
+    return text.str();
+  }
+
   // Cycles that the end of the run has cut get their rows too.
   void CutCycles() {
+    solver_.recorder().groups.clear();
     for (ContactState& contact : run_.state.contacts) {
       if (!InTouch(contact.phase)) continue;
       Cycle& cycle = contact.cycle;
@@ -159,10 +181,11 @@ class Runner {
       cycle.end_deformation = -contact.gap;
       cycle.separation_velocity =
           motion_.equations().Relative(cycle.contact, y + motion_.equations().bodies());
-      solver_.FinishCut(contact, cycle);
       CloseWorks(contact);
+      solver_.recorder().FinishCut(contact);
       Emit(cycle);
     }
+    EmitGroups();
   }
 
   void CloseWorks(ContactState& contact) const {
@@ -197,7 +220,9 @@ class Runner {
     run_.outcome.velocities = run_.state.velocities;
     run_.outcome.steps = motion_.steps();
     run_.outcome.evaluations = motion_.evaluations();
-    run_.outcome.iterations = solver_.iterations();
+    run_.outcome.iterations = solver_.log().total;
+    run_.outcome.growths = solver_.log().growths;
+    run_.outcome.growths_no_progress = solver_.log().growths_no_progress;
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) {
       if (scenario_.bodies[i].fixed) continue;
       run_.outcome.kinetic_energy +=

@@ -32,6 +32,7 @@ v1::Job SpecOf(const v1::Job& job) {
 v1::Job ResultOf(const v1::Job& job) {
   v1::Job result;
   *result.mutable_cycles() = job.cycles();
+  *result.mutable_groups() = job.groups();
   *result.mutable_final_bodies() = job.final_bodies();
   return result;
 }
@@ -40,6 +41,7 @@ v1::Job HeaderOf(const v1::Job& job) {
   v1::Job header = job;
   header.clear_spec();
   header.clear_cycles();
+  header.clear_groups();
   header.clear_final_bodies();
   return header;
 }

@@ -14,12 +14,12 @@ namespace contact {
 /// The pieces in which a job is stored, by how often they change. Each is a serialised v1::Job with
 /// some of its fields; put together in any order they parse to the whole job.
 struct JobParts {
-  /// All fields but the spec, cycles and final bodies. Rewritten at every transition.
+  /// All fields but the spec, cycles, groups and final bodies. Rewritten at every transition.
   std::string header;
   /// What the client sent: spec, labels, priority, budget and time to live. Equal jobs give equal
   /// bytes.
   std::string spec;
-  /// Cycles and final bodies, written once; empty if there are none.
+  /// Cycles, groups and final bodies, written once; empty if there are none.
   std::string result;
   /// See JobSize.
   std::int64_t end_time = 0;

@@ -54,13 +54,13 @@ inline constexpr char kUidPayload[] = "contact/uid";
 
 /// What of a job to read.
 enum class JobPart {
-  /// All but spec, cycles and final bodies.
+  /// All but spec, cycles, groups and final bodies.
   kHeader,
   /// Header and spec.
   kSpec,
   /// Header, spec and checkpoint.
   kRun,
-  /// Header, spec, and the result, not parsed: cycles and final bodies.
+  /// Header, spec, and the result, not parsed: cycles, groups and final bodies.
   kAll,
 };
 

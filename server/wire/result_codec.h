@@ -12,8 +12,6 @@ namespace contact {
 /// Encode writes what a run reports as a message of the contract. `scenario` is the one that runs;
 /// names of bodies and contacts come from it.
 
-/// A row of the ledger.
-v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle);
 /// A pass through an episode.
 v1::Iteration Encode(const Scenario& scenario, const Iteration& iteration);
 /// Consecutive samples, column by column: the columns of Channels with values.

@@ -113,23 +113,56 @@ void AdviseOnNamedLaws(const v1::Scenario& message, std::vector<Violation>* advi
   }
 }
 
+bool IsIterated(const v1::Contact& contact) {
+  return contact.damping() == v1::Contact::DAMPING_UNSPECIFIED ||
+         contact.damping() == v1::Contact::ENERGY_RESTITUTION;
+}
+
 bool IsIteratedLow(const v1::Contact& contact) {
-  const bool iterated = contact.damping() == v1::Contact::DAMPING_UNSPECIFIED ||
-                        contact.damping() == v1::Contact::ENERGY_RESTITUTION;
-  return iterated && contact.restitution() < kLowRestitution;
+  return IsIterated(contact) && contact.restitution() < kLowRestitution;
+}
+
+bool HasPaperUpdate(const v1::Solver& solver) {
+  return solver.update() != v1::Solver::UPDATE_UNSPECIFIED &&
+         solver.update() != v1::Solver::NEWTON_COUPLED;
 }
 
 // The paper's process corrects every μ on its own. It starts from (23), which is a poor
 // approximation for low restitution.
 void AdviseOnPaperProcess(const v1::Scenario& message, std::vector<Violation>* advice) {
   const v1::Solver::Update update = message.solver().update();
-  if (update == v1::Solver::UPDATE_UNSPECIFIED || update == v1::Solver::NEWTON_COUPLED) return;
+  if (!HasPaperUpdate(message.solver())) return;
   if (CountContacts(message) < 2 || std::ranges::none_of(message.contacts(), IsIteratedLow)) return;
   advice->push_back({"solver.update",
                      fmt::format("is {}, which often does not converge where contacts with a "
                                  "restitution below {} act together",
                                  v1::Solver::Update_Name(update), kLowRestitution),
                      "NEWTON_COUPLED does"});
+}
+
+// Only what others do to a contact makes it turn before it separates.
+bool MayTurnTwice(const v1::Scenario& message) {
+  return CountContacts(message) > 1 || message.supports_size() > 0 || message.loads_size() > 0;
+}
+
+// The paper's process knows only cycles.
+void AdviseOnPaperScope(const v1::Solver& solver, std::vector<Violation>* advice) {
+  if (!HasPaperUpdate(solver) || solver.restitution_scope() != v1::Solver::AUTO) return;
+  advice->push_back({"solver.restitution_scope",
+                     fmt::format("is AUTO, but no group grows with update {}",
+                                 v1::Solver::Update_Name(solver.update())),
+                     "take update NEWTON_COUPLED, or leave it out"});
+}
+
+// One μ a cycle is not always enough.
+void AdviseOnCycleScope(const v1::Scenario& message, std::vector<Violation>* advice) {
+  const v1::Solver& solver = message.solver();
+  if (HasPaperUpdate(solver) || solver.restitution_scope() != v1::Solver::CYCLE) return;
+  if (!MayTurnTwice(message) || std::ranges::none_of(message.contacts(), IsIterated)) return;
+  advice->push_back({"solver.restitution_scope",
+                     "is CYCLE; a cycle that begins or ends compressed may then have no μ that "
+                     "gives its restitution",
+                     "AUTO lets such cycles share one μ"});
 }
 
 // Advice on the base with paths from the sweep, without the fields that axes set.
@@ -155,6 +188,8 @@ std::vector<Violation> AdviseOnLaws(const v1::Scenario& message) {
   std::vector<Violation> advice;
   AdviseOnNamedLaws(message, &advice);
   AdviseOnPaperProcess(message, &advice);
+  AdviseOnPaperScope(message.solver(), &advice);
+  AdviseOnCycleScope(message, &advice);
   return advice;
 }
 

@@ -15,8 +15,9 @@ namespace contact {
 /// Advice on times: too few steps or samples in a contact, too many steps in the run.
 std::vector<Violation> AdviseOnTime(const Scenario& scenario);
 
-/// Advice on laws and updates that do not deliver a low restitution. A run already warns about
-/// cycles that miss their restitution, so results do not repeat this advice.
+/// Advice on laws and updates that do not deliver a low restitution, and on scopes that do not let
+/// groups grow. A run already tells of cycles that miss their restitution, so results do not repeat
+/// this advice.
 std::vector<Violation> AdviseOnLaws(const v1::Scenario& message);
 
 /// All advice on a scenario. `scenario` is what `message` was decoded to, without violations.

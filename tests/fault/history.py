@@ -33,7 +33,8 @@ def digest(message):
 def result_digest(job):
     """Of what the physics gave, without what depends on the day and the machine."""
     result = Job(state=job.state, state_reason=job.state_reason, convergence=job.convergence,
-                 cycles=job.cycles, final_bodies=job.final_bodies, warnings=job.warnings)
+                 cycles=job.cycles, groups=job.groups, final_bodies=job.final_bodies,
+                 warnings=job.warnings)
     result.summary.CopyFrom(job.summary)
     result.summary.ClearField("wall_time_s")
     return digest(result)

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <openssl/sha.h>
 
 #include <array>
@@ -76,7 +77,7 @@ TEST_F(ArtifactTest, TrajectoryIsTheLogToTheLastBit) {
   Open();
   const std::string job = Create(BouncingBall(200));
   Ended(job);
-  EXPECT_THAT(Names(job), ElementsAre("cycles.csv", "trajectory.csv"));
+  EXPECT_THAT(Names(job), ElementsAre("cycles.csv", "groups.csv", "trajectory.csv"));
   const std::vector<std::string> lines = Lines(Get(job, "trajectory.csv").data);
   ASSERT_EQ(lines.size(), 802U);
   EXPECT_TRUE(lines[0].starts_with("time [s],ball.position [m],ball.velocity [m/s],")) << lines[0];
@@ -126,6 +127,25 @@ TEST_F(ArtifactTest, CyclesAreTheLedger) {
                            "start_time [s],"))
       << lines[0];
   EXPECT_TRUE(lines[1].starts_with("ball-wall,1,COLLISION,SEPARATION,")) << lines[1];
+}
+
+TEST_F(ArtifactTest, GroupsAreThoseOfTheJob) {
+  Open();
+  const std::string job = Create(BouncingBall(2));
+  const v1::Job ended = Ended(job);
+  const std::vector<std::string> lines = Lines(Get(job, "groups.csv").data);
+  ASSERT_GT(ended.groups_size(), 3);
+  ASSERT_EQ(lines.size(), static_cast<std::size_t>(ended.groups_size()) + 1);
+  EXPECT_TRUE(
+      lines[0].starts_with("contact,number [1],first_cycle [1],cycles [1],encounter [1],"
+                           "start_time [s],end_time [s],end,mu [N·s/m^(n+1)],"))
+      << lines[0];
+  for (int i = 0; i < ended.groups_size(); ++i) {
+    const v1::Group& group = ended.groups(i);
+    const std::string begin = fmt::format("{},{},{},{},{},", group.contact(), group.number(),
+                                          group.first_cycle(), group.cycles(), group.encounter());
+    EXPECT_TRUE(lines[static_cast<std::size_t>(i) + 1].starts_with(begin)) << begin;
+  }
 }
 
 TEST_F(ArtifactTest, EarlierAttemptsAreLeftOut) {

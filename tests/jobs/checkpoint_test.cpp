@@ -21,6 +21,8 @@ class Interrupter final : public Observer {
 
   void OnIteration(const Iteration& iteration) override { observer_.OnIteration(iteration); }
   void OnCycle(const Cycle& cycle) override { observer_.OnCycle(cycle); }
+  void OnGrowth(const Group& group) override { observer_.OnGrowth(group); }
+  void OnGroup(const Group& group) override { observer_.OnGroup(group); }
   void OnSamples(const Samples& samples) override { observer_.OnSamples(samples); }
   void OnProgress(const Progress& progress) override { observer_.OnProgress(progress); }
   void OnWarning(const std::string& warning) override { observer_.OnWarning(warning); }
@@ -99,7 +101,9 @@ class CheckpointTest : public JobsTest {
       told.push_back(event.SerializeAsString());
     }
     v1::Job result;
+    EXPECT_GT(job.groups_size(), 0);
     *result.mutable_cycles() = job.cycles();
+    *result.mutable_groups() = job.groups();
     *result.mutable_final_bodies() = job.final_bodies();
     *result.mutable_warnings() = job.warnings();
     *result.mutable_summary() = job.summary();

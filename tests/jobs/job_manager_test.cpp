@@ -69,9 +69,34 @@ TEST_F(JobsTest, JobRunsToItsResult) {
   EXPECT_THAT(States(log), ElementsAre(v1::Job::QUEUED, v1::Job::RUNNING, v1::Job::SUCCEEDED));
   EXPECT_EQ(log[2].attempt_started().attempt(), 1);
   EXPECT_EQ(log.back().state_changed().convergence(), v1::Job::FULL);
-  int cycles = 0;
-  for (const v1::Event& event : log) cycles += event.has_cycle();
+  int cycles = 0, groups = 0;
+  for (const v1::Event& event : log) {
+    cycles += event.has_cycle();
+    groups += event.has_group();
+  }
   EXPECT_EQ(cycles, job.cycles_size());
+  EXPECT_EQ(groups, job.groups_size());
+  EXPECT_EQ(groups, cycles) << "each bounce is a group of its own";
+}
+
+TEST_F(JobsTest, GrowthsAreEventsAndNoPartOfTheResult) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
+    observer.OnGrowth({.first_cycle = 2, .cycles = 1, .growth = Growth::kTooLittle});
+    Outcome outcome;
+    outcome.growths = 1;
+    return outcome;
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  const v1::Job job = Ended(Create(BouncingBall(2)));
+  EXPECT_EQ(job.groups_size(), 0);
+  EXPECT_EQ(job.summary().growths(), 1);
+  const auto log = Log(job.name(), 0, {"group_growth"});
+  const auto growth = std::ranges::find_if(log, &v1::Event::has_group_growth);
+  ASSERT_NE(growth, log.end());
+  EXPECT_EQ(growth->group_growth().contact(), "ball-wall");
+  EXPECT_EQ(growth->group_growth().first_cycle(), 2);
+  EXPECT_EQ(growth->group_growth().growth(), v1::Group::TOO_LITTLE);
 }
 
 TEST_F(JobsTest, ScenarioIsCheckedWithAllElseAtOnce) {
@@ -395,8 +420,10 @@ TEST_F(JobsTest, LedgerIsNotParsedOnTheStoresThread) {
 TEST_F(JobsTest, LongLedgerIsShortenedInAnswers) {
   constexpr int kCycles = 100'000;
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
-    Cycle cycle;
-    for (cycle.number = 1; cycle.number <= kCycles; ++cycle.number) observer.OnCycle(cycle);
+    for (int i = 1; i <= kCycles; ++i) {
+      observer.OnCycle({.number = i, .group = i});
+      observer.OnGroup({.number = i, .first_cycle = i, .cycles = 1});
+    }
     return Outcome{};
   });
   run.Allow();
@@ -404,11 +431,14 @@ TEST_F(JobsTest, LongLedgerIsShortenedInAnswers) {
   const std::string name = Create(BouncingBall());
   Ended(name);
   const v1::Job job = Get(name).value();
-  EXPECT_LT(job.ByteSizeLong(), 3U << 20);
+  EXPECT_LT(job.ByteSizeLong(), 4U << 20);
   EXPECT_GT(job.cycles_size(), 1000);
   EXPECT_LT(job.cycles_size(), kCycles);
-  ASSERT_GT(job.warnings_size(), 0);
-  EXPECT_THAT(job.warnings(job.warnings_size() - 1), HasSubstr("of 100000 cycles"));
+  EXPECT_GT(job.groups_size(), 1000);
+  EXPECT_LT(job.groups_size(), kCycles);
+  ASSERT_GT(job.warnings_size(), 1);
+  EXPECT_THAT(job.warnings(job.warnings_size() - 2), HasSubstr("of 100000 cycles"));
+  EXPECT_THAT(job.warnings(job.warnings_size() - 1), HasSubstr("of 100000 groups"));
 }
 
 TEST_F(JobsTest, ThrowingRunFailsItsJobOnly) {

@@ -142,8 +142,10 @@ TEST_F(RetentionTest, TrajectoriesGoAndResultsStay) {
   EXPECT_EQ(compacted.oldest_sequence(), job.last_sequence());
   EXPECT_EQ(compacted.cycles_size(), job.cycles_size());
   EXPECT_EQ(Log(name, 0, {"cycle", "iteration"}).size(), events.size());
-  ASSERT_EQ(compacted.artifacts_size(), 1);
+  EXPECT_EQ(compacted.groups_size(), job.groups_size());
+  ASSERT_EQ(compacted.artifacts_size(), 2);
   EXPECT_EQ(compacted.artifacts(0).name(), "cycles.csv");
+  EXPECT_EQ(compacted.artifacts(1).name(), "groups.csv");
 
   LogReader reader;
   const auto watched = Watch(name, reader);

@@ -8,7 +8,8 @@ import unittest
 
 import numpy as np
 import pandas
-from contactd import Job, ServerTest, endless, is_cycle, three_ball_chain
+from contactd import (Job, ServerTest, endless, is_cycle, three_ball_chain,
+                      two_balls_and_a_wall)
 from contactsim import (AsyncClient, Client, DownloadFailed, InvalidScenario, JobNotFound,
                         RunFailed, Timeout, Unreachable)
 
@@ -33,6 +34,9 @@ class ClientTest(ServerTest):
         np.testing.assert_allclose(
             result.bodies.velocity_m_per_s,
             [-0.003731206344, 0.048726255138, 0.155004951207], atol=1e-8)
+        self.assertEqual(list(result.groups.growth), ["NOT_GROWN"] * 2)
+        self.assertEqual(list(result.groups.mu), list(result.cycles.mu))
+        self.assertEqual(list(result.cycles.group), list(result.groups.number))
         self.assertEqual(result["time"][-1], 4e-3)
         self.assertEqual(result.series.shape, (1001, 15))
         self.assertEqual(result.series.columns[2], "B1.velocity [m/s]")
@@ -42,6 +46,15 @@ class ClientTest(ServerTest):
         self.assertTrue((last.residual.abs() < 2e-8).all())
         spec = result.scenario.SerializeToString(deterministic=True)
         self.assertEqual(result.provenance["scenario_sha256"], hashlib.sha256(spec).hexdigest())
+
+    def test_groups_of_several_cycles_are_rows_of_a_table(self):
+        result = self.client.run(two_balls_and_a_wall(), timeout_s=PATIENCE_S)
+        self.assertTrue(result.converged)
+        wall = result.groups[(result.groups.contact == "wall") & (result.groups.cycles == 2)]
+        self.assertEqual(len(wall), 1)
+        np.testing.assert_allclose(wall.mu, 2.76e8, rtol=0.01)
+        numbers = result.cycles[result.cycles.contact == "wall"].group
+        self.assertEqual(list(numbers).count(wall.number.iloc[0]), 2)
 
     def test_dict_and_message_make_the_same_run(self):
         source = {"bodies": [{"name": "A", "mass_kg": 1, "velocity_m_per_s": 1},
@@ -182,7 +195,8 @@ class ClientTest(ServerTest):
 
     def test_artifact_is_fetched_and_a_part_of_it_gone_on_with(self):
         job = self.client.run(three_ball_chain()).job
-        self.assertEqual([a.name for a in job.artifacts], ["cycles.csv", "trajectory.csv"])
+        self.assertEqual([a.name for a in job.artifacts],
+                         ["cycles.csv", "groups.csv", "trajectory.csv"])
         whole = self.client.download(job, "trajectory.csv", self.folder / "whole.csv")
         content = whole.read_bytes()
         frame = pandas.read_csv(whole)

@@ -5,11 +5,12 @@ import unittest
 
 import matplotlib.pyplot as plt
 import numpy as np
-from contactd import ServerTest
+from contactd import ServerTest, two_balls_and_a_wall
 from contactsim import Client
 from contactsim.plotting import PRESETS
 
 SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
+UNDAMPED = "glass-balls", "iterations"  # Its μ is 0 without a search.
 
 
 class PlotsTest(ServerTest):
@@ -30,7 +31,8 @@ class PlotsTest(ServerTest):
                     axes[0].figure.savefig(self.folder / "plot.svg")
                     for ax in axes:
                         self.assertTrue(ax.get_ylabel())
-                        self.assertTrue(ax.lines)
+                        drawn = (path.stem, preset) != UNDAMPED
+                        self.assertEqual(bool(ax.lines), drawn)
                     plt.close("all")
 
     def test_loop_of_the_hysteresis_has_the_area_of_the_energy_lost(self):
@@ -53,6 +55,17 @@ class PlotsTest(ServerTest):
         total = fall.plot.energy().lines[-1].get_ydata()
         np.testing.assert_allclose(total[time < 0.44], 0.5 * 9.81 * 1.0, rtol=1e-9)
         self.assertLess(total[-1], 0.5 * total[0])
+
+    def test_band_of_a_group_spans_its_cycles(self):
+        result = self.client.run(two_balls_and_a_wall())
+        group = next(g for g in result.job.groups if g.cycles == 2)
+        cycles = [c for c in result.job.cycles
+                  if (c.contact, c.group) == (group.contact, group.number)]
+        self.assertEqual((group.start_time_s, group.end_time_s),
+                         (cycles[0].start_time_s, cycles[1].end_time_s))
+        alone = sum(not c.group for c in result.job.cycles)
+        bands = result.plot.force().patches
+        self.assertEqual(len(bands), len(result.job.groups) + alone)
 
     def test_marks_stand_where_cycles_start_and_end(self):
         ax = self.chain.plot.deformation_velocity()

@@ -57,7 +57,13 @@ class RecordingTest(unittest.TestCase):
 
     def test_earlier_attempt_is_forgotten(self):
         iteration = event_pb2.Event(iteration=event_pb2.Iteration(episode=1))
+        group = event_pb2.Event(group=job_pb2.Group(number=1), sequence=3)
         again = event_pb2.Event(attempt_started=event_pb2.AttemptStarted(attempt=2))
+        recording = Recording()
+        recording.add(group)
+        self.assertEqual([g.number for g in recording.groups.values()], [1])
+        recording.add(again)
+        self.assertEqual(recording.groups, {})
         result = result_of(chunk_event(0, self.values), iteration, again,
                            chunk_event(0, self.values[:, :5]))
         self.assertEqual(len(result.series), 5)
@@ -77,6 +83,7 @@ class RecordingTest(unittest.TestCase):
     def test_result_without_samples_has_empty_tables(self):
         result = result_of()
         self.assertEqual(len(result.series) + len(result.cycles) + len(result.bodies), 0)
+        self.assertIn("too_much_mu", result.groups.columns)
         self.assertIn("mu", result.iterations.columns)
 
     def test_million_samples_of_eight_channels_become_a_data_frame_in_0_3_s(self):

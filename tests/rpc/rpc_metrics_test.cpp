@@ -75,6 +75,7 @@ TEST(MetricsPageTest, TellsWhatWasCounted) {
   job.mutable_end_time()->set_seconds(12);
   job.add_cycles()->set_iterations(3);
   job.mutable_summary()->set_steps(284);
+  job.mutable_summary()->set_growths(5);
   jobs->Moved(v1::Job::RUNNING, job);
   store->commit_operations.Count(256);
   rpc->Refused("RATE_LIMITED");
@@ -93,6 +94,7 @@ TEST(MetricsPageTest, TellsWhatWasCounted) {
            "contactd_job_run_seconds_bucket{le=\"+Inf\"} 1\n",
            "contactd_cycle_iterations_count 1\n",
            "contactd_steps_total 284\n",
+           "contactd_group_growths_total 5\n",
            "contactd_store_commit_operations_bucket{le=\"250\"} 0\n",
            "contactd_store_commit_operations_sum 256\n",
            "contactd_rpc_refused_total{reason=\"RATE_LIMITED\"} 1\n",

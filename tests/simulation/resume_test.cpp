@@ -57,6 +57,15 @@ class Teller final : public Observer {
                     c.peak_force,
                     c.tension_time});
   }
+  void OnGroup(const Group& g) override {
+    Write("group", {double(g.contact), double(g.number), double(g.encounter), double(g.first_cycle),
+                    double(g.cycles), double(g.end), double(g.status), double(g.growth),
+                    g.start_time, g.end_time, g.mu, g.work_compression, g.work_restitution,
+                    g.restitution_out, g.residual, g.too_much.mu, g.too_little.mu});
+  }
+  void OnGrowth(const Group& g) override {
+    Write("growth", {double(g.contact), double(g.first_cycle), double(g.growth), g.mu});
+  }
   void OnSamples(const Samples& s) override {
     Write("samples", {double(s.first)});
     Write("values", s.values);

@@ -10,7 +10,7 @@ namespace {
 // Free flights have no cycles.
 class NoCycles final : public CycleHost {
  public:
-  Factor OnStart(const ContactState&, double, double) override { return {}; }
+  Factor OnStart(ContactState&, double, double) override { return {}; }
   void OnEnd(ContactState&, const Eigen::ArrayXd&, const Eigen::ArrayXd&, double, double) override {
   }
 };

@@ -79,7 +79,7 @@ TEST(EventCodingTest, EveryFieldOfAChunkIsKept) {
   Fill(event.mutable_frame_chunk()->add_columns());
   ASSERT_EQ(EncodeEvent(event).coding, Coding::kFrames);
   ExpectSame(event);
-  EXPECT_EQ(v1::Event::descriptor()->field_count(), 12) << "an event has more than it had";
+  EXPECT_EQ(v1::Event::descriptor()->field_count(), 14) << "an event has more than it had";
 }
 
 TEST(EventCodingTest, FramesComeBackBitByBit) {

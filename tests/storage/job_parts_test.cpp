@@ -76,8 +76,8 @@ TEST(Split, LargeFieldsStandInOnePieceOnly) {
   ASSERT_TRUE(header.ParseFromString(parts.header) && spec.ParseFromString(parts.spec) &&
               result.ParseFromString(parts.result));
   EXPECT_EQ(header.spec_case(), v1::Job::SPEC_NOT_SET);
-  EXPECT_EQ(header.cycles_size() + header.final_bodies_size(), 0);
-  EXPECT_EQ(spec.cycles_size() + spec.final_bodies_size(), 0);
+  EXPECT_EQ(header.cycles_size() + header.groups_size() + header.final_bodies_size(), 0);
+  EXPECT_EQ(spec.cycles_size() + spec.groups_size() + spec.final_bodies_size(), 0);
   EXPECT_EQ(result.spec_case(), v1::Job::SPEC_NOT_SET);
 }
 

@@ -232,6 +232,25 @@ def spring_wall(end_time_s):
         end_time_s=end_time_s)
 
 
+def two_balls_and_a_wall(**solver):
+    """A ball pushed against a wall by a heavier one, so that the first cycle there has no μ."""
+    body, contact = scenario_pb2.Body, scenario_pb2.Contact
+    wall = scenario_pb2.Wall(position_m=0.1506, side=scenario_pb2.Wall.RIGHT)
+    return scenario_pb2.Scenario(
+        title="Two balls and a wall",
+        bodies=[
+            body(name="B1", mass_kg=3.0433, radius_m=0.05, velocity_m_per_s=1.535),
+            body(name="B2", mass_kg=1.0897, radius_m=0.05, position_m=0.1),
+        ],
+        contacts=[
+            contact(name="pair", between=["B1", "B2"], stiffness=5744379, restitution=0.805),
+            contact(name="wall", between=["B2"], wall=wall, stiffness=184680686.4,
+                    restitution=0.678),
+        ],
+        solver=scenario_pb2.Solver(**solver),
+        end_time_s=0.02)
+
+
 def endless():
     """A run that makes cycles for longer than any test waits."""
     scenario = spring_wall(end_time_s=1e5)

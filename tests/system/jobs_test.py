@@ -1,12 +1,13 @@
 """The calls of the contract on a real server."""
 
+import math
 import struct
 import unittest
 
 import grpc
 from contact.v1 import job_pb2, job_service_pb2, scenario_pb2
 from contactd import (PATIENCE_S, Job, ServerTest, endless, is_cycle, seconds, spring_wall,
-                      stored, three_ball_chain, to_bytes)
+                      stored, three_ball_chain, to_bytes, two_balls_and_a_wall)
 
 Cycle = job_pb2.Cycle
 
@@ -27,6 +28,35 @@ class RunTest(ServerTest):
         for velocity, expected in zip(velocities, (-0.003731206344, 0.048726255138,
                                                    0.155004951207)):
             self.assertAlmostEqual(velocity, expected, delta=1e-9)
+
+    def test_groups_are_told_after_their_cycles_and_kept_with_the_result(self):
+        job = self.server.run(two_balls_and_a_wall())
+        self.assertEqual(job.convergence, Job.FULL)
+        wall = [g for g in job.groups if g.contact == "wall" and g.cycles == 2]
+        self.assertEqual(len(wall), 1)
+        self.assertAlmostEqual(wall[0].mu / 2.76e8, 1, delta=0.01)
+        self.assertAlmostEqual(wall[0].restitution_out / 0.678, 1, delta=2e-8)
+        self.assertNotEqual(wall[0].growth, job_pb2.Group.NOT_GROWN)
+        events = self.server.events(job.name)
+        told = [e.group for e in events if e.WhichOneof("payload") == "group"]
+        self.assertEqual([to_bytes(g) for g in told], [to_bytes(g) for g in job.groups])
+        growths = [e for e in events if e.WhichOneof("payload") == "group_growth"]
+        self.assertEqual(len(growths), job.summary.growths)
+        self.assertGreater(len(growths), 0)
+        seen = set()
+        for event in events:
+            if is_cycle(event):
+                seen.add((event.cycle.contact, event.cycle.number))
+            for g in [event.group] if event.WhichOneof("payload") == "group" else []:
+                self.assertIn((g.contact, g.first_cycle + g.cycles - 1), seen)
+
+    def test_cycles_on_their_own_say_what_no_factor_reaches(self):
+        job = self.server.run(two_balls_and_a_wall(restitution_scope="CYCLE"))
+        self.assertEqual(job.convergence, Job.PARTIAL)
+        lost = [g for g in job.groups if g.status == Cycle.INFEASIBLE]
+        self.assertTrue(lost)
+        for g in lost:
+            self.assertTrue(g.HasField("too_much_mu") or g.HasField("too_little_mu"))
 
     def test_watch_shows_the_run_in_order_and_ends_after_the_final_state(self):
         name = self.server.create(three_ball_chain()).name

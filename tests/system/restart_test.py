@@ -59,7 +59,7 @@ class KillTest(ServerTest):
         job = self.server.get(name)
         self.assertEqual(job.state, Job.SUCCEEDED)
         self.assertGreater(len(job.cycles), 100)
-        for result in "cycles", "final_bodies":
+        for result in "cycles", "groups", "final_bodies":
             self.assertEqual([to_bytes(part) for part in getattr(job, result)],
                              [to_bytes(part) for part in getattr(undisturbed, result)])
 

@@ -7,6 +7,14 @@
 
 namespace contact::testing {
 
+/// Whether this is the build of preset release: solving the larger rows takes a hundred times longer
+/// in an unoptimized build, and minutes under a sanitizer.
+#ifdef NDEBUG
+inline constexpr bool kOptimized = true;
+#else
+inline constexpr bool kOptimized = false;
+#endif
+
 /// A body of radius 0.05 m; the paper's balls weigh 0.5 kg.
 inline Body Ball(double position, double velocity = 0, double mass = 0.5) {
   return {.name = std::string("B").append(std::to_string(position)),
@@ -65,9 +73,11 @@ inline Scenario Collision(double mass, double velocity, double stiffness, double
 }
 
 /// Keeps everything that a run reports.
-struct Record final : Observer {
+struct Record : Observer {
   std::vector<Iteration> iterations;
   std::vector<Cycle> cycles;
+  std::vector<Group> groups;
+  std::vector<Group> growths;
   std::vector<double> samples;
   int columns = 0;
   std::vector<std::string> warnings;
@@ -75,6 +85,8 @@ struct Record final : Observer {
 
   void OnIteration(const Iteration& i) override { iterations.push_back(i); }
   void OnCycle(const Cycle& c) override { cycles.push_back(c); }
+  void OnGroup(const Group& g) override { groups.push_back(g); }
+  void OnGrowth(const Group& g) override { growths.push_back(g); }
   void OnSamples(const Samples& s) override {
     columns = s.columns;
     samples.insert(samples.end(), s.values.begin(), s.values.end());

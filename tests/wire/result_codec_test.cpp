@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <cstring>
 
 namespace contact {
@@ -23,78 +22,6 @@ std::vector<double> Values(const v1::FrameChunk::Column& column) {
   std::vector<double> values(column.values().size() / sizeof(double));
   std::memcpy(values.data(), column.values().data(), column.values().size());
   return values;
-}
-
-TEST(Encode, CycleKeepsEveryField) {
-  const Cycle cycle{.contact = 1,
-                    .number = 2,
-                    .episode = 3,
-                    .kind = Cycle::Kind::kCollision,
-                    .end = Cycle::End::kNonSeparation,
-                    .status = Cycle::Status::kInfeasible,
-                    .iterations = 4,
-                    .start_time = 5,
-                    .turn_time = 6,
-                    .end_time = 7,
-                    .start_deformation = 8,
-                    .max_deformation = 9,
-                    .end_deformation = 10,
-                    .approach_velocity = 11,
-                    .separation_velocity = -12,
-                    .mu = 13,
-                    .work_compression = 14,
-                    .work_restitution = -15,
-                    .dissipated_compression = 16,
-                    .dissipated_restitution = 17,
-                    .external_compression = 18,
-                    .external_restitution = 19,
-                    .restitution_in = 20,
-                    .restitution_out = 21,
-                    .peak_force = 22,
-                    .tension_time = 23,
-                    .identity_residual = 24};
-  EXPECT_EQ(Encode(TwoContacts(), cycle).ShortDebugString(),
-            "contact: \"b-wall\" number: 2 kind: COLLISION end: NON_SEPARATION status: INFEASIBLE "
-            "iterations: 4 episode: 3 start_time_s: 5 turn_time_s: 6 end_time_s: 7 "
-            "delta_start_m: 8 delta_max_m: 9 delta_end_m: 10 approach_velocity_m_per_s: 11 "
-            "separation_velocity_m_per_s: -12 mu: 13 mu_over_k_s_per_m: 3.25 alpha: 35.75 "
-            "work_compression_j: 14 work_restitution_j: -15 dissipated_compression_j: 16 "
-            "dissipated_restitution_j: 17 external_work_compression_j: 18 "
-            "external_work_restitution_j: 19 restitution_in: 20 restitution_out: 21 "
-            "peak_force_n: 22 tension_time_s: 23 identity_residual: 24");
-}
-
-TEST(Encode, NirvCycleHasNoAlpha) {
-  const Cycle cycle{.kind = Cycle::Kind::kNirv, .approach_velocity = 1e-18, .mu = 13};
-  EXPECT_EQ(Encode(TwoContacts(), cycle).alpha(), 0);
-  EXPECT_EQ(Encode(TwoContacts(), cycle).mu_over_k_s_per_m(), 13);
-}
-
-TEST(Encode, OpenCycleKeepsItsNans) {
-  const v1::Cycle cycle = Encode(TwoContacts(), Cycle{});
-  EXPECT_TRUE(std::isnan(cycle.turn_time_s()));
-  EXPECT_TRUE(std::isnan(cycle.restitution_out()));
-  EXPECT_EQ(cycle.end(), v1::Cycle::RUN_END);
-}
-
-TEST(Encode, EveryWordOfACycleHasItsOwn) {
-  using S = Cycle::Status;
-  std::vector<int> statuses;
-  for (const S status :
-       {S::kConverged, S::kGivenLaw, S::kInfeasible, S::kSettled, S::kNotConverged}) {
-    statuses.push_back(Encode(TwoContacts(), Cycle{.status = status}).status());
-  }
-  EXPECT_THAT(statuses,
-              ElementsAre(v1::Cycle::CONVERGED, v1::Cycle::GIVEN_LAW, v1::Cycle::INFEASIBLE,
-                          v1::Cycle::SETTLED, v1::Cycle::NOT_CONVERGED));
-  using E = Cycle::End;
-  std::vector<int> ends;
-  for (const E end : {E::kSeparation, E::kNonSeparation, E::kRunEnd}) {
-    ends.push_back(Encode(TwoContacts(), Cycle{.end = end}).end());
-  }
-  EXPECT_THAT(ends,
-              ElementsAre(v1::Cycle::SEPARATION, v1::Cycle::NON_SEPARATION, v1::Cycle::RUN_END));
-  EXPECT_EQ(Encode(TwoContacts(), Cycle{.kind = Cycle::Kind::kNirv}).kind(), v1::Cycle::NIRV);
 }
 
 TEST(Encode, IterationKeepsEveryField) {
@@ -179,7 +106,9 @@ TEST(Encode, OutcomeFillsItsFieldsOfTheJobAndNoOthers) {
                         .worst_identity_residual = 9,
                         .momentum_residual = 10,
                         .energy_residual = 11,
-                        .kinetic_energy = 12};
+                        .kinetic_energy = 12,
+                        .growths = 14,
+                        .growths_no_progress = 15};
   v1::Job job;
   job.set_name("jobs/x");
   job.mutable_summary()->set_wall_time_s(13);
@@ -190,7 +119,7 @@ TEST(Encode, OutcomeFillsItsFieldsOfTheJobAndNoOthers) {
             "final_bodies { name: \"b\" position_m: 2 velocity_m_per_s: 4 } "
             "summary { steps: 5 evaluations: 6 iterations: 7 episodes: 8 wall_time_s: 13 "
             "worst_identity_residual: 9 momentum_residual: 10 energy_residual: 11 "
-            "kinetic_energy_j: 12 time_reached_s: 8 }");
+            "kinetic_energy_j: 12 time_reached_s: 8 growths: 14 growths_no_progress: 15 }");
 }
 
 }  // namespace

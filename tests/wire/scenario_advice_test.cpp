@@ -197,6 +197,27 @@ TEST(ScenarioAdvice, TellsThatThePapersProcessOftenFailsForLowRestitution) {
       ElementsAre(HasSubstr("solver.update: is PAPER_RATIO, which often does not converge")));
 }
 
+TEST(ScenarioAdvice, TellsWhereOneFactorACycleMayNotBeEnough) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.mutable_solver()->set_restitution_scope(v1::Solver::CYCLE);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());  // Nothing pushes the balls together again.
+  scenario = PressedTooth();
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+  scenario.mutable_solver()->set_restitution_scope(v1::Solver::CYCLE);
+  EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("solver.restitution_scope: is CYCLE; ")));
+  scenario.mutable_contacts(0)->set_damping(v1::Contact::EXACT);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());  // Nothing is iterated.
+}
+
+TEST(ScenarioAdvice, TellsThatNoGroupGrowsInThePapersProcess) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.mutable_solver()->set_update(v1::Solver::PAPER_NEWTON);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());  // AUTO is not asked for.
+  scenario.mutable_solver()->set_restitution_scope(v1::Solver::AUTO);
+  EXPECT_THAT(AdviceOn(scenario),
+              ElementsAre(HasSubstr("no group grows with update PAPER_NEWTON")));
+}
+
 TEST(ScenarioAdvice, OfASweepIsThatOfItsBaseButForWhatAxesSet) {
   v1::Sweep sweep;
   *sweep.mutable_base() = TwoBalls();

@@ -35,6 +35,8 @@ TEST(DecodeScenario, FillsEveryDefault) {
   EXPECT_EQ(scenario.solver.relative_tolerance, 1e-11);
   EXPECT_EQ(scenario.solver.restitution_tolerance, 1e-8);
   EXPECT_EQ(scenario.solver.max_iterations, 50);
+  EXPECT_EQ(scenario.solver.restitution_scope, RestitutionScope::kAuto);
+  EXPECT_EQ(scenario.solver.encounter_cycles, 8);
   EXPECT_EQ(scenario.solver.settled_fraction, 1e-9);
   EXPECT_EQ(scenario.solver.max_steps, 100'000'000);
   EXPECT_FALSE(scenario.solver.fail_if_not_converged);
@@ -54,6 +56,19 @@ TEST(DecodeScenario, TakesThePapersProcess) {
   EXPECT_EQ(decoded.scenario.solver.phase_split, PhaseSplit::kPeakForce);
 }
 
+TEST(DecodeScenario, TakesEveryScopeOfTheRestitution) {
+  const std::pair<v1::Solver::RestitutionScope, RestitutionScope> scopes[] = {
+      {v1::Solver::RESTITUTION_SCOPE_UNSPECIFIED, RestitutionScope::kAuto},
+      {v1::Solver::AUTO, RestitutionScope::kAuto},
+      {v1::Solver::CYCLE, RestitutionScope::kCycle},
+      {v1::Solver::ENCOUNTER, RestitutionScope::kEncounter}};
+  for (const auto& [sent, taken] : scopes) {
+    v1::Scenario message = TwoBalls();
+    message.mutable_solver()->set_restitution_scope(sent);
+    EXPECT_EQ(DecodeScenario(message).scenario.solver.restitution_scope, taken);
+  }
+}
+
 TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
   const DecodedScenario decoded = DecodeScenario(FromText(R"(
       title: "All of it"
@@ -69,7 +84,8 @@ TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
       loads { body: "a" gravity { acceleration_m_per_s2: 2 } }
       solver { method: ADAPTIVE relative_tolerance: 1e-9 restitution_tolerance: 1e-6
                update: NEWTON_COUPLED phase_split: PEAK_DEFORMATION max_iterations: 20
-               tension: CLIP on_not_converged: FAIL settled_fraction: 1e-4 max_steps: 12345 }
+               tension: CLIP on_not_converged: FAIL settled_fraction: 1e-4 max_steps: 12345
+               restitution_scope: ENCOUNTER encounter_cycles: 3 }
       output { sample_interval_s: 0.25 }
       end_time_s: 10)"));
   ASSERT_THAT(Lines(decoded.violations), IsEmpty());
@@ -104,6 +120,7 @@ TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
   EXPECT_EQ(s.solver.max_iterations, 20);
   EXPECT_EQ(s.solver.settled_fraction, 1e-4);
   EXPECT_EQ(s.solver.max_steps, 12345);
+  EXPECT_EQ(s.solver.encounter_cycles, 3);
   EXPECT_TRUE(s.solver.fail_if_not_converged);
   EXPECT_TRUE(s.solver.clip_tension);
   EXPECT_EQ(s.sample_interval, 0.25);

@@ -495,6 +495,23 @@ std::vector<Case> Cases() {
        [](S& s) { s.mutable_solver()->set_phase_split(v1::Solver::PEAK_FORCE); },
        {"solver.phase_split: is PEAK_FORCE, which update NEWTON_COUPLED cannot solve — take update "
         "PAPER_RATIO, or phase_split PEAK_DEFORMATION"}},
+      {"ScopeThatIsNone",
+       [](S& s) {
+         s.mutable_solver()->set_restitution_scope(static_cast<v1::Solver::RestitutionScope>(4));
+       },
+       {"solver.restitution_scope: is 4, which is no value of RestitutionScope"}},
+      {"EncounterCyclesZeroInAnotherScope",
+       [](S& s) { s.mutable_solver()->set_encounter_cycles(0); },
+       {"solver.encounter_cycles: is 0; must be in [1, 1000]",
+        "solver.encounter_cycles: is given, but goes only with restitution_scope ENCOUNTER — "
+        "remove "
+        "it"}},
+      {"EncounterCycles",
+       [](S& s) {
+         s.mutable_solver()->set_restitution_scope(v1::Solver::ENCOUNTER);
+         s.mutable_solver()->set_encounter_cycles(1000);
+       },
+       {}},
       {"TensionClip", [](S& s) { s.mutable_solver()->set_tension(v1::Solver::CLIP); }, {}},
       {"OnNotConvergedThatIsNone",
        [](S& s) {

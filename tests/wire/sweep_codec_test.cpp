@@ -198,7 +198,7 @@ TEST(SweepAxes, MistakesAreToldTogether) {
           "you mean 'velocity_m_per_s'?",
           "metrics[3]: 'title': unknown field 'title' — fields are steps, evaluations, iterations, "
           "episodes, wall_time_s, worst_identity_residual, momentum_residual, energy_residual, "
-          "kinetic_energy_j, time_reached_s"));
+          "kinetic_energy_j, time_reached_s, growths, growths_no_progress"));
 }
 
 TEST(SweepBase, IsCheckedWithTheFirstCell) {
@@ -215,10 +215,13 @@ TEST(SweepBase, MetricsNameWhatItHas) {
   v1::Sweep sweep = Grid();
   sweep.add_metrics("cycles[C-1].mu");
   sweep.add_metrics("final_bodies[B3].position_m");
+  sweep.add_metrics("groups[C-1].restitution_out");
   EXPECT_THAT(Mistakes(sweep), IsEmpty());
   sweep.add_metrics("cycles[C-3].mu");
+  sweep.add_metrics("groups[B3].mu");
   EXPECT_THAT(Mistakes(sweep),
-              ElementsAre("metrics[3]: the base has no 'C-3' — did you mean 'C-1'?"));
+              ElementsAre("metrics[4]: the base has no 'C-3' — did you mean 'C-1'?",
+                          HasSubstr("metrics[5]: the base has no 'B3'")));
 }
 
 TEST(SweepFields, SetEveryEntryAndRoundWholeNumbers) {
@@ -247,9 +250,10 @@ TEST(SweepFields, DoNotChangeTheKindOfALoad) {
 
 TEST(SweepMetrics, ReadNumbersOfAResult) {
   v1::Sweep sweep;
-  for (const auto* metric : {"iterations", "summary.energy_residual", "convergence", "cycles[1].mu",
-                             "cycles[C-2].number", "cycles[0].status",
-                             "final_bodies[B.2].velocity_m_per_s", "cycles[9].mu"}) {
+  for (const auto* metric :
+       {"iterations", "summary.energy_residual", "convergence", "cycles[1].mu",
+        "cycles[C-2].number", "cycles[0].status", "groups[1].mu", "groups[C-2].too_much_mu",
+        "groups[0].growth", "final_bodies[B.2].velocity_m_per_s", "cycles[9].mu"}) {
     sweep.add_metrics(metric);
   }
   std::vector<Violation> violations;
@@ -266,13 +270,20 @@ TEST(SweepMetrics, ReadNumbersOfAResult) {
     cycle.set_mu(number * 100);
     cycle.set_status(v1::Cycle::SETTLED);
   }
+  for (const auto* contact : {"C-1", "C-2"}) {
+    v1::Group& group = *job.add_groups();
+    group.set_contact(contact);
+    group.set_mu(10 * job.groups_size());
+    group.set_too_much_mu(7);
+    group.set_growth(v1::Group::TOO_MUCH);
+  }
   job.add_final_bodies()->set_name("B1");
   v1::FinalBody& body = *job.add_final_bodies();
   body.set_name("B.2");
   body.set_velocity_m_per_s(0.25);
   const std::vector<double> values = metrics.Of(job);
   EXPECT_THAT(std::vector(values.begin(), values.end() - 1),
-              ElementsAre(12, 1e-9, 2, 400, 4, 4, 0.25));
+              ElementsAre(12, 1e-9, 2, 400, 4, 4, 20, 7, 3, 0.25));
   EXPECT_TRUE(std::isnan(values.back()));
 }
 

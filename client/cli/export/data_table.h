@@ -29,7 +29,7 @@ struct DataColumn {
 
 /// A part of a result as columns of equal length.
 struct DataTable {
-  std::string name;  ///< series, cycles, iterations or bodies.
+  std::string name;  ///< series, cycles, groups, iterations or bodies.
   /// What tells rows apart: `cycle`, or the column `time`.
   std::string row;
   /// All of the same length.
@@ -43,7 +43,9 @@ struct DataTable {
 DataTable SeriesTable(Recording&& recording);
 /// The ledger of a job, a row a cycle.
 DataTable CyclesTable(const v1::Job& job);
-/// A row for each cycle in each pass of each episode.
+/// The groups of the cycles of a job, a row a group.
+DataTable GroupsTable(const v1::Job& job);
+/// A row for each group of cycles in each pass of each episode.
 DataTable IterationsTable(const std::vector<v1::Iteration>& iterations);
 /// The bodies of a job at the end of the run, a row a body.
 DataTable BodiesTable(const v1::Job& job);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "cli/figures/sampling.h"
@@ -40,6 +42,17 @@ void AddLoop(const RunCurves& run, const v1::Cycle& cycle, const std::string& la
   panel->curves.push_back(loop);
   panel->curves.push_back({"", colour, Mark::kStart, {loop.x.front()}, {loop.y.front()}});
   panel->curves.push_back({"", colour, Mark::kEnd, {loop.x.back()}, {loop.y.back()}});
+}
+
+// By contact and number of the group.
+using Restitutions = std::map<std::pair<std::string, int>, double>;
+
+Restitutions OfGroups(const v1::Job& job) {
+  Restitutions had;
+  for (const v1::Group& group : job.groups()) {
+    had[{group.contact(), group.number()}] = group.restitution_out();
+  }
+  return had;
 }
 
 }  // namespace
@@ -81,6 +94,7 @@ Panel RestitutionPanel(const RunCurves& run) {
               .y_label = "energy restitution coefficient",
               .counted_x = true,
               .lowest_y = 0};
+  const Restitutions groups = OfGroups(run.recording().job);
   run.EachContact([&](const std::string& name, int colour) {
     Figure::Curve asked{name + " asked for", colour, Mark::kStart, {}, {}};
     Figure::Curve had{name + " had", colour, Mark::kEnd, {}, {}};
@@ -91,7 +105,8 @@ Panel RestitutionPanel(const RunCurves& run) {
       asked.x.push_back(place);
       asked.y.push_back(cycle.restitution_in());
       had.x.push_back(place);
-      had.y.push_back(cycle.restitution_out());
+      const auto group = groups.find({name, cycle.group()});
+      had.y.push_back(group == groups.end() ? cycle.restitution_out() : group->second);
     }
     panel.curves.push_back(std::move(asked));
     panel.curves.push_back(std::move(had));

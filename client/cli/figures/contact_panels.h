@@ -16,8 +16,8 @@ Figure::Panel DeformationVelocityPanel(const RunCurves& run);
 /// Contact force [N] over deformation [m], a loop for each cycle that has a sample.
 Figure::Panel HysteresisPanel(const RunCurves& run);
 
-/// The restitution coefficient that each cycle was asked for and the one that it had, over the
-/// place of the cycle in the ledger. Needs no trajectory.
+/// The restitution coefficient that each cycle was asked for and the one that its group had, over
+/// the place of the cycle in the ledger. Needs no trajectory.
 Figure::Panel RestitutionPanel(const RunCurves& run);
 
 }  // namespace contact::cli

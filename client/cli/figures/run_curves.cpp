@@ -38,8 +38,12 @@ const std::vector<double>& RunCurves::Column(const std::string& name) const {
 Figure::Panel RunCurves::OverTime(const std::string& label) const {
   Figure::Panel panel{.x_label = "time [s]", .y_label = label};
   EachContact([&](const std::string& name, int colour) {
+    for (const v1::Group& group : recording_.job.groups()) {
+      if (group.contact() != name) continue;
+      panel.bands.push_back({group.start_time_s(), group.end_time_s(), colour});
+    }
     for (const v1::Cycle& cycle : recording_.job.cycles()) {
-      if (cycle.contact() != name) continue;
+      if (cycle.contact() != name || cycle.group() > 0) continue;
       panel.bands.push_back({cycle.start_time_s(), cycle.end_time_s(), colour});
     }
   });

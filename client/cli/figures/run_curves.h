@@ -31,8 +31,8 @@ class RunCurves {
     for (const auto& contact : scenario_.contacts) act(contact.name, colour++);
   }
 
-  /// A panel over time [s] without curves, with a band for each contact cycle. `label` is that of
-  /// the y axis.
+  /// A panel over time [s] without curves, with a band for each group of cycles and for each cycle
+  /// that is in none. `label` is that of the y axis.
   Figure::Panel OverTime(const std::string& label) const;
 
   /// Adds a column as a curve over time.

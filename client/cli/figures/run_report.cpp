@@ -9,6 +9,7 @@
 #include "cli/base/number.h"
 #include "cli/export/provenance.h"
 #include "cli/text/comparison/render_comparison.h"
+#include "cli/text/render_groups.h"
 #include "cli/text/render_ledger.h"
 
 namespace contact::cli {
@@ -25,26 +26,54 @@ std::string More(int all, const char* what) {
   return fmt::format("<p>{} more {}; contactctl export has them all.</p>\n", all - kMostRows, what);
 }
 
+bool Missed(v1::Cycle::Status status) {
+  return status == v1::Cycle::NOT_CONVERGED || status == v1::Cycle::INFEASIBLE;
+}
+
 std::string Ledger(const v1::Job& job) {
   std::vector<HtmlRow> rows;
   for (const v1::Cycle& cycle : job.cycles()) {
     if (rows.size() == kMostRows) break;
-    const bool missed =
-        cycle.status() == v1::Cycle::NOT_CONVERGED || cycle.status() == v1::Cycle::INFEASIBLE;
     rows.push_back(
-        {{cycle.contact(), fmt::to_string(cycle.number()), v1::Cycle::Kind_Name(cycle.kind()),
-          v1::Cycle::End_Name(cycle.end()), v1::Cycle::Status_Name(cycle.status()),
-          fmt::to_string(cycle.iterations()), Digits(cycle.mu(), 7), AlphaOrRatio(cycle),
-          Digits(cycle.restitution_in(), 6), Digits(cycle.restitution_out(), 8),
+        {{cycle.contact(), fmt::to_string(cycle.number()),
+          cycle.group() == 0 ? "-" : fmt::to_string(cycle.group()),
+          v1::Cycle::Kind_Name(cycle.kind()), v1::Cycle::End_Name(cycle.end()),
+          v1::Cycle::Status_Name(cycle.status()), fmt::to_string(cycle.iterations()),
+          Digits(cycle.mu(), 7), AlphaOrRatio(cycle), Digits(cycle.restitution_in(), 6),
+          Digits(cycle.restitution_out(), 8),
           RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
           Digits(cycle.peak_force_n(), 7), Digits(cycle.start_time_s(), 7),
           Digits(cycle.end_time_s(), 7)},
-         missed});
+         Missed(cycle.status())});
   }
-  return HtmlTable({"Contact", "#", "Kind", "End", "Status", "n", "μ", "α, or μ/k", "ε in", "ε out",
-                    "Error", "Peak force [N]", "Start [s]", "End [s]"},
+  return HtmlTable({"Contact", "#", "Group", "Kind", "End", "Status", "n", "μ", "α, or μ/k", "ε in",
+                    "ε out", "Error", "Peak force [N]", "Start [s]", "End [s]"},
                    rows) +
          More(job.cycles_size(), "cycles");
+}
+
+// The groups of which the ledger does not tell all.
+std::string Groups(const v1::Job& job) {
+  std::vector<HtmlRow> rows;
+  int all = 0;
+  for (const v1::Group& group : job.groups()) {
+    if (!IsNotable(group) || ++all > kMostRows) continue;
+    rows.push_back(
+        {{group.contact(), fmt::to_string(group.number()), CyclesOf(group),
+          v1::Cycle::End_Name(group.end()), v1::Cycle::Status_Name(group.status()),
+          v1::Group::Growth_Name(group.growth()), Digits(group.mu(), 7),
+          Digits(group.restitution_in(), 6), Digits(group.restitution_out(), 8),
+          RelativeError(RestitutionError(group.restitution_out(), group.restitution_in())),
+          RelativeError(group.residual()), Digits(group.start_time_s(), 7),
+          Digits(group.end_time_s(), 7), Certificate(group)},
+         Missed(group.status())});
+  }
+  if (rows.empty()) return "";
+  return "<h3>Groups of cycles</h3>\n" +
+         HtmlTable({"Contact", "Group", "Cycles", "End", "Status", "Grew", "μ", "ε in", "ε out",
+                    "Error", "Residual", "Start [s]", "End [s]", "Reached"},
+                   rows) +
+         More(all, "groups");
 }
 
 std::string Iterations(const std::vector<v1::Iteration>& iterations) {
@@ -119,7 +148,7 @@ std::string Section(const RunPart& run, const std::string& server) {
       fmt::format("<h2>{}{}</h2>\n<p>{}, convergence {}.</p>\n", HtmlText(job.name()),
                   job.scenario().title().empty() ? "" : ": " + HtmlText(job.scenario().title()),
                   v1::Job::State_Name(job.state()), v1::Job::Convergence_Name(job.convergence()));
-  section += Warnings(job) + "<h3>Ledger</h3>\n" + Ledger(job) + Bodies(job);
+  section += Warnings(job) + "<h3>Ledger</h3>\n" + Ledger(job) + Groups(job) + Bodies(job);
   section += "<h3>Balances</h3>\n" + Balances(job.summary());
   for (const std::string& figure : run.figures) {
     section += fmt::format("<figure>{}</figure>\n", figure);

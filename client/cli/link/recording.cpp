@@ -17,10 +17,16 @@ void Replay(Client& client, const std::string& name, const Settings& settings, b
             Recorder* recorder) {
   WatchOptions options;
   options.name = name;
-  options.kinds = {"attempt_started", "iteration", "cycle"};
+  options.kinds = {"attempt_started", "iteration", "cycle", "group"};
   if (trajectory) options.kinds.emplace_back("frame_chunk");
   options.overflow = v1::DeliveryOptions::LAG;
   WatchToEnd(client, std::move(options), settings, *recorder);
+}
+
+// Puts all entries into the list if it lacks some.
+template <class Entry>
+void Complete(const std::vector<Entry>& all, google::protobuf::RepeatedPtrField<Entry>* list) {
+  if (static_cast<std::size_t>(list->size()) < all.size()) list->Assign(all.begin(), all.end());
 }
 
 // In the order of their keys.
@@ -44,11 +50,14 @@ void Recorder::OnEvent(const v1::Event& event) {
     chunks_.clear();
     iterations_.clear();
     cycles_.clear();
+    groups_.clear();
   } else if (event.has_iteration()) {
     const v1::Iteration& iteration = event.iteration();
     iterations_[{iteration.episode(), iteration.number()}] = iteration;
   } else if (event.has_cycle()) {
     cycles_[event.sequence()] = event.cycle();
+  } else if (event.has_group()) {
+    groups_[event.sequence()] = event.group();
   } else if (event.has_frame_chunk()) {
     chunks_[event.frame_chunk().first_sample()] = event.frame_chunk();
   }
@@ -80,6 +89,8 @@ std::vector<v1::Iteration> Recorder::Iterations() const { return ValuesOf(iterat
 
 std::vector<v1::Cycle> Recorder::Cycles() const { return ValuesOf(cycles_); }
 
+std::vector<v1::Group> Recorder::Groups() const { return ValuesOf(groups_); }
+
 Recording ReadRecording(Client& client, const std::string& job, const Settings& settings,
                         bool trajectory) {
   const Interrupt interrupt;
@@ -91,11 +102,9 @@ Recording ReadRecording(Client& client, const std::string& job, const Settings& 
   Recording recording{.job = GetJob(client, job),
                       .columns = recorder.Columns(),
                       .iterations = recorder.Iterations()};
-  // GetJob leaves out the end of a long ledger; the events have all of it.
-  const std::vector<v1::Cycle> cycles = recorder.Cycles();
-  if (static_cast<std::size_t>(recording.job.cycles_size()) < cycles.size()) {
-    recording.job.mutable_cycles()->Assign(cycles.begin(), cycles.end());
-  }
+  // GetJob leaves out the end of long lists; the events have all of them.
+  Complete(recorder.Cycles(), recording.job.mutable_cycles());
+  Complete(recorder.Groups(), recording.job.mutable_groups());
   return recording;
 }
 

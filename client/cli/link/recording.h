@@ -25,7 +25,7 @@ struct SampleColumn {
 
 /// What the last attempt of an ended job recorded.
 struct Recording {
-  /// As GetJob returns it, with the whole ledger.
+  /// As GetJob returns it, with the whole ledger and all groups.
   v1::Job job;
   /// `time` comes first. Empty if no trajectory was recorded.
   std::vector<SampleColumn> columns;
@@ -39,7 +39,7 @@ struct Recording {
 /// Gathers a recording from the events of a watch. An event heard twice changes nothing.
 class Recorder : public WatchObserver {
  public:
-  /// Takes chunks, iterations and cycles; a new attempt drops what came before.
+  /// Takes chunks, iterations, cycles and groups; a new attempt drops what came before.
   void OnEvent(const v1::Event& event) override;
 
   /// True if chunks are missing between those that came: a slow watcher is spared some.
@@ -51,6 +51,8 @@ class Recorder : public WatchObserver {
   std::vector<v1::Iteration> Iterations() const;
   /// The cycles in order of their events.
   std::vector<v1::Cycle> Cycles() const;
+  /// The groups in order of their events.
+  std::vector<v1::Group> Groups() const;
 
  private:
   /// By the number of the first sample.
@@ -59,6 +61,7 @@ class Recorder : public WatchObserver {
   std::map<std::pair<int, int>, v1::Iteration> iterations_;
   /// By the sequence number of the event.
   std::map<std::uint64_t, v1::Cycle> cycles_;
+  std::map<std::uint64_t, v1::Group> groups_;
 };
 
 /// Waits for the end of a job and fetches all that it recorded; without `trajectory` the recording

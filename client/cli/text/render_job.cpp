@@ -9,6 +9,7 @@
 
 #include "cli/base/number.h"
 #include "cli/base/table.h"
+#include "cli/text/render_groups.h"
 #include "cli/text/render_ledger.h"
 
 namespace contact::cli {
@@ -102,8 +103,8 @@ std::string Balances(const v1::Job& job, const Style& style) {
 
 std::string RenderJob(const v1::Job& job, const Style& style) {
   std::string text = Title(job, style) + Wrap(RequestedOptions(job), style) +
-                     ErrorLine(job, style) + RenderLedger(job, style) + Bodies(job, style) +
-                     Balances(job, style);
+                     ErrorLine(job, style) + RenderLedger(job, style) + RenderGroups(job, style) +
+                     Bodies(job, style) + Balances(job, style);
   if (job.has_sweep()) {
     text += fmt::format("cells: contactctl sweep watch {}\n", job.name());
   }

@@ -4,14 +4,36 @@
 
 #include <cmath>
 #include <cstddef>
+#include <set>
+#include <utility>
 
 #include "cli/base/number.h"
 
 namespace contact::cli {
+namespace {
+
+using GroupNames = std::set<std::pair<std::string, int>>;  // Contact and number.
+
+// The groups of several cycles: none of these has the restitution of its group.
+GroupNames LongerGroups(const v1::Job& job) {
+  GroupNames names;
+  for (const v1::Group& group : job.groups()) {
+    if (group.cycles() > 1) names.insert({group.contact(), group.number()});
+  }
+  return names;
+}
+
+std::string ErrorText(const v1::Cycle& cycle, const GroupNames& longer) {
+  if (longer.contains({cycle.contact(), cycle.group()})) return "-";
+  return RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in()));
+}
+
+}  // namespace
 
 std::vector<Table::Column> LedgerColumns() {
   return {{"CONTACT"},
           {"#", true, 0, "number"},
+          {"GROUP", true, 5},
           {"KIND"},
           {"END", false, 2},
           {"STATUS"},
@@ -32,10 +54,12 @@ std::vector<Table::Column> LedgerColumns() {
 std::string RenderLedger(const v1::Job& job, const Style& style) {
   if (job.cycles().empty()) return "";
   constexpr std::size_t kMostRows = 40;
+  const GroupNames longer = LongerGroups(job);
   Table table(LedgerColumns());
   for (const v1::Cycle& cycle : job.cycles()) {
     table.Add({cycle.contact(),
                fmt::to_string(cycle.number()),
+               cycle.group() == 0 ? "-" : fmt::to_string(cycle.group()),
                v1::Cycle::Kind_Name(cycle.kind()),
                v1::Cycle::End_Name(cycle.end()),
                {v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status())},
@@ -44,7 +68,7 @@ std::string RenderLedger(const v1::Job& job, const Style& style) {
                AlphaOrRatio(cycle),
                Digits(cycle.restitution_in(), 6),
                Digits(cycle.restitution_out(), 8),
-               RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
+               ErrorText(cycle, longer),
                Digits(cycle.start_time_s(), 7),
                Digits(cycle.end_time_s(), 7),
                Digits(cycle.peak_force_n(), 7),
@@ -58,7 +82,8 @@ std::string RenderLedger(const v1::Job& job, const Style& style) {
 Tone ToneOf(v1::Cycle::Status status) {
   if (status == v1::Cycle::CONVERGED) return Tone::kGood;
   if (status == v1::Cycle::NOT_CONVERGED) return Tone::kBad;
-  return status == v1::Cycle::INFEASIBLE ? Tone::kWarning : Tone::kPlain;
+  const bool told = status == v1::Cycle::INFEASIBLE || status == v1::Cycle::JUMP;
+  return told ? Tone::kWarning : Tone::kPlain;
 }
 
 std::string AlphaOrRatio(const v1::Cycle& cycle) {

@@ -7,6 +7,7 @@
 
 #include "cli/base/number.h"
 #include "cli/text/iteration_table.h"
+#include "cli/text/render_groups.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_ledger.h"
 #include "cli/text/render_progress.h"
@@ -35,8 +36,12 @@ void LiveView::OnEvent(const v1::Event& event) {
   switch (event.payload_case()) {
     case v1::Event::kIteration:
       return ShowIteration(event.iteration());
+    case v1::Event::kGroupGrowth:
+      return ShowGrowth(event.group_growth());
     case v1::Event::kCycle:
       return ShowCycle(event.cycle());
+    case v1::Event::kGroup:
+      return ShowGroup(event.group());
     case v1::Event::kStateChanged:
       return ShowState(event.state_changed());
     case v1::Event::kLogEntry:
@@ -66,7 +71,7 @@ void LiveView::Write(std::FILE* stream, const std::string& line) {
 void LiveView::ShowIteration(const v1::Iteration& iteration) {
   for (const v1::Iteration::Unknown& unknown : iteration.unknowns()) {
     ++iterations_;
-    if (options_.most_iterations > 0 && iterations_ > options_.most_iterations) {
+    if (TooMany()) {
       if (iterations_ == options_.most_iterations + 1) {
         Write(options_.rows,
               fmt::format("… more iterations; contactctl watch {} shows all", options_.job));
@@ -93,6 +98,21 @@ void LiveView::ShowCycle(const v1::Cycle& cycle) {
                           options_.rows_style),
                     Digits(cycle.start_time_s(), 7), Digits(cycle.end_time_s(), 7),
                     Digits(cycle.restitution_out(), 8)));
+}
+
+void LiveView::ShowGrowth(const v1::GroupGrowth& growth) {
+  if (!TooMany()) Write(options_.rows, GrowthLine(growth));
+}
+
+void LiveView::ShowGroup(const v1::Group& group) {
+  if (!options_.cycles || !IsNotable(group)) return;
+  const std::string certificate = Certificate(group);
+  Write(options_.rows, fmt::format("{} group {}, cycle {}: {}, μ {}, ε {}{}{}", group.contact(),
+                                   group.number(), CyclesOf(group),
+                                   Paint(v1::Cycle::Status_Name(group.status()),
+                                         ToneOf(group.status()), options_.rows_style),
+                                   Digits(group.mu(), 9), Digits(group.restitution_out(), 8),
+                                   certificate.empty() ? "" : "; ", certificate));
 }
 
 void LiveView::ShowState(const v1::StateChanged& change) {

@@ -53,10 +53,18 @@ class LiveView : public WatchObserver {
  private:
   /// Writes a line in the place of the progress bar.
   void Write(std::FILE* stream, const std::string& line);
+  /// True once more rows of the iteration have come than are to be shown.
+  bool TooMany() const {
+    return options_.most_iterations > 0 && iterations_ > options_.most_iterations;
+  }
   /// Shows a row for each unknown, up to the limit of rows.
   void ShowIteration(const v1::Iteration& iteration);
+  /// Shows a growth in one line, unless iterations are not shown any more.
+  void ShowGrowth(const v1::GroupGrowth& growth);
   /// Shows a cycle in one line, if cycles are wanted.
   void ShowCycle(const v1::Cycle& cycle);
+  /// Shows a group in one line, if cycles are wanted and do not tell all of it.
+  void ShowGroup(const v1::Group& group);
   /// Shows a change of state, if cycles are wanted; else the result that follows shows it.
   void ShowState(const v1::StateChanged& change);
   /// Shows a warning or a note.

@@ -36,6 +36,7 @@ OutputFormat Format(const ExportArguments& arguments, const Settings& settings) 
 
 DataTable Chosen(const std::string& name, Recording&& recording) {
   if (name == "cycles") return CyclesTable(recording.job);
+  if (name == "groups") return GroupsTable(recording.job);
   if (name == "iterations") return IterationsTable(recording.iterations);
   if (name == "bodies") return BodiesTable(recording.job);
   return SeriesTable(std::move(recording));
@@ -53,8 +54,8 @@ void WriteTable(const DataTable& table, const Provenance& source, TableWriter* w
 std::string WriteAll(Recording&& recording, FileWriter* write, const std::string& path) {
   const OutputFile writable(path);  // Fails with our message before the library does.
   const Provenance provenance = ProvenanceOf(recording.job);
-  std::vector<DataTable> tables{CyclesTable(recording.job), IterationsTable(recording.iterations),
-                                BodiesTable(recording.job)};
+  std::vector<DataTable> tables{CyclesTable(recording.job), GroupsTable(recording.job),
+                                IterationsTable(recording.iterations), BodiesTable(recording.job)};
   tables.insert(tables.begin(), SeriesTable(std::move(recording)));
   write(tables, provenance, path);
   return fmt::format("{}, {}",
@@ -140,8 +141,9 @@ void AddExport(CommandLine& line, CLI::App& command) {
                         "standard output",
                         FormatEndings(kData)));
   AddOption(line, command, "--table", &arguments->table,
-            {"series", "cycles", "iterations", "bodies"},
-            "For csv and jsonl: series, cycles, iterations or bodies; the others have them all")
+            {"series", "cycles", "groups", "iterations", "bodies"},
+            "For csv and jsonl: series, cycles, groups, iterations or bodies; the others have them "
+            "all")
       ->type_name("TABLE")
       ->capture_default_str();
   command.add_flag("--comments", arguments->comments, kCommentsAbout);

@@ -118,7 +118,8 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
     options.min_frame_interval = RequireDuration(arguments.min_frame_interval);
   }
   if (options.kinds.empty() && settings.output == OutputFormat::kTable) {
-    options.kinds = {"log_entry", "iteration", "cycle", "attempt_started", "progress"};
+    options.kinds = {"log_entry", "iteration",       "group_growth", "cycle",
+                     "group",     "attempt_started", "progress"};
   }
   const Interrupt interrupt;
   const auto observer = Observer(arguments, settings);

@@ -246,9 +246,11 @@ def ended(job: job_pb2.Job, recording: Recording) -> Result:
     """The result of a job that has ended; raises RunFailed if it did not succeed."""
     if job.state != job_pb2.Job.SUCCEEDED:
         raise RunFailed(job)
-    if len(job.cycles) < len(recording.cycles):  # An answer has not the end of a long ledger.
-        del job.cycles[:]
-        job.cycles.extend(recording.cycles.values())
+    # An answer has not the end of a long list.
+    for kept, heard in (job.cycles, recording.cycles), (job.groups, recording.groups):
+        if len(kept) < len(heard):
+            del kept[:]
+            kept.extend(heard.values())
     return Result(job, recording)
 
 

@@ -94,9 +94,12 @@ class Plots:
         return _finish(ax)
 
     def restitution(self, ax: Axes | None = None) -> Axes:
-        """ε asked for (o) and had (×) in each cycle of the ledger."""
+        """ε asked for (o) and had by its group (×), for each cycle of the ledger."""
         ax = _axes(ax, "cycle, in order of its end", "energy restitution coefficient")
-        ledger = self._result.cycles
+        groups = {(g.contact, g.number): g.restitution_out for g in self._result.job.groups}
+        had = [groups.get((c.contact, c.group), c.restitution_out)
+               for c in self._result.job.cycles]
+        ledger = self._result.cycles.assign(restitution_out=had)
         for contact, rows in ledger.groupby("contact", sort=False):
             colour = self._contacts[contact]
             ax.plot(rows.index + 1, rows.restitution_in, "o", color=colour, fillstyle="none",
@@ -146,9 +149,10 @@ class Plots:
 
     def _over_time(self, ax: Axes | None, label: str) -> Axes:
         ax = _axes(ax, "time [s]", label)
-        for cycle in self._result.job.cycles:
-            ax.axvspan(cycle.start_time_s, cycle.end_time_s, alpha=0.08, linewidth=0,
-                       color=self._contacts[cycle.contact])
+        alone = [cycle for cycle in self._result.job.cycles if not cycle.group]
+        for band in (*self._result.job.groups, *alone):
+            ax.axvspan(band.start_time_s, band.end_time_s, alpha=0.08, linewidth=0,
+                       color=self._contacts[band.contact])
         return ax
 
     def _bodies(self, ax: Axes | None, quantity: str, label: str) -> Axes:

@@ -6,7 +6,7 @@ import numpy as np
 from contact.v1 import event_pb2, job_pb2
 
 #: The events that a recording needs.
-KINDS = ("attempt_started", "iteration", "cycle", "frame_chunk")
+KINDS = ("attempt_started", "iteration", "cycle", "group", "frame_chunk")
 
 
 class Recording:
@@ -15,6 +15,7 @@ class Recording:
     def __init__(self) -> None:
         self.iterations: dict[tuple[int, int], event_pb2.Iteration] = {}
         self.cycles: dict[int, job_pb2.Cycle] = {}  #: By sequence.
+        self.groups: dict[int, job_pb2.Group] = {}  #: By sequence.
         self.units: dict[str, str] = {}  #: Unit by name of column, in their order.
         self._chunks: dict[int, tuple[int, list[bytes]]] = {}  # By first sample.
         self._columns: dict[str, np.ndarray] | None = None
@@ -29,6 +30,8 @@ class Recording:
             self.iterations[iteration.episode, iteration.number] = iteration
         elif kind == "cycle":
             self.cycles[event.sequence] = event.cycle
+        elif kind == "group":
+            self.groups[event.sequence] = event.group
         elif kind == "frame_chunk":
             self._add_chunk(event.frame_chunk)
 

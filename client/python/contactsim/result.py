@@ -17,7 +17,7 @@ from .recording import Recording
 if TYPE_CHECKING:
     import xarray
 
-_LEDGER = ("contact", "number", "kind", "end", "status", "mu", "restitution_in",
+_LEDGER = ("contact", "number", "group", "kind", "end", "status", "mu", "restitution_in",
            "restitution_out", "start_time_s", "end_time_s", "peak_force_n")
 
 
@@ -84,6 +84,11 @@ class Result:
         return _frame(job_pb2.Cycle.DESCRIPTOR, self.job.cycles)
 
     @functools.cached_property
+    def groups(self) -> pd.DataFrame:
+        """The groups of cycles that share one μ: a row a group. `mu` as in `cycles`."""
+        return _frame(job_pb2.Group.DESCRIPTOR, self.job.groups)
+
+    @functools.cached_property
     def bodies(self) -> pd.DataFrame:
         """The bodies at the end of the run."""
         return _frame(job_pb2.FinalBody.DESCRIPTOR, self.job.final_bodies)
@@ -130,6 +135,7 @@ class Result:
 
 def _row(message: Any) -> dict[str, Any]:
     return {field.name: _value(field, getattr(message, field.name))
+            if not field.has_presence or message.HasField(field.name) else float("nan")
             for field in message.DESCRIPTOR.fields}
 
 

@@ -29,6 +29,7 @@ void JobMetrics::Ended(const v1::Job& job) {
   run_seconds.Count(Seconds(job.start_time(), job.end_time()));
   for (const v1::Cycle& cycle : job.cycles()) iterations.Count(cycle.iterations());
   steps += job.summary().steps();
+  growths += job.summary().growths();
 }
 
 JobMetrics::Moves JobMetrics::moves() const {

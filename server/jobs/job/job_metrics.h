@@ -31,6 +31,8 @@ class JobMetrics {
   Histogram iterations{DecadeBounds(0, 2)};
   /// Integration steps of the jobs that have ended.
   std::atomic<std::int64_t> steps = 0;
+  /// How often a group of cycles took in its neighbour, in the jobs that have ended.
+  std::atomic<std::int64_t> growths = 0;
 
  private:
   /// Counts what a job that has just ended has taken.

@@ -37,11 +37,13 @@ StreamStep ArtifactMaker::Take(v1::ReadArtifactResponse* out) {
 }
 
 void ArtifactMaker::Continue() {
-  if (plan_.kind == ArtifactPlan::Kind::kCycles) {
+  using Kind = ArtifactPlan::Kind;
+  if (plan_.kind == Kind::kCycles || plan_.kind == Kind::kGroups) {
     return Post([](ArtifactMaker& self) {
       StoredJob& stored = self.plan_.stored;
       if (!stored.MergeResult()) return self.Fail(Damaged(stored.job.name()));
-      self.Emit(CyclesCsv(stored.job));
+      const bool cycles = self.plan_.kind == Kind::kCycles;
+      self.Emit(cycles ? CyclesCsv(stored.job) : GroupsCsv(stored.job));
       self.Finish();
     });
   }

@@ -13,6 +13,7 @@ namespace contact {
 namespace {
 
 constexpr std::string_view kCycles = "cycles.csv";
+constexpr std::string_view kGroups = "groups.csv";
 constexpr std::string_view kTrajectory = "trajectory.csv";
 
 std::string CellArtifact(std::int32_t cell) {
@@ -29,7 +30,10 @@ void Add(std::string name, v1::Job* job) {
 
 void AddArtifacts(v1::Job* job) {
   if (!IsFinal(job->state())) return;
-  if (job->has_scenario()) Add(std::string(kCycles), job);
+  if (job->has_scenario()) {
+    Add(std::string(kCycles), job);
+    Add(std::string(kGroups), job);
+  }
   if (job->oldest_sequence() > 1) return;  // Compacted.
   if (job->has_scenario() && !job->scenario().output().ledger_only()) {
     Add(std::string(kTrajectory), job);
@@ -47,6 +51,8 @@ Result<ArtifactPlan> PlanArtifact(StoredJob stored, const v1::ReadArtifactReques
   plan.offset = request.offset();
   if (job.has_scenario() && plan.artifact == kCycles) {
     plan.kind = ArtifactPlan::Kind::kCycles;
+  } else if (job.has_scenario() && plan.artifact == kGroups) {
+    plan.kind = ArtifactPlan::Kind::kGroups;
   } else if (job.has_scenario() && plan.artifact == kTrajectory) {
     plan.kind = ArtifactPlan::Kind::kTrajectory;
   } else {

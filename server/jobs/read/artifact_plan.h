@@ -15,8 +15,8 @@ void AddArtifacts(v1::Job* job);
 /// An artifact that is to be made.
 struct ArtifactPlan {
   /// What the artifact is made of.
-  enum class Kind { kCycles, kTrajectory, kCellTrajectory };
-  /// The job; for kCycles with its result, which is not merged.
+  enum class Kind { kCycles, kGroups, kTrajectory, kCellTrajectory };
+  /// The job; for kCycles and kGroups with its result, which is not merged.
   StoredJob stored;
   /// Its name.
   std::string artifact;

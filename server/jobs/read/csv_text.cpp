@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <limits>
 
 #include "jobs/read/frame_values.h"
 #include "wire/column_name.h"
@@ -12,6 +13,7 @@ namespace contact {
 namespace {
 
 using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
 
 void Append(double value, std::string* text) {
   std::array<char, 32> digits{};  // The longest has 24.
@@ -20,20 +22,42 @@ void Append(double value, std::string* text) {
   text->append(digits.data(), end.ptr);
 }
 
-void Append(const v1::Cycle& cycle, const FieldDescriptor& field, std::string* text) {
-  const auto& reflection = *v1::Cycle::GetReflection();
+void Append(const Message& row, const FieldDescriptor& field, std::string* text) {
+  const auto& reflection = *row.GetReflection();
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
-      return Append(reflection.GetDouble(cycle, &field), text);
+      if (field.has_presence() && !reflection.HasField(row, &field))
+        return Append(std::numeric_limits<double>::quiet_NaN(), text);
+      return Append(reflection.GetDouble(row, &field), text);
     case FieldDescriptor::CPPTYPE_ENUM:
-      *text += reflection.GetEnum(cycle, &field)->name();
+      *text += reflection.GetEnum(row, &field)->name();
       return;
     case FieldDescriptor::CPPTYPE_INT32:
-      *text += fmt::format("{}", reflection.GetInt32(cycle, &field));
+      *text += fmt::format("{}", reflection.GetInt32(row, &field));
       return;
     default:
-      *text += reflection.GetString(cycle, &field);  // Names of contacts need no quotes.
+      *text += reflection.GetString(row, &field);  // Names of contacts need no quotes.
   }
+}
+
+// A header, and a line for each entry.
+template <class Row>
+std::string Table(const google::protobuf::RepeatedPtrField<Row>& rows) {
+  const auto& type = *Row::descriptor();
+  std::string text;
+  for (int i = 0; i < type.field_count(); ++i) {
+    const ColumnName column = ColumnOf(*type.field(i));
+    text += ColumnHeader(column.name, column.unit) + ',';
+  }
+  text.back() = '\n';
+  for (const Row& row : rows) {
+    for (int i = 0; i < type.field_count(); ++i) {
+      Append(row, *type.field(i), &text);
+      text += ',';
+    }
+    text.back() = '\n';
+  }
+  return text;
 }
 
 }  // namespace
@@ -59,22 +83,8 @@ std::string CsvRows(const v1::FrameChunk& chunk) {
   return text;
 }
 
-std::string CyclesCsv(const v1::Job& job) {
-  const auto& cycle = *v1::Cycle::descriptor();
-  std::string text;
-  for (int i = 0; i < cycle.field_count(); ++i) {
-    const ColumnName column = ColumnOf(*cycle.field(i));
-    text += ColumnHeader(column.name, column.unit) + ',';
-  }
-  text.back() = '\n';
-  for (const v1::Cycle& row : job.cycles()) {
-    for (int i = 0; i < cycle.field_count(); ++i) {
-      Append(row, *cycle.field(i), &text);
-      text += ',';
-    }
-    text.back() = '\n';
-  }
-  return text;
-}
+std::string CyclesCsv(const v1::Job& job) { return Table(job.cycles()); }
+
+std::string GroupsCsv(const v1::Job& job) { return Table(job.groups()); }
 
 }  // namespace contact

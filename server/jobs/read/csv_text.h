@@ -16,5 +16,7 @@ std::string CsvHeader(const v1::FrameChunk& chunk);
 std::string CsvRows(const v1::FrameChunk& chunk);
 /// The ledger: a column for each field of Cycle.
 std::string CyclesCsv(const v1::Job& job);
+/// The groups of the ledger: a column for each field of Group.
+std::string GroupsCsv(const v1::Job& job);
 
 }  // namespace contact

@@ -9,6 +9,7 @@
 #include "jobs/job/errors.h"
 #include "jobs/job/lifecycle.h"
 #include "jobs/run/run_recorder.h"
+#include "wire/ledger_codec.h"
 #include "wire/result_codec.h"
 
 namespace contact {
@@ -26,6 +27,7 @@ class CellObserver final : public Observer {
         trajectory_(trajectory) {}
 
   void OnCycle(const Cycle& cycle) override { *result_->add_cycles() = Encode(scenario_, cycle); }
+  void OnGroup(const Group& group) override { *result_->add_groups() = Encode(scenario_, group); }
   void OnSamples(const Samples& samples) override {
     std::ranges::move(ChunksOf(scenario_, samples), std::back_inserter(*trajectory_));
   }

@@ -5,6 +5,7 @@
 
 #include "jobs/job/lifecycle.h"
 #include "jobs/run/run_state_codec.h"
+#include "wire/ledger_codec.h"
 #include "wire/result_codec.h"
 
 namespace contact {
@@ -33,11 +34,24 @@ void RunRecorder::OnCycle(const Cycle& cycle) {
   Keep(std::move(event));
 }
 
+void RunRecorder::OnGrowth(const Group& group) {
+  v1::Event event = Event();
+  *event.mutable_group_growth() = EncodeGrowth(scenario_, group);
+  writer_.Add(std::move(event));
+}
+
+void RunRecorder::OnGroup(const Group& group) {
+  v1::Event event = Event();
+  *event.mutable_group() = Encode(scenario_, group);
+  Keep(std::move(event));
+}
+
 void RunRecorder::Keep(v1::Event event) {
   v1::Job row;
   if (event.has_cycle()) *row.add_cycles() = event.cycle();
+  if (event.has_group()) *row.add_groups() = event.group();
   if (event.has_log_entry()) row.add_warnings(event.log_entry().message());
-  const bool kept = event.has_cycle() || event.has_log_entry();
+  const bool kept = event.has_cycle() || event.has_group() || event.has_log_entry();
   if (!writer_.Add(std::move(event)) || !kept) return;
   assignment_.record->Do([&](v1::Job& job) { job.MergeFrom(row); });
 }

@@ -34,7 +34,9 @@ class RunRecorder final : public Observer {
   void Keep(v1::Event event);
 
   void OnIteration(const Iteration& iteration) override;
+  void OnGrowth(const Group& group) override;
   void OnCycle(const Cycle& cycle) override;
+  void OnGroup(const Group& group) override;
   void OnSamples(const Samples& samples) override;
   /// Publishes the progress, at most every 100 ms, and writes events that have waited long enough.
   void OnProgress(const Progress& progress) override;

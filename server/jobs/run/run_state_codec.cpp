@@ -13,7 +13,7 @@ namespace contact {
 
 template <class Archive>
 void serialize(Archive& archive, Cycle& c) {
-  archive(c.contact, c.number, c.episode, c.kind, c.end, c.status, c.iterations);
+  archive(c.contact, c.number, c.group, c.episode, c.kind, c.end, c.status, c.iterations);
   archive(c.start_time, c.turn_time, c.end_time);
   archive(c.start_deformation, c.max_deformation, c.end_deformation);
   archive(c.approach_velocity, c.separation_velocity, c.mu);
@@ -25,6 +25,24 @@ void serialize(Archive& archive, Cycle& c) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Group::Reached& r) {
+  archive(r.mu, r.restitution);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Group& g) {
+  archive(g.contact, g.number, g.encounter, g.first_cycle, g.cycles);
+  archive(g.start_time, g.end_time, g.end, g.status, g.growth, g.mu);
+  archive(g.work_compression, g.work_restitution, g.restitution_in, g.restitution_out);
+  archive(g.residual, g.too_much, g.too_little);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ContactState::Membership& m) {
+  archive(m.open, m.place, m.lasts, m.groups, m.iterations, m.imbalance, m.group);
+}
+
+template <class Archive>
 void serialize(Archive& archive, ContactState::Peak& p) {
   archive(p.time, p.deformation, p.velocity, p.work, p.external_work);
 }
@@ -33,6 +51,7 @@ template <class Archive>
 void serialize(Archive& archive, ContactState& c) {
   archive(c.phase, c.gap, c.cycles, c.last_mu, c.largest_work, c.settled);
   archive(c.work, c.external_work, c.column, c.peak, c.cycle);
+  archive(c.encounter, c.member);
 }
 
 template <class Archive>
@@ -46,6 +65,7 @@ void serialize(Archive& archive, Outcome& o) {
   archive(o.end, o.message, o.time, o.all_converged, o.positions, o.velocities);
   archive(o.steps, o.evaluations, o.iterations, o.episodes);
   archive(o.worst_identity_residual, o.momentum_residual, o.energy_residual, o.kinetic_energy);
+  archive(o.growths, o.growths_no_progress);
 }
 
 template <class Archive>
@@ -54,15 +74,24 @@ void serialize(Archive& archive, Samples& s) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Guess& g) {
-  archive(g.contact, g.number, g.start_time, g.mu, g.start_mu, g.settled_mu, g.length, g.speed);
+void serialize(Archive& archive, GroupId& id) {
+  archive(id.contact, id.encounter, id.place);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Unknown& u) {
+  archive(u.id, u.mu, u.first_mu, u.lasts, u.start_time, u.restitution_out, u.settled_mu);
+  archive(u.length, u.speed, u.corrected, u.weak, u.reopened, u.flips, u.given_up, u.lowered,
+          u.iterations);
+  archive(u.growth, u.status, u.too_much, u.too_little);
 }
 
 template <class Archive>
 void serialize(Archive& archive, RunState& s) {
   archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
   archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
-  archive(s.guesses, s.warned, s.missed, s.samples);
+  archive(s.growths, s.growths_no_progress, s.solved_until);
+  archive(s.unknowns, s.warned, s.missed, s.samples);
 }
 
 namespace {

@@ -92,6 +92,8 @@ void AddJobs(const JobMetrics& jobs, Page* page) {
   page->Distribution("contactd_cycle_iterations", "Iterations of mu in a cycle")
       .Add(jobs.iterations);
   page->Counter("contactd_steps_total", "Integration steps of ended jobs").Add(jobs.steps.load());
+  page->Counter("contactd_group_growths_total", "Growths of groups of cycles of ended jobs")
+      .Add(jobs.growths.load());
 }
 
 void AddStore(const StoreMetrics& store, Page* page) {

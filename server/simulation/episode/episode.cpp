@@ -2,449 +2,251 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "simulation/episode/front.h"
 #include "simulation/episode/run_state.h"
 
 namespace contact {
 namespace {
 
-constexpr double kForever = 1e300;
-constexpr double kToldMiss = 0.01;              // Of a law's restitution, relative.
-constexpr std::int64_t kStepsPerContact = 500;  // In a pass, of 10 to 40 contacts.
-constexpr int kCarefulShare = 10;        // Of max_iterations, where cycles are taken in one by one.
-constexpr int kPatience = 12;            // Corrections without a better pass.
-constexpr double kCoarse = 1e-6;         // Relative tolerance of the first passes, and
-constexpr double kFine = 0.03;           // of ξ: of the last but one;
-constexpr double kShortCoarse = 3e-4;    // the same for
-constexpr double kShortFine = 0.5;       // short rows,
-constexpr std::size_t kShort = 12;       // of so many contacts at most.
-constexpr std::size_t kFewContacts = 4;  // Whose first pass has sensitivities.
-constexpr double kNear = 0.02;           // A merit at which the guesses are left alone.
-constexpr double kPressed = 1e-3;        // Elastic energy at a start, of a contact's largest W_c.
-constexpr double kWeak = 1e-5;           // W_c of a contact's largest.
-constexpr double kLeastGoal = 1e-6;      // A(ε_in) to which residuals are relative.
+// Bisections of all groups of a front, one by one, between which Newton's method begins anew; after
+// as many the front makes no progress.
+constexpr int kSweeps = 4;
+// Rounds of the search in an episode: each solves a front, grows a group or gives one up.
+constexpr int kRounds = 500;
+// Instants so near, relative to the episode, are one: round-off parts them.
+constexpr double kAtOnce = 1e-9;
+// A group found unfinished that others let end after all is sought again, so often at most.
+constexpr int kReopened = 3;
+// Scans in a row in which negligible groups come and go.
+constexpr int kRescans = 5;
+// A miss by which a guess is poor, so that the search begins with the earliest part of the front,
+// and one that is good enough for the next part.
+constexpr double kPoor = 0.02, kGood = 1e-3;
+// A miss that may be the error of the first, coarse look.
+constexpr double kNoise = 1e-6;
+// A stretch that the paper's process takes as one episode has at most so many cycles.
+constexpr int kPaperCycles = 120;
 
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
+// Whether no group ends where the next of its encounter begins, which may want to join it.
+bool IsApart(const Sight& sight) {
+  return std::ranges::all_of(sight.groups,
+                             [](const GroupSight& g) { return g.separated || !g.sought; });
+}
+
+bool Within(const std::vector<GroupId>& front, const Sight& sight, double miss) {
+  return std::ranges::all_of(
+      front, [&](const GroupId& id) { return std::abs(sight.Find(id)->Miss()) <= miss; });
+}
 
 }  // namespace
 
 EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer)
     : scenario_(scenario),
-      as_paper_(scenario.solver.update != UpdateRule::kNewtonCoupled),
-      nothing_to_find_(std::none_of(
-          scenario.contacts.begin(), scenario.contacts.end(),
-          [](const Contact& c) { return c.damping == DampingLaw::kEnergyRestitution; })),
-      packing_(IsPacking(scenario)),
-      short_(!packing_ && scenario.contacts.size() <= kShort),
-      motion_(motion),
-      observer_(observer),
-      warned_(scenario.contacts.size()),
-      missed_(kDampingLaws) {}
-
-void EpisodeSolver::Begin(const State& start, int episode, double until) {
-  BeginWith(Guesses(start));
-  jacobian_.Forget();
-  recording_ = false;
-  doubtful_ = false;
-  episode_ = episode;
-  iterations_ = best_number_ = 0;
-  start_time_ = start.time;
-  until_ = until;
-  damping_ = 1;
-  solved_until_ = start.time;
-  guessing_ = true;
-  StartAfresh();
-  const SolverOptions& options = scenario_.solver;
-  // A clipped force has a kink that a coarse pass may miss.
-  const bool coarse = !as_paper_ && options.fixed_step == 0 && !options.clip_tension;
-  coarse_ = tolerance_ =
-      coarse ? std::max(short_ ? kShortCoarse : kCoarse, options.relative_tolerance) : 0;
-  const double fine = (short_ ? kShortFine : kFine) * options.restitution_tolerance;
-  fine_ = coarse ? std::clamp(fine, options.relative_tolerance, tolerance_) : 0;
-  // Of many cycles it is not known yet which end, and so have a μ to be found.
-  sensitive_ = !as_paper_ && (packing_ || scenario_.contacts.size() <= kFewContacts);
-  again_ = false;
-  careful_ = false;
-  looks_ = 0;
-  natural_.assign(scenario_.contacts.size(), kNaN);
-  window_ = FirstWindow(start);
-  stage_ = nothing_to_find_ ? Stage::kSolved : Stage::kSolving;
-}
+      problem_(scenario, motion, observer),
+      log_(observer),
+      newton_(problem_, log_),
+      bisection_(problem_, log_),
+      growing_(problem_, log_),
+      paper_(problem_, log_),
+      recorder_(scenario, motion, observer, problem_.groups) {}
 
 void EpisodeSolver::Save(RunState* state) const {
-  state->iterations = total_iterations_;
-  state->warned = warned_;
-  state->missed = missed_;
-  state->guesses = Guesses(state->state);
+  state->iterations = log_.total;
+  state->growths = log_.growths;
+  state->growths_no_progress = log_.growths_no_progress;
+  state->solved_until = solved_until_;
+  state->unknowns.clear();
+  for (const auto& [id, unknown] : problem_.groups.known()) state->unknowns.push_back(unknown);
+  recorder_.Save(state);
 }
 
 void EpisodeSolver::Restore(const RunState& state) {
+  log_.total = state.iterations;
+  log_.growths = state.growths;
+  log_.growths_no_progress = state.growths_no_progress;
+  solved_until_ = state.solved_until;
+  for (const Unknown& unknown : state.unknowns) problem_.groups.At(unknown.id) = unknown;
+  recorder_.Restore(state);
   episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
-  total_iterations_ = state.iterations;
-  warned_ = state.warned;
-  missed_ = state.missed;
-  BeginWith(state.guesses);
 }
 
-Motion::Pause EpisodeSolver::Solve(const State& start, const std::stop_token& stop,
-                                   std::int64_t step_limit) {
-  while (stage_ != Stage::kSolved) {
-    if (stage_ == Stage::kSolving) {
-      const Motion::Pause pause = Pass(start, stop, step_limit);
-      if (pause == Motion::Pause::kNumeric && iterations_ > 0) {  // The correction led astray.
-        UseBest();
-        break;
-      }
-      if (pause != Motion::Pause::kQuiet && pause != Motion::Pause::kCrowded &&
-          pause != Motion::Pause::kTimeUp) {
-        return pause;
-      }
-      crowded_ = pause == Motion::Pause::kCrowded;
-      closed_ = pause == Motion::Pause::kQuiet && motion_.time() < until_;
+Recorder& EpisodeSolver::Record() {
+  recorder_.Begin(episode_);
+  return recorder_;
+}
+
+Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
+                                   const std::stop_token& stop, std::int64_t step_limit) {
+  if (episode != episode_) {
+    problem_.groups.ForgetBegun(start);
+    log_.Begin(episode, start.time);
+    rejected_ = false;
+  }
+  episode_ = episode;
+  bool sought = false;
+  for (int c = 0; c < std::ssize(scenario_.contacts); ++c) sought |= IsSought(scenario_, c);
+  record_until_ = end;
+  tentative_ = false;
+  if (!sought || start.time < solved_until_) return Motion::Pause::kQuiet;
+  problem_.Begin(start, end, stop, step_limit);
+  if (scenario_.solver.update != UpdateRule::kNewtonCoupled) {
+    const Found found = paper_.Solve(kPaperCycles, scenario_.solver.max_iterations);
+    return found == Found::kAborted ? problem_.pause() : Motion::Pause::kQuiet;
+  }
+  const auto running = static_cast<int>(std::ranges::count_if(
+      start.contacts, [](const ContactState& c) { return c.phase == Phase::kRestitution; }));
+  window_.Begin(start.time, running, static_cast<int>(problem_.groups.known().size()),
+                static_cast<int>(scenario_.contacts.size()), IsPacking(scenario_));
+  return Search();
+}
+
+// A scan, of which what it tells of each group is noted; again where a group has become negligible,
+// or is no more, for that changes its μ.
+Sight EpisodeSolver::Scan(bool coarse) {
+  for (int i = 0;; ++i) {
+    Sight sight = problem_.Scan(window_.cycles(), guessing_, coarse);
+    bool changed = false;
+    for (const GroupSight& g : sight.groups) {
+      Unknown& unknown = problem_.groups.At(g.id);
+      if (!g.ended) continue;
+      const bool flips = g.sought && unknown.weak != g.weak;
+      changed |= flips;
+      unknown.flips += flips;
+      unknown.weak = g.weak;
+      unknown.restitution_out = std::sqrt(std::max(g.squared, 0.0));
+      if (unknown.length == 0) unknown.length = g.length, unknown.speed = g.speed;
+      const bool ends_after_all = unknown.status == Cycle::Status::kUnfinished &&
+                                  g.end_time <= problem_.end() && unknown.reopened < kReopened;
+      if (ends_after_all) ++unknown.reopened;
+      if (unknown.Decided() && !unknown.given_up && !ends_after_all) continue;
+      const bool missed = g.sought && !(std::abs(g.Miss()) <= problem_.tolerance());
+      unknown.status = missed ? Cycle::Status::kNotConverged : Cycle::Status::kConverged;
     }
-    stage_ = Stage::kSolving;
-    NextPass();
-    if (stage_ == Stage::kExpected) break;
+    if (!changed || i == kRescans || problem_.Aborted()) return sight;
+  }
+}
+
+Motion::Pause EpisodeSolver::Search() {
+  sweeps_ = 0;
+  guessing_ = true;
+  for (int round = 0; round < kRounds; ++round) {
+    const bool first = round == 0 && !rejected_;
+    const Sight sight = Scan(first);
+    if (problem_.Aborted() || sight.pause == Motion::Pause::kNumeric) return sight.pause;
+    const std::vector<GroupId> front =
+        Front(sight, problem_.groups, problem_.tolerance(), problem_.end());
+    if (!front.empty()) {
+      if (const double final = first ? 0 : LastFinal(sight, front); final > problem_.start_time()) {
+        return Record(sight, final);
+      }
+      const bool may_be_all = !rejected_ && !sight.crowded && IsApart(sight);
+      if (first && may_be_all && Within(front, sight, kNoise)) return Tentatively();
+      const Found found = SolveFront(sight, front, first);
+      if (found == Found::kAborted) return problem_.pause();
+      if (found == Found::kSolved && may_be_all) return Tentatively();
+      continue;
+    }
+    if (first) {
+      if (!sight.crowded && !sight.quiet.empty() && IsApart(sight)) return Tentatively();
+      continue;
+    }
+    if (growing_.Reopen(sight)) continue;
+    if (!sight.crowded && growing_.Close(sight)) continue;
+    const double final =
+        window_.FinalUntil(sight, problem_.groups, problem_.tolerance(), problem_.end());
+    guessing_ = true;
+    if (final > problem_.start_time()) return Record(sight, final);
+    // The window has grown.
   }
   return Motion::Pause::kQuiet;
 }
 
-bool EpisodeSolver::Accepts(Motion::Pause recorded) {
-  if (stage_ != Stage::kExpected) return true;
-  if (recorded == Motion::Pause::kStopped || recorded == Motion::Pause::kStepLimit) return true;
-  recording_ = false;
-  if (recorded == Motion::Pause::kNumeric) UseBest();
-  if (recorded == Motion::Pause::kQuiet && Done()) {
-    Finish();
+// What begins before `until` has its answer.
+Motion::Pause EpisodeSolver::Record(const Sight& sight, double until) {
+  if (until < problem_.end()) record_until_ = until;
+  solved_until_ = until - kAtOnce * (until - problem_.start_time());
+  log_.Accept(sight);
+  return Motion::Pause::kQuiet;
+}
+
+// All up to the first instant at which no cycle runs seems to be solved: its recording will tell.
+Motion::Pause EpisodeSolver::Tentatively() {
+  tentative_ = true;
+  return Motion::Pause::kQuiet;
+}
+
+bool EpisodeSolver::Accepts(Motion::Pause pause) {
+  if (!tentative_) return true;
+  const bool complete = pause == Motion::Pause::kQuiet && problem_.IsOpen();
+  const bool broken = pause == Motion::Pause::kStopped || pause == Motion::Pause::kStepLimit;
+  if (broken || (complete && recorder_.sound())) {
+    log_.Accept(recorder_.groups);
     return true;
   }
-  fine_ = 0;  // Else a fine pass may be content again with what this one was not.
+  rejected_ = true;
   return false;
 }
 
-void EpisodeSolver::BeginRecording() {
-  recording_ = true;
-  accepted.clear();
-  if (stage_ == Stage::kExpected) ForgetPass();
-}
-
-// Looks at the pass that has been, and decides on the next.
-void EpisodeSolver::NextPass() {
-  if (LookAgain() || TakeInNext()) return;
-  const bool done = Done() && !(Doubts() && Revive());
-  if (!Exact() && (done || (tolerance_ > fine_ && Merit() < Feigned()))) {
-    // The same once more, exactly.
-    if (sensitive_) Factorize(LiveUnknowns());
-    PlanLastPasses(done);
-    return;
+Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front,
+                                bool sensitive) {
+  const std::vector<GroupId> part = EarliestPart(front, sight, kPoor);
+  guessing_ = !part.empty();
+  const bool whole = part.empty() || part.size() == front.size();
+  const std::vector<GroupId>& now = whole ? front : part;
+  if (front == solved_) problem_.Distrust();
+  const double goal = whole ? problem_.tolerance() : kGood;
+  const int most = scenario_.solver.max_iterations;
+  Found found = newton_.Solve(now, goal, most, true, sensitive ? &sight : nullptr);
+  if (found == Found::kSolved && newton_.corrections() == 0) {  // A coarse pass sees what is not.
+    found = newton_.Solve(front, problem_.tolerance(), most, false);
+    if (found == Found::kSolved && newton_.corrections() == 0) found = Found::kStalled;
   }
-  again_ = !done && !as_paper_ && !again_ && (sensitive_ ? LacksColumns() : !FactorsServe());
-  if (again_) {
-    // The same once more, with sensitivities; not so coarse that it is content with what this
-    // pass was not.
-    if (!sensitive_ && Exact() && packing_) fine_ = 0;
-    tolerance_ = std::max(tolerance_, fine_);
-    sensitive_ = true;
-    return;
+  if (found == Found::kSolved && !whole) return Found::kStalled;  // The rest is still to be solved.
+  if (found == Found::kSolved) solved_ = front;
+  if (found == Found::kSolved || found == Found::kAborted) return found;
+  if (found == Found::kLimit) {
+    GiveUp(sight, now);
+    return found;
   }
-  KeepBest();
-  if (done && crowded_ && !AnyFinal() && Widen()) return;
-  // Newton that finds nothing better has failed; the paper's rules may be slow.
-  const int most = scenario_.solver.max_iterations * (careful_ ? kCarefulShare : 1);
-  const int patience = as_paper_ ? most : best_number_ + kPatience;
-  const bool stuck = iterations_ >= patience && iterations_ < most;
-  if (!done && stuck && GiveUpWorst()) {
-    StartAfresh();
-  } else if (done || iterations_ >= std::min(most, patience)) {
-    Finish();
-    if (!done) UseBest();
-    return;
-  }
-  as_paper_ ? CorrectAsPaper() : Correct();
-  Report(iterations_, start_time_, false);
-  if (!as_paper_) PlanNextPass();
-  ++iterations_;
-  ++total_iterations_;
-}
-
-void EpisodeSolver::KeepBest() {
-  const double merit = Merit();
-  if (merit >= best_merit_) return;
-  best_merit_ = merit;
-  best_number_ = iterations_;
-  for (Unknown& u : unknowns_) u.best_mu = u.mu;
-}
-
-void EpisodeSolver::UseBest() {
-  for (Unknown& u : unknowns_) u.mu = u.best_mu;
-  stage_ = Stage::kSolved;
-}
-
-void EpisodeSolver::Finish() {
-  for (Unknown& u : unknowns_) u.update = Iteration::Update::kNothing;
-  Report(iterations_, start_time_, true);
-  stage_ = Stage::kSolved;
-}
-
-bool EpisodeSolver::Done() const {
-  return std::none_of(unknowns_.begin(), unknowns_.end(),
-                      [&](const Unknown& u) { return Live(u) && !Converged(u); });
-}
-
-void EpisodeSolver::ForgetPass() {
-  guessing_ |= Merit() > kNear;
-  columns_ = 0;
-  reference_speed_ = 0;
-  for (Unknown& u : unknowns_) {
-    if (!u.seen && u.iterated) {  // A phantom; should it come back, it begins anew.
-      u.corrected = false;
-      u.low = u.high = 0;
-      u.shrinks = u.wild = 0;
-    }
-    if (u.seen && !packing_) u.ends = u.ended;
-    u.seen = u.ended = false;
-    u.squared = u.residual = kNaN;
-    u.column = kNone;
-  }
-}
-
-Motion::Pause EpisodeSolver::Pass(const State& start, const std::stop_token& stop,
-                                  std::int64_t step_limit) {
-  ForgetPass();
-  motion_.Begin(start, false, tolerance_, window_);
-  const auto contacts = static_cast<std::int64_t>(scenario_.contacts.size());
-  const std::int64_t most = kStepsPerContact * std::clamp<std::int64_t>(contacts, 10, 40);
-  const std::int64_t limit = std::min(step_limit, motion_.steps() + most);
-  const Motion::Pause pause = motion_.Advance(kForever, *this, nullptr, stop, limit);
-  guessing_ = false;
-  // A contact at rest may never end its cycle; what has ended can still be solved.
-  if (pause == Motion::Pause::kStepLimit && limit < step_limit) return Motion::Pause::kTimeUp;
-  return pause;
-}
-
-EpisodeSolver::Unknown* EpisodeSolver::Find(int contact, int number) {
-  for (Unknown& u : unknowns_) {
-    if (u.contact == contact && u.number == number) return &u;
-  }
-  return nullptr;
-}
-
-const EpisodeSolver::Unknown* EpisodeSolver::Find(int contact, int number) const {
-  return const_cast<EpisodeSolver*>(this)->Find(contact, number);
-}
-
-EpisodeSolver::Unknown EpisodeSolver::MakeUnknown(int index, int number) const {
-  const Contact& contact = scenario_.contacts[At(index)];
-  Unknown made;
-  made.contact = index;
-  made.number = number;
-  made.iterated = contact.damping == DampingLaw::kEnergyRestitution && contact.restitution < 1;
-  if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
-  if (made.iterated) made.goal = std::max(ExactCoefficient(contact.restitution), kLeastGoal);
-  if (contact.damping != DampingLaw::kEnergyRestitution) made.status = Cycle::Status::kGivenLaw;
-  return made;
-}
-
-CycleHost::Factor EpisodeSolver::OnStart(const ContactState& state, double effective_mass,
-                                         double external_force) {
-  const Cycle& cycle = state.cycle;
-  const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  if (state.settled) return {.mu = state.last_mu, .column = kNone};
-  reference_speed_ = std::max(reference_speed_, cycle.approach_velocity);
-  Unknown* u = Find(cycle.contact, cycle.number);
-  if (u == nullptr) {
-    unknowns_.push_back(MakeUnknown(cycle.contact, cycle.number));
-    u = &unknowns_.back();
-  }
-  u->seen = true;
-  const bool law = contact.damping != DampingLaw::kEnergyRestitution;
-  if (law || (!u->corrected && (guessing_ || u->start_mu == 0))) {
-    u->mu = u->start_mu = u->best_mu = FirstFactor(*u, state, effective_mass, external_force);
-  }
-  u->pressed =
-      packing_ && ElasticEnergy(contact, cycle.start_deformation) > kPressed * state.largest_work;
-  u->pass_mu = u->mu;
-  u->start_time = cycle.start_time;
-  if (sensitive_ && u->iterated && u->ends && u->mu > 0) u->column = columns_++;
-  return {.mu = u->mu, .column = u->column, .length = u->length, .speed = u->speed};
-}
-
-void EpisodeSolver::OnCancel(const ContactState& state) {
-  Unknown* u = Find(state.cycle.contact, state.cycle.number);
-  if (u != nullptr) u->seen = false;
-}
-
-void EpisodeSolver::WarnOnce(const Contact& contact, const std::string& text) {
-  const auto index = static_cast<std::size_t>(&contact - scenario_.contacts.data());
-  if (warned_[index]) return;
-  warned_[index] = true;
-  observer_.OnWarning("contact " + contact.name + " " + text);
-}
-
-// Says once for each law that it does not deliver what was asked of it.
-void EpisodeSolver::WarnOfMiss(const Contact& contact, const Cycle& cycle) {
-  const double miss = cycle.restitution_out / contact.restitution - 1;
-  const auto law = static_cast<std::size_t>(contact.damping) - 1;
-  if (!(std::abs(miss) > kToldMiss) || missed_[law]) return;
-  missed_[law] = true;
-  observer_.OnWarning("contact " + contact.name + ", cycle " + std::to_string(cycle.number) +
-                      ": its law delivers a restitution of " +
-                      std::to_string(cycle.restitution_out) + " where " +
-                      std::to_string(contact.restitution) + " was asked for; misses of this law " +
-                      "above 1 % are told once, and the ledger has them all");
-}
-
-void EpisodeSolver::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
-                          const Eigen::ArrayXd& restitution_gradient, double length, double speed) {
-  Cycle& cycle = state.cycle;
-  const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  const bool weak = IsWeak(state);
-  const bool rested = state.settled;
-  state.settled = weak;
-  Unknown* u = rested ? nullptr : Find(cycle.contact, cycle.number);
-  if (u != nullptr) {
-    u->ended = true;
-    u->end_time = cycle.end_time;
-    if (u->length == 0) {
-      u->length = length;
-      u->speed = speed;
-    }
-    u->squared = -cycle.work_restitution / cycle.work_compression;
-    u->frozen_slope = FrozenSlope(cycle);
-    if (u->iterated && std::isfinite(u->squared)) Measure(*u);
-    u->gradient =
-        -(restitution_gradient + u->squared * compression_gradient) / cycle.work_compression;
-    u->weak = cycle.work_compression <= kWeak * state.largest_work;
-    if (u->iterated && !u->weak) {
-      u->natural_mu = natural_[At(cycle.contact)] = NaturalFactor(contact, cycle);
-    }
-    if (weak && u->iterated) {
-      u->iterated = false;
-      u->status = Cycle::Status::kSettled;
-    } else if (careful_ && !weak && !u->weak && u->status == Cycle::Status::kSettled &&
-               u->chances < kChances) {
-      ++u->chances;
-      u->iterated = true;  // It was weak only as long as the others were wrong.
-      u->status = Cycle::Status::kNotConverged;
-      if (std::isfinite(u->squared)) Measure(*u);
-    }
-  }
-  if (!recording_) return;
-  Label(cycle, rested, weak);
-  if (cycle.status == Cycle::Status::kGivenLaw && contact.damping != DampingLaw::kGiven) {
-    WarnOfMiss(contact, cycle);
-  }
-  accepted.push_back(cycle);
-}
-
-bool EpisodeSolver::IsWeak(const ContactState& state) const {
-  const SolverOptions& options = scenario_.solver;
-  const double fraction = state.cycle.kind == Cycle::Kind::kNirv ? options.settled_nirv_fraction
-                                                                 : options.settled_fraction;
-  return state.cycle.work_compression <= fraction * state.largest_work;
-}
-
-// Writes into a cycle what became of the request for its restitution.
-void EpisodeSolver::Label(Cycle& cycle, bool rested, bool weak) const {
-  const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  const Unknown* u = Find(cycle.contact, cycle.number);
-  cycle.episode = episode_;
-  if (contact.damping != DampingLaw::kGiven) cycle.restitution_in = contact.restitution;
-  if (rested) {
-    cycle.status = Cycle::Status::kSettled;
-    cycle.restitution_out = kNaN;
-  } else if (contact.damping != DampingLaw::kEnergyRestitution) {
-    cycle.status = Cycle::Status::kGivenLaw;
+  if (now.front() != last_) sweeps_ = 0;
+  last_ = now.front();
+  if (sweeps_ == kSweeps) {
+    sweeps_ = 0;
+    growing_.Force(now);
   } else {
-    const bool cut = cycle.end == Cycle::End::kRunEnd;
-    if (u != nullptr) {
-      cycle.iterations = Corrections(*u);
-      cycle.status = u->status;
-      // What the solving passes saw beyond the end of the run.
-      if (cut && u->ended && u->squared >= 0 && u->mu == u->pass_mu) {
-        cycle.restitution_out = std::sqrt(u->squared);
-      }
-    }
-    const bool too_much = cycle.restitution_out > cycle.restitution_in;
-    if (cycle.status == Cycle::Status::kInfeasible && too_much == (cycle.mu == 0)) {
-      cycle.status = Cycle::Status::kNotConverged;  // The others have changed since.
-    }
-    const double miss = std::abs(cycle.restitution_out - cycle.restitution_in);
-    if (cycle.status == Cycle::Status::kNotConverged &&
-        miss <= scenario_.solver.restitution_tolerance * cycle.restitution_in) {
-      cycle.status = Cycle::Status::kConverged;
-    }
-    if (cycle.status == Cycle::Status::kNotConverged && weak && (u == nullptr || !u->ended)) {
-      cycle.status = Cycle::Status::kSettled;  // It began before this episode, or ends after it.
-    }
+    ++sweeps_;
+    Bisect(sight, now);
   }
+  return problem_.Aborted() ? Found::kAborted : Found::kStalled;
 }
 
-// The next episode does not know them: their μ is no unknown of it.
-void EpisodeSolver::HandOver(std::vector<ContactState>& contacts) const {
-  for (ContactState& state : contacts) {
-    const bool runs = state.phase == Phase::kCompression || state.phase == Phase::kRestitution;
-    Cycle& cycle = state.cycle;
-    const Unknown* u = runs ? Find(cycle.contact, cycle.number) : nullptr;
-    if (u == nullptr) continue;
-    cycle.status = u->status;
-    cycle.iterations = Corrections(*u);
-    const bool known = u->ended && u->squared >= 0 && u->mu == u->pass_mu;
-    if (known) cycle.restitution_out = std::sqrt(u->squared);
+// One unknown at a time, in the order of time. Whether a group has grown or was decided.
+bool EpisodeSolver::Bisect(const Sight& sight, const std::vector<GroupId>& front) {
+  for (const GroupId& id : front) {
+    const GroupSight* seen = sight.Find(id);
+    const Sight now = problem_.Evaluate({id}, false, 1e300);
+    if (problem_.Aborted()) return true;
+    if (const GroupSight* g = now.Find(id); g != nullptr && g->ended) seen = g;
+    if (seen->weak || std::abs(seen->Miss()) <= problem_.tolerance()) continue;
+    const Root root = bisection_.Solve(*seen);
+    if (root == Root::kAborted) return true;
+    if (root == Root::kFound) continue;
+    if (growing_.Answer(*seen, root)) return true;
+    if (bisection_.Scan(*seen)) continue;
+    growing_.Decide(id, root);
+    return true;
   }
+  return false;
 }
 
-int EpisodeSolver::Corrections(const Unknown& u) const {
-  if (!u.iterated) return 0;
-  return careful_ ? u.corrections : iterations_;
-}
-
-void EpisodeSolver::FinishCut(const ContactState& state, Cycle& cycle) const {
-  const bool turned = state.phase == Phase::kRestitution;
-  Label(cycle, state.phase == Phase::kResting, turned && IsWeak(state));
-}
-
-bool EpisodeSolver::Converged(const Unknown& u) const {
-  return u.squared >= 0 && std::abs(std::sqrt(u.squared) - u.restitution_in) <=
-                               scenario_.solver.restitution_tolerance * u.restitution_in;
-}
-
-bool EpisodeSolver::Live(const Unknown& u) const {
-  return u.iterated && u.ended && std::isfinite(u.squared);
-}
-
-// Weak cycles do not tell whether a correction was good: they come and go with it.
-double EpisodeSolver::Merit() const {
-  double merit = 0, weak = 0;
-  bool strong = false;
-  for (const Unknown& u : unknowns_) {
-    if (!Live(u)) continue;
-    strong |= !u.weak;
-    double& worst = u.weak ? weak : merit;
-    worst = std::max(worst, std::abs(u.residual));
+// As many corrections as are allowed did not solve the front: those that miss keep what they have.
+void EpisodeSolver::GiveUp(const Sight& sight, const std::vector<GroupId>& front) {
+  const Sight now = problem_.Evaluate(front, false, 1e300);
+  for (const GroupId& id : front) {
+    const GroupSight* g = now.Find(id) != nullptr ? now.Find(id) : sight.Find(id);
+    if (Misses(*g, problem_.groups, problem_.tolerance())) problem_.groups.At(id).given_up = true;
   }
-  return strong ? merit : weak;
-}
-
-void EpisodeSolver::Report(int number, double time, bool accepted_pass) {
-  Iteration iteration;
-  iteration.episode = episode_;
-  iteration.number = number;
-  iteration.start_time = time;
-  iteration.accepted = accepted_pass;
-  for (const Unknown& u : unknowns_) {
-    iteration.unknowns.push_back({.contact = u.contact,
-                                  .number = u.number,
-                                  .mu = u.pass_mu,
-                                  .restitution_out = u.squared >= 0 ? std::sqrt(u.squared) : kNaN,
-                                  .restitution_in = u.restitution_in,
-                                  .residual = u.restitution_in * u.restitution_in - u.squared,
-                                  .bracket_low = u.low,
-                                  .bracket_high = u.high,
-                                  .update = u.update});
-  }
-  observer_.OnIteration(iteration);
 }
 
 }  // namespace contact

@@ -31,7 +31,7 @@ constexpr double kFixedStepShare = 0.45;  // Four evaluations instead of twelve.
 constexpr double kValueSeconds = 0.1e-6;  // Of a sample: interpolated, encoded and stored.
 
 constexpr double kColumnBytes = 60;    // Name, quantity and unit of a column, in such an event.
-constexpr double kCycleBytes = 300;    // A row of the ledger as an event.
+constexpr double kCycleBytes = 470;    // A row of the ledger and its group, as events.
 constexpr double kUnknownBytes = 110;  // A cycle in a row of the iteration.
 constexpr double kLogBytes = 600;      // States, attempt and progress of any job.
 constexpr double kStages = 13;         // Slopes that a step of the integrator holds.

@@ -25,15 +25,18 @@ struct Cycle {
   };
   /// What became of the request for its restitution.
   enum class Status {
-    kConverged,     ///< |ε_out − ε_in| ≤ ξ ε_in.
-    kGivenLaw,      ///< μ follows from a law or is given; nothing is iterated.
-    kInfeasible,    ///< No μ ≥ 0 gives ε_in, README.md (N4), (N8).
+    kConverged,  ///< |ε_out − ε_in| ≤ ξ ε_in.
+    kGivenLaw,   ///< μ follows from a law or is given; nothing is iterated.
+    kInfeasible,  ///< No μ ≥ 0 of its group gives ε_in, and the group may not grow, README.md (N5).
     kSettled,       ///< Its work is too small to iterate, or it is a contact's rest.
     kNotConverged,  ///< The iteration ended without any of these.
+    kJump,          ///< As μ changes, ε_out jumps over ε_in; Group tells both sides.
+    kUnfinished,    ///< Its group does not end in the run, at no lower μ either.
   };
 
   int contact = 0;  ///< Index in Scenario::contacts.
   int number = 1;   ///< Place among the cycles of its contact, from 1 without gaps.
+  int group = 0;    ///< Group::number of its group, from 1; 0: it settled, in none.
   int episode = 1;  ///< Number of its episode, from 1; cycles of an episode are solved together.
   Kind kind = Kind::kCollision;           ///< How it begins.
   End end = End::kRunEnd;                 ///< How it ends.
@@ -60,6 +63,41 @@ struct Cycle {
   double peak_force = 0;              ///< Largest F [N], ≥ 0.
   double tension_time = 0;            ///< Time for which F < 0 [s], ≥ 0.
   double identity_residual = 0;       ///< Miss of (W4), relative to W_c [-], ≥ 0.
+};
+
+/// Why a group took in its neighbour.
+enum class Growth {
+  kNotGrown,    ///< It did not: one cycle, or RestitutionScope::kEncounter.
+  kTooLittle,   ///< Too little came back even without damping.
+  kTooMuch,     ///< Too much came back whatever the damping.
+  kJump,        ///< What came back jumped over what was asked for.
+  kNoProgress,  ///< The search found nothing better.
+};
+
+/// Consecutive cycles of one contact in one encounter, that share one μ and one balance.
+struct Group {
+  /// A μ that was tried, and the ε_out to which it led; NaN: none was.
+  struct Reached {
+    double mu = kNaN;
+    double restitution = kNaN;
+  };
+  int contact = 0;      ///< Index in Scenario::contacts.
+  int number = 1;       ///< Place among the groups of its contact, from 1.
+  int encounter = 1;    ///< Place of its encounter among those of its contact, from 1.
+  int first_cycle = 1;  ///< Cycle::number of its first.
+  int cycles = 0;       ///< How many.
+  double start_time = 0, end_time = 0;  ///< [s].
+  Cycle::End end = Cycle::End::kRunEnd;
+  Cycle::Status status = Cycle::Status::kNotConverged;
+  Growth growth = Growth::kNotGrown;  ///< Why it grew last.
+  double mu = 0;                      ///< μ [N·s/mⁿ⁺¹].
+  double work_compression = 0;        ///< Sum of W_c of its cycles, a cut one included [J].
+  double work_restitution = 0;        ///< Sum of W_r [J], ≤ 0.
+  double restitution_in = kNaN;
+  double restitution_out = kNaN;  ///< √(−W_r/W_c).
+  double residual = 0;            ///< |(W4)| summed over its cycles, / W_c.
+  Reached too_much = {},
+          too_little = {};  ///< Of kJump and kInfeasible: the nearest on either side.
 };
 
 /// One pass through an episode with one set of μ.
@@ -130,14 +168,16 @@ struct Outcome {
   std::vector<double> positions;   ///< At the end, or the last finite ones [m], for each body.
   std::vector<double> velocities;  ///< At the end, or the last finite ones [m/s], for each body.
 
-  std::int64_t steps = 0;              ///< Steps tried, in all passes.
-  std::int64_t evaluations = 0;        ///< Evaluations of the equations of motion.
-  std::int64_t iterations = 0;         ///< Corrections of μ, in all episodes.
-  std::int64_t episodes = 0;           ///< Episodes recorded.
-  double worst_identity_residual = 0;  ///< Largest Cycle::identity_residual [-].
-  double momentum_residual = 0;        ///< Relative miss of the momentum balance [-], (B2).
-  double energy_residual = 0;          ///< Relative miss of the energy balance [-], (B1).
-  double kinetic_energy = 0;           ///< ½Σmv² at the end [J].
+  std::int64_t steps = 0;                ///< Steps tried, in all passes.
+  std::int64_t evaluations = 0;          ///< Evaluations of the equations of motion.
+  std::int64_t iterations = 0;           ///< Corrections of μ, in all episodes.
+  std::int64_t episodes = 0;             ///< Episodes recorded.
+  double worst_identity_residual = 0;    ///< Largest Cycle::identity_residual [-].
+  double momentum_residual = 0;          ///< Relative miss of the momentum balance [-], (B2).
+  double energy_residual = 0;            ///< Relative miss of the energy balance [-], (B1).
+  double kinetic_energy = 0;             ///< ½Σmv² at the end [J].
+  std::int64_t growths = 0;              ///< Growths of groups in the search.
+  std::int64_t growths_no_progress = 0;  ///< Those with Growth::kNoProgress.
 };
 
 }  // namespace contact

@@ -18,6 +18,11 @@ class Observer {
   virtual void OnIteration(const Iteration&) {}
   /// A cycle enters the ledger. Cycles come in the order of their end times.
   virtual void OnCycle(const Cycle&) {}
+  /// A group of the search takes in its neighbour; what it was, and why it grows. Its μ is the one
+  /// with which it begins anew; number, end, status, works and residual are not known yet.
+  virtual void OnGrowth(const Group&) {}
+  /// A group has ended in the recorded trajectory, or the run cuts it; comes after its cycles.
+  virtual void OnGroup(const Group&) {}
   /// The next rows of the recorded trajectory, 1 to kSamplesPerChunk of them.
   virtual void OnSamples(const Samples&) {}
   /// Called after each episode and each flight between two of them.

@@ -75,6 +75,13 @@ enum class UpdateRule {
   kPaperBisection,  ///< Doubling or halving, then paper (27).
 };
 
+/// How many cycles of a contact share one μ and one balance of works: a group.
+enum class RestitutionScope {
+  kAuto,       ///< One, and more where no μ of one alone has a solution.
+  kCycle,      ///< Always one, as in the paper; some have no solution then.
+  kEncounter,  ///< All from touch to separation, in pieces of SolverOptions::encounter_cycles.
+};
+
 /// Where a cycle's compression ends and its restitution begins.
 enum class PhaseSplit {
   kPeakDeformation,  ///< δ̇ = 0.
@@ -89,6 +96,10 @@ struct SolverOptions {
   UpdateRule update = UpdateRule::kNewtonCoupled;
   /// Where the works W_c and W_r are cut.
   PhaseSplit phase_split = PhaseSplit::kPeakDeformation;
+  /// Which cycles share one μ and one balance.
+  RestitutionScope restitution_scope = RestitutionScope::kAuto;
+  /// Cycles in a group of RestitutionScope::kEncounter, ≥ 1.
+  int encounter_cycles = 8;
   /// Local error of a step that is accepted, relative to the contact's scale [-], > 0. Without
   /// effect with a fixed step.
   double relative_tolerance = 1e-11;

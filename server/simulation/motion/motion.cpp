@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "simulation/model/derived.h"
-#include "simulation/model/window.h"
 
 namespace contact {
 namespace {
@@ -72,10 +71,9 @@ Motion::Motion(const Scenario& scenario)
       error5_(2 * scenario.bodies.size()),
       error3_(2 * scenario.bodies.size()),
       tolerance_(scenario.solver.relative_tolerance),
-      event_(scenario.contacts.size()),
-      max_cycles_(MostWindowCycles(scenario.contacts.size())) {}
+      event_(scenario.contacts.size()) {}
 
-void Motion::Begin(const State& state, bool recording, double tolerance, int most_cycles) {
+void Motion::Begin(const State& state, bool recording, double tolerance) {
   const int n = equations_.bodies();
   tolerance_ = tolerance > 0 ? tolerance : scenario_.solver.relative_tolerance;
   time_ = state.time;
@@ -85,8 +83,7 @@ void Motion::Begin(const State& state, bool recording, double tolerance, int mos
   totals_.support_loss = state.support_loss;
   totals_.contact_loss = state.contact_loss;
   totals_.impulse = state.impulse;
-  cycles_in_stretch_ = 0;
-  most_cycles_ = std::min(most_cycles, max_cycles_);
+  contact_loss_ = state.contact_loss;
   flight_length_ = flight_speed_ = 0;
   touch_time_ = kNaN;
   cruise_ = 0;
@@ -157,7 +154,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (time_ >= until) return Pause::kTimeUp;
     if (stop.stop_requested()) return Pause::kStopped;
     if (steps_ >= step_limit) return Pause::kStepLimit;
-    host.OnStep();
+    if (!host.OnStep()) return Pause::kEnough;
     if (!TakeStep(until)) return Pause::kNumeric;
     Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
@@ -181,7 +178,6 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
       if (busy && !Busy()) return Pause::kQuiet;
       if (!busy && std::ranges::any_of(contacts_, IsStarting)) return Pause::kCycleStarts;
     }
-    if (cycles_in_stretch_ >= most_cycles_) return Pause::kCrowded;
   }
 }
 

@@ -44,6 +44,18 @@ struct ContactState {
   } peak;
   /// The running cycle, or what is known of the next: its contact and kind.
   Cycle cycle;
+  /// Place of the running encounter among those of the contact, from 1.
+  int encounter = 0;
+  /// The group of the running cycle, and what decides where it ends. CycleHost keeps it.
+  struct Membership {
+    bool open = false;     ///< The next cycle of the encounter belongs to it too.
+    int place = 0;         ///< Among the groups of the encounter, from 1.
+    double lasts = 0;      ///< It does not end earlier after its start [s].
+    int groups = 0;        ///< Group::number of the last group that has one.
+    int iterations = 0;    ///< Corrections of its μ.
+    double imbalance = 0;  ///< Sum of |(W4)| over its cycles [J].
+    Group group;
+  } member;
 };
 
 /// The system at an instant between two steps. Copied to roll back.
@@ -94,17 +106,16 @@ class CycleHost {
   };
   /// A cycle begins: `state.cycle` holds contact, number, kind and start. `external_force` is F_e
   /// there [N].
-  virtual Factor OnStart(const ContactState& state, double effective_mass,
-                         double external_force) = 0;
+  virtual Factor OnStart(ContactState& state, double effective_mass, double external_force) = 0;
   /// A cycle has ended; the gradients hold ∂W_c/∂μ and ∂W_r/∂μ of each column.
   /// May change status and bookkeeping of `state`. `length` and `speed` are what Factor expects.
   virtual void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
                      const Eigen::ArrayXd& restitution_gradient, double length, double speed) = 0;
   /// The cycle that OnStart heard of last for this contact has ended without duration or work: it
   /// counts as none, and the next cycle of the contact has its number.
-  virtual void OnCancel(const ContactState& /*state*/) {}
-  /// A step begins.
-  virtual void OnStep() {}
+  virtual void OnCancel(ContactState& /*state*/) {}
+  /// A step begins; false: the host has seen enough.
+  virtual bool OnStep() { return true; }
 };
 
 /// Hears of accepted steps when recording.
@@ -124,7 +135,7 @@ class Motion {
     kTimeUp,       ///< `until` is reached.
     kCycleStarts,  ///< No cycle was running; one wants to begin.
     kQuiet,        ///< The last running cycle has ended.
-    kCrowded,      ///< Too many cycles in one stretch without a quiet instant.
+    kEnough,       ///< The host has seen enough.
     kStepLimit,    ///< steps() has reached the limit.
     kStopped,      ///< A stop was requested.
     kNumeric,      ///< A value is not finite, or no step is short enough.
@@ -134,11 +145,8 @@ class Motion {
   explicit Motion(const Scenario& scenario);
 
   /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities. `tolerance`
-  /// takes the place of the scenario's; 0: the scenario's. A stretch with `most_cycles` is crowded.
-  void Begin(const State& state, bool recording, double tolerance = 0,
-             int most_cycles = std::numeric_limits<int>::max());
-  /// The most cycles that a stretch may have at all.
-  int max_cycles() const { return max_cycles_; }
+  /// takes the place of the scenario's; 0: the scenario's.
+  void Begin(const State& state, bool recording, double tolerance = 0);
 
   /// Moves on until something of Pause happens. Begun where a cycle runs or starts, it goes on
   /// until none does; begun elsewhere, until one wants to start. Resting contacts do not count.
@@ -294,11 +302,7 @@ class Motion {
   bool resting_ = false;
   std::int64_t steps_ = 0;
   std::int64_t evaluations_ = 0;
-  // Cycles begun since Begin that did not rest.
-  int cycles_in_stretch_ = 0;
-  int max_cycles_;
-  // The number of cycles at which this stretch is crowded.
-  int most_cycles_ = 0;
+  double contact_loss_ = 0;
 };
 
 }  // namespace contact

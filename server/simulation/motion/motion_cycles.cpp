@@ -18,10 +18,13 @@ constexpr double kRestingScale = 1e-3;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
-// Whether a cycle that ends at `time` is none: it has no duration, or its compression did no work.
+// Whether a cycle that ends at `time` is none: it has no duration, or began at δ = 0 and did no
+// work in compression, so that it has none to give back.
 bool DoesNothing(const ContactState& state, double time) {
-  const bool idle = state.phase == Phase::kRestitution && state.cycle.work_compression <= 0;
-  return idle || time == state.cycle.start_time;
+  const Cycle& cycle = state.cycle;
+  const bool idle = cycle.work_compression <= 0 || cycle.max_deformation <= 0;
+  const bool turned = state.phase == Phase::kRestitution && cycle.start_deformation == 0;
+  return (turned && idle) || time == cycle.start_time;
 }
 
 }  // namespace
@@ -58,6 +61,8 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   const int n = equations_.bodies();
   ContactState& state = contacts_[At(contact)];
   const bool collides = state.cycle.kind == Cycle::Kind::kCollision;
+  const bool touches = state.cycles == 0 || state.cycle.end == Cycle::End::kSeparation;
+  if (touches) ++state.encounter;
   const double deformation = collides ? 0 : std::max(0.0, Deformation(contact, rk_.y0.data()));
   const double approach =
       collides ? std::max(0.0, equations_.Relative(contact, rk_.y0.data() + n)) : 0;
@@ -77,7 +82,6 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   state.cycle.mu = factor.mu;
   state.column = factor.column;
   state.phase = state.settled ? Phase::kResting : Phase::kCompression;
-  if (!state.settled) ++cycles_in_stretch_;
 
   if (factor.column >= equations_.columns && !equations_.recording) AddColumn();
   rk_.y0[equations_.work(contact)] = 0;
@@ -239,10 +243,14 @@ void Motion::CancelCycle(ContactState& state, CycleHost& host) {
   const int contact = state.cycle.contact;
   host.OnCancel(state);
   state.phase = state.cycle.start_deformation > 0 ? Phase::kStarting : Phase::kOpen;
+  const bool opened = state.cycles == 1 || state.cycle.start_deformation == 0;
+  if (opened) {  // There was no encounter: the next has its number.
+    --state.encounter;
+    state.cycle.end = Cycle::End::kSeparation;
+  }
   --state.cycles;
   rk_.y0[equations_.work(contact)] = 0;
   if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
-  if (!state.settled) --cycles_in_stretch_;
   next_step_ /= 2;
   RefreshActive();
 }

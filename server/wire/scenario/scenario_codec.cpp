@@ -19,6 +19,11 @@ constexpr UpdateRule kUpdates[v1::Solver::Update_ARRAYSIZE] = {
     UpdateRule::kNewtonCoupled, UpdateRule::kNewtonCoupled, UpdateRule::kPaperNewton,
     UpdateRule::kPaperRatio, UpdateRule::kPaperBisection};
 
+// By the number of v1::Solver::RestitutionScope.
+constexpr RestitutionScope kScopes[v1::Solver::RestitutionScope_ARRAYSIZE] = {
+    RestitutionScope::kAuto, RestitutionScope::kAuto, RestitutionScope::kCycle,
+    RestitutionScope::kEncounter};
+
 std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vector<Body>& bodies,
                                     const BodyNames& names, std::vector<Violation>* violations) {
   std::vector<Support> supports;
@@ -58,6 +63,20 @@ void DecodeProcess(const v1::Solver& message, const Rules& rules, SolverOptions*
   }
 }
 
+// Which cycles share one μ.
+void DecodeScope(const v1::Solver& message, const Rules& rules, SolverOptions* options) {
+  rules.RequireKnown("restitution_scope", message.restitution_scope());
+  if (v1::Solver::RestitutionScope_IsValid(message.restitution_scope())) {
+    options->restitution_scope = kScopes[message.restitution_scope()];
+  }
+  options->encounter_cycles =
+      static_cast<int>(rules.Read(message, v1::Solver::kEncounterCyclesFieldNumber));
+  if (message.has_encounter_cycles() && message.restitution_scope() != v1::Solver::ENCOUNTER) {
+    rules.Break("encounter_cycles", "is given, but goes only with restitution_scope ENCOUNTER",
+                "remove it");
+  }
+}
+
 // Newton's sensitivities hold only where F δ̇ = 0 at the split.
 void RequireSplitSolvable(const Scenario& scenario, const Rules& rules) {
   if (scenario.solver.phase_split != PhaseSplit::kPeakForce ||
@@ -78,6 +97,7 @@ SolverOptions DecodeSolver(const v1::Solver& message, const Rules& rules) {
   options.fail_if_not_converged = message.on_not_converged() == v1::Solver::FAIL;
 
   DecodeProcess(message, rules, &options);
+  DecodeScope(message, rules, &options);
   options.relative_tolerance = rules.Read(message, v1::Solver::kRelativeToleranceFieldNumber);
   options.restitution_tolerance = rules.Read(message, v1::Solver::kRestitutionToleranceFieldNumber);
   options.max_iterations =

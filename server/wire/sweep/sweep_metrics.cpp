@@ -20,7 +20,7 @@ using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-constexpr std::array<std::string_view, 4> kRoots{"cycles", "final_bodies", "summary",
+constexpr std::array<std::string_view, 5> kRoots{"cycles", "groups", "final_bodies", "summary",
                                                  "convergence"};
 
 // What names an entry: its body or its contact.
@@ -88,7 +88,7 @@ void SweepMetrics::CheckNames(const Scenario& scenario, std::vector<Violation>* 
     const Step& root = paths_[i].front();
     if (root.key.empty()) continue;
     std::vector<std::string_view> names;
-    if (root.field->name() == "cycles") {
+    if (root.field->name() != "final_bodies") {
       for (const Contact& contact : scenario.contacts) names.push_back(contact.name);
     } else {
       for (const Body& body : scenario.bodies) names.push_back(body.name);
@@ -115,6 +115,8 @@ double SweepMetrics::Value(const Path& path, const Message& message) {
       at = Entry(step, *at);
       if (at == nullptr) return kNaN;
     } else if (IsNumber(*step.field)) {
+      const bool unset = step.field->has_presence() && !reflection->HasField(*at, step.field);
+      if (unset) return kNaN;
       return NumberIn(*at, *step.field);
     } else {
       at = &reflection->GetMessage(*at, step.field);

@@ -46,24 +46,30 @@ class ExportTest(CliTest):
             np.testing.assert_array_equal(column, expected)
 
     def test_every_column_of_numbers_names_its_unit(self):
-        for table in ("series", "cycles", "iterations", "bodies"):
+        for table in ("series", "cycles", "groups", "iterations", "bodies"):
             header, first, *_ = self.rows("--table", table)
             for name, value in zip(header, first):
                 if re.fullmatch(r"-?[0-9.e+-]+|nan", value):
                     self.assertRegex(name, r" \[[^]]+\]$")
                 else:
-                    self.assertIn(name, ("contact", "kind", "end", "status", "update", "name"))
+                    self.assertIn(name, ("contact", "kind", "end", "status", "growth", "update",
+                                         "name"))
 
     def test_every_number_of_the_ledger_is_exported(self):
-        header, *rows = self.rows("--table", "cycles")
-        fields = self.job.cycles[0].DESCRIPTOR.fields
-        self.assertEqual(len(header), len(fields))
-        for row, cycle in zip(rows, self.job.cycles):
-            for text, field in zip(row, fields):
-                value = getattr(cycle, field.name)
-                if field.enum_type:
-                    value = field.enum_type.values_by_number[value].name
-                self.assertEqual(text if isinstance(value, str) else float(text), value)
+        for table in ("cycles", "groups"):
+            header, *rows = self.rows("--table", table)
+            entries = getattr(self.job, table)
+            fields = entries[0].DESCRIPTOR.fields
+            self.assertEqual((len(header), len(rows)), (len(fields), len(entries)))
+            for row, entry in zip(rows, entries):
+                for text, field in zip(row, fields):
+                    value = getattr(entry, field.name)
+                    if field.has_presence and not entry.HasField(field.name):
+                        value = float("nan")
+                    if field.enum_type:
+                        value = field.enum_type.values_by_number[value].name
+                    given = text if isinstance(value, str) else float(text)
+                    np.testing.assert_equal(given, value)  # NaN equals NaN.
 
     def test_every_csv_of_a_job_names_a_column_alike(self):
         def read(file):
@@ -73,6 +79,9 @@ class ExportTest(CliTest):
         self.run_it("export", self.name, "-f", path, "--table", "cycles")
         self.assertEqual(list(read(path)["contact"]), ["B1-B2", "B2-B3"])
         self.run_it("artifact", "get", self.name, "cycles.csv", "-f", artifact)
+        pandas.testing.assert_frame_equal(read(path), read(artifact), check_exact=True)
+        self.run_it("export", self.name, "-f", path, "--table", "groups")
+        self.run_it("artifact", "get", self.name, "groups.csv", "-f", artifact)
         pandas.testing.assert_frame_equal(read(path), read(artifact), check_exact=True)
         printed = self.run_it("series", self.name, "--raw", "-o", "csv")[0]
         self.assertEqual(printed, self.run_it("export", self.name, "-o", "csv")[0])
@@ -116,6 +125,7 @@ class ExportTest(CliTest):
             self.assertEqual(data["series"]["B1-B2.contact_force"].units, "N")
             self.assertEqual(list(data["cycles"]["contact"][:]), ["B1-B2", "B2-B3"])
             self.assertEqual(list(data["cycles"]["mu"][:]), [c.mu for c in self.job.cycles])
+            self.assertEqual(list(data["groups"]["mu"][:]), [g.mu for g in self.job.groups])
             scenario = self.job.scenario.SerializeToString(deterministic=True)
             self.assertEqual(data.scenario_sha256, hashlib.sha256(scenario).hexdigest())
             self.assertEqual(json.loads(data.scenario)["title"], "Triple-ball chain")

@@ -106,14 +106,36 @@ TEST(ExportJsonLines, NumbersReadBackAsTheSameDoubles) {
   EXPECT_EQ(JsonLines({"t", "r", {{"a", "1", "", std::vector{1.0 / 3}}}}, 2)[0]["a [1]"], 0.33);
 }
 
-TEST(DataTable, EveryFieldOfTheLedgerIsAColumn) {
-  const DataTable table = CyclesTable(v1::Job());
-  EXPECT_EQ(table.columns.size(), static_cast<std::size_t>(v1::Cycle::descriptor()->field_count()));
+// A column for each field, with a unit if it holds numbers.
+void ExpectComplete(const DataTable& table, const google::protobuf::Descriptor& type) {
+  EXPECT_EQ(table.columns.size(), static_cast<std::size_t>(type.field_count()));
   for (const DataColumn& column : table.columns) {
     EXPECT_EQ(column.unit.empty(), std::holds_alternative<std::vector<std::string>>(column.values))
         << column.name;
     EXPECT_FALSE(column.description.empty()) << column.name;
   }
+}
+
+TEST(DataTable, EveryFieldOfTheLedgerIsAColumn) {
+  ExpectComplete(CyclesTable(v1::Job()), *v1::Cycle::descriptor());
+  ExpectComplete(GroupsTable(v1::Job()), *v1::Group::descriptor());
+}
+
+TEST(DataTable, EveryGroupIsARow) {
+  v1::Job job;
+  for (const double mu : {3.0, 4.0}) {
+    v1::Group& group = *job.add_groups();
+    group.set_mu(mu);
+    group.set_growth(v1::Group::TOO_LITTLE);
+  }
+  const DataTable table = GroupsTable(job);
+  EXPECT_EQ(table.name, "groups");
+  const auto column = [&](const std::string& header) {
+    return *std::ranges::find(table.columns, header, &DataColumn::Header);
+  };
+  EXPECT_THAT(std::get<std::vector<double>>(column("mu [N·s/m^(n+1)]").values), ElementsAre(3, 4));
+  EXPECT_THAT(std::get<std::vector<std::string>>(column("growth").values),
+              ElementsAre("TOO_LITTLE", "TOO_LITTLE"));
 }
 
 TEST(DataTable, RowsOfTheLedgerHaveTheValuesOfTheCycles) {

@@ -106,6 +106,36 @@ TEST(Presets, CyclesAreBandsAndMarksInTheColourOfTheirContact) {
               Contains(AllOf(mark(Figure::Mark::kEnd, 0), Field(&Curve::x, ElementsAre(0.5)))));
 }
 
+TEST(Presets, BandOfAGroupSpansItsCycles) {
+  Recording run = SampleRun();
+  v1::Job& job = run.job;
+  *job.add_cycles() = job.cycles(1);
+  for (const int cycle : {1, 2}) job.mutable_cycles(cycle)->set_group(1);
+  v1::Group& group = *job.add_groups();
+  group.set_contact("W");
+  group.set_start_time_s(0.25);
+  group.set_end_time_s(1);
+  const Figure::Panel panel = PresetFigure("force", run).panels.at(0);
+  ASSERT_THAT(panel.bands, SizeIs(2));  // The cycle of A-B is in no group.
+  EXPECT_EQ(panel.bands[0].end, 0.5);
+  EXPECT_EQ(panel.bands[1].start, 0.25);
+  EXPECT_EQ(panel.bands[1].end, 1);
+}
+
+TEST(Presets, CycleHasTheRestitutionOfItsGroup) {
+  Recording run = SampleRun();
+  run.job.mutable_cycles(1)->set_group(1);
+  v1::Group& group = *run.job.add_groups();
+  group.set_contact("W");
+  group.set_number(1);
+  group.set_restitution_out(0.8);
+  const Figure::Panel panel = PresetFigure("restitution", run).panels.at(0);
+  EXPECT_THAT(panel.curves,
+              Contains(AllOf(Field(&Curve::label, "W had"), Field(&Curve::y, ElementsAre(0.8)))));
+  EXPECT_THAT(panel.curves, Contains(AllOf(Field(&Curve::label, "A-B had"),
+                                           Field(&Curve::y, ElementsAre(0.79)))));
+}
+
 TEST(Presets, MarksLieOnTheirCurveBetweenSamples) {
   Recording run = SampleRun();
   run.job.mutable_cycles(0)->set_start_time_s(0.3);  // Position is twice the time.

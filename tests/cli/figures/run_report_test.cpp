@@ -55,6 +55,25 @@ TEST(ReportPage, LongLedgersAreCutAndSayWhereTheRestIs) {
   EXPECT_THAT(ReportPage({part}, "", "s"), HasSubstr("5 more cycles; contactctl export has"));
 }
 
+TEST(ReportPage, ShowsGroupsThatTheLedgerDoesNotTell) {
+  RunPart part = Part();
+  v1::Group& group = *part.recording.job.add_groups();
+  group.set_contact("W");
+  group.set_first_cycle(1);
+  group.set_cycles(1);
+  group.set_status(v1::Cycle::CONVERGED);
+  EXPECT_THAT(ReportPage({part}, "", "s"), Not(HasSubstr("Groups of cycles")));
+  group.set_cycles(2);
+  group.set_status(v1::Cycle::JUMP);
+  group.set_too_much_mu(2);
+  group.set_too_much_restitution(0.75);
+  group.set_too_little_mu(3);
+  group.set_too_little_restitution(0.5);
+  EXPECT_THAT(ReportPage({part}, "", "s"),
+              AllOf(HasSubstr("Groups of cycles"), HasSubstr(">1 to 2<"),
+                    HasSubstr("it jumps from 0.75 at μ = 2 to 0.5 at μ = 3")));
+}
+
 TEST(ReportPage, TellsHowToRepeatTheRun) {
   const std::string page = ReportPage({Part()}, "", "example:1");
   EXPECT_THAT(page, AllOf(HasSubstr("contactctl --server example:1 run --like jobs/sample"),

@@ -58,20 +58,29 @@ TEST(Recorder, HasTheLedgerThatAnAnswerMayHaveNot) {
     event.set_sequence(static_cast<std::uint64_t>(sequence));
     event.mutable_cycle()->set_number(sequence);
     recorder.OnEvent(event);
+    event.set_sequence(static_cast<std::uint64_t>(sequence) + 1);
+    event.mutable_group()->set_first_cycle(sequence);
+    recorder.OnEvent(event);
   }
   ASSERT_EQ(recorder.Cycles().size(), 2U);
   EXPECT_EQ(recorder.Cycles()[1].number(), 7);
+  ASSERT_EQ(recorder.Groups().size(), 2U);
+  EXPECT_EQ(recorder.Groups()[1].first_cycle(), 7);
 }
 
 TEST(Recorder, ForgetsEarlierAttempts) {
   Recorder recorder;
   recorder.OnEvent(Chunk(0, {1, 2}));
   recorder.OnEvent(Pass(1, 0));
+  v1::Event group;
+  group.mutable_group()->set_number(1);
+  recorder.OnEvent(group);
   v1::Event again;
   again.mutable_attempt_started()->set_attempt(2);
   recorder.OnEvent(again);
   EXPECT_THAT(recorder.Columns(), IsEmpty());
   EXPECT_THAT(recorder.Iterations(), IsEmpty());
+  EXPECT_THAT(recorder.Groups(), IsEmpty());
 }
 
 TEST(Recorder, OrdersPassesByEpisode) {

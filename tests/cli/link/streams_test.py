@@ -82,7 +82,7 @@ class StreamsTest(ServerTest):
 
     def test_artifacts_are_listed_and_fetched(self):
         name = self.server.run(three_ball_chain()).name
-        self.assertEqual(self.run_it("artifact", "list", name)[0], "cycles.csv\ntrajectory.csv\n")
+        self.assertEqual(self.run_it("artifact", "list", name)[0], "cycles.csv\ngroups.csv\ntrajectory.csv\n")
         path = self.folder / "cycles.csv"
         _, told = self.run_it("artifact", "get", name, "cycles.csv", "-f", str(path))
         self.assertIn(f"{path.stat().st_size}", told.replace(",", "").replace(" ", ""))

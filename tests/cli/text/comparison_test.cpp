@@ -91,6 +91,26 @@ TEST(Compare, ACycleThatOneJobLacksDiffers) {
   EXPECT_THAT(RenderComparison(comparison, {}), HasSubstr("DIFFERENT: not all within"));
 }
 
+TEST(Compare, GroupsOfSeveralCyclesAreComparedAndOthersAreTheirCycle) {
+  std::vector<v1::Job> jobs = {Job("jobs/a"), Job("jobs/b")};
+  for (v1::Job& job : jobs) {
+    for (const int cycles : {1, 2}) {
+      v1::Group& group = *job.add_groups();
+      group.set_contact("A-B");
+      group.set_number(cycles);
+      group.set_first_cycle(cycles);
+      group.set_cycles(cycles);
+    }
+  }
+  EXPECT_TRUE(Compare(jobs, {}).Holds());
+  jobs[1].mutable_groups(1)->set_cycles(3);
+  const JobComparison comparison = Compare(jobs, {});
+  EXPECT_FALSE(comparison.Holds(Find(comparison, "A-B group 2 cycles")));
+  EXPECT_TRUE(std::ranges::none_of(comparison.results, [](const JobComparison::Result& result) {
+    return result.name.starts_with("A-B group 1 ");
+  }));
+}
+
 TEST(RenderComparison, ShowsValuesDeviationsAndVerdicts) {
   const std::string text = RenderComparison(Differing(0.25), {});
   EXPECT_THAT(text, StartsWith("The scenarios are the same.\n\n"));

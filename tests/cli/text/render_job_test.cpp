@@ -24,7 +24,7 @@ v1::Job FromText(const std::string& text) {
 v1::Job Finished() {
   return FromText(R"(
       name: "jobs/k3v9" state: SUCCEEDED convergence: FULL scenario { title: "Two balls" }
-      cycles { contact: "A-B" number: 1 kind: COLLISION end: SEPARATION status: CONVERGED
+      cycles { contact: "A-B" number: 1 group: 1 kind: COLLISION end: SEPARATION status: CONVERGED
                iterations: 3 mu: 1.43275053327e8 mu_over_k_s_per_m: 1.43275053327
                alpha: 1.43275053327 restitution_in: 0.5 restitution_out: 0.50000000005
                start_time_s: 1e-3 end_time_s: 2.5e-3 }
@@ -42,12 +42,12 @@ TEST(RenderJob, ShowsLedgerBodiesAndBalances) {
             "jobs/k3v9  SUCCEEDED  4 ms simulated, 2 cycles, 3 iterations, 63 µs wall\n"
             "Two balls\n"
             "\n"
-            "CONTACT  #  KIND       END         STATUS         n             μ  α, or μ/k  ε IN  "
-            "ε OUT    ERROR  t START [s]  t END [s]\n"
-            "A-B      1  COLLISION  SEPARATION  CONVERGED      3  1.432751e+08   1.432751   0.5  "
-            "  0.5  1.0e-10        0.001     0.0025\n"
-            "B-wall   2  NIRV       RUN_END     NOT_CONVERGED  0       5000000   0.25 s/m   0.9  "
-            "    -        -       0.0025      0.004\n"
+            "CONTACT  #  GROUP  KIND       END         STATUS         n             μ  α, or μ/k  "
+            "ε IN  ε OUT    ERROR  t START [s]  t END [s]\n"
+            "A-B      1      1  COLLISION  SEPARATION  CONVERGED      3  1.432751e+08   1.432751  "
+            " 0.5    0.5  1.0e-10        0.001     0.0025\n"
+            "B-wall   2      -  NIRV       RUN_END     NOT_CONVERGED  0       5000000   0.25 s/m  "
+            " 0.9      -        -       0.0025      0.004\n"
             "\n"
             "BODY  POSITION [m]  VELOCITY [m/s]\n"
             "A             0.25            -0.5\n"

@@ -84,6 +84,31 @@ TEST(LiveView, ShowsWhatHappenedToAJob) {
             "FAILED (NUMERIC): m\n");
 }
 
+TEST(LiveView, TellsOfEachGrowthAndOfGroupsThatCyclesDoNotTell) {
+  const std::string text = Shown({}, [](LiveView& view) {
+    view.OnEvent(FromText(R"(group_growth { contact: "a-b" first_cycle: 1 cycles: 1
+        growth: TOO_LITTLE })"));
+    view.OnEvent(FromText(R"(group_growth { contact: "a-b" first_cycle: 1 cycles: 2
+        growth: TOO_MUCH })"));
+    view.OnEvent(FromText(R"(group { contact: "a-b" number: 1 first_cycle: 1 cycles: 1
+        status: CONVERGED })"));
+    view.OnEvent(FromText(R"(group { contact: "a-b" number: 2 first_cycle: 2 cycles: 3
+        status: CONVERGED mu: 5e6 restitution_out: 0.5 })"));
+  });
+  EXPECT_EQ(text,
+            "a-b cycle 1 and the next share one μ: too little comes back even at μ = 0\n"
+            "a-b cycles 1 to 2 and the next share one μ: too much comes back at every μ\n"
+            "a-b group 2, cycle 2 to 4: CONVERGED, μ 5000000, ε 0.5\n");
+}
+
+TEST(LiveView, GrowthsAfterTheLastIterationShownAreNotShownEither) {
+  const std::string text = Shown({.most_iterations = 1}, [](LiveView& view) {
+    for (int i = 0; i < 2; ++i) view.OnEvent(Iteration(i, false));
+    view.OnEvent(FromText("group_growth { growth: JUMP }"));
+  });
+  EXPECT_THAT(text, testing::EndsWith("shows all\n"));
+}
+
 TEST(RenderProgress, FitsTheWidth) {
   v1::Progress progress;
   progress.set_time_s(1);

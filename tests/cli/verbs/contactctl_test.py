@@ -260,7 +260,7 @@ class RunTest(CliTest):
 
     def test_table_shows_the_iteration_as_a_message_and_the_ledger_as_data(self):
         printed, said = self.run_it("run", CHAIN)
-        self.assertRegex(printed, r"(?m)^B1-B2 +1  COLLISION  SEPARATION  CONVERGED")
+        self.assertRegex(printed, r"(?m)^B1-B2 +1 +1  COLLISION  SEPARATION  CONVERGED")
         self.assertIn("convergence FULL", printed)
         self.assertRegex(said, r"(?m)^jobs/\w+ submitted$")
         self.assertRegex(said, r"(?m)^ +1 +0  B1-B2 .*NEWTON$")

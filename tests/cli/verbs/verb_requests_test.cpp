@@ -120,8 +120,8 @@ TEST_F(VerbRequestsTest, WatchAsksForTheKindsThatItShows) {
   Run({"watch", "a", "--live", "--min-frame-interval", "250ms"});
   const auto asked = server_.Asked<v1::WatchJobRequest>();
   ASSERT_EQ(asked.size(), 4U);
-  EXPECT_THAT(asked[0].kinds(),
-              ElementsAre("log_entry", "iteration", "cycle", "attempt_started", "progress"));
+  EXPECT_THAT(asked[0].kinds(), ElementsAre("log_entry", "iteration", "group_growth", "cycle",
+                                            "group", "attempt_started", "progress"));
   EXPECT_TRUE(asked[1].kinds().empty());
   EXPECT_THAT(asked[2].kinds(), ElementsAre("cycle", "iteration"));
   EXPECT_FALSE(asked[2].live_only());

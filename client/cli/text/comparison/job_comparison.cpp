@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "cli/text/render_groups.h"
 #include "cli/text/render_json.h"
 
 namespace contact::cli {
@@ -80,11 +81,21 @@ class Results {
     Add(job, name + "t end", "s", cycle.end_time_s());
   }
 
+  // Of one cycle the row of the cycle tells all.
+  void AddGroup(std::size_t job, const v1::Group& group) {
+    if (group.cycles() == 1) return;
+    const std::string name = fmt::format("{} group {} ", group.contact(), group.number());
+    Add(job, name + "cycles", "", CyclesOf(group));
+    Add(job, name + "ε out", "1", group.restitution_out());
+    Add(job, name + "t end", "s", group.end_time_s());
+  }
+
   void AddJob(std::size_t job, const v1::Job& message) {
     Add(job, "state", "", v1::Job::State_Name(message.state()));
     Add(job, "convergence", "", v1::Job::Convergence_Name(message.convergence()));
     Add(job, "cycles", "1", static_cast<double>(message.cycles_size()));
     for (const v1::Cycle& cycle : message.cycles()) AddCycle(job, cycle);
+    for (const v1::Group& group : message.groups()) AddGroup(job, group);
     for (const v1::FinalBody& body : message.final_bodies()) {
       Add(job, body.name() + " final position", "m", body.position_m());
       Add(job, body.name() + " final velocity", "m/s", body.velocity_m_per_s());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <thread>
 
@@ -20,6 +21,30 @@ ExitCode Cancel(Client& client, const std::string& name) {
   return ExitCode::kInterrupted;
 }
 
+bool Has(const v1::Job& job, v1::Cycle::Status status) {
+  return std::ranges::any_of(job.cycles(),
+                             [status](const v1::Cycle& c) { return c.status() == status; });
+}
+
+// What may help where cycles do not have their restitution.
+std::string Advice(const v1::Job& job) {
+  if (job.convergence() != v1::Job::PARTIAL) return "";
+  const bool infeasible = Has(job, v1::Cycle::INFEASIBLE);
+  std::string text;
+  if (!infeasible || Has(job, v1::Cycle::NOT_CONVERGED)) {
+    text +=
+        "Try:   --set solver.max_iterations=200, or --set solver.restitution_tolerance=1e-6,\n"
+        "       for cycles that did not converge\n";
+  }
+  if (!infeasible) return text;
+  const bool alone = job.scenario().solver().restitution_scope() == v1::Solver::CYCLE;
+  return text + (alone ? "Try:   --set solver.restitution_scope=AUTO, which lets INFEASIBLE cycles "
+                         "share one μ\n"
+                         "       with their neighbours\n"
+                       : "       An INFEASIBLE group has no μ that would do; its contact can have "
+                         "another restitution\n");
+}
+
 }  // namespace
 
 WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, IterationRows rows,
@@ -31,7 +56,9 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
   if (settings.output == OutputFormat::kTable) {
     fmt::print(stderr, "{} submitted\n", name);
     options.kinds = {"progress", "log_entry", "attempt_started"};
-    if (rows != IterationRows::kNone) options.kinds.emplace_back("iteration");
+    if (rows != IterationRows::kNone) {
+      options.kinds.insert(options.kinds.end(), {"iteration", "group_growth"});
+    }
   }
   const Style style = settings.MessageStyle();
   LiveView view({.rows = stderr,
@@ -108,12 +135,7 @@ std::string NextSteps(const v1::Job& job) {
   if (job.cycles_size() > 0 && !job.scenario().output().ledger_only()) {
     text += fmt::format("       contactctl plot {} hysteresis   force over deformation\n", id);
   }
-  if (job.convergence() == v1::Job::PARTIAL) {
-    text +=
-        "Try:   --set solver.max_iterations=200, or --set solver.restitution_tolerance=1e-6,\n"
-        "       for cycles that did not converge; an INFEASIBLE one has no μ that would do\n";
-  }
-  return text;
+  return text + Advice(job);
 }
 
 }  // namespace contact::cli

@@ -1,42 +1,37 @@
-// The part of EpisodeSolver that guesses the first μ of a cycle, (N1) of README.md.
+#include "simulation/episode/first_guess.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "simulation/episode/episode.h"
-
 namespace contact {
 namespace {
 
+// Part of the speed of a swing about the load that a guess reckons with at least: a μ that is too
+// large lets a loaded contact creep without end.
+constexpr double kSwing = 0.3;
+
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+// The speed with which a contact swings through the equilibrium of a load, ω δ_eq.
+double SwingSpeed(const Contact& contact, double effective_mass, double force) {
+  const double depth = std::pow(std::max(force, 0.0) / contact.stiffness, 1 / contact.exponent);
+  const double stiffness = contact.stiffness * Power(depth, contact.exponent).slope;
+  return depth * std::sqrt(stiffness / effective_mass);
+}
 
 }  // namespace
 
-// (N7) of the contact's last cycle, or of one next to it that has the same law.
-double EpisodeSolver::NearestNatural(int contact) const {
-  const auto count = static_cast<int>(natural_.size());
-  for (int away = 0; away < count; ++away) {
-    for (const int other : {contact - away, contact + away}) {
-      if (other < 0 || other >= count || !(natural_[At(other)] > 0)) continue;
-      return natural_[At(other)];
-    }
-  }
-  return 0;
+FirstGuess::FirstGuess(const Scenario& scenario, const Motion& motion)
+    : scenario_(scenario), motion_(motion) {}
+
+void FirstGuess::Observe(double approach_velocity) {
+  fastest_ = std::max(fastest_, approach_velocity);
 }
 
-// (N1), or (N7) as soon as a pass has seen the cycle or another one of its contact.
-double EpisodeSolver::FirstFactor(const Unknown& u, const ContactState& state,
-                                  double effective_mass, double external_force) {
-  if (careful_ && u.iterated) {
-    if (u.natural_mu > 0) return u.natural_mu;
-    if (const double natural = NearestNatural(u.contact); natural > 0) return natural;
-  }
-  return StartFactor(state, effective_mass, external_force);
-}
-
-double EpisodeSolver::StartFactor(const ContactState& state, double effective_mass,
-                                  double external_force) {
+double FirstGuess::Factor(const ContactState& state, double effective_mass,
+                          double external_force) const {
   const Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   if (contact.damping == DampingLaw::kGiven) return contact.mu;
@@ -46,31 +41,35 @@ double EpisodeSolver::StartFactor(const ContactState& state, double effective_ma
   const double alpha = DampingCoefficient(contact.damping, contact.restitution);
   const double own =
       contact.reference_velocity > 0 ? contact.reference_velocity : cycle.approach_velocity;
-  if (contact.damping != DampingLaw::kEnergyRestitution) {
-    if (own > 0) return alpha * contact.stiffness / own;
-    WarnOnce(contact,
-             "has a cycle that starts at rest, for which its law has no approach "
-             "velocity; it keeps the last μ (0 before the first). "
-             "Give reference_velocity_m_per_s");
-    return std::isnan(state.last_mu) ? 0 : state.last_mu;
+  if (contact.damping == DampingLaw::kEnergyRestitution) {
+    if (alpha == 0) return 0;  // ε = 1.
+    if (scenario_.solver.update != UpdateRule::kNewtonCoupled) return Paper(state, own);
+    return Sought(state, alpha, own, effective_mass, external_force);
   }
-  if (alpha == 0) return 0;  // ε = 1.
-  if (as_paper_) return PaperStartFactor(state, contact, own);
+  return own > 0 ? alpha * contact.stiffness / own : kNaN;
+}
+
+double FirstGuess::Sought(const ContactState& state, double alpha, double own,
+                          double effective_mass, double external_force) const {
+  const Contact& contact = scenario_.contacts[At(state.cycle.contact)];
   if (own == 0 && state.last_mu > 0) return state.last_mu;
-  if (const double speed = std::max(own, careful_ ? 0 : NeighbourSpeed(cycle.contact)); speed > 0) {
-    return alpha * contact.stiffness / speed;
-  }
-  if (reference_speed_ > 0) return alpha * contact.stiffness / reference_speed_;
-  // At rest under a load: the speed with which it swings through its equilibrium.
-  const double depth =
-      std::pow(std::max(external_force, 0.0) / contact.stiffness, 1 / contact.exponent);
-  const double stiffness = contact.stiffness * Power(depth, contact.exponent).slope;
-  const double speed = depth * std::sqrt(stiffness / effective_mass);
-  return speed > 0 ? alpha * contact.stiffness / speed : alpha * contact.stiffness;
+  double speed = std::max(own, NeighbourSpeed(state.cycle.contact));
+  if (speed == 0) speed = fastest_;
+  const double swing = SwingSpeed(contact, effective_mass, external_force);
+  speed = speed > 0 ? std::max(speed, kSwing * swing) : swing;
+  return alpha * contact.stiffness / (speed > 0 ? speed : 1);
+}
+
+// Paper (23); for a cycle from rest the last μ or paper (28), which hides a velocity of 1 m/s.
+double FirstGuess::Paper(const ContactState& state, double own) const {
+  if (own == 0 && state.last_mu > 0) return state.last_mu;
+  const Contact& contact = scenario_.contacts[At(state.cycle.contact)];
+  const double alpha = DampingCoefficient(DampingLaw::kPaperEq23, contact.restitution);
+  return alpha * contact.stiffness / (own > 0 ? own : 1);
 }
 
 // The neighbour of a contact, other than `except`, whose first cycle is the last begun.
-int EpisodeSolver::Neighbour(int contact, int except) const {
+int FirstGuess::Neighbour(int contact, int except) const {
   const Contact& here = scenario_.contacts[At(contact)];
   int last = kNone;
   for (const ContactState& state : motion_.contacts()) {
@@ -91,7 +90,7 @@ int EpisodeSolver::Neighbour(int contact, int except) const {
 // The approach velocity that an isolated collision would have with the μ to which those of the
 // neighbours lead, one of which pushes; 0 without. A pulse in a row weakens by less and less from
 // contact to contact: 1/ln(v_i/v_(i+1)) grows about linearly.
-double EpisodeSolver::NeighbourSpeed(int contact) const {
+double FirstGuess::NeighbourSpeed(int contact) const {
   std::array<double, 3> logarithm;  // Of the speeds of the last three, the last first.
   std::size_t known = 0;
   int behind = kNone, here = contact;

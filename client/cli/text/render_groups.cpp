@@ -1,0 +1,134 @@
+#include "cli/text/render_groups.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "cli/base/number.h"
+#include "cli/base/table.h"
+#include "cli/text/render_ledger.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::size_t kMostRows = 40;
+
+Table MakeTable() {
+  return Table({{"CONTACT"},
+                {"GROUP", true},
+                {"CYCLES"},
+                {"END", false, 2},
+                {"STATUS"},
+                {"GREW", false, 3},
+                {"μ", true},
+                {"ε IN", true},
+                {"ε OUT", true},
+                {"ERROR", true},
+                {"t START [s]", true, 1},
+                {"t END [s]", true, 1},
+                {"W_c [J]", true, Table::kOnlyWide},
+                {"W_r [J]", true, Table::kOnlyWide},
+                {"RESIDUAL", true, Table::kOnlyWide}});
+}
+
+std::vector<Table::Cell> Row(const v1::Group& group) {
+  const bool grown = group.growth() != v1::Group::NOT_GROWN;
+  return {group.contact(),
+          fmt::to_string(group.number()),
+          CyclesOf(group),
+          v1::Cycle::End_Name(group.end()),
+          {v1::Cycle::Status_Name(group.status()), ToneOf(group.status())},
+          grown ? v1::Group::Growth_Name(group.growth()) : "-",
+          Digits(group.mu(), 7),
+          Digits(group.restitution_in(), 6),
+          Digits(group.restitution_out(), 8),
+          RelativeError(RestitutionError(group.restitution_out(), group.restitution_in())),
+          Digits(group.start_time_s(), 7),
+          Digits(group.end_time_s(), 7),
+          Digits(group.work_compression_j(), 7),
+          Digits(group.work_restitution_j(), 7),
+          RelativeError(group.residual())};
+}
+
+// `0.71 at μ = 2.1e8`.
+std::string At(double restitution, double mu) {
+  return fmt::format("{} at μ = {}", Digits(restitution, 6), Digits(mu, 6));
+}
+
+// A line for a group that has no μ, else empty.
+std::string NoSolution(const v1::Group& group) {
+  const std::string certificate = Certificate(group);
+  if (certificate.empty()) return "";
+  return fmt::format("{} group {}: no μ gives a restitution of {}: {}\n", group.contact(),
+                     group.number(), Digits(group.restitution_in(), 6), certificate);
+}
+
+std::string WhyInWords(v1::Group::Growth why) {
+  switch (why) {
+    case v1::Group::TOO_LITTLE:
+      return "too little comes back even at μ = 0";
+    case v1::Group::TOO_MUCH:
+      return "too much comes back at every μ";
+    case v1::Group::JUMP:
+      return "ε jumps over what was asked for";
+    default:
+      return "the search made no progress";
+  }
+}
+
+}  // namespace
+
+bool IsNotable(const v1::Group& group) {
+  return group.cycles() > 1 || group.status() == v1::Cycle::JUMP ||
+         group.status() == v1::Cycle::INFEASIBLE || group.status() == v1::Cycle::UNFINISHED;
+}
+
+std::string CyclesOf(const v1::Group& group) {
+  const int first = group.first_cycle();
+  return group.cycles() <= 1 ? fmt::to_string(first)
+                             : fmt::format("{} to {}", first, first + group.cycles() - 1);
+}
+
+std::string Certificate(const v1::Group& group) {
+  if (group.status() != v1::Cycle::JUMP && group.status() != v1::Cycle::INFEASIBLE) return "";
+  const std::string much = At(group.too_much_restitution(), group.too_much_mu());
+  const std::string little = At(group.too_little_restitution(), group.too_little_mu());
+  if (!group.has_too_much_mu()) return "too little comes back at every μ: ε is " + little;
+  if (!group.has_too_little_mu()) return "too much comes back at every μ: ε is " + much;
+  if (group.too_little_restitution() > 0)
+    return fmt::format("it jumps from {} to {}", much, little);
+  return fmt::format("it is {}, and with μ = {} the contact stays closed", much,
+                     Digits(group.too_little_mu(), 6));
+}
+
+std::string GrowthLine(const v1::GroupGrowth& growth) {
+  const int first = growth.first_cycle(), last = first + growth.cycles() - 1;
+  return fmt::format(
+      "{} {} and the next share one μ: {}", growth.contact(),
+      first >= last ? fmt::format("cycle {}", first) : fmt::format("cycles {} to {}", first, last),
+      WhyInWords(growth.growth()));
+}
+
+std::string RenderGroups(const v1::Job& job, const Style& style) {
+  Table table = MakeTable();
+  std::vector<std::string> lines;
+  int groups = 0;
+  for (const v1::Group& group : job.groups()) {
+    if (!IsNotable(group)) continue;
+    ++groups;
+    table.Add(Row(group));
+    if (std::string line = NoSolution(group); !line.empty()) lines.push_back(std::move(line));
+  }
+  if (groups == 0) return "";
+  if (lines.size() > kMostRows) lines.resize(kMostRows);  // The table says that there are more.
+  Style all = style;
+  all.columns.clear();
+  return fmt::format("\n{}{}", table.Text(all, kMostRows, "… {} more groups; -o json prints all"),
+                     Wrap(fmt::to_string(fmt::join(lines, "")), style));
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,158 @@
+#include "simulation/episode/bisection.h"
+
+#include <cmath>
+
+namespace contact {
+namespace {
+
+// A root is as near as Newton needs it to go on, and as a coarse pass can tell.
+constexpr double kRoot = 1e-4;
+// Relative error of the passes that only look; those that decide are as exact as the scenario asks.
+constexpr double kCoarse = 1e-6;
+constexpr double kGrow = 4;  // Factor between two μ in search of a bracket.
+constexpr int kMostGrows = 12;
+// A scan begins at this part of the first guess, goes on by this factor, so often at most.
+constexpr double kLowest = 1e-3, kFine = 1.25;
+constexpr int kMostScanned = 120;
+constexpr int kHalvings = 60;
+// A bracket so narrow, relative, in which ε² still differs so much holds a jump,
+constexpr double kNarrow = 1e-6, kApart = 3e-3;
+// one whose other side does not end holds none if it is so narrow,
+constexpr double kCreeps = 1e-4;
+// and one so narrow has no root whatever is in it.
+constexpr double kNarrowest = 1e-11;
+// How much longer than before a trial may last, in durations of the group.
+constexpr double kLonger = 10;
+
+}  // namespace
+
+Bisection::Point Bisection::At(double mu) {
+  Unknown& unknown = problem_.groups.At(group_.id);
+  unknown.mu = mu;
+  unknown.corrected = true;
+  const double until = group_.end_time + kLonger * (group_.end_time - group_.start_time);
+  const Sight sight = problem_.Evaluate({group_.id}, false, until, coarse_ ? kCoarse : 0);
+  const GroupSight* seen = sight.Find(group_.id);
+  Point point{.mu = mu, .excess = -1, .there = seen != nullptr};
+  if (seen != nullptr && seen->ended && std::isfinite(seen->squared)) {
+    point.excess = seen->squared / (group_.restitution_in * group_.restitution_in) - 1;
+    point.most = problem_.MostMu(*seen);
+  } else {
+    point.ended = false;
+  }
+  return point;
+}
+
+Root Bisection::Finish(Root root) {
+  Unknown& unknown = problem_.groups.At(group_.id);
+  const auto reached = [&](const Point& p) {
+    return Group::Reached{
+        .mu = p.mu, .restitution = group_.restitution_in * std::sqrt(1 + std::max(p.excess, -1.0))};
+  };
+  if (root != Root::kFound && root != Root::kJump) unknown.mu = group_.mu;
+  unknown.too_much = more_.there ? reached(more_) : Group::Reached{};
+  unknown.too_little = less_.there ? reached(less_) : Group::Reached{};
+  return root;
+}
+
+Root Bisection::Solve(const GroupSight& group) {
+  group_ = group;
+  coarse_ = true;
+  Root root = Look();
+  coarse_ = false;
+  if (root != Root::kAborted && !Confirmed(root) && !problem_.Aborted()) root = Look();
+  if (problem_.Aborted()) return Root::kAborted;
+  return root == Root::kFound ? root : Finish(root);
+}
+
+bool Bisection::Scan(const GroupSight& group) {
+  group_ = group;
+  const Unknown kept = problem_.groups.At(group.id);
+  coarse_ = true;
+  Point last = At(0);
+  double mu = kLowest * (kept.first_mu > 0 ? kept.first_mu : group.mu);
+  for (int i = 0; i < kMostScanned && !problem_.Aborted(); ++i, mu *= kFine) {
+    const Point point = At(mu);
+    if (!point.there || (point.ended && mu > point.most)) break;
+    if ((point.excess > 0) != (last.excess > 0)) {
+      coarse_ = true;
+      Keep(last), Keep(point);
+      if (Narrow() == Root::kFound && (coarse_ = false, Confirmed(Root::kFound))) return true;
+      coarse_ = true;
+    }
+    last = point;
+  }
+  problem_.groups.At(group.id) = kept;
+  return false;
+}
+
+Root Bisection::Look() {
+  more_ = less_ = {.there = false};
+  const Point first = At(group_.mu);
+  if (problem_.Aborted()) return Root::kAborted;
+  if (std::abs(first.excess) < kRoot) return Root::kFound;
+  Keep(first);
+  const Root bracket = Bracket();
+  return bracket == Root::kFound && more_.there && less_.there ? Narrow() : bracket;
+}
+
+// Whether exact passes see what the coarse ones saw: at the root, or at both sides of the bracket.
+bool Bisection::Confirmed(Root root) {
+  const double mu = problem_.groups.At(group_.id).mu;
+  if (root == Root::kFound) return std::abs(At(mu).excess) < kRoot;
+  bool confirmed = true;
+  for (Point* side : {&more_, &less_}) {
+    if (!side->there || !confirmed) continue;
+    const Point exact = At(side->mu);
+    confirmed = exact.there && exact.ended == side->ended &&
+                (exact.excess > 0) == (side == &more_) && std::abs(exact.excess) > kRoot;
+    *side = exact;
+  }
+  problem_.groups.At(group_.id).mu = mu;
+  return confirmed;
+}
+
+void Bisection::Keep(const Point& point) { (point.excess > 0 ? more_ : less_) = point; }
+
+// Looks for what the first point lacks: more at μ = 0, less at ever larger μ.
+Root Bisection::Bracket() {
+  if (less_.there) {
+    if (less_.mu == 0) return Root::kTooLittle;
+    Keep(At(0));
+    if (problem_.Aborted()) return Root::kAborted;
+    return more_.there ? Root::kFound : Root::kTooLittle;
+  }
+  const Contact& contact =
+      problem_.scenario().contacts[static_cast<std::size_t>(group_.id.contact)];
+  double mu = more_.mu > 0 ? more_.mu : 1e-3 * contact.stiffness;
+  for (int i = 0; i < kMostGrows && mu < more_.most && !less_.there; ++i) {
+    mu *= kGrow;
+    const Point point = At(mu);
+    if (problem_.Aborted()) return Root::kAborted;
+    if (!point.there) break;
+    Keep(point);
+  }
+  return less_.there ? Root::kFound : Root::kTooMuch;
+}
+
+// Regula falsi and halving in turn.
+Root Bisection::Narrow() {
+  for (int i = 0; i < kHalvings; ++i) {
+    const double width = less_.mu - more_.mu;
+    const bool apart = more_.excess > kApart && less_.excess < -kApart;
+    const double narrow = !apart ? kNarrowest : less_.ended ? kNarrow : kCreeps;
+    if (std::abs(width) <= narrow * less_.mu) break;
+    const double weight = more_.excess / (more_.excess - less_.excess);
+    const bool far = more_.mu > 0 && less_.mu > 10 * more_.mu;
+    const double half = far ? std::sqrt(more_.mu * less_.mu) : more_.mu + 0.5 * width;
+    const Point point = At(i % 2 == 0 && !far ? more_.mu + weight * width : half);
+    if (problem_.Aborted()) return Root::kAborted;
+    if (std::abs(point.excess) < kRoot) return Root::kFound;
+    Keep(point);
+  }
+  const bool more_is_nearer = !less_.ended || more_.excess < -less_.excess;
+  problem_.groups.At(group_.id).mu = more_is_nearer ? more_.mu : less_.mu;
+  return less_.ended ? Root::kJump : Root::kTooMuch;
+}
+
+}  // namespace contact

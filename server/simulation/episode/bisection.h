@@ -1,0 +1,52 @@
+#pragma once
+
+#include "simulation/episode/iteration_log.h"
+#include "simulation/episode/problem.h"
+
+namespace contact {
+
+/// What bisection finds of a group: a root, or that there is none.
+enum class Root {
+  kFound,
+  kTooLittle,  ///< Even without damping too little comes back.
+  kTooMuch,    ///< Too much comes back up to a damping that the contact can feel no more, or with
+               ///< which it does not end.
+  kJump,       ///< What comes back jumps over what is asked for.
+  kAborted,    ///< See Problem::Aborted.
+};
+
+/// Bisection of the μ of one group, with those of all others held. Keeps in the group's Unknown the
+/// nearest μ on both sides, and sets its μ to the root, or to the side of a jump that is nearer.
+class Bisection {
+ public:
+  Bisection(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
+
+  Root Solve(const GroupSight& group);
+  /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
+  /// none need not be the only one. Sets its μ to the root.
+  bool Scan(const GroupSight& group);
+
+ private:
+  struct Point {
+    double mu = 0;
+    double excess = 0;  // ε_out²/ε_in² − 1; of what does not end −1.
+    double most = 0;    // See Problem::MostMu.
+    bool there = true;
+    bool ended = true;
+  };
+  Point At(double mu);
+  Root Look();
+  bool Confirmed(Root root);
+  Root Bracket();
+  Root Narrow();
+  void Keep(const Point& point);
+  Root Finish(Root root);
+
+  Problem& problem_;
+  IterationLog& log_;
+  GroupSight group_;
+  bool coarse_ = true;  // As first seen.
+  Point more_, less_;   // Nearest μ with too much, too little.
+};
+
+}  // namespace contact

@@ -1,0 +1,65 @@
+#include "simulation/episode/groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace contact {
+
+double GroupSight::Miss() const { return std::sqrt(std::max(squared, 0.0)) / restitution_in - 1; }
+
+const GroupSight* Sight::Find(const GroupId& id) const {
+  for (const GroupSight& group : groups) {
+    if (group.id == id) return &group;
+  }
+  return nullptr;
+}
+
+bool HasBegun(const State& state, const GroupId& id) {
+  const ContactState& contact = state.contacts[static_cast<std::size_t>(id.contact)];
+  const int encounter = contact.member.group.encounter;
+  return id.encounter < std::max(contact.encounter, encounter) ||
+         (id.encounter == encounter && id.place <= contact.member.place);
+}
+
+Unknown& Groups::At(const GroupId& id) {
+  Unknown& unknown = known_[id];
+  unknown.id = id;
+  return unknown;
+}
+
+Unknown* Groups::Find(const GroupId& id) {
+  const auto found = known_.find(id);
+  return found == known_.end() ? nullptr : &found->second;
+}
+
+const Unknown* Groups::Find(const GroupId& id) const {
+  const auto found = known_.find(id);
+  return found == known_.end() ? nullptr : &found->second;
+}
+
+void Groups::Merge(const GroupSight& first, const GroupSight& next, Growth why) {
+  Unknown& grown = At(first.id);
+  // The turn of the last cycle is far from both troughs that may end it: the group's end is stable.
+  grown.lasts = next.last_turn - first.start_time;
+  grown.mu = grown.first_mu;
+  grown.status = Cycle::Status::kNotConverged;
+  grown.growth = why;
+  grown.corrected = true;
+  grown.weak = grown.lowered = false;
+  grown.settled_mu = kNaN;
+  grown.too_much = grown.too_little = {};
+  known_.erase(next.id);
+  for (GroupId id = next.id; known_.contains({id.contact, id.encounter, id.place + 1});
+       ++id.place) {
+    auto node = known_.extract({id.contact, id.encounter, id.place + 1});
+    node.key() = node.mapped().id = id;
+    known_.insert(std::move(node));
+  }
+}
+
+void Groups::ForgetBegun(const State& state) {
+  std::erase_if(known_, [&](const auto& entry) { return HasBegun(state, entry.first); });
+}
+
+}  // namespace contact

@@ -1,0 +1,174 @@
+#include "simulation/episode/growing.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "simulation/episode/front.h"
+
+namespace contact {
+namespace {
+
+constexpr double kForever = 1e300;
+// Parts of its μ with which a group that does not end is tried.
+constexpr std::array<double, 5> kLower = {0.5, 0.2, 0.05, 1e-2, 1e-4};
+
+// A group without a solution is taken up again so often at most.
+constexpr int kMostReopened = 3;
+// A miss that rather is the cause of what others miss by than their effect.
+constexpr double kMuch = 1e-2;
+
+GroupId Neighbour(GroupId id, int places) {
+  id.place += places;
+  return id;
+}
+
+}  // namespace
+
+bool Growing::TakeNext(const GroupId& id, Growth why) {
+  const GroupId next = Neighbour(id, 1);
+  const Sight sight = problem_.Evaluate({id, next}, false, kForever);
+  const GroupSight* here = sight.Find(id);
+  const GroupSight* there = sight.Find(next);
+  if (here == nullptr || !here->ended || here->separated) return false;
+  if (there == nullptr) return false;
+  GroupSight taken = *there;
+  // Of one that does not end in sight the group takes what there is: it is unfinished then.
+  if (taken.cycles == 0) taken.last_turn = (taken.start_time + sight.time) / 2;
+  problem_.groups.Merge(*here, taken, why);
+  log_.Grow(sight, id, problem_.groups.At(id));
+  return true;
+}
+
+bool Growing::JoinPrevious(const GroupId& id, Growth why) {
+  const GroupId before = Neighbour(id, -1);
+  if (problem_.groups.Find(before) == nullptr) return false;  // It was recorded already.
+  const Sight sight = problem_.Evaluate({before, id}, false, kForever);
+  const GroupSight* here = sight.Find(id);
+  const GroupSight* there = sight.Find(before);
+  if (here == nullptr || here->cycles == 0 || there == nullptr || !there->sought) return false;
+  problem_.groups.Merge(*there, *here, why);
+  log_.Grow(sight, before, problem_.groups.At(before));
+  return true;
+}
+
+bool Growing::Grow(const GroupId& id, Growth why) {
+  if (problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle) return false;
+  if (why == Growth::kTooMuch && JoinPrevious(id, why)) return true;
+  // The trough that ends the group may be there on one side of what was sought only.
+  Unknown& unknown = problem_.groups.At(id);
+  const double here = unknown.mu;
+  for (const double mu : {here, unknown.too_little.mu, unknown.too_much.mu}) {
+    if (std::isnan(mu)) continue;
+    unknown.mu = mu;
+    if (TakeNext(id, why)) return true;
+  }
+  unknown.mu = here;
+  return why != Growth::kTooMuch && JoinPrevious(id, why);
+}
+
+// Whether the run ends before a group does, with its first guess; it then has that.
+bool Growing::IsCut(const GroupId& id) {
+  Unknown& unknown = problem_.groups.At(id);
+  const double mu = std::exchange(unknown.mu, unknown.first_mu);
+  const Sight sight = problem_.Evaluate({id}, false, kForever);
+  const GroupSight* g = sight.Find(id);
+  const bool ends = g != nullptr && g->ended && g->end_time <= problem_.end();
+  if (ends) unknown.mu = mu;
+  return !ends;
+}
+
+bool Growing::Answer(const GroupSight& group, Root root) {
+  const Growth why = root == Root::kTooLittle ? Growth::kTooLittle
+                     : root == Root::kTooMuch ? Growth::kTooMuch
+                                              : Growth::kJump;
+  if (!IsCut(group.id)) return Grow(group.id, why) || problem_.Aborted();
+  problem_.groups.At(group.id).status = Cycle::Status::kUnfinished;
+  return true;
+}
+
+// A group that has no solution keeps what comes nearest; one that gives back too much for every μ
+// its first guess, for a large μ would slow the motion for next to nothing.
+void Growing::Decide(const GroupId& id, Root root) const {
+  Unknown& unknown = problem_.groups.At(id);
+  const bool alone = problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle;
+  const bool opens = root == Root::kTooMuch && !std::isnan(unknown.too_little.mu);  // Does not end.
+  const bool jumps = !alone && (root == Root::kJump || opens);
+  unknown.status = jumps ? Cycle::Status::kJump : Cycle::Status::kInfeasible;
+  if (root == Root::kTooLittle) unknown.mu = 0;
+  if (root == Root::kTooMuch) unknown.mu = opens ? unknown.too_much.mu : unknown.first_mu;
+  if (root == Root::kJump && alone) unknown.mu = unknown.too_much.mu;
+}
+
+bool Growing::Force(const std::vector<GroupId>& front) {
+  const Sight sight = problem_.Evaluate(front, false, kForever);
+  std::vector<GroupId> missing;  // That of much first, in order of time.
+  for (const double least : {kMuch, problem_.tolerance()}) {
+    for (const GroupId& id : front) {
+      const GroupSight* g = sight.Find(id);
+      if (g != nullptr && Misses(*g, problem_.groups, least)) missing.push_back(id);
+    }
+  }
+  for (const GroupId& id : missing) {
+    if (problem_.Aborted() || Grow(id, Growth::kNoProgress)) return true;
+  }
+  for (const GroupId& id : missing) problem_.groups.At(id).given_up = true;
+  return !missing.empty();
+}
+
+// Whether with the μ of one side still too much, by the sign, or too little comes back.
+bool Growing::Holds(const GroupSight& group, const Group::Reached& side, double sign) {
+  if (std::isnan(side.mu)) return true;
+  Unknown& unknown = problem_.groups.At(group.id);
+  const double kept = std::exchange(unknown.mu, side.mu);
+  const Sight sight = problem_.Evaluate({group.id}, false, kForever);
+  unknown.mu = kept;
+  const GroupSight* seen = sight.Find(group.id);
+  const bool ended = seen != nullptr && seen->ended;
+  return sign * (ended ? seen->Miss() : -1) > 0;
+}
+
+bool Growing::Reopen(const Sight& scan) {
+  for (const GroupSight& g : scan.groups) {
+    Unknown& unknown = problem_.groups.At(g.id);
+    const bool without =
+        unknown.status == Cycle::Status::kJump || unknown.status == Cycle::Status::kInfeasible;
+    if (!without || unknown.reopened == kMostReopened || problem_.Aborted()) continue;
+    if (Holds(g, unknown.too_much, 1) && Holds(g, unknown.too_little, -1)) continue;
+    ++unknown.reopened;
+    unknown.status = Cycle::Status::kNotConverged;
+    return true;
+  }
+  return false;
+}
+
+bool Growing::Lower(const GroupId& id) {
+  const double mu = problem_.groups.At(id).mu;
+  for (const double part : kLower) {
+    problem_.groups.At(id).mu = part * mu;
+    problem_.groups.At(id).corrected = true;
+    const Sight sight = problem_.Evaluate({id}, false, kForever);
+    if (problem_.Aborted()) return true;
+    const GroupSight* g = sight.Find(id);
+    if (g != nullptr && g->ended) return problem_.groups.At(id).lowered = true;
+  }
+  problem_.groups.At(id).mu = problem_.groups.At(id).first_mu;
+  return false;
+}
+
+bool Growing::Close(const Sight& scan) {
+  for (const GroupSight& g : scan.groups) {
+    // What went on beyond the end of the run need not end.
+    if (g.ended || !g.sought || g.start_time >= problem_.end()) continue;
+    Unknown& unknown = problem_.groups.At(g.id);
+    if (unknown.Decided()) continue;
+    if (!unknown.lowered && Lower(g.id)) return true;
+    if (unknown.lowered && Grow(g.id, Growth::kTooMuch)) return true;
+    unknown.mu = unknown.first_mu;
+    unknown.status = Cycle::Status::kUnfinished;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace contact

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "simulation/episode/bisection.h"
+#include "simulation/episode/iteration_log.h"
+#include "simulation/episode/problem.h"
+
+namespace contact {
+
+/// Lets groups take in their neighbours where no μ of theirs is a solution, and says what became of
+/// those that cannot grow.
+class Growing {
+ public:
+  Growing(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
+
+  /// Grows the group for what bisection has found, or finds that the run cuts it. False: it cannot
+  /// grow, or may not.
+  bool Answer(const GroupSight& group, Root root);
+  /// Says of a group that cannot grow what it is.
+  void Decide(const GroupId& id, Root root) const;
+  /// Grows the earliest group of a front that misses, for lack of progress; false: none can.
+  bool Force(const std::vector<GroupId>& front);
+  /// Takes up again a group that was found to have no solution, where that no longer holds: those
+  /// around it have changed. False: there is none.
+  bool Reopen(const Sight& scan);
+  /// A group that did not end in a scan: its μ is lowered until it does. False: nothing changes.
+  bool Close(const Sight& scan);
+
+ private:
+  bool Holds(const GroupSight& group, const Group::Reached& side, double sign);
+  bool IsCut(const GroupId& id);
+  bool Grow(const GroupId& id, Growth why);
+  bool TakeNext(const GroupId& id, Growth why);
+  bool JoinPrevious(const GroupId& id, Growth why);
+  bool Lower(const GroupId& id);
+
+  Problem& problem_;
+  IterationLog& log_;
+};
+
+}  // namespace contact

@@ -1,0 +1,190 @@
+#include "simulation/episode/pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/episode/front.h"
+
+namespace contact {
+namespace {
+
+// A cycle of an explicit integrator takes some 20 steps, one of a stiff contact thousands: what
+// does not turn in so many creeps.
+constexpr int kPatience = 5'000;
+// A(ε_in) to which residuals are relative at least, for ε_in near 1.
+constexpr double kLeastGoal = 1e-6;
+// ε_out below this part of ε_in counts as this: A(0) is infinite.
+constexpr double kLeastRestitution = 0.05;
+
+// A group that was negligible is so until its work is this many times what is: its μ, which depends
+// on that, changes its work.
+constexpr double kStillWeak = 10;
+// One that has changed between the two so often is negligible for good.
+constexpr int kMostFlips = 3;
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+void Add(Eigen::ArrayXd& sum, const Eigen::ArrayXd& gradient) {
+  const Eigen::Index known = sum.size();
+  sum.conservativeResize(gradient.size());
+  sum.tail(gradient.size() - known).setZero();
+  sum += gradient;
+}
+
+// Paper (30): df/dμ along the trajectory as it is. S_c and S_r, the integrals of δⁿ δ̇ over the
+// phases, are what is dissipated in them over μ.
+double FrozenSlope(const Cycle& cycle) {
+  const double compression = cycle.dissipated_compression / cycle.mu;
+  const double restitution = cycle.dissipated_restitution / cycle.mu;
+  return (cycle.work_compression * restitution - cycle.work_restitution * compression) /
+         (cycle.work_compression * cycle.work_compression);
+}
+
+}  // namespace
+
+Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& stop,
+                 std::int64_t step_limit) {
+  plan_ = plan;
+  sight_ = {};
+  cycles_ = running_ = columns_ = idle_steps_ = 0;
+  enough_ = false;
+  membership_.Begin(plan.guess);
+  motion_.Begin(start, false, plan.tolerance);
+  do {
+    sight_.pause = motion_.Advance(plan.until, *this, nullptr, stop, step_limit);
+    if (sight_.pause == Motion::Pause::kQuiet) sight_.quiet.push_back(motion_.time());
+  } while (sight_.pause == Motion::Pause::kQuiet && !plan.first_quiet && !IsOpen() && !enough_ &&
+           (motion_.time() < plan.end || !plan.front.empty()));
+  sight_.time = motion_.time();
+  sight_.crowded = cycles_ >= plan.most_cycles && sight_.pause == Motion::Pause::kEnough;
+  return std::move(sight_);
+}
+
+bool Pass::IsOpen() const {
+  return std::ranges::none_of(motion_.contacts(), [](const ContactState& c) {
+    return c.phase == Phase::kStarting && !c.settled;
+  });
+}
+
+// Cycles after the end of the run only show how those before it end.
+bool Pass::Counts(const Cycle& cycle) const { return cycle.start_time < plan_.end; }
+
+bool Pass::Matters(const Unknown& unknown) const {
+  return unknown.start_time < plan_.end && !unknown.Decided() &&
+         IsSought(scenario_, unknown.id.contact);
+}
+
+GroupSight* Pass::Seen(const ContactState& state) {
+  const GroupId id = Membership::IdOf(state);
+  for (auto group = sight_.groups.rbegin(); group != sight_.groups.rend(); ++group) {
+    if (group->id == id) return &*group;
+  }
+  return nullptr;  // It began before the pass.
+}
+
+bool Pass::WantsColumn(const GroupId& id) const {
+  return plan_.sensitive &&
+         (plan_.front.empty() || std::ranges::find(plan_.front, id) != plan_.front.end());
+}
+
+CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, double external_force) {
+  idle_steps_ = 0;
+  const bool opens = !state.member.open && !state.settled;
+  const double mu = membership_.Start(state, effective_mass, external_force);
+  if (state.settled) return {.mu = mu};
+  const Cycle& cycle = state.cycle;
+  cycles_ += Counts(cycle);
+  if (cycles_ >= plan_.most_cycles) enough_ = true;
+  if (opens) {
+    const Contact& contact = scenario_.contacts[At(cycle.contact)];
+    const Unknown& unknown = *groups_.Find(Membership::IdOf(state));
+    GroupSight& made = sight_.groups.emplace_back();
+    made.id = unknown.id;
+    made.mu = mu;
+    made.sought = IsSought(scenario_, cycle.contact);
+    if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
+    made.first_cycle = cycle.number;
+    made.start_time = cycle.start_time;
+    if (made.sought && mu > 0 && WantsColumn(made.id)) made.column = columns_++;
+    if (Matters(unknown)) ++running_;
+  }
+  const GroupSight* seen = Seen(state);
+  if (seen == nullptr) return {.mu = mu};
+  const Unknown& unknown = *groups_.Find(seen->id);
+  return {.mu = mu, .column = seen->column, .length = unknown.length, .speed = unknown.speed};
+}
+
+void Pass::OnCancel(ContactState& state) {
+  cycles_ -= Counts(state.cycle);
+  const GroupId id = Membership::IdOf(state);
+  const Unknown* unknown = groups_.Find(id);
+  if (!membership_.Cancel(state) || unknown == nullptr) return;
+  if (Matters(*unknown)) --running_;
+  std::erase_if(sight_.groups, [&](const GroupSight& g) { return g.id == id; });
+}
+
+void Pass::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
+                 const Eigen::ArrayXd& restitution_gradient, double length, double speed) {
+  idle_steps_ = 0;
+  const Cycle& cycle = state.cycle;
+  GroupSight* seen = state.member.open ? Seen(state) : nullptr;
+  const bool ended = membership_.End(state);
+  if (seen == nullptr) return;
+  ++seen->cycles;
+  seen->last_turn = cycle.turn_time;
+  seen->end_time = cycle.end_time;
+  seen->work_compression = state.member.group.work_compression;
+  seen->work_restitution = state.member.group.work_restitution;
+  seen->frozen_slope = FrozenSlope(cycle);
+  if (seen->cycles == 1) seen->length = length, seen->speed = speed;
+  Add(seen->gradient_compression, compression_gradient);
+  Add(seen->gradient_restitution, restitution_gradient);
+  if (!ended) return;
+  seen->ended = true;
+  seen->separated = cycle.end == Cycle::End::kSeparation;
+  const Unknown& known = *groups_.Find(seen->id);
+  seen->weak = seen->cycles == 1 &&
+               (known.flips > kMostFlips || membership_.IsWeak(state, known.weak ? kStillWeak : 1));
+  Measure(*seen);
+  if (Matters(*groups_.Find(seen->id))) --running_;
+  enough_ = enough_ || Enough();
+}
+
+// A(ε), the coefficient of the isolated collision with that restitution, is the coordinate in
+// which the problem is solved: for a collision without external forces μ ↦ A(ε_out) is a straight
+// line, and Newton is at its root in one step.
+void Pass::Measure(GroupSight& group) const {
+  group.squared = -group.work_restitution / group.work_compression;
+  if (!group.sought) return;
+  const double in = group.restitution_in;
+  const double wanted = ExactCoefficient(in), scale = std::max(wanted, kLeastGoal);
+  const double e = std::max(std::sqrt(std::max(group.squared, 0.0)), kLeastRestitution * in);
+  const double a = ExactCoefficient(e);
+  const double denominator = (1 - a * e) - e * e * (1 + a);
+  const double slope = std::abs(1 - e) < 1e-5 ? -1.5 : a * e * (1 + a) / denominator;  // dA/dε
+  group.residual = (a - wanted) / scale;
+  group.gradient = -slope / (2 * e) / scale / group.work_compression *
+                   (group.gradient_restitution + group.squared * group.gradient_compression);
+}
+
+bool Pass::FrontHasEnded() const {
+  return std::ranges::all_of(plan_.front, [&](const GroupId& id) {
+    const GroupSight* seen = sight_.Find(id);
+    return seen != nullptr && seen->ended;
+  });
+}
+
+bool Pass::Enough() const {
+  if (!plan_.front.empty()) return FrontHasEnded();
+  if (running_ == 0 && motion_.time() >= plan_.end) return true;
+  if (plan_.first_quiet) return false;
+  return FrontIsComplete(sight_, groups_, scenario_.solver.restitution_tolerance, plan_.end);
+}
+
+bool Pass::OnStep() {
+  observer_.OnStep();
+  if (++idle_steps_ > kPatience) enough_ = true;
+  return !enough_;
+}
+
+}  // namespace contact

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "simulation/episode/membership.h"
+#include "simulation/model/observer.h"
+
+namespace contact {
+
+/// One pass through the motion with the μ of the groups, and what it shows of them.
+class Pass final : public CycleHost {
+ public:
+  /// What a pass is to see.
+  struct Plan {
+    double tolerance = 0;             ///< Relative, of the integration; 0: the scenario's.
+    double end = 0;                   ///< Of the run: what begins later is no matter of the search.
+    double until = 1e300;             ///< It goes no further [s].
+    int most_cycles = 1;              ///< It ends when so many have begun.
+    bool first_quiet = false;         ///< It ends at the first instant at which no cycle runs.
+    bool guess = false;               ///< It guesses anew what was only guessed.
+    bool sensitive = false;           ///< It differentiates by the μ of these groups:
+    std::vector<GroupId> front = {};  ///< it ends when all have ended. Empty: by what a scan needs.
+  };
+
+  Pass(const Scenario& scenario, Motion& motion, Observer& observer, Groups& groups)
+      : scenario_(scenario),
+        motion_(motion),
+        observer_(observer),
+        groups_(groups),
+        membership_(scenario, motion, groups) {}
+
+  /// Passes from `start`. A scan, without a front, ends when the earliest groups that miss have
+  /// ended with all that overlap them, at the latest when the contacts are open.
+  Sight Look(const State& start, const Plan& plan, const std::stop_token& stop,
+             std::int64_t step_limit);
+
+  /// Whether no contact is about to begin a cycle.
+  bool IsOpen() const;
+
+  Factor OnStart(ContactState& state, double effective_mass, double external_force) override;
+  void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
+             const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
+  void OnCancel(ContactState& state) override;
+  bool OnStep() override;
+
+ private:
+  bool Counts(const Cycle& cycle) const;
+  bool Matters(const Unknown& unknown) const;
+  GroupSight* Seen(const ContactState& state);
+  bool WantsColumn(const GroupId& id) const;
+  void Measure(GroupSight& group) const;
+  bool Enough() const;
+  bool FrontHasEnded() const;
+
+  const Scenario& scenario_;
+  Motion& motion_;
+  Observer& observer_;
+  Groups& groups_;
+  Membership membership_;
+  Plan plan_;
+  Sight sight_;
+  int cycles_ = 0;   // Begun,
+  int running_ = 0;  // and groups that run, of those that matter.
+  int columns_ = 0;
+  int idle_steps_ = 0;  // Since a cycle began or ended.
+  bool enough_ = false;
+};
+
+}  // namespace contact

@@ -1,0 +1,120 @@
+#include "simulation/episode/problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace contact {
+namespace {
+
+// A trial μ may break a motion into many cycles; what has not ended after so many is open.
+constexpr int kMostCyclesOfATrial = 400;
+// How far beyond the end of the run passes go for groups that it cuts: a part of the run, and of
+// what the episode may last in it.
+constexpr double kBeyond = 3, kOwn = 5;
+// μ δⁿ T/m_e, the damping in units of what stops the bodies within the group's duration T; an
+// isolated collision has some 3/ε. Of 2,700 groups of random scenarios one in a thousand needs
+// more. The first group of an encounter begins at rest, so that it has a root if it ends at all.
+constexpr double kFelt = 3000, kFeltAtFirst = 1e6;
+// Part of a scan that passes have to be spared for a state to be kept, and how long before the
+// front it is taken.
+constexpr double kWorth = 0.1, kShortly = 1e-3;
+// Coarser passes miss events.
+constexpr double kCoarsest = 1e-6;
+
+}  // namespace
+
+void Problem::Begin(const State& start, double end, const std::stop_token& stop,
+                    std::int64_t step_limit) {
+  start_ = &start;
+  end_ = end;
+  horizon_ = end + std::max(kBeyond * end, kOwn * (end - start.time));
+  stop_ = stop;
+  step_limit_ = step_limit;
+  aborted_ = false;
+  near_ = {};
+}
+
+Sight Problem::Look(const State& from, Pass::Plan plan) {
+  ++passes_;
+  plan.end = end_;
+  plan.until = std::min(plan.until, horizon_);
+  Sight sight = pass_.Look(from, plan, stop_, step_limit_);
+  pause_ = sight.pause;
+  aborted_ = pause_ == Motion::Pause::kStopped || pause_ == Motion::Pause::kStepLimit;
+  return sight;
+}
+
+Sight Problem::Scan(int most_cycles, bool guess, bool coarse) {
+  trusting_ = true;
+  Sight sight = Look(*start_, {.tolerance = coarse ? Tolerance(kCoarsest) : 0,
+                               .most_cycles = most_cycles,
+                               .guess = guess,
+                               .sensitive = coarse});
+  sight.exact = !coarse;
+  seen_ = sight.time;
+  return sight;
+}
+
+Sight Problem::SeeStretch(int most_cycles) {
+  return Look(*start_, {.most_cycles = most_cycles, .first_quiet = true, .guess = true});
+}
+
+// The tolerance of a pass that need not be more exact than this.
+double Problem::Tolerance(double wanted) const {
+  const double finest = scenario_.solver.relative_tolerance;
+  if (scenario_.solver.clip_tension) return 0;
+  return std::clamp(wanted, finest, std::max(kCoarsest, finest));
+}
+
+double Problem::MostMu(const GroupSight& g) const {
+  const Contact& contact = scenario_.contacts[static_cast<std::size_t>(g.id.contact)];
+  const double duration = g.end_time - g.start_time;
+  const double unit = std::pow(g.length, contact.exponent) * duration /
+                      motion_.equations().effective_mass(g.id.contact);
+  return (g.id.place > 1 ? kFelt : kFeltAtFirst) / g.restitution_in / unit;
+}
+
+std::vector<Problem::Held> Problem::HeldIn(const State& state) const {
+  std::vector<Held> held;
+  for (const auto& [id, u] : groups.known()) {
+    if (HasBegun(state, id)) held.emplace_back(id, u.mu, u.lasts, u.weak);
+  }
+  return held;
+}
+
+// What happens later changes nothing earlier: a pass that is to show a front may begin shortly
+// before it, at a state that is kept for the passes that follow.
+const State& Problem::Before(const std::vector<GroupId>& front) {
+  if (!trusting_) return *start_;
+  const auto has_begun = [&](const State& state) {
+    return std::ranges::any_of(front, [&](const GroupId& id) { return HasBegun(state, id); });
+  };
+  const bool keeps = near_.time > start_->time && !has_begun(near_) && held_ == HeldIn(near_);
+  const State& from = keeps ? near_ : *start_;
+  double begin = horizon_;  // By the last pass that saw it: with other μ it may be another.
+  for (const GroupId& id : front) begin = std::min(begin, groups.At(id).start_time);
+  if (begin - from.time < kWorth * (seen_ - start_->time)) return from;
+  const double until = begin - kShortly * (begin - start_->time);
+  const Sight sight =
+      Look(from, {.until = until, .most_cycles = kMostCyclesOfATrial, .front = {front.front()}});
+  if (sight.pause != Motion::Pause::kTimeUp) return from;
+  State reached = motion_.Save();
+  if (has_begun(reached)) return from;
+  near_ = std::move(reached);
+  held_ = HeldIn(near_);
+  return near_;
+}
+
+Sight Problem::Evaluate(const std::vector<GroupId>& front, bool sensitive, double until,
+                        double tolerance) {
+  const State& from = Before(front);
+  if (aborted_) return {};
+  return Look(from, {.tolerance = Tolerance(tolerance),
+                     .until = until,
+                     .most_cycles = kMostCyclesOfATrial,
+                     .sensitive = sensitive,
+                     .front = front});
+}
+
+}  // namespace contact

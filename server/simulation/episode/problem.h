@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <tuple>
+#include <vector>
+
+#include "simulation/episode/pass.h"
+
+namespace contact {
+
+/// The equations that a search solves: of a front of groups, the residuals at given μ and their
+/// slopes, in one pass through the motion.
+class Problem {
+ public:
+  Problem(const Scenario& scenario, Motion& motion, Observer& observer)
+      : scenario_(scenario), motion_(motion), pass_(scenario, motion, observer, groups) {}
+
+  /// Passes begin at `start`, which must outlive them. The run ends at `end` [s].
+  void Begin(const State& start, double end, const std::stop_token& stop, std::int64_t step_limit);
+
+  /// Looks for the earliest groups that miss among the next `most_cycles` cycles.
+  /// `guess`: what was only guessed is guessed anew. `coarse`: with slopes, and as inexactly as a
+  /// first look may be.
+  Sight Scan(int most_cycles, bool guess, bool coarse = false);
+  /// Sees the first stretch without pause, each cycle of it.
+  Sight SeeStretch(int most_cycles);
+  /// The front with the μ that its groups now have. `until`: what has not ended then is open [s].
+  /// `tolerance`: of the integration; 0: the scenario's, which is the finest.
+  Sight Evaluate(const std::vector<GroupId>& front, bool sensitive, double until,
+                 double tolerance = 0);
+
+  /// The largest μ [N·s/mⁿ⁺¹] that a group, as a pass has seen it, can feel: beyond it nothing
+  /// turns any more.
+  double MostMu(const GroupSight& group) const;
+
+  /// Until the next scan every pass begins at the start: what was kept in between may be why scans
+  /// and other passes disagree.
+  void Distrust() { trusting_ = false; }
+
+  /// Whether the run was stopped or has spent its steps: no pass means anything any more.
+  bool Aborted() const { return aborted_; }
+  /// Whether no contact is about to begin a cycle.
+  bool IsOpen() const { return pass_.IsOpen(); }
+  Motion::Pause pause() const { return pause_; }
+  double start_time() const { return start_->time; }
+  double end() const { return end_; }
+  double tolerance() const { return scenario_.solver.restitution_tolerance; }
+  const Scenario& scenario() const { return scenario_; }
+  const Motion& motion() const { return motion_; }
+  std::int64_t passes() const { return passes_; }
+
+  Groups groups;
+
+ private:
+  // What was known of a group when a state was kept.
+  using Held = std::tuple<GroupId, double, double, bool>;
+  Sight Look(const State& from, Pass::Plan plan);
+  const State& Before(const std::vector<GroupId>& front);
+  std::vector<Held> HeldIn(const State& state) const;
+  double Tolerance(double wanted) const;
+
+  const Scenario& scenario_;
+  Motion& motion_;
+  Pass pass_;
+  const State* start_ = nullptr;
+  State near_;              // Shortly before the last front, if
+  std::vector<Held> held_;  // all that begins before is still this.
+  bool trusting_ = false;
+  double seen_ = 0;  // How far the last scan went [s].
+  double end_ = 0;
+  double horizon_ = 0;  // Passes go no further.
+  std::stop_token stop_;
+  std::int64_t step_limit_ = 0;
+  std::int64_t passes_ = 0;
+  bool aborted_ = false;
+  Motion::Pause pause_ = Motion::Pause::kQuiet;
+};
+
+}  // namespace contact

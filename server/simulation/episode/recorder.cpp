@@ -1,0 +1,195 @@
+#include "simulation/episode/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/episode/run_state.h"
+
+namespace contact {
+namespace {
+
+constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
+// What the recorded pass may miss by beyond the tolerance, in units of it: its cuts differ from
+// those of the search, and so does its round-off.
+constexpr double kRecorded = 2;
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+double Ratio(double work_compression, double work_restitution) {
+  const double squared = -work_restitution / work_compression;
+  return work_compression > 0 && squared >= 0 ? std::sqrt(squared) : kNaN;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Scenario& scenario, const Motion& motion, Observer& observer,
+                   Groups& known)
+    : scenario_(scenario),
+      motion_(motion),
+      observer_(observer),
+      known_(known),
+      membership_(scenario, motion, known),
+      warned_(scenario.contacts.size()),
+      missed_(kDampingLaws) {}
+
+void Recorder::Begin(int episode) {
+  episode_ = episode;
+  membership_.Begin(false);
+  sound_ = true;
+  cycles.clear();
+  groups.clear();
+}
+
+void Recorder::Save(RunState* state) const {
+  state->warned = warned_;
+  state->missed = missed_;
+}
+
+void Recorder::Restore(const RunState& state) {
+  episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
+  warned_ = state.warned;
+  missed_ = state.missed;
+}
+
+bool Recorder::OnStep() {
+  observer_.OnStep();
+  return true;
+}
+
+CycleHost::Factor Recorder::OnStart(ContactState& state, double effective_mass,
+                                    double external_force) {
+  const bool opens = !state.member.open && !state.settled;
+  const double mu = membership_.Start(state, effective_mass, external_force);
+  if (state.settled) return {.mu = mu};
+  WarnWithoutVelocity(state);
+  const Unknown* unknown = known_.Find(Membership::IdOf(state));
+  if (opens) Open(state, *unknown);
+  if (unknown == nullptr) return {.mu = mu};  // It began before the episode.
+  return {.mu = mu, .length = unknown->length, .speed = unknown->speed};
+}
+
+void Recorder::OnCancel(ContactState& state) {
+  const bool numbered = state.member.group.number > 0;
+  if (membership_.Cancel(state) && numbered) --state.member.groups;
+}
+
+// Writes what the search has found into a group that begins.
+void Recorder::Open(ContactState& state, const Unknown& unknown) const {
+  const Contact& contact = scenario_.contacts[At(state.cycle.contact)];
+  Group& group = state.member.group;
+  group.number = unknown.weak ? 0 : ++state.member.groups;
+  group.status = unknown.status;
+  if (contact.damping != DampingLaw::kEnergyRestitution) group.status = Cycle::Status::kGivenLaw;
+  if (IsUndamped(scenario_, state.cycle.contact)) group.status = Cycle::Status::kConverged;
+  if (contact.damping != DampingLaw::kGiven) group.restitution_in = contact.restitution;
+  group.restitution_out = unknown.restitution_out;
+  group.growth = unknown.growth;
+  const bool told = unknown.Decided();
+  if (told) group.too_much = unknown.too_much, group.too_little = unknown.too_little;
+  state.cycle.iterations = unknown.iterations;
+  state.member.iterations = unknown.iterations;
+}
+
+void Recorder::WarnWithoutVelocity(const ContactState& state) {
+  const Contact& contact = scenario_.contacts[At(state.cycle.contact)];
+  const bool named = contact.damping != DampingLaw::kEnergyRestitution &&
+                     contact.damping != DampingLaw::kGiven && !NeedsNoVelocity(contact.damping);
+  const bool has_velocity = contact.reference_velocity > 0 || state.cycle.approach_velocity > 0;
+  const std::size_t index = At(state.cycle.contact);
+  if (!named || has_velocity || warned_[index]) return;
+  warned_[index] = true;
+  observer_.OnWarning("contact " + contact.name +
+                      " has a cycle that starts at rest, for which its law has no approach "
+                      "velocity; it keeps the last μ (0 before the first). "
+                      "Give reference_velocity_m_per_s");
+}
+
+// Says once for each law that it does not deliver what was asked of it.
+void Recorder::WarnOfMiss(const Contact& contact, const Cycle& cycle) {
+  const double miss = cycle.restitution_out / contact.restitution - 1;
+  const auto law = static_cast<std::size_t>(contact.damping) - 1;
+  if (!(std::abs(miss) > kToldMiss) || missed_[law]) return;
+  missed_[law] = true;
+  observer_.OnWarning("contact " + contact.name + ", cycle " + std::to_string(cycle.number) +
+                      ": its law delivers a restitution of " +
+                      std::to_string(cycle.restitution_out) + " where " +
+                      std::to_string(contact.restitution) + " was asked for; misses of this law " +
+                      "above 1 % are told once, and the ledger has them all");
+}
+
+// Writes into a cycle what its group is.
+void Recorder::Label(const ContactState& state, Cycle& cycle) const {
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
+  const bool rested = state.phase == Phase::kResting;
+  const bool weak = state.member.group.number == 0;
+  cycle.episode = episode_;
+  cycle.group = rested ? 0 : state.member.group.number;
+  if (contact.damping != DampingLaw::kGiven) cycle.restitution_in = contact.restitution;
+  cycle.status = state.member.group.status;
+  cycle.iterations = state.member.iterations;
+  if (rested) cycle.restitution_out = kNaN;
+  if (rested || (weak && cycle.status != Cycle::Status::kGivenLaw)) {
+    cycle.status = Cycle::Status::kSettled;
+  }
+}
+
+void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::ArrayXd&, double,
+                     double) {
+  Cycle& cycle = state.cycle;
+  const bool rested = !state.member.open;
+  const bool ended = membership_.End(state);
+  state.member.imbalance += cycle.identity_residual * cycle.work_compression;
+  Label(state, cycle);
+  if (rested) cycle.group = 0, cycle.status = Cycle::Status::kSettled, cycle.restitution_out = kNaN;
+  const Contact& contact = scenario_.contacts[At(cycle.contact)];
+  if (cycle.status == Cycle::Status::kGivenLaw && contact.damping != DampingLaw::kGiven) {
+    WarnOfMiss(contact, cycle);
+  }
+  cycles.push_back(cycle);
+  if (ended) Close(state);
+}
+
+// The group of the cycle that has ended ends with it: sees what it has become.
+void Recorder::Close(ContactState& state) {
+  Group& group = state.member.group;
+  group.restitution_out = Ratio(group.work_compression, group.work_restitution);
+  group.residual = state.member.imbalance / group.work_compression;
+  state.member.imbalance = 0;
+  const Unknown* unknown = known_.Find(Membership::IdOf(state));
+  const bool weak = group.cycles == 1 && membership_.IsWeak(state);
+  const bool settled = unknown == nullptr || unknown->flips > 0 || unknown->weak == weak;
+  if (group.status != Cycle::Status::kGivenLaw && !settled) sound_ = false;
+  if (group.number == 0) return;
+  const double allowed = scenario_.solver.restitution_tolerance * group.restitution_in;
+  const double miss = std::abs(group.restitution_out - group.restitution_in);
+  Cycle::Status status = group.status;
+  if (status == Cycle::Status::kUnfinished) status = Cycle::Status::kNotConverged;  // It has ended.
+  if (status == Cycle::Status::kNotConverged && miss <= allowed) status = Cycle::Status::kConverged;
+  if (status == Cycle::Status::kConverged && !(miss <= kRecorded * allowed)) {
+    status = Cycle::Status::kNotConverged;
+  }
+  if (status == Cycle::Status::kNotConverged && weak) status = Cycle::Status::kSettled;
+  group.status = status;
+  const bool answered = unknown == nullptr || unknown->given_up;
+  if (status == Cycle::Status::kNotConverged && !answered) sound_ = false;
+  for (Cycle& cycle : cycles) {
+    if (cycle.contact == group.contact && cycle.group == group.number) cycle.status = status;
+  }
+  state.cycle.status = status;
+  groups.push_back(group);
+}
+
+void Recorder::FinishCut(ContactState& state) {
+  Cycle& cycle = state.cycle;
+  Label(state, cycle);
+  if (state.phase == Phase::kResting || state.member.group.number == 0) return;
+  Group& group = state.member.group;
+  cycle.restitution_out = group.cycles == 1 ? group.restitution_out : kNaN;
+  group.end = Cycle::End::kRunEnd;
+  group.end_time = cycle.end_time;
+  group.work_compression += cycle.work_compression;
+  group.work_restitution += cycle.work_restitution;
+  groups.push_back(group);
+}
+
+}  // namespace contact

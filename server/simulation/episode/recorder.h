@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulation/episode/membership.h"
+#include "simulation/model/observer.h"
+
+namespace contact {
+
+struct RunState;
+
+/// Hosts the passes that are recorded, with the μ found, and writes the ledger.
+class Recorder final : public CycleHost {
+ public:
+  Recorder(const Scenario& scenario, const Motion& motion, Observer& observer, Groups& groups);
+
+  /// A recorded pass of this episode begins: forgets the cycles and groups of the last one.
+  void Begin(int episode);
+  /// Fills what is known of a cycle that the end of the run has cut.
+  void FinishCut(ContactState& state);
+
+  Factor OnStart(ContactState& state, double effective_mass, double external_force) override;
+  void OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::ArrayXd&, double,
+             double) override;
+  void OnCancel(ContactState& state) override;
+  bool OnStep() override;
+
+  void Save(RunState* state) const;
+  void Restore(const RunState& state);
+
+  /// Whether every group that has ended since Begin is one that the search has answered.
+  bool sound() const { return sound_; }
+
+  std::vector<Cycle> cycles;  ///< Ended since Begin,
+  std::vector<Group> groups;  ///< and the groups that ended with them.
+
+ private:
+  void Open(ContactState& state, const Unknown& unknown) const;
+  void Label(const ContactState& state, Cycle& cycle) const;
+  void Close(ContactState& state);
+  void WarnWithoutVelocity(const ContactState& state);
+  void WarnOfMiss(const Contact& contact, const Cycle& cycle);
+
+  const Scenario& scenario_;
+  const Motion& motion_;
+  Observer& observer_;
+  Groups& known_;
+  Membership membership_;
+  int episode_ = 0;
+  bool sound_ = true;
+  std::vector<bool> warned_;  // Per contact.
+  std::vector<bool> missed_;  // Per law.
+};
+
+}  // namespace contact

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <compare>
+#include <vector>
+
+#include "simulation/model/ledger.h"
+#include "simulation/motion/motion.h"
+
+namespace contact {
+
+/// Names a group of cycles from pass to pass. What happens in one encounter renames no group of
+/// another one.
+struct GroupId {
+  int contact = 0;    ///< Index in Scenario::contacts.
+  int encounter = 1;  ///< Place among the encounters of the contact, from 1.
+  int place = 1;      ///< Place among the groups of the encounter, from 1.
+  auto operator<=>(const GroupId&) const = default;
+};
+
+/// What the search knows of a group, whatever the last pass has shown: plain values, so that a
+/// checkpoint can keep them.
+struct Unknown {
+  GroupId id;
+  double mu = 0;          ///< μ of the next pass [N·s/mⁿ⁺¹].
+  double first_mu = 0;    ///< The first guess.
+  double lasts = 0;       ///< It does not end earlier after its start [s]: see Groups::Merge.
+  double start_time = 0;  ///< Of the last pass that saw it [s].
+  double restitution_out = kNaN;  ///< Of the last scan that saw its end.
+  double settled_mu = kNaN;       ///< μ when all in the last window had converged; NaN before.
+  double length = 0;              ///< Expected δ_m − δ_s [m], and
+  double speed = 0;               ///< largest |δ̇| [m/s] of its cycles; 0: unknown.
+  bool corrected = false;         ///< μ is no mere guess any more.
+  bool weak = false;              ///< Its work was negligible in the last pass.
+  int reopened = 0;               ///< How often it ended after all, once it was found unfinished.
+  int flips = 0;                  ///< How often it became negligible, or was no more.
+  bool given_up = false;          ///< As many corrections as are allowed did not solve it.
+  bool lowered = false;           ///< It did not end, and its μ was lowered until it did.
+  int iterations = 0;             ///< Corrections of μ by the search that found it.
+  Growth growth = Growth::kNotGrown;
+  /// kConverged, kJump, kInfeasible, kUnfinished: found. kNotConverged: still sought.
+  Cycle::Status status = Cycle::Status::kNotConverged;
+  Group::Reached too_much, too_little;
+
+  /// Whether the search leaves it alone from now on.
+  bool Decided() const {
+    return given_up ||
+           (status != Cycle::Status::kNotConverged && status != Cycle::Status::kConverged);
+  }
+};
+
+/// A group as one pass has seen it.
+struct GroupSight {
+  GroupId id;
+  double mu = 0;
+  double restitution_in = kNaN;
+  bool sought = false;     ///< Its μ is to be found; else a law gives it.
+  bool ended = false;      ///< In the pass.
+  bool separated = false;  ///< How it ended.
+  bool weak = false;       ///< Negligible work.
+  int first_cycle = 1, cycles = 0;
+  double start_time = 0, end_time = 0, last_turn = 0;
+  double work_compression = 0, work_restitution = 0;
+  double squared = kNaN;       ///< ε_out² = −W_r/W_c.
+  double residual = kNaN;      ///< A(ε_out)/A(ε_in) − 1.
+  double frozen_slope = kNaN;  ///< Paper (30).
+  double length = 0, speed = 0;
+  double bracket_low = 0, bracket_high = 0;  ///< μ known to give too much, too little; 0: none.
+  Iteration::Update update = Iteration::Update::kNothing;  ///< How μ is changed after the pass.
+  int column = kNone;
+  Eigen::ArrayXd gradient_compression, gradient_restitution;  ///< ∂W/∂μ of each column.
+  Eigen::ArrayXd gradient;                                    ///< ∂residual/∂μ of each column.
+
+  /// ε_out/ε_in − 1.
+  double Miss() const;
+};
+
+/// What one pass has shown.
+struct Sight {
+  std::vector<GroupSight> groups;  ///< In order of start.
+  std::vector<double> quiet;       ///< Instants at which no cycle ran [s].
+  Motion::Pause pause = Motion::Pause::kQuiet;
+  double time = 0;       ///< Reached [s].
+  bool crowded = false;  ///< It saw as many cycles as it was to see, and there are more.
+  bool exact = true;     ///< It was as exact as the scenario asks.
+
+  const GroupSight* Find(const GroupId& id) const;
+};
+
+}  // namespace contact

@@ -1,0 +1,35 @@
+// Each result is certified by an independent integration.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "simulation/independent.h"
+#include "simulation/kinds.h"
+
+namespace contact {
+namespace {
+
+using testing::Kind;
+
+class EveryKind : public ::testing::TestWithParam<int> {};
+
+TEST_P(EveryKind, IsConfirmedByAnIndependentIntegration) {
+  for (unsigned seed = 2000; seed < 2000 + (testing::kOptimized ? 24 : 4); ++seed) {
+    const Scenario scenario = testing::Dice(seed, static_cast<Kind>(GetParam())).Roll();
+    const testing::Record run = testing::RunAndRecord(scenario);
+    const testing::Disagreement miss = testing::Independent(scenario).Compare(run);
+    SCOPED_TRACE(seed);
+    EXPECT_LT(miss.velocity, 1e-8);
+    EXPECT_LT(miss.restitution, 1e-8);
+    EXPECT_LT(miss.time, 1e-8);
+    EXPECT_LT(miss.overlap, 1e-8);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Certificate, EveryKind, ::testing::Range(0, testing::kSmallKinds),
+                         [](const auto& made) {
+                           return std::string(testing::kKindNames[made.param]);
+                         });
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,158 @@
+// Where the search says that no μ gives the restitution asked for, a scan over μ finds none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "simulation/episode/problem.h"
+#include "simulation/episode/run_state.h"
+#include "simulation/kinds.h"
+#include "testing/cases.h"
+
+namespace contact {
+namespace {
+
+using testing::Record;
+
+// Keeps also the states between episodes.
+struct Traced final : Record {
+  std::vector<State> starts;
+  void OnBoundary(const std::function<RunState()>& state) override {
+    starts.push_back(state().state);
+  }
+};
+
+// The episode of a group with the μ of the ledger, to be passed through with another μ of it.
+class Replay {
+ public:
+  Replay(const Scenario& scenario, const Traced& run, const Group& group)
+      : motion_(scenario), problem_(scenario, motion_, observer_) {
+    start_ = InitialState(scenario);
+    for (const State& state : run.starts) {
+      if (state.time <= group.start_time) start_ = state;
+    }
+    problem_.Begin(start_, scenario.end_time, {}, scenario.solver.max_steps);
+    for (int c = 0; c < std::ssize(scenario.contacts); ++c) Take(run, c, group);
+  }
+
+  /// ε_out² − ε_in² of the group with this μ; −1 if it does not end.
+  double Excess(double mu) {
+    problem_.groups.At(id_).mu = mu;
+    const Sight sight = problem_.Evaluate({id_}, false, 1e300);
+    const GroupSight* g = sight.Find(id_);
+    if (g == nullptr || !g->ended) return -1;
+    most = problem_.MostMu(*g);
+    return g->squared - g->restitution_in * g->restitution_in;
+  }
+
+  double most = 0;  ///< The largest μ that the group could feel when it was seen last.
+
+ private:
+  // Cycles of a contact in order; each that is in no group was one of negligible work.
+  void Take(const Traced& run, int contact, const Group& wanted) {
+    GroupId id{.contact = contact};
+    bool touches = true;
+    for (const Group* last = nullptr; const Cycle& c : run.cycles) {
+      if (c.contact != contact) continue;
+      const Group* group = GroupOf(run, c);
+      if (std::exchange(touches, c.end == Cycle::End::kSeparation)) id.place = 0, last = nullptr;
+      if (group != nullptr) id.encounter = group->encounter;
+      if (group == nullptr || group != last) ++id.place;
+      last = group;
+      if (group == nullptr && id.place == 1) continue;  // Its encounter has no name.
+      Unknown& unknown = problem_.groups.At(id);
+      unknown.mu = unknown.first_mu = c.mu;
+      unknown.corrected = true;
+      unknown.weak = group == nullptr;
+      const bool first = group == nullptr || group->first_cycle == c.number;
+      unknown.lasts = first ? 0 : c.turn_time - group->start_time;
+      if (group == &wanted) id_ = id;
+    }
+  }
+
+  static const Group* GroupOf(const Traced& run, const Cycle& cycle) {
+    const auto found = std::ranges::find_if(run.groups, [&](const Group& g) {
+      return g.contact == cycle.contact && g.number == cycle.group;
+    });
+    return found == run.groups.end() ? nullptr : &*found;
+  }
+
+  Observer observer_;
+  State start_;
+  Motion motion_;
+  Problem problem_;
+  GroupId id_;
+};
+
+// Whether ε_out² goes through ε_in² between two μ, and does not jump: README.md, (N4).
+bool HasRoot(Replay& replay, double more, double less) {
+  double above = 1, below = -1;
+  while (std::abs(more - less) > 1e-6 * less) {
+    const double mu = (more + less) / 2;
+    const double excess = replay.Excess(mu);
+    (excess > 0 ? more : less) = mu;
+    (excess > 0 ? above : below) = excess;
+  }
+  return above < 3e-3 && below > -3e-3;
+}
+
+// μ from 0 to thousands of times what an isolated collision would have, and densely near that of
+// the ledger.
+std::vector<double> Grid(double mu, double stiffness) {
+  std::vector<double> grid = {0};
+  for (int i = -60; i <= 60; ++i) grid.push_back(stiffness * std::pow(10, 0.1 * i));
+  for (int i = -100; i <= 100; ++i) grid.push_back(mu * (1 + 1e-3 * i));
+  std::ranges::sort(grid);
+  return grid;
+}
+
+void ExpectNoRoot(const Scenario& scenario) {
+  Traced run;
+  run.outcome = Run(scenario, run);
+  int found = 0;
+  for (const Group& g : run.groups) {
+    if (g.status != Cycle::Status::kInfeasible || g.end == Cycle::End::kRunEnd) continue;
+    if (std::isnan(g.restitution_out)) continue;
+    ++found;
+    Replay replay(scenario, run, g);
+    const double square = g.restitution_out * g.restitution_out;
+    EXPECT_NEAR(replay.Excess(g.mu) + g.restitution_in * g.restitution_in, square,
+                1e-6 * square + 1e-9);
+    const double stiffness = scenario.contacts[static_cast<std::size_t>(g.contact)].stiffness;
+    double before = kNaN, last = 0;
+    for (const double mu : Grid(g.mu, stiffness)) {
+      const double excess = replay.Excess(mu);
+      if (mu > replay.most) break;
+      EXPECT_GT(std::abs(excess), 1e-6) << mu;
+      if (before * excess < 0) {
+        EXPECT_FALSE(before > 0 ? HasRoot(replay, last, mu) : HasRoot(replay, mu, last))
+            << "group " << g.number << " of contact " << g.contact << " near μ = " << mu;
+      }
+      before = excess, last = mu;
+    }
+  }
+  EXPECT_GT(found, 0);
+}
+
+class Alone : public ::testing::TestWithParam<std::pair<testing::Kind, unsigned>> {};
+
+TEST_P(Alone, NoInfeasibleCycleHasARoot) {
+  Scenario scenario = testing::Dice(GetParam().second, GetParam().first).Roll();
+  scenario.solver.restitution_scope = RestitutionScope::kCycle;
+  ExpectNoRoot(scenario);
+}
+
+using testing::Kind;
+INSTANTIATE_TEST_SUITE_P(NoRoot, Alone,
+                         ::testing::Values(std::pair{Kind::kRow, 11}, std::pair{Kind::kGaps, 6},
+                                           std::pair{Kind::kGaps, 10}, std::pair{Kind::kWall, 14},
+                                           std::pair{Kind::kWall, 10},
+                                           std::pair{Kind::kSupport, 12},
+                                           std::pair{Kind::kPressed, 0},
+                                           std::pair{Kind::kPressed, 3}));
+
+}  // namespace
+}  // namespace contact
