@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <compare>
+#include <tuple>
 #include <vector>
 
 #include "simulation/model/ledger.h"
@@ -15,7 +15,11 @@ struct GroupId {
   int contact = 0;    ///< Index in Scenario::contacts.
   int encounter = 1;  ///< Place among the encounters of the contact, from 1.
   int place = 1;      ///< Place among the groups of the encounter, from 1.
-  auto operator<=>(const GroupId&) const = default;
+  bool operator==(const GroupId&) const = default;
+  bool operator<(const GroupId& other) const {
+    return std::tie(contact, encounter, place) <
+           std::tie(other.contact, other.encounter, other.place);
+  }
 };
 
 /// What the search knows of a group, whatever the last pass has shown: plain values, so that a
