@@ -12,6 +12,7 @@ namespace contact {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 v1::Scenario Chain() {
