@@ -7,8 +7,8 @@
 
 namespace contact::testing {
 
-/// Whether this is the build of preset release: solving the larger rows takes a hundred times longer
-/// in an unoptimized build, and minutes under a sanitizer.
+/// Whether this is the build of preset release: solving the larger rows takes a hundred times
+/// longer in an unoptimized build, and minutes under a sanitizer.
 #ifdef NDEBUG
 inline constexpr bool kOptimized = true;
 #else
