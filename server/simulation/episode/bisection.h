@@ -1,6 +1,5 @@
 #pragma once
 
-#include "simulation/episode/iteration_log.h"
 #include "simulation/episode/problem.h"
 
 namespace contact {
@@ -19,7 +18,7 @@ enum class Root {
 /// nearest μ on both sides, and sets its μ to the root, or to the side of a jump that is nearer.
 class Bisection {
  public:
-  Bisection(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
+  explicit Bisection(Problem& problem) : problem_(problem) {}
 
   Root Solve(const GroupSight& group);
   /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
@@ -43,7 +42,6 @@ class Bisection {
   Root Finish(Root root);
 
   Problem& problem_;
-  IterationLog& log_;
   GroupSight group_;
   bool coarse_ = true;  // As first seen.
   Point more_, less_;   // Nearest μ with too much, too little.

@@ -46,7 +46,7 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       problem_(scenario, motion, observer),
       log_(observer),
       newton_(problem_, log_),
-      bisection_(problem_, log_),
+      bisection_(problem_),
       growing_(problem_, log_),
       paper_(problem_, log_),
       recorder_(scenario, motion, observer, problem_.groups) {}
@@ -130,6 +130,7 @@ Sight EpisodeSolver::Scan(bool coarse) {
 Motion::Pause EpisodeSolver::Search() {
   sweeps_ = 0;
   guessing_ = true;
+  solved_.clear();
   for (int round = 0; round < kRounds; ++round) {
     const bool first = round == 0 && !rejected_;
     const Sight sight = Scan(first);
