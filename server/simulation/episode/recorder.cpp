@@ -25,7 +25,6 @@ double Ratio(double work_compression, double work_restitution) {
 Recorder::Recorder(const Scenario& scenario, const Motion& motion, Observer& observer,
                    Groups& known)
     : scenario_(scenario),
-      motion_(motion),
       observer_(observer),
       known_(known),
       membership_(scenario, motion, known),

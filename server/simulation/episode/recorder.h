@@ -43,7 +43,6 @@ class Recorder final : public CycleHost {
   void WarnOfMiss(const Contact& contact, const Cycle& cycle);
 
   const Scenario& scenario_;
-  const Motion& motion_;
   Observer& observer_;
   Groups& known_;
   Membership membership_;
