@@ -155,7 +155,7 @@ void Pass::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient
 // line, and Newton is at its root in one step.
 void Pass::Measure(GroupSight& group) const {
   group.squared = -group.work_restitution / group.work_compression;
-  if (!group.sought) return;
+  if (!group.sought || !std::isfinite(group.squared)) return;  // Infinite: no work was stored.
   const double in = group.restitution_in;
   const double wanted = ExactCoefficient(in), scale = std::max(wanted, kLeastGoal);
   const double e = std::max(std::sqrt(std::max(group.squared, 0.0)), kLeastRestitution * in);
