@@ -84,7 +84,10 @@ class Dice {
   void AddWallsAndLoads(int balls) {
     if (kind_ == Kind::kWall) AddWall(Below(2) ? 0 : Log(1e-5, 1e-3));
     if (kind_ == Kind::kPressed || kind_ == Kind::kColumn || kind_ == Kind::kBouncing) Press();
-    if (kind_ == Kind::kSupport) Shake(Below(balls), Below(balls));
+    if (kind_ == Kind::kSupport) {
+      const int shaken = Below(balls), held = Below(balls);
+      Shake(held, shaken);
+    }
     if (kind_ == Kind::kCradle) Hang();
     if (kind_ == Kind::kRattler) {
       s_.contacts.push_back(Law(kNone, 0, -0.02 - Log(1e-5, 1e-3)));
