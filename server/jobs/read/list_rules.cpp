@@ -24,8 +24,8 @@ std::int64_t NumberOf(const std::string& token) {
 }
 
 void CheckPrefix(const std::string& prefix, std::vector<Violation>* violations) {
-  const int most = RuleOf<v1::ListJobsRequest>(v1::ListJobsRequest::kNamePrefixFieldNumber)
-                       .max_characters();
+  const int most =
+      RuleOf<v1::ListJobsRequest>(v1::ListJobsRequest::kNamePrefixFieldNumber).max_characters();
   if (prefix.size() <= static_cast<std::size_t>(most)) return;
   violations->push_back({"name_prefix", fmt::format("has more than {} characters", most), ""});
 }
