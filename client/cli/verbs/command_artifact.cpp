@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/link/connect.h"
 #include "cli/link/download.h"
@@ -49,7 +49,7 @@ ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& setting
                                 .lost = TellLost};
   const Interrupt interrupt;
   const v1::Artifact artifact = Download(client, options);
-  fmt::print(stderr, "{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
+  Tell("{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
   return ExitCode::kOk;
 }
 

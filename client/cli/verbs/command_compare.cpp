@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
 #include "cli/link/connect.h"
@@ -42,7 +43,7 @@ void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
     runs.push_back(ReadRecording(client, job, settings));
   }
   Draw(OverlayFigure(runs, arguments.channels), FormatOfFigure(arguments.plot), arguments.plot);
-  fmt::print(stderr, "{}\n", arguments.plot);
+  Tell("{}\n", arguments.plot);
 }
 
 // The runs of these jobs or files. Throws Failure (kUsage) if one is a sweep.

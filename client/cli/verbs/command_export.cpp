@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/output_file.h"
 #include "cli/export/data_table.h"
@@ -127,7 +128,7 @@ ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
   const OutputFormat format = Format(arguments, settings);
   RequireUse(arguments, format);
   const std::string what = Write(arguments, format, settings);
-  if (!arguments.file.empty()) fmt::print(stderr, "{}  {}\n", arguments.file, what);
+  if (!arguments.file.empty()) Tell("{}  {}\n", arguments.file, what);
   return ExitCode::kOk;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/spelling.h"
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/help/candidates.h"
@@ -120,7 +121,7 @@ void PrintList(const v1::ListJobsResponse& all, const ColumnChoice& columns,
       return fmt::print("{}", ListTable(all).Csv(columns.names()));
     case OutputFormat::kTable:
       fmt::print("{}", ListTable(all).Text(columns.OutputStyle(settings)));
-      if (!all.next_page_token().empty()) fmt::print(stderr, "… and more; --limit 0 lists all\n");
+      if (!all.next_page_token().empty()) Tell("… and more; --limit 0 lists all\n");
       return;
     default:
       for (const v1::Job& job : all.jobs()) {

@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <memory>
 #include <system_error>
 
+#include "cli/base/message.h"
 #include "cli/base/text_file.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/gnuplot_script.h"
@@ -42,7 +41,7 @@ ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   const Figure figure = PresetFigure(arguments.preset, recording);
   const bool of_samples = !figure.panels.front().counted_x;
   if (const std::string note = CoarseSampling(recording); of_samples && !note.empty()) {
-    fmt::print(stderr, "{}\n", note);
+    Tell("{}\n", note);
   }
   const bool drawn = format != OutputFormat::kGnuplot && format != OutputFormat::kCsv;
   if (drawn && !arguments.keep.empty()) {

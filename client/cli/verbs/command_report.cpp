@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/base/message.h"
 #include "cli/base/text_file.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
@@ -82,7 +83,7 @@ std::string MakePage(Client& client, const std::vector<std::string>& jobs,
       if (!failed) make();
     } catch (const Failure& failure) {
       failed = true;
-      fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
+      Tell("figures are not drawn: {}\n", failure.what());
     }
   };
   std::vector<RunPart> runs(jobs.size());
@@ -103,7 +104,7 @@ ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
   Client client = Connect(settings);
   const std::string page = MakePage(client, arguments.jobs, settings);
   WriteText(page, arguments.file);
-  fmt::print(stderr, "{}  {} kB, opens offline\n", arguments.file, (page.size() + 999) / 1000);
+  Tell("{}  {} kB, opens offline\n", arguments.file, (page.size() + 999) / 1000);
   return ExitCode::kOk;
 }
 

@@ -1,8 +1,6 @@
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
@@ -48,7 +46,7 @@ ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
   const v1::Job job = Create(client, arguments);
   PrintJob(job, settings);
   if (settings.output == OutputFormat::kTable) {
-    fmt::print(stderr, "Next:  contactctl watch {}\n", ShortName(job.name()));
+    Tell("Next:  contactctl watch {}\n", ShortName(job.name()));
   }
   return ExitCode::kOk;
 }

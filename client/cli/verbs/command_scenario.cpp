@@ -9,6 +9,7 @@
 #include <memory>
 #include <system_error>
 
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/base/text_file.h"
@@ -126,7 +127,7 @@ void ListTemplates(const Settings& settings) {
     table.Add({std::string(scenario.name), std::string(scenario.shows)});
   }
   fmt::print("{}", table.Text(settings.OutputStyle()));
-  fmt::print(stderr, "Next:  contactctl init {}\n", Templates().front().name);
+  Tell("Next:  contactctl init {}\n", Templates().front().name);
 }
 
 void WriteTemplate(const Template& scenario, const std::string& path, bool force) {
@@ -134,11 +135,11 @@ void WriteTemplate(const Template& scenario, const std::string& path, bool force
   fmt::print("{}\n", path);
   const bool sweep = IsSweep(std::string(scenario.text));
   if (sweep) WriteBase(scenario, path);
-  fmt::print(stderr,
-             "Next:  contactctl {} {}\n"
-             "       contactctl schema {}  (beside it, for your editor)\n",
-             sweep ? "sweep run" : "run", path,
-             sweep ? "sweep > contact-sweep.schema.json" : "> contact.schema.json");
+  Tell(
+      "Next:  contactctl {} {}\n"
+      "       contactctl schema {}  (beside it, for your editor)\n",
+      sweep ? "sweep run" : "run", path,
+      sweep ? "sweep > contact-sweep.schema.json" : "> contact.schema.json");
 }
 
 ExitCode Init(const InitArguments& arguments, const Settings& settings) {

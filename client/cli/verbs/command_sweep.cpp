@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/export/provenance.h"
 #include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/input/grid_sweep.h"
@@ -75,7 +76,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   {
     const Interrupt interrupt;
     if (submitted && settings.output == OutputFormat::kTable) {
-      fmt::print(stderr, "{} submitted\n", name);
+      Tell("{} submitted\n", name);
     }
     end = GatherCells(client, &job, settings, &cells);
   }
@@ -109,7 +110,7 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   const std::string name = client.CallTellingAll(&Client::Stub::CreateJob, request).name();
   const ExitCode code = Follow(client, name, arguments, settings);
   if (settings.output == OutputFormat::kTable) {
-    fmt::print(stderr, "Next:  contactctl sweep export {} -o csv\n", ShortName(name));
+    Tell("Next:  contactctl sweep export {} -o csv\n", ShortName(name));
   }
   return code;
 }

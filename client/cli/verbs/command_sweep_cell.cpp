@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
@@ -57,8 +58,7 @@ ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
     return ExitCode::kOk;
   }
   fmt::print("{}", RenderCell(job, cell, settings.OutputStyle()));
-  fmt::print(stderr, "Next:  contactctl sweep cell {} {} --run\n", ShortName(job.name()),
-             cell.index());
+  Tell("Next:  contactctl sweep cell {} {} --run\n", ShortName(job.name()), cell.index());
   return ExitCode::kOk;
 }
 

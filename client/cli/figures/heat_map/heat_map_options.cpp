@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "cli/base/failure.h"
+#include "cli/base/message.h"
 #include "cli/export/provenance.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/heat_map/heat_map.h"
@@ -54,7 +54,7 @@ void HeatMapOptions::Draw(const v1::Job& job, const SweepCells& cells,
   const HeatScale scale(cells, MetricOf(job.sweep()), scale_ == "log");
   DrawScript(HeatMapScript(job, cells, scale, contours_, GnuplotTerminal(format), path), path);
   StampProvenance(format, path, job.sweep().base().title(), {SourceOf(job)});
-  fmt::print(stderr, "{}\n", path);
+  Tell("{}\n", path);
 }
 
 }  // namespace contact::cli

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
@@ -17,7 +18,7 @@ namespace {
 
 ExitCode Cancel(Client& client, const std::string& name) {
   CancelJob(client, name);
-  fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
+  Tell("contactctl: {} is asked to stop\n", ShortName(name));
   return ExitCode::kInterrupted;
 }
 
@@ -54,7 +55,7 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
   WatchOptions options{
       .name = name, .kinds = {"progress"}, .deadline = deadline, .stopped = Interrupt::raised};
   if (settings.output == OutputFormat::kTable) {
-    fmt::print(stderr, "{} submitted\n", name);
+    Tell("{} submitted\n", name);
     options.kinds = {"progress", "log_entry", "attempt_started"};
     if (rows != IterationRows::kNone) {
       options.kinds.insert(options.kinds.end(), {"iteration", "group_growth"});
@@ -78,7 +79,7 @@ ExitCode PrintResult(Client& client, const std::string& name, const Settings& se
                      const std::vector<std::string>& columns) {
   const v1::Job job = GetJob(client, name);
   PrintJob(job, settings, columns);
-  if (settings.output == OutputFormat::kTable) fmt::print(stderr, "{}", NextSteps(job));
+  if (settings.output == OutputFormat::kTable) Tell("{}", NextSteps(job));
   return CodeOf(job);
 }
 
@@ -103,8 +104,8 @@ v1::Job CancelJob(Client& client, const std::string& name) {
 
 ExitCode Detach(WatchEnd end, const std::string& name) {
   const bool interrupted = end == WatchEnd::kStopped;
-  fmt::print(stderr, "contactctl: {}; the job continues: contactctl watch {}\n",
-             interrupted ? "interrupted" : "time is up", ShortName(name));
+  Tell("contactctl: {}; the job continues: contactctl watch {}\n",
+       interrupted ? "interrupted" : "time is up", ShortName(name));
   return interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout;
 }
 
@@ -114,7 +115,7 @@ ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, b
   if (end == WatchEnd::kStopped && cancel) return Cancel(client, name);
   if (end != WatchEnd::kStopped || !settings.MessageStyle().terminal) return Detach(end, name);
   const Interrupt again;
-  fmt::print(stderr, "contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
+  Tell("contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
   for (auto waited = 0ms; waited < 2s; waited += 50ms) {
     if (Interrupt::raised()) return Cancel(client, name);
     std::this_thread::sleep_for(50ms);
@@ -122,9 +123,7 @@ ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, b
   return Detach(end, name);
 }
 
-void TellLost(const std::string& why) {
-  fmt::print(stderr, "connection lost ({}); trying again\n", why);
-}
+void TellLost(const std::string& why) { Tell("connection lost ({}); trying again\n", why); }
 
 std::string NextSteps(const v1::Job& job) {
   const std::string id = ShortName(job.name());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 
+#include "cli/base/message.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/input/no_limits.h"
 #include "cli/input/sweep_file.h"
@@ -25,9 +26,8 @@ void TellOfOtherServer(Client& client, const v1::Job& job) {
       (job.server_version() == info.version() && job.server_revision() == info.revision())) {
     return;
   }
-  fmt::print(stderr, "{} was made by contactd {} {}, this one is {} {}: last digits may differ\n",
-             job.name(), job.server_version(), job.server_revision(), info.version(),
-             info.revision());
+  Tell("{} was made by contactd {} {}, this one is {} {}: last digits may differ\n", job.name(),
+       job.server_version(), job.server_revision(), info.version(), info.revision());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/text/render_progress.h"
@@ -46,7 +47,7 @@ void CellWatcher::Show(const v1::Progress& progress) {
       progress.cells_failed(), progress.cells_not_converged(), TimeLeft(done, elapsed.count()));
   const int tenths = static_cast<int>(10 * done);
   if (form_ == ProgressForm::kLines && tenths > std::exchange(told_tenths_, tenths)) {
-    fmt::print(stderr, "{}\n", words);
+    Tell("{}\n", words);
   }
   if (form_ != ProgressForm::kBar) return;
   fmt::print(stderr, "\r\x1b[K{}", words);
