@@ -10,13 +10,16 @@
 #include <functional>
 #include <map>
 
+#include "cli/base/style.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/settable_fields.h"
 #include "cli/input/templates.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/paper/items.h"
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
+#include "cli/text/render_job.h"
 #include "contact/v1/event.pb.h"
 #include "wire/scenario/law_catalogue.h"
 
@@ -33,12 +36,13 @@ Candidates Named(const Items& items, Name name = {}) {
   return candidates;
 }
 
-// A call that takes at most 300 ms. Returns an empty message if it fails.
+constexpr std::chrono::milliseconds kPatience{300};
+
+// A call that takes no longer than kPatience. Returns an empty message if it fails.
 template <class Request, class Response>
 Response Ask(const Settings& settings,
              grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&, Response*),
              const Request& request) {
-  constexpr std::chrono::milliseconds kPatience{300};
   Client client(settings.server, kPatience);
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kPatience);
@@ -53,8 +57,9 @@ Response AskOfJob(const Settings& settings, const TypedWords& typed,
                   grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&,
                                                        Response*)) {
   if (typed.positionals.empty()) return {};
+  Client client(settings.server, kPatience);
   Request request;
-  request.set_name(JobName(typed.positionals.front()));
+  request.set_name(FindJob(client, typed.positionals.front()));
   return Ask(settings, method, request);
 }
 
@@ -65,8 +70,8 @@ Candidates Jobs(const Settings& settings, const TypedWords&) {
   Candidates jobs;
   for (const v1::Job& job : answer.jobs()) {
     jobs.push_back(
-        {job.name().substr(job.name().find('/') + 1),
-         fmt::format("{} {}", v1::Job::State_Name(job.state()), job.scenario().title())});
+        {ShortName(job.name()),
+         TrimRight(fmt::format("{} {}", v1::Job::State_Name(job.state()), OneLine(TitleOf(job))))});
   }
   return jobs;
 }

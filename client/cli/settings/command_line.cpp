@@ -132,7 +132,7 @@ void AddGlobalFlags(CommandLine& line) {
 }
 
 void AddJob(CommandLine& line, CLI::App& command, std::string* job) {
-  line.SetKind(command.add_option("JOB", *job, "ID or jobs/ID")->required(), ValueKind::kJob);
+  line.SetKind(command.add_option("JOB", *job, kJobAbout)->required(), ValueKind::kJob);
 }
 
 CLI::Option* AddDestination(CommandLine& line, CLI::App& command, const std::string& names,

@@ -7,6 +7,7 @@
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
 #include "cli/text/comparison/comparison_data.h"
 #include "cli/text/comparison/render_comparison.h"
@@ -40,7 +41,7 @@ void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
     if (std::filesystem::is_regular_file(job)) {
       throw Failure(ExitCode::kUsage, fmt::format("--plot: {} is a file without trajectory", job));
     }
-    runs.push_back(ReadRecording(client, job, settings));
+    runs.push_back(ReadRecording(client, FindJob(client, job), settings));
   }
   Draw(OverlayFigure(runs, arguments.channels), FormatOfFigure(arguments.plot), arguments.plot);
   Tell("{}\n", arguments.plot);

@@ -14,6 +14,7 @@
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/settings/column_choice.h"
+#include "cli/text/convergence.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
@@ -31,6 +32,8 @@ struct ListArguments {
   bool watch = false;
   ColumnChoice columns;
 };
+
+constexpr int kMostTitle = 40;  // A longer one would take the place of other columns.
 
 v1::Job::State ParseState(std::string text) {
   boost::to_upper(text);
@@ -85,11 +88,13 @@ std::string Convergence(const v1::Job& job) {
 std::vector<Table::Column> ListColumns() {
   return {{"JOB"},
           {"STATE"},
-          {"REASON", false, 2},
+          {"TITLE", false, 1},
+          {"REASON", false, 5},
           {"CONVERGENCE", false, 3},
-          {"CREATED (UTC)", false, 1},
-          {"ENDED (UTC)", false, 4},
-          {"LABELS", false, 5},
+          {"MISSED", true, 4},
+          {"CREATED (UTC)", false, 2},
+          {"ENDED (UTC)", false, 6},
+          {"LABELS", false, 7},
           {"CYCLES", true, Table::kOnlyWide},
           {"ATTEMPT", true, Table::kOnlyWide}};
 }
@@ -97,8 +102,10 @@ std::vector<Table::Column> ListColumns() {
 std::vector<Table::Cell> ListRow(const v1::Job& job) {
   return {ShortName(job.name()),
           {v1::Job::State_Name(job.state()), ToneOf(job.state())},
+          TitleOf(job),
           job.state_reason().empty() ? "-" : job.state_reason(),
           Convergence(job),
+          MissedCount(job),
           Instant(job.create_time()),
           Instant(job.end_time()),
           Labels(job),
@@ -106,9 +113,13 @@ std::vector<Table::Cell> ListRow(const v1::Job& job) {
           fmt::to_string(job.attempt())};
 }
 
-Table ListTable(const v1::ListJobsResponse& all) {
+// `most_title`: characters of a title that are shown; 0: all.
+Table ListTable(const v1::ListJobsResponse& all, int most_title = 0) {
   Table table(ListColumns());
-  for (const v1::Job& job : all.jobs()) table.Add(ListRow(job));
+  for (v1::Job job : all.jobs()) {
+    job.set_title(OneLine(TitleOf(job), most_title));
+    table.Add(ListRow(job));
+  }
   return table;
 }
 
@@ -120,7 +131,7 @@ void PrintList(const v1::ListJobsResponse& all, const ColumnChoice& columns,
     case OutputFormat::kCsv:
       return fmt::print("{}", ListTable(all).Csv(columns.names()));
     case OutputFormat::kTable:
-      fmt::print("{}", ListTable(all).Text(columns.OutputStyle(settings)));
+      fmt::print("{}", ListTable(all, kMostTitle).Text(columns.OutputStyle(settings)));
       if (!all.next_page_token().empty()) Tell("… and more; --limit 0 lists all\n");
       return;
     default:

@@ -9,6 +9,7 @@
 #include "cli/figures/presets.h"
 #include "cli/figures/sampling.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
@@ -37,7 +38,7 @@ void Keep(const Figure& figure, OutputFormat format, const PlotArguments& argume
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   const OutputFormat format = FigureFormat(arguments.file, settings);
   Client client = Connect(settings);
-  const Recording recording = ReadRecording(client, arguments.job, settings);
+  const Recording recording = ReadRecording(client, FindJob(client, arguments.job), settings);
   const Figure figure = PresetFigure(arguments.preset, recording);
   const bool of_samples = !figure.panels.front().counted_x;
   if (const std::string note = CoarseSampling(recording); of_samples && !note.empty()) {

@@ -12,6 +12,7 @@
 #include "cli/figures/presets.h"
 #include "cli/figures/run_report.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
@@ -61,7 +62,7 @@ std::string DrawTogether(const std::vector<Recording>& runs) {
 }
 
 Recording Read(Client& client, const std::string& job, const Settings& settings) {
-  Recording recording = ReadRecording(client, job, settings);
+  Recording recording = ReadRecording(client, FindJob(client, job), settings);
   if (!recording.job.has_sweep()) return recording;
   throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep; see sweep export", job));
 }

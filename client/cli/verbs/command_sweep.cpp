@@ -12,6 +12,7 @@
 #include "cli/input/grid_sweep.h"
 #include "cli/input/sweep_file.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/settings/column_choice.h"
@@ -119,7 +120,7 @@ ExitCode Show(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput(
       {OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
-  return Follow(client, JobName(arguments.job), arguments, settings);
+  return Follow(client, FindJob(client, arguments.job), arguments, settings);
 }
 
 // Succeeds once the cells are printed, even if some failed or did not converge.

@@ -5,6 +5,7 @@
 #include "cli/base/message.h"
 #include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
@@ -49,7 +50,7 @@ ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
   if (arguments.run) formats.push_back(OutputFormat::kName);
   settings.RequireOutput(formats);
   Client client = Connect(settings);
-  const v1::Job job = GetSweep(client, arguments.job);
+  const v1::Job job = GetSweep(client, FindJob(client, arguments.job));
   const SweepCells cells = ReadCells(client, job, settings);
   const v1::SweepCell& cell = FindCell(job.sweep(), cells, arguments.cell);
   if (arguments.run) return RunCell(client, job, cell, settings);
@@ -64,7 +65,7 @@ ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
 
 ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
   Client client = Connect(settings);
-  const v1::Job job = GetSweep(client, arguments.job);
+  const v1::Job job = GetSweep(client, FindJob(client, arguments.job));
   arguments.map.MetricOf(job.sweep());
   const SweepCells cells = ReadCells(client, job, settings);
   if (!arguments.file.empty()) {

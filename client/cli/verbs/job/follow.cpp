@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <thread>
 
@@ -10,6 +9,7 @@
 #include "cli/base/message.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
+#include "cli/text/convergence_hints.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_live.h"
 
@@ -20,30 +20,6 @@ ExitCode Cancel(Client& client, const std::string& name) {
   CancelJob(client, name);
   Tell("contactctl: {} is asked to stop\n", ShortName(name));
   return ExitCode::kInterrupted;
-}
-
-bool Has(const v1::Job& job, v1::Cycle::Status status) {
-  return std::ranges::any_of(job.cycles(),
-                             [status](const v1::Cycle& c) { return c.status() == status; });
-}
-
-// What may help where cycles do not have their restitution.
-std::string Advice(const v1::Job& job) {
-  if (job.convergence() != v1::Job::PARTIAL) return "";
-  const bool infeasible = Has(job, v1::Cycle::INFEASIBLE);
-  std::string text;
-  if (!infeasible || Has(job, v1::Cycle::NOT_CONVERGED)) {
-    text +=
-        "Try:   --set solver.max_iterations=200, or --set solver.restitution_tolerance=1e-6,\n"
-        "       for cycles that did not converge\n";
-  }
-  if (!infeasible) return text;
-  const bool alone = job.scenario().solver().restitution_scope() == v1::Solver::CYCLE;
-  return text + (alone ? "Try:   --set solver.restitution_scope=AUTO, which lets INFEASIBLE cycles "
-                         "share one μ\n"
-                         "       with their neighbours\n"
-                       : "       An INFEASIBLE group has no μ that would do; its contact can have "
-                         "another restitution\n");
 }
 
 }  // namespace
@@ -134,7 +110,11 @@ std::string NextSteps(const v1::Job& job) {
   if (job.cycles_size() > 0 && !job.scenario().output().ledger_only()) {
     text += fmt::format("       contactctl plot {} hysteresis   force over deformation\n", id);
   }
-  return text + Advice(job);
+  const std::string hints = ConvergenceHints(job);
+  if (hints.empty()) return text;
+  return text +
+         fmt::format("       contactctl describe {} --only-missed  the cycles that miss\n", id) +
+         hints;
 }
 
 }  // namespace contact::cli

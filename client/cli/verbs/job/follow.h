@@ -51,7 +51,7 @@ ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, b
 /// Says on the standard error that the connection was lost and another attempt follows.
 void TellLost(const std::string& why);
 
-/// Lines with commands that are useful after `job` has ended.
+/// Lines with commands that are useful after `job` has ended, and with ConvergenceHints.
 std::string NextSteps(const v1::Job& job);
 
 }  // namespace contact::cli

@@ -11,6 +11,7 @@
 #include "cli/input/no_limits.h"
 #include "cli/input/sweep_file.h"
 #include "cli/input/templates.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/job/options.h"
@@ -59,7 +60,7 @@ ScenarioFile ScenarioSource::Read(Client& client) const {
 }
 
 ScenarioFile ScenarioSource::ReadJob(Client& client) const {
-  const v1::Job job = GetJob(client, like_);
+  const v1::Job job = GetJob(client, FindJob(client, like_));
   if (job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
   }
