@@ -75,6 +75,7 @@ void Print(const JobComparison& comparison, const Settings& settings) {
 
 ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) {
   const Settings settings = WithFormat(arguments, global);
+  if (!arguments.plot.empty()) FormatOfFigure(arguments.plot);  // Refused before anything is read.
   const std::vector<v1::Job> runs = ReadRuns(arguments.jobs, settings);
   if (!arguments.plot.empty()) DrawRuns(arguments, settings);
   const JobComparison comparison = Compare(runs, arguments.tolerance);

@@ -30,7 +30,7 @@ struct ExportArguments {
 // The format that -o names, else the one that the file name tells, else CSV.
 OutputFormat Format(const ExportArguments& arguments, const Settings& settings) {
   if (settings.output == OutputFormat::kTable) {
-    return FormatOfFile(arguments.file, kData).value_or(OutputFormat::kCsv);
+    return RequireFormatOfFile(arguments.file, kData, OutputFormat::kCsv);
   }
   settings.RequireUse(kData);
   return settings.output;
@@ -127,6 +127,7 @@ std::string Write(const ExportArguments& arguments, OutputFormat format, const S
 ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
   const OutputFormat format = Format(arguments, settings);
   RequireUse(arguments, format);
+  if (!arguments.file.empty()) RequireWritable(arguments.file);
   const std::string what = Write(arguments, format, settings);
   if (!arguments.file.empty()) Tell("{}  {}\n", arguments.file, what);
   return ExitCode::kOk;

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "cli/base/message.h"
+#include "cli/base/output_file.h"
 #include "cli/base/text_file.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/gnuplot_script.h"
@@ -37,6 +38,7 @@ void Keep(const Figure& figure, OutputFormat format, const PlotArguments& argume
 
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   const OutputFormat format = FigureFormat(arguments.file, settings);
+  if (!arguments.file.empty()) RequireWritable(arguments.file);
   Client client = Connect(settings);
   const Recording recording = ReadRecording(client, FindJob(client, arguments.job), settings);
   const Figure figure = PresetFigure(arguments.preset, recording);

@@ -42,9 +42,11 @@ struct SweepArguments {
   ColumnChoice columns;
 };
 
-// Throws Failure (kUsage) unless the sweep has the metric and the columns that are named.
+// Throws Failure unless the sweep has the metric and the columns that are named, and can be drawn
+// if that is asked for.
 void CheckNames(const v1::Sweep& sweep, const SweepArguments& arguments, const Settings& settings) {
   arguments.map.MetricOf(sweep);
+  if (!arguments.heat_map.empty()) arguments.map.RequireDrawable(sweep, arguments.heat_map);
   arguments.columns.Check(
       settings.output == OutputFormat::kCsv ? SweepCsvColumns(sweep) : SweepColumns(sweep),
       settings);
@@ -85,8 +87,8 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
     return submitted ? DetachOrCancel(client, end, name, arguments.cancel_on_interrupt, settings)
                      : Detach(end, name);
   }
-  if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
   Print(job, cells, arguments, settings);
+  if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
   return CodeOf(job);
 }
 

@@ -67,6 +67,7 @@ ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
   Client client = Connect(settings);
   const v1::Job job = GetSweep(client, FindJob(client, arguments.job));
   arguments.map.MetricOf(job.sweep());
+  if (!arguments.file.empty()) arguments.map.RequireDrawable(job.sweep(), arguments.file);
   const SweepCells cells = ReadCells(client, job, settings);
   if (!arguments.file.empty()) {
     arguments.map.Draw(job, cells, arguments.file);

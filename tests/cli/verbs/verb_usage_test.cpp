@@ -49,6 +49,49 @@ TEST(VerbUsageTest, ExportRefusesWhatAFormatCannotHave) {
   ExpectUsage({"export", "x", "--every", "2", "--max-points", "9"}, "do not go together");
 }
 
+TEST(VerbUsageTest, FileOfAnUnknownEndingIsRefusedBeforeAnyWork) {
+  ExpectUsage({"export", "x", "-f", "r.h5"},
+              "no format has the ending .h5; there are .jsonl, .csv");
+  ExpectUsage({"plot", "x", "force", "-f", "x.jpg"},
+              "there are .csv, .svg, .png, .pdf, .txt, .tex");
+  ExpectUsage({"compare", "x", "y", "--plot", "x.eps"}, "no format has the ending .eps");
+  ExpectUsage({"model", "plot", "alpha", "-f", "a.jpg"}, "no format has the ending .jpg");
+}
+
+TEST(VerbUsageTest, FolderThatIsNotThereIsFoundBeforeAnyWork) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"export", "x", "-f", "/nowhere/x.csv"},
+        {"plot", "x", "force", "-f", "/nowhere/x.svg"}}) {
+    const End end = EndOf(words);
+    EXPECT_EQ(end.code, ExitCode::kLocal) << words.front();
+    EXPECT_THAT(end.told, HasSubstr("No such file or directory"));
+  }
+}
+
+TEST(VerbUsageTest, HeatMapThatCannotBeDrawnIsRefusedBeforeTheSweep) {
+  const std::string chain = CONTACT_SOURCE_DIR "/client/scenarios/three-ball-chain.yaml";
+  const std::string e = "contacts[*].restitution=", v = "bodies[0].velocity_m_per_s=";
+  const auto draw = [&](const std::vector<std::string>& grids, const std::string& path) {
+    std::vector<std::string> words = {"sweep", "run", chain, "--heatmap", path};
+    for (const std::string& grid : grids) words.insert(words.end(), {"--grid", grid});
+    return EndOf(words);
+  };
+  const ScratchFolder folder;
+  const std::string map = folder.path() / "map.svg";
+  for (const std::vector<std::string>& grids :
+       {std::vector<std::string>{e + "0.5:0.9:5"}, {e + "0.5:0.9:101", v + "0.1:0.5:100"}}) {
+    const End end = draw(grids, map);
+    EXPECT_EQ(end.code, ExitCode::kUsage) << end.told;
+    EXPECT_THAT(end.told, HasSubstr("a grid of two axes with at most 10000 cells"));
+  }
+  const std::vector<std::string> good = {e + "0.5:0.9:100", v + "0.1:0.5:100"};
+  EXPECT_EQ(draw(good, "/nowhere/map.svg").code, ExitCode::kLocal);
+  for (const char* name : {"map.csv", "map.jpg"}) {
+    EXPECT_THAT(draw(good, folder.path() / name).told, HasSubstr("drawn as svg, png, pdf or tex"));
+  }
+  EXPECT_EQ(draw(good, map).code, ExitCode::kUnreachable) << "nothing is wrong but the server";
+}
+
 TEST(VerbUsageTest, WatchRefusesSpeedsAndPlotsThatCannotBe) {
   ExpectUsage({"watch", "x", "--replay", "1e-3x"}, "--replay goes with --plot");
   ExpectUsage({"watch", "x", "--plot", "a", "--replay", "0x"}, "must be a speed > 0");
