@@ -46,7 +46,8 @@ ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& setting
                                 .path = path,
                                 .deadline = settings.Deadline(),
                                 .stopped = Interrupt::raised,
-                                .lost = TellLost};
+                                .lost = TellLost,
+                                .regained = TellRegained};
   const Interrupt interrupt;
   const v1::Artifact artifact = Download(client, options);
   Tell("{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));

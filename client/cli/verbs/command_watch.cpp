@@ -45,7 +45,8 @@ class JsonLines : public WatchObserver {
     fmt::print("{}", ToJsonLine(event));
     std::fflush(stdout);
   }
-  void OnLost(const std::string& why, std::chrono::milliseconds) override { TellLost(why); }
+  void OnLost(const std::string& why) override { TellLost(why); }
+  void OnRegained() override { TellRegained(); }
 };
 
 WatchOptions Options(const std::string& name, const Settings& settings) {

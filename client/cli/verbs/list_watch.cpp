@@ -42,7 +42,8 @@ class JobLines : public JobsObserver {
                                                        : ShortName(name) + "  gone\n");
   }
 
-  void OnLost(const std::string& why, std::chrono::milliseconds) override { TellLost(why); }
+  void OnLost(const std::string& why) override { TellLost(why); }
+  void OnRegained() override { TellRegained(); }
 
  private:
   static void Print(const std::string& text) {
