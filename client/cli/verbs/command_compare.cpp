@@ -85,7 +85,7 @@ ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) 
 
 void AddTolerance(CLI::App& command, Tolerance* tolerance) {
   const auto add = [&command](const char* name, double* value, const char* about) {
-    command.add_option(name, *value, about)->check(CLI::NonNegativeNumber)->capture_default_str();
+    command.add_option(name, *value, about)->check(AtLeast(0))->capture_default_str();
   };
   add("--abs", &tolerance->absolute, "Deviation that does not matter");
   add("--rel", &tolerance->relative, "The same relative to the baseline; the larger one counts");

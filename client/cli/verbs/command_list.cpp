@@ -29,6 +29,7 @@ struct ListArguments {
   std::vector<std::string> states;
   std::vector<std::string> labels;
   int limit = 50;
+  bool all = false;
   bool watch = false;
   ColumnChoice columns;
 };
@@ -62,13 +63,12 @@ v1::ListJobsResponse ListAll(Client& client, const ListArguments& arguments) {
   v1::ListJobsResponse all;
   do {
     const int missing = arguments.limit - all.jobs_size();
-    request.set_page_size(arguments.limit > 0 ? std::min(kPage, missing) : kPage);
+    request.set_page_size(arguments.all ? kPage : std::min(kPage, missing));
     const v1::ListJobsResponse page = client.Call(&Client::Stub::ListJobs, request);
     all.MergeFrom(page);
     all.set_next_page_token(page.next_page_token());
     request.set_page_token(page.next_page_token());
-  } while (!all.next_page_token().empty() &&
-           (arguments.limit <= 0 || all.jobs_size() < arguments.limit));
+  } while (!all.next_page_token().empty() && (arguments.all || all.jobs_size() < arguments.limit));
   return all;
 }
 
@@ -132,7 +132,7 @@ void PrintList(const v1::ListJobsResponse& all, const ColumnChoice& columns,
       return fmt::print("{}", ListTable(all).Csv(columns.names()));
     case OutputFormat::kTable:
       fmt::print("{}", ListTable(all, kMostTitle).Text(columns.OutputStyle(settings)));
-      if (!all.next_page_token().empty()) Tell("… and more; --limit 0 lists all\n");
+      if (!all.next_page_token().empty()) Tell("… and more; --all lists them\n");
       return;
     default:
       for (const v1::Job& job : all.jobs()) {
@@ -160,10 +160,9 @@ void AddList(CommandLine& line, CLI::App& list) {
                        "Only jobs in this state; repeatable"));
   Repeatable(list.add_option("--label", arguments->labels, "Only jobs with this label; repeatable"))
       ->type_name("KEY=VALUE");
-  list.add_option("--limit", arguments->limit, "Most jobs to list; 0: all")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N")
-      ->capture_default_str();
+  CLI::Option* limit =
+      AddCount(list, "--limit", &arguments->limit, "Most jobs to list")->capture_default_str();
+  list.add_flag("--all", arguments->all, "List all jobs")->excludes(limit);
   list.add_flag("--watch", arguments->watch,
                 "All of them, and then a line for each change; -o jsonl for programs");
   arguments->columns.AddTo(line, list, ListColumns());

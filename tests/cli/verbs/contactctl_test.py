@@ -524,11 +524,11 @@ class ListTest(CliTest):
         names = [self.run_it("submit", CHAIN, "-o", "name")[0] for _ in range(3)]
         self.assertTrue(all(name.startswith("jobs/") and name.endswith("\n") for name in names))
         self.assertEqual(self.run_it("list", "-o", "name")[0], "".join(reversed(names)))
-        self.assertEqual(self.run_it("list", "--limit", "0", "-o", "name")[0],
+        self.assertEqual(self.run_it("list", "--all", "-o", "name")[0],
                          "".join(reversed(names)))
         printed, said = self.run_it("list", "--limit", "2")
         self.assertEqual(len(printed.splitlines()), 1 + 2)
-        self.assertIn("--limit 0", said)
+        self.assertIn("--all", said)
         jobs = json.loads(self.run_it("list", "-o", "json")[0])["jobs"]
         self.assertEqual([job["name"] + "\n" for job in jobs], names[::-1])
 

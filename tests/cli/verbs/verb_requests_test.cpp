@@ -51,16 +51,16 @@ TEST_F(VerbRequestsTest, ListAsksForNoMoreThanItsLimit) {
   EXPECT_EQ(asked[0].page_size(), 5);
   EXPECT_EQ(asked[1].page_size(), 2);
   EXPECT_EQ(asked[1].page_token(), "3");
-  EXPECT_THAT(Run({"list", "--limit", "5"}).said, HasSubstr("--limit 0 lists all"));
+  EXPECT_THAT(Run({"list", "--limit", "5"}).said, HasSubstr("--all lists them"));
 }
 
 TEST_F(VerbRequestsTest, ListWithoutLimitTakesEveryPage) {
   AddJobs(7);
   server_.page = 3;
-  const End end = Run({"list", "--limit", "0", "-o", "name"});
+  const End end = Run({"list", "--all", "-o", "name"});
   EXPECT_EQ(Lines(end.printed).size(), 7U);
   EXPECT_EQ(server_.Asked<v1::ListJobsRequest>().size(), 3U);
-  EXPECT_EQ(Run({"list", "--limit", "0"}).said, "");
+  EXPECT_EQ(Run({"list", "--all"}).said, "");
 }
 
 TEST_F(VerbRequestsTest, FilterOfListIsTheServers) {
