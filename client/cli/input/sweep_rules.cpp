@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
+#include <cstdio>
 #include <string_view>
 
-#include "cli/base/message.h"
 #include "cli/base/scalar.h"
 #include "cli/input/no_limits.h"
 #include "wire/rules/field_path.h"
@@ -48,7 +48,7 @@ std::vector<Diagnostic> CheckSweep(const v1::Sweep& sweep, const ScenarioFile* b
   for (const Violation& violation : plan.violations) mistakes.push_back(place_anywhere(violation));
   if (!mistakes.empty()) return mistakes;
   for (const Violation& advice : Advise(sweep, plan)) {
-    Tell("{}\n", Format(place_anywhere(advice), "warning"));
+    fmt::print(stderr, "{}\n", Format(place_anywhere(advice), "warning"));
   }
   return {};
 }

@@ -76,7 +76,7 @@ void AddDescribe(CommandLine& line, CLI::App& describe) {
   AddJob(line, describe, &arguments->job);
   describe.add_flag("--only-missed", arguments->only_missed,
                     "Only the cycles and groups that are NOT_CONVERGED or INFEASIBLE");
-  arguments->columns.AddTo(line, describe, LedgerColumns());
+  arguments->columns.AddTo(line, describe, LedgerColumns(), false);
   line.SetAction(describe, arguments, Describe);
 }
 

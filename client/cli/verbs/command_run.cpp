@@ -86,7 +86,7 @@ void AddRun(CommandLine& line, CLI::App& command) {
       ->capture_default_str();
   command.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
                    "A first Ctrl-C cancels the job instead of leaving it to the server");
-  arguments->columns.AddTo(line, command, LedgerColumns());
+  arguments->columns.AddTo(line, command, LedgerColumns(), false);
   line.SetAction(command, arguments, Run);
 }
 

@@ -3,15 +3,19 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/base/scratch_folder.h"
+#include "cli/base/text_file.h"
 #include "cli/verbs/verb_case.h"
+#include "version.h"
 
 namespace contact::cli {
 namespace {
 
+using nlohmann::json;
 using testing::HasSubstr;
 
 void ExpectUsage(const std::vector<std::string>& words, const std::string& told) {
@@ -148,6 +152,62 @@ TEST(VerbUsageTest, InitWritesAFileOnceUnlessForced) {
   EXPECT_EQ(EndOf({"init", "two-balls", "--file", path}).code, ExitCode::kLocal);
   EXPECT_EQ(EndOf({"init", "two-balls", "--file", path, "--force"}).code, ExitCode::kOk);
   EXPECT_THAT(EndOf({"validate", path}).printed, HasSubstr("valid; 2 bodies"));
+}
+
+json JsonOf(const End& end) { return json::parse(end.printed); }
+
+TEST(VerbUsageTest, ValidatePrintsWhatAFileHasForPrograms) {
+  const std::string folder = CONTACT_SOURCE_DIR "/client/scenarios/";
+  const End scenario = EndOf({"validate", folder + "three-ball-chain.yaml", "-o", "json"});
+  EXPECT_EQ(scenario.code, ExitCode::kOk);
+  EXPECT_EQ(JsonOf(scenario), json({{"file", folder + "three-ball-chain.yaml"},
+                                    {"valid", true},
+                                    {"errors", json::array()},
+                                    {"kind", "scenario"},
+                                    {"bodies", 3},
+                                    {"contacts", 2},
+                                    {"supports", 0},
+                                    {"loads", 0},
+                                    {"warnings", json::array()}}));
+  const json sweep = JsonOf(EndOf({"validate", folder + "table-3-sweep.yaml", "-o", "json"}));
+  EXPECT_EQ(sweep["kind"], "sweep");
+  EXPECT_EQ(sweep["cells"], 50);
+  EXPECT_THAT(EndOf({"validate", folder + "two-balls.yaml", "-o", "yaml"}).printed,
+              HasSubstr("\nvalid: true\n"));
+}
+
+TEST(VerbUsageTest, ValidateTellsProgramsEachMistakeAndWarningAtItsPlace) {
+  const ScratchFolder folder;
+  const std::string path = folder.path() / "bad.yaml";
+  WriteText("bodies:\n- {name: A, mass_kg: -1}\nend_time_s: 1\n", path);
+  const End bad = EndOf({"validate", path, "-o", "json"});
+  EXPECT_EQ(bad.code, ExitCode::kInvalidScenario);
+  EXPECT_EQ(bad.told, "");
+  EXPECT_EQ(JsonOf(bad)["valid"], false);
+  const json errors = JsonOf(bad)["errors"];
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_EQ(errors[0], json({{"file", path},
+                             {"line", 2},
+                             {"column", 22},
+                             {"field", "bodies[0].mass_kg"},
+                             {"message", "is -1; must be in (0, 1e12]"},
+                             {"hint", ""}}));
+  const End warned =
+      EndOf({"validate", CONTACT_SOURCE_DIR "/client/scenarios/three-ball-chain.yaml", "--set",
+             "output.sample_interval_s=1e-3", "-o", "json"});
+  EXPECT_EQ(warned.code, ExitCode::kOk);
+  EXPECT_EQ(warned.said, "") << "the document has it";
+  const json warnings = JsonOf(warned)["warnings"];
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0]["field"], "output.sample_interval_s");
+  EXPECT_EQ(warnings[0]["line"], nullptr) << "it is not of the file";
+}
+
+TEST(VerbUsageTest, VersionIsForProgramsToo) {
+  const json version = JsonOf(EndOf({"version", "-o", "json"}));
+  EXPECT_EQ(version, json({{"version", kVersion}, {"revision", kRevision}}));
+  EXPECT_THAT(EndOf({"version"}).printed, testing::StartsWith("contactctl "));
+  ExpectUsage({"version", "-o", "csv"}, "this command prints table, json, yaml");
 }
 
 TEST(VerbUsageTest, ConfigRefusesKeysAndValuesThatNoFlagHas) {
