@@ -11,6 +11,7 @@
 #include <map>
 
 #include "cli/base/style.h"
+#include "cli/help/contract/glossary.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/settable_fields.h"
 #include "cli/input/templates.h"
@@ -137,6 +138,18 @@ Candidates Commands(const Settings&, const TypedWords& typed) {
   return commands;
 }
 
+// Each word once, with what it is in the first enum that has it.
+Candidates ResultWords(const Settings&, const TypedWords&) {
+  Candidates words;
+  for (const WordList& list : Glossary(Contract())) {
+    for (const Word& word : list.words) {
+      const bool known = std::ranges::find(words, word.name, &Candidate::text) != words.end();
+      if (!known) words.push_back({word.name, word.text});
+    }
+  }
+  return words;
+}
+
 Candidates ConfigKeyNames(const Settings&, const TypedWords& typed) {
   Candidates keys;
   for (const std::string& key : ConfigKeys(RootOf(typed))) keys.push_back({key, VariableOf(key)});
@@ -193,7 +206,8 @@ Candidates Values(const CommandLine& line, const CLI::Option& option, const Type
                                                        {ValueKind::kPaperItem, Items},
                                                        {ValueKind::kConfigKey, ConfigKeyNames},
                                                        {ValueKind::kProfile, ProfileNames},
-                                                       {ValueKind::kCommand, Commands}};
+                                                       {ValueKind::kCommand, Commands},
+                                                       {ValueKind::kResultWord, ResultWords}};
   const auto source = kSources.find(line.KindOf(option));
   return source == kSources.end() ? Named(line.WordsOf(option))
                                   : source->second(line.settings(), typed);

@@ -28,6 +28,7 @@ enum class ValueKind {
   kConfigKey,     ///< A key of config files.
   kProfile,       ///< A profile of config files.
   kCommand,       ///< A command of contactctl.
+  kResultWord,    ///< A word that contactctl explains, such as INFEASIBLE.
   kAssignment,    ///< FIELD=VALUE of the scenario that the line names.
   kScenarioFile,  ///< A YAML or JSON file.
   kFile,          ///< Any file.

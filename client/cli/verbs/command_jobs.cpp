@@ -22,6 +22,12 @@ struct DescribeArguments {
   ColumnChoice columns;
 };
 
+constexpr char kAboutLedger[] =
+    R"(Each row of the ledger is a cycle: a compression and the restitution that follows it. ε is the energy
+restitution coefficient √(−W_r/W_c), with W_c and W_r the work of the contact force in compression and
+in restitution; in an isolated collision it is the ratio of the velocities after and before. ERROR is
+|ε OUT − ε IN|/ε IN. contactctl explain says what the words below KIND, END and STATUS mean.)";
+
 ExitCode Describe(const DescribeArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   arguments.columns.Check(LedgerColumns(), settings);
@@ -73,6 +79,7 @@ void AddJobAction(CommandLine& line, CLI::App& command,
 void AddDescribe(CommandLine& line, CLI::App& describe) {
   auto arguments = std::make_shared<DescribeArguments>();
   describe.alias("result");
+  describe.footer(kAboutLedger);
   AddJob(line, describe, &arguments->job);
   describe.add_flag("--only-missed", arguments->only_missed,
                     "Only the cycles and groups that are NOT_CONVERGED or INFEASIBLE");

@@ -203,6 +203,20 @@ TEST(VerbUsageTest, ValidateTellsProgramsEachMistakeAndWarningAtItsPlace) {
   EXPECT_EQ(warnings[0]["line"], nullptr) << "it is not of the file";
 }
 
+TEST(VerbUsageTest, ExplainSaysWhatTheContractSays) {
+  const End one = EndOf({"explain", "settled"});
+  EXPECT_THAT(one.printed,
+              testing::StartsWith("SETTLED  (Cycle.Status)\nThe compression work is "));
+  const std::string all = EndOf({"explain"}).printed;
+  EXPECT_THAT(all,
+              testing::StartsWith("Cycle.Kind: How a cycle begins.\n\nCOLLISION  (Cycle.Kind)"));
+  EXPECT_THAT(all, HasSubstr("\n\nSolver.RestitutionScope: "));
+  const json words = JsonOf(EndOf({"explain", "JUMP", "AUTO", "-o", "json"}));
+  ASSERT_EQ(words.size(), 3U);
+  EXPECT_EQ(words[2]["of"], "Solver.RestitutionScope");
+  ExpectUsage({"explain", "infeasable"}, "did you mean 'INFEASIBLE'?");
+}
+
 TEST(VerbUsageTest, VersionIsForProgramsToo) {
   const json version = JsonOf(EndOf({"version", "-o", "json"}));
   EXPECT_EQ(version, json({{"version", kVersion}, {"revision", kRevision}}));

@@ -115,7 +115,11 @@ std::string NextSteps(const v1::Job& job) {
   const std::string hints = ConvergenceHints(job);
   if (hints.empty()) return text;
   return text +
-         fmt::format("       contactctl describe {} --only-missed  the cycles that miss\n", id) +
+         fmt::format(
+             "       contactctl describe {} --only-missed  the cycles that miss\n"
+             "       contactctl explain                         what the words of the ledger "
+             "mean\n",
+             id) +
          hints;
 }
 
