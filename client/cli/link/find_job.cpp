@@ -9,6 +9,7 @@
 
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
+#include "cli/base/style.h"
 #include "cli/link/job_names.h"
 
 namespace contact::cli {
@@ -45,9 +46,9 @@ std::string JobBeforeLast(Client& client, int steps) {
 std::string Ambiguous(const std::string& begin, const v1::ListJobsResponse& found) {
   std::string text = fmt::format("several jobs begin with '{}':", ShortName(begin));
   for (const v1::Job& job : found.jobs()) {
-    text +=
-        fmt::format("\n  {}  {}  {}{}{}", ShortName(job.name()), Instant(job.create_time()),
-                    v1::Job::State_Name(job.state()), job.title().empty() ? "" : "  ", job.title());
+    text += fmt::format("\n  {}  {}  {}{}{}", ShortName(job.name()), Instant(job.create_time()),
+                        v1::Job::State_Name(job.state()), job.title().empty() ? "" : "  ",
+                        OneLine(job.title()));
   }
   return text + (found.next_page_token().empty() ? "" : "\n  … and more");
 }

@@ -165,11 +165,12 @@ ExitCode ListProfiles(const ConfigArguments& arguments, const Settings& settings
 }
 
 constexpr char kAbout[] =
-    R"(Every global flag is also an environment variable and a line of a config file in TOML: --server is
-CONTACT_SERVER and server = "HOST:PORT". The first of these wins: the flag, the profile that --profile
-names, the variable, ./contact.toml, ~/.config/contact/config.toml, /etc/contact/config.toml. A section
-[profile.lab] has the values of a profile, which --profile lab, CONTACT_PROFILE=lab or
-use_profile = "lab" chooses; the latter two win over values outside of profiles, not over variables.)";
+    R"(Every global flag is also an environment variable and a line of a config file in TOML: --server
+is CONTACT_SERVER and server = "HOST:PORT". The first of these wins: the flag, the profile that
+--profile names, the variable, ./contact.toml, ~/.config/contact/config.toml,
+/etc/contact/config.toml. A section [profile.lab] has the values of a profile, which --profile lab,
+CONTACT_PROFILE=lab or use_profile = "lab" chooses; chosen by the latter two it wins over values
+outside of profiles, not over variables.)";
 
 void AddKey(CommandLine& line, CLI::App& command, std::string* key) {
   AddOption(line, command, "KEY", key, ValueKind::kConfigKey, "Such as server")->required();
