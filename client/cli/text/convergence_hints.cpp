@@ -15,8 +15,8 @@
 namespace contact::cli {
 namespace {
 
-constexpr double kNear = 1e-4;     // A miss that a user may accept.
-constexpr int kMostGroups = 3;     // Of which the hints tell what they can reach.
+constexpr double kNear = 1e-4;  // A miss that a user may accept.
+constexpr int kMostGroups = 3;  // Of which the hints tell what they can reach.
 
 // The NOT_CONVERGED cycles of a ledger by what ended their search.
 struct Causes {
