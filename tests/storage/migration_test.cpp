@@ -154,7 +154,7 @@ TEST_P(MigrationTest, DiskThatFailsAnywhereLeavesTheOldOrTheNew) {
     store_.reset();
     EXPECT_EQ(Version(database()), kSchemaVersion);
   }
-  EXPECT_GT(old_left, 20) << "the test must bite";
+  EXPECT_GT(old_left, 15) << "the test must bite";
 }
 
 // What version 3 has added is as if the job had been made by it.
