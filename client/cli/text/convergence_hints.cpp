@@ -23,7 +23,7 @@ struct Causes {
   std::int64_t exhausted = 0;  // All corrections were used.
   std::int64_t near = 0;       // They miss by kNear at most.
   std::int64_t stuck = 0;      // Neither: no better μ was found.
-  double worst_near = 0;
+  double worst_near = 1e-12;   // The least tolerance that there is.
 };
 
 const v1::FieldRule& RuleOfIterations() {
@@ -98,7 +98,7 @@ std::string AboutSearches(const v1::Job& job) {
   if (causes.near > 0) {
     const double enough = std::pow(10, std::ceil(std::log10(causes.worst_near)));
     text += Try(fmt::format("restitution_tolerance={:.0e}", enough),
-                fmt::format("{} no more", Count(causes.near, "cycle misses", "cycles miss")));
+                fmt::format("{} by less", Count(causes.near, "cycle misses", "cycles miss")));
   }
   if (causes.stuck == 0) return text;
   const std::string stuck = Count(causes.stuck, "cycle", "cycles");

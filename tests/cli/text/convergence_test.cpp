@@ -107,7 +107,7 @@ TEST(ConvergenceHints, ToleranceIsForSmallMissesAndLargeEnough) {
   const v1::Job job = Partial(Cycle(1, 12, 0.500002) + Cycle(2, 12, 0.50001) + Cycle(3, 12, 0.4));
   EXPECT_THAT(ConvergenceHints(job),
               testing::AllOf(HasSubstr("Try:   --set solver.restitution_tolerance=1e-04   2 cycles "
-                                       "miss no more\n"),
+                                       "miss by less\n"),
                              HasSubstr("No better μ was found for 1 cycle;")));
 }
 
