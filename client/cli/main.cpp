@@ -6,6 +6,7 @@
 #include <system_error>
 #include <vector>
 
+#include "cli/base/message.h"
 #include "cli/help/completion.h"
 #include "cli/help/manual.h"
 #include "cli/help/usage.h"
@@ -31,9 +32,9 @@ constexpr char kCodes[] =
     R"(Exit codes: 0 ok, 1 run failed, 2 usage, 3 invalid scenario, 4 unreachable, 5 timeout,
 6 not found, 7 not converged, 8 differs, 9 not allowed, 10 overload, 11 local file, 130 interrupted.)";
 
-int Tell(const Failure& failure) {
+int TellFailure(const Failure& failure) {
   const bool list = failure.code() == ExitCode::kInvalidScenario;
-  fmt::print(stderr, "{}{}\n", list ? "" : "contactctl: ", failure.what());
+  Tell("{}{}\n", list ? "" : "contactctl: ", failure.what());
   return static_cast<int>(failure.code());
 }
 
@@ -90,12 +91,12 @@ int main(int argc, char** argv) {
   try {
     return contact::cli::Main(argc, argv);
   } catch (const contact::cli::Failure& failure) {
-    return contact::cli::Tell(failure);
+    return contact::cli::TellFailure(failure);
   } catch (const std::system_error& error) {  // fmt could not write to a stream.
-    fmt::print(stderr, "contactctl: {}\n", error.what());
+    contact::cli::Tell("contactctl: {}\n", error.what());
     return static_cast<int>(contact::cli::ExitCode::kLocal);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "contactctl: {}\n", error.what());
+    contact::cli::Tell("contactctl: {}\n", error.what());
     return static_cast<int>(contact::cli::ExitCode::kRunFailed);
   }
 }

@@ -6,6 +6,7 @@
 #include "jobs/job/lifecycle.h"
 #include "jobs/predict.h"
 #include "jobs/read/create_rules.h"
+#include "storage/job_parts.h"
 #include "wire/scenario/scenario_codec.h"
 #include "wire/sweep/sweep_codec.h"
 
@@ -33,10 +34,12 @@ void MoveSpec(v1::Job* from, v1::Job* to) {
   }
 }
 
-// What of a requested job is the client's to say. Takes the scenario or sweep out of it.
+// What of a requested job is the client's to say, and the title that follows from it. Takes the
+// scenario or sweep out of it.
 v1::Job TakeRequested(v1::Job* from) {
   v1::Job job;
   MoveSpec(from, &job);
+  job.set_title(TitleOf(job));
   *job.mutable_labels() = from->labels();
   job.set_priority(from->priority());
   if (from->has_budget()) *job.mutable_budget() = from->budget();

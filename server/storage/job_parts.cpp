@@ -53,6 +53,10 @@ JobParts Split(const v1::Job& job) {
           job.end_time().seconds()};
 }
 
+const std::string& TitleOf(const v1::Job& job) {
+  return job.has_sweep() ? job.sweep().base().title() : job.scenario().title();
+}
+
 std::vector<EventRow> ToRows(absl::Span<const v1::Event> events) {
   std::vector<EventRow> rows;
   rows.reserve(events.size());

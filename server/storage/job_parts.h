@@ -28,6 +28,10 @@ struct JobParts {
 /// Serialises the pieces of a job.
 JobParts Split(const v1::Job& job);
 
+/// The title of the scenario, or of the base of the sweep; empty without one. The value of
+/// Job.title, which the header keeps, because lists read no specs.
+const std::string& TitleOf(const v1::Job& job);
+
 /// An event to be stored.
 struct EventRow {
   /// Field number of its payload.

@@ -96,6 +96,7 @@ std::string ListSql(const JobQuery& query) {
   for (std::size_t i = 0; i < query.labels.size(); ++i) {
     absl::StrAppend(&sql, " AND number IN (SELECT job FROM labels WHERE key=? AND value=?)");
   }
+  if (!query.name_prefix.empty()) absl::StrAppend(&sql, " AND name>=? AND name<?");
   return absl::StrCat(sql, " ORDER BY number DESC LIMIT ?");
 }
 
@@ -141,6 +142,10 @@ JobPage List(Database& database, const JobQuery& query) {
   for (const auto& [key, value] : query.labels) {
     rows.Bind(key);
     rows.Bind(value);
+  }
+  if (!query.name_prefix.empty()) {
+    rows.Bind(query.name_prefix);
+    rows.Bind(query.name_prefix + '\x7f');  // Above all characters of a name.
   }
   rows.Bind(query.limit + 1);
   JobPage page;

@@ -4,6 +4,8 @@
 #include <sqlite3.h>
 
 #include "contact/v1/job.pb.h"
+#include "storage/checksum.h"
+#include "storage/job_parts.h"
 #include "storage/schema.h"
 
 namespace contact {
@@ -35,6 +37,33 @@ void EndTimeOf(sqlite3_context* context, int, sqlite3_value** arguments) {
   sqlite3_result_int64(context, parsed ? job.end_time().seconds() : 0);
 }
 
+// The header with the title that its spec tells; empty if that changes nothing, or if one of the
+// two cannot be read.
+std::string WithTitle(const std::string& header, const std::string& spec) {
+  v1::Job job, asked;
+  if (!asked.ParseFromString(spec) || TitleOf(asked).empty()) return "";
+  if (!job.ParseFromString(header) || job.name().empty()) return "";
+  job.set_title(TitleOf(asked));
+  return Split(job).header;
+}
+
+// From 3: headers have the title of the job. Damaged ones are left as they are, and so found.
+void AddTitles(SQLite::Database& connection) {
+  SQLite::Statement jobs(connection,
+                         "SELECT number, crc32, header, spec FROM jobs JOIN specs ON job=number");
+  SQLite::Statement update(connection, "UPDATE jobs SET crc32=?, header=? WHERE number=?");
+  while (jobs.executeStep()) {
+    const std::string header = jobs.getColumn(2).getString();
+    const std::string titled = WithTitle(header, jobs.getColumn(3).getString());
+    if (titled.empty() || Checksum(header) != jobs.getColumn(1).getInt64()) continue;
+    update.bind(1, Checksum(titled));
+    update.bindNoCopy(2, titled.data(), static_cast<int>(titled.size()));
+    update.bind(3, jobs.getColumn(0).getInt64());
+    update.exec();
+    update.reset();
+  }
+}
+
 }  // namespace
 
 void Migrate(SQLite::Database& connection, int version) {
@@ -44,8 +73,11 @@ void Migrate(SQLite::Database& connection, int version) {
                               nullptr);
     connection.exec(kToVersion2);
   }
-  connection.exec(kToVersion3);
-  connection.exec(kSchemaOfVersion3);
+  if (version < 3) {
+    connection.exec(kToVersion3);
+    connection.exec(kSchemaOfVersion3);
+  }
+  AddTitles(connection);
   connection.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
   transaction.commit();
 }

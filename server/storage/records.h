@@ -97,6 +97,8 @@ struct JobQuery {
   std::vector<int> states = {};
   /// Jobs that have all of these labels.
   std::vector<std::pair<std::string, std::string>> labels = {};
+  /// Jobs whose name begins with this.
+  std::string name_prefix = {};
   /// JobPage::next of the page before; 0: from the newest job on.
   std::int64_t before = 0;
   /// Most jobs of the page, > 0.

@@ -1,6 +1,8 @@
 #include "wire/result_codec.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,6 +35,11 @@ v1::FrameChunk::Column Channel(std::string_view owner, const char* quantity, con
   column.set_quantity(quantity);
   column.set_unit(unit);
   return column;
+}
+
+// The number of cycles with this status.
+std::int64_t CountCycles(const v1::Job& job, v1::Cycle::Status status) {
+  return std::ranges::count(job.cycles(), status, &v1::Cycle::status);
 }
 
 }  // namespace
@@ -116,6 +123,9 @@ void EncodeOutcome(const Scenario& scenario, const Outcome& outcome, v1::Job* jo
   summary.set_time_reached_s(outcome.time);
   summary.set_growths(outcome.growths);
   summary.set_growths_no_progress(outcome.growths_no_progress);
+  summary.set_cycles(job->cycles_size());
+  summary.set_cycles_not_converged(CountCycles(*job, v1::Cycle::NOT_CONVERGED));
+  summary.set_cycles_infeasible(CountCycles(*job, v1::Cycle::INFEASIBLE));
 }
 
 }  // namespace contact

@@ -23,7 +23,8 @@ v1::Progress Encode(const Scenario& scenario, const Progress& progress);
 /// of each contact.
 std::vector<v1::FrameChunk::Column> Channels(const Scenario& scenario);
 
-/// Fills convergence, final_bodies and summary of a job, except for summary.wall_time_s.
+/// Fills convergence, final_bodies and summary of a job, except for summary.wall_time_s. The cycles
+/// that the job has are those that are counted.
 void EncodeOutcome(const Scenario& scenario, const Outcome& outcome, v1::Job* job);
 
 }  // namespace contact

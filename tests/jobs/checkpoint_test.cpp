@@ -112,6 +112,18 @@ class CheckpointTest : public JobsTest {
     return told;
   }
 
+  // Where each attempt that the log tells of began; none: at the start.
+  std::vector<std::optional<double>> Starts(const std::string& name) {
+    std::vector<std::optional<double>> starts;
+    for (const v1::Event& event : Log(name, 0, {"attempt_started"})) {
+      if (!event.has_attempt_started()) continue;
+      const v1::AttemptStarted& start = event.attempt_started();
+      starts.push_back(start.has_resume_time_s() ? std::optional(start.resume_time_s())
+                                                 : std::nullopt);
+    }
+    return starts;
+  }
+
   int begun_ = 0;
   std::vector<double> resumed_from_;
 };
@@ -124,6 +136,7 @@ TEST_F(CheckpointTest, RunGoesOnToTheSameBytes) {
   EXPECT_EQ(Told(name), undisturbed);
   ASSERT_EQ(resumed_from_.size(), 1U);
   EXPECT_GT(resumed_from_[0], 0);
+  EXPECT_THAT(Starts(name), testing::ElementsAre(std::nullopt, resumed_from_[0]));
   EXPECT_EQ(begun_, 2) << "only the first attempts began at the beginning";
   EXPECT_EQ(Get(name).value().attempt(), 2);
 }
@@ -153,6 +166,7 @@ TEST_F(CheckpointTest, DamagedOneIsAsNone) {
   Open(Options(kNever));
   EXPECT_EQ(Told(name), undisturbed);
   EXPECT_TRUE(resumed_from_.empty());
+  EXPECT_THAT(Starts(name), testing::ElementsAre(std::nullopt, std::nullopt));
 }
 
 TEST_F(CheckpointTest, RunWhoseEventsAreDamagedBeginsAnew) {
@@ -164,6 +178,8 @@ TEST_F(CheckpointTest, RunWhoseEventsAreDamagedBeginsAnew) {
   Open(Options(kNever));
   EXPECT_EQ(Told(name), undisturbed);
   EXPECT_TRUE(resumed_from_.empty());
+  ASSERT_EQ(Starts(name).size(), 3U) << "the attempt tells that it begins anew after all";
+  EXPECT_EQ(Starts(name).back(), std::nullopt);
 }
 
 TEST(RunStateCodec, RefusesTheBytesOfAnotherBuild) {

@@ -503,6 +503,25 @@ TEST_F(JobsTest, LargeSamplesAreCutIntoChunksThatFitMessages) {
   EXPECT_EQ(chunks, 3);
 }
 
+TEST_F(JobsTest, TitleIsToldWhereTheSpecIsLeftOut) {
+  Open();
+  v1::Scenario ball = BouncingBall(1);
+  ball.set_title("One ball");
+  v1::CreateJobRequest request = RequestFor(ball);
+  request.mutable_job()->set_title("the client cannot say so");
+  const v1::Job created = Create(request).value();
+  EXPECT_EQ(created.title(), "One ball");
+  EXPECT_EQ(Ended(created.name()).title(), "One ball");
+  v1::ListJobsRequest by_name;
+  by_name.set_name_prefix(created.name().substr(0, created.name().size() - 1));
+  const v1::ListJobsResponse found = List(by_name).value();
+  ASSERT_EQ(found.jobs_size(), 1);
+  EXPECT_EQ(found.jobs(0).title(), "One ball");
+  Crash();
+  Open();
+  EXPECT_EQ(List({}).value().jobs(0).title(), "One ball");
+}
+
 TEST_F(JobsTest, ListLeavesOutWhatIsLarge) {
   Open();
   Ended(Create(BouncingBall(1)));

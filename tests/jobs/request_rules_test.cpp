@@ -133,9 +133,10 @@ TEST(ToQuery, NamesAllViolationsAtOnce) {
   request.set_page_size(-1);
   request.set_page_token("x");
   request.add_states(static_cast<v1::Job::State>(77));
+  request.set_name_prefix(std::string(65, 'j'));
   (*request.mutable_labels())[""] = "";
   EXPECT_THAT(Fields(ToQuery(request).error().violations),
-              ElementsAre("page_size", "page_token", "states", "labels[]"));
+              ElementsAre("page_size", "page_token", "states", "name_prefix", "labels[]"));
 }
 
 v1::WatchJobRequest Watching(const std::vector<std::string>& kinds) {

@@ -96,6 +96,21 @@ TEST(Split, SpecDependsOnWhatTheClientSentAlone) {
   EXPECT_NE(Split(one).spec, Split(other).spec);
 }
 
+TEST(TitleOf, IsThatOfTheScenarioOrOfTheBaseOfTheSweep) {
+  v1::Job job;
+  EXPECT_EQ(TitleOf(job), "");
+  job.mutable_scenario()->set_title("one");
+  EXPECT_EQ(TitleOf(job), "one");
+  job.mutable_sweep()->mutable_base()->set_title("many");
+  EXPECT_EQ(TitleOf(job), "many");
+}
+
+TEST(Split, TitleIsPartOfTheHeader) {
+  v1::Job header;
+  ASSERT_TRUE(header.ParseFromString(Split(FullJob()).header));
+  EXPECT_EQ(header.title(), "title");
+}
+
 TEST(ToRows, KindIsTheFieldNumberOfThePayload) {
   std::vector<v1::Event> events;
   const auto& payload = *v1::Event::descriptor()->FindOneofByName("payload");

@@ -1,6 +1,6 @@
 // What becomes of the databases of earlier versions: two jobs that succeeded. version_1.sql was
-// dumped from one that the program of that version had made, version_2.sql from one made with the
-// tables of that version, with events as its program coded them.
+// dumped from one that the program of that version had made, the others from one made with the
+// tables of their version, with events as its program coded them.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "storage/checksum.h"
 #include "storage/schema.h"
 #include "storage/store.h"
 #include "storage/store_fixture.h"
@@ -153,7 +154,7 @@ TEST_P(MigrationTest, DiskThatFailsAnywhereLeavesTheOldOrTheNew) {
     store_.reset();
     EXPECT_EQ(Version(database()), kSchemaVersion);
   }
-  EXPECT_GT(old_left, 20) << "the test must bite";
+  EXPECT_GT(old_left, 15) << "the test must bite";
 }
 
 // What version 3 has added is as if the job had been made by it.
@@ -171,7 +172,55 @@ TEST_P(MigrationTest, NothingIsCompactedNorGoesOn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(FromVersion, MigrationTest, testing::Values(1, 2),
+// Gives the spec of a job a title, as a client would have sent it.
+void SetTitle(SQLite::Database& raw, int job, const std::string& title) {
+  SQLite::Statement read(raw, "SELECT spec FROM specs WHERE job=?");
+  read.bind(1, job);
+  ASSERT_TRUE(read.executeStep());
+  v1::Job spec;
+  ASSERT_TRUE(spec.ParseFromString(read.getColumn(0).getString()));
+  spec.mutable_scenario()->set_title(title);
+  const std::string bytes = spec.SerializeAsString();
+  SQLite::Statement write(raw, "UPDATE specs SET spec=?, crc32=? WHERE job=?");
+  write.bind(1, bytes.data(), static_cast<int>(bytes.size()));
+  write.bind(2, Checksum(bytes));
+  write.bind(3, job);
+  write.exec();
+}
+
+// What version 4 has added.
+TEST_P(MigrationTest, HeadersLearnTheTitle) {
+  MakeOldVersion();
+  {
+    SQLite::Database raw(database(), SQLite::OPEN_READWRITE);
+    SetTitle(raw, 1, "Triple-ball chain");
+  }
+  Open();
+  const auto jobs = List({});
+  ASSERT_TRUE(jobs.ok());
+  ASSERT_EQ(jobs->jobs.size(), 2U);
+  EXPECT_EQ(jobs->jobs[1].job.title(), "Triple-ball chain");
+  EXPECT_TRUE(jobs->jobs[1].intact);
+  EXPECT_EQ(jobs->jobs[1].job.state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(jobs->jobs[0].job.title(), "");
+  EXPECT_TRUE(Read(jobs->jobs[1].job.name()).ok());
+}
+
+TEST_P(MigrationTest, DamagedHeaderStaysDamaged) {
+  MakeOldVersion();
+  {
+    SQLite::Database raw(database(), SQLite::OPEN_READWRITE);
+    SetTitle(raw, 1, "Triple-ball chain");
+    raw.exec("UPDATE jobs SET crc32=crc32+1 WHERE number=1");
+  }
+  Open();
+  const auto jobs = List({});
+  ASSERT_TRUE(jobs.ok());
+  EXPECT_FALSE(jobs->jobs[1].intact);
+  EXPECT_TRUE(jobs->jobs[0].intact);
+}
+
+INSTANTIATE_TEST_SUITE_P(FromVersion, MigrationTest, testing::Values(1, 2, 3),
                          testing::PrintToStringParamName());
 
 }  // namespace

@@ -240,6 +240,19 @@ TEST_F(StoreTest, ListIsFilteredByStateAndByEveryLabel) {
   EXPECT_THAT(Names(*List({.labels = {{"user", "bob"}}})), ElementsAre());
 }
 
+TEST_F(StoreTest, ListIsFilteredByTheBeginningOfTheName) {
+  Open();
+  for (const char* name : {"jobs/ab1", "jobs/b", "jobs/abz", "jobs/ac", "jobs/a"}) {
+    ASSERT_TRUE(Create(MakeJob(name)).ok());
+  }
+  EXPECT_THAT(Names(*List({.name_prefix = "jobs/ab"})), ElementsAre("jobs/abz", "jobs/ab1"));
+  EXPECT_THAT(Names(*List({.name_prefix = "jobs/a", .limit = 2})),
+              ElementsAre("jobs/a", "jobs/ac"));
+  EXPECT_THAT(Names(*List({.labels = {{"study", "a"}}, .name_prefix = "jobs/ac"})),
+              ElementsAre("jobs/ac"));
+  EXPECT_THAT(Names(*List({.name_prefix = "jobs/abcd"})), ElementsAre());
+}
+
 TEST_F(StoreTest, UnfinishedJobsComeInTheOrderOfTheirCreation) {
   Open();
   v1::Job job = MakeJob("jobs/z");

@@ -122,5 +122,18 @@ TEST(Encode, OutcomeFillsItsFieldsOfTheJobAndNoOthers) {
             "kinetic_energy_j: 12 time_reached_s: 8 growths: 14 growths_no_progress: 15 }");
 }
 
+TEST(Encode, OutcomeCountsTheCyclesThatMissTheirRestitution) {
+  v1::Job job;
+  for (const v1::Cycle::Status status :
+       {v1::Cycle::CONVERGED, v1::Cycle::NOT_CONVERGED, v1::Cycle::INFEASIBLE,
+        v1::Cycle::NOT_CONVERGED, v1::Cycle::JUMP}) {
+    job.add_cycles()->set_status(status);
+  }
+  EncodeOutcome(TwoContacts(), {}, &job);
+  EXPECT_EQ(job.summary().cycles(), 5);
+  EXPECT_EQ(job.summary().cycles_not_converged(), 2);
+  EXPECT_EQ(job.summary().cycles_infeasible(), 1);
+}
+
 }  // namespace
 }  // namespace contact

@@ -1,8 +1,10 @@
 #include "cli/base/output_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +19,19 @@ namespace {
 }
 
 }  // namespace
+
+void RequireWritable(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    errno = EISDIR;
+    Fail(path);
+  }
+  if (access(path.c_str(), W_OK) == 0) return;
+  if (errno != ENOENT) Fail(path);
+  const fs::path folder = fs::path(path).parent_path();
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) Fail(path);
+}
 
 OutputFile::OutputFile(const std::string& path)
     : path_(path), file_(path.empty() ? stdout : std::fopen(path.c_str(), "wb")) {

@@ -5,6 +5,10 @@
 
 namespace contact::cli {
 
+/// Throws Failure (kLocal) if the file at `path` cannot be written or made, such as for lack of its
+/// folder. Makes nothing: for checks before long work.
+void RequireWritable(const std::string& path);
+
 /// A file that is written, or the standard output if the path is empty. Closed at the latest with
 /// this object.
 class OutputFile {

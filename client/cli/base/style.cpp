@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdlib>
 
@@ -102,6 +103,13 @@ std::string Pad(std::string_view text, int width) {
 std::string Cut(std::string_view text, int width) {
   while (Width(text) > width) text.remove_suffix(1);
   return std::string(text);
+}
+
+std::string OneLine(std::string_view text, int most) {
+  std::string line(text);
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return most > 0 && Width(line) > most ? Cut(line, most - 1) + "…" : line;
 }
 
 bool TerminalHasUtf8() {

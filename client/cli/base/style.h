@@ -57,6 +57,10 @@ std::string Pad(std::string_view text, int width);
 /// The first `width` characters of a text without colour.
 std::string Cut(std::string_view text, int width);
 
+/// A text of a user in one line without control characters, which would spoil a table; of more than
+/// `most` characters (0: no limit) the first, and `…`.
+std::string OneLine(std::string_view text, int most = 0);
+
 /// True if the environment says that the terminal shows UTF-8.
 bool TerminalHasUtf8();
 

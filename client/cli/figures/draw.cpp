@@ -34,7 +34,7 @@ int ColumnsOf(const Settings& settings) {
 }  // namespace
 
 OutputFormat FormatOfFigure(const std::string& path) {
-  return FormatOfFile(path, kFigure).value_or(OutputFormat::kSvg);
+  return RequireFormatOfFile(path, kFigure, OutputFormat::kSvg);
 }
 
 OutputFormat FigureFormat(const std::string& file, const Settings& settings) {

@@ -10,11 +10,12 @@
 
 namespace contact::cli {
 
-/// The format of a figure by the ending of its file, svg for an ending of no figure.
+/// The format of a figure by the ending of its file, svg without ending. Throws Failure (kUsage)
+/// for an ending of no figure.
 OutputFormat FormatOfFigure(const std::string& path);
 
 /// The format of a figure: the one that `-o` names, else that of the ending of `file`. Throws
-/// Failure (kUsage) if `-o` names a format that is none of figures.
+/// as FormatOfFigure does, and Failure (kUsage) if `-o` names a format that is none of figures.
 OutputFormat FigureFormat(const std::string& file, const Settings& settings);
 
 /// The path of a figure: `file`, or, if that is empty, `name` with the ending of the format.

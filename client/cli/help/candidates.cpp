@@ -10,13 +10,17 @@
 #include <functional>
 #include <map>
 
+#include "cli/base/style.h"
+#include "cli/help/contract/glossary.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/settable_fields.h"
 #include "cli/input/templates.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/paper/items.h"
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
+#include "cli/text/render_job.h"
 #include "contact/v1/event.pb.h"
 #include "wire/scenario/law_catalogue.h"
 
@@ -33,12 +37,13 @@ Candidates Named(const Items& items, Name name = {}) {
   return candidates;
 }
 
-// A call that takes at most 300 ms. Returns an empty message if it fails.
+constexpr std::chrono::milliseconds kPatience{300};
+
+// A call that takes no longer than kPatience. Returns an empty message if it fails.
 template <class Request, class Response>
 Response Ask(const Settings& settings,
              grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&, Response*),
              const Request& request) {
-  constexpr std::chrono::milliseconds kPatience{300};
   Client client(settings.server, kPatience);
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kPatience);
@@ -53,8 +58,9 @@ Response AskOfJob(const Settings& settings, const TypedWords& typed,
                   grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&,
                                                        Response*)) {
   if (typed.positionals.empty()) return {};
+  Client client(settings.server, kPatience);
   Request request;
-  request.set_name(JobName(typed.positionals.front()));
+  request.set_name(FindJob(client, typed.positionals.front()));
   return Ask(settings, method, request);
 }
 
@@ -65,8 +71,8 @@ Candidates Jobs(const Settings& settings, const TypedWords&) {
   Candidates jobs;
   for (const v1::Job& job : answer.jobs()) {
     jobs.push_back(
-        {job.name().substr(job.name().find('/') + 1),
-         fmt::format("{} {}", v1::Job::State_Name(job.state()), job.scenario().title())});
+        {ShortName(job.name()),
+         TrimRight(fmt::format("{} {}", v1::Job::State_Name(job.state()), OneLine(TitleOf(job))))});
   }
   return jobs;
 }
@@ -132,6 +138,18 @@ Candidates Commands(const Settings&, const TypedWords& typed) {
   return commands;
 }
 
+// Each word once, with what it is in the first enum that has it.
+Candidates ResultWords(const Settings&, const TypedWords&) {
+  Candidates words;
+  for (const WordList& list : Glossary(Contract())) {
+    for (const Word& word : list.words) {
+      const bool known = std::ranges::find(words, word.name, &Candidate::text) != words.end();
+      if (!known) words.push_back({word.name, word.text});
+    }
+  }
+  return words;
+}
+
 Candidates ConfigKeyNames(const Settings&, const TypedWords& typed) {
   Candidates keys;
   for (const std::string& key : ConfigKeys(RootOf(typed))) keys.push_back({key, VariableOf(key)});
@@ -188,7 +206,8 @@ Candidates Values(const CommandLine& line, const CLI::Option& option, const Type
                                                        {ValueKind::kPaperItem, Items},
                                                        {ValueKind::kConfigKey, ConfigKeyNames},
                                                        {ValueKind::kProfile, ProfileNames},
-                                                       {ValueKind::kCommand, Commands}};
+                                                       {ValueKind::kCommand, Commands},
+                                                       {ValueKind::kResultWord, ResultWords}};
   const auto source = kSources.find(line.KindOf(option));
   return source == kSources.end() ? Named(line.WordsOf(option))
                                   : source->second(line.settings(), typed);

@@ -1,14 +1,12 @@
 #include "cli/input/checked_scenario.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
+#include "cli/base/message.h"
 
 namespace contact::cli {
 
 void TellAdvice(const ScenarioFile& file) {
   for (const Diagnostic& advice : file.advice()) {
-    fmt::print(stderr, "{}\n", Format(advice, "warning"));
+    Tell("{}\n", Format(advice, "warning"));
   }
 }
 

@@ -2,9 +2,18 @@
 
 #include <fmt/format.h>
 
-#include "cli/base/failure.h"
+#include <utility>
 
 namespace contact::cli {
+namespace {
+
+std::string Lines(const std::vector<Diagnostic>& mistakes) {
+  std::string text;
+  for (const Diagnostic& mistake : mistakes) text += Format(mistake) + "\n";
+  return text + (mistakes.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes.size()));
+}
+
+}  // namespace
 
 std::string Format(const Diagnostic& diagnostic, std::string_view kind) {
   std::string text = diagnostic.source;
@@ -16,12 +25,11 @@ std::string Format(const Diagnostic& diagnostic, std::string_view kind) {
   return text;
 }
 
+InvalidFile::InvalidFile(std::vector<Diagnostic> mistakes)
+    : Failure(ExitCode::kInvalidScenario, Lines(mistakes)), mistakes_(std::move(mistakes)) {}
+
 void RequireNone(const std::vector<Diagnostic>& mistakes) {
-  if (mistakes.empty()) return;
-  std::string text;
-  for (const Diagnostic& mistake : mistakes) text += Format(mistake) + "\n";
-  text += mistakes.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes.size());
-  throw Failure(ExitCode::kInvalidScenario, text);
+  if (!mistakes.empty()) throw InvalidFile(mistakes);
 }
 
 }  // namespace contact::cli

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/base/failure.h"
+
 namespace contact::cli {
 
 /// A mistake in a scenario or sweep, and where it stands.
@@ -25,8 +27,20 @@ struct Diagnostic {
 /// `file:line:col: field: what — hint`, or `file:line:col: kind: field: …`.
 std::string Format(const Diagnostic& diagnostic, std::string_view kind = {});
 
-/// Throws Failure (kInvalidScenario) with a line for each mistake and their number, if there are
-/// any.
+/// A file that has mistakes: kInvalidScenario, with a line for each and their number.
+class InvalidFile : public Failure {
+ public:
+  /// `mistakes` has at least one.
+  explicit InvalidFile(std::vector<Diagnostic> mistakes);
+
+  /// The mistakes, for programs.
+  const std::vector<Diagnostic>& mistakes() const { return mistakes_; }
+
+ private:
+  std::vector<Diagnostic> mistakes_;
+};
+
+/// Throws InvalidFile if there are mistakes.
 void RequireNone(const std::vector<Diagnostic>& mistakes);
 
 }  // namespace contact::cli

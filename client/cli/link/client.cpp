@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -53,14 +54,26 @@ Detail Find(const google::rpc::Status& status) {
   return Detail();
 }
 
+bool Contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+// True if something else than gRPC has answered, such as a server of web pages.
+bool IsOtherProtocol(std::string_view message) {
+  return Contains(message, "parsing HTTP/2") || Contains(message, "http1.x");
+}
+
 std::string Unreachable(const grpc::Status& status, const std::string& server) {
-  const bool refused = status.error_message().find("Connection refused") != std::string::npos;
+  const std::string& message = status.error_message();
+  const std::string here =
+      IsOtherProtocol(message)
+          ? ""
+          : fmt::format("  start one here:  contactd --listen {} --data-dir DIR\n", server);
   return fmt::format(
-      "cannot reach contactd at {0} ({1})\n"
-      "  start one here:  contactd --listen {0} --data-dir DIR\n"
-      "  or choose one:   contactctl --server HOST:PORT …, CONTACT_SERVER, contactctl config use "
-      "PROFILE",
-      server, refused ? "connection refused" : status.error_message());
+      "cannot reach contactd at {} ({})\n"
+      "{}  {}contactctl --server HOST:PORT …, CONTACT_SERVER, contactctl config use PROFILE",
+      server, TransportWords(message), here,
+      here.empty() ? "choose another:  " : "or choose one:   ");
 }
 
 std::string Words(const grpc::Status& status, const std::string& reason,
@@ -102,16 +115,33 @@ grpc::ChannelArguments Arguments() {
   return arguments;
 }
 
+// A host name or an address, one of IPv6 in brackets.
+bool IsHost(std::string_view host) {
+  if (host.starts_with('[')) return host.ends_with(']');
+  return !host.empty() && host.find_first_of(":/ ") == std::string_view::npos;
+}
+
 void RequireAddress(const std::string& server) {
-  const std::size_t colon = server.rfind(':');
-  const bool port = colon != std::string::npos && colon > 0 && colon + 1 < server.size() &&
-                    server.find_first_not_of("0123456789", colon + 1) == std::string::npos;
-  if (port || server.starts_with("unix:")) return;
+  if (server.starts_with("unix:")) return;
+  const std::size_t colon = std::min(server.rfind(':'), server.size());
+  const std::string port = server.substr(std::min(colon + 1, server.size()));
+  const bool digits = port.find_first_not_of("0123456789") == std::string::npos;
+  if (!port.empty() && digits && IsHost(server.substr(0, colon))) return;
+  const std::size_t scheme = server.find("://");
+  const std::string why = scheme == std::string::npos
+                              ? "must be HOST:PORT"
+                              : fmt::format("contactd speaks gRPC, not {}; give HOST:PORT alone",
+                                            server.substr(0, scheme));
   throw Failure(ExitCode::kUsage,
-                fmt::format("--server is '{}'; must be HOST:PORT, such as 127.0.0.1:7070", server));
+                fmt::format("--server is '{}': {}, such as 127.0.0.1:7070", server, why));
 }
 
 }  // namespace
+
+std::string TransportWords(const std::string& message) {
+  if (Contains(message, "Connection refused")) return "connection refused";
+  return IsOtherProtocol(message) ? "what answers there does not speak gRPC" : message;
+}
 
 CallFailure::CallFailure(const grpc::Status& status, const std::string& server)
     : Failure(Code(status.error_code(), Find<google::rpc::ErrorInfo>(Details(status)).reason()),

@@ -13,6 +13,9 @@
 
 namespace contact::cli {
 
+/// What gRPC says about a connection that failed, in few words where they are known.
+std::string TransportWords(const std::string& message);
+
 /// A call that the server, or the way to it, refused.
 class CallFailure : public Failure {
  public:

@@ -91,7 +91,7 @@ std::optional<v1::Artifact> ReadOn(Call& call, const DownloadOptions& options,
     if (message.offset() != part.size() || message.crc32c() != Crc32c(message.data())) {
       return std::nullopt;  // Damaged on its way: asked for again.
     }
-    reconnection.Heard();
+    if (reconnection.Heard()) options.regained();
     part.Append(message.data());
     if (message.has_artifact()) return message.artifact();
   }
@@ -117,8 +117,9 @@ v1::Artifact Download(Client& client, const DownloadOptions& options) {
     if (call.status().error_code() == grpc::StatusCode::OUT_OF_RANGE) {
       part.Finish({}, options.path);  // Longer than the artifact: none of it.
     }
+    const bool told = reconnection.lost();
     const auto pause = reconnection.Lost(call.status());
-    options.lost(WhyLost(call.status()));
+    if (!told) options.lost(WhyLost(call.status()));
     Rest(pause, [&options] {
       RequireTime(options);
       return true;

@@ -24,8 +24,10 @@ struct DownloadOptions {
   std::optional<std::chrono::steady_clock::time_point> deadline;
   /// Asked about ten times a second; true ends the download.
   std::function<bool()> stopped = [] { return false; };
-  /// Called when the connection is lost, before another attempt.
+  /// Called when the connection is lost, once however many attempts follow.
   std::function<void(const std::string& why)> lost = [](const std::string&) {};
+  /// Called when more comes after that.
+  std::function<void()> regained = [] {};
   /// With a server that cannot be reached.
   Patience patience = {};
 };

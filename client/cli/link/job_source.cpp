@@ -7,6 +7,7 @@
 
 #include "cli/base/text_file.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 
 namespace contact::cli {
@@ -43,7 +44,7 @@ v1::Job GetSweep(Client& client, const std::string& job) {
 v1::Job JobSource::Get(const std::string& name) {
   if (std::filesystem::is_regular_file(name)) return ReadJob(name);
   if (!client_) client_.emplace(Connect(settings_));
-  return GetJob(*client_, name);
+  return GetJob(*client_, FindJob(*client_, name));
 }
 
 }  // namespace contact::cli

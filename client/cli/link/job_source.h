@@ -21,8 +21,8 @@ class JobSource {
   /// Connects when a job of the server is first asked for. `settings` must outlive this object.
   explicit JobSource(const Settings& settings) : settings_(settings) {}
 
-  /// `name` is a file if there is one of that name, else an ID. Throws Failure: kInvalidScenario if
-  /// the file holds no job, or what the server answers.
+  /// `name` is a file if there is one of that name, else what FindJob takes. Throws Failure:
+  /// kInvalidScenario if the file holds no job, or what FindJob and the server answer.
   v1::Job Get(const std::string& name);
 
  private:

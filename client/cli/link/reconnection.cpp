@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <thread>
+#include <utility>
 
 namespace contact::cli {
 namespace {
@@ -22,10 +23,10 @@ bool Unreached(const grpc::Status& status) {
 
 }  // namespace
 
-void Reconnection::Heard() {
+bool Reconnection::Heard() {
   connected_ = true;
-  lost_since_.reset();
   pause_ = patience_.first_pause;
+  return std::exchange(lost_since_, std::nullopt).has_value();
 }
 
 Milliseconds Reconnection::Lost(const grpc::Status& status) {
@@ -56,7 +57,7 @@ void Rest(Milliseconds pause, const std::function<bool()>& go_on) {
 }
 
 std::string WhyLost(const grpc::Status& status) {
-  return status.ok() ? "the stream ended early" : status.error_message();
+  return status.ok() ? "the stream ended early" : TransportWords(status.error_message());
 }
 
 }  // namespace contact::cli

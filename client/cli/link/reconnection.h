@@ -39,8 +39,12 @@ class Reconnection {
   Reconnection(std::string server, const Patience& patience)
       : server_(std::move(server)), patience_(patience), pause_(patience.first_pause) {}
 
-  /// To be called for each message: pauses start from the shortest again.
-  void Heard();
+  /// To be called for each message: pauses start from the shortest again. Returns whether the
+  /// stream was lost since the message before.
+  bool Heard();
+
+  /// True from a call of Lost to the next message.
+  bool lost() const { return lost_since_.has_value(); }
 
   /// To be called when the stream has ended too early, with its status. Returns how long to wait
   /// before the next attempt. Throws CallFailure if another attempt is hopeless: the answer would
@@ -62,7 +66,7 @@ class Reconnection {
 /// Waits for `pause`, or until `go_on` returns false; it is called about ten times a second.
 void Rest(std::chrono::milliseconds pause, const std::function<bool()>& go_on);
 
-/// Why a stream with this status was lost, in words.
+/// Why a stream with this status was lost, in few words.
 std::string WhyLost(const grpc::Status& status);
 
 }  // namespace contact::cli

@@ -11,7 +11,8 @@
 namespace contact::cli {
 
 /// One watch over all its connections: opens a stream again whenever it is lost. `Options` has
-/// `deadline`, `stopped` and `patience`; `Observer` has OnLost and OnTick. Not thread-safe.
+/// `deadline`, `stopped` and `patience`; `Observer` has OnLost, OnRegained and OnTick. Not
+/// thread-safe.
 template <class Options, class Observer>
 class StreamWatch {
  public:
@@ -28,8 +29,9 @@ class StreamWatch {
     while (true) {
       const grpc::Status status = Connect();
       if (end_) return *end_;
+      const bool told = reconnection_.lost();
       const std::chrono::milliseconds pause = reconnection_.Lost(status);
-      observer_.OnLost(WhyLost(status), pause);
+      if (!told) observer_.OnLost(WhyLost(status));
       Rest(pause, [this] { return GoOn(); });
       if (end_) return *end_;
     }
@@ -54,13 +56,19 @@ class StreamWatch {
     return !end_;
   }
 
+  /// To be called by Connect for each message.
+  void Heard() {
+    if (reconnection_.Heard()) observer_.OnRegained();
+  }
+
   Client& client_;
   const Options& options_;
   Observer& observer_;
-  /// Connect calls Heard for each message.
-  Reconnection reconnection_;
   /// Set as soon as the watch ends.
   std::optional<WatchEnd> end_;
+
+ private:
+  Reconnection reconnection_;
 };
 
 }  // namespace contact::cli

@@ -53,7 +53,7 @@ class Watcher final : public StreamWatch<WatchOptions, WatchObserver> {
   }
 
   void Take(const v1::WatchJobResponse& message) {
-    reconnection_.Heard();
+    Heard();
     if (message.has_snapshot()) Take(message.snapshot());
     for (const v1::Event& event : message.events()) Take(event);
   }

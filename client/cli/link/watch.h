@@ -23,8 +23,10 @@ class WatchObserver {
   virtual void OnSnapshot(const v1::Job&) {}
   /// Each event once, in order.
   virtual void OnEvent(const v1::Event&) {}
-  /// The connection was lost; another try follows.
-  virtual void OnLost(const std::string& /*why*/, std::chrono::milliseconds /*pause*/) {}
+  /// The connection was lost; other tries follow. Called once, however many they are.
+  virtual void OnLost(const std::string& /*why*/) {}
+  /// The connection is there again after OnLost.
+  virtual void OnRegained() {}
   /// Called about ten times a second.
   virtual void OnTick() {}
 };

@@ -33,7 +33,7 @@ class JobsWatcher final : public StreamWatch<JobsWatchOptions, JobsObserver> {
   }
 
   void Take(const v1::WatchJobsResponse& message) {
-    reconnection_.Heard();
+    Heard();
     for (const v1::Job& job : message.jobs()) {
       unconfirmed_.erase(job.name());
       const std::pair version{job.state(), job.attempt()};

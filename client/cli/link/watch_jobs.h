@@ -19,8 +19,9 @@ class JobsObserver {
   virtual void OnJob(const v1::Job&) {}
   /// A job that OnJob has told of was deleted.
   virtual void OnGone(const std::string& /*name*/) {}
-  /// The connection was lost; another attempt follows after `pause`.
-  virtual void OnLost(const std::string& /*why*/, std::chrono::milliseconds /*pause*/) {}
+  /// As those of WatchObserver.
+  virtual void OnLost(const std::string& /*why*/) {}
+  virtual void OnRegained() {}
   /// Called about ten times a second.
   virtual void OnTick() {}
 };

@@ -1,5 +1,7 @@
 #include "cli/settings/column_choice.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "cli/base/failure.h"
@@ -7,12 +9,14 @@
 namespace contact::cli {
 
 void ColumnChoice::AddTo(CommandLine& line, CLI::App& command,
-                         const std::vector<Table::Column>& known) {
+                         const std::vector<Table::Column>& known, bool csv) {
+  if (csv) what_ = "table or csv";
   CLI::Option* option =
       command
           .add_option("--columns", names_,
-                      "Only these columns of the table or csv, in this order, however narrow the "
-                      "terminal")
+                      fmt::format("Only these columns of the {}, in this order, however narrow the "
+                                  "terminal",
+                                  what_))
           ->type_name("COLUMN,…")
           ->delimiter(',')
           ->take_all()
@@ -26,7 +30,8 @@ void ColumnChoice::Check(const std::vector<Table::Column>& columns,
                          const Settings& settings) const {
   if (names_.empty()) return;
   if (settings.output != OutputFormat::kTable && settings.output != OutputFormat::kCsv) {
-    throw Failure(ExitCode::kUsage, "--columns are those of a table or csv; see --output");
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--columns are those of a {}; see --output", what_));
   }
   Table::RequireColumns(columns, names_);
 }

@@ -11,9 +11,10 @@ namespace contact::cli {
 /// The flag --columns of a command that prints a table.
 class ColumnChoice {
  public:
-  /// Adds the flag. Help and completion show `known`, the columns that the table always has. This
-  /// object must outlive the parsing.
-  void AddTo(CommandLine& line, CLI::App& command, const std::vector<Table::Column>& known = {});
+  /// Adds the flag. Help and completion show `known`, the columns that the table always has. `csv`:
+  /// the command prints csv too. This object must outlive the parsing.
+  void AddTo(CommandLine& line, CLI::App& command, const std::vector<Table::Column>& known = {},
+             bool csv = true);
 
   /// Throws Failure (kUsage) if a chosen column is not among `columns`, or if columns are chosen
   /// and the output is neither a table nor csv.
@@ -26,6 +27,8 @@ class ColumnChoice {
   Style OutputStyle(const Settings& settings) const;
 
  private:
+  /// What has the columns, for messages.
+  std::string what_ = "table";
   /// The values of --columns; empty without the flag.
   std::vector<std::string> names_;
 };

@@ -15,21 +15,14 @@ namespace {
 // What stands for a value of this kind in the help; empty: what the option has.
 std::string_view Placeholder(ValueKind kind) {
   static const std::map<ValueKind, std::string_view> kPlaceholders = {
-      {ValueKind::kJob, "JOB"},
-      {ValueKind::kChannel, "NAME"},
-      {ValueKind::kArtifact, "ARTIFACT"},
-      {ValueKind::kMetric, "METRIC"},
-      {ValueKind::kState, "STATE"},
-      {ValueKind::kEventKind, "KIND"},
-      {ValueKind::kTemplate, "TEMPLATE"},
-      {ValueKind::kLaw, "LAW"},
-      {ValueKind::kPaperItem, "ITEM"},
-      {ValueKind::kConfigKey, "KEY"},
-      {ValueKind::kProfile, "PROFILE"},
-      {ValueKind::kCommand, "COMMAND"},
-      {ValueKind::kAssignment, "FIELD=VALUE"},
-      {ValueKind::kScenarioFile, "FILE"},
-      {ValueKind::kFile, "FILE"},
+      {ValueKind::kJob, "JOB"},           {ValueKind::kChannel, "NAME"},
+      {ValueKind::kArtifact, "ARTIFACT"}, {ValueKind::kMetric, "METRIC"},
+      {ValueKind::kState, "STATE"},       {ValueKind::kEventKind, "KIND"},
+      {ValueKind::kTemplate, "TEMPLATE"}, {ValueKind::kLaw, "LAW"},
+      {ValueKind::kPaperItem, "ITEM"},    {ValueKind::kConfigKey, "KEY"},
+      {ValueKind::kProfile, "PROFILE"},   {ValueKind::kCommand, "COMMAND"},
+      {ValueKind::kResultWord, "WORD"},   {ValueKind::kAssignment, "FIELD=VALUE"},
+      {ValueKind::kScenarioFile, "FILE"}, {ValueKind::kFile, "FILE"},
       {ValueKind::kDirectory, "DIR"}};
   const auto found = kPlaceholders.find(kind);
   return found == kPlaceholders.end() ? std::string_view() : found->second;
@@ -132,7 +125,7 @@ void AddGlobalFlags(CommandLine& line) {
 }
 
 void AddJob(CommandLine& line, CLI::App& command, std::string* job) {
-  line.SetKind(command.add_option("JOB", *job, "ID or jobs/ID")->required(), ValueKind::kJob);
+  line.SetKind(command.add_option("JOB", *job, kJobAbout)->required(), ValueKind::kJob);
 }
 
 CLI::Option* AddDestination(CommandLine& line, CLI::App& command, const std::string& names,

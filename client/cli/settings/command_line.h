@@ -28,6 +28,7 @@ enum class ValueKind {
   kConfigKey,     ///< A key of config files.
   kProfile,       ///< A profile of config files.
   kCommand,       ///< A command of contactctl.
+  kResultWord,    ///< A word that contactctl explains, such as INFEASIBLE.
   kAssignment,    ///< FIELD=VALUE of the scenario that the line names.
   kScenarioFile,  ///< A YAML or JSON file.
   kFile,          ///< Any file.
@@ -104,6 +105,11 @@ bool IsList(const CLI::Option& option);
 
 /// Adds --server, --output and the other flags that every command has.
 void AddGlobalFlags(CommandLine& line);
+
+/// What may name a job, for the help; see FindJob.
+inline constexpr char kJobAbout[] =
+    "ID, or its first letters if only one job has them; last is the newest job, last~2 the second "
+    "before it";
 
 /// Adds the positional JOB, one that must be given.
 void AddJob(CommandLine& line, CLI::App& command, std::string* job);

@@ -109,14 +109,20 @@ std::string UserConfigPath() {
   return "";
 }
 
-std::optional<ConfigValue> FindValue(const std::vector<ConfigFile>& files, const std::string& key,
-                                     const std::string& profile) {
+std::optional<ConfigValue> FindInProfile(const std::vector<ConfigFile>& files,
+                                         const std::string& key, const std::string& profile) {
   for (const ConfigFile& file : files) {
     const auto section = file.profiles.find(profile);
     if (profile.empty() || section == file.profiles.end()) continue;
     const auto found = section->second.find(key);
     if (found != section->second.end()) return found->second;
   }
+  return std::nullopt;
+}
+
+std::optional<ConfigValue> FindValue(const std::vector<ConfigFile>& files, const std::string& key,
+                                     const std::string& profile) {
+  if (const auto value = FindInProfile(files, key, profile)) return value;
   for (const ConfigFile& file : files) {
     const auto found = file.values.find(key);
     if (found != file.values.end()) return found->second;

@@ -53,6 +53,10 @@ std::vector<ConfigFile> ReadConfigFiles(const std::vector<std::string_view>& key
 /// $XDG_CONFIG_HOME/contact/config.toml, or the same in ~/.config; empty without a home.
 std::string UserConfigPath();
 
+/// The value of `key` in the section of `profile` of the first file that has it there.
+std::optional<ConfigValue> FindInProfile(const std::vector<ConfigFile>& files,
+                                         const std::string& key, const std::string& profile);
+
 /// The value of `key` in the first file that has it: in the sections of `profile`, else outside of
 /// profiles. An empty `profile` has no sections.
 std::optional<ConfigValue> FindValue(const std::vector<ConfigFile>& files, const std::string& key,

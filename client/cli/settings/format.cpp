@@ -4,10 +4,22 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <cstddef>
 #include <filesystem>
 
+#include "cli/base/failure.h"
+
 namespace contact::cli {
+namespace {
+
+// The ending of a file name in small letters, such as `.svg`; empty without one.
+std::string EndingOf(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension();
+  return ending == "." ? "" : boost::to_lower_copy(ending);
+}
+
+}  // namespace
 
 const std::vector<FormatInfo>& Formats() {
   static const std::vector<FormatInfo> kFormats = {
@@ -28,12 +40,19 @@ std::optional<OutputFormat> FindFormat(std::string_view name) {
 }
 
 std::optional<OutputFormat> FormatOfFile(const std::string& path, FormatUse use) {
-  const std::string ending = std::filesystem::path(path).extension();
+  const std::string ending = EndingOf(path);
   if (ending.empty()) return std::nullopt;
   for (const FormatInfo& info : Formats()) {
     if (info.ending == ending && (info.uses & use) != 0) return info.format;
   }
   return std::nullopt;
+}
+
+OutputFormat RequireFormatOfFile(const std::string& path, FormatUse use, OutputFormat standard) {
+  const std::optional<OutputFormat> format = FormatOfFile(path, use);
+  if (format || EndingOf(path).empty()) return format.value_or(standard);
+  throw Failure(ExitCode::kUsage, fmt::format("{}: no format has the ending {}; there are {}", path,
+                                              EndingOf(path), FormatEndings(use)));
 }
 
 std::vector<std::string> FormatNames(unsigned uses) {

@@ -47,9 +47,13 @@ inline std::string_view NameOf(OutputFormat format) { return InfoOf(format).name
 /// The format with this name; none if there is no such format.
 std::optional<OutputFormat> FindFormat(std::string_view name);
 
-/// The format that the ending of a file name tells, among those with this use; none if the ending
-/// belongs to no such format.
+/// The format that the ending of a file name tells, in small or capital letters, among those with
+/// this use; none if the ending belongs to no such format.
 std::optional<OutputFormat> FormatOfFile(const std::string& path, FormatUse use);
+
+/// The same, but `standard` for a name without ending. Throws Failure (kUsage), which lists the
+/// endings, for an ending of no such format: its file would not be what its name says.
+OutputFormat RequireFormatOfFile(const std::string& path, FormatUse use, OutputFormat standard);
 
 /// The names of the formats that have one of these uses (bits of FormatUse).
 std::vector<std::string> FormatNames(unsigned uses);

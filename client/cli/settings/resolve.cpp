@@ -13,19 +13,26 @@
 namespace contact::cli {
 namespace {
 
+constexpr char kProfileFlag[] = "--profile";
+
 std::string KeyOf(const CLI::Option& option) {
   std::string key = option.get_lnames().empty() ? "" : option.get_lnames().front();
   std::ranges::replace(key, '-', '_');
   return key;
 }
 
-// The value of a key outside of the command line: in the environment, else in a config file.
+// The value of a key outside of the command line: in the profile that --profile names, else in the
+// environment, else in a config file. Who types --profile means its server, whatever was exported.
 std::optional<ConfigValue> Elsewhere(const std::string& key, const std::vector<ConfigFile>& files,
-                                     const std::string& profile) {
+                                     const Settings& settings) {
+  const auto origin = settings.origins.find(kProfileKey);
+  if (origin != settings.origins.end() && origin->second == kProfileFlag) {
+    if (const auto value = FindInProfile(files, key, settings.profile)) return value;
+  }
   const std::string variable = VariableOf(key);
   const char* value = std::getenv(variable.c_str());
   if (value != nullptr && *value != '\0') return ConfigValue{value, variable};
-  return FindValue(files, key, profile);
+  return FindValue(files, key, settings.profile);
 }
 
 void Resolve(CLI::Option* option, const std::vector<ConfigFile>& files, Settings* settings) {
@@ -34,7 +41,7 @@ void Resolve(CLI::Option* option, const std::vector<ConfigFile>& files, Settings
     settings->origins[key] = "--" + option->get_lnames().front();
     return;
   }
-  const auto value = Elsewhere(key, files, settings->profile);
+  const auto value = Elsewhere(key, files, *settings);
   if (!value) return;
   try {
     option->add_result(value->text);
@@ -79,7 +86,7 @@ void ResolveSettings(CLI::App& app, Settings* settings) {
   for (const ConfigFile& file : files) {
     if (!file.mistake.empty()) settings->problems.push_back({ExitCode::kLocal, file.mistake});
   }
-  Resolve(app.get_option("--profile"), files, settings);  // It decides about the others.
+  Resolve(app.get_option(kProfileFlag), files, settings);  // It decides about the others.
   RequireProfile(files, settings);
   for (CLI::Option* option : app.get_options()) {
     const std::string key = KeyOf(*option);

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "cli/base/number.h"
 #include "cli/base/table.h"
+#include "cli/text/convergence.h"
 #include "cli/text/render_groups.h"
 #include "cli/text/render_ledger.h"
 
@@ -22,7 +25,9 @@ std::vector<std::string> Extent(const v1::Job& job) {
   const v1::Progress& progress = job.progress();
   if (job.has_summary()) {
     return {Seconds(job.summary().time_reached_s()) + " simulated, ",
-            Count(job.cycles_size(), "cycle", "cycles") + ", ",
+            Count(std::max<std::int64_t>(job.summary().cycles(), job.cycles_size()), "cycle",
+                  "cycles") +
+                ", ",
             Count(job.summary().iterations(), "iteration", "iterations") + ", ",
             Seconds(job.summary().wall_time_s()) + " wall"};
   }
@@ -43,7 +48,7 @@ std::string Title(const v1::Job& job, const Style& style) {
   const std::vector<std::string> extent = Extent(job);
   if (!extent.empty()) parts.back() += "  ";
   parts.insert(parts.end(), extent.begin(), extent.end());
-  const std::string& title = job.scenario().title();
+  const std::string& title = TitleOf(job);
   return fmt::format("{}\n", fmt::join(Fold(parts, style.width), "\n")) +
          (title.empty() ? "" : Wrap(title + "\n", style));
 }
@@ -89,8 +94,8 @@ std::string Balances(const v1::Job& job, const Style& style) {
   std::string line = "\n";
   if (job.convergence() != v1::Job::CONVERGENCE_UNSPECIFIED) {
     const bool full = job.convergence() == v1::Job::FULL;
-    line += fmt::format("convergence {}; ", Paint(v1::Job::Convergence_Name(job.convergence()),
-                                                  full ? Tone::kGood : Tone::kWarning, style));
+    line += fmt::format("convergence {}; ",
+                        Paint(ConvergenceText(job), full ? Tone::kGood : Tone::kWarning, style));
   }
   line += fmt::format("residuals: momentum {}, energy {}, cycle identity {}; {} steps\n",
                       RelativeError(summary.momentum_residual()),
@@ -112,6 +117,10 @@ std::string RenderJob(const v1::Job& job, const Style& style) {
     text += Wrap(Paint("warning: ", Tone::kWarning, style) + warning + "\n", style);
   }
   return text;
+}
+
+const std::string& TitleOf(const v1::Job& job) {
+  return job.title().empty() ? job.scenario().title() : job.title();
 }
 
 std::string StateText(v1::Job::State state, const std::string& reason, const Style& style) {

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "cli/text/plain_numbers.h"
+
 namespace contact::cli {
 namespace {
 
@@ -12,7 +14,7 @@ std::string Print(const google::protobuf::Message& message,
   std::string text;
   const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
   if (!status.ok()) throw std::runtime_error("cannot print as JSON: " + status.ToString());
-  return text;
+  return WithPlainNumbers(text, *message.GetDescriptor());
 }
 
 }  // namespace

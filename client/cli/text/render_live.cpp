@@ -57,10 +57,11 @@ void LiveView::OnEvent(const v1::Event& event) {
   }
 }
 
-void LiveView::OnLost(const std::string& why, std::chrono::milliseconds pause) {
-  Write(options_.messages, fmt::format("connection lost ({}); trying again in {}", why,
-                                       Seconds(static_cast<double>(pause.count()) / 1e3)));
+void LiveView::OnLost(const std::string& why) {
+  Write(options_.messages, fmt::format("connection lost ({}); trying again", why));
 }
+
+void LiveView::OnRegained() { Write(options_.messages, "connected again"); }
 
 void LiveView::Write(std::FILE* stream, const std::string& line) {
   EraseProgress();
@@ -131,8 +132,16 @@ void LiveView::ShowLogEntry(const v1::LogEntry& entry) {
 }
 
 void LiveView::ShowAttempt(const v1::AttemptStarted& start) {
-  if (start.attempt() > 1)
-    Write(options_.rows, fmt::format("attempt {} starts anew", start.attempt()));
+  if (start.has_resume_time_s()) {
+    return Write(options_.rows, fmt::format("attempt {} goes on from t = {}; what was recorded "
+                                            "before follows again",
+                                            start.attempt(), Seconds(start.resume_time_s())));
+  }
+  if (start.attempt() == 1) return;
+  const bool sweep = progress_ && progress_->cells() > 0;
+  Write(options_.rows,
+        fmt::format("attempt {} {}", start.attempt(),
+                    sweep ? "goes on; the cells that were solved are kept" : "starts anew"));
 }
 
 void LiveView::OnTick() {

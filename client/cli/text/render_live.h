@@ -44,8 +44,9 @@ class LiveView : public WatchObserver {
   void OnSnapshot(const v1::Job& job) override;
   /// Shows an event; frames and kinds that are unknown here are left out.
   void OnEvent(const v1::Event& event) override;
-  /// Says that the connection was lost, and when the next attempt is.
-  void OnLost(const std::string& why, std::chrono::milliseconds pause) override;
+  /// Says that the connection was lost, or is there again.
+  void OnLost(const std::string& why) override;
+  void OnRegained() override;
   /// Draws the bar again or writes the line of progress, if either is wanted; not in the first
   /// 0.2 s.
   void OnTick() override;

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/link/connect.h"
 #include "cli/link/download.h"
-#include "cli/link/job_names.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/job/follow.h"
@@ -27,7 +27,7 @@ struct ArtifactArguments {
 ExitCode ListArtifacts(const ArtifactArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJsonLines, OutputFormat::kName});
   Client client = Connect(settings);
-  const v1::Job job = GetJob(client, arguments.job);
+  const v1::Job job = GetJob(client, FindJob(client, arguments.job));
   for (const v1::Artifact& artifact : job.artifacts()) {
     const bool json = settings.output == OutputFormat::kJsonLines;
     fmt::print("{}", json ? ToJsonLine(artifact) : artifact.name() + "\n");
@@ -41,15 +41,16 @@ ExitCode GetArtifact(const ArtifactArguments& arguments, const Settings& setting
   const std::string path = arguments.file.empty()
                                ? std::filesystem::path(arguments.artifact).filename().string()
                                : arguments.file;
-  const DownloadOptions options{.job = JobName(arguments.job),
+  const DownloadOptions options{.job = FindJob(client, arguments.job),
                                 .artifact = arguments.artifact,
                                 .path = path,
                                 .deadline = settings.Deadline(),
                                 .stopped = Interrupt::raised,
-                                .lost = TellLost};
+                                .lost = TellLost,
+                                .regained = TellRegained};
   const Interrupt interrupt;
   const v1::Artifact artifact = Download(client, options);
-  fmt::print(stderr, "{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
+  Tell("{}  {}\n", path, Count(artifact.size_bytes(), "byte", "bytes"));
   return ExitCode::kOk;
 }
 

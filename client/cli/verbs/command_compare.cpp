@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
 #include "cli/text/comparison/comparison_data.h"
 #include "cli/text/comparison/render_comparison.h"
@@ -39,10 +41,10 @@ void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
     if (std::filesystem::is_regular_file(job)) {
       throw Failure(ExitCode::kUsage, fmt::format("--plot: {} is a file without trajectory", job));
     }
-    runs.push_back(ReadRecording(client, job, settings));
+    runs.push_back(ReadRecording(client, FindJob(client, job), settings));
   }
   Draw(OverlayFigure(runs, arguments.channels), FormatOfFigure(arguments.plot), arguments.plot);
-  fmt::print(stderr, "{}\n", arguments.plot);
+  Tell("{}\n", arguments.plot);
 }
 
 // The runs of these jobs or files. Throws Failure (kUsage) if one is a sweep.
@@ -73,6 +75,7 @@ void Print(const JobComparison& comparison, const Settings& settings) {
 
 ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) {
   const Settings settings = WithFormat(arguments, global);
+  if (!arguments.plot.empty()) FormatOfFigure(arguments.plot);  // Refused before anything is read.
   const std::vector<v1::Job> runs = ReadRuns(arguments.jobs, settings);
   if (!arguments.plot.empty()) DrawRuns(arguments, settings);
   const JobComparison comparison = Compare(runs, arguments.tolerance);
@@ -82,7 +85,7 @@ ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) 
 
 void AddTolerance(CLI::App& command, Tolerance* tolerance) {
   const auto add = [&command](const char* name, double* value, const char* about) {
-    command.add_option(name, *value, about)->check(CLI::NonNegativeNumber)->capture_default_str();
+    command.add_option(name, *value, about)->check(AtLeast(0))->capture_default_str();
   };
   add("--abs", &tolerance->absolute, "Deviation that does not matter");
   add("--rel", &tolerance->relative, "The same relative to the baseline; the larger one counts");

@@ -9,6 +9,7 @@
 
 #include "base/replace_file.h"
 #include "base/spelling.h"
+#include "cli/base/message.h"
 #include "cli/base/table.h"
 #include "cli/base/text_file.h"
 #include "cli/settings/config.h"
@@ -33,7 +34,7 @@ using Keys = std::vector<std::string>;
 // Prints what is wrong with config files, after the settings that could be read.
 ExitCode TellProblems(const Settings& settings) {
   for (const Problem& problem : settings.problems) {
-    fmt::print(stderr, "contactctl: {}\n", problem.text);
+    Tell("contactctl: {}\n", problem.text);
   }
   return settings.problems.empty() ? ExitCode::kOk : settings.problems.front().code;
 }
@@ -105,7 +106,7 @@ void Store(const std::string& profile, const std::string& key, const std::string
     throw Failure(ExitCode::kLocal,
                   fmt::format("cannot write {}: {}", path.string(), error.message()));
   }
-  fmt::print(stderr, "{}\n", path.string());
+  Tell("{}\n", path.string());
 }
 
 // With --profile on the command line, stores the value in that profile.
@@ -164,10 +165,12 @@ ExitCode ListProfiles(const ConfigArguments& arguments, const Settings& settings
 }
 
 constexpr char kAbout[] =
-    R"(Every global flag is also an environment variable and a line of a config file in TOML: --server is
-CONTACT_SERVER and server = "HOST:PORT". The first of these wins: the flag, the variable,
-./contact.toml, ~/.config/contact/config.toml, /etc/contact/config.toml. A section [profile.lab] has
-the values of a profile, which --profile lab, CONTACT_PROFILE=lab or use_profile = "lab" chooses.)";
+    R"(Every global flag is also an environment variable and a line of a config file in TOML: --server
+is CONTACT_SERVER and server = "HOST:PORT". The first of these wins: the flag, the profile that
+--profile names, the variable, ./contact.toml, ~/.config/contact/config.toml,
+/etc/contact/config.toml. A section [profile.lab] has the values of a profile, which --profile lab,
+CONTACT_PROFILE=lab or use_profile = "lab" chooses; chosen by the latter two it wins over values
+outside of profiles, not over variables.)";
 
 void AddKey(CommandLine& line, CLI::App& command, std::string* key) {
   AddOption(line, command, "KEY", key, ValueKind::kConfigKey, "Such as server")->required();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <system_error>
 
+#include "cli/base/message.h"
 #include "cli/base/process.h"
 #include "cli/link/local_server.h"
 #include "cli/verbs/job/options.h"
@@ -56,7 +57,7 @@ ExitCode RunCommand(const DevArguments& arguments, const LocalServer& server,
     return static_cast<ExitCode>(ExitCodeOf(status));
   } catch (const std::system_error& error) {
     constexpr int kNoSuchCommand = 127;  // The code of a shell.
-    fmt::print(stderr, "contactctl: cannot run {}\n", error.what());
+    Tell("contactctl: cannot run {}\n", error.what());
     return static_cast<ExitCode>(kNoSuchCommand);
   }
 }

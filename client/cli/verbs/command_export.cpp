@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/output_file.h"
 #include "cli/export/data_table.h"
@@ -9,6 +10,7 @@
 #include "cli/export/series_selection.h"
 #include "cli/export/writers.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/recording.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
@@ -28,7 +30,7 @@ struct ExportArguments {
 // The format that -o names, else the one that the file name tells, else CSV.
 OutputFormat Format(const ExportArguments& arguments, const Settings& settings) {
   if (settings.output == OutputFormat::kTable) {
-    return FormatOfFile(arguments.file, kData).value_or(OutputFormat::kCsv);
+    return RequireFormatOfFile(arguments.file, kData, OutputFormat::kCsv);
   }
   settings.RequireUse(kData);
   return settings.output;
@@ -63,15 +65,11 @@ std::string WriteAll(Recording&& recording, FileWriter* write, const std::string
                      Count(static_cast<std::int64_t>(tables[1].rows()), "cycle", "cycles"));
 }
 
-Recording Read(const ExportArguments& arguments, const Settings& settings) {
-  const SeriesSelection& part = arguments.part;
-  if (part.max_points > 0 && part.every > 1) {
-    throw Failure(ExitCode::kUsage, "--every and --max-points do not go together");
-  }
-  Client client = Connect(settings);
-  Recording recording = ReadRecording(client, arguments.job, settings, part.max_points == 0);
+Recording Read(Client& client, const std::string& job, const SeriesSelection& part,
+               const Settings& settings) {
+  Recording recording = ReadRecording(client, job, settings, part.max_points == 0);
   if (part.max_points > 0) {
-    recording.columns = ThinnedSeries(client, arguments.job, part);
+    recording.columns = ThinnedSeries(client, job, part);
   } else {
     Narrow(part, &recording.columns);
   }
@@ -105,17 +103,20 @@ void RequireUse(const ExportArguments& arguments, OutputFormat format) {
           fmt::format("{} has all that was recorded, no part of it", name));
   require(format == OutputFormat::kCsv || !arguments.comments, "--comments are of csv");
   require(text || arguments.precision == 0, "--precision is of csv and jsonl");
+  require(arguments.part.max_points == 0 || arguments.part.every == 1,
+          "--every and --max-points do not go together");
 }
 
 // Writes the job in the format. Returns in words how much that was.
 std::string Write(const ExportArguments& arguments, OutputFormat format, const Settings& settings) {
   TableWriter* const table_writer = TableWriterOf(format);
   FileWriter* const file_writer = FileWriterOf(format);
+  Client client = Connect(settings);
+  const std::string job = FindJob(client, arguments.job);
   if (table_writer == nullptr && file_writer == nullptr) {  // protobuf: events instead of tables.
-    Client client = Connect(settings);
-    return Count(WriteProtobuf(client, arguments.job, settings, arguments.file), "event", "events");
+    return Count(WriteProtobuf(client, job, settings, arguments.file), "event", "events");
   }
-  Recording recording = Read(arguments, settings);
+  Recording recording = Read(client, job, arguments.part, settings);
   if (file_writer != nullptr) return WriteAll(std::move(recording), file_writer, arguments.file);
   const Provenance source = SourceOf(recording.job);
   const DataTable table = Chosen(arguments.table, std::move(recording));
@@ -126,8 +127,9 @@ std::string Write(const ExportArguments& arguments, OutputFormat format, const S
 ExitCode Export(const ExportArguments& arguments, const Settings& settings) {
   const OutputFormat format = Format(arguments, settings);
   RequireUse(arguments, format);
+  if (!arguments.file.empty()) RequireWritable(arguments.file);
   const std::string what = Write(arguments, format, settings);
-  if (!arguments.file.empty()) fmt::print(stderr, "{}  {}\n", arguments.file, what);
+  if (!arguments.file.empty()) Tell("{}  {}\n", arguments.file, what);
   return ExitCode::kOk;
 }
 

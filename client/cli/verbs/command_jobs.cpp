@@ -2,10 +2,12 @@
 
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/link/connect.h"
-#include "cli/link/job_names.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
 #include "cli/settings/column_choice.h"
+#include "cli/text/convergence.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_ledger.h"
 #include "cli/verbs/job/follow.h"
@@ -16,21 +18,35 @@ namespace {
 
 struct DescribeArguments {
   std::string job;
+  bool only_missed = false;
   ColumnChoice columns;
 };
+
+constexpr char kAboutLedger[] =
+    R"(Each row of the ledger is a cycle: a compression and the restitution that follows it. ε is the
+energy restitution coefficient √(−W_r/W_c), with W_c and W_r the work of the contact force in
+compression and in restitution; in an isolated collision it is the ratio of the velocities after
+and before. ERROR is |ε OUT − ε IN|/ε IN. contactctl explain says what the words below KIND, END
+and STATUS mean.)";
 
 ExitCode Describe(const DescribeArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   arguments.columns.Check(LedgerColumns(), settings);
+  if (arguments.only_missed && settings.output != OutputFormat::kTable) {
+    throw Failure(ExitCode::kUsage, "--only-missed is of the table; JSON has the whole ledger");
+  }
   Client client = Connect(settings);
-  PrintJob(GetJob(client, arguments.job), settings, arguments.columns.names());
+  v1::Job job = GetJob(client, FindJob(client, arguments.job));
+  if (arguments.only_missed) KeepMissed(&job);
+  PrintJob(job, settings, arguments.columns.names());
+  if (arguments.only_missed && job.cycles().empty()) Tell("no cycle misses its restitution\n");
   return ExitCode::kOk;
 }
 
 ExitCode Cancel(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
-  const v1::Job answer = CancelJob(client, JobName(job));
+  const v1::Job answer = CancelJob(client, FindJob(client, job));
   if (settings.output != OutputFormat::kTable) {
     PrintJob(answer, settings);
   } else if (answer.state() == v1::Job::RUNNING) {
@@ -43,9 +59,10 @@ ExitCode Cancel(const std::string& job, const Settings& settings) {
 
 ExitCode Delete(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
+  Client client = Connect(settings);
   v1::DeleteJobRequest request;
-  request.set_name(JobName(job));
-  Connect(settings).Call(&Client::Stub::DeleteJob, request);
+  request.set_name(FindJob(client, job));
+  client.Call(&Client::Stub::DeleteJob, request);
   fmt::print("{}{}\n", request.name(), settings.output == OutputFormat::kTable ? "  deleted" : "");
   return ExitCode::kOk;
 }
@@ -63,8 +80,11 @@ void AddJobAction(CommandLine& line, CLI::App& command,
 void AddDescribe(CommandLine& line, CLI::App& describe) {
   auto arguments = std::make_shared<DescribeArguments>();
   describe.alias("result");
+  describe.footer(kAboutLedger);
   AddJob(line, describe, &arguments->job);
-  arguments->columns.AddTo(line, describe, LedgerColumns());
+  describe.add_flag("--only-missed", arguments->only_missed,
+                    "Only the cycles and groups that are NOT_CONVERGED or INFEASIBLE");
+  arguments->columns.AddTo(line, describe, LedgerColumns(), false);
   line.SetAction(describe, arguments, Describe);
 }
 

@@ -7,12 +7,14 @@
 #include <string_view>
 
 #include "base/spelling.h"
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/help/candidates.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/settings/column_choice.h"
+#include "cli/text/convergence.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
@@ -27,9 +29,12 @@ struct ListArguments {
   std::vector<std::string> states;
   std::vector<std::string> labels;
   int limit = 50;
+  bool all = false;
   bool watch = false;
   ColumnChoice columns;
 };
+
+constexpr int kMostTitle = 40;  // A longer one would take the place of other columns.
 
 v1::Job::State ParseState(std::string text) {
   boost::to_upper(text);
@@ -58,13 +63,12 @@ v1::ListJobsResponse ListAll(Client& client, const ListArguments& arguments) {
   v1::ListJobsResponse all;
   do {
     const int missing = arguments.limit - all.jobs_size();
-    request.set_page_size(arguments.limit > 0 ? std::min(kPage, missing) : kPage);
+    request.set_page_size(arguments.all ? kPage : std::min(kPage, missing));
     const v1::ListJobsResponse page = client.Call(&Client::Stub::ListJobs, request);
     all.MergeFrom(page);
     all.set_next_page_token(page.next_page_token());
     request.set_page_token(page.next_page_token());
-  } while (!all.next_page_token().empty() &&
-           (arguments.limit <= 0 || all.jobs_size() < arguments.limit));
+  } while (!all.next_page_token().empty() && (arguments.all || all.jobs_size() < arguments.limit));
   return all;
 }
 
@@ -84,11 +88,13 @@ std::string Convergence(const v1::Job& job) {
 std::vector<Table::Column> ListColumns() {
   return {{"JOB"},
           {"STATE"},
-          {"REASON", false, 2},
+          {"TITLE", false, 1},
+          {"REASON", false, 5},
           {"CONVERGENCE", false, 3},
-          {"CREATED (UTC)", false, 1},
-          {"ENDED (UTC)", false, 4},
-          {"LABELS", false, 5},
+          {"MISSED", true, 4},
+          {"CREATED (UTC)", false, 2},
+          {"ENDED (UTC)", false, 6},
+          {"LABELS", false, 7},
           {"CYCLES", true, Table::kOnlyWide},
           {"ATTEMPT", true, Table::kOnlyWide}};
 }
@@ -96,8 +102,10 @@ std::vector<Table::Column> ListColumns() {
 std::vector<Table::Cell> ListRow(const v1::Job& job) {
   return {ShortName(job.name()),
           {v1::Job::State_Name(job.state()), ToneOf(job.state())},
+          TitleOf(job),
           job.state_reason().empty() ? "-" : job.state_reason(),
           Convergence(job),
+          MissedCount(job),
           Instant(job.create_time()),
           Instant(job.end_time()),
           Labels(job),
@@ -105,9 +113,13 @@ std::vector<Table::Cell> ListRow(const v1::Job& job) {
           fmt::to_string(job.attempt())};
 }
 
-Table ListTable(const v1::ListJobsResponse& all) {
+// `most_title`: characters of a title that are shown; 0: all.
+Table ListTable(const v1::ListJobsResponse& all, int most_title = 0) {
   Table table(ListColumns());
-  for (const v1::Job& job : all.jobs()) table.Add(ListRow(job));
+  for (v1::Job job : all.jobs()) {
+    job.set_title(OneLine(TitleOf(job), most_title));
+    table.Add(ListRow(job));
+  }
   return table;
 }
 
@@ -119,8 +131,8 @@ void PrintList(const v1::ListJobsResponse& all, const ColumnChoice& columns,
     case OutputFormat::kCsv:
       return fmt::print("{}", ListTable(all).Csv(columns.names()));
     case OutputFormat::kTable:
-      fmt::print("{}", ListTable(all).Text(columns.OutputStyle(settings)));
-      if (!all.next_page_token().empty()) fmt::print(stderr, "… and more; --limit 0 lists all\n");
+      fmt::print("{}", ListTable(all, kMostTitle).Text(columns.OutputStyle(settings)));
+      if (!all.next_page_token().empty()) Tell("… and more; --all lists them\n");
       return;
     default:
       for (const v1::Job& job : all.jobs()) {
@@ -148,10 +160,9 @@ void AddList(CommandLine& line, CLI::App& list) {
                        "Only jobs in this state; repeatable"));
   Repeatable(list.add_option("--label", arguments->labels, "Only jobs with this label; repeatable"))
       ->type_name("KEY=VALUE");
-  list.add_option("--limit", arguments->limit, "Most jobs to list; 0: all")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N")
-      ->capture_default_str();
+  CLI::Option* limit =
+      AddCount(list, "--limit", &arguments->limit, "Most jobs to list")->capture_default_str();
+  list.add_flag("--all", arguments->all, "List all jobs")->excludes(limit);
   list.add_flag("--watch", arguments->watch,
                 "All of them, and then a line for each change; -o jsonl for programs");
   arguments->columns.AddTo(line, list, ListColumns());

@@ -7,6 +7,7 @@
 #include <memory>
 #include <system_error>
 
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/text_file.h"
 #include "cli/export/provenance.h"
@@ -59,7 +60,7 @@ std::map<std::string, std::string> DrawAll(const std::vector<PaperItem>& items,
     }
   } catch (const Failure& failure) {
     if (!arguments.format.empty()) throw;
-    fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
+    Tell("figures are not drawn: {}\n", failure.what());
   }
   return inlined;
 }
@@ -108,9 +109,9 @@ ExitCode Paper(const PaperArguments& arguments, const Settings& settings) {
             fs::path(arguments.directory) / "index.html");
   fmt::print("{}", Summary(items, settings.OutputStyle()));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  fmt::print(stderr, "{}, {} drawn, index.html in {}, in {}\n",
-             Count(static_cast<std::int64_t>(items.size()), "item", "items"), figures.size(),
-             arguments.directory, Seconds(took.count()));
+  Tell("{}, {} drawn, index.html in {}, in {}\n",
+       Count(static_cast<std::int64_t>(items.size()), "item", "items"), figures.size(),
+       arguments.directory, Seconds(took.count()));
   return std::ranges::all_of(items, &PaperItem::holds) ? ExitCode::kOk : ExitCode::kDiffers;
 }
 

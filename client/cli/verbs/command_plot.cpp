@@ -1,15 +1,16 @@
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <memory>
 #include <system_error>
 
+#include "cli/base/message.h"
+#include "cli/base/output_file.h"
 #include "cli/base/text_file.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/gnuplot_script.h"
 #include "cli/figures/presets.h"
 #include "cli/figures/sampling.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
@@ -37,12 +38,13 @@ void Keep(const Figure& figure, OutputFormat format, const PlotArguments& argume
 
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   const OutputFormat format = FigureFormat(arguments.file, settings);
+  if (!arguments.file.empty()) RequireWritable(arguments.file);
   Client client = Connect(settings);
-  const Recording recording = ReadRecording(client, arguments.job, settings);
+  const Recording recording = ReadRecording(client, FindJob(client, arguments.job), settings);
   const Figure figure = PresetFigure(arguments.preset, recording);
   const bool of_samples = !figure.panels.front().counted_x;
   if (const std::string note = CoarseSampling(recording); of_samples && !note.empty()) {
-    fmt::print(stderr, "{}\n", note);
+    Tell("{}\n", note);
   }
   const bool drawn = format != OutputFormat::kGnuplot && format != OutputFormat::kCsv;
   if (drawn && !arguments.keep.empty()) {

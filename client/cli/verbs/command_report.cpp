@@ -5,12 +5,14 @@
 #include <optional>
 #include <utility>
 
+#include "cli/base/message.h"
 #include "cli/base/text_file.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
 #include "cli/figures/presets.h"
 #include "cli/figures/run_report.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
@@ -60,7 +62,7 @@ std::string DrawTogether(const std::vector<Recording>& runs) {
 }
 
 Recording Read(Client& client, const std::string& job, const Settings& settings) {
-  Recording recording = ReadRecording(client, job, settings);
+  Recording recording = ReadRecording(client, FindJob(client, job), settings);
   if (!recording.job.has_sweep()) return recording;
   throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep; see sweep export", job));
 }
@@ -82,7 +84,7 @@ std::string MakePage(Client& client, const std::vector<std::string>& jobs,
       if (!failed) make();
     } catch (const Failure& failure) {
       failed = true;
-      fmt::print(stderr, "figures are not drawn: {}\n", failure.what());
+      Tell("figures are not drawn: {}\n", failure.what());
     }
   };
   std::vector<RunPart> runs(jobs.size());
@@ -103,7 +105,7 @@ ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
   Client client = Connect(settings);
   const std::string page = MakePage(client, arguments.jobs, settings);
   WriteText(page, arguments.file);
-  fmt::print(stderr, "{}  {} kB, opens offline\n", arguments.file, (page.size() + 999) / 1000);
+  Tell("{}  {} kB, opens offline\n", arguments.file, (page.size() + 999) / 1000);
   return ExitCode::kOk;
 }
 

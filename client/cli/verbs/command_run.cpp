@@ -1,8 +1,6 @@
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
@@ -48,7 +46,7 @@ ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
   const v1::Job job = Create(client, arguments);
   PrintJob(job, settings);
   if (settings.output == OutputFormat::kTable) {
-    fmt::print(stderr, "Next:  contactctl watch {}\n", ShortName(job.name()));
+    Tell("Next:  contactctl watch {}\n", ShortName(job.name()));
   }
   return ExitCode::kOk;
 }
@@ -88,7 +86,7 @@ void AddRun(CommandLine& line, CLI::App& command) {
       ->capture_default_str();
   command.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,
                    "A first Ctrl-C cancels the job instead of leaving it to the server");
-  arguments->columns.AddTo(line, command, LedgerColumns());
+  arguments->columns.AddTo(line, command, LedgerColumns(), false);
   line.SetAction(command, arguments, Run);
 }
 

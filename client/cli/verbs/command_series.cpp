@@ -5,7 +5,7 @@
 
 #include "cli/export/provenance.h"
 #include "cli/link/connect.h"
-#include "cli/link/job_names.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_series.h"
@@ -25,9 +25,9 @@ struct SeriesArguments {
   bool comments = false;
 };
 
-v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
+v1::GetSeriesRequest Request(const std::string& job, const SeriesArguments& arguments) {
   v1::GetSeriesRequest request;
-  request.set_name(JobName(arguments.job));
+  request.set_name(job);
   request.mutable_channels()->Assign(arguments.channels.begin(), arguments.channels.end());
   if (arguments.from) request.set_start_time_s(*arguments.from);
   if (arguments.to) request.set_end_time_s(*arguments.to);
@@ -37,17 +37,19 @@ v1::GetSeriesRequest Request(const SeriesArguments& arguments) {
 }
 
 // With --comments the source of the series, in lines that begin with #.
-std::string Comments(Client& client, const SeriesArguments& arguments) {
+std::string Comments(Client& client, const std::string& job, const SeriesArguments& arguments) {
   if (!arguments.comments) return "";
-  return Lines({SourceOf(GetJob(client, arguments.job))}, "# ");
+  return Lines({SourceOf(GetJob(client, job))}, "# ");
 }
 
 ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson});
   Client client = Connect(settings);
-  const v1::Series series = client.CallTellingAll(&Client::Stub::GetSeries, Request(arguments));
+  const std::string job = FindJob(client, arguments.job);
+  const v1::Series series =
+      client.CallTellingAll(&Client::Stub::GetSeries, Request(job, arguments));
   if (settings.output == OutputFormat::kCsv) {
-    fmt::print("{}{}", Comments(client, arguments), SeriesCsv(series));
+    fmt::print("{}{}", Comments(client, job, arguments), SeriesCsv(series));
   } else if (settings.output == OutputFormat::kJson) {
     PrintJson(SeriesJson(series), settings);
   } else {

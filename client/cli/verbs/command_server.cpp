@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/base/failure.h"
@@ -17,7 +18,13 @@
 namespace contact::cli {
 namespace {
 
-ExitCode Version() {
+ExitCode Version(const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
+  if (settings.output == OutputFormat::kJson) {
+    const nlohmann::ordered_json json = {{"version", kVersion}, {"revision", kRevision}};
+    PrintJson(json.dump(2) + "\n", settings);
+    return ExitCode::kOk;
+  }
   fmt::print("contactctl {}{}\n", kVersion,
              *kRevision == '\0' ? "" : fmt::format(" ({})", kRevision));
   return ExitCode::kOk;

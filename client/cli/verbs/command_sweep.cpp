@@ -6,11 +6,13 @@
 #include <memory>
 
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/export/provenance.h"
 #include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/input/grid_sweep.h"
 #include "cli/input/sweep_file.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/settings/column_choice.h"
@@ -40,9 +42,11 @@ struct SweepArguments {
   ColumnChoice columns;
 };
 
-// Throws Failure (kUsage) unless the sweep has the metric and the columns that are named.
+// Throws Failure unless the sweep has the metric and the columns that are named, and can be drawn
+// if that is asked for.
 void CheckNames(const v1::Sweep& sweep, const SweepArguments& arguments, const Settings& settings) {
   arguments.map.MetricOf(sweep);
+  if (!arguments.heat_map.empty()) arguments.map.RequireDrawable(sweep, arguments.heat_map);
   arguments.columns.Check(
       settings.output == OutputFormat::kCsv ? SweepCsvColumns(sweep) : SweepColumns(sweep),
       settings);
@@ -75,7 +79,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   {
     const Interrupt interrupt;
     if (submitted && settings.output == OutputFormat::kTable) {
-      fmt::print(stderr, "{} submitted\n", name);
+      Tell("{} submitted\n", name);
     }
     end = GatherCells(client, &job, settings, &cells);
   }
@@ -83,8 +87,8 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
     return submitted ? DetachOrCancel(client, end, name, arguments.cancel_on_interrupt, settings)
                      : Detach(end, name);
   }
-  if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
   Print(job, cells, arguments, settings);
+  if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
   return CodeOf(job);
 }
 
@@ -109,7 +113,7 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   const std::string name = client.CallTellingAll(&Client::Stub::CreateJob, request).name();
   const ExitCode code = Follow(client, name, arguments, settings);
   if (settings.output == OutputFormat::kTable) {
-    fmt::print(stderr, "Next:  contactctl sweep export {} -o csv\n", ShortName(name));
+    Tell("Next:  contactctl sweep export {} -o csv\n", ShortName(name));
   }
   return code;
 }
@@ -118,7 +122,7 @@ ExitCode Show(const SweepArguments& arguments, const Settings& settings) {
   settings.RequireOutput(
       {OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
-  return Follow(client, JobName(arguments.job), arguments, settings);
+  return Follow(client, FindJob(client, arguments.job), arguments, settings);
 }
 
 // Succeeds once the cells are printed, even if some failed or did not converge.

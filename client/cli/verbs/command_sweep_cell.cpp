@@ -2,8 +2,10 @@
 
 #include <memory>
 
+#include "cli/base/message.h"
 #include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
@@ -48,7 +50,7 @@ ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
   if (arguments.run) formats.push_back(OutputFormat::kName);
   settings.RequireOutput(formats);
   Client client = Connect(settings);
-  const v1::Job job = GetSweep(client, arguments.job);
+  const v1::Job job = GetSweep(client, FindJob(client, arguments.job));
   const SweepCells cells = ReadCells(client, job, settings);
   const v1::SweepCell& cell = FindCell(job.sweep(), cells, arguments.cell);
   if (arguments.run) return RunCell(client, job, cell, settings);
@@ -57,15 +59,15 @@ ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
     return ExitCode::kOk;
   }
   fmt::print("{}", RenderCell(job, cell, settings.OutputStyle()));
-  fmt::print(stderr, "Next:  contactctl sweep cell {} {} --run\n", ShortName(job.name()),
-             cell.index());
+  Tell("Next:  contactctl sweep cell {} {} --run\n", ShortName(job.name()), cell.index());
   return ExitCode::kOk;
 }
 
 ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
   Client client = Connect(settings);
-  const v1::Job job = GetSweep(client, arguments.job);
+  const v1::Job job = GetSweep(client, FindJob(client, arguments.job));
   arguments.map.MetricOf(job.sweep());
+  if (!arguments.file.empty()) arguments.map.RequireDrawable(job.sweep(), arguments.file);
   const SweepCells cells = ReadCells(client, job, settings);
   if (!arguments.file.empty()) {
     arguments.map.Draw(job, cells, arguments.file);

@@ -13,6 +13,7 @@
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
 #include "cli/link/connect.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/text/live_plot.h"
@@ -44,21 +45,19 @@ class JsonLines : public WatchObserver {
     fmt::print("{}", ToJsonLine(event));
     std::fflush(stdout);
   }
-  void OnLost(const std::string& why, std::chrono::milliseconds) override { TellLost(why); }
+  void OnLost(const std::string& why) override { TellLost(why); }
+  void OnRegained() override { TellRegained(); }
 };
 
-WatchOptions Options(const std::string& job, const Settings& settings) {
-  return {.name = JobName(job),
-          .kinds = {},
-          .deadline = settings.Deadline(),
-          .stopped = Interrupt::raised};
+WatchOptions Options(const std::string& name, const Settings& settings) {
+  return {.name = name, .kinds = {}, .deadline = settings.Deadline(), .stopped = Interrupt::raised};
 }
 
-std::unique_ptr<WatchObserver> Observer(const WatchArguments& arguments, const Settings& settings) {
+std::unique_ptr<WatchObserver> Observer(const std::string& name, const Settings& settings) {
   if (settings.output == OutputFormat::kJsonLines) return std::make_unique<JsonLines>();
   return std::make_unique<LiveView>(LiveView::Options{.rows_style = settings.OutputStyle(),
                                                       .messages_style = settings.MessageStyle(),
-                                                      .job = ShortName(arguments.job),
+                                                      .job = ShortName(name),
                                                       .progress = settings.Progress()});
 }
 
@@ -95,13 +94,13 @@ ExitCode WatchPlot(const WatchArguments& arguments, const Settings& settings) {
                   "csv prints the numbers");
   }
   Client client = Connect(settings);
-  WatchOptions options = Options(arguments.job, settings);
+  WatchOptions options = Options(FindJob(client, arguments.job), settings);
   options.kinds = {"attempt_started", "frame_chunk"};
   const Interrupt interrupt;
   std::optional<std::string> mistake;
   const WatchEnd end = DrawLive(client, options, arguments, replay, &mistake);
   if (mistake) throw Failure(ExitCode::kUsage, *mistake);
-  return end == WatchEnd::kFinished ? CodeOf(GetJob(client, arguments.job))
+  return end == WatchEnd::kFinished ? CodeOf(GetJob(client, options.name))
                                     : Detach(end, options.name);
 }
 
@@ -110,7 +109,7 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
   if (!arguments.plot.empty()) return WatchPlot(arguments, settings);
   if (!arguments.replay.empty()) throw Failure(ExitCode::kUsage, "--replay goes with --plot");
   Client client = Connect(settings);
-  WatchOptions options = Options(arguments.job, settings);
+  WatchOptions options = Options(FindJob(client, arguments.job), settings);
   options.after_sequence = arguments.after_sequence;
   options.kinds = arguments.kinds;
   options.live_only = arguments.live_only;
@@ -122,10 +121,10 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
                      "group",     "attempt_started", "progress"};
   }
   const Interrupt interrupt;
-  const auto observer = Observer(arguments, settings);
+  const auto observer = Observer(options.name, settings);
   const WatchEnd end = Watch(client, options, *observer);
   if (end != WatchEnd::kFinished) return Detach(end, options.name);
-  const v1::Job job = GetJob(client, arguments.job);
+  const v1::Job job = GetJob(client, options.name);
   observer->OnSnapshot(job);  // The last progress.
   return CodeOf(job);
 }
@@ -133,9 +132,10 @@ ExitCode WatchEvents(const WatchArguments& arguments, const Settings& settings) 
 ExitCode Wait(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
-  const WatchEnd end = AwaitEnd(client, JobName(job), settings);
-  if (end != WatchEnd::kFinished) return Detach(end, JobName(job));
-  const v1::Job result = GetJob(client, job);
+  const std::string name = FindJob(client, job);
+  const WatchEnd end = AwaitEnd(client, name, settings);
+  if (end != WatchEnd::kFinished) return Detach(end, name);
+  const v1::Job result = GetJob(client, name);
   if (settings.output == OutputFormat::kTable) {
     fmt::print("{}  {}\n", result.name(), StateText(result.state(), "", settings.OutputStyle()));
   } else {

@@ -9,6 +9,7 @@
 #include "cli/link/connect.h"
 #include "cli/link/job_names.h"
 #include "cli/link/watch_jobs.h"
+#include "cli/text/convergence.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/job/follow.h"
@@ -29,7 +30,8 @@ class JobLines : public JobsObserver {
     std::string line =
         fmt::format("{}  {}  {}", Instant(time), ShortName(job.name()),
                     StateText(job.state(), job.state_reason(), settings_.OutputStyle()));
-    if (job.convergence() == v1::Job::PARTIAL) line += ", convergence PARTIAL";
+    if (job.convergence() == v1::Job::PARTIAL) line += ", convergence " + ConvergenceText(job);
+    if (!TitleOf(job).empty()) line += "  " + OneLine(TitleOf(job));
     Print(line + "\n");
   }
 
@@ -40,7 +42,8 @@ class JobLines : public JobsObserver {
                                                        : ShortName(name) + "  gone\n");
   }
 
-  void OnLost(const std::string& why, std::chrono::milliseconds) override { TellLost(why); }
+  void OnLost(const std::string& why) override { TellLost(why); }
+  void OnRegained() override { TellRegained(); }
 
  private:
   static void Print(const std::string& text) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstddef>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -20,6 +21,13 @@ std::int64_t NumberOf(const std::string& token) {
   const char* const end = token.data() + token.size();
   const auto [rest, error] = std::from_chars(token.data(), end, number);
   return error == std::errc() && rest == end && PageToken(number) == token ? number : -1;
+}
+
+void CheckPrefix(const std::string& prefix, std::vector<Violation>* violations) {
+  const int most =
+      RuleOf<v1::ListJobsRequest>(v1::ListJobsRequest::kNamePrefixFieldNumber).max_characters();
+  if (prefix.size() <= static_cast<std::size_t>(most)) return;
+  violations->push_back({"name_prefix", fmt::format("has more than {} characters", most), ""});
 }
 
 }  // namespace
@@ -44,6 +52,8 @@ Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
     violations.push_back({"states", fmt::format("{} is no state", state), ""});
     break;  // There may be millions.
   }
+  CheckPrefix(request.name_prefix(), &violations);
+  query.name_prefix = request.name_prefix();
   CheckLabels(request.labels(), &violations);
   query.labels.assign(request.labels().begin(), request.labels().end());
   if (!violations.empty()) return Invalid(std::move(violations));

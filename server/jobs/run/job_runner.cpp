@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,10 +44,18 @@ Spec AwaitSpec(std::future<Spec> spec, RunControl& control) {
   return spec.get();
 }
 
-v1::Event AttemptStarted(const Clock& clock, const v1::Job& job) {
+// `from`: where the attempt goes on; none: at the start.
+v1::Event AttemptStarted(const Clock& clock, const v1::Job& job,
+                         const std::optional<RunState>& from) {
   v1::Event event = EventAt(clock.Now());
   event.mutable_attempt_started()->set_attempt(job.attempt());
+  if (from) event.mutable_attempt_started()->set_resume_time_s(from->state.time);
   return event;
+}
+
+// Where a run goes on: at the checkpoint of an earlier attempt, if there is one.
+std::optional<RunState> CheckpointOf(const Spec& spec) {
+  return spec.ok() ? DecodeRunState((*spec)->checkpoint) : std::nullopt;
 }
 
 // True if the run has not come to an end of its own.
@@ -67,15 +76,16 @@ Transition BackToQueue(const Assignment& assignment, v1::Job* job) {
 void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
   v1::Job& job = assignment.job;
   RunControl& control = *assignment.control;
-  // Asked for before the job is taken, so that it does not wait for that commit.
-  auto reading = ReadSpec(store_, assignment);
+  // Read before the job is taken: it tells where the attempt begins, and does not wait for a
+  // commit.
+  const Spec spec = AwaitSpec(ReadSpec(store_, assignment), control);
+  const std::optional<RunState> from = CheckpointOf(spec);
   const auto writer = std::make_shared<LogWriter>(
       store_, clock_, LogWriter::Place{job.name(), assignment.epoch, assignment.log},
       assignment.control, shutdown_);
-  writer->Take(job, {assignment.event, AttemptStarted(clock_, job)});
+  writer->Take(job, {assignment.event, AttemptStarted(clock_, job, from)});
 
-  const Spec spec = AwaitSpec(std::move(reading), control);
-  Transition transition = spec.ok() ? Solve(**spec, assignment, *writer)
+  Transition transition = spec.ok() ? Solve(**spec, from, assignment, *writer)
                                     : TransitionAfterFault(std::string(spec.status().message()));
   const RunControl::Hold hold(control);
   if (!hold) return;
@@ -110,25 +120,25 @@ void JobRunner::End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writ
   endings_.AwaitRoom(shutdown_);
 }
 
-Transition JobRunner::Solve(const StoredJob& spec, const Assignment& assignment,
-                            LogWriter& writer) const {
+Transition JobRunner::Solve(const StoredJob& spec, const std::optional<RunState>& from,
+                            const Assignment& assignment, LogWriter& writer) const {
   try {
-    if (!spec.job.has_sweep()) return SolveScenario(spec, assignment, writer);
+    if (!spec.job.has_sweep()) return SolveScenario(spec, from, assignment, writer);
     return SweepRunner(store_, clock_, options_, assignment, writer).Run(spec.job.sweep());
   } catch (...) {
     return TransitionAfterException();
   }
 }
 
-Transition JobRunner::SolveScenario(const StoredJob& spec, const Assignment& assignment,
-                                    LogWriter& writer) const {
+Transition JobRunner::SolveScenario(const StoredJob& spec, const std::optional<RunState>& from,
+                                    const Assignment& assignment, LogWriter& writer) const {
   DecodedScenario decoded = DecodeScenario(spec.job.scenario(), options_.scenario_limits);
   if (decoded.violations.empty()) {
     const std::vector<Violation> advice = AdviseOnTime(decoded.scenario);
     std::int64_t& max_steps = decoded.scenario.solver.max_steps;
     const std::int64_t budget = assignment.control->budget().steps;
     if (budget > 0) max_steps = std::min(max_steps, budget);
-    const Outcome outcome = RunScenario(decoded.scenario, spec, assignment, writer);
+    const Outcome outcome = RunScenario(decoded.scenario, spec, from, assignment, writer);
     assignment.record->Do([&advice](v1::Job& job) {
       for (const Violation& a : advice) job.add_warnings(Text(a));
     });
@@ -139,10 +149,11 @@ Transition JobRunner::SolveScenario(const StoredJob& spec, const Assignment& ass
 }
 
 Outcome JobRunner::RunScenario(const Scenario& scenario, const StoredJob& spec,
-                               const Assignment& assignment, LogWriter& writer) const {
+                               const std::optional<RunState>& from, const Assignment& assignment,
+                               LogWriter& writer) const {
   const auto start = clock_.Elapsed();
   RunRecorder recorder(scenario, clock_, assignment, writer, options_.checkpoint_interval);
-  Outcome outcome = RunOrResume(scenario, spec, assignment, writer, recorder);
+  Outcome outcome = RunOrResume(scenario, spec, from, assignment, writer, recorder);
   const std::chrono::duration<double> wall = clock_.Elapsed() - start;
   assignment.record->Do([&](v1::Job& job) {
     EncodeOutcome(scenario, outcome, &job);
@@ -152,17 +163,15 @@ Outcome JobRunner::RunScenario(const Scenario& scenario, const StoredJob& spec,
   return outcome;
 }
 
-// Goes on from the checkpoint of an earlier attempt, if there is one.
 Outcome JobRunner::RunOrResume(const Scenario& scenario, const StoredJob& spec,
-                               const Assignment& assignment, LogWriter& writer,
-                               RunRecorder& recorder) const {
+                               const std::optional<RunState>& from, const Assignment& assignment,
+                               LogWriter& writer, RunRecorder& recorder) const {
   RunControl& control = *assignment.control;
   const std::string& name = assignment.job.name();
-  const std::optional<RunState> from = DecodeRunState(spec.checkpoint);
   if (!from) return options_.run(scenario, recorder, control.token());
   if (!Replay(store_, name, spec.checkpoint_sequence, control, recorder)) {
     // What was repeated so far counts for nothing.
-    writer.Add(AttemptStarted(clock_, assignment.job));
+    writer.Add(AttemptStarted(clock_, assignment.job, std::nullopt));
     assignment.record->Take();
     return options_.run(scenario, recorder, control.token());
   }

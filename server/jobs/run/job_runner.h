@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 
 #include "base/clock.h"
@@ -12,6 +13,7 @@
 #include "jobs/job/lifecycle.h"
 #include "jobs/run/assignment.h"
 #include "jobs/run/log_writer.h"
+#include "simulation/episode/run_state.h"
 #include "storage/store.h"
 
 namespace contact {
@@ -42,16 +44,21 @@ class JobRunner {
   /// Hands the end of the job over to the store, and waits only while that is far behind.
   void End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer,
            std::function<void()> ended);
-  /// Runs the scenario or sweep. An exception becomes a failure of the job.
-  Transition Solve(const StoredJob& spec, const Assignment& assignment, LogWriter& writer) const;
+  /// Runs the scenario or sweep. A scenario goes on at `from`, if that is a state. An exception
+  /// becomes a failure of the job.
+  Transition Solve(const StoredJob& spec, const std::optional<RunState>& from,
+                   const Assignment& assignment, LogWriter& writer) const;
   /// Decodes the scenario, runs it, and adds advice on its time to the record.
-  Transition SolveScenario(const StoredJob& spec, const Assignment& assignment,
-                           LogWriter& writer) const;
+  Transition SolveScenario(const StoredJob& spec, const std::optional<RunState>& from,
+                           const Assignment& assignment, LogWriter& writer) const;
   /// Runs the scenario and puts its outcome into the record.
-  Outcome RunScenario(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
+  Outcome RunScenario(const Scenario& scenario, const StoredJob& spec,
+                      const std::optional<RunState>& from, const Assignment& assignment,
                       LogWriter& writer) const;
-  /// Goes on from the checkpoint of an earlier attempt, if there is one.
-  Outcome RunOrResume(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
+  /// Goes on at `from`, the checkpoint of an earlier attempt, if there is one and its events can be
+  /// repeated.
+  Outcome RunOrResume(const Scenario& scenario, const StoredJob& spec,
+                      const std::optional<RunState>& from, const Assignment& assignment,
                       LogWriter& writer, RunRecorder& recorder) const;
 
   Store& store_;

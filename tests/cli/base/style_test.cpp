@@ -24,6 +24,12 @@ TEST(Style, TextIsCutAndPaddedByCharacters) {
   EXPECT_EQ(Pad("abc", 2), "abc");
 }
 
+TEST(Style, TextOfAUserBecomesOneLineOfItsFirstCharacters) {
+  EXPECT_EQ(OneLine("a\nb\x1b[31mc"), "a b [31mc");
+  EXPECT_EQ(OneLine("μδε", 3), "μδε");
+  EXPECT_EQ(OneLine("μδεα", 3), "μδ…");
+}
+
 TEST(Style, NoWrappedLineIsWiderThanTheTerminalUnlessAWordIs) {
   std::mt19937 random(1);
   for (int width = 10; width <= 100; ++width) {

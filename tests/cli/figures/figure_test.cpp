@@ -73,7 +73,8 @@ TEST(FigureFormat, IsThatOfTheFlagElseOfTheEndingElseSvg) {
   Settings settings;
   EXPECT_EQ(FigureFormat("a.pdf", settings), OutputFormat::kPdf);
   EXPECT_EQ(FigureFormat("a.tex", settings), OutputFormat::kTikz);
-  EXPECT_EQ(FigureFormat("a.dat", settings), OutputFormat::kSvg);
+  EXPECT_EQ(FigureFormat("a", settings), OutputFormat::kSvg);
+  EXPECT_THROW(FigureFormat("a.jpg", settings), Failure);
   EXPECT_EQ(FigurePath("", "force", settings), "force.svg");
   settings.SetOutput("tikz");
   EXPECT_EQ(FigureFormat("a.pdf", settings), OutputFormat::kTikz);

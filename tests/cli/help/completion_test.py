@@ -64,6 +64,8 @@ class CompletionTest(CliTest):
         self.assertEqual(self.offered("init", "three")[0], ["three-ball-chain"])
         self.assertEqual(self.offered("completion", "")[0], ["bash", "zsh", "fish"])
         self.assertEqual(self.offered("help", "t")[0], ["tutorial"])
+        self.assertEqual(self.offered("explain", "INF")[0], ["INFEASIBLE"])
+        self.assertEqual(self.offered("explain", "JU")[0], ["JUMP"])
         self.assertEqual(self.offered("run", "-t", "newt")[0], ["newton-cradle"])
         self.assertEqual(self.offered("run", "")[1], ":scenarios")
         self.assertEqual(self.offered("plot", "--keep", "")[1], ":directories")

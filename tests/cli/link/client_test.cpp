@@ -103,6 +103,36 @@ TEST(Client, AddressNeedsAPort) {
   }
 }
 
+TEST(Client, AddressMayBeAnyHostOrASocketFile) {
+  for (const char* address : {"lab.example:7070", "10.0.0.1:1", "[::1]:7070", "unix:/run/c.sock"}) {
+    EXPECT_NO_THROW(Client(address, 1s)) << address;
+  }
+  for (const char* address : {"::1:7070", "a/b:7070", "dns:host:7070", "[::1:7070"}) {
+    EXPECT_THROW(Client(address, 1s), Failure) << address;
+  }
+}
+
+TEST(Client, AddressOfAnotherProtocolIsRefusedWithASentence) {
+  for (const char* scheme : {"http", "https", "dns"}) {
+    const std::string address = std::string(scheme) + "://127.0.0.1:7070";
+    try {
+      const Client client(address, 1s);
+      ADD_FAILURE() << address;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::kUsage);
+      EXPECT_EQ(failure.what(), "--server is '" + address + "': contactd speaks gRPC, not " +
+                                    scheme + "; give HOST:PORT alone, such as 127.0.0.1:7070");
+    }
+  }
+}
+
+TEST(Client, ServerOfAnotherProtocolIsNotToBeStartedThere) {
+  const CallFailure failure = FailureOf({grpc::StatusCode::UNAVAILABLE, "Failed parsing HTTP/2"});
+  EXPECT_THAT(failure.what(), HasSubstr("(what answers there does not speak gRPC)"));
+  EXPECT_THAT(failure.what(), testing::Not(HasSubstr("contactd --listen")));
+  EXPECT_THAT(failure.what(), HasSubstr("contactctl --server HOST:PORT"));
+}
+
 TEST(Client, JobsMayBeNamedByTheirId) {
   EXPECT_EQ(JobName("k3v9"), "jobs/k3v9");
   EXPECT_EQ(JobName("jobs/k3v9"), "jobs/k3v9");

@@ -21,9 +21,11 @@ class Notes : public JobsObserver {
         fmt::format("{} {} {}", job.name(), v1::Job::State_Name(job.state()), job.attempt()));
   }
   void OnGone(const std::string& name) override { heard.push_back(name + " gone"); }
-  void OnLost(const std::string&, std::chrono::milliseconds) override { ++lost; }
+  void OnLost(const std::string&) override { ++lost; }
+  void OnRegained() override { ++regained; }
   std::vector<std::string> heard;
   int lost = 0;
+  int regained = 0;
 };
 
 void Send(FakeServer::JobsWriter& writer, const std::string& name, v1::Job::State state,
@@ -95,6 +97,7 @@ TEST_F(WatchJobsTest, OnlyChangesAreHeardAfterAReconnection) {
   FollowUntil("c RUNNING 1");
   EXPECT_THAT(notes_.heard, ElementsAre("a RUNNING 1", "b RUNNING 1", "b gone", "c RUNNING 1"));
   EXPECT_GE(notes_.lost, 2);
+  EXPECT_GE(notes_.regained, 2);
 }
 
 TEST_F(WatchJobsTest, AnIncompleteSnapshotForgetsNobody) {

@@ -17,11 +17,10 @@ constexpr std::uint64_t kLast = 40;  // Sequence of the final event.
 class Recorder : public WatchObserver {
  public:
   void OnEvent(const v1::Event& event) override { sequences.push_back(event.sequence()); }
-  void OnLost(const std::string&, std::chrono::milliseconds pause) override {
-    pauses.push_back(pause);
-  }
+  void OnLost(const std::string& why) override { told.push_back(why); }
+  void OnRegained() override { told.emplace_back("regained"); }
   std::vector<std::uint64_t> sequences;
-  std::vector<std::chrono::milliseconds> pauses;
+  std::vector<std::string> told;
 };
 
 v1::Event EventAt(std::uint64_t sequence) {
@@ -94,7 +93,7 @@ TEST_F(WatchTest, HearsEachEventOnceAcrossTwentyCuts) {
   });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
   EXPECT_EQ(recorder_.sequences, All());
-  EXPECT_EQ(recorder_.pauses.size(), 19U);
+  EXPECT_EQ(recorder_.told.size(), 2 * 19U);
 }
 
 TEST_F(WatchTest, RepeatedEventsAreHeardOnce) {
@@ -164,21 +163,31 @@ TEST_F(WatchTest, LiveOnlyIsAskedForOnceAndThenResumed) {
   EXPECT_THAT(asked, ElementsAre(std::pair(true, 0U), std::pair(false, 7U)));
 }
 
-TEST_F(WatchTest, PausesGrowWithJitterUpToALimit) {
-  options_.patience.first_pause = 8ms;
-  options_.patience.longest_pause = 20ms;
+TEST_F(WatchTest, ConnectionThatStaysAwayIsToldOnceAndOnceThatItIsBack) {
   int streams = 0;
   server_.OnWatch([&](const auto&, FakeServer::Writer& writer) {
     if (++streams == 1) SendSnapshot(writer, v1::Job::RUNNING, 0);
     if (streams == 5) Send(writer, EventAt(kLast));
-    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "", "details");
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "Connection refused by host", "details");
   });
   EXPECT_EQ(Follow(), WatchEnd::kFinished);
-  using testing::AllOf;
-  using testing::Ge;
-  using testing::Le;
-  EXPECT_THAT(recorder_.pauses, ElementsAre(AllOf(Ge(4ms), Le(8ms)), AllOf(Ge(8ms), Le(16ms)),
-                                            AllOf(Ge(10ms), Le(20ms)), AllOf(Ge(10ms), Le(20ms))));
+  EXPECT_THAT(recorder_.told, ElementsAre("connection refused", "regained"));
+}
+
+TEST(Reconnection, PausesGrowUntilAMessageComes) {
+  Reconnection reconnection("host:1", {.first_pause = 8ms, .longest_pause = 20ms});
+  const grpc::Status lost(grpc::StatusCode::UNAVAILABLE, "", "details");
+  const auto expect_pause = [&](std::chrono::milliseconds most) {
+    const auto pause = reconnection.Lost(lost);
+    EXPECT_GE(pause, most / 2);
+    EXPECT_LE(pause, most);
+    EXPECT_TRUE(reconnection.lost());
+  };
+  EXPECT_FALSE(reconnection.Heard());
+  for (const auto most : {8ms, 16ms, 20ms, 20ms}) expect_pause(most);
+  EXPECT_TRUE(reconnection.Heard());
+  EXPECT_FALSE(reconnection.lost());
+  expect_pause(8ms);
 }
 
 TEST_F(WatchTest, NeverAsksAgainWhereTheAnswerWillBeTheSame) {

@@ -52,6 +52,26 @@ TEST(WatchToEnd, TheTimeLimitOfTheSettingsEndsTheWatch) {
   }
 }
 
+TEST(WatchToEnd, SaysThatItWaitsForAJobThatHasNotEnded) {
+  FakeServer server;
+  server.OnWatch([](const auto&, FakeServer::Writer& writer) {
+    v1::WatchJobResponse message;
+    message.mutable_snapshot()->set_state(v1::Job::RUNNING);
+    while (writer.Write(message)) {  // Until the watcher has left.
+    }
+    return grpc::Status::OK;
+  });
+  Client client(server.address(), 5s);
+  Settings settings;
+  settings.timeout = "1s";
+  WatchOptions options;
+  options.name = "jobs/x1";
+  WatchObserver silence;
+  testing::internal::CaptureStderr();
+  EXPECT_THROW(WatchToEnd(client, options, settings, silence), Failure);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "jobs/x1 is RUNNING; waiting for its end\n");
+}
+
 TEST(WatchToEnd, AnEndedJobEndsTheWatch) {
   FakeServer server;
   server.OnWatch([](const auto&, FakeServer::Writer& writer) {

@@ -56,6 +56,17 @@ TEST_F(ColumnChoiceTest, ChosenColumnsNeedATableOrCsv) {
   }
 }
 
+TEST_F(ColumnChoiceTest, HelpSpeaksOfCsvOnlyWhereItIsPrinted) {
+  CommandLine line("A program.");
+  ColumnChoice ledger;
+  ledger.AddTo(line, line.app(), kColumns, false);
+  const auto about = [](CommandLine& of) {
+    return of.app().get_option("--columns")->get_description();
+  };
+  EXPECT_THAT(about(line), testing::StartsWith("Only these columns of the table, in"));
+  EXPECT_THAT(about(line_), testing::StartsWith("Only these columns of the table or csv, in"));
+}
+
 TEST_F(ColumnChoiceTest, UnknownColumnIsRefused) {
   line_.app().parse("--columns job,owner");
   EXPECT_EQ(CheckCode(Settings()), ExitCode::kUsage);

@@ -23,7 +23,8 @@ class ColumnsTest(CliTest):
         lines = self.run_it("list", "-o", "csv", "--columns", "labels,state,reason")[0]
         self.assertEqual(lines, "labels,state,reason\na=b,SUCCEEDED,\n")
         self.assertEqual(self.header("list", "-o", "csv"),
-                         "job,state,reason,convergence,created,ended,labels,cycles,attempt")
+                         "job,state,title,reason,convergence,missed,created,ended,labels,cycles,"
+                         "attempt")
 
     def test_ledger_has_them_and_the_rest_stays(self):
         name = self.run_it("run", CHAIN, "-o", "name")[0].strip()
@@ -59,7 +60,7 @@ class ColumnsTest(CliTest):
                           ("sweep", "run", TABLE3)):
             said = self.run_it(*arguments, "--columns", "no_such", code=2)[1]
             self.assertIn("--columns: there is no column 'no_such' — there are ", said)
-        self.assertIn("no column 'stat', did you mean 'state'? — there are job, state, reason,",
+        self.assertIn("no column 'stat', did you mean 'state'? — there are job, state, title,",
                       self.run_it("list", "--columns", "job,stat", code=2)[1])
         self.assertEqual(self.run_it("list", "-o", "name")[0], "")
 

@@ -53,6 +53,13 @@ class ConfigTest(unittest.TestCase):
         self.assertEqual(self.view("timeout", CONTACT_PROFILE="lab")[0], "3s")
         self.assertEqual(self.view("server")[0], "here:1")
 
+    def test_profile_that_is_typed_wins_over_the_variable(self):
+        self.user.write_text('[profile.lab]\nserver = "lab:1"\n')
+        variable = {"CONTACT_SERVER": "variable:1"}
+        self.assertEqual(self.view("server", "--profile", "lab", **variable),
+                         ("lab:1", f"{self.user}:2"))
+        self.assertEqual(self.view("server", CONTACT_PROFILE="lab", **variable)[0], "variable:1")
+
     def test_use_chooses_a_profile_from_now_on(self):
         self.run_it("config", "use", "lab", code=2)
         self.run_it("config", "set", "server", "lab:1", "--profile", "lab")

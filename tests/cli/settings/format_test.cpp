@@ -44,6 +44,30 @@ TEST(FormatTest, TheEndingOfAnotherUseOrAFolderTellsNothing) {
   EXPECT_EQ(FormatOfFile("", kData), std::nullopt);
 }
 
+TEST(FormatTest, EndingMayHaveCapitalLetters) {
+  EXPECT_EQ(FormatOfFile("FORCE.SVG", kFigure), OutputFormat::kSvg);
+}
+
+TEST(FormatTest, UnknownEndingIsRefusedWithThoseThatThereAre) {
+  for (const char* path : {"r.h5", "r.xlsx", "results.nc/r.parquet", "r.svg"}) {
+    try {
+      RequireFormatOfFile(path, kData, OutputFormat::kCsv);
+      ADD_FAILURE() << path;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::kUsage);
+      EXPECT_NE(std::string(failure.what()).find("there are .jsonl, .csv, .nc, .mat, .pb"),
+                std::string::npos);
+    }
+  }
+}
+
+TEST(FormatTest, NameWithoutEndingSaysNothing) {
+  for (const char* path : {"", "chain", "/dev/stdout", "results.h5/chain", ".hidden", "chain."}) {
+    EXPECT_EQ(RequireFormatOfFile(path, kData, OutputFormat::kCsv), OutputFormat::kCsv) << path;
+  }
+  EXPECT_EQ(RequireFormatOfFile("chain.nc", kData, OutputFormat::kCsv), OutputFormat::kNetcdf);
+}
+
 TEST(FormatTest, HelpNamesEachFormatOfAUse) {
   EXPECT_EQ(FormatHelp(kData).find("svg"), std::string::npos);
   for (const std::string& name : FormatNames(kData)) {

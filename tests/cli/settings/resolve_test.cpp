@@ -29,8 +29,10 @@ class ResolveTest : public testing::Test {
   }
   ~ResolveTest() override {
     std::filesystem::current_path(before_);
-    unsetenv("CONTACT_SERVER");
-    unsetenv("CONTACT_OUTPUT");
+    for (const char* name :
+         {"CONTACT_SERVER", "CONTACT_OUTPUT", "CONTACT_PROFILE", "CONTACT_TIMEOUT"}) {
+      unsetenv(name);
+    }
   }
 
   static void WriteHere(const std::string& text) { std::ofstream("contact.toml") << text; }
@@ -64,6 +66,26 @@ TEST_F(ResolveTest, FlagWinsOverVariableAndThatOverTheFile) {
   EXPECT_EQ(line_.settings().origins.at("timeout"), "contact.toml:2");
   EXPECT_EQ(Resolve("--server flag:1 list").server, "flag:1");
   EXPECT_EQ(line_.settings().origins.at("server"), "--server");
+}
+
+TEST_F(ResolveTest, TypedProfileWinsOverVariables) {
+  WriteHere("server = 'file:1'\ntimeout = '3s'\n[profile.lab]\nserver = 'lab:1'\n");
+  setenv("CONTACT_SERVER", "variable:1", 1);
+  setenv("CONTACT_TIMEOUT", "5s", 1);
+  EXPECT_EQ(Resolve("--profile lab list").server, "lab:1");
+  EXPECT_EQ(line_.settings().origins.at("server"), "contact.toml:4");
+  EXPECT_EQ(line_.settings().timeout, "5s") << "of which the profile says nothing";
+  EXPECT_EQ(Resolve("--server flag:1 --profile lab list").server, "flag:1");
+}
+
+TEST_F(ResolveTest, ProfileOfAVariableOrAFileDoesNotWinOverVariables) {
+  WriteHere("use_profile = 'lab'\n[profile.lab]\nserver = 'lab:1'\n");
+  setenv("CONTACT_SERVER", "variable:1", 1);
+  EXPECT_EQ(Resolve("list").server, "variable:1");
+  setenv("CONTACT_PROFILE", "lab", 1);
+  EXPECT_EQ(Resolve("list").server, "variable:1");
+  unsetenv("CONTACT_SERVER");
+  EXPECT_EQ(Resolve("list").server, "lab:1");
 }
 
 TEST_F(ResolveTest, EmptyVariableIsNone) {

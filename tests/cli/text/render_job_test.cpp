@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <google/protobuf/text_format.h>
+#include <google/protobuf/util/json_util.h>
 
 #include <stdexcept>
 
@@ -106,6 +107,28 @@ TEST(ToJson, PrintsTheErrorOfAJobWithItsDetails) {
   v1::Job job = FromText(R"(name: "jobs/x" error { code: 13 message: "m" })");
   job.mutable_error()->add_details()->PackFrom(job.progress());
   EXPECT_THAT(ToJson(job), HasSubstr("contact.v1.Progress"));
+}
+
+TEST(ToJson, WholeNumbersAreNumbersWhereADoubleHoldsThem) {
+  v1::Job job = FromText(R"(
+      name: "481" last_sequence: 7 labels { key: "steps" value: "481" }
+      scenario { title: "\"steps\": \"481\"" solver { max_steps: 9007199254740992 } }
+      summary { steps: 481 evaluations: 9007199254740993 growths: -5 }
+      warnings: "12" create_time { seconds: 60 })");
+  const std::string line = ToJsonLine(job);
+  EXPECT_THAT(line, HasSubstr(R"("summary":{"steps":481,"evaluations":"9007199254740993",)"));
+  EXPECT_THAT(line, HasSubstr(R"("growths":-5)"));
+  EXPECT_THAT(line, HasSubstr(R"("max_steps":9007199254740992)"));
+  EXPECT_THAT(line, HasSubstr(R"("last_sequence":7)"));
+  for (const char* text : {R"("name":"481")", R"("labels":{"steps":"481"})", R"("warnings":["12"])",
+                           R"("create_time":"1970-01-01T00:01:00Z")"}) {
+    EXPECT_THAT(line, HasSubstr(text));
+  }
+  EXPECT_THAT(line, HasSubstr(R"(\"steps\": \"481\")"));
+  v1::Job again;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(line, &again).ok());
+  EXPECT_EQ(again.SerializeAsString(), job.SerializeAsString());
+  EXPECT_THAT(ToJson(job), HasSubstr("\"steps\": 481,"));
 }
 
 TEST(ToJson, LineIsOneLine) {

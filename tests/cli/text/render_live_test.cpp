@@ -56,6 +56,20 @@ TEST(LiveView, IterationTableGrows) {
             "      1   1  B1-B2                225000000          0.79   1.3e-02  accepted\n");
 }
 
+TEST(LiveView, AttemptTellsWhereItBegins) {
+  const std::string text = Shown({}, [](LiveView& view) {
+    view.OnEvent(FromText("attempt_started { attempt: 1 }"));
+    view.OnEvent(FromText("attempt_started { attempt: 1 resume_time_s: 0.0215 }"));
+    view.OnEvent(FromText("attempt_started { attempt: 2 }"));
+    view.OnEvent(FromText("progress { cells: 50 cells_done: 3 }"));
+    view.OnEvent(FromText("attempt_started { attempt: 3 }"));
+  });
+  EXPECT_EQ(text,
+            "attempt 1 goes on from t = 21.5 ms; what was recorded before follows again\n"
+            "attempt 2 starts anew\n"
+            "attempt 3 goes on; the cells that were solved are kept\n");
+}
+
 TEST(LiveView, ManyIterationsEndInAHint) {
   const std::string text = Shown({.most_iterations = 2, .job = "k3v9"}, [](LiveView& view) {
     for (int i = 0; i < 5; ++i) view.OnEvent(Iteration(i, false));

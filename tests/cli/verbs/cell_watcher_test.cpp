@@ -104,9 +104,10 @@ TEST(CellWatcherTest, BarIsOneLineThatIsErasedAtTheEnd) {
 TEST(CellWatcherTest, LostConnectionTakesThePlaceOfTheBar) {
   const std::string said = Said(ProgressForm::kBar, [](CellWatcher& watcher) {
     watcher.OnEvent(ProgressEvent(1, 3));
-    watcher.OnLost("reset", std::chrono::milliseconds(1));
+    watcher.OnLost("reset");
+    watcher.OnRegained();
   });
-  EXPECT_TRUE(said.ends_with("\r\x1b[Kconnection lost (reset); trying again\n"));
+  EXPECT_TRUE(said.ends_with("\r\x1b[Kconnection lost (reset); trying again\nconnected again\n"));
 }
 
 TEST(CellWatcherTest, LastLineOfJsonIsTheStateOfTheEndedJob) {

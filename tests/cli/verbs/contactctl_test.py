@@ -477,10 +477,28 @@ class WatchTest(CliTest):
         self.server.kill()
         self.server.start()
         link.port = self.server.port
-        read_until(watch.stdout, b"attempt 2 starts anew")
+        read_until(watch.stdout, b"attempt 2 ")  # Anew, or from a checkpoint.
         self.run_it("cancel", name)
         read_until(watch.stdout, b"CANCELLED")
         self.assertEqual(watch.wait(PATIENCE_S), 1)
+        said = watch.stderr.read().decode().splitlines()
+        self.assertEqual([line.split(" (")[0] for line in said if "conn" in line],
+                         ["connection lost", "connected again"])
+
+    def test_watch_tells_from_where_a_long_run_goes_on(self):
+        self.server.terminate()
+        self.server.flags = ("--checkpoint-interval=50ms",)
+        self.server.start()
+        name = self.submit_long()
+        self.server.wait_until(name, lambda event: is_cycle(event) and event.cycle.number > 500)
+        time.sleep(0.5)  # Far more than a checkpoint needs.
+        self.server.kill()
+        self.server.start()
+        watch = self.start("watch", name, "--kinds", "attempt_started")
+        seen = read_until(watch.stdout, b"follows again\n").decode()
+        self.assertRegex(seen, r"attempt \d goes on from t = [\d.e+-]+ m?s; what was recorded before "
+                               r"follows again\n")
+        self.run_it("cancel", name)
 
     def test_watch_can_begin_later_and_choose(self):
         name = self.run_it("run", SPRING, "-o", "name")[0].strip()
@@ -524,11 +542,11 @@ class ListTest(CliTest):
         names = [self.run_it("submit", CHAIN, "-o", "name")[0] for _ in range(3)]
         self.assertTrue(all(name.startswith("jobs/") and name.endswith("\n") for name in names))
         self.assertEqual(self.run_it("list", "-o", "name")[0], "".join(reversed(names)))
-        self.assertEqual(self.run_it("list", "--limit", "0", "-o", "name")[0],
+        self.assertEqual(self.run_it("list", "--all", "-o", "name")[0],
                          "".join(reversed(names)))
         printed, said = self.run_it("list", "--limit", "2")
         self.assertEqual(len(printed.splitlines()), 1 + 2)
-        self.assertIn("--limit 0", said)
+        self.assertIn("--all", said)
         jobs = json.loads(self.run_it("list", "-o", "json")[0])["jobs"]
         self.assertEqual([job["name"] + "\n" for job in jobs], names[::-1])
 

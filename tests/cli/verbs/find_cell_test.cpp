@@ -129,27 +129,14 @@ TEST(NextStepsTest, PlotIsOfferedOnlyIfThereIsMotionToDraw) {
   EXPECT_THAT(NextSteps(ledger), testing::Not(HasSubstr("plot")));
 }
 
-TEST(NextStepsTest, PartlyConvergedRunIsToldWhatToTry) {
+TEST(NextStepsTest, PartlyConvergedRunIsToldWhichCyclesAndWhatToTry) {
   v1::Job job = Ended(1);
+  job.mutable_cycles(0)->set_status(v1::Cycle::INFEASIBLE);
+  job.mutable_scenario()->mutable_solver()->set_restitution_scope(v1::Solver::CYCLE);
   EXPECT_THAT(NextSteps(job), testing::Not(HasSubstr("Try:")));
   job.set_convergence(v1::Job::PARTIAL);
-  EXPECT_THAT(NextSteps(job), HasSubstr("Try:   --set solver.max_iterations"));
-}
-
-TEST(NextStepsTest, AdviceFitsTheCause) {
-  v1::Job job = Ended(2);
-  job.set_convergence(v1::Job::PARTIAL);
-  job.mutable_cycles(0)->set_status(v1::Cycle::INFEASIBLE);
-  EXPECT_THAT(NextSteps(job),
-              testing::AllOf(HasSubstr("An INFEASIBLE group has no μ that would do"),
-                             testing::Not(HasSubstr("Try:"))));
-  job.mutable_scenario()->mutable_solver()->set_restitution_scope(v1::Solver::CYCLE);
-  EXPECT_THAT(NextSteps(job),
-              testing::AllOf(HasSubstr("Try:   --set solver.restitution_scope=AUTO"),
-                             testing::Not(HasSubstr("max_iterations"))));
-  job.mutable_cycles(1)->set_status(v1::Cycle::NOT_CONVERGED);
-  EXPECT_THAT(NextSteps(job), testing::AllOf(HasSubstr("restitution_scope=AUTO"),
-                                             HasSubstr("Try:   --set solver.max_iterations")));
+  EXPECT_THAT(NextSteps(job), HasSubstr("contactctl describe abc --only-missed"));
+  EXPECT_THAT(NextSteps(job), HasSubstr("Try:   --set solver.restitution_scope=AUTO"));
 }
 
 }  // namespace

@@ -98,6 +98,17 @@ class FollowingTest(CliTest):
                 with contextlib.chdir(self.folder):
                     self.run_it(*step.split())
 
+    def test_hints_follow_the_result_where_both_go_to_one_file(self):
+        for command in (("run", CHAIN), ("sweep", "run", CHAIN, "--grid",
+                                         "contacts[*].restitution=0.5:0.9:60")):
+            both = subprocess.run(self.command(*command), stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, encoding="utf-8", timeout=PATIENCE_S,
+                                  check=True).stdout.splitlines()
+            hint = next(i for i, line in enumerate(both) if line.startswith("Next:"))
+            result = [i for i, line in enumerate(both) if line.startswith(("convergence", "jobs/"))]
+            self.assertLess(max(result), hint)
+            self.assertTrue(both[-1].lstrip().startswith(("Next:", "contactctl ")))
+
     def test_grid_of_a_scenario_is_a_sweep(self):
         printed = self.run_it("sweep", "run", CHAIN, "-o", "csv",
                               "--grid", "bodies[0].velocity_m_per_s=0.1,0.5",

@@ -27,9 +27,13 @@ class LocalRefusals(CliTest):
     def test_numbers_out_of_range(self):
         for arguments in (["export", "x", "--every", "0"], ["export", "x", "--max-points", "-5"],
                           ["export", "x", "--precision", "18"], ["series", "x", "--points", "0"],
-                          ["compare", "x", "y", "--rel", "-1"], ["list", "--limit", "-1"]):
+                          ["compare", "x", "y", "--rel", "-1"], ["list", "--limit", "-1"],
+                          ["list", "--limit", "0"]):
             with self.subTest(arguments):
-                self.refused(*arguments)
+                self.assertLess(len(self.refused(*arguments)), 200)
+        self.assertIn("--limit: is -1; must be a number of at least 1",
+                      self.refused("list", "--limit", "-1"))
+        self.refused("list", "--limit", "5", "--all")
 
     def test_drawn_cells_need_axes_and_one_way_to_draw(self):
         axes = ("--grid", "contacts[*].restitution=0.5:0.9")

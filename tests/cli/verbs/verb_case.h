@@ -127,12 +127,16 @@ class ScriptedServer final : public v1::JobService::Service {
   grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
                         v1::ListJobsResponse* answer) override {
     const auto lock = Keep(*request);
+    std::vector<v1::Job> found = jobs_;
+    std::erase_if(found, [request](const v1::Job& job) {
+      return !job.name().starts_with(request->name_prefix());
+    });
     const std::string& token = request->page_token();
     auto next = token.empty() ? std::size_t{0} : std::stoul(token);
     const auto end = std::min(
-        jobs_.size(), next + static_cast<std::size_t>(std::min(page, request->page_size())));
-    while (next < end) *answer->add_jobs() = jobs_[next++];
-    if (next < jobs_.size()) answer->set_next_page_token(std::to_string(next));
+        found.size(), next + static_cast<std::size_t>(std::min(page, request->page_size())));
+    while (next < end) *answer->add_jobs() = found[next++];
+    if (next < found.size()) answer->set_next_page_token(std::to_string(next));
     return grpc::Status::OK;
   }
   grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request,

@@ -51,16 +51,16 @@ TEST_F(VerbRequestsTest, ListAsksForNoMoreThanItsLimit) {
   EXPECT_EQ(asked[0].page_size(), 5);
   EXPECT_EQ(asked[1].page_size(), 2);
   EXPECT_EQ(asked[1].page_token(), "3");
-  EXPECT_THAT(Run({"list", "--limit", "5"}).said, HasSubstr("--limit 0 lists all"));
+  EXPECT_THAT(Run({"list", "--limit", "5"}).said, HasSubstr("--all lists them"));
 }
 
 TEST_F(VerbRequestsTest, ListWithoutLimitTakesEveryPage) {
   AddJobs(7);
   server_.page = 3;
-  const End end = Run({"list", "--limit", "0", "-o", "name"});
+  const End end = Run({"list", "--all", "-o", "name"});
   EXPECT_EQ(Lines(end.printed).size(), 7U);
   EXPECT_EQ(server_.Asked<v1::ListJobsRequest>().size(), 3U);
-  EXPECT_EQ(Run({"list", "--limit", "0"}).said, "");
+  EXPECT_EQ(Run({"list", "--all"}).said, "");
 }
 
 TEST_F(VerbRequestsTest, FilterOfListIsTheServers) {
@@ -79,8 +79,63 @@ TEST_F(VerbRequestsTest, EachFormatOfListHasEveryJob) {
   EXPECT_EQ(json::parse(objects[3])["labels"]["law"], "flores");
   const std::vector<std::string> rows = Lines(Run({"list", "-o", "csv"}).printed);
   ASSERT_EQ(rows.size(), 5U);
-  EXPECT_THAT(rows[0], testing::StartsWith("job,state,reason,"));
+  EXPECT_THAT(rows[0], testing::StartsWith("job,state,title,reason,convergence,missed,"));
   EXPECT_THAT(rows[4], HasSubstr("law=flores"));
+}
+
+TEST_F(VerbRequestsTest, ListTellsTitleAndMissedCycles) {
+  v1::Job& job = server_.Add("jobs/a", v1::Job::SUCCEEDED);
+  job.set_title("A title that is longer than forty characters are");
+  job.set_convergence(v1::Job::PARTIAL);
+  job.mutable_summary()->set_cycles(249);
+  job.mutable_summary()->set_cycles_infeasible(3);
+  EXPECT_THAT(Lines(Run({"list"}).printed).back(),
+              MatchesRegex("a +SUCCEEDED  A title that is longer than forty chara…  - +PARTIAL +3 "
+                           ".*"));
+  EXPECT_THAT(Run({"list", "-o", "csv", "--columns", "title,missed"}).printed,
+              "title,missed\nA title that is longer than forty characters are,3\n");
+  EXPECT_EQ(json::parse(Run({"list", "-o", "json"}).printed)["jobs"][0]["title"], job.title());
+}
+
+TEST_F(VerbRequestsTest, DescribeShowsTheCyclesThatMissWhereAskedTo) {
+  v1::Job& job = server_.Add("jobs/a", v1::Job::SUCCEEDED);
+  for (const char* contact : {"A-B", "B-C"}) job.add_cycles()->set_contact(contact);
+  job.mutable_cycles(0)->set_status(v1::Cycle::CONVERGED);
+  job.mutable_cycles(1)->set_status(v1::Cycle::NOT_CONVERGED);
+  const std::string printed = Run({"describe", "a", "--only-missed"}).printed;
+  EXPECT_THAT(printed, HasSubstr("\nB-C "));
+  EXPECT_THAT(printed, testing::Not(HasSubstr("A-B")));
+  EXPECT_THAT(Run({"describe", "a"}).printed, HasSubstr("\nA-B "));
+  EXPECT_EQ(Run({"describe", "a", "--only-missed", "-o", "json"}).code, ExitCode::kUsage);
+}
+
+TEST_F(VerbRequestsTest, DescribeSaysSoIfNoCycleMisses) {
+  server_.Add("jobs/a", v1::Job::SUCCEEDED).add_cycles()->set_status(v1::Cycle::CONVERGED);
+  EXPECT_EQ(Run({"describe", "a", "--only-missed"}).said, "no cycle misses its restitution\n");
+}
+
+TEST_F(VerbRequestsTest, EachVerbTakesTheFirstLettersOfAJob) {
+  v1::Job& job = server_.Add("jobs/eh0scma960", v1::Job::SUCCEEDED);
+  job.set_convergence(v1::Job::FULL);
+  server_.Add("jobs/m8qd61c0va", v1::Job::SUCCEEDED);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"describe", "eh"},
+                                                {"watch", "eh"},
+                                                {"wait", "eh"},
+                                                {"cancel", "eh"},
+                                                {"delete", "eh"},
+                                                {"series", "eh"},
+                                                {"artifact", "list", "eh"},
+                                                {"export", "eh", "-o", "csv", "--table", "cycles"},
+                                                {"compare", "eh", "last~1"}}) {
+    const End end = Run(words);
+    EXPECT_EQ(end.told, "") << words.front();
+    EXPECT_NE(end.code, ExitCode::kNotFound) << words.front();
+  }
+  for (const auto& request : server_.Asked<v1::GetJobRequest>()) {
+    EXPECT_THAT(request.name(), testing::AnyOf("jobs/eh0scma960", "jobs/m8qd61c0va"));
+  }
+  EXPECT_EQ(server_.Asked<v1::DeleteJobRequest>().front().name(), "jobs/eh0scma960");
+  EXPECT_EQ(server_.Asked<v1::GetSeriesRequest>().front().name(), "jobs/eh0scma960");
 }
 
 TEST_F(VerbRequestsTest, CancelTellsWhetherTheJobStillRuns) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -14,7 +15,9 @@
 #include "cli/base/number.h"
 #include "cli/figures/heat_map/contours.h"
 #include "cli/figures/heat_map/heat_map_axes.h"
+#include "cli/input/no_limits.h"
 #include "cli/text/sweep/sweep_grid.h"
+#include "wire/sweep/sweep_codec.h"
 
 namespace contact::cli {
 namespace {
@@ -27,12 +30,16 @@ constexpr char kPalette[] =
     "set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', "
     "5 '#28ae80', 6 '#5ec962', 7 '#addc30', 8 '#fde725')\n";
 
-SweepGrid RequireGrid(const v1::Sweep& sweep, const SweepCells& cells) {
-  const std::optional<SweepGrid> grid = SweepGrid::Of(sweep, cells);
-  if (grid && cells.size() <= kMostCells) return *grid;
+[[noreturn]] void Refuse() {
   throw Failure(
       ExitCode::kUsage,
       fmt::format("a heat map is of a grid of two axes with at most {} cells", kMostCells));
+}
+
+SweepGrid RequireGrid(const v1::Sweep& sweep, const SweepCells& cells) {
+  const std::optional<SweepGrid> grid = SweepGrid::Of(sweep, cells);
+  if (!grid || cells.size() > kMostCells) Refuse();
+  return *grid;
 }
 
 // What lies over a cell whose centre is (x, y): hatching, or a cross on white.
@@ -98,6 +105,12 @@ std::string Numbers(const HeatScale& scale, const GnuplotTerminal& terminal) {
 }
 
 }  // namespace
+
+void RequireMap(const v1::Sweep& sweep) {
+  if (!SweepGrid::IsGrid(sweep)) Refuse();
+  const std::int32_t cells = DecodeSweep(sweep, kNoLimits).axes.cells();
+  if (cells > static_cast<std::int32_t>(kMostCells)) Refuse();
+}
 
 std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, const HeatScale& scale,
                           bool contours, const GnuplotTerminal& terminal, const std::string& path) {

@@ -7,11 +7,14 @@
 
 namespace contact::cli {
 
+/// Throws Failure (kUsage) unless the sweep, which breaks no rule, can be drawn: it is a grid of
+/// two axes with at most 10 000 cells.
+void RequireMap(const v1::Sweep& sweep);
+
 /// A gnuplot script that draws one metric of a sweep over two axes to the file `path`: the first
 /// axis down, the second across. Cells that did not converge are hatched, cells that failed are
 /// crossed, cells without a value are white. With `contours` it has lines of equal value between
-/// the cells that converged. Throws Failure (kUsage) unless the sweep is a grid of two axes with at
-/// most 10 000 cells.
+/// the cells that converged. Throws as RequireMap does, and if the sweep has no cell yet.
 std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, const HeatScale& scale,
                           bool contours, const GnuplotTerminal& terminal, const std::string& path);
 

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
+#include <filesystem>
+#include <optional>
 
 #include "cli/base/failure.h"
+#include "cli/base/message.h"
+#include "cli/base/output_file.h"
 #include "cli/export/provenance.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/heat_map/heat_map.h"
@@ -13,6 +17,20 @@
 #include "cli/text/sweep/render_heat_map.h"
 
 namespace contact::cli {
+namespace {
+
+// The format of a heat map by the ending of its file, svg without ending.
+OutputFormat FormatOfMap(const std::string& path) {
+  constexpr std::array kDrawn = {OutputFormat::kSvg, OutputFormat::kPng, OutputFormat::kPdf,
+                                 OutputFormat::kTikz};
+  if (std::filesystem::path(path).extension().empty()) return OutputFormat::kSvg;
+  const std::optional<OutputFormat> format = FormatOfFile(path, kFigure);
+  if (format && std::ranges::find(kDrawn, *format) != kDrawn.end()) return *format;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("{}: a heat map is drawn as svg, png, pdf or tex", path));
+}
+
+}  // namespace
 
 void HeatMapOptions::AddTo(CommandLine& line, CLI::App& command) {
   line.SetKind(command.add_option("--metric", metric_, "Of the heat map. Default: the first"),
@@ -43,18 +61,20 @@ std::string HeatMapOptions::Text(const v1::Sweep& sweep, const SweepCells& cells
   return RenderHeatMap(sweep, cells, MetricOf(sweep), style, scale_ == "log");
 }
 
+void HeatMapOptions::RequireDrawable(const v1::Sweep& sweep, const std::string& path) const {
+  FormatOfMap(path);
+  MetricOf(sweep);
+  RequireMap(sweep);
+  RequireWritable(path);
+}
+
 void HeatMapOptions::Draw(const v1::Job& job, const SweepCells& cells,
                           const std::string& path) const {
-  const OutputFormat format = FormatOfFigure(path);
-  if (format == OutputFormat::kGnuplot || format == OutputFormat::kCsv ||
-      format == OutputFormat::kText) {
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("{}: a heat map is drawn as svg, png, pdf or tex", path));
-  }
+  const OutputFormat format = FormatOfMap(path);
   const HeatScale scale(cells, MetricOf(job.sweep()), scale_ == "log");
   DrawScript(HeatMapScript(job, cells, scale, contours_, GnuplotTerminal(format), path), path);
   StampProvenance(format, path, job.sweep().base().title(), {SourceOf(job)});
-  fmt::print(stderr, "{}\n", path);
+  Tell("{}\n", path);
 }
 
 }  // namespace contact::cli

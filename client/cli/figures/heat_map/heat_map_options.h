@@ -26,6 +26,10 @@ class HeatMapOptions {
   /// The map in characters, see RenderHeatMap. Throws as MetricOf does.
   std::string Text(const v1::Sweep& sweep, const SweepCells& cells, const Style& style) const;
 
+  /// Throws before any cell is solved what Draw would throw for this sweep and path: as MetricOf,
+  /// RequireMap and RequireWritable do, and for the ending.
+  void RequireDrawable(const v1::Sweep& sweep, const std::string& path) const;
+
   /// Draws the map to a file in the format of its ending, and prints the path to the standard
   /// error. Throws as MetricOf, HeatMapScript and DrawScript do, and Failure (kUsage) for an ending
   /// of a format in which there are no heat maps.

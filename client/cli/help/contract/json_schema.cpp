@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 // Which JSON the schema describes.
 enum class Side {
   kWritten,  // By a user: ranges and required fields hold.
-  kPrinted,  // By the server: unset fields have their zero, int64 is text, NaN may occur.
+  kPrinted,  // By contactctl: unset fields have their zero, NaN may occur.
 };
 
 ordered_json Enum(const EnumDescriptor& type, Side side) {
@@ -35,6 +35,11 @@ ordered_json Double(const FieldDescriptor& field, Side side) {
   ordered_json number = {{"type", "number"}};
   if (side == Side::kWritten || !RuleOf(field).may_be_nan()) return number;
   return {{"anyOf", {number, {{"enum", {"NaN", "Infinity", "-Infinity"}}}}}};
+}
+
+// A whole number of 64 bits. Those above 2^53 are printed as texts.
+ordered_json Printed64Bits() {
+  return {{"anyOf", {{{"type", "integer"}}, {{"type", "string"}, {"pattern", "^-?[0-9]+$"}}}}};
 }
 
 // The schema, or in a file also a variable in the place of the value.
@@ -161,7 +166,7 @@ class Maker {
       case FieldDescriptor::CPPTYPE_INT64:
       case FieldDescriptor::CPPTYPE_UINT64:
         if (side_ == Side::kWritten) return {{"type", "integer"}};
-        return {{"type", "string"}, {"pattern", "^-?[0-9]+$"}};
+        return Printed64Bits();
       case FieldDescriptor::CPPTYPE_BOOL:
         return {{"type", "boolean"}};
       case FieldDescriptor::CPPTYPE_ENUM:

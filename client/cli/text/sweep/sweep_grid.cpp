@@ -9,10 +9,14 @@ SweepGrid::Axis::Axis(const SweepCells& cells, int axis) {
   }
 }
 
-std::optional<SweepGrid> SweepGrid::Of(const v1::Sweep& sweep, const SweepCells& cells) {
+bool SweepGrid::IsGrid(const v1::Sweep& sweep) {
   const bool grid = sweep.combination() == v1::Sweep::GRID ||
                     sweep.combination() == v1::Sweep::COMBINATION_UNSPECIFIED;
-  if (!grid || sweep.axes_size() != 2 || cells.empty()) return std::nullopt;
+  return grid && sweep.axes_size() == 2;
+}
+
+std::optional<SweepGrid> SweepGrid::Of(const v1::Sweep& sweep, const SweepCells& cells) {
+  if (!IsGrid(sweep) || cells.empty()) return std::nullopt;
   return SweepGrid(cells);
 }
 

@@ -13,8 +13,10 @@ namespace contact::cli {
 /// of the second its columns, both in the order in which the cells first have them.
 class SweepGrid {
  public:
-  /// The table of a sweep; none unless the sweep combines exactly two axes as a grid and has a
-  /// cell. `cells` must outlive the table.
+  /// True if the sweep combines exactly two axes as a grid.
+  static bool IsGrid(const v1::Sweep& sweep);
+
+  /// The table of a sweep; none unless it is a grid and has a cell. `cells` must outlive the table.
   static std::optional<SweepGrid> Of(const v1::Sweep& sweep, const SweepCells& cells);
 
   /// The values of the first axis.

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <thread>
 
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
+#include "cli/text/convergence_hints.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_live.h"
 
@@ -17,32 +18,8 @@ namespace {
 
 ExitCode Cancel(Client& client, const std::string& name) {
   CancelJob(client, name);
-  fmt::print(stderr, "contactctl: {} is asked to stop\n", ShortName(name));
+  Tell("contactctl: {} is asked to stop\n", ShortName(name));
   return ExitCode::kInterrupted;
-}
-
-bool Has(const v1::Job& job, v1::Cycle::Status status) {
-  return std::ranges::any_of(job.cycles(),
-                             [status](const v1::Cycle& c) { return c.status() == status; });
-}
-
-// What may help where cycles do not have their restitution.
-std::string Advice(const v1::Job& job) {
-  if (job.convergence() != v1::Job::PARTIAL) return "";
-  const bool infeasible = Has(job, v1::Cycle::INFEASIBLE);
-  std::string text;
-  if (!infeasible || Has(job, v1::Cycle::NOT_CONVERGED)) {
-    text +=
-        "Try:   --set solver.max_iterations=200, or --set solver.restitution_tolerance=1e-6,\n"
-        "       for cycles that did not converge\n";
-  }
-  if (!infeasible) return text;
-  const bool alone = job.scenario().solver().restitution_scope() == v1::Solver::CYCLE;
-  return text + (alone ? "Try:   --set solver.restitution_scope=AUTO, which lets INFEASIBLE cycles "
-                         "share one μ\n"
-                         "       with their neighbours\n"
-                       : "       An INFEASIBLE group has no μ that would do; its contact can have "
-                         "another restitution\n");
 }
 
 }  // namespace
@@ -54,7 +31,7 @@ WatchEnd FollowRun(Client& client, const std::string& name, Deadline deadline, I
   WatchOptions options{
       .name = name, .kinds = {"progress"}, .deadline = deadline, .stopped = Interrupt::raised};
   if (settings.output == OutputFormat::kTable) {
-    fmt::print(stderr, "{} submitted\n", name);
+    Tell("{} submitted\n", name);
     options.kinds = {"progress", "log_entry", "attempt_started"};
     if (rows != IterationRows::kNone) {
       options.kinds.insert(options.kinds.end(), {"iteration", "group_growth"});
@@ -78,7 +55,7 @@ ExitCode PrintResult(Client& client, const std::string& name, const Settings& se
                      const std::vector<std::string>& columns) {
   const v1::Job job = GetJob(client, name);
   PrintJob(job, settings, columns);
-  if (settings.output == OutputFormat::kTable) fmt::print(stderr, "{}", NextSteps(job));
+  if (settings.output == OutputFormat::kTable) Tell("{}", NextSteps(job));
   return CodeOf(job);
 }
 
@@ -103,8 +80,8 @@ v1::Job CancelJob(Client& client, const std::string& name) {
 
 ExitCode Detach(WatchEnd end, const std::string& name) {
   const bool interrupted = end == WatchEnd::kStopped;
-  fmt::print(stderr, "contactctl: {}; the job continues: contactctl watch {}\n",
-             interrupted ? "interrupted" : "time is up", ShortName(name));
+  Tell("contactctl: {}; the job continues: contactctl watch {}\n",
+       interrupted ? "interrupted" : "time is up", ShortName(name));
   return interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout;
 }
 
@@ -114,7 +91,7 @@ ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, b
   if (end == WatchEnd::kStopped && cancel) return Cancel(client, name);
   if (end != WatchEnd::kStopped || !settings.MessageStyle().terminal) return Detach(end, name);
   const Interrupt again;
-  fmt::print(stderr, "contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
+  Tell("contactctl: interrupted; Ctrl-C again within 2 s cancels the job\n");
   for (auto waited = 0ms; waited < 2s; waited += 50ms) {
     if (Interrupt::raised()) return Cancel(client, name);
     std::this_thread::sleep_for(50ms);
@@ -122,9 +99,9 @@ ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, b
   return Detach(end, name);
 }
 
-void TellLost(const std::string& why) {
-  fmt::print(stderr, "connection lost ({}); trying again\n", why);
-}
+void TellLost(const std::string& why) { Tell("connection lost ({}); trying again\n", why); }
+
+void TellRegained() { Tell("connected again\n"); }
 
 std::string NextSteps(const v1::Job& job) {
   const std::string id = ShortName(job.name());
@@ -135,7 +112,15 @@ std::string NextSteps(const v1::Job& job) {
   if (job.cycles_size() > 0 && !job.scenario().output().ledger_only()) {
     text += fmt::format("       contactctl plot {} hysteresis   force over deformation\n", id);
   }
-  return text + Advice(job);
+  const std::string hints = ConvergenceHints(job);
+  if (hints.empty()) return text;
+  return text +
+         fmt::format(
+             "       contactctl describe {} --only-missed  the cycles that miss\n"
+             "       contactctl explain                         what the words of the ledger "
+             "mean\n",
+             id) +
+         hints;
 }
 
 }  // namespace contact::cli

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/base/scalar.h"
 #include "cli/settings/command_line.h"
 
 namespace contact::cli {
@@ -35,10 +39,21 @@ inline CLI::Option* AddListOption(CommandLine& line, CLI::App& command, const st
   return line.SetKind(command.add_option(names, *values, about)->delimiter(','), kind);
 }
 
+/// The check that a number is not below `least`. CLI11's own name the largest double in full.
+inline CLI::Validator AtLeast(int least) {
+  return {[least](const std::string& text) {
+            const std::optional<double> number = ParseNumber(text);
+            return number && *number >= least
+                       ? std::string()
+                       : fmt::format("is {}; must be a number of at least {}", text, least);
+          },
+          ""};
+}
+
 /// Adds a flag for a number > 0.
 inline CLI::Option* AddCount(CLI::App& command, const std::string& names, int* count,
                              const std::string& about) {
-  return command.add_option(names, *count, about)->check(CLI::PositiveNumber)->type_name("N");
+  return command.add_option(names, *count, about)->check(AtLeast(1))->type_name("N");
 }
 
 /// Lets a flag be given several times, each time with one value. Returns the flag.

@@ -6,10 +6,12 @@
 #include <array>
 #include <cstdio>
 
+#include "cli/base/message.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/input/no_limits.h"
 #include "cli/input/sweep_file.h"
 #include "cli/input/templates.h"
+#include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/job/options.h"
@@ -25,9 +27,8 @@ void TellOfOtherServer(Client& client, const v1::Job& job) {
       (job.server_version() == info.version() && job.server_revision() == info.revision())) {
     return;
   }
-  fmt::print(stderr, "{} was made by contactd {} {}, this one is {} {}: last digits may differ\n",
-             job.name(), job.server_version(), job.server_revision(), info.version(),
-             info.revision());
+  Tell("{} was made by contactd {} {}, this one is {} {}: last digits may differ\n", job.name(),
+       job.server_version(), job.server_revision(), info.version(), info.revision());
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ ScenarioFile ScenarioSource::Read(Client& client) const {
 }
 
 ScenarioFile ScenarioSource::ReadJob(Client& client) const {
-  const v1::Job job = GetJob(client, like_);
+  const v1::Job job = GetJob(client, FindJob(client, like_));
   if (job.has_sweep()) {
     throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
   }

@@ -31,7 +31,7 @@ class ScenarioSource {
   ScenarioFile ReadTemplate() const;
 
   std::string file_;                    // Path, or `-` for the standard input.
-  std::string like_;                    // A job, by ID or jobs/ID.
+  std::string like_;                    // A job, as FindJob takes it.
   std::string template_;                // Name of a shipped scenario.
   std::vector<std::string> overrides_;  // FIELD=VALUE
   std::vector<std::string> variables_;  // NAME=VALUE

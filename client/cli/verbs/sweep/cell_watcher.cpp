@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
+#include "cli/link/watch_to_end.h"
 #include "cli/text/render_progress.h"
 #include "cli/verbs/job/follow.h"
 
@@ -32,9 +34,14 @@ void CellWatcher::OnEvent(const v1::Event& event) {
   if (event.has_progress()) Show(event.progress());
 }
 
-void CellWatcher::OnLost(const std::string& why, std::chrono::milliseconds /*pause*/) {
+void CellWatcher::OnLost(const std::string& why) {
   Erase();
   TellLost(why);
+}
+
+void CellWatcher::OnRegained() {
+  Erase();
+  TellRegained();
 }
 
 void CellWatcher::Show(const v1::Progress& progress) {
@@ -46,7 +53,7 @@ void CellWatcher::Show(const v1::Progress& progress) {
       progress.cells_failed(), progress.cells_not_converged(), TimeLeft(done, elapsed.count()));
   const int tenths = static_cast<int>(10 * done);
   if (form_ == ProgressForm::kLines && tenths > std::exchange(told_tenths_, tenths)) {
-    fmt::print(stderr, "{}\n", words);
+    Tell("{}\n", words);
   }
   if (form_ != ProgressForm::kBar) return;
   fmt::print(stderr, "\r\x1b[K{}", words);
@@ -61,12 +68,11 @@ void CellWatcher::Erase() {
 SweepCells ReadCells(Client& client, const v1::Job& job, const Settings& settings) {
   const Interrupt interrupt;
   CellCollector collector;
-  const WatchEnd end = WatchJob(client, job.name(), {"sweep_cell"}, settings, collector);
-  if (end == WatchEnd::kFinished) return collector.Take();
-  const bool interrupted = end == WatchEnd::kStopped;
-  throw Failure(
-      interrupted ? ExitCode::kInterrupted : ExitCode::kTimeout,
-      fmt::format("{}; {} has not ended", interrupted ? "interrupted" : "time is up", job.name()));
+  WatchOptions options;
+  options.name = job.name();
+  options.kinds = {"sweep_cell"};
+  WatchToEnd(client, std::move(options), settings, collector);
+  return collector.Take();
 }
 
 WatchEnd GatherCells(Client& client, v1::Job* job, const Settings& settings, SweepCells* cells) {

@@ -35,7 +35,8 @@ class CellWatcher final : public CellCollector {
   /// Tells programs the progress of the job.
   void OnSnapshot(const v1::Job& job) override;
   void OnEvent(const v1::Event& event) override;
-  void OnLost(const std::string& why, std::chrono::milliseconds pause) override;
+  void OnLost(const std::string& why) override;
+  void OnRegained() override;
 
  private:
   /// Shows the progress in the form that was chosen; with kLines only once for each tenth.
