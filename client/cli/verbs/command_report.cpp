@@ -8,7 +8,7 @@
 #include "cli/base/text_file.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
-#include "cli/figures/presets.h"
+#include "cli/figures/run/presets.h"
 #include "cli/figures/run_report.h"
 #include "cli/link/connect.h"
 #include "cli/verbs/job/options.h"

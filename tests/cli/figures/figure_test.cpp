@@ -8,7 +8,7 @@
 #include "cli/figures/curve_style.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
-#include "cli/figures/sampling.h"
+#include "cli/figures/run/sampling.h"
 #include "testing/sample_run.h"
 
 namespace contact::cli {

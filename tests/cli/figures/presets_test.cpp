@@ -1,4 +1,4 @@
-#include "cli/figures/presets.h"
+#include "cli/figures/run/presets.h"
 
 #include <gmock/gmock.h>
 
