@@ -134,7 +134,7 @@ class Script {
                                   : "center offset 0,0.6",
            terminal_.Font(9));
     }
-    if (many) Offsets(0.55);
+    if (many) Offsets(0.65);
   }
 
   void DottedLines(const Figure::Panel& panel) {

@@ -82,6 +82,7 @@ Figure ModelsFigure(const std::string& preset, const std::vector<const Solved*>&
   Figure figure = PresetFigure(preset, *runs.back());
   Figure::Panel& panel = figure.panels.front();
   panel.curves.clear();
+  panel.dashed.clear();
   figure.sources.clear();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Figure::Panel drawn = std::move(PresetFigure(preset, *runs[i]).panels.front());

@@ -44,6 +44,7 @@ std::optional<Figure> TryFigure(Make make) {
 std::vector<std::string> DrawAll(const Recording& recording) {
   std::vector<std::string> figures;
   for (const std::string& preset : PresetNames()) {
+    if (preset == "displacement") continue;  // The page has the positions.
     std::optional<Figure> figure = TryFigure([&] { return PresetFigure(preset, recording); });
     if (!figure) continue;
     figure->title = preset;
