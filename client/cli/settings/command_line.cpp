@@ -168,10 +168,12 @@ void AddFigureFile(CommandLine& line, CLI::App& command, std::string* path,
   // Added before --file, so that the parser runs that after it, with the value handed on.
   CLI::Option* output = command.add_option_function<std::string>(
       "-o,--output",
-      [&line, &command](const std::string& value) { TakeFigureOutput(line, command, value); },
-      "The format, or like -f the file, whose ending then tells the format");
-  line.SuggestWords(output, FormatNames(kFigure))->type_name("FORMAT|FILE");
-  line.SetKind(command.add_option("-f,--file", *path, about), ValueKind::kFile);
+      [&line, &command](const std::string& value) { TakeFigureOutput(line, command, value); });
+  line.SuggestWords(output, FormatNames(kFigure))->group("");
+  line.SetKind(command.add_option("-f,--file", *path,
+                                  about + ". The ending tells the format, .tex being tikz, unless "
+                                          "-o names one; -o with such a file is the same as -f"),
+               ValueKind::kFile);
 }
 
 }  // namespace contact::cli

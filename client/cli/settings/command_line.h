@@ -116,9 +116,9 @@ void AddJob(CommandLine& line, CLI::App& command, std::string* job);
 CLI::Option* AddDestination(CommandLine& line, CLI::App& command, const std::string& names,
                             std::string* path, const std::string& about);
 
-/// Adds the flags of a command that draws a figure: `-f,--file`, the path, which `about` describes;
-/// and -o, which takes either a format of figures or, like -f, a path whose ending tells the
-/// format.
+/// Adds the flags of a command that draws a figure: `-f,--file`, the path, of which `about` says
+/// what it is by default; and a second spelling of the global -o, which takes a format, as it does
+/// elsewhere, or a path that ends as a figure does. The help of -f tells both.
 void AddFigureFile(CommandLine& line, CLI::App& command, std::string* path,
                    const std::string& about);
 

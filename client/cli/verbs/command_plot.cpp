@@ -85,9 +85,7 @@ void AddPlot(CommandLine& line, CLI::App& command) {
   AddJob(line, command, &arguments->job);
   AddOption(line, command, "PRESET", &arguments->preset, PresetNames(), "What to draw")
       ->type_name("");
-  AddFigureFile(line, command, &arguments->file,
-                "Where to; the ending tells the format unless -o names one, .tex being tikz. "
-                "Default: PRESET.svg; txt is printed");
+  AddFigureFile(line, command, &arguments->file, "Where to. Default: PRESET.svg; txt is printed");
   Repeatable(AddListOption(line, command, "--channels", &arguments->channels, ValueKind::kChannel,
                            "Instead of PRESET: these channels over time, such as B1.velocity, a "
                            "panel for each quantity"));
