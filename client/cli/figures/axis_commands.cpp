@@ -81,20 +81,23 @@ AxisUnit Choose(const std::string& label, const Extent& extent, bool log,
 }  // namespace
 
 PanelUnits UnitsOf(const Figure::Panel& panel, const std::vector<std::string>& named) {
-  const Extent x = ExtentOf(panel, &Figure::Curve::x, false, 1);
+  const Extent x = ExtentOf(panel, &Figure::Curve::x, panel.log_x, 1);
   const Extent y = ExtentOf(panel, &Figure::Curve::y, panel.log_y, 1);
-  return {Choose(panel.x_label, x, false, named), Choose(panel.y_label, y, panel.log_y, named)};
+  return {Choose(panel.x_label, x, panel.log_x, named),
+          Choose(panel.y_label, y, panel.log_y, named)};
 }
 
 std::string AxisCommands(const Figure::Panel& panel, const PanelUnits& units) {
-  const bool whole_tics = panel.counted_x && Longest(panel) <= kMostCounted;
-  const Extent x = ExtentOf(panel, &Figure::Curve::x, false, units.x.size);
+  const Extent x = ExtentOf(panel, &Figure::Curve::x, panel.log_x, units.x.size);
   const Extent y = ExtentOf(panel, &Figure::Curve::y, panel.log_y, units.y.size);
+  const bool few =
+      Longest(panel) <= kMostCounted && x.high - x.low < static_cast<double>(kMostCounted);
+  const auto scale = [](bool log) { return log ? "set" : "unset"; };
   std::string text = fmt::format(
-      "{} logscale y\nset format x '{}'\nset format y '{}'\nset xtics {}\nset xrange {}\n"
-      "set yrange {}\n",
-      panel.log_y ? "set" : "unset", Format(x, false), Format(y, panel.log_y),
-      whole_tics ? "1" : "autofreq", Range(x, panel.counted_x, false),
+      "{} logscale x\n{} logscale y\nset format x '{}'\nset format y '{}'\nset xtics {}\n"
+      "set xrange {}\nset yrange {}\n",
+      scale(panel.log_x), scale(panel.log_y), Format(x, panel.log_x), Format(y, panel.log_y),
+      panel.counted_x && few ? "1" : "autofreq", Range(x, panel.counted_x, panel.log_x),
       Range(y, false, panel.log_y));
   if (panel.lowest_y) {
     text += fmt::format("set yrange [{}:*]\n", *panel.lowest_y / units.y.size);

@@ -59,7 +59,8 @@ struct Figure {
     std::string y_label;  ///< Quantity and unit.
     /// True if x are whole numbers, such as passes: tics and range are then whole.
     bool counted_x = false;
-    /// True if the y axis is logarithmic.
+    /// True if the axis is logarithmic.
+    bool log_x = false;
     bool log_y = false;
     /// Lower end of the y axis; none: that of the points.
     std::optional<double> lowest_y = {};

@@ -22,7 +22,7 @@ constexpr std::array<std::pair<int, std::string_view>, 9> kPrefixes{{{-12, "p"},
                                                                      {6, "M"},
                                                                      {9, "G"},
                                                                      {12, "T"}}};
-constexpr std::array<std::string_view, 4> kSymbols{"s", "m", "N", "J"};  // That take a prefix.
+constexpr std::array<std::string_view, 5> kSymbols{"s", "m", "N", "J", "Pa"};  // With prefixes.
 
 // What stands before the unit of a label, with a space; all of it without a unit.
 std::string Quantity(const std::string& label) { return label.substr(0, label.rfind('[')); }

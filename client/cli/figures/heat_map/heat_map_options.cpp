@@ -9,18 +9,20 @@
 #include "cli/export/provenance.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/heat_map/heat_map.h"
+#include "cli/figures/heat_map/sweep_line.h"
 #include "cli/figures/provenance_stamp.h"
 #include "cli/text/sweep/render_heat_map.h"
 
 namespace contact::cli {
 
 void HeatMapOptions::AddTo(CommandLine& line, CLI::App& command) {
-  line.SetKind(command.add_option("--metric", metric_, "Of the heat map. Default: the first"),
+  line.SetKind(command.add_option("--metric", metric_, "What is drawn. Default: the first"),
                ValueKind::kMetric);
-  line.SetWords(command.add_option("--scale", scale_,
-                                   "Of the colours of the heat map: linear or log, which has none "
-                                   "for values <= 0"),
-                {"linear", "log"})
+  line.SetWords(
+          command.add_option("--scale", scale_,
+                             "Of the colours of the heat map, or the axis of the line: linear "
+                             "or log, which does not show values <= 0"),
+          {"linear", "log"})
       ->type_name("SCALE")
       ->capture_default_str();
   command.add_flag("--contour", contours_,
@@ -43,8 +45,22 @@ std::string HeatMapOptions::Text(const v1::Sweep& sweep, const SweepCells& cells
   return RenderHeatMap(sweep, cells, MetricOf(sweep), style, scale_ == "log");
 }
 
+Figure HeatMapOptions::Line(const v1::Job& job, const SweepCells& cells) const {
+  return SweepLineFigure(job, cells, MetricOf(job.sweep()), scale_ == "log");
+}
+
 void HeatMapOptions::Draw(const v1::Job& job, const SweepCells& cells,
                           const std::string& path) const {
+  if (job.sweep().axes_size() == 1) {
+    contact::cli::Draw(Line(job, cells), FormatOfFigure(path), path);
+  } else {
+    DrawMap(job, cells, path);
+  }
+  fmt::print(stderr, "{}\n", path);
+}
+
+void HeatMapOptions::DrawMap(const v1::Job& job, const SweepCells& cells,
+                             const std::string& path) const {
   const OutputFormat format = FormatOfFigure(path);
   if (format == OutputFormat::kGnuplot || format == OutputFormat::kCsv ||
       format == OutputFormat::kText) {
@@ -54,7 +70,6 @@ void HeatMapOptions::Draw(const v1::Job& job, const SweepCells& cells,
   const HeatScale scale(cells, MetricOf(job.sweep()), scale_ == "log");
   DrawScript(HeatMapScript(job, cells, scale, contours_, GnuplotTerminal(format), path), path);
   StampProvenance(format, path, job.sweep().base().title(), {SourceOf(job)});
-  fmt::print(stderr, "{}\n", path);
 }
 
 }  // namespace contact::cli
