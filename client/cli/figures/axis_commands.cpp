@@ -48,6 +48,14 @@ std::string LogRange(const Extent& extent) {
                      std::pow(10, std::ceil(std::log10(extent.high))));
 }
 
+// Tics of a logarithmic axis at each decade, or at every n-th where there are many.
+std::string LogTics(const Extent& extent) {
+  constexpr double kMostDecades = 8;
+  const double decades = std::log10(extent.high / extent.low);
+  if (!(decades > kMostDecades)) return "autofreq";
+  return fmt::format("{}", std::pow(10, std::ceil(decades / kMostDecades)));
+}
+
 // The range of an axis that holds all points; `*` leaves a limit to gnuplot, which fails where all
 // points have the same value.
 std::string Range(const Extent& extent, bool counted, bool log) {
@@ -95,10 +103,10 @@ std::string AxisCommands(const Figure::Panel& panel, const PanelUnits& units) {
   const auto scale = [](bool log) { return log ? "set" : "unset"; };
   std::string text = fmt::format(
       "{} logscale x\n{} logscale y\nset format x '{}'\nset format y '{}'\nset xtics {}\n"
-      "set xrange {}\nset yrange {}\n",
+      "set ytics {}\nset xrange {}\nset yrange {}\n",
       scale(panel.log_x), scale(panel.log_y), Format(x, panel.log_x), Format(y, panel.log_y),
-      panel.counted_x && few ? "1" : "autofreq", Range(x, panel.counted_x, panel.log_x),
-      Range(y, false, panel.log_y));
+      panel.counted_x && few ? "1" : "autofreq", panel.log_y ? LogTics(y) : "autofreq",
+      Range(x, panel.counted_x, panel.log_x), Range(y, false, panel.log_y));
   if (panel.lowest_y) {
     text += fmt::format("set yrange [{}:*]\n", *panel.lowest_y / units.y.size);
   }

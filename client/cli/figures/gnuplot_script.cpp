@@ -155,8 +155,9 @@ class Script {
   KeyEntries EntriesBeside(const Figure::Panel& panel, std::size_t crowd) const {
     KeyEntries entries;
     const bool characters = terminal_.characters();
-    if (crowd > 0) {
-      entries.emplace_back(characters ? "points pt ' '" : StyleOf({.mark = Figure::Mark::kFaint}),
+    const auto faint = std::ranges::find_if(panel.curves, IsFaint);
+    if (crowd > 0 && faint != panel.curves.end()) {
+      entries.emplace_back(characters ? "points pt ' '" : StyleOf(*faint),
                            fmt::format("{} smaller{}", crowd, characters ? ": not shown" : ""));
     }
     if (!panel.dashed.empty() && CountKeys(panel) > kMostKeys) {

@@ -45,6 +45,14 @@ TEST(AxisCommands, LogarithmicAxesEndAtWholeDecadesOfWhatIsAboveZero) {
   EXPECT_THAT(AxisCommands(panel), HasSubstr("set yrange [0.1:10]\n"));
 }
 
+TEST(AxisCommands, ManyDecadesHaveATicAtEveryNth) {
+  Figure::Panel panel = Points({0, 1}, {1e-17, 1e-5});
+  panel.log_y = true;
+  EXPECT_THAT(AxisCommands(panel), HasSubstr("set ytics 100\n"));
+  panel.curves[0].y = {1, 1e8};
+  EXPECT_THAT(AxisCommands(panel), HasSubstr("set ytics autofreq\n"));
+}
+
 TEST(AxisCommands, TicsHaveTheDigitsThatTellThemApart) {
   EXPECT_THAT(AxisCommands(Points({0, 1}, {0, 0.2})), HasSubstr("set format y '%g'\n"));
   EXPECT_THAT(AxisCommands(Points({0, 1}, {0.2, 0.2003})), HasSubstr("set format y '%g'\n"));
