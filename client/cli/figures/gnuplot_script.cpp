@@ -10,22 +10,12 @@
 #include <vector>
 
 #include "cli/figures/axis_commands.h"
-#include "cli/figures/curve_style.h"
+#include "cli/figures/plot_command.h"
 
 namespace contact::cli {
 namespace {
 
 constexpr std::size_t kMostLevelLabels = 4;  // More labels are written upright.
-constexpr std::size_t kMostKeys = 10;        // Above it, dashed curves have one entry together.
-constexpr char kShade[] = "#ececec";         // Of bands, lighter than any curve.
-
-// What a panel has in its key beside its curves: gnuplot's style and the text.
-using KeyEntries = std::vector<std::pair<std::string, std::string>>;
-
-std::size_t CountKeys(const Figure::Panel& panel) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      panel.curves, [](const auto& curve) { return curve.keyed && !curve.label.empty(); }));
-}
 
 // Writes a script piece by piece, in the order of the methods below Write.
 class Script {
@@ -99,7 +89,8 @@ class Script {
     if (!terminal_.characters()) Bands(panel);
     Labels(panel);
     DottedLines(panel);
-    Curves(panel, crowd);
+    text_ += PlotCommand(panel, drawn_, crowd, terminal_);
+    drawn_ += panel.curves.size();
     Line("unset object\nunset label\nunset arrow");
   }
 
@@ -119,7 +110,7 @@ class Script {
       Line(
           "set object rectangle from first {}/x_unit, graph 0 to first {}/x_unit, graph 1 behind "
           "fillcolor rgb '{}' fillstyle solid noborder",
-          band.start, band.end, kShade);
+          band.start, band.end, kBandShade);
     }
   }
 
@@ -146,66 +137,10 @@ class Script {
     }
   }
 
-  std::string StyleOf(const Figure::Curve& curve) const {
-    if (terminal_.characters()) return CharacterStyle(curve);
-    return terminal_.style().paper ? PaperStyle(curve) : ColouredStyle(curve);
-  }
-
-  // What faint curves, bands and, among many others, dashed curves are.
-  KeyEntries EntriesBeside(const Figure::Panel& panel, std::size_t crowd) const {
-    KeyEntries entries;
-    const bool characters = terminal_.characters();
-    const auto faint = std::ranges::find_if(panel.curves, IsFaint);
-    if (crowd > 0 && faint != panel.curves.end()) {
-      entries.emplace_back(characters ? "points pt ' '" : StyleOf(*faint),
-                           fmt::format("{} smaller{}", crowd, characters ? ": not shown" : ""));
-    }
-    if (!panel.dashed.empty() && CountKeys(panel) > kMostKeys) {
-      constexpr int kBlack = 6;
-      entries.emplace_back(StyleOf({.colour = kBlack, .mark = Figure::Mark::kDashed}),
-                           panel.dashed);
-    }
-    if (!panel.bands.empty() && !panel.band_label.empty() && !characters) {
-      entries.emplace_back(fmt::format("boxes fillstyle solid noborder fillcolor rgb '{}'", kShade),
-                           panel.band_label);
-    }
-    return entries;
-  }
-
-  // Faint curves first, so that they lie behind the others.
-  void Curves(const Figure::Panel& panel, std::size_t crowd) {
-    const KeyEntries beside = EntriesBeside(panel, crowd);
-    const bool few = CountKeys(panel) <= kMostKeys;
-    const auto keyed = [&](const Figure::Curve& curve) {
-      const bool listed = few || curve.mark != Figure::Mark::kDashed;
-      return curve.keyed && listed && !curve.label.empty();
-    };
-    std::size_t longest = 0;
-    std::vector<std::string> drawn(2);  // The faint ones, the others.
-    for (const Figure::Curve& curve : panel.curves) {
-      ++drawn_;
-      if (IsFaint(curve) && terminal_.characters()) continue;
-      const bool listed = keyed(curve);
-      if (listed) longest = std::max(longest, curve.label.size());
-      drawn[IsFaint(curve) ? 0 : 1] += Element(
-          fmt::format("$curve{} using ($1/x_unit):($2/y_unit) with {} {}", drawn_, StyleOf(curve),
-                      listed ? "title " + terminal_.Text(curve.label) : "notitle"));
-    }
-    for (const auto& [style, text] : beside) {
-      longest = std::max(longest, text.size());
-      drawn[1] += Element(fmt::format("keyentry with {} title {}", style, terminal_.Text(text)));
-    }
-    Line("set key maxcols {}", terminal_.KeyColumns(longest));
-    const std::string all = drawn[0] + drawn[1];
-    Line("plot {}", all.substr(0, all.rfind(", \\\n")));
-  }
-
-  static std::string Element(const std::string& element) { return element + ", \\\n     "; }
-
   const GnuplotTerminal& terminal_;
   std::string text_;
-  int written_ = 0;  // Data blocks that the script has.
-  int drawn_ = 0;    // Data blocks that are drawn.
+  std::size_t written_ = 0;  // Data blocks that the script has.
+  std::size_t drawn_ = 0;    // Data blocks that are drawn.
 };
 
 // The points of all curves if none has more than `most`.

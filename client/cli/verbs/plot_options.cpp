@@ -59,10 +59,11 @@ void PlotOptions::AddLook(CommandLine& line, CLI::App& command) {
                   "Font and its size in points, such as Times,9; either may be left out. tikz has "
                   "the font of the document")
       ->type_name("FONT");
-  Repeatable(
+  CLI::Option* units = Repeatable(
       AddListOption(line, command, "--unit", &units_, ValueKind::kAny,
                     "Units of the axes, such as ms,µm,kN; µ may be written u. Default: those "
-                    "that give few digits. csv has SI units without prefix"))
+                    "that give few digits. csv has SI units without prefix"));
+  line.SuggestWords(units, {"s", "ms", "µs", "m", "mm", "µm", "N", "kN", "m/s", "mm/s", "J", "mJ"})
       ->type_name("UNIT,…");
   command.add_flag("--log", log_, "A logarithmic y axis, on which values <= 0 have no place");
   command.add_flag("--no-title", no_title_, "Leave out the title above the figure");
