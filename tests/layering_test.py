@@ -20,7 +20,7 @@ ORDER = {
     "client/cli": ["base", "input", "settings", "link", "text", "export", "figures", "paper", "help",
                    "verbs", "."],
     "client/cli/text": [".", "comparison", "sweep"],
-    "client/cli/figures": [".", "heat_map"],
+    "client/cli/figures": ["form", ".", "run", "heat_map"],
     "client/cli/help": ["contract", "."],
     "client/cli/verbs": ["job", "laws", "sweep", "."],
 }

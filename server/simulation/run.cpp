@@ -13,6 +13,10 @@
 namespace contact {
 namespace {
 
+constexpr char kFull[] =
+    "output.samples_per_contact: the trajectory has as many samples as the server allows; contacts "
+    "after that have only those of sample_interval_s";
+
 // One run: free flights and episodes in turn, and the ledger.
 class Runner {
  public:
@@ -37,7 +41,7 @@ class Runner {
     run_ = from;
     motion_.Restore(from.steps, from.evaluations);
     solver_.Restore(from);
-    sampler_.Restore(from.samples);
+    sampler_.Restore(from.sampling);
   }
 
   Outcome Run() {
@@ -57,6 +61,7 @@ class Runner {
     }
     if (run_.outcome.end == Outcome::End::kFinished) CutCycles();
     sampler_.Flush();
+    if (sampler_.full()) observer_.OnWarning(kFull);
     Summarize();
     return run_.outcome;
   }
@@ -67,7 +72,7 @@ class Runner {
     saved.steps = motion_.steps();
     saved.evaluations = motion_.evaluations();
     solver_.Save(&saved);
-    saved.samples = sampler_.pending();
+    saved.sampling = sampler_.Save();
     return saved;
   }
 

@@ -3,9 +3,19 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace contact {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+// Steps of a cycle whose duration is not known.
+constexpr double kSteps = 30;
+// Samples nearer than this part of their spacing are one.
+constexpr double kNear = 1e-3;
+
+}  // namespace
 
 Sampler::Sampler(const Scenario& scenario, Motion& motion, Observer& observer, std::stop_token stop)
     : scenario_(scenario), motion_(motion), observer_(observer), stop_(std::move(stop)) {
@@ -17,16 +27,21 @@ void Sampler::RecordStart(const State& state) {
   if (scenario_.sample_interval == 0) return;
   motion_.Begin(state, true);
   Record(0, motion_.integrator().y0);
+  regular_ = 1;
 }
 
 void Sampler::OnStep(const StepTime& step) {
   if (scenario_.sample_interval == 0) return;
+  PlanCycles(step);
   bool prepared = false;
+  std::size_t next = 0;  // In planned_.
   while (true) {
-    const double sample_time = static_cast<double>(next_) * scenario_.sample_interval;
-    // The last sample is the end of the run, though the multiple of the interval may miss it.
-    const double late = step.At(1) + 1e-9 * scenario_.sample_interval;
-    if (sample_time > late || sample_time > scenario_.end_time * (1 + 1e-12)) return;
+    const double regular = NextRegular(step);
+    const double planned = next < planned_.size() ? planned_[next] : kNever;
+    if (regular == kNever && planned == kNever) return;
+    const bool in_cycle = planned < regular - near_;
+    if (in_cycle) ++next;
+    if (in_cycle && !Wants(planned)) continue;
     // A step may have millions of samples. Looked at once a chunk.
     if (samples_.rows() == 0 && stop_.stop_requested()) {
       cut_short_ = true;
@@ -34,9 +49,52 @@ void Sampler::OnStep(const StepTime& step) {
     }
     if (!prepared) motion_.PrepareInterpolation();
     prepared = true;
-    motion_.integrator().Interpolate(std::clamp(step.Theta(sample_time), 0.0, 1.0), &y_);
-    Record(std::min(sample_time, scenario_.end_time), y_);
+    const double time = in_cycle ? planned : regular;
+    motion_.integrator().Interpolate(std::clamp(step.Theta(time), 0.0, 1.0), &y_);
+    if (!in_cycle) ++regular_;
+    Record(std::min(time, scenario_.end_time), y_);
   }
+}
+
+double Sampler::NextRegular(const StepTime& step) const {
+  const double time = static_cast<double>(regular_) * scenario_.sample_interval;
+  // The last sample is the end of the run, though the multiple of the interval may miss it.
+  const double late = step.At(1) + 1e-9 * scenario_.sample_interval;
+  return time > late || time > scenario_.end_time * (1 + 1e-12) ? kNever : time;
+}
+
+void Sampler::PlanCycles(const StepTime& step) {
+  planned_.clear();
+  near_ = 0;
+  if (scenario_.samples_per_contact == 0 || full()) return;
+  const double end = step.At(1);
+  double least = kNever;
+  for (const ActiveContact& active : motion_.equations().active) {
+    const ContactState& contact = motion_.contacts()[static_cast<std::size_t>(active.contact)];
+    if (contact.phase == Phase::kResting) continue;
+    const double spacing = Spacing(contact, step);
+    const double start = contact.cycle.start_time;
+    least = std::min(least, spacing);
+    for (double i = std::floor((step.start - start) / spacing); start + i * spacing <= end; ++i) {
+      if (start + i * spacing >= step.start) planned_.push_back(start + i * spacing);
+    }
+  }
+  std::ranges::sort(planned_);
+  if (least < kNever) near_ = kNear * least;
+}
+
+double Sampler::Spacing(const ContactState& cycle, const StepTime& step) const {
+  const double expected = cycle.duration > 0 ? cycle.duration : kSteps * step.h;
+  const double passed = (step.At(1) - cycle.cycle.start_time) / (2 * expected);
+  const double spacing = expected / scenario_.samples_per_contact;
+  return passed < 1 ? spacing : std::ldexp(spacing, std::ilogb(std::min(passed, 1e300)) + 1);
+}
+
+bool Sampler::Wants(double time) const { return time - last_ > near_ && !full(); }
+
+bool Sampler::full() const {
+  const bool asked = scenario_.sample_interval > 0 && scenario_.samples_per_contact > 0;
+  return asked && next_ - regular_ >= scenario_.most_contact_samples;
 }
 
 void Sampler::Record(double time, const Eigen::ArrayXd& y) {
@@ -63,6 +121,7 @@ void Sampler::Record(double time, const Eigen::ArrayXd& y) {
     row.insert(row.end(), {deformation, rate, force, external});
   }
   ++next_;
+  last_ = time;
   if (samples_.rows() == kSamplesPerChunk) Flush();
 }
 
@@ -77,18 +136,20 @@ void Sampler::Flush() {
   samples_.values.clear();
 }
 
-Samples Sampler::pending() const {
-  Samples pending = samples_;
-  pending.first = next_ - samples_.rows();
-  return pending;
+Sampling Sampler::Save() const {
+  Sampling now{.pending = samples_, .regular = regular_, .last = last_};
+  now.pending.first = next_ - samples_.rows();
+  return now;
 }
 
-void Sampler::Restore(Samples pending) {
-  next_ = pending.first + pending.rows();
-  samples_ = std::move(pending);
+void Sampler::Restore(Sampling from) {
+  next_ = from.pending.first + from.pending.rows();
+  regular_ = from.regular;
+  last_ = from.last;
+  samples_ = std::move(from.pending);
 }
 
-void Sampler::Hold() { before_ = pending(); }
+void Sampler::Hold() { before_ = Save(); }
 
 void Sampler::Release() {
   before_.reset();

@@ -5,12 +5,19 @@
 #include <stop_token>
 #include <vector>
 
+#include "simulation/episode/run_state.h"
 #include "simulation/model/observer.h"
 #include "simulation/motion/motion.h"
 
 namespace contact {
 
-/// Samples the accepted trajectory at equal intervals, from the integrator's dense output.
+/// Samples the accepted trajectory from the integrator's dense output: at equal intervals, and in
+/// each running cycle at equal steps of its own.
+///
+/// Samples go out in the order of time, before it is known how long a cycle will last, and a run
+/// may be cut within a cycle. So those of a cycle are placed from its start on by the duration that
+/// it is expected to have, over Scenario::samples_per_contact. From twice that duration on, each
+/// doubling of the cycle has that many again: what creeps without end does not fill the trajectory.
 class Sampler final : public StepListener {
  public:
   /// All outlive the sampler. Once `stop` is requested it hands out no further chunk of samples of
@@ -22,16 +29,19 @@ class Sampler final : public StepListener {
 
   /// True if samples are missing because the run was asked to stop.
   bool cut_short() const { return cut_short_; }
+  /// True if cycles have had all samples that Scenario::most_contact_samples allows, if any.
+  bool full() const;
 
   /// Takes the first sample, of the state at time 0. Begins a recording of `motion`.
   void RecordStart(const State& state);
   /// Hands out what is left, at the end of the run.
   void Flush();
 
-  /// Samples that were not handed out yet, with the index of the first.
-  Samples pending() const;
+  /// Samples that were not handed out yet, with the index of the first, and what else it takes to
+  /// go on after them.
+  Sampling Save() const;
   /// Goes on after those.
-  void Restore(Samples pending);
+  void Restore(Sampling from);
 
   /// Keeps the samples from now on until they are released or taken back.
   void Hold();
@@ -41,6 +51,14 @@ class Sampler final : public StepListener {
   void TakeBack();
 
  private:
+  /// Time of the next sample at the interval [s]; infinite if it is not in the step.
+  double NextRegular(const StepTime& step) const;
+  /// Finds the samples of the running cycles in a step.
+  void PlanCycles(const StepTime& step);
+  /// Time between samples of a cycle in a step [s].
+  double Spacing(const ContactState& cycle, const StepTime& step) const;
+  /// True if a sample of a cycle at this time [s] is wanted: not where another one is.
+  bool Wants(double time) const;
   /// Takes a sample of the state y.
   void Record(double time, const Eigen::ArrayXd& y);
 
@@ -51,12 +69,19 @@ class Sampler final : public StepListener {
   bool cut_short_ = false;
   // Index of the next sample in the trajectory.
   std::int64_t next_ = 0;
+  // Samples at multiples of the interval so far.
+  std::int64_t regular_ = 0;
+  // Time of the last sample [s].
+  double last_ = 0;
   // The chunk that is being filled.
   Samples samples_;
   // What was pending at Hold, while samples are kept.
-  std::optional<Samples> before_;
+  std::optional<Sampling> before_;
   // Full chunks that are kept.
   std::vector<Samples> held_;
+  // Samples of cycles in the step [s], ascending, and what is too near to another [s].
+  std::vector<double> planned_;
+  double near_ = 0;
   // Scratch: the state of a sample, and its slopes.
   Eigen::ArrayXd y_, slope_;
 };

@@ -12,8 +12,20 @@ namespace {
 using google::protobuf::FieldDescriptor;
 
 // How names in the contract end, and the unit that this means; longer endings first.
-constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
-    {"_m_per_s", "m/s"}, {"_s_per_m", "s/m"}, {"_m", "m"}, {"_s", "s"}, {"_j", "J"}, {"_n", "N"}};
+constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"_n_s_per_m", "N·s/m"},
+                                                                    {"_kg_per_m3", "kg/m^3"},
+                                                                    {"_rad_per_s", "rad/s"},
+                                                                    {"_m_per_s2", "m/s^2"},
+                                                                    {"_m_per_s", "m/s"},
+                                                                    {"_s_per_m", "s/m"},
+                                                                    {"_n_per_m", "N/m"},
+                                                                    {"_rad", "rad"},
+                                                                    {"_pa", "Pa"},
+                                                                    {"_kg", "kg"},
+                                                                    {"_m", "m"},
+                                                                    {"_s", "s"},
+                                                                    {"_j", "J"},
+                                                                    {"_n", "N"}};
 
 }  // namespace
 

@@ -82,13 +82,15 @@ void AdviseOnSamples(const Scenario& scenario, const Shortest& shortest,
                      std::vector<Violation>* advice) {
   const double interval = scenario.sample_interval;
   if (interval == 0 || shortest.contact == nullptr) return;
+  if (scenario.samples_per_contact >= kFewestSamples) return;
   const double duration = shortest.meeting.duration;
   if (duration >= kFewestSamples * interval) return;
   const double good = Rounded(duration / kGoodResolution);
   advice->push_back({"output.sample_interval_s", Describe(shortest, interval, "samples"),
                      scenario.end_time / good <= kManySamples
                          ? fmt::format("{:g} gives it {:g}", good, kGoodResolution)
-                         : "set output.ledger_only if its cycles are enough"});
+                         : "set output.samples_per_contact, or output.ledger_only if its cycles "
+                           "are enough"});
 }
 
 // Advises once for each law, as the warnings of a run do.

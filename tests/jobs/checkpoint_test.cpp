@@ -185,7 +185,7 @@ TEST_F(CheckpointTest, RunWhoseEventsAreDamagedBeginsAnew) {
 TEST(RunStateCodec, RefusesTheBytesOfAnotherBuild) {
   RunState state;
   state.state.time = 1.5;
-  state.samples.values = {1, kNaN};
+  state.sampling.pending.values = {1, kNaN};
   const std::string bytes = EncodeRunState(state);
   ASSERT_TRUE(DecodeRunState(bytes).has_value());
   EXPECT_EQ(EncodeRunState(*DecodeRunState(bytes)), bytes);

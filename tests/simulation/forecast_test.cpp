@@ -127,6 +127,18 @@ TEST(RunEstimate, SamplesAreThoseOfTheRun) {
   EXPECT_EQ(EstimateRunOf(testing::TripleChain()).samples, 0);
 }
 
+TEST(RunEstimate, SamplesInCyclesAreThoseOfTheRunWithinAFactorOfTwo) {
+  for (Scenario s : {testing::Collision(0.3, 2, 5e7, 1.5, 0.7), testing::TripleChain()}) {
+    s.sample_interval = s.end_time / 10;
+    s.samples_per_contact = 100;
+    const double ratio = EstimateRunOf(s).samples / testing::RunAndRecord(s).rows();
+    EXPECT_LT(ratio, 2) << s.contacts.size();
+    EXPECT_GT(ratio, 0.5) << s.contacts.size();
+    s.most_contact_samples = 7;
+    EXPECT_EQ(EstimateRunOf(s).samples, 11 + 7);
+  }
+}
+
 TEST(RunEstimate, StepsAreThoseOfTheRunWithinAFactorOfThree) {
   Scenario fixed = testing::TripleChain();
   fixed.solver.fixed_step = 1e-6;

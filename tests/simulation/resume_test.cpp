@@ -123,6 +123,11 @@ std::vector<std::pair<std::string, Scenario>> Scenarios() {
   paper.solver.update = UpdateRule::kPaperRatio;
   all.emplace_back("paper", paper);
   for (auto& [name, scenario] : all) scenario.sample_interval = scenario.end_time / 700;
+  for (std::size_t i = 0; i < 5; ++i) {
+    all.emplace_back(all[i].first + ", sampled in cycles", all[i].second);
+    all.back().second.samples_per_contact = 40;
+  }
+  all.back().second.most_contact_samples = 1000;  // Of the long row.
   return all;
 }
 

@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "testing/cases.h"
 
 namespace contact {
@@ -72,7 +79,7 @@ TEST(Sampler, ChunksAreFullButTheLastAndFollowEachOther) {
   Flight flight(1e-3);
   flight.FlyUntil(1);
   EXPECT_EQ(flight.observer.chunks.size(), 3u);  // Those that are full.
-  EXPECT_EQ(flight.sampler.pending().rows(), 1001 - 3 * kSamplesPerChunk);
+  EXPECT_EQ(flight.sampler.Save().pending.rows(), 1001 - 3 * kSamplesPerChunk);
   flight.sampler.Flush();
   flight.sampler.Flush();  // Nothing is left.
   ASSERT_EQ(flight.observer.chunks.size(), 4u);
@@ -88,8 +95,8 @@ TEST(Sampler, ChunksAreFullButTheLastAndFollowEachOther) {
 TEST(Sampler, AnIntervalThatDoesNotDivideTheRunEndsBefore) {
   Flight flight(0.3);
   flight.FlyUntil(1);
-  EXPECT_EQ(flight.sampler.pending().rows(), 4);
-  EXPECT_NEAR(flight.sampler.pending().values[9], 0.9, 1e-15);
+  EXPECT_EQ(flight.sampler.Save().pending.rows(), 4);
+  EXPECT_NEAR(flight.sampler.Save().pending.values[9], 0.9, 1e-15);
 }
 
 TEST(Sampler, WithoutAnIntervalThereAreNoSamples) {
@@ -129,7 +136,7 @@ TEST(Sampler, WhatIsTakenBackIsTakenAgain) {
   flight.FlyUntil(0.9);
   EXPECT_TRUE(flight.observer.chunks.empty());  // Though two chunks are full.
   flight.sampler.TakeBack();
-  EXPECT_EQ(flight.sampler.pending().rows(), 201);
+  EXPECT_EQ(flight.sampler.Save().pending.rows(), 201);
   flight.motion.Begin(before, true);
   ExpectSameAtTheEnd(flight, straight, 0.2);
 }
@@ -147,7 +154,7 @@ TEST(Sampler, WhatIsHeldComesInOrderWhenReleased) {
 TEST(Sampler, AnotherOneGoesOnWithWhatWasPending) {
   Flight flight(1e-3), later(1e-3);
   flight.FlyUntil(0.4);
-  later.sampler.Restore(flight.sampler.pending());
+  later.sampler.Restore(flight.sampler.Save());
   later.motion.Begin(flight.motion.Save(), true);
   later.FlyUntil(1);
   later.sampler.Flush();
@@ -168,6 +175,161 @@ TEST(Sampler, AStopEndsAStepOfManySamplesAfterAChunk) {
   EXPECT_TRUE(flight.sampler.cut_short());
   ASSERT_EQ(flight.observer.chunks.size(), 1u);
   EXPECT_EQ(flight.observer.chunks[0].rows(), kSamplesPerChunk);
+}
+
+// Samples in cycles: of runs, for a flight has none.
+
+using testing::Record;
+using testing::RunAndRecord;
+
+constexpr int kPerContact = 100;
+
+// With a sample at each end, and those in cycles.
+Record Sampled(Scenario s) {
+  s.sample_interval = s.end_time;
+  s.samples_per_contact = kPerContact;
+  return RunAndRecord(s);
+}
+
+// The rows of samples from `start` to `end`, both included.
+std::vector<int> RowsIn(const Record& r, double start, double end) {
+  std::vector<int> rows;
+  for (int i = 0; i < r.rows(); ++i) {
+    if (r.Sample(i, 0) >= start && r.Sample(i, 0) <= end) rows.push_back(i);
+  }
+  return rows;
+}
+
+Scenario BouncingBall() {
+  Scenario s;
+  s.bodies = {testing::Ball(0.2)};
+  s.contacts = {{.name = "floor", .right = 0, .stiffness = 1e8, .restitution = 0.8}};
+  s.loads = {{.body = 0, .constant = -0.5 * 9.81}};
+  s.end_time = 1;
+  return s;
+}
+
+TEST(CycleSamples, AreEvenlySpreadFromTheStartOfEachCycle) {
+  const Record r = Sampled(testing::Collision(0.3, 2, 5e7, 1.5, 0.7));
+  ASSERT_EQ(r.cycles.size(), 1u);
+  const Cycle& cycle = r.cycles[0];
+  const std::vector<int> rows = RowsIn(r, cycle.start_time, cycle.end_time);
+  EXPECT_GE(static_cast<int>(rows.size()), kPerContact * 9 / 10);
+  EXPECT_LE(static_cast<int>(rows.size()), kPerContact * 2);
+  const double spacing = r.Sample(rows[1], 0) - r.Sample(rows[0], 0);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_NEAR(r.Sample(rows[i], 0) - r.Sample(rows[i - 1], 0), spacing, 1e-9 * spacing);
+  }
+  EXPECT_LE(cycle.end_time - r.Sample(rows.back(), 0), spacing);
+}
+
+TEST(CycleSamples, EveryBounceHasThemHoweverLongTheFlights) {
+  const Record r = Sampled(BouncingBall());
+  ASSERT_GE(r.cycles.size(), 2u);
+  for (const Cycle& cycle : r.cycles) {
+    if (cycle.end != Cycle::End::kSeparation) continue;
+    const std::vector<int> rows = RowsIn(r, cycle.start_time, cycle.end_time);
+    EXPECT_GE(static_cast<int>(rows.size()), kPerContact * 9 / 10) << cycle.number;
+  }
+  EXPECT_LT(r.rows(), 3 * kPerContact * static_cast<int>(r.cycles.size()) + 2);
+}
+
+// The trapezoidal rule over the samples: the area of a loop is the energy lost.
+TEST(CycleSamples, LoopsHaveTheAreaOfTheEnergyLost) {
+  const Record r = Sampled(BouncingBall());
+  const Cycle& cycle = r.cycles.at(0);
+  double area = 0;
+  const std::vector<int> rows = RowsIn(r, cycle.start_time, cycle.end_time);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto value = [&](std::size_t at, int column) { return r.Sample(rows[at], column); };
+    area += (value(i, 5) + value(i - 1, 5)) / 2 * (value(i, 3) - value(i - 1, 3));
+  }
+  const double lost = cycle.work_compression + cycle.work_restitution;
+  EXPECT_NEAR(area, lost, 2e-3 * lost);
+}
+
+TEST(CycleSamples, ComeInTheOrderOfTimeBesideThoseOfTheInterval) {
+  for (Scenario s : {testing::SpringWall(), testing::TripleChain(),
+                     testing::Chain(std::vector<double>(6, 0.5), std::vector<double>(5, 1e8),
+                                    std::vector<double>(5, 0.8), 0.2, 0.01)}) {
+    s.sample_interval = s.end_time / 700;
+    s.samples_per_contact = 30;
+    const Record r = RunAndRecord(s);
+    std::vector<double> times;
+    for (int i = 0; i < r.rows(); ++i) times.push_back(r.Sample(i, 0));
+    EXPECT_TRUE(std::ranges::is_sorted(times, std::less_equal()));  // Each once.
+    EXPECT_GT(times.size(), 701u);
+    for (int i = 0; i <= 700; ++i) {
+      const auto found = std::ranges::lower_bound(times, i * s.sample_interval * (1 - 1e-12));
+      ASSERT_NE(found, times.end()) << i;
+      EXPECT_NEAR(*found, i * s.sample_interval, 1e-12 * s.end_time) << i;
+    }
+  }
+}
+
+TEST(CycleSamples, LieOnTheTrajectory) {
+  Scenario s = testing::SpringWall();
+  s.sample_interval = s.end_time;
+  s.samples_per_contact = 50;
+  const Record r = RunAndRecord(s);
+  ASSERT_GT(r.rows(), 100);
+  for (int i = 0; i < r.rows(); ++i) {
+    const double t = r.Sample(i, 0), x = r.Sample(i, 1), v = r.Sample(i, 2);
+    EXPECT_NEAR(r.Sample(i, 6), 500 + 250 * std::sin(2000 * t) - 1e6 * x - 100 * v, 1e-6) << i;
+    EXPECT_NEAR(r.Sample(i, 3), x + 0.05 - 0.048, 1e-12) << i;
+  }
+}
+
+TEST(CycleSamples, DoNotChangeTheResult) {
+  const Scenario s = testing::TripleChain();
+  const Record bare = RunAndRecord(s), sampled = Sampled(s);
+  ASSERT_EQ(bare.cycles.size(), sampled.cycles.size());
+  for (std::size_t i = 0; i < bare.cycles.size(); ++i) {
+    EXPECT_EQ(bare.cycles[i].mu, sampled.cycles[i].mu);
+    EXPECT_EQ(bare.cycles[i].end_time, sampled.cycles[i].end_time);
+  }
+}
+
+// A damping far beyond use: after the turn the ball creeps back for many times the duration of the
+// impact.
+TEST(CycleSamples, OfACycleThatCreepsGrowOnlyWithEachDoubling) {
+  Scenario s = testing::Collision(0.5, 1, 1e8, 1.5, 0.5);
+  s.contacts[0].damping = DampingLaw::kGiven;
+  s.contacts[0].mu = 1e10;
+  s.end_time = 1;
+  const Record r = Sampled(s);
+  ASSERT_EQ(r.cycles.size(), 1u);
+  EXPECT_GT(r.rows(), 2 * kPerContact);
+  EXPECT_LT(r.rows(), 15 * kPerContact);
+}
+
+TEST(CycleSamples, OfAContactThatRestsThereAreNone) {
+  Scenario s = BouncingBall();
+  s.end_time = 10;
+  const Record r = Sampled(s);
+  const Cycle& rest = r.cycles.back();
+  ASSERT_EQ(rest.end, Cycle::End::kRunEnd);
+  EXPECT_EQ(rest.status, Cycle::Status::kSettled);
+  EXPECT_LE(RowsIn(r, std::nextafter(rest.start_time, s.end_time), s.end_time).size(), 1u);
+}
+
+TEST(CycleSamples, EndAtTheirLimitWithAWarning) {
+  Scenario s = testing::TripleChain();
+  s.most_contact_samples = 50;
+  const Record r = Sampled(s);
+  EXPECT_EQ(r.rows(), 52);
+  ASSERT_EQ(r.warnings.size(), 1u);
+  EXPECT_NE(r.warnings[0].find("samples_per_contact"), std::string::npos);
+  EXPECT_TRUE(Sampled(testing::TripleChain()).warnings.empty());
+}
+
+TEST(CycleSamples, WithoutATrajectoryThereAreNone) {
+  Scenario s = testing::TripleChain();
+  s.samples_per_contact = kPerContact;
+  s.most_contact_samples = 0;
+  const Record r = RunAndRecord(s);
+  EXPECT_EQ(r.rows(), 0);
+  EXPECT_TRUE(r.warnings.empty());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
+#include "contact/v1/scenario.pb.h"
 
 namespace contact {
 namespace {
@@ -21,6 +22,20 @@ TEST(ColumnName, UnitOfAFieldStandsInBrackets) {
   EXPECT_EQ(HeaderOf(cycle, "turn_time_s"), "turn_time [s]");
   EXPECT_EQ(HeaderOf(cycle, "work_restitution_j"), "work_restitution [J]");
   EXPECT_EQ(HeaderOf(cycle, "peak_force_n"), "peak_force [N]");
+}
+
+// A sweep varies them.
+TEST(ColumnName, FieldsOfAScenarioHaveUnitsToo) {
+  EXPECT_EQ(HeaderOf(*v1::Body::descriptor(), "mass_kg"), "mass [kg]");
+  EXPECT_EQ(HeaderOf(*v1::Body::descriptor(), "density_kg_per_m3"), "density [kg/m^3]");
+  EXPECT_EQ(HeaderOf(*v1::Support::descriptor(), "damping_n_s_per_m"), "damping [N·s/m]");
+  EXPECT_EQ(HeaderOf(*v1::Support::descriptor(), "stiffness_n_per_m"), "stiffness [N/m]");
+  EXPECT_EQ(HeaderOf(*v1::Load::Sine::descriptor(), "angular_frequency_rad_per_s"),
+            "angular_frequency [rad/s]");
+  EXPECT_EQ(HeaderOf(*v1::Load::Sine::descriptor(), "phase_rad"), "phase [rad]");
+  EXPECT_EQ(HeaderOf(*v1::Load::Gravity::descriptor(), "acceleration_m_per_s2"),
+            "acceleration [m/s^2]");
+  EXPECT_EQ(HeaderOf(*v1::Contact::descriptor(), "stiffness"), "stiffness [N/m^exponent]");
 }
 
 TEST(ColumnName, NumbersWithoutDimensionHaveUnitOneAndWordsNone) {

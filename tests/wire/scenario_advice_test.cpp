@@ -153,7 +153,16 @@ TEST(ScenarioAdvice, TellsOfSamplesTooFewForAContact) {
 TEST(ScenarioAdvice, AsksNobodyToRecordMillionsOfSamples) {
   v1::Scenario scenario = TwoBalls();
   scenario.set_end_time_s(1000);
-  EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("set output.ledger_only")));
+  EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("or output.ledger_only")));
+}
+
+TEST(ScenarioAdvice, SamplesOfItsOwnAreEnoughForAContact) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.set_end_time_s(1000);
+  scenario.mutable_output()->set_samples_per_contact(19);
+  EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("set output.samples_per_contact")));
+  scenario.mutable_output()->set_samples_per_contact(20);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
 }
 
 TEST(ScenarioAdvice, TellsOfMoreStepsThanTheRunMayMake) {

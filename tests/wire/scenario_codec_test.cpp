@@ -86,7 +86,7 @@ TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
                update: NEWTON_COUPLED phase_split: PEAK_DEFORMATION max_iterations: 20
                tension: CLIP on_not_converged: FAIL settled_fraction: 1e-4 max_steps: 12345
                restitution_scope: ENCOUNTER encounter_cycles: 3 }
-      output { sample_interval_s: 0.25 }
+      output { sample_interval_s: 0.25 samples_per_contact: 60 }
       end_time_s: 10)"));
   ASSERT_THAT(Lines(decoded.violations), IsEmpty());
   const Scenario& s = decoded.scenario;
@@ -124,6 +124,7 @@ TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
   EXPECT_TRUE(s.solver.fail_if_not_converged);
   EXPECT_TRUE(s.solver.clip_tension);
   EXPECT_EQ(s.sample_interval, 0.25);
+  EXPECT_EQ(s.samples_per_contact, 60);
 }
 
 TEST(DecodeScenario, EveryDampingIsRead) {
@@ -298,6 +299,20 @@ TEST(DecodeScenario, SamplesCountAgainstTheLimit) {
   EXPECT_THAT(Lines(DecodeScenario(message, {.max_samples = 4}).violations),
               ElementsAre("output.sample_interval_s: is 0.25, which makes 5 samples; must make at "
                           "most 4 — set output.ledger_only to record none"));
+}
+
+TEST(DecodeScenario, SamplesInContactsHaveWhatThoseOfTheIntervalLeaveOfTheLimit) {
+  v1::Scenario message = TwoBalls();
+  message.set_end_time_s(1);
+  message.mutable_output()->set_sample_interval_s(0.25);
+  const auto most = [&](std::int64_t limit) {
+    return DecodeScenario(message, {.max_samples = limit}).scenario.most_contact_samples;
+  };
+  EXPECT_EQ(most(5), 0);
+  EXPECT_EQ(most(105), 100);
+  EXPECT_GT(most(std::numeric_limits<std::int64_t>::max()), 1'000'000'000'000);
+  message.set_end_time_s(std::nan(""));
+  EXPECT_EQ(most(5), 0);
 }
 
 TEST(DecodeScenario, AllViolationsComeAtOnceInFieldOrder) {

@@ -26,6 +26,7 @@ constexpr Escape kLatex[] = {
     {">", "\\textgreater{}"},
     {"|", "\\textbar{}"},
     {"μ", "$\\mu$"},
+    {"µ", "$\\mu$"},  // The sign of micro.
     {"ε", "$\\varepsilon$"},
     {"δ", "$\\delta$"},
     {"α", "$\\alpha$"},

@@ -50,6 +50,7 @@ std::size_t Read(int fd, char* data, std::size_t size) {
   }
   if (options.own_group) setpgid(0, 0);
   if (options.output >= 0) dup2(options.output, STDOUT_FILENO);
+  if (options.errors >= 0) dup2(options.errors, STDERR_FILENO);
   if (options.silent_errors) dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
   sigset_t none;
   sigemptyset(&none);

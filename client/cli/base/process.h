@@ -18,6 +18,8 @@ struct ProcessOptions {
   bool silent_errors = false;
   /// The descriptor that becomes its standard output; -1: it has ours.
   int output = -1;
+  /// The same for its standard error.
+  int errors = -1;
 };
 
 /// Starts a program without a shell; no signal is blocked in it. `command` is the program, a path

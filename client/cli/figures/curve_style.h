@@ -15,6 +15,14 @@ std::string_view PaletteColour(int colour);
 /// Curves whose colour repeats have other dashes.
 std::string ColouredStyle(const Figure::Curve& curve);
 
+/// The same in black and grey, for print: dashes tell curves apart.
+std::string PaperStyle(const Figure::Curve& curve);
+
+/// True for curves that are only shown beside others.
+inline bool IsFaint(const Figure::Curve& curve) {
+  return curve.mark == Figure::Mark::kFaint || curve.mark == Figure::Mark::kFaintDots;
+}
+
 /// The words after `with` of gnuplot for a curve in characters, where the line type chooses the
 /// character.
 std::string CharacterStyle(const Figure::Curve& curve);

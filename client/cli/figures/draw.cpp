@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/algorithm/string/erase.hpp>
 #include <filesystem>
+#include <vector>
 
 #include "cli/base/output_file.h"
 #include "cli/base/scratch_folder.h"
@@ -17,10 +18,11 @@ namespace contact::cli {
 namespace {
 
 // What Draw writes to a file.
-std::string Drawn(const Figure& figure, OutputFormat format, int columns) {
+std::string Drawn(const Figure& figure, OutputFormat format, int columns,
+                  const FigureStyle& style = {}) {
   const ScratchFolder scratch;
   const std::string path = scratch.path() / "figure";
-  Draw(figure, format, path, columns);
+  Draw(figure, format, path, columns, style);
   return ReadText(path);
 }
 
@@ -48,26 +50,29 @@ std::string FigurePath(const std::string& file, const std::string& name, const S
 }
 
 void WriteFigure(const Figure& figure, const std::string& name, const std::string& file,
-                 const Settings& settings) {
+                 const Settings& settings, const FigureStyle& style) {
   const OutputFormat format = FigureFormat(file, settings);
   if (format == OutputFormat::kText && file.empty()) {
-    fmt::print("{}", Drawn(figure, format, ColumnsOf(settings)));
+    fmt::print("{}", Drawn(figure, format, ColumnsOf(settings), style));
     return;
   }
   const std::string path = FigurePath(file, name, settings);
-  Draw(figure, format, path, ColumnsOf(settings));
+  Draw(figure, format, path, ColumnsOf(settings), style);
   fmt::print("{}\n", path);
 }
 
-void Draw(const Figure& figure, OutputFormat format, const std::string& path, int columns) {
+void Draw(const Figure& figure, OutputFormat format, const std::string& path, int columns,
+          const FigureStyle& style) {
   if (format == OutputFormat::kCsv) return WriteText(FigureCsv(figure), path);
   if (format == OutputFormat::kGnuplot) {
     const auto drawn =
         std::filesystem::path(path).replace_extension(InfoOf(OutputFormat::kSvg).ending);
-    return WriteText(GnuplotScript(figure, GnuplotTerminal(OutputFormat::kSvg), drawn), path);
+    const GnuplotTerminal svg(OutputFormat::kSvg, columns, style);
+    return WriteText(GnuplotScript(figure, svg, drawn), path);
   }
-  DrawScript(GnuplotScript(figure, GnuplotTerminal(format, columns), path), path);
-  StampProvenance(format, path, figure.title, figure.sources);
+  DrawScript(GnuplotScript(figure, GnuplotTerminal(format, columns, style), path), path);
+  const bool told = format != OutputFormat::kText || style.provenance;
+  StampProvenance(format, path, figure.title, told ? figure.sources : std::vector<Provenance>());
 }
 
 void DrawScript(const std::string& script, const std::string& path) {

@@ -24,13 +24,14 @@ std::string FigurePath(const std::string& file, const std::string& name, const S
 /// Draws a figure to FigurePath and prints that path. A txt figure without a file goes to the
 /// standard output, as wide as the terminal. Throws as FigureFormat and Draw do.
 void WriteFigure(const Figure& figure, const std::string& name, const std::string& file,
-                 const Settings& settings);
+                 const Settings& settings, const FigureStyle& style = {});
 
-/// Draws a figure to a file in a format of figures: gp is the script of an svg, csv the points, the
-/// others are drawn through gnuplot. `columns` is the width of txt in characters. Throws Failure
-/// (kLocal) if the file cannot be written, or if gnuplot is not installed or fails.
+/// Draws a figure to a file in a format of figures: gp is the script of an svg, csv the points, for
+/// which `style` does not matter, the others are drawn through gnuplot. `columns` is the width of
+/// txt in characters. Throws Failure (kLocal) if the file cannot be written, or if gnuplot is not
+/// installed or fails.
 void Draw(const Figure& figure, OutputFormat format, const std::string& path,
-          int columns = GnuplotTerminal::kColumns);
+          int columns = GnuplotTerminal::kColumns, const FigureStyle& style = {});
 
 /// Runs a gnuplot script that draws to the file `path`. Throws as Draw does.
 void DrawScript(const std::string& script, const std::string& path);

@@ -20,27 +20,30 @@ struct Figure {
     kStart,       ///< A circle at each point: where cycles start.
     kEnd,         ///< A cross at each point: where cycles end.
     kLinePoints,  ///< A circle at each point, joined by lines.
+    kFaint,       ///< A thin grey line, for what is shown beside,
+    kFaintDots,   ///< or a grey dot at each point.
   };
 
   /// Points (x, y) in the order in which they are joined; `x` and `y` have equal length.
   struct Curve {
-    /// Its entry in the key; empty: none.
+    /// Its name: its entry in the key, and the curve in CSV.
     std::string label = {};
-    /// Place in the palette, which starts again after its last colour.
+    /// Whose curve it is, and its place in the palette, which starts again after its last colour.
+    /// Curves of the same colour belong together, such as all those of a contact.
     int colour = 0;
     Mark mark = Mark::kLine;
     /// In the unit of the panel's `x_label`.
     std::vector<double> x = {};
     /// In the unit of the panel's `y_label`.
     std::vector<double> y = {};
+    /// False if it has no entry in the key, as without a label.
+    bool keyed = true;
   };
 
   /// A stretch of the x axis with a shade behind the curves.
   struct Band {
     double start = 0;  ///< On the x axis.
     double end = 0;    ///< On the x axis.
-    /// Place in the palette, which starts again after its last colour.
-    int colour = 0;
   };
 
   /// A text above a point.
@@ -56,12 +59,20 @@ struct Figure {
     std::string y_label;  ///< Quantity and unit.
     /// True if x are whole numbers, such as passes: tics and range are then whole.
     bool counted_x = false;
-    /// True if the y axis is logarithmic.
+    /// True if the axis is logarithmic.
+    bool log_x = false;
     bool log_y = false;
     /// Lower end of the y axis; none: that of the points.
     std::optional<double> lowest_y = {};
+    /// True if the curves that go furthest are the largest ones, not those with the largest |y|.
+    bool ranked_by_span = false;
     std::vector<Curve> curves = {};
+    /// What dashed curves are, for the key where it cannot list them all.
+    std::string dashed = {};
+    /// They do not overlap.
     std::vector<Band> bands = {};
+    /// What the bands are, for the key.
+    std::string band_label = {};
     std::vector<Label> labels = {};
     /// Values of y with a horizontal dotted line across the panel.
     std::vector<double> dotted_lines = {};
@@ -72,11 +83,22 @@ struct Figure {
   std::vector<Panel> panels = {};
   /// The runs that the figure shows, for the caption.
   std::vector<Provenance> sources = {};
+  /// What circles and crosses mean that are not in the key, for a line below; empty: none are.
+  std::string note = {};
+  /// Colours above which KeepLargest leaves curves out of the key.
+  std::size_t most_colours = 10;
+  /// Colours that it has left out.
+  std::size_t crowd = 0;
 };
 
 /// Reduces each curve to about `points` points. Of each stretch of points it keeps the first, the
 /// last, the lowest and the highest, so that no peak is lost.
 void Thin(std::size_t points, Figure* figure);
+
+/// Of a figure with more than `most_colours` leaves these to its largest curves: those with the
+/// largest |y|, or the widest span, beside the others of the last panel that they are in. All
+/// others become faint, and have no marks.
+void KeepLargest(Figure* figure);
 
 /// The points as CSV: for each panel a header with the labels of its axes, then a row a point:
 /// curve, x, y.

@@ -5,41 +5,22 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <set>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "cli/figures/axis_commands.h"
-#include "cli/figures/curve_style.h"
+#include "cli/figures/plot_command.h"
 
 namespace contact::cli {
 namespace {
 
 constexpr std::size_t kMostLevelLabels = 4;  // More labels are written upright.
-constexpr std::ptrdiff_t kMostKeys = 8;      // Above it, dashed curves are not in the key.
-
-constexpr char kMarksExplained[] = "o start, × end of a contact cycle";
-
-bool HasUnnamedMarks(const Figure::Panel& panel) {
-  bool marked = false;
-  for (const Figure::Curve& curve : panel.curves) {
-    if (curve.mark != Figure::Mark::kStart && curve.mark != Figure::Mark::kEnd) continue;
-    if (!curve.label.empty()) return false;
-    marked = true;
-  }
-  return marked;
-}
-
-// Bands of many contacts lie over each other, and must not hide the curves.
-double BandOpacity(const Figure::Panel& panel) {
-  std::set<int> contacts;
-  for (const Figure::Band& band : panel.bands) contacts.insert(band.colour);
-  return std::min(0.12, 0.4 / static_cast<double>(contacts.size()));
-}
 
 // Writes a script piece by piece, in the order of the methods below Write.
 class Script {
  public:
-  explicit Script(GnuplotTerminal terminal) : terminal_(terminal) {}
+  explicit Script(const GnuplotTerminal& terminal) : terminal_(terminal) {}
 
   std::string Write(const Figure& figure, const std::string& path) {
     text_ += Lines(figure.sources, "# ");
@@ -47,8 +28,10 @@ class Script {
     for (const Figure::Panel& panel : figure.panels) Data(panel);
     Layout(figure);
     for (const Figure::Panel& panel : figure.panels) {
-      if (&panel == &figure.panels.back()) Below(figure);
-      Draw(panel);
+      if (&panel == &figure.panels.back()) {
+        text_ += terminal_.CaptionCommands(figure.sources, figure.note);
+      }
+      Draw(panel, figure.crowd);
     }
     Line("unset multiplot");
     Line("unset output");
@@ -68,6 +51,7 @@ class Script {
     Line("set output {}", GnuplotString(path));
   }
 
+  // In SI units without prefix; curves are drawn in x_unit and y_unit.
   void Data(const Figure::Panel& panel) {
     for (const Figure::Curve& curve : panel.curves) {
       Line("$curve{} << end", ++written_);
@@ -79,15 +63,17 @@ class Script {
   // Grid, key, margins and title, which all panels share.
   void Layout(const Figure& figure) {
     const bool characters = terminal_.characters();
-    if (!characters) Line("set grid lc rgb '#dddddd' lt 1");
+    if (!characters && !terminal_.style().paper) Line("set grid lc rgb '#dddddd' lt 1");
     const char* spread = characters || terminal_.tex() ? " width 1" : "";  // Between entries.
     Line("set key tmargin center horizontal{}{}", terminal_.Font(10), spread);
     Offsets(characters ? 0.2 : 0.08);
     if (figure.panels.size() > 1 && !characters) {
-      Line("set lmargin at screen 0.15");  // The y axes stand below each other.
+      Line("set lmargin at screen {}", terminal_.style().paper ? 0.2 : 0.15);  // Of all y axes.
     }
-    Line("set multiplot layout {},1 title {}{}", figure.panels.size(), terminal_.Text(figure.title),
-         characters ? "" : ".\"\\n\"");
+    const bool titled = terminal_.style().title && !terminal_.style().paper;
+    Line("set multiplot layout {},1{}{}", figure.panels.size(),
+         titled ? " title " + terminal_.Text(figure.title) : "",
+         titled && !characters ? ".\"\\n\"" : "");
   }
 
   // Free space around the points, the upper part for labels.
@@ -95,41 +81,36 @@ class Script {
     Line("set offsets graph 0.02, graph 0.02, graph {}, graph 0.03", above);
   }
 
-  // What stands below the last panel.
-  void Below(const Figure& figure) {
-    text_ += terminal_.CaptionCommands(figure.sources);
-    if (!HasUnnamedMarks(figure.panels.back())) return;
-    Line("set label {} at screen 0.01,0.015 left{} textcolor rgb '#666666'",
-         terminal_.Text(kMarksExplained), terminal_.Font(7));
-  }
-
-  void Draw(const Figure::Panel& panel) {
-    AxisLabels(panel);
-    text_ += AxisCommands(panel);
+  void Draw(const Figure::Panel& panel, std::size_t crowd) {
+    const PanelUnits units = UnitsOf(panel, terminal_.style().units);
+    Line("x_unit = {:e}\ny_unit = {:e}", units.x.size, units.y.size);
+    AxisLabels(units);
+    text_ += AxisCommands(panel, units);
     if (!terminal_.characters()) Bands(panel);
     Labels(panel);
     DottedLines(panel);
-    Curves(panel);
+    text_ += PlotCommand(panel, drawn_, crowd, terminal_);
+    drawn_ += panel.curves.size();
     Line("unset object\nunset label\nunset arrow");
   }
 
   // Characters cannot stand upright: there the label of y is a part of the upper border.
-  void AxisLabels(const Figure::Panel& panel) {
-    Line("set xlabel {}", terminal_.Text(panel.x_label));
+  void AxisLabels(const PanelUnits& units) {
+    Line("set xlabel {}", terminal_.Text(units.x.label));
     if (terminal_.characters()) {
       Line("set label {} at graph 0.02, graph 1 left front",
-           terminal_.Text(fmt::format(" {} ", panel.y_label)));
+           terminal_.Text(fmt::format(" {} ", units.y.label)));
     } else {
-      Line("set ylabel {}", terminal_.Text(panel.y_label));
+      Line("set ylabel {}", terminal_.Text(units.y.label));
     }
   }
 
   void Bands(const Figure::Panel& panel) {
     for (const Figure::Band& band : panel.bands) {
       Line(
-          "set object rectangle from first {}, graph 0 to first {}, graph 1 behind "
-          "fillcolor rgb '{}' fillstyle transparent solid {:.2g} noborder",
-          band.start, band.end, PaletteColour(band.colour), BandOpacity(panel));
+          "set object rectangle from first {}/x_unit, graph 0 to first {}/x_unit, graph 1 behind "
+          "fillcolor rgb '{}' fillstyle solid noborder",
+          band.start, band.end, kBandShade);
     }
   }
 
@@ -138,50 +119,54 @@ class Script {
     const bool many = panel.labels.size() > kMostLevelLabels;
     if (many && terminal_.characters()) return;
     for (const Figure::Label& label : panel.labels) {
-      Line("set label {} at {},{} {}{}", terminal_.Text(label.text), label.x, label.y,
+      Line("set label {} at {}/x_unit,{}/y_unit {}{}", terminal_.Text(label.text), label.x, label.y,
            terminal_.characters() ? "center front offset 0,1"
            : many                 ? "left rotate by 90 offset 0,0.4"
                                   : "center offset 0,0.6",
            terminal_.Font(9));
     }
-    if (many) Offsets(0.55);
+    if (many) Offsets(0.65);
   }
 
   void DottedLines(const Figure::Panel& panel) {
     for (const double y : panel.dotted_lines) {
       Line(
-          "set arrow from graph 0, first {0} to graph 1, first {0} nohead front lc rgb '#444444' "
-          "lw 1.5 dt 3",
+          "set arrow from graph 0, first {0}/y_unit to graph 1, first {0}/y_unit nohead front "
+          "lc rgb '#444444' lw 1.5 dt 3",
           y);
     }
   }
 
-  void Curves(const Figure::Panel& panel) {
-    const bool few = std::ranges::count_if(panel.curves, [](const Figure::Curve& curve) {
-                       return !curve.label.empty();
-                     }) <= kMostKeys;
-    std::string_view separator = "plot ";
-    for (const Figure::Curve& curve : panel.curves) {
-      text_ += fmt::format("{}$curve{} with {} ", separator, ++drawn_,
-                           terminal_.characters() ? CharacterStyle(curve) : ColouredStyle(curve));
-      const bool keyed = !curve.label.empty() && (few || curve.mark != Figure::Mark::kDashed);
-      text_ += keyed ? "title " + terminal_.Text(curve.label) : "notitle";
-      separator = ", \\\n     ";
-    }
-    text_ += '\n';
-  }
-
-  const GnuplotTerminal terminal_;
+  const GnuplotTerminal& terminal_;
   std::string text_;
-  int written_ = 0;  // Data blocks that the script has.
-  int drawn_ = 0;    // Data blocks that are drawn.
+  std::size_t written_ = 0;  // Data blocks that the script has.
+  std::size_t drawn_ = 0;    // Data blocks that are drawn.
 };
+
+// The points of all curves if none has more than `most`.
+std::size_t CountPoints(const Figure& figure, std::size_t most) {
+  std::size_t points = 0;
+  for (const Figure::Panel& panel : figure.panels) {
+    for (const Figure::Curve& curve : panel.curves) points += std::min(curve.x.size(), most);
+  }
+  return points;
+}
+
+// Points of a curve that a reader can see: about five for each pixel of the width, and fewer where
+// many curves are that long.
+std::size_t MostPoints(const Figure& figure) {
+  constexpr std::size_t kLeast = 20;
+  constexpr std::size_t kInAll = 100'000;
+  std::size_t most = 4000;
+  while (most > kLeast && CountPoints(figure, most) > kInAll) most = most * 3 / 4;
+  return most;
+}
 
 }  // namespace
 
 std::string GnuplotScript(Figure figure, const GnuplotTerminal& terminal, const std::string& path) {
-  constexpr std::size_t kMostPoints = 4000;  // Of a curve: about five for each pixel of its width.
-  Thin(kMostPoints, &figure);
+  KeepLargest(&figure);
+  Thin(MostPoints(figure), &figure);
   return Script(terminal).Write(figure, path);
 }
 

@@ -86,6 +86,20 @@ Candidates Channels(const Settings& settings, const TypedWords& typed) {
   return channels;
 }
 
+// Contacts have a column each of this quantity.
+Candidates Contacts(const Settings& settings, const TypedWords& typed) {
+  constexpr std::string_view kColumn = ".contact_force";
+  const v1::Series series = AskOfJob(settings, typed, &Client::Stub::GetSeries);
+  Candidates contacts;
+  for (const auto& column : series.columns()) {
+    const std::string& name = column.name();
+    if (name.ends_with(kColumn)) {
+      contacts.push_back({name.substr(0, name.size() - kColumn.size()), ""});
+    }
+  }
+  return contacts;
+}
+
 Candidates Artifacts(const Settings& settings, const TypedWords& typed) {
   return Named(AskOfJob(settings, typed, &Client::Stub::GetJob).artifacts(), &v1::Artifact::name);
 }
@@ -197,6 +211,7 @@ Candidates Values(const CommandLine& line, const CLI::Option& option, const Type
   using Source = Candidates (*)(const Settings&, const TypedWords&);
   static const std::map<ValueKind, Source> kSources = {{ValueKind::kJob, Jobs},
                                                        {ValueKind::kChannel, Channels},
+                                                       {ValueKind::kContact, Contacts},
                                                        {ValueKind::kArtifact, Artifacts},
                                                        {ValueKind::kMetric, Metrics},
                                                        {ValueKind::kState, States},

@@ -8,12 +8,10 @@
 #include <iterator>
 #include <utility>
 
-#include "cli/figures/presets.h"
+#include "cli/figures/run/presets.h"
 
 namespace contact::cli {
 namespace {
-
-constexpr int kNeutral = 5;  // The colour of the bands, which no model has.
 
 // Adds the curves of one run to a panel, in the colour and under the name of the run.
 void AddRun(Figure::Panel&& drawn, const std::string& name, int colour, Figure::Panel* panel) {
@@ -58,7 +56,9 @@ Figure ColumnsFigure(const Data& data, const std::string& y_label,
     }
     panel.curves.push_back(std::move(curve));
   }
-  return {"", {std::move(panel)}};
+  Figure figure{"", {std::move(panel)}};
+  figure.most_colours = labels.size();
+  return figure;
 }
 
 void AddIdeal(Figure* figure) {
@@ -81,8 +81,8 @@ Figure ModelsFigure(const std::string& preset, const std::vector<const Solved*>&
                     const std::vector<std::string>& names) {
   Figure figure = PresetFigure(preset, *runs.back());
   Figure::Panel& panel = figure.panels.front();
-  for (Figure::Band& band : panel.bands) band.colour = kNeutral;
   panel.curves.clear();
+  panel.dashed.clear();
   figure.sources.clear();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Figure::Panel drawn = std::move(PresetFigure(preset, *runs[i]).panels.front());

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "cli/figures/presets.h"
+#include "cli/figures/run/presets.h"
 #include "cli/paper/cases.h"
 #include "cli/paper/items.h"
 

@@ -16,12 +16,12 @@ namespace {
 std::string_view Placeholder(ValueKind kind) {
   static const std::map<ValueKind, std::string_view> kPlaceholders = {
       {ValueKind::kJob, "JOB"},           {ValueKind::kChannel, "NAME"},
-      {ValueKind::kArtifact, "ARTIFACT"}, {ValueKind::kMetric, "METRIC"},
-      {ValueKind::kState, "STATE"},       {ValueKind::kEventKind, "KIND"},
-      {ValueKind::kTemplate, "TEMPLATE"}, {ValueKind::kLaw, "LAW"},
-      {ValueKind::kPaperItem, "ITEM"},    {ValueKind::kConfigKey, "KEY"},
-      {ValueKind::kProfile, "PROFILE"},   {ValueKind::kCommand, "COMMAND"},
-      {ValueKind::kResultWord, "WORD"},   {ValueKind::kAssignment, "FIELD=VALUE"},
+      {ValueKind::kContact, "CONTACT"},   {ValueKind::kArtifact, "ARTIFACT"},
+      {ValueKind::kMetric, "METRIC"},     {ValueKind::kState, "STATE"},
+      {ValueKind::kEventKind, "KIND"},    {ValueKind::kTemplate, "TEMPLATE"},
+      {ValueKind::kLaw, "LAW"},           {ValueKind::kPaperItem, "ITEM"},
+      {ValueKind::kConfigKey, "KEY"},     {ValueKind::kProfile, "PROFILE"},
+      {ValueKind::kCommand, "COMMAND"},   {ValueKind::kAssignment, "FIELD=VALUE"},
       {ValueKind::kScenarioFile, "FILE"}, {ValueKind::kFile, "FILE"},
       {ValueKind::kDirectory, "DIR"}};
   const auto found = kPlaceholders.find(kind);
@@ -54,6 +54,24 @@ void AddPrinting(CommandLine& line) {
   line.SetWords(progress, {"auto", "bar", "plain", "json", "none"})
       ->type_name("HOW")
       ->capture_default_str();
+}
+
+// Takes the value of -o of a command that draws a figure.
+void TakeFigureOutput(CommandLine& line, CLI::App& command, const std::string& value) {
+  if (FormatOfFile(value, kFigure)) {
+    command.get_option("--file")->add_result(value);
+    return;
+  }
+  if (!FindFormat(value)) {
+    const std::vector<std::string> formats = FormatNames(kFigure);
+    throw CLI::ValidationError(
+        "-o", WithHint(fmt::format("{} is neither one of {} nor a file that ends in {}", value,
+                                   Braced(formats), FormatEndings(kFigure)),
+                       DidYouMean(value, {formats.begin(), formats.end()})));
+  }
+  CLI::Option* output = line.app().get_option("--output");
+  output->add_result(value);
+  output->run_callback();
 }
 
 }  // namespace
@@ -143,6 +161,19 @@ CLI::Option* AddDestination(CommandLine& line, CLI::App& command, const std::str
   alias->group("");
   line.SetKind(alias, ValueKind::kFile);
   return line.SetKind(command.add_option(names, *path, about), ValueKind::kFile);
+}
+
+void AddFigureFile(CommandLine& line, CLI::App& command, std::string* path,
+                   const std::string& about) {
+  // Added before --file, so that the parser runs that after it, with the value handed on.
+  CLI::Option* output = command.add_option_function<std::string>(
+      "-o,--output",
+      [&line, &command](const std::string& value) { TakeFigureOutput(line, command, value); });
+  line.SuggestWords(output, FormatNames(kFigure))->group("");
+  line.SetKind(command.add_option("-f,--file", *path,
+                                  about + ". The ending tells the format, .tex being tikz, unless "
+                                          "-o names one; -o with such a file is the same as -f"),
+               ValueKind::kFile);
 }
 
 }  // namespace contact::cli

@@ -18,6 +18,7 @@ enum class ValueKind {
   kWord,          ///< One of CommandLine::WordsOf.
   kJob,           ///< A job of the server.
   kChannel,       ///< A channel of the job that the line names.
+  kContact,       ///< A contact of that job.
   kArtifact,      ///< An artifact of the job that the line names.
   kMetric,        ///< A metric of the sweep that the line names.
   kState,         ///< A state of jobs.
@@ -120,5 +121,11 @@ void AddJob(CommandLine& line, CLI::App& command, std::string* job);
 /// makes no file of this name. Returns the flag.
 CLI::Option* AddDestination(CommandLine& line, CLI::App& command, const std::string& names,
                             std::string* path, const std::string& about);
+
+/// Adds the flags of a command that draws a figure: `-f,--file`, the path, of which `about` says
+/// what it is by default; and a second spelling of the global -o, which takes a format, as it does
+/// elsewhere, or a path that ends as a figure does. The help of -f tells both.
+void AddFigureFile(CommandLine& line, CLI::App& command, std::string* path,
+                   const std::string& about);
 
 }  // namespace contact::cli

@@ -9,7 +9,7 @@
 #include "cli/base/text_file.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
-#include "cli/figures/presets.h"
+#include "cli/figures/run/presets.h"
 #include "cli/figures/run_report.h"
 #include "cli/link/connect.h"
 #include "cli/link/find_job.h"
@@ -46,6 +46,7 @@ std::optional<Figure> TryFigure(Make make) {
 std::vector<std::string> DrawAll(const Recording& recording) {
   std::vector<std::string> figures;
   for (const std::string& preset : PresetNames()) {
+    if (preset == "displacement") continue;  // The page has the positions.
     std::optional<Figure> figure = TryFigure([&] { return PresetFigure(preset, recording); });
     if (!figure) continue;
     figure->title = preset;

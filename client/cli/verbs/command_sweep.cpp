@@ -137,8 +137,9 @@ void AddShowing(CommandLine& line, CLI::App& command,
                 const std::shared_ptr<SweepArguments>& arguments,
                 ExitCode (*act)(const SweepArguments&, const Settings&)) {
   arguments->map.AddTo(line, command);
-  AddOption(line, command, "--heatmap", &arguments->heat_map, ValueKind::kFile,
-            "Draw it to this file too, through gnuplot: .svg, .png, .pdf or .tex");
+  AddOption(line, command, "--heatmap,--plot", &arguments->heat_map, ValueKind::kFile,
+            "Draw the heat map, or of one axis a line, to this file too, through gnuplot: .svg, "
+            ".png, .pdf or .tex");
   arguments->columns.AddTo(line, command);
   command.add_flag("--comments", arguments->comments, kCommentsAbout);
   line.SetAction(command, arguments, act);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/base/message.h"
+#include "cli/figures/draw.h"
 #include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/link/connect.h"
 #include "cli/link/find_job.h"
@@ -73,11 +74,17 @@ ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
     arguments.map.Draw(job, cells, arguments.file);
     return ExitCode::kOk;
   }
+  if (job.sweep().axes_size() == 1) {
+    Settings characters = settings;
+    characters.SetOutput(NameOf(OutputFormat::kText));
+    WriteFigure(arguments.map.Line(job, cells), "line", "", characters);
+    return ExitCode::kOk;
+  }
   const std::string text = arguments.map.Text(job.sweep(), cells, settings.OutputStyle());
   if (text.empty()) {
     throw Failure(ExitCode::kUsage,
                   "a heat map is of a grid of two axes that fits into the terminal; -f draws a "
-                  "larger one");
+                  "larger one, and of one axis a line");
   }
   fmt::print("{}", text.substr(1));  // Without the empty line that separates it from a table.
   return ExitCode::kOk;
@@ -86,12 +93,15 @@ ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
 }  // namespace
 
 void AddSweepCell(CommandLine& line, CLI::App& sweep) {
-  CLI::App* map = sweep.add_subcommand("heatmap", "Show a metric over two axes");
+  CLI::App* map = sweep.add_subcommand(
+      "heatmap", "Show a metric over two axes as a map, over one as a line; also called plot");
+  map->alias("plot");
   auto drawn = std::make_shared<HeatMapArguments>();
   AddJob(line, *map, &drawn->job);
   AddDestination(
       line, *map, "-f,--file", &drawn->file,
-      "Draw it to this file through gnuplot: .svg, .png, .pdf or .tex. Default: print it");
+      "Draw it to this file through gnuplot: .svg, .png, .pdf or .tex, a line as .txt, .gp or .csv "
+      "too. Default: print it");
   drawn->map.AddTo(line, *map);
   line.SetAction(*map, drawn, DrawMap);
 

@@ -85,9 +85,7 @@ void AddLawPlot(CommandLine& line, CLI::App& model) {
   AddOption(line, *plot, "LAW", &arguments->laws, ValueKind::kLaw,
             "Laws to draw, such as hunt-crossley. Default: all with a closed form, for which no "
             "server is needed");
-  AddOption(line, *plot, "-f,--file", &arguments->file, ValueKind::kFile,
-            "Where to; without -o its ending tells the format, .tex being tikz. Default: WHAT.svg; "
-            "txt is printed");
+  AddFigureFile(line, *plot, &arguments->file, "Where to. Default: WHAT.svg; txt is printed");
   line.SetAction(*plot, arguments, Plot);
 }
 

@@ -49,7 +49,7 @@ void serialize(Archive& archive, ContactState::Peak& p) {
 
 template <class Archive>
 void serialize(Archive& archive, ContactState& c) {
-  archive(c.phase, c.gap, c.cycles, c.last_mu, c.largest_work, c.settled);
+  archive(c.phase, c.gap, c.cycles, c.last_mu, c.largest_work, c.settled, c.duration);
   archive(c.work, c.external_work, c.column, c.peak, c.cycle);
   archive(c.encounter, c.member);
 }
@@ -74,6 +74,11 @@ void serialize(Archive& archive, Samples& s) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Sampling& s) {
+  archive(s.pending, s.regular, s.last);
+}
+
+template <class Archive>
 void serialize(Archive& archive, GroupId& id) {
   archive(id.contact, id.encounter, id.place);
 }
@@ -91,7 +96,7 @@ void serialize(Archive& archive, RunState& s) {
   archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
   archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
   archive(s.growths, s.growths_no_progress, s.solved_until);
-  archive(s.unknowns, s.warned, s.missed, s.samples);
+  archive(s.unknowns, s.warned, s.missed, s.sampling);
 }
 
 namespace {

@@ -9,6 +9,13 @@
 
 namespace contact {
 
+/// How far the trajectory is recorded.
+struct Sampling {
+  Samples pending;           ///< Taken and not reported yet; `first` is theirs.
+  std::int64_t regular = 0;  ///< Samples at multiples of the interval so far.
+  double last = 0;           ///< Time of the last sample [s].
+};
+
 /// All that a run needs to go on from an instant between two episodes as if it had never stopped.
 struct RunState {
   State state;
@@ -24,7 +31,7 @@ struct RunState {
   std::vector<Unknown> unknowns;  ///< What is known of groups that begin later.
   std::vector<bool> warned;       ///< Contacts of which a warning was given.
   std::vector<bool> missed;       ///< Laws of which a miss was told.
-  Samples samples;                ///< Taken and not reported yet; `first` is theirs.
+  Sampling sampling;
 };
 
 }  // namespace contact

@@ -139,14 +139,16 @@ double Columns(const Scenario& scenario) {
          4 * static_cast<double>(scenario.contacts.size());
 }
 
-double Rows(const Scenario& scenario) {
+double Rows(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   if (scenario.sample_interval == 0) return 0;
-  return 1 + std::floor(scenario.end_time / scenario.sample_interval * (1 + 1e-12));
+  double in_cycles = 0;
+  for (const Cycles& c : cycles) in_cycles += c.count * scenario.samples_per_contact;
+  return 1 + std::floor(scenario.end_time / scenario.sample_interval * (1 + 1e-12)) +
+         std::min(std::round(in_cycles), static_cast<double>(scenario.most_contact_samples));
 }
 
 // What they take as events, headers of chunks included.
-double SampleBytes(const Scenario& scenario) {
-  const double samples = Rows(scenario);
+double SampleBytes(const Scenario& scenario, double samples) {
   return Columns(scenario) *
          (samples * sizeof(double) + std::ceil(samples / kSamplesPerChunk) * kColumnBytes);
 }
@@ -185,8 +187,8 @@ RunEstimate EstimateRunOf(const Scenario& scenario) {
   const std::vector<Cycles> cycles = Expect(scenario);
   RunEstimate estimate;
   estimate.steps = Steps(scenario, cycles);
-  estimate.samples = Rows(scenario);
-  estimate.sample_bytes = SampleBytes(scenario);
+  estimate.samples = Rows(scenario, cycles);
+  estimate.sample_bytes = SampleBytes(scenario, estimate.samples);
   estimate.ledger_bytes = LedgerBytes(cycles);
   estimate.memory_bytes = Memory(scenario, cycles);
   estimate.sample_seconds = kValueSeconds * estimate.samples * Columns(scenario);

@@ -9,7 +9,8 @@ namespace contact {
 struct RunEstimate {
   /// Integration steps of all passes.
   double steps = 0;
-  /// Rows of the trajectory; exact if the run reaches its end.
+  /// Rows of the trajectory; exact if the run reaches its end and cycles have no samples of their
+  /// own.
   double samples = 0;
   /// Size of these rows as events, with the headers of their chunks [byte].
   double sample_bytes = 0;

@@ -129,6 +129,10 @@ struct Scenario {
   SolverOptions solver;           ///< How it is solved.
   double end_time = 0;            ///< [s], > 0.
   double sample_interval = 0;     ///< [s], > 0; 0: record no trajectory.
+  /// Samples in each cycle beside those at multiples of the interval, ≥ 0.
+  int samples_per_contact = 0;
+  /// Most of these samples in the whole run, ≥ 0.
+  std::int64_t most_contact_samples = std::numeric_limits<std::int64_t>::max();
 };
 
 /// "Not known", for numbers.

@@ -27,6 +27,8 @@ struct ContactState {
   double largest_work = 0;
   /// Whether the last cycle was too weak to iterate.
   bool settled = false;
+  /// Expected duration of the running cycle [s]; 0: unknown.
+  double duration = 0;
   /// W since the start of the running cycle [J], (W1).
   double work = 0;
   /// E since the start of the running cycle [J], (W3); only of a recording.
@@ -200,6 +202,8 @@ class Motion {
   void SetRestingScale(int contact);
   /// A first step for a cycle [s]: a small part of its duration.
   double FirstStep(int contact) const;
+  /// The duration of a cycle that starts [s], from its scales; 0: they are unknown.
+  double ExpectedDuration(int contact) const;
   /// Computes a step that keeps the tolerance. False: none is short enough.
   bool TakeStep(double until);
   /// Length and warp of the step to try next.

@@ -99,6 +99,7 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   }
   if (collides) touch_time_ = time_;
   ShiftAtJump(contact, 1);
+  state.duration = ExpectedDuration(contact);
   if (state.settled) SetRestingScale(contact);
   const double first = FirstStep(contact);
   next_step_ = next_step_ == 0 ? first : std::min(next_step_, first);
@@ -142,6 +143,13 @@ double Motion::FirstStep(int contact) const {
   }
   const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
   return stiffness > 0 ? 0.1 / std::sqrt(stiffness / mass) : std::numeric_limits<double>::max();
+}
+
+// Three times the largest δ − δ_s over the largest |δ̇|: Hertz's elastic impact takes 2.94 of these,
+// a swing about the load's equilibrium π. Damping makes it longer.
+double Motion::ExpectedDuration(int contact) const {
+  const double length = deformation_scale_[At(contact)], speed = velocity_scale_[At(contact)];
+  return length > 0 && speed > 0 ? 3 * length / speed : 0;
 }
 
 void Motion::Apply(const Found& found, CycleHost& host) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "wire/rules/rules.h"
 #include "wire/scenario/body_codec.h"
@@ -131,6 +132,19 @@ double DecodeSampleInterval(const v1::Scenario& message, const ScenarioLimits& l
   return output.ledger_only() ? 0 : interval;
 }
 
+// What is recorded of the trajectory. Samples in contacts are as many as those at equal intervals
+// leave of the limit.
+void DecodeOutput(const v1::Scenario& message, const ScenarioLimits& limits, const Rules& rules,
+                  Scenario* scenario) {
+  constexpr double kMost = 1e15;  // Exact as a number.
+  scenario->sample_interval = DecodeSampleInterval(message, limits, rules);
+  scenario->samples_per_contact =
+      static_cast<int>(rules.Read(message.output(), v1::Output::kSamplesPerContactFieldNumber));
+  const double left = static_cast<double>(limits.max_samples) - 1 -
+                      std::floor(message.end_time_s() / scenario->sample_interval);
+  scenario->most_contact_samples = left > 0 ? static_cast<std::int64_t>(std::min(left, kMost)) : 0;
+}
+
 // Checks how much there is before anything is allocated for it.
 void CheckCounts(const v1::Scenario& message, const ScenarioLimits& limits,
                  std::vector<Violation>* violations) {
@@ -167,7 +181,7 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   scenario.loads = DecodeLoads(message, scenario.bodies, names, violations);
   scenario.solver = DecodeSolver(message.solver(), Rules(violations, "solver"));
   RequireSplitSolvable(scenario, Rules(violations, "solver"));
-  scenario.sample_interval = DecodeSampleInterval(message, limits, Rules(violations, "output"));
+  DecodeOutput(message, limits, Rules(violations, "output"), &scenario);
   scenario.end_time = rules.Read(message, v1::Scenario::kEndTimeSFieldNumber);
   return decoded;
 }

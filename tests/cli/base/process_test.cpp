@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
+#include <filesystem>
+#include <string>
 #include <system_error>
 
 #include "base/file_descriptor.h"
@@ -41,6 +44,18 @@ TEST(Process, WordsReachTheProgramAsTheyAreWithoutAShell) {
 TEST(Process, OutputIsWholeHoweverLongItIs) {
   const auto text = OutputOf({"sh", "-c", "head -c 1000000 /dev/zero | tr '\\0' x"});
   EXPECT_EQ(text, std::string(1'000'000, 'x'));
+}
+
+TEST(Process, ErrorsGoWhereTheyAreSent) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("process_test." + std::to_string(getpid()));
+  const FileDescriptor file(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600));
+  ASSERT_GE(file.get(), 0);
+  WaitForProcess(StartProcess({"sh", "-c", "printf wrong >&2"}, {.errors = file.get()}));
+  std::array<char, 8> said{};
+  EXPECT_EQ(pread(file.get(), said.data(), said.size(), 0), 5);
+  EXPECT_STREQ(said.data(), "wrong");
+  std::filesystem::remove(path);
 }
 
 TEST(Process, OutputOfAProgramThatFailsIsNothing) {

@@ -37,6 +37,50 @@ TEST(AxisCommands, OneValueOfALogarithmicAxisHasADecadeOnBothSides) {
               AllOf(HasSubstr("set logscale y\n"), HasSubstr("set yrange [10:1000]\n")));
 }
 
+TEST(AxisCommands, LogarithmicAxesEndAtWholeDecadesOfWhatIsAboveZero) {
+  Figure::Panel panel = Points({0, 1, 2, 3}, {30, 40, 0, -5});
+  panel.log_y = true;
+  EXPECT_THAT(AxisCommands(panel), HasSubstr("set yrange [10:100]\n"));
+  panel.curves[0].y = {-1, -2, 0, NAN};  // None has a place.
+  EXPECT_THAT(AxisCommands(panel), HasSubstr("set yrange [0.1:10]\n"));
+}
+
+TEST(AxisCommands, ManyDecadesHaveATicAtEveryNth) {
+  Figure::Panel panel = Points({0, 1}, {1e-17, 1e-5});
+  panel.log_y = true;
+  EXPECT_THAT(AxisCommands(panel), HasSubstr("set ytics 100\n"));
+  panel.curves[0].y = {1, 1e8};
+  EXPECT_THAT(AxisCommands(panel), HasSubstr("set ytics autofreq\n"));
+}
+
+TEST(AxisCommands, TicsHaveTheDigitsThatTellThemApart) {
+  EXPECT_THAT(AxisCommands(Points({0, 1}, {0, 0.2})), HasSubstr("set format y '%g'\n"));
+  EXPECT_THAT(AxisCommands(Points({0, 1}, {0.2, 0.2003})), HasSubstr("set format y '%g'\n"));
+  EXPECT_THAT(AxisCommands(Points({0, 1}, {500, 500.0002})), HasSubstr("set format y '%.10g'\n"));
+}
+
+TEST(AxisCommands, RangesAreInTheUnitsShown) {
+  Figure::Panel panel = Points({4e-3, 4e-3}, {2e-6, 2e-6});
+  panel.x_label = "time [s]";
+  panel.y_label = "deformation [m]";
+  const PanelUnits units = UnitsOf(panel);
+  EXPECT_EQ(units.x.label, "time [ms]");
+  EXPECT_EQ(units.y.label, "deformation [µm]");
+  EXPECT_THAT(AxisCommands(panel, units),
+              AllOf(HasSubstr("set xrange [2:6]\n"), HasSubstr("set yrange [1:3]\n")));
+}
+
+TEST(UnitsOf, NamedUnitsWinAndLogarithmicAxesKeepTheirs) {
+  Figure::Panel panel = Points({0, 1e-3}, {1e-6, 2e-3});
+  panel.x_label = "time [s]";
+  panel.y_label = "deformation [m]";
+  EXPECT_EQ(UnitsOf(panel, {"kN", "mm"}).y.label, "deformation [mm]");
+  EXPECT_EQ(UnitsOf(panel, {"kN", "mm"}).x.label, "time [ms]");
+  panel.log_y = true;
+  EXPECT_EQ(UnitsOf(panel).y.label, "deformation [m]");
+  EXPECT_EQ(UnitsOf(panel, {"um"}).y.label, "deformation [µm]");
+}
+
 TEST(AxisCommands, ValuesThatAreNoNumbersDoNotMoveTheRange) {
   EXPECT_THAT(AxisCommands(Points({4, NAN}, {NAN, 1})),
               AllOf(HasSubstr("set xrange [2:6]\n"), Not(HasSubstr("nan"))));

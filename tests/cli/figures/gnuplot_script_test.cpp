@@ -1,5 +1,6 @@
 #include "cli/figures/gnuplot_script.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -98,40 +99,114 @@ TEST(GnuplotScript, CountedAxesHaveATicForEachWholeNumberWhileTheyAreFew) {
   EXPECT_THAT(Script(figure), HasSubstr("set xtics autofreq\n"));
 }
 
-TEST(GnuplotScript, MarksAreExplainedOnceUnlessTheKeyNamesThem) {
+TEST(GnuplotScript, NoteStandsOnceBelow) {
   Figure figure = Plain();
+  figure.panels.push_back(figure.panels[0]);
   EXPECT_THAT(Script(figure), Not(HasSubstr("o start")));
-  figure.panels[0].curves.push_back({"", 0, Figure::Mark::kStart, {1}, {1}});
-  EXPECT_EQ(Count(Script(figure), "o start, × end"), 1);
-  figure.panels[0].curves.back().label = "start";
-  EXPECT_THAT(Script(figure), Not(HasSubstr("o start")));
+  figure.note = "o start, × end";
+  EXPECT_EQ(Count(Script(figure), "set label 'o start, × end'"), 1);
+  EXPECT_EQ(Count(Script(figure, kTxt), "set label 'o start, × end'"), 1);
 }
 
-TEST(GnuplotScript, DashedCurvesLeaveTheKeyWhenItIsFull) {
+TEST(GnuplotScript, DashedCurvesShareAnEntryWhenTheKeyIsFull) {
   Figure figure = Plain();
+  figure.panels[0].dashed = "beside";
   figure.panels[0].curves.push_back({"dashed", 0, Figure::Mark::kDashed, {1}, {1}});
-  EXPECT_THAT(Script(figure), HasSubstr("title 'dashed'"));
-  for (int i = 0; i < 7; ++i) figure.panels[0].curves.push_back(figure.panels[0].curves[0]);
-  EXPECT_THAT(Script(figure), Not(HasSubstr("title 'dashed'")));
+  EXPECT_THAT(Script(figure), AllOf(HasSubstr("title 'dashed'"), Not(HasSubstr("'beside'"))));
+  for (int i = 0; i < 9; ++i) figure.panels[0].curves.push_back(figure.panels[0].curves[0]);
+  const std::string script = Script(figure);
+  EXPECT_THAT(script, Not(HasSubstr("title 'dashed'")));
+  EXPECT_EQ(Count(script, "title 'beside'"), 1);
+}
+
+TEST(GnuplotScript, OfManyCurvesTheKeyHasTenAndHowManyMore) {
+  Figure figure = Plain();
+  auto& curves = figure.panels[0].curves;
+  for (int i = 1; i < 100; ++i) {
+    curves.push_back({fmt::format("c{}", i), i, Figure::Mark::kLine, {0, 1}, {0, 1.0 * i}});
+  }
+  const std::string script = Script(figure);
+  EXPECT_EQ(Count(script, " title 'c"), 10);
+  EXPECT_THAT(script, AllOf(HasSubstr("title 'c99'"), HasSubstr("title 'c90'"),
+                            Not(HasSubstr("title 'c89'")), HasSubstr("title '90 smaller'")));
+  EXPECT_EQ(Count(script, "lw 0.5 lc rgb '#c4c4c4' notitle"), 90);
+  EXPECT_LT(script.find("notitle"), script.find("title 'c90'"));  // Behind the others.
+  const std::string characters = Script(figure, kTxt);
+  EXPECT_THAT(characters, HasSubstr("title '90 smaller: not shown'"));
+  EXPECT_EQ(Count(characters, "using"), 10);
+}
+
+TEST(GnuplotScript, BandsAreOneShadeThatTheKeyNames) {
+  Figure figure = Plain();
+  figure.panels[0].bands = {{0, 1}, {1.5, 2}};
+  figure.panels[0].band_label = "in contact";
+  const std::string script = Script(figure);
+  EXPECT_EQ(Count(script, "fillcolor rgb '#ececec' fillstyle solid noborder\n"), 2);
+  EXPECT_EQ(Count(script, "fillcolor rgb '#ececec' title 'in contact'"), 1);
+  EXPECT_THAT(Script(figure, kTxt), Not(HasSubstr("in contact")));  // It draws no bands.
+}
+
+TEST(GnuplotScript, KeyHasFewerColumnsTheLongerItsTexts) {
+  Figure figure = Plain();
+  EXPECT_THAT(Script(figure), HasSubstr("set key maxcols 9\n"));
+  figure.panels[0].curves[0].label = std::string(40, 'x');
+  EXPECT_THAT(Script(figure), HasSubstr("set key maxcols 2\n"));
+}
+
+TEST(GnuplotScript, EverythingInAPanelIsInItsUnits) {
+  Figure figure = Plain();
+  Figure::Panel& panel = figure.panels[0];
+  panel.curves[0].x = {0, 1e-3, 2e-3};
+  panel.curves[0].y = {0, 3e4, 0};
+  panel.bands = {{1e-3, 2e-3}};
+  panel.labels = {{1e-3, 3e4, "peak"}};
+  panel.dotted_lines = {7};
+  EXPECT_THAT(Script(figure),
+              AllOf(HasSubstr("x_unit = 1.000000e-03\ny_unit = 1.000000e+03\n"),
+                    HasSubstr("set xlabel 'time [ms]'"), HasSubstr("set ylabel 'force [kN]'"),
+                    HasSubstr("$curve1 using ($1/x_unit):($2/y_unit) with"),
+                    HasSubstr("from first 0.001/x_unit, graph 0 to first 0.002/x_unit, graph 1"),
+                    HasSubstr("set label 'peak' at 0.001/x_unit,30000/y_unit"),
+                    HasSubstr("first 7/y_unit to graph 1, first 7/y_unit")));
+}
+
+TEST(GnuplotScript, StyleSaysWhatStandsAroundTheAxes) {
+  Figure figure = Plain();
+  figure.note = "note";
+  figure.sources = {{{"job", "jobs/a"}, {"scenario_sha256", "0123"}}};
+  const auto script = [&](const FigureStyle& style) {
+    return Script(figure, GnuplotTerminal(OutputFormat::kSvg, 80, style));
+  };
+  EXPECT_THAT(script({}), AllOf(HasSubstr("title 't'"), HasSubstr("set label 'jobs/a (0123)")));
+  EXPECT_THAT(script({.title = false}), Not(HasSubstr("title 't'")));
+  EXPECT_THAT(script({.provenance = false}),
+              AllOf(Not(HasSubstr("set label 'jobs/a")), HasSubstr("# job: jobs/a\n"),
+                    HasSubstr("set label 'note'")));
+  EXPECT_THAT(script({.paper = true}),
+              AllOf(Not(HasSubstr("title 't'")), Not(HasSubstr("set label 'jobs/a")),
+                    Not(HasSubstr("set grid")), HasSubstr("set label 'note'"),
+                    HasSubstr("lc rgb '#000000' title 'a'")));
+}
+
+// In a narrow figure a line would run into the other.
+TEST(GnuplotScript, NoteStandsAboveTheSourcesWhereThereIsNoRoomBeside) {
+  Figure figure = Plain();
+  figure.note = "o start, × end of a contact cycle";
+  figure.sources = {{{"job", "jobs/a"}, {"scenario_sha256", "0123456789ab"}, {"version", "1"}}};
+  EXPECT_THAT(Script(figure), HasSubstr("cycle' at screen 0.01,0.015 left"));
+  const GnuplotTerminal narrow(OutputFormat::kSvg, 80, {.size = FigureStyle::Size{2, 2}});
+  EXPECT_THAT(Script(figure, narrow), HasSubstr("cycle' at screen 0.01,0.05 left"));
 }
 
 TEST(GnuplotScript, CharactersHaveNoFontsBandsOrUprightLabels) {
   Figure figure = Plain();
-  figure.panels[0].bands = {{0, 1, 0}};
+  figure.panels[0].bands = {{0, 1}};
   figure.panels[0].labels.assign(5, {1, 1, "label"});
   EXPECT_THAT(Script(figure),
               AllOf(HasSubstr("rotate by 90"), HasSubstr("rectangle"), HasSubstr(" font ")));
   EXPECT_THAT(Script(figure, kTxt),
               AllOf(Not(HasSubstr("rotate by 90")), Not(HasSubstr("rectangle")),
                     Not(HasSubstr(" font ")), HasSubstr("set terminal dumb")));
-}
-
-TEST(GnuplotScript, ManyBandsAreFainterThanFew) {
-  Figure figure = Plain();
-  figure.panels[0].bands = {{0, 1, 0}};
-  EXPECT_THAT(Script(figure), HasSubstr("transparent solid 0.12 "));
-  for (int i = 1; i < 10; ++i) figure.panels[0].bands.push_back({0, 1, i});
-  EXPECT_THAT(Script(figure), HasSubstr("transparent solid 0.04 "));
 }
 
 TEST(GnuplotScript, LongCurvesAreThinnedAndKeepTheirPeak) {
@@ -144,6 +219,43 @@ TEST(GnuplotScript, LongCurvesAreThinnedAndKeepTheirPeak) {
   const std::string script = Script(figure);
   EXPECT_LT(std::ranges::count(script, '\n'), 4'100);
   EXPECT_THAT(script, HasSubstr("\n54321 7\n"));
+}
+
+TEST(GnuplotScript, ManyLongCurvesHaveFewerPointsEach) {
+  Figure figure = Plain();
+  auto& curves = figure.panels[0].curves;
+  for (int i = 0; i < 10'000; ++i) {
+    curves[0].x.push_back(i);
+    curves[0].y.push_back(i % 7);
+  }
+  while (curves.size() < 200) curves.push_back(curves[0]);
+  EXPECT_LT(std::ranges::count(Script(figure), '\n'), 110'000);
+}
+
+TEST(GnuplotTerminal, HasTheSizeAndFontOfTheStyle) {
+  const FigureStyle style{.size = FigureStyle::Size{4, 3}, .font = {"Times", 9}};
+  const auto terminal = [&](OutputFormat format) {
+    return GnuplotTerminal(format, 80, style).Terminal(5);
+  };
+  EXPECT_THAT(terminal(OutputFormat::kSvg),
+              AllOf(HasSubstr("size 400,300"), HasSubstr("font 'Times,12.5'")));
+  EXPECT_THAT(terminal(OutputFormat::kPng),
+              AllOf(HasSubstr("size 800,600"), HasSubstr("font 'Times,12.5'")));
+  EXPECT_THAT(terminal(OutputFormat::kPdf),
+              AllOf(HasSubstr("size 4in,3in"), HasSubstr("font 'Times,9'")));
+  EXPECT_THAT(terminal(OutputFormat::kTikz), HasSubstr("size 4in,3in"));
+  EXPECT_THAT(terminal(OutputFormat::kText), HasSubstr("size 40,14"));
+}
+
+TEST(GnuplotTerminal, PartsOfAFigureScaleWithItsFont) {
+  const GnuplotTerminal small(OutputFormat::kPdf, 80, {.font = {"", 5.5}});
+  EXPECT_EQ(small.Font(10), " font ',5'");
+  EXPECT_EQ(kSvg.Font(10), " font ',10'");
+}
+
+TEST(GnuplotTerminal, FigureForPaperIsAsWideAsAColumn) {
+  const GnuplotTerminal paper(OutputFormat::kPdf, 80, {.paper = true});
+  EXPECT_THAT(paper.Terminal(5), AllOf(HasSubstr("size 3.4in,2.55in"), HasSubstr("'Times,8'")));
 }
 
 TEST(GnuplotTerminal, PicksTheTerminalOfTheFormat) {

@@ -145,6 +145,39 @@ TEST(HeatMapScript, ManyCellsHaveNoNumbersAndFewTics) {
   EXPECT_THAT(script, AllOf(HasSubstr("'5' 4, "), Not(HasSubstr("'4' 3"))));  // Every second row.
 }
 
+// The places of the tics across, in units of a column.
+std::vector<int> TicsAcross(const std::string& script) {
+  const std::size_t begin = script.find("set xtics out nomirror (");
+  std::istringstream entries(script.substr(begin, script.find(')', begin) - begin));
+  std::vector<int> places;
+  for (std::string entry; std::getline(entries, entry, ',');) {
+    places.push_back(std::stoi(entry.substr(entry.rfind(' '))));
+  }
+  return places;
+}
+
+// At 100 columns of values such as 0.1069, twenty of them would overlap.
+TEST(HeatMapScript, TicsAcrossHaveRoomForTheirValuesAndRoundSteps) {
+  SweepCells cells = Grid(2, 100, [](int r, int c) { return r * c; });
+  for (auto& [index, cell] : cells) cell.set_values(1, 0.3 + 0.00697 * cell.values(1));
+  EXPECT_THAT(TicsAcross(Script(cells)), testing::ElementsAre(0, 20, 40, 60, 80));
+  for (auto& [index, cell] : cells) cell.set_values(1, index % 100);
+  const std::vector<int> more = TicsAcross(Script(cells));
+  EXPECT_EQ(more.at(1), 10);
+  EXPECT_EQ(more.size(), 10U);
+}
+
+TEST(HeatMapScript, LabelsAreWordsWithUnits) {
+  v1::Job job = Sweep();
+  job.mutable_sweep()->mutable_base()->add_bodies()->set_name("ball");
+  const SweepCells cells = Grid(2, 2, [](int r, int c) { return r + c; });
+  const std::string script =
+      HeatMapScript(job, cells, HeatScale(cells, 0, false), false, kSvg, "m");
+  EXPECT_THAT(script, AllOf(HasSubstr("set ylabel 'mass of ball [kg]'"),
+                            HasSubstr("set xlabel 'restitution of contacts[0] [1]'"),
+                            HasSubstr("set cblabel 'iterations'")));
+}
+
 TEST(HeatMapScript, ContoursNeedTwoValuesAndTwoRows) {
   EXPECT_THAT(Script(Grid(3, 3, [](int r, int c) { return r + c; }), true), HasSubstr("$contours"));
   EXPECT_THAT(Script(Grid(3, 3, [](int, int) { return 1; }), true), Not(HasSubstr("$contours")));

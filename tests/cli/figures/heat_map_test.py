@@ -48,6 +48,21 @@ class HeatMapTest(CliTest):
         self.assertTrue(printed.startswith(f"{METRIC} over bodies[1].mass_kg (down)"), printed)
         self.assertIn(printed, self.run_it("sweep", "watch", job)[0])
 
+    def test_sweep_over_one_axis_is_a_line(self):
+        job = self.run_it("sweep", "run", CHAIN, "--grid", "contacts[*].restitution=0.5:0.9:5",
+                          "--metric", METRIC, "--heatmap", self.folder / "run.svg", "-o",
+                          "name")[0].strip()
+        drawn = self.draw(job, "line.svg")
+        self.assertEqual((self.folder / "run.svg").read_bytes(), drawn)
+        for text in (b"restitution of all contacts [1]", b"final velocity of B1"):
+            self.assertIn(text, drawn)
+        rows = self.draw(job, "line.csv").decode().splitlines()[1:]
+        self.assertEqual([round(float(row.split(",")[1]), 9) for row in rows],
+                         [0.5, 0.6, 0.7, 0.8, 0.9])
+        printed, said = self.run_it("sweep", "plot", job)
+        self.assertIn("final velocity of B1", printed)
+        self.assertEqual(said, "")
+
     def test_values_without_logarithm_are_told_and_have_no_colour(self):
         job = self.sweep("0.3:4:6", "0.3:0.9:4")
         negative = sum(value <= 0 for value, _ in self.cells(job))

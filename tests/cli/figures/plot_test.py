@@ -8,11 +8,12 @@ import unittest
 
 import numpy as np
 from PIL import Image
-from cli_case import CHAIN, SCENARIOS, CliTest
+from cli_case import CHAIN, SCENARIOS, SPRING, CliTest
+from contact.v1 import job_pb2
 from contactd import PATIENCE_S
 
-PRESETS = ("position", "velocity", "force", "deformation-velocity", "hysteresis", "restitution",
-           "iterations", "energy")
+PRESETS = ("position", "displacement", "velocity", "force", "deformation-velocity", "hysteresis",
+           "restitution", "iterations", "energy")
 UNDAMPED = "glass-balls", "iterations"  # Its μ is 0 without a search.
 
 
@@ -131,12 +132,114 @@ class PlotTest(CliTest):
 
     def test_marks_stand_where_cycles_start_and_end(self):
         curves = self.curves("deformation-velocity")
-        np.testing.assert_allclose(curves[" starts"],
-                                   [(c.start_time_s, c.approach_velocity_m_per_s)
-                                    for c in self.job.cycles], atol=1e-9)
-        np.testing.assert_allclose(curves[" ends"],
-                                   [(c.end_time_s, c.separation_velocity_m_per_s)
-                                    for c in self.job.cycles], atol=1e-5)
+        for c in self.job.cycles:
+            np.testing.assert_array_equal(curves[f"{c.contact} starts"],
+                                          [(c.start_time_s, c.approach_velocity_m_per_s)])
+            np.testing.assert_array_equal(curves[f"{c.contact} ends"],
+                                          [(c.end_time_s, c.separation_velocity_m_per_s)])
+
+    def test_loops_go_from_end_to_end_as_the_ledger_says(self):
+        self.name = self.submit(SPRING)
+        job = self.server.get(self.name)
+        curves = self.curves("hysteresis")
+        law = job.scenario.contacts[0]
+        for cycle in job.cycles:
+            if cycle.end == job_pb2.Cycle.RUN_END:
+                continue
+            name = law.name or cycle.contact
+            loop = curves[name if cycle.number == 1 else f"{name} #{cycle.number}"]
+            for point, delta in ((loop[0], cycle.delta_start_m), (loop[-1], cycle.delta_end_m)):
+                np.testing.assert_allclose(point, (delta, law.stiffness * delta ** 1.5),
+                                           rtol=1e-9, atol=1e-12)
+
+    def test_part_of_a_run_is_drawn_on_request(self):
+        whole = self.curves("velocity")
+        rows = self.plot("velocity", "part.csv", "--contacts", "B2-B3", "--from", "1e-3", "--to",
+                         "2e-3").decode()
+        self.assertNotIn("\nB1,", rows)
+        times = [float(row.split(",")[-2]) for row in rows.splitlines() if row.startswith("B2,")]
+        self.assertEqual((times[0], times[-1]), (1e-3, 2e-3))
+        self.assertLess(len(times), len(whole["B2"]))
+        self.assertIn("did you mean 'B1-B2'?",
+                      self.plot("force", "x.svg", "--contacts", "B1-B4", code=2))
+        self.assertIn("before", self.plot("force", "x.svg", "--from", "2", "--to", "1", code=2))
+
+    def test_channels_are_drawn_instead_of_a_preset(self):
+        path = self.folder / "channels.csv"
+        self.run_it("plot", self.name, "--channels", "B1.velocity,B1-B2.contact_force", "-f", path)
+        text = path.read_text("utf-8")
+        self.assertIn("curve,time [s],velocity [m/s]\nB1.velocity,0,", text)
+        self.assertIn("curve,time [s],contact force [N]\nB1-B2.contact_force,0,", text)
+        self.assertIn("did you mean 'B1.velocity'?",
+                      self.run_it("plot", self.name, "--channels", "B1.velocty", code=2)[1])
+        self.assertIn("do not go together",
+                      self.run_it("plot", self.name, "force", "--channels", "B1.velocity",
+                                  code=2)[1])
+        self.assertIn("say what to draw", self.run_it("plot", self.name, code=2)[1])
+
+    def test_figure_looks_as_it_is_asked_to(self):
+        plain = self.plot("force", "a.svg").decode()
+        self.assertIn("time [ms]", plain)
+        look = self.plot("force", "b.svg", "--size", "3x2", "--font", "Courier,9", "--no-title",
+                         "--no-provenance", "--unit", "us,kN").decode()
+        self.assertIn('width="300" height="200"', look)
+        for seen, there in (("Courier", True), ("time [µs]", True), ("force [kN]", True),
+                            ("<text>Triple-ball chain", False), (f"<text>{self.name}", False)):
+            self.assertEqual(seen in look, there, seen)
+        self.assertIn(f"job: {self.name}", look)  # In <desc>.
+        paper = self.plot("velocity", "c.svg", "--style", "paper").decode()
+        self.assertNotIn("<text>Triple-ball chain", paper)
+        colours = set(re.findall(r"stroke='rgb\(([ 0-9]+), *([ 0-9]+), *([ 0-9]+)\)'", paper))
+        self.assertTrue(all(len(set(map(int, colour))) == 1 for colour in colours), colours)
+        script = self.plot("force", "d.gp", "--log").decode()
+        self.assertIn("\nset logscale y\n", script)
+        for wrong in (("--unit", "kg"), ("--size", "big"), ("--font", "'"), ("--style", "nice")):
+            self.plot("force", "x.svg", *wrong, code=2)
+
+    def test_output_takes_a_format_or_a_file(self):
+        path = self.folder / "fig.pdf"
+        self.assertEqual(self.run_it("plot", self.name, "force", "-o", path)[0], f"{path}\n")
+        self.assertTrue(path.read_bytes().startswith(b"%PDF"))
+        for flag in ("-o", "--output"):
+            self.assertTrue(self.plot("force", "a.dat", flag, "png").startswith(b"\x89PNG"))
+        said = self.run_it("plot", self.name, "force", "-o", "fig.jpg", code=2)[1]
+        self.assertIn("fig.jpg is neither", said)
+        self.assertIn(".svg, .png", said)
+        self.assertIn("did you mean 'svg'?",
+                      self.run_it("plot", self.name, "force", "-o", "svgg", code=2)[1])
+        self.run_it("plot", self.name, "force", "-o", path, "-f", path, code=2)
+        law = self.folder / "law.svg"
+        self.run_it("model", "plot", "alpha", "-o", law)
+        self.assertIn("</svg>", law.read_text("utf-8"))
+
+    def test_many_contacts_are_legible(self):
+        name = self.submit(self.row(40))
+        for preset in ("force", "restitution", "velocity", "hysteresis"):
+            svg = self.plot(preset, "row.svg", name=name).decode()
+            left_out = re.findall(r"<text>(\d+) smaller</text>", svg)
+            self.assertEqual(set(left_out), {"30" if preset == "velocity" else "29"}, preset)
+            named = re.findall(r"<text>(C\d+|B\d+)( had)?</text>", svg)
+            self.assertEqual(len(named), 10, preset)
+
+    def row(self, balls):
+        path = self.folder / "row.yaml"
+        bodies = "".join(f"  - {{name: B{i}, mass_kg: 0.5, radius_m: 0.05, position_m: "
+                         f"{0.1 * i:.1f}, velocity_m_per_s: {0.2 if i == 0 else 0}}}\n"
+                         for i in range(balls))
+        contacts = "".join(f"  - {{name: C{i}, between: [B{i}, B{i + 1}], stiffness: 1e8, "
+                           "restitution: 0.9, damping: FLORES}\n" for i in range(balls - 1))
+        path.write_text(f"bodies:\n{bodies}contacts:\n{contacts}end_time_s: 0.04\n")
+        return path
+
+    def test_loops_of_a_short_contact_are_smooth_without_many_samples(self):
+        few = self.submit(SCENARIOS / "bouncing-ball.yaml", "--set", "output={}", "--set",
+                          "output.samples_per_contact=100")
+        self.name = few
+        cycle = self.server.get(few).cycles[0]
+        loop = self.curves("hysteresis")[cycle.contact]
+        self.assertGreater(len(loop), 80)
+        lost = cycle.work_compression_j + cycle.work_restitution_j
+        self.assertAlmostEqual(np.trapz(loop[:, 1], loop[:, 0]), lost, delta=2e-3 * lost)
 
     def test_energy_ends_at_the_kinetic_energy_of_the_summary(self):
         total = self.curves("energy")["sum"][:, 1]
@@ -189,6 +292,15 @@ class PlotTest(CliTest):
         self.assertIn("hysteresis", self.plot("histeresis", "x.svg", code=2))
         self.assertIn("/nowhere/x.svg: No such file",
                       self.run_it("plot", self.name, "force", "-f", "/nowhere/x.svg", code=11)[1])
+
+    def test_what_gnuplot_says_is_repeated_without_the_path_of_a_file_that_is_gone(self):
+        program = self.folder / "gnuplot"
+        program.write_text('#!/bin/sh\necho "\\"$2\\" line 3: warning: odd" >&2\n')
+        program.chmod(0o755)
+        run = subprocess.run(self.command("plot", self.name, "force", "-f", self.folder / "x.svg"),
+                             env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"},
+                             capture_output=True, text=True, timeout=PATIENCE_S)
+        self.assertEqual((run.returncode, run.stderr), (0, "gnuplot: line 3: warning: odd\n"))
 
     def test_missing_gnuplot_is_told_with_what_to_do(self):
         run = subprocess.run(self.command("plot", self.name, "force", "-f", self.folder / "x.svg"),

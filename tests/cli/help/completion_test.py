@@ -69,6 +69,8 @@ class CompletionTest(CliTest):
         self.assertEqual(self.offered("run", "-t", "newt")[0], ["newton-cradle"])
         self.assertEqual(self.offered("run", "")[1], ":scenarios")
         self.assertEqual(self.offered("plot", "--keep", "")[1], ":directories")
+        self.assertEqual(self.offered("plot", "x", "--style", "")[0], ["colour", "paper"])
+        self.assertEqual(self.offered("plot", "x", "force", "-o", "s")[0], ["svg"])
 
     def test_fields_are_those_of_the_scenario_named(self):
         chain = ("run", str(CHAIN), "--set")
@@ -89,6 +91,8 @@ class CompletionTest(CliTest):
         job = self.run_it("run", CHAIN, "-o", "name")[0].strip().removeprefix("jobs/")
         self.assertEqual(self.offered("describe", job[:2])[0], [job])
         self.assertIn("B3.velocity", self.offered("series", job, "--channel", "B3.")[0])
+        self.assertEqual(self.offered("plot", job, "force", "--contacts", "")[0],
+                         ["B1-B2", "B2-B3"])
         self.assertEqual(self.offered("--server", "127.0.0.1:1", "describe", "")[0], [])
 
     def test_lists_are_completed_at_their_last_entry(self):

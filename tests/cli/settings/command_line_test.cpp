@@ -151,6 +151,40 @@ TEST_F(DestinationTest, HelpShowsOnlyTheSpellingThatMeansAFileEverywhere) {
   EXPECT_THAT(help, Not(HasSubstr("-o")));
 }
 
+// A command that draws.
+class FigureFileTest : public testing::Test {
+ protected:
+  FigureFileTest() {
+    AddGlobalFlags(line_);
+    AddFigureFile(line_, *line_.app().add_subcommand("plot"), &path_, "Where to");
+  }
+
+  CommandLine line_{"A program."};
+  std::string path_;
+};
+
+TEST_F(FigureFileTest, OutputTakesAFormatOrAFile) {
+  EXPECT_EQ(Mistake(line_, "plot -o tikz -f fig.dat"), "");
+  EXPECT_EQ(line_.settings().output, OutputFormat::kTikz);
+  EXPECT_EQ(path_, "fig.dat");
+  EXPECT_GT(line_.app().get_option("--output")->count(), 0U);  // So no variable takes its place.
+}
+
+TEST_F(FigureFileTest, FileAfterOutputIsThatOfTheFlagForFiles) {
+  for (const char* words : {"plot -o fig.pdf", "plot --output fig.pdf", "plot -f fig.pdf"}) {
+    path_.clear();
+    EXPECT_EQ(Mistake(line_, words), "") << words;
+    EXPECT_EQ(path_, "fig.pdf") << words;
+    EXPECT_EQ(line_.settings().output, OutputFormat::kTable) << words;
+  }
+}
+
+TEST_F(FigureFileTest, WhatIsNeitherIsRefusedWithTheNearest) {
+  EXPECT_THAT(Mistake(line_, "plot -o fig.jpg"), HasSubstr("fig.jpg is neither"));
+  EXPECT_THAT(Mistake(line_, "plot -o pngg"), HasSubstr("did you mean 'png'?"));
+  EXPECT_NE(Mistake(line_, "plot -o a.svg -f b.svg"), "");
+}
+
 TEST_F(DestinationTest, OfAnotherCommandOutputIsTheFormat) {
   line_.app().add_subcommand("list");
   EXPECT_EQ(Mistake(line_, "list -o json"), "");

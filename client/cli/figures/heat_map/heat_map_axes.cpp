@@ -10,18 +10,37 @@
 
 #include "cli/base/number.h"
 #include "cli/figures/heat_map/contours.h"
+#include "cli/text/sweep/sweep_labels.h"
 
 namespace contact::cli {
 namespace {
 
-constexpr std::size_t kMostTics = 20;
+constexpr std::size_t kMostTics = 20;    // Of an axis that points down, and of colours.
+constexpr std::size_t kCharacters = 64;  // That stand beside each other below an axis.
 
-// The list of tics of an axis: value and place, every n-th where there are many.
-std::string Tics(const std::vector<double>& values) {
-  const std::size_t step = (values.size() + kMostTics - 1) / kMostTics;
+// A number of cells between two tics that people count in, at least this.
+std::size_t RoundStep(std::size_t least) {
+  for (std::size_t decade = 1;; decade *= 10) {
+    for (const std::size_t part : {1, 2, 5}) {
+      if (part * decade >= least) return part * decade;
+    }
+  }
+}
+
+// The list of tics of an axis: value and place, every n-th where there is no room for all.
+std::string Tics(const std::vector<double>& values, bool across) {
+  constexpr std::size_t kSpace = 2;  // Between two values.
+  std::vector<std::string> texts;
+  std::size_t longest = 0;
+  for (const double value : values) {
+    texts.push_back(Digits(value, 4));
+    longest = std::max(longest, texts.back().size());
+  }
+  const std::size_t most = across ? kCharacters / (longest + kSpace) : kMostTics;
+  const std::size_t step = RoundStep((values.size() + most - 1) / most);
   std::vector<std::string> tics;
   for (std::size_t i = 0; i < values.size(); i += step) {
-    tics.push_back(fmt::format("'{}' {}", Digits(values[i], 4), i));
+    tics.push_back(fmt::format("'{}' {}", texts[i], i));
   }
   return fmt::format("{}", fmt::join(tics, ", "));
 }
@@ -66,10 +85,10 @@ std::string HeatMapAxes(const v1::Sweep& sweep, const HeatScale& scale, const Sw
              "set xtics out nomirror ({})\nset ytics out nomirror ({})\n"
              "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [{}:{}]\n"
              "set label {} at screen 0.01,0.015{}\nunset key\n",
-             terminal.Text(sweep.base().title()), terminal.Text(sweep.axes(1).field()),
-             terminal.Text(sweep.axes(0).field()), terminal.Text(sweep.metrics(scale.metric())),
-             Tics(grid.columns()), Tics(grid.rows()),
-             static_cast<double>(grid.columns().size()) - 0.5,
+             terminal.Text(sweep.base().title()), terminal.Text(AxisLabel(sweep, 1)),
+             terminal.Text(AxisLabel(sweep, 0)),
+             terminal.Text(MetricLabel(sweep.metrics(scale.metric()))), Tics(grid.columns(), true),
+             Tics(grid.rows(), false), static_cast<double>(grid.columns().size()) - 0.5,
              static_cast<double>(grid.rows().size()) - 0.5, range.low, range.high,
              terminal.Text(Legend(scale)), terminal.Font(9)) +
          ColourTics(scale, range);

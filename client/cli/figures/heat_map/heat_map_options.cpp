@@ -13,6 +13,7 @@
 #include "cli/export/provenance.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/heat_map/heat_map.h"
+#include "cli/figures/heat_map/sweep_line.h"
 #include "cli/figures/provenance_stamp.h"
 #include "cli/text/sweep/render_heat_map.h"
 
@@ -33,12 +34,13 @@ OutputFormat FormatOfMap(const std::string& path) {
 }  // namespace
 
 void HeatMapOptions::AddTo(CommandLine& line, CLI::App& command) {
-  line.SetKind(command.add_option("--metric", metric_, "Of the heat map. Default: the first"),
+  line.SetKind(command.add_option("--metric", metric_, "What is drawn. Default: the first"),
                ValueKind::kMetric);
-  line.SetWords(command.add_option("--scale", scale_,
-                                   "Of the colours of the heat map: linear or log, which has none "
-                                   "for values <= 0"),
-                {"linear", "log"})
+  line.SetWords(
+          command.add_option("--scale", scale_,
+                             "Of the colours of the heat map, or the axis of the line: linear "
+                             "or log, which does not show values <= 0"),
+          {"linear", "log"})
       ->type_name("SCALE")
       ->capture_default_str();
   command.add_flag("--contour", contours_,
@@ -62,19 +64,36 @@ std::string HeatMapOptions::Text(const v1::Sweep& sweep, const SweepCells& cells
 }
 
 void HeatMapOptions::RequireDrawable(const v1::Sweep& sweep, const std::string& path) const {
-  FormatOfMap(path);
   MetricOf(sweep);
-  RequireMap(sweep);
+  if (sweep.axes_size() == 1) {
+    FormatOfFigure(path);
+  } else {
+    FormatOfMap(path);
+    RequireMap(sweep);
+  }
   RequireWritable(path);
+}
+
+Figure HeatMapOptions::Line(const v1::Job& job, const SweepCells& cells) const {
+  return SweepLineFigure(job, cells, MetricOf(job.sweep()), scale_ == "log");
 }
 
 void HeatMapOptions::Draw(const v1::Job& job, const SweepCells& cells,
                           const std::string& path) const {
+  if (job.sweep().axes_size() == 1) {
+    contact::cli::Draw(Line(job, cells), FormatOfFigure(path), path);
+  } else {
+    DrawMap(job, cells, path);
+  }
+  Tell("{}\n", path);
+}
+
+void HeatMapOptions::DrawMap(const v1::Job& job, const SweepCells& cells,
+                             const std::string& path) const {
   const OutputFormat format = FormatOfMap(path);
   const HeatScale scale(cells, MetricOf(job.sweep()), scale_ == "log");
   DrawScript(HeatMapScript(job, cells, scale, contours_, GnuplotTerminal(format), path), path);
   StampProvenance(format, path, job.sweep().base().title(), {SourceOf(job)});
-  Tell("{}\n", path);
 }
 
 }  // namespace contact::cli

@@ -1,10 +1,9 @@
-#include "cli/figures/sampling.h"
+#include "cli/figures/run/sampling.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 
 #include "cli/base/number.h"
 
@@ -16,22 +15,20 @@ std::ptrdiff_t SamplesIn(const v1::Cycle& cycle, const std::vector<double>& time
 }
 
 std::string CoarseSampling(const Recording& recording) {
-  constexpr double kEnoughSamples = 50;
+  constexpr int kEnoughSamples = 100;
   const SampleColumn* time = recording.Find("time");
   if (time == nullptr) return "";
-  double shortest = std::numeric_limits<double>::infinity();
   std::int64_t coarse = 0;
   for (const v1::Cycle& cycle : recording.job.cycles()) {
     if (cycle.end() == v1::Cycle::RUN_END) continue;
     if (SamplesIn(cycle, time->values) < kFewSamples) ++coarse;
-    shortest = std::min(shortest, cycle.end_time_s() - cycle.start_time_s());
   }
   if (coarse == 0) return "";
   return fmt::format(
       "{} fewer than {} samples, too few to show. For more:\n"
-      "  contactctl run --like {} --set output.sample_interval_s={:.0e}",
+      "  contactctl run --like {} --set output.samples_per_contact={}",
       Count(coarse, "contact cycle has", "contact cycles have"), kFewSamples, recording.job.name(),
-      shortest / kEnoughSamples);
+      kEnoughSamples);
 }
 
 }  // namespace contact::cli

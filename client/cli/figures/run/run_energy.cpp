@@ -1,4 +1,4 @@
-#include "cli/figures/run_energy.h"
+#include "cli/figures/run/run_energy.h"
 
 #include <algorithm>
 #include <cmath>

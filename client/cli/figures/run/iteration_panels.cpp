@@ -1,4 +1,4 @@
-#include "cli/figures/iteration_panels.h"
+#include "cli/figures/run/iteration_panels.h"
 
 #include <fmt/format.h>
 
