@@ -6,7 +6,7 @@
 
 namespace contact {
 
-const google::protobuf::EnumDescriptor* EnumAt(std::string_view path) {
+const google::protobuf::FieldDescriptor* FieldAt(std::string_view path) {
   const google::protobuf::Descriptor* message = v1::Scenario::descriptor();
   const google::protobuf::FieldDescriptor* field = nullptr;
   for (const PathStep& step : ParsePath(path, true)) {
@@ -14,7 +14,7 @@ const google::protobuf::EnumDescriptor* EnumAt(std::string_view path) {
     if (field == nullptr) return nullptr;
     message = field->message_type();
   }
-  return field == nullptr ? nullptr : field->enum_type();
+  return field;
 }
 
 const std::string& AxisName(const v1::Sweep::Axis& axis) {
@@ -23,8 +23,9 @@ const std::string& AxisName(const v1::Sweep::Axis& axis) {
 
 std::string_view AxisWord(const v1::Sweep::Axis& axis, double value) {
   constexpr double kMost = 1e6;  // More than any enum has.
-  const auto* type = std::abs(value) < kMost ? EnumAt(axis.field()) : nullptr;
-  const auto* word = type == nullptr ? nullptr : type->FindValueByNumber(static_cast<int>(std::lround(value)));
+  const auto* field = std::abs(value) < kMost ? FieldAt(axis.field()) : nullptr;
+  if (field == nullptr || field->enum_type() == nullptr) return {};
+  const auto* word = field->enum_type()->FindValueByNumber(static_cast<int>(std::lround(value)));
   return word == nullptr ? std::string_view() : std::string_view(word->name());
 }
 

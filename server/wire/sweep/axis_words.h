@@ -9,8 +9,8 @@
 
 namespace contact {
 
-/// The type of the field at a path in a scenario, if it is an enum; else null.
-const google::protobuf::EnumDescriptor* EnumAt(std::string_view path);
+/// The field at a path in a scenario, whether or not its entries are there; null if there is none.
+const google::protobuf::FieldDescriptor* FieldAt(std::string_view path);
 
 /// Name of an axis in tables and figures: its label, else its field.
 const std::string& AxisName(const v1::Sweep::Axis& axis);

@@ -10,6 +10,8 @@
 
 #include "cli/base/number.h"
 #include "cli/figures/heat_map/contours.h"
+#include "cli/text/sweep/axis_text.h"
+#include "wire/sweep/axis_words.h"
 
 namespace contact::cli {
 namespace {
@@ -17,11 +19,12 @@ namespace {
 constexpr std::size_t kMostTics = 20;
 
 // The list of tics of an axis: value and place, every n-th where there are many.
-std::string Tics(const std::vector<double>& values) {
+std::string Tics(const v1::Sweep::Axis& axis, const std::vector<double>& values,
+                 const GnuplotTerminal& terminal) {
   const std::size_t step = (values.size() + kMostTics - 1) / kMostTics;
   std::vector<std::string> tics;
   for (std::size_t i = 0; i < values.size(); i += step) {
-    tics.push_back(fmt::format("'{}' {}", Digits(values[i], 4), i));
+    tics.push_back(fmt::format("{} {}", terminal.Text(AxisText(axis, values[i], 4)), i));
   }
   return fmt::format("{}", fmt::join(tics, ", "));
 }
@@ -66,9 +69,10 @@ std::string HeatMapAxes(const v1::Sweep& sweep, const HeatScale& scale, const Sw
              "set xtics out nomirror ({})\nset ytics out nomirror ({})\n"
              "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [{}:{}]\n"
              "set label {} at screen 0.01,0.015{}\nunset key\n",
-             terminal.Text(sweep.base().title()), terminal.Text(sweep.axes(1).field()),
-             terminal.Text(sweep.axes(0).field()), terminal.Text(sweep.metrics(scale.metric())),
-             Tics(grid.columns()), Tics(grid.rows()),
+             terminal.Text(sweep.base().title()), terminal.Text(AxisName(sweep.axes(1))),
+             terminal.Text(AxisName(sweep.axes(0))), terminal.Text(sweep.metrics(scale.metric())),
+             Tics(sweep.axes(1), grid.columns(), terminal),
+             Tics(sweep.axes(0), grid.rows(), terminal),
              static_cast<double>(grid.columns().size()) - 0.5,
              static_cast<double>(grid.rows().size()) - 0.5, range.low, range.high,
              terminal.Text(Legend(scale)), terminal.Font(9)) +
