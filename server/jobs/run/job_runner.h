@@ -47,7 +47,7 @@ class JobRunner {
   /// Decodes the scenario, runs it, and adds advice on its time to the record.
   Transition SolveScenario(const StoredJob& spec, const Assignment& assignment,
                            LogWriter& writer) const;
-  /// Runs the scenario and puts its outcome into the record.
+  /// Runs the scenario and puts its outcome into the record, with advice on it.
   Outcome RunScenario(const Scenario& scenario, const StoredJob& spec, const Assignment& assignment,
                       LogWriter& writer) const;
   /// Goes on from the checkpoint of an earlier attempt, if there is one.
