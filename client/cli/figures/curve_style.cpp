@@ -34,6 +34,8 @@ std::string ColouredStyle(const Figure::Curve& curve) {
       return "points pt 2" + ending;
     case Figure::Mark::kLinePoints:
       return "linespoints lw 1.5 pt 6" + ending;
+    case Figure::Mark::kPoints:
+      return "points pt 7 ps 0.4" + ending;
   }
   return "lines" + ending;
 }
@@ -45,6 +47,7 @@ std::string CharacterStyle(const Figure::Curve& curve) {
   const int type = (curve.colour + (dashed ? kDashedShift : 0)) % kCharacters + 1;
   if (curve.mark == Figure::Mark::kStart) return fmt::format("points pt 'o' lt {}", type);
   if (curve.mark == Figure::Mark::kEnd) return fmt::format("points pt '×' lt {}", type);
+  if (curve.mark == Figure::Mark::kPoints) return fmt::format("points pt '+' lt {}", type);
   if (curve.mark == Figure::Mark::kLinePoints) return fmt::format("linespoints pt 'o' lt {}", type);
   return fmt::format("lines lt {}", type);
 }

@@ -20,6 +20,7 @@ struct Figure {
     kStart,       ///< A circle at each point: where cycles start.
     kEnd,         ///< A cross at each point: where cycles end.
     kLinePoints,  ///< A circle at each point, joined by lines.
+    kPoints,      ///< A small dot at each point.
   };
 
   /// Points (x, y) in the order in which they are joined; `x` and `y` have equal length.
