@@ -15,9 +15,11 @@ class BuildWithContract(build_py):
     def run(self):
         super().run()
         out = pathlib.Path(self.build_lib).resolve()
-        protos = sorted(str(path.relative_to(PROTO)) for path in PROTO.rglob("*.proto"))
+        protos = sorted(str(path.relative_to(PROTO)) for folder in ("contact", "google")
+                        for path in (PROTO / folder).rglob("*.proto"))  # grpc/ is grpcio's own.
         services = [path for path in protos if path.endswith("service.proto")]
-        subprocess.run(["protoc", f"--python_out={out}", *protos], cwd=PROTO, check=True)
+        subprocess.run(["protoc", f"--python_out={out}", f"--pyi_out={out}", *protos], cwd=PROTO,
+                       check=True)
         subprocess.run(["protoc", "--plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin",
                         f"--grpc_out={out}", *services], cwd=PROTO, check=True)
 
