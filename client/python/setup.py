@@ -1,12 +1,15 @@
-"""Adds the modules generated from the contract to the package when it is built."""
+"""Adds what lies elsewhere to the package when it is built: the modules generated from the
+contract, with stubs for those who check types, and the scenarios that are its templates."""
 
 import pathlib
+import shutil
 import subprocess
 
 from setuptools import setup
 from setuptools.command.build_py import build_py
 
-PROTO = pathlib.Path(__file__).resolve().parents[2] / "proto"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROTO = ROOT / "proto"
 
 
 class BuildWithContract(build_py):
@@ -22,6 +25,11 @@ class BuildWithContract(build_py):
                        check=True)
         subprocess.run(["protoc", "--plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin",
                         f"--grpc_out={out}", *services], cwd=PROTO, check=True)
+        (out / "contact" / "v1" / "py.typed").touch()
+        templates = out / "contactsim" / "templates"
+        templates.mkdir(exist_ok=True)
+        for scenario in (ROOT / "client" / "scenarios").glob("*.yaml"):
+            shutil.copy(scenario, templates)
 
 
 setup(cmdclass={"build_py": BuildWithContract})
