@@ -277,8 +277,9 @@ def _named_entry(scenario: scenario_pb2.Scenario, path: str, name: str) -> int |
         return Violation(path, "its entries have no names", "give an index, or [*]")
     near = difflib.get_close_matches(name, names, 1)
     what = {"bodies": "body", "contacts": "contact"}[path]
+    known = f"there are {', '.join(names)}" if 0 < len(names) <= 8 else ""
     return Violation(path, f"there is no {what} '{name}'",
-                     f"did you mean '{near[0]}'?" if near else "")
+                     f"did you mean '{near[0]}'?" if near else known)
 
 
 def _number(value: Any) -> float:
