@@ -297,10 +297,9 @@ TEST(SweepFields, OneAxisSetsAllFieldsThatItNames) {
   EXPECT_EQ(scenario.bodies(2).mass_kg(), 3);
   AddAxis(sweep, "bodies[2].mass_kg", {1});
   sweep.mutable_axes(0)->add_also("bodies[0].name");
-  EXPECT_THAT(
-      Mistakes(sweep),
-      ElementsAre("axes[0].also[1]: bodies[0].name is not a number, so it cannot vary",
-                  "axes[1].field: bodies[2].mass_kg has an axis already"));
+  EXPECT_THAT(Mistakes(sweep),
+              ElementsAre("axes[0].also[1]: bodies[0].name is not a number, so it cannot vary",
+                          "axes[1].field: bodies[2].mass_kg has an axis already"));
 }
 
 TEST(SweepAxes, ALabelIsShort) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include "wire/rules/rules.h"
 #include "wire/scenario/body_codec.h"
 #include "wire/scenario/contact_codec.h"
@@ -149,9 +148,8 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   if (!violations->empty()) return decoded;
 
   const Rules rules(violations);
-  rules.RequireShort(
-      "title", message.title(),
-      RuleOf<v1::Scenario>(v1::Scenario::kTitleFieldNumber).max_characters());
+  rules.RequireShort("title", message.title(),
+                     RuleOf<v1::Scenario>(v1::Scenario::kTitleFieldNumber).max_characters());
   Scenario& scenario = decoded.scenario;
   scenario.bodies = DecodeBodies(message, violations);
   const BodyNames names(scenario.bodies);
