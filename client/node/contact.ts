@@ -107,7 +107,8 @@ export class Client {
 export function explain(error: unknown, address: string): string {
   const {code, details} = error as Partial<grpc.ServiceError>;
   if (code === grpc.status.UNAVAILABLE) {
-    return `cannot reach contactd at ${address}; start one with contactctl dev, or give its HOST:PORT`;
+    return `cannot reach contactd at ${address}; start one with contactctl dev, `
+      + 'or give its HOST:PORT';
   }
   return code === undefined ? String(error) : `${grpc.status[code]}: ${details ?? ''}`;
 }

@@ -143,7 +143,8 @@ class CommandsTest(ServerTest):
         page = ROOT / "client" / "matlab.md"
         self.assertEqual(self.shell(page), 5)
         if not shutil.which("octave-cli"):
-            self.skipTest("octave-cli is not installed: the scripts of client/matlab.md were not run")
+            self.skipTest("octave-cli is not installed: client/matlab.md was run but for its "
+                          "scripts")
         printed = self.octave(page)
         self.assertRegex(printed, r"B1-B2\.contact_force: 104\.65\d\d N at 0\.0006\d\d s\n")
         self.assertRegex(printed, r"B2-B3 #1: mu 4\.5638\de\+0?8, restitution 0\.700000000\n")

@@ -87,8 +87,8 @@ def compare_measured(result: Result, measured: MeasuredLike, *,
     Columns are channels with their units, such as `B1.velocity [mm/s]`; `map` has the channel of
     other headers, with a unit if the header has none. Times are in the column, or the index, `time`
     or `t`. A signal may be `max(abs_tol, rel_tol · |peak|)` from the run, or what `tolerances`
-    says for its channel, in SI. Simulated time is measured time plus `shift_s`, or plus the shift of
-    least squares in the range `fit_shift_s`. Columns that are no channels are left out. Raises
+    says for its channel, in SI. Simulated time is measured time plus `shift_s`, or plus the shift
+    of least squares in the range `fit_shift_s`. Columns that are no channels are left out. Raises
     ValueError for what does not fit.
     """
     signals = _signals(result, _frame(measured), map or {})
