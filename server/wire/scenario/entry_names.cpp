@@ -76,4 +76,14 @@ NamedEntry FindNamed(const google::protobuf::Message& message,
   return {.problem = "its entries have no names", .hint = "give an index, or [*] for every entry"};
 }
 
+std::string NameOfEntry(const google::protobuf::Message& message,
+                        const google::protobuf::FieldDescriptor& list, int index) {
+  if (message.GetDescriptor() != v1::Scenario::descriptor()) return "";
+  const auto& scenario = static_cast<const v1::Scenario&>(message);
+  if (list.number() == v1::Scenario::kBodiesFieldNumber) return scenario.bodies(index).name();
+  if (list.number() != v1::Scenario::kContactsFieldNumber) return "";
+  const v1::Contact& entry = scenario.contacts(index);
+  return entry.name().empty() && ContactsOf(entry) == 1 ? ContactName(entry, 1) : entry.name();
+}
+
 }  // namespace contact

@@ -21,4 +21,8 @@ struct NamedEntry {
 NamedEntry FindNamed(const google::protobuf::Message& message,
                      const google::protobuf::FieldDescriptor& list, const std::string& name);
 
+/// The name by which FindNamed finds the entry with this index of `list`; empty if it has none.
+std::string NameOfEntry(const google::protobuf::Message& message,
+                        const google::protobuf::FieldDescriptor& list, int index);
+
 }  // namespace contact
