@@ -37,8 +37,11 @@ def _contactctl(address: str, *arguments: str) -> int:
     if program is None:
         raise ToolFailed(f"{arguments[0]} needs contactctl on the PATH, or its path in the "
                          "variable CONTACTCTL: apt install contactctl")
-    run = subprocess.run([program, "--server", address, *arguments], capture_output=True,
-                         encoding="utf-8", check=False)
+    try:
+        run = subprocess.run([program, "--server", address, *arguments], capture_output=True,
+                             encoding="utf-8", check=False)
+    except OSError as error:
+        raise ToolFailed(f"{program} cannot be run: {error.strerror}") from error
     if run.returncode not in (0, _DIFFERS):
         raise ToolFailed(run.stderr.strip() or f"contactctl ended with code {run.returncode}")
     return run.returncode
