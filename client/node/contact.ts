@@ -103,6 +103,16 @@ export class Client {
   }
 }
 
+/** What went wrong with a call, in one line with what to do about it. */
+export function explain(error: unknown, address: string): string {
+  const {code, details} = error as Partial<grpc.ServiceError>;
+  if (code === grpc.status.UNAVAILABLE) {
+    return `cannot reach contactd at ${address}; start one with contactctl dev, `
+      + 'or give its HOST:PORT';
+  }
+  return code === undefined ? String(error) : `${grpc.status[code]}: ${details ?? ''}`;
+}
+
 /** The values of a frame column. Views the bytes where their place in memory allows. */
 export function values(column: {values: Buffer}): Float64Array {
   const {buffer, byteOffset, byteLength} = column.values;

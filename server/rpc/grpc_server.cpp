@@ -1,5 +1,6 @@
 #include "rpc/grpc_server.h"
 
+#include <google/protobuf/message.h>
 #include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -12,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "grpc/health/v1/health.pb.h"
 #include "rpc/metrics/call_monitor.h"
 #include "rpc/net/listener.h"
 #include "rpc/shutdown_timer.h"
@@ -117,6 +119,8 @@ GrpcServer::GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options
 GrpcServer::~GrpcServer() { Shutdown(1s); }
 
 std::optional<int> GrpcServer::Start(const std::string& address) {
+  // gRPC answers health checks without a descriptor; this one lets reflection describe them.
+  google::protobuf::LinkMessageReflection<grpc::health::v1::HealthCheckRequest>();
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   if (options_.channelz) grpc::channelz::experimental::InitChannelzService();

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include "simulation/forecast/first_meeting.h"
+#include "simulation/forecast/missing_contacts.h"
 #include "wire/scenario/contact_codec.h"
 #include "wire/scenario/law_catalogue.h"
 #include "wire/sweep/sweep_fields.h"
@@ -167,6 +169,19 @@ void AdviseOnCycleScope(const v1::Scenario& message, std::vector<Violation>* adv
                      "AUTO lets such cycles share one μ"});
 }
 
+// Two neighbours that meet without a contact, `pair` being the one that they lack.
+Violation Describe(const Scenario& scenario, const Contact& pair, const FirstMeeting& meeting) {
+  const auto name = [&scenario](int body) {
+    return scenario.bodies[static_cast<std::size_t>(body)].name;
+  };
+  return {"contacts",
+          fmt::format("have none between {} and {}, which meet after {:.3g} s{} and pass through "
+                      "each other",
+                      name(pair.left), name(pair.right), meeting.start,
+                      meeting.speed > 0 ? fmt::format(" at {:.3g} m/s", meeting.speed) : ""),
+          fmt::format("add one with between: [{}, {}]", name(pair.left), name(pair.right))};
+}
+
 // Advice on the base with paths from the sweep, without the fields that axes set.
 std::vector<Violation> OfBase(const v1::Sweep& sweep, std::vector<Violation> advice) {
   std::vector<Violation> broken;
@@ -195,8 +210,25 @@ std::vector<Violation> AdviseOnLaws(const v1::Scenario& message) {
   return advice;
 }
 
+std::vector<Violation> AdviseOnPlaces(const Scenario& scenario) {
+  // The forecast is asked as if the contacts were there.
+  Scenario touching = scenario;
+  touching.contacts = MissingContacts(scenario);
+  const Contact* first = nullptr;
+  std::optional<FirstMeeting> soonest;
+  const auto meetings = ForecastFirstMeetings(touching);
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    if (!meetings[i] || (soonest && soonest->start <= meetings[i]->start)) continue;
+    soonest = meetings[i];
+    first = &touching.contacts[i];
+  }
+  if (first == nullptr) return {};
+  return {Describe(touching, *first, *soonest)};
+}
+
 std::vector<Violation> Advise(const v1::Scenario& message, const Scenario& scenario) {
   std::vector<Violation> advice = AdviseOnLaws(message);
+  std::ranges::move(AdviseOnPlaces(scenario), std::back_inserter(advice));
   std::ranges::move(AdviseOnTime(scenario), std::back_inserter(advice));
   return advice;
 }
@@ -209,6 +241,7 @@ std::vector<Violation> AdviseOnTime(const v1::Sweep& sweep, const DecodedSweep& 
 
 std::vector<Violation> Advise(const v1::Sweep& sweep, const DecodedSweep& plan) {
   std::vector<Violation> advice = OfBase(sweep, AdviseOnLaws(sweep.base()));
+  std::ranges::move(OfBase(sweep, AdviseOnPlaces(plan.first)), std::back_inserter(advice));
   std::ranges::move(AdviseOnTime(sweep, plan), std::back_inserter(advice));
   return advice;
 }

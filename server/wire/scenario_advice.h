@@ -20,6 +20,10 @@ std::vector<Violation> AdviseOnTime(const Scenario& scenario);
 /// this advice.
 std::vector<Violation> AdviseOnLaws(const v1::Scenario& message);
 
+/// Advice on neighbours that meet without a contact between them, as far as velocities, supports
+/// and loads tell. What happened is told by AdviseOnResult.
+std::vector<Violation> AdviseOnPlaces(const Scenario& scenario);
+
 /// All advice on a scenario. `scenario` is what `message` was decoded to, without violations.
 std::vector<Violation> Advise(const v1::Scenario& message, const Scenario& scenario);
 

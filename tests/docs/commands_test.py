@@ -128,6 +128,34 @@ class CommandsTest(ServerTest):
         self.assertGreater(self.shell(ROOT / "client" / "README.md"), 15)
         self.assertEqual(self.python(ROOT / "client" / "README.md"), 1)
 
+    def octave(self, path):
+        """Runs the scripts of a page as one, beside what its commands left; what it printed."""
+        text = path.read_text("utf-8")
+        script = self.folder / "session" / "page.m"
+        script.write_text("".join(re.findall(r"^```octave run\n(.*?)^```$", text, re.S | re.M)),
+                          "utf-8")
+        run = subprocess.run(["octave-cli", "--quiet", "--norc", script.name], cwd=script.parent,
+                             capture_output=True, encoding="utf-8", timeout=5 * PATIENCE_S)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        return run.stdout
+
+    def test_matlab_page(self):
+        page = ROOT / "client" / "matlab.md"
+        self.assertEqual(self.shell(page), 5)
+        if not shutil.which("octave-cli"):
+            self.skipTest("octave-cli is not installed: client/matlab.md was run but for its "
+                          "scripts")
+        printed = self.octave(page)
+        self.assertRegex(printed, r"B1-B2\.contact_force: 104\.65\d\d N at 0\.0006\d\d s\n")
+        self.assertRegex(printed, r"B2-B3 #1: mu 4\.5638\de\+0?8, restitution 0\.700000000\n")
+        lost, ledger = re.search(r"B1-B2 lost (\S+) J; its ledger says (\S+) J", printed).groups()
+        self.assertAlmostEqual(float(lost) / float(ledger), 1, delta=0.01)
+        self.assertIn("B3 leaves at 0.155004951 m/s\n", printed)
+        self.assertRegex(printed, r"jobs/\w{10} FULL: 2 cycles\n")
+
+    def test_julia_page(self):
+        self.assertEqual(self.shell(ROOT / "client" / "julia.md"), 4)
+
     def test_python_readme(self):
         self.assertGreater(self.python(ROOT / "client" / "python" / "README.md"), 10)
 

@@ -480,6 +480,19 @@ TEST_F(JobsTest, FailedRunKeepsItsReasonAndWarnings) {
   EXPECT_EQ(log[2].log_entry().severity(), v1::LogEntry::WARNING);
 }
 
+TEST_F(JobsTest, FinishedRunTellsOfWhatItsAuthorMayNotWant) {
+  Open();
+  v1::Scenario scenario = BouncingBall(0.1);  // It would reach the floor after 0.14 s.
+  v1::Body& other = *scenario.add_bodies();
+  other = scenario.bodies(0);
+  other.set_name("other");
+  other.set_position_m(0.11);
+  other.set_velocity_m_per_s(-3);
+  EXPECT_THAT(Ended(Create(scenario)).warnings(),
+              ElementsAre(HasSubstr("contacts: were not touched in 0.1 s"),
+                          HasSubstr("contacts: have none between ball and other, which passed")));
+}
+
 TEST_F(JobsTest, LargeSamplesAreCutIntoChunksThatFitMessages) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
     observer.OnSamples(

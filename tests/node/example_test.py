@@ -51,6 +51,13 @@ class NodeTest(ServerTest):
         self.assertIn("1001 samples, largest force B1-B2 104.65", printed)
         self.assertIn("SUCCEEDED  convergence FULL", printed)
 
+    def test_missing_server_is_told_in_one_line(self):
+        run = self.tool("node", "dist/run.js", "127.0.0.1:1")
+        self.assertEqual((run.returncode, run.stdout), (1, ""))
+        self.assertEqual(run.stderr.splitlines(),
+                         ["cannot reach contactd at 127.0.0.1:1; start one with contactctl dev, or "
+                          "give its HOST:PORT"])
+
     def test_wrong_fields_and_kinds_do_not_compile(self):
         (self.example / "wrong.ts").write_text(
             "import {Client} from './contact.js';\n"

@@ -2,6 +2,7 @@
 
 import asyncio
 import hashlib
+import os
 import pathlib
 import threading
 import unittest
@@ -11,7 +12,7 @@ import pandas
 from contactd import (Job, ServerTest, endless, is_cycle, three_ball_chain,
                       two_balls_and_a_wall)
 from contactsim import (AsyncClient, Client, DownloadFailed, InvalidScenario, JobNotFound,
-                        RunFailed, Timeout, Unreachable)
+                        RunFailed, Timeout, ToolFailed, Unreachable)
 
 SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
 PATIENCE_S = 60
@@ -38,10 +39,9 @@ class ClientTest(ServerTest):
         self.assertEqual(list(result.groups.mu), list(result.cycles.mu))
         self.assertEqual(list(result.cycles.group), list(result.groups.number))
         self.assertEqual(result["time"][-1], 4e-3)
-        self.assertEqual(result.series.shape, (1001, 15))
-        self.assertEqual(result.series.columns[2], "B1.velocity [m/s]")
-        self.assertTrue(np.shares_memory(result.series["B1.velocity [m/s]"].to_numpy(),
-                                         result["B1.velocity"]))
+        self.assertEqual(result.series.shape, (1001, 14))
+        self.assertEqual(result.series.columns[1], "B1.velocity [m/s]")
+        self.assertEqual(result.series.index[-1], 4e-3)
         last = result.iterations[result.iterations.accepted]
         self.assertTrue((last.residual.abs() < 2e-8).all())
         spec = result.scenario.SerializeToString(deterministic=True)
@@ -65,6 +65,79 @@ class ClientTest(ServerTest):
         self.assertAlmostEqual(first.bodies.velocity_m_per_s[0], 0.25, delta=1e-8)
         again = self.client.run(first.scenario)
         self.assertTrue(first.series.equals(again.series))
+
+    def test_template_with_fields_and_variables_set(self):
+        result = self.client.run("two-balls", set={"contacts[A-B].restitution": 0.7},
+                                 timeout_s=PATIENCE_S)
+        self.assertEqual(result.scenario.contacts[0].restitution, 0.7)
+        self.assertAlmostEqual(result.cycles.restitution_out[0], 0.7, delta=1e-7)
+        ball = self.client.submit("bouncing-ball", variables={"height_m": 0.5},
+                                  set={"end_time_s": 0.1})
+        self.assertEqual(ball.scenario.bodies[0].position_m, 0.5)
+        self.assertEqual(ball.scenario.end_time_s, 0.1)
+        with self.assertRaisesRegex(TypeError, r"set=\{'contacts\[\*\].restitution': 0.7\}"):
+            self.client.run("two-balls", restitution=0.7)
+        with self.assertRaisesRegex(FileNotFoundError, "did you mean 'two-balls'"):
+            self.client.run("two-ball")
+
+    def test_sweep_over_words_and_variables_has_units(self):
+        sweep = self.client.sweep(
+            "bouncing-ball",
+            {"var:height_m": [0.5, 1], "contacts[floor].damping": ["exact", "FLORES"]},
+            ["cycles.count", "cycles[floor].first.peak_force_n"], set={"end_time_s": 0.6},
+            timeout_s=PATIENCE_S)
+        self.assertEqual(list(sweep.frame["var:height_m"]), [0.5, 0.5, 1, 1])
+        self.assertEqual(list(sweep.frame["contacts[floor].damping"]), ["EXACT", "FLORES"] * 2)
+        self.assertEqual(sweep.xr["var:height_m"].attrs["units"], "m")
+        self.assertEqual(sweep.xr["cycles[floor].first.peak_force_n"].attrs["units"], "N")
+        self.assertEqual(sweep.xr["cycles.count"].sel({"contacts[floor].damping": "EXACT"}).shape,
+                         (2,))
+        ax = sweep.heatmap()
+        self.assertEqual([tick.get_text() for tick in ax.get_xticklabels()], ["EXACT", "FLORES"])
+        with self.assertRaisesRegex(ValueError, "unknown variable 'height'"):
+            self.client.sweep("bouncing-ball", {"var:height": [1]})
+        with self.assertRaisesRegex(ValueError, "'FLORS' is no value"):
+            self.client.sweep("two-balls", {"contacts[*].damping": ["FLORS"]})
+
+    def test_runs_are_compared_with_each_other_and_with_measured_data(self):
+        first = self.client.run(three_ball_chain())
+        other = self.client.run(three_ball_chain(), set={"contacts[0].restitution": 0.5})
+        self.assertTrue(first.compare(self.client.run(three_ball_chain()), abs_tol=0, rel_tol=0))
+        compared = first.compare(other)
+        self.assertFalse(compared)
+        self.assertEqual(list(compared.parameters.index), ["contacts[0].restitution"])
+        measured = first.series[["B3.velocity [m/s]"]] * 1.01
+        self.assertTrue(first.compare_measured(measured))
+        self.assertFalse(first.compare_measured(measured, rel_tol=0.001))
+
+    def test_report_and_paper_are_those_of_contactctl(self):
+        if not os.environ.get("CONTACTCTL"):
+            self.skipTest("the variable CONTACTCTL names no contactctl")
+        run = self.client.run(three_ball_chain())
+        page = self.client.report([run], self.folder / "report.html")
+        self.assertIn(run.name, page.read_text("utf-8"))
+        self.assertTrue(self.client.paper(self.folder / "paper", ["table2"]))
+        self.assertTrue((self.folder / "paper" / "index.html").exists())
+        with self.assertRaisesRegex(ToolFailed, "unknown item 'fig99'"):
+            self.client.paper(self.folder / "paper", ["fig99"])
+
+    def test_asynchronous_client_can_all_that_the_other_can(self):
+
+        async def use():
+            async with AsyncClient(self.address) as client:
+                run = await client.run("two-balls", set={"end_time_s": 1e-3}, progress=False)
+                sweep = await client.sweep("two-balls", {"contacts[*].restitution": [0.5, 0.7]})
+                listed = [job.name async for job in client.list(states=["SUCCEEDED"])]
+                checked = await client.validate("two-balls")
+                waited = await client.wait(run.job)
+                await client.delete(run.job)
+                return run, sweep, listed, checked, waited
+
+        run, sweep, listed, checked, waited = asyncio.run(use())
+        self.assertEqual(set(listed), {run.name, sweep.name})
+        self.assertEqual(len(sweep.frame), 2)
+        self.assertGreater(checked.estimate.steps, 0)
+        self.assertEqual(waited.name, run.name)
 
     def test_sweep_gives_a_tidy_frame_and_a_heat_map(self):
         sweep = self.client.sweep(

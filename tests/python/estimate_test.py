@@ -34,7 +34,10 @@ class EstimateTest(ServerTest):
             self.assertEqual(list(checked.warnings), [])
             estimate = checked.estimate
             result = self.client.run(scenario, timeout_s=PATIENCE_S)
-            self.assertEqual(list(result.job.warnings), [])
+            # The paper's ball goes 7 mm deep with a radius of 50 mm; nothing else is remarkable.
+            deep = [w for w in result.job.warnings if "a tenth of the radius" in w]
+            self.assertEqual(list(result.job.warnings), deep)
+            self.assertEqual(len(deep), name.startswith("spring-wall"))
             output = sum(event.ByteSize() for event in self.client.watch(result.job))
             self.assert_near(estimate.steps, result.job.summary.steps, "steps")
             self.assertEqual(estimate.samples, len(result.series))

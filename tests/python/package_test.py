@@ -16,20 +16,24 @@ class PackageTest(unittest.TestCase):
     def test_built_package_needs_nothing_of_the_source_tree(self):
         with tempfile.TemporaryDirectory() as folder:
             # A copy, because setuptools leaves files beside the sources.
-            for part in ("client/python", "proto"):
+            for part in ("client/python", "client/scenarios", "proto"):
                 shutil.copytree(ROOT / part, pathlib.Path(folder) / part)
             built = pathlib.Path(folder) / "built"
             subprocess.run([sys.executable, "setup.py", "-q", "build", "--build-lib", built],
                            cwd=pathlib.Path(folder) / "client/python", check=True, timeout=120,
                            capture_output=True)
-            self.assertTrue((built / "contactsim" / "py.typed").exists())
+            for file in ("contactsim/py.typed", "contact/v1/py.typed", "contact/v1/job_pb2.pyi"):
+                self.assertTrue((built / file).exists(), file)
+            self.assertFalse((built / "grpc").exists())  # It would hide grpcio.
             environment = {**os.environ, "PYTHONPATH": str(built)}
             said = subprocess.run(
                 [sys.executable, "-B", "-c",
-                 "import contactsim, contact.v1.job_pb2 as j; print(j.__file__)"],
+                 "import contactsim, contact.v1.job_pb2 as j; print(j.__file__); "
+                 "print(contactsim.load_scenario('two-balls').title)"],
                 cwd=folder, env=environment, check=True, timeout=120, capture_output=True,
                 text=True)
             self.assertTrue(said.stdout.startswith(str(built)), said.stdout)
+            self.assertIn("Two balls, one collision", said.stdout)
 
 
 if __name__ == "__main__":

@@ -39,12 +39,27 @@ class RecordingTest(unittest.TestCase):
     def test_single_chunk_is_not_copied(self):
         result = result_of(chunk_event(0, self.values))
         self.assertIs(type(result["c1"].base), bytes)
-        self.assertTrue(np.shares_memory(result.series["c1 [N]"].to_numpy(), result["c1"]))
 
-    def test_joined_columns_share_their_memory_with_the_data_frame(self):
-        result = result_of(chunk_event(0, self.values[:, :9]), chunk_event(9, self.values[:, 9:]))
-        self.assertTrue(np.shares_memory(result.series["c1 [N]"].to_numpy(), result["c1"]))
-        self.assertFalse(result["c1"].flags.writeable)
+    def test_series_is_indexed_by_time_and_may_be_changed(self):
+        for step in (100, 9):  # One chunk, and several.
+            result = result_of(*(chunk_event(first, self.values[:, first:first + step])
+                                 for first in range(0, 100, step)))
+            self.assertEqual(result.series.index.name, "time [s]")
+            np.testing.assert_array_equal(result.series.index, self.values[0])
+            self.assertEqual(list(result.series.columns), ["c1 [N]", "c2 [N]"])
+            result.series["c1 [N]"] *= 1000
+            np.testing.assert_array_equal(result.series["c1 [N]"], 1000 * self.values[1])
+            np.testing.assert_array_equal(result["c1"], self.values[1])
+            self.assertFalse(result["c1"].flags.writeable)
+
+    def test_tables_and_dataset_may_be_changed(self):
+        group = event_pb2.Event(group=job_pb2.Group(number=1, mu=2), sequence=3)
+        result = result_of(group, chunk_event(0, self.values))
+        result.job.groups.append(group.group)
+        result.groups["mu"] *= 2
+        self.assertEqual(list(result.groups.mu), [4])
+        result.xr["c1"][:] = 0
+        np.testing.assert_array_equal(result["c1"], self.values[1])
 
     def test_missing_chunk_is_noticed(self):
         recording = Recording()
@@ -97,7 +112,7 @@ class RecordingTest(unittest.TestCase):
             frame = result_of(*map(event_pb2.Event.FromString, messages)).series
             times.append(time.process_time() - start)
         print(f"bytes of 1e6 samples x 8 channels to a DataFrame: {min(times):.3f} s", flush=True)
-        self.assertEqual(frame.shape, (1_000_000, 8))
+        self.assertEqual(frame.shape, (1_000_000, 7))
         np.testing.assert_array_equal(frame["c7 [N]"], values[7])
         self.assertLess(min(times), 0.3)
 

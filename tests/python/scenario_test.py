@@ -5,7 +5,7 @@ import tempfile
 import unittest
 
 from contact.v1 import scenario_pb2
-from contactsim import InvalidScenario, load_scenario
+from contactsim import InvalidScenario, load_scenario, templates
 
 SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
 
@@ -99,6 +99,58 @@ class LoadTest(unittest.TestCase):
         self.assertIn("did you mean FLORES?", violations["contacts[0].damping"].hint)
         self.assertIn("contacts[0].restitution: expected a number, got '0,8'",
                       str(caught.exception))
+
+    def test_fields_are_set_by_index_name_or_all(self):
+        chain = load_scenario("three-ball-chain", set={
+            "contacts[B2-B3].restitution": 0.6, "contacts[0].damping": "hunt-crossley",
+            "bodies[*].mass_kg": "2", "bodies[B1].velocity_m_per_s": 1, "end_time_s": 1e-3,
+            "output.ledger_only": True, "solver.restitution_tolerance": None,
+            "loads": [{"body": "B1", "constant": {"force_n": 5}}]})
+        self.assertEqual([c.restitution for c in chain.contacts], [0.8, 0.6])
+        self.assertEqual(chain.contacts[0].damping, scenario_pb2.Contact.HUNT_CROSSLEY)
+        self.assertEqual([b.mass_kg for b in chain.bodies], [2, 2, 2])
+        self.assertEqual(chain.bodies[0].velocity_m_per_s, 1)
+        self.assertEqual(chain.end_time_s, 1e-3)
+        self.assertTrue(chain.output.ledger_only)
+        self.assertFalse(chain.solver.HasField("restitution_tolerance"))
+        self.assertEqual(chain.loads[0].constant.force_n, 5)
+
+    def test_message_that_is_given_is_not_changed(self):
+        message = load_scenario("two-balls")
+        changed = load_scenario(message, set={"end_time_s": 1})
+        self.assertEqual(changed.end_time_s, 1)
+        self.assertEqual(message.end_time_s, 4e-3)
+
+    def test_wrong_paths_are_told_together(self):
+        with self.assertRaises(InvalidScenario) as caught:
+            load_scenario("newton-cradle", set={
+                "contacts[B1-B2].restitution": 1, "contacts[B1-B9].restitution": 1,
+                "contacts[3].restitution": 1, "contacts.restitution": 1, "contacts[0]": 1,
+                "bodies[B8].mass_kg": 1, "supports[x].damping_n_s_per_m": 1, "end_time_s.x": 1,
+                "bodies[0].mas_kg": 1, "a..b": 1, "end_time_s": "long"})
+        self.assertEqual([str(v) for v in caught.exception.violations], [
+            "contacts: 'B1-B2' has its fields in common with the other contacts of contacts[0] — "
+            "contacts[0] sets them for all",
+            "contacts: there is no contact 'B1-B9' — did you mean 'B1-B2'?",
+            "contacts[3]: there are only 1",
+            "contacts: is a list — contacts[0], or contacts[*] for every entry",
+            "contacts: cannot be set entry by entry — set a field of it, or the whole list",
+            "bodies: there is no body 'B8' — there are B1, B2, B3, B4, B5",
+            "supports: its entries have no names — give an index, or [*]",
+            "end_time_s: has no field 'x'",
+            "bodies[0].mas_kg: unknown field — did you mean 'mass_kg'?",
+            "a..b: is no path — such as contacts[0].restitution",
+            "end_time_s: expected a number, got 'long'"])
+
+    def test_templates_are_the_shipped_scenarios(self):
+        shipped = {path.stem for path in SCENARIOS.glob("*.yaml")}
+        self.assertEqual(set(templates()), {s for s in shipped if not s.endswith("-sweep")})
+        for name in templates():
+            self.assertEqual(load_scenario(name), load_scenario(SCENARIOS / f"{name}.yaml"))
+        with self.assertRaisesRegex(FileNotFoundError, "did you mean 'two-balls'?"):
+            load_scenario("two-bals")
+        with self.assertRaisesRegex(FileNotFoundError, "templates are bouncing-ball, "):
+            load_scenario("elephant")
 
     def test_document_that_is_no_mapping_is_refused(self):
         self.assertInvalid({"bodies": "A"}, "bodies: expected a list, got 'A'")

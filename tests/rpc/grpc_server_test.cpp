@@ -74,6 +74,23 @@ TEST(GrpcServerTest, ReflectionIsASwitch) {
   EXPECT_EQ(CallRaw(closed, method, list_services).bytes, "");
 }
 
+// Reflection's answer to a request for the file that defines a symbol.
+std::string FileOf(const TestServer& server, const std::string& symbol) {
+  const std::string request = "\x22" + std::string(1, static_cast<char>(symbol.size())) + symbol;
+  return CallRaw(server, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", request)
+      .bytes;
+}
+
+TEST(GrpcServerTest, ReflectionDescribesEveryServiceThatItLists) {
+  const TestServer server({.reflection = true});
+  EXPECT_THAT(FileOf(server, "contact.v1.JobService"), testing::HasSubstr("CreateJobRequest"));
+  EXPECT_THAT(FileOf(server, "contact.v1.AdminService"), testing::HasSubstr("BackupRequest"));
+  EXPECT_THAT(FileOf(server, "grpc.health.v1.Health"), testing::HasSubstr("HealthCheckResponse"));
+  EXPECT_THAT(FileOf(server, "grpc.reflection.v1alpha.ServerReflection"),
+              testing::HasSubstr("ServerReflectionResponse"));
+  EXPECT_THAT(FileOf(server, "contact.v1.None"), testing::Not(testing::HasSubstr("Request")));
+}
+
 TEST(GrpcServerTest, ChannelzIsASwitchThatIsOff) {
   const std::string method = "/grpc.channelz.v1.Channelz/GetServers";
   const TestServer open({.channelz = true});

@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "simulation/forecast/first_meeting.h"
+#include "simulation/forecast/missing_contacts.h"
 #include "simulation/forecast/run_estimate.h"
 #include "simulation/model/window.h"
 #include "testing/cases.h"
@@ -116,6 +119,49 @@ TEST(FirstMeeting, UnderASineThatNeverEndsIsDriven) {
   const auto steady = ForecastFirstMeetings(s).at(0);
   ASSERT_TRUE(steady);
   EXPECT_FALSE(steady->driven);
+}
+
+Scenario Bodies(const std::vector<double>& positions) {
+  Scenario s;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    s.bodies.push_back({.name = "B" + std::to_string(i + 1), .position = positions[i]});
+  }
+  return s;
+}
+
+std::vector<std::string> Missing(const Scenario& s) {
+  std::vector<std::string> names;
+  for (const Contact& contact : MissingContacts(s)) names.push_back(contact.name);
+  return names;
+}
+
+TEST(MissingContacts, AreThoseOfNeighboursInTheOrderOfTheirPlaces) {
+  Scenario s = Bodies({2, 0, 1});
+  EXPECT_EQ(Missing(s), (std::vector<std::string>{"B2-B3", "B3-B1"}));
+  s.contacts = {{.name = "C", .left = 1, .right = 2}};
+  EXPECT_EQ(Missing(s), std::vector<std::string>{"B3-B1"});
+  s.contacts.push_back({.name = "D", .left = 1, .right = 0});  // Not between neighbours.
+  EXPECT_EQ(Missing(s), std::vector<std::string>{"B3-B1"});
+}
+
+TEST(MissingContacts, AreNoneWhereBodiesCannotMeet) {
+  Scenario s = Bodies({0, 1});
+  s.bodies[0].fixed = s.bodies[1].fixed = true;
+  EXPECT_TRUE(Missing(s).empty());
+  s.bodies[1].fixed = false;
+  EXPECT_EQ(Missing(s).size(), 1U);
+  s.contacts = {{.name = "wall", .left = kNone, .right = 1, .wall_position = 0.5}};
+  EXPECT_TRUE(Missing(s).empty());
+  s.contacts = {{.name = "wall", .left = 1, .right = kNone, .wall_position = 3}};
+  EXPECT_EQ(Missing(s).size(), 1U);
+}
+
+TEST(MissingContacts, AreNoneWherePositionsAreNoPlaces) {
+  Scenario s = Bodies({0, 0});
+  EXPECT_TRUE(Missing(s).empty());
+  s = Bodies({0, 1});
+  s.bodies[0].radius = s.bodies[1].radius = 0.6;
+  EXPECT_TRUE(Missing(s).empty());
 }
 
 TEST(RunEstimate, SamplesAreThoseOfTheRun) {

@@ -227,6 +227,38 @@ TEST(ScenarioAdvice, TellsThatNoGroupGrowsInThePapersProcess) {
               ElementsAre(HasSubstr("no group grows with update PAPER_NEWTON")));
 }
 
+// Two balls, and a third one to the right of them without a contact.
+v1::Scenario TwoBallsAndOne(double position_m, double velocity_m_per_s) {
+  v1::Scenario scenario = TwoBalls();
+  v1::Body& third = *scenario.add_bodies();
+  third = scenario.bodies(1);
+  third.set_name("B3");
+  third.set_position_m(position_m);
+  third.set_velocity_m_per_s(velocity_m_per_s);
+  return scenario;
+}
+
+TEST(ScenarioAdvice, TellsOfNeighboursThatMeetWithoutAContact) {
+  EXPECT_THAT(
+      AdviceOn(TwoBallsAndOne(0.202, -2)),
+      ElementsAre("contacts: have none between B2 and B3, which meet after 0.001 s at 2 m/s "
+                  "and pass through each other — add one with between: [B2, B3]"));
+  EXPECT_THAT(AdviceOn(TwoBallsAndOne(0.202, 2)), IsEmpty());     // They part.
+  EXPECT_THAT(AdviceOn(TwoBallsAndOne(0.202, -0.1)), IsEmpty());  // Not before the end.
+  EXPECT_THAT(AdviceOn(TwoBallsAndOne(0.15, -2)), IsEmpty());     // They overlap on purpose.
+}
+
+TEST(ScenarioAdvice, IsNoneWhereAWallStandsBetweenNeighbours) {
+  v1::Scenario scenario = TwoBallsAndOne(0.202, -2);
+  v1::Contact& wall = *scenario.add_contacts();
+  wall = scenario.contacts(0);
+  wall.clear_between();
+  wall.add_between("B3");
+  wall.mutable_wall()->set_side(v1::Wall::LEFT);
+  wall.mutable_wall()->set_position_m(0.151);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+}
+
 TEST(ScenarioAdvice, OfASweepIsThatOfItsBaseButForWhatAxesSet) {
   v1::Sweep sweep;
   *sweep.mutable_base() = TwoBalls();
@@ -244,6 +276,10 @@ TEST(ScenarioAdvice, OfASweepIsThatOfItsBaseButForWhatAxesSet) {
   sweep.mutable_axes(0)->set_field("solver.step_s");
   sweep.mutable_axes(0)->set_values(0, 1e-5);
   EXPECT_THAT(advice(), ElementsAre(HasSubstr("base.output.sample_interval_s")));
+  *sweep.mutable_base() = TwoBallsAndOne(0.202, -2);
+  sweep.mutable_axes(0)->set_field("bodies[0].velocity_m_per_s");
+  sweep.mutable_axes(0)->set_values(0, 0.2);
+  EXPECT_THAT(advice(), ElementsAre(HasSubstr("base.contacts: have none between B2 and B3")));
 }
 
 }  // namespace

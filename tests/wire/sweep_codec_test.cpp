@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
+#include "wire/sweep/axis_words.h"
 #include "wire/sweep/sweep_fields.h"
 
 namespace contact {
@@ -194,7 +196,8 @@ TEST(SweepAxes, MistakesAreToldTogether) {
           "axes[3].field: contacts[0].name is not a number, so it cannot vary",
           "axes[4].field: contacts[0].restitution has an axis already",
           "axes[5].field: loads: there are only 0",
-          "metrics[1]: 'cycles.mu': cycles is a list — say which entry, by index or name",
+          "metrics[1]: 'cycles.mu': cycles is a list — say which entry, by index or name, or "
+          ".first, .last, .max, .min or .count of all",
           "metrics[2]: 'final_bodies[B1].velocity_m_per_': unknown field 'velocity_m_per_' — did "
           "you mean 'velocity_m_per_s'?",
           "metrics[3]: 'title': unknown field 'title' — fields are steps, evaluations, iterations, "
@@ -239,6 +242,84 @@ TEST(SweepFields, SetEveryEntryAndRoundWholeNumbers) {
   EXPECT_THAT(values, ElementsAre(2.5, 8));
   EXPECT_TRUE(fields.Sets("bodies[2].mass_kg"));
   EXPECT_FALSE(fields.Sets("bodies[2].radius_m"));
+}
+
+v1::Sweep OfFields(const std::vector<std::string>& fields) {
+  v1::Sweep sweep;
+  *sweep.mutable_base() = Chain();
+  for (const std::string& field : fields) AddAxis(sweep, field, {0.5});
+  return sweep;
+}
+
+TEST(SweepFields, AreFoundByTheNamesOfBodiesAndContacts) {
+  v1::Sweep sweep = OfFields({"bodies[B2].velocity_m_per_s", "contacts[C].restitution"});
+  v1::Contact& pair = *sweep.mutable_base()->add_contacts();
+  for (const auto* name : {"B1", "B3"}) pair.add_between(name);
+  v1::Contact& wall = *sweep.mutable_base()->add_contacts();
+  wall.add_between("B3");
+  wall.mutable_wall()->set_side(v1::Wall::RIGHT);
+  AddAxis(sweep, "contacts[B1-B3].stiffness", {2e7});
+  AddAxis(sweep, "contacts[B3-wall].exponent", {2});
+  std::vector<Violation> violations;
+  SweepFields fields(sweep, &violations);
+  ASSERT_TRUE(violations.empty()) << violations.front().description;
+  std::vector<double> values = {0.7, 0.6, 2e7, 2};
+  const v1::Scenario& scenario = fields.Set(values);
+  EXPECT_EQ(scenario.bodies(1).velocity_m_per_s(), 0.7);
+  EXPECT_EQ(scenario.contacts(0).restitution(), 0.6);
+  EXPECT_EQ(scenario.contacts(1).stiffness(), 2e7);
+  EXPECT_EQ(scenario.contacts(2).exponent(), 2);
+  EXPECT_TRUE(fields.Sets("contacts[0].restitution"));
+}
+
+TEST(SweepFields, NamesThatMeanNoEntryAreTold) {
+  EXPECT_THAT(
+      Mistakes(OfFields({"bodies[B4].mass_kg", "contacts[C-2].restitution",
+                         "contacts[B1-B2].restitution", "supports[B1].stiffness_n_per_m"})),
+      ElementsAre("axes[0].field: bodies: there is no body 'B4' — did you mean 'B1'?",
+                  "axes[1].field: contacts: 'C-2' has its fields in common with the other contacts "
+                  "of contacts[0] — contacts[0] sets them for all",
+                  HasSubstr("axes[2].field: contacts: there is no contact 'B1-B2'"),
+                  "axes[3].field: supports: its entries have no names — give an index, or [*] for "
+                  "every entry"));
+}
+
+TEST(SweepFields, OneAxisSetsAllFieldsThatItNames) {
+  v1::Sweep sweep = OfFields({"bodies[0].mass_kg"});
+  sweep.mutable_axes(0)->add_also("bodies[B3].mass_kg");
+  std::vector<Violation> violations;
+  SweepFields fields(sweep, &violations);
+  ASSERT_TRUE(violations.empty());
+  std::vector<double> values = {3};
+  const v1::Scenario& scenario = fields.Set(values);
+  EXPECT_EQ(scenario.bodies(0).mass_kg(), 3);
+  EXPECT_EQ(scenario.bodies(1).mass_kg(), 0.5);
+  EXPECT_EQ(scenario.bodies(2).mass_kg(), 3);
+  AddAxis(sweep, "bodies[2].mass_kg", {1});
+  sweep.mutable_axes(0)->add_also("bodies[0].name");
+  EXPECT_THAT(Mistakes(sweep),
+              ElementsAre("axes[0].also[1]: bodies[0].name is not a number, so it cannot vary",
+                          "axes[1].field: bodies[2].mass_kg has an axis already"));
+}
+
+TEST(SweepAxes, ALabelIsShort) {
+  v1::Sweep sweep = Grid();
+  sweep.mutable_axes(0)->set_label(std::string(101, 'x'));
+  EXPECT_THAT(Mistakes(sweep),
+              ElementsAre("axes[0].label: has 101 characters; must have at most 100"));
+}
+
+TEST(AxisWords, ValuesOfAnEnumHaveItsWords) {
+  v1::Sweep::Axis axis;
+  axis.set_field("contacts[C].damping");
+  EXPECT_EQ(AxisWord(axis, v1::Contact::EXACT), "EXACT");
+  EXPECT_EQ(AxisWord(axis, 99), "");
+  EXPECT_EQ(AxisWord(axis, std::nan("")), "");
+  EXPECT_EQ(AxisName(axis), "contacts[C].damping");
+  axis.set_label("var:law");
+  EXPECT_EQ(AxisName(axis), "var:law");
+  axis.set_field("contacts[0].restitution");
+  EXPECT_EQ(AxisWord(axis, 2), "");
 }
 
 TEST(SweepFields, DoNotChangeTheKindOfALoad) {
@@ -286,6 +367,70 @@ TEST(SweepMetrics, ReadNumbersOfAResult) {
   EXPECT_THAT(std::vector(values.begin(), values.end() - 1),
               ElementsAre(12, 1e-9, 2, 400, 4, 4, 20, 7, 3, 0.25));
   EXPECT_TRUE(std::isnan(values.back()));
+}
+
+// Four cycles of two contacts, the last of which was cut before its restitution was known.
+v1::Job FourCycles() {
+  v1::Job job;
+  for (const auto& [contact, force, restitution] :
+       std::vector<std::tuple<const char*, double, double>>{
+           {"A-B", 5, 0.8}, {"B-C", 9, 0.7}, {"A-B", 7, 0.6}, {"B-C", 2, std::nan("")}}) {
+    v1::Cycle& cycle = *job.add_cycles();
+    cycle.set_contact(contact);
+    cycle.set_peak_force_n(force);
+    cycle.set_restitution_out(restitution);
+  }
+  return job;
+}
+
+double MetricOf(const std::string& metric, const v1::Job& job) {
+  v1::Sweep sweep;
+  sweep.add_metrics(metric);
+  std::vector<Violation> violations;
+  const SweepMetrics metrics(sweep, &violations);
+  EXPECT_TRUE(violations.empty()) << metric;
+  return metrics.Of(job).front();
+}
+
+TEST(SweepMetrics, ChooseAmongAllEntriesOrThoseOfAName) {
+  const v1::Job job = FourCycles();
+  EXPECT_EQ(MetricOf("cycles.count", job), 4);
+  EXPECT_EQ(MetricOf("cycles[A-B].count", job), 2);
+  EXPECT_EQ(MetricOf("cycles.first.peak_force_n", job), 5);
+  EXPECT_EQ(MetricOf("cycles[B-C].first.peak_force_n", job), 9);
+  EXPECT_EQ(MetricOf("cycles[A-B].last.restitution_out", job), 0.6);
+  EXPECT_EQ(MetricOf("cycles.max.peak_force_n", job), 9);
+  EXPECT_EQ(MetricOf("cycles[A-B].max.peak_force_n", job), 7);
+  EXPECT_EQ(MetricOf("cycles.min.peak_force_n", job), 2);
+}
+
+TEST(SweepMetrics, LargestAndSmallestLeaveOutWhatIsNoNumber) {
+  const v1::Job job = FourCycles();
+  EXPECT_EQ(MetricOf("cycles[B-C].min.restitution_out", job), 0.7);
+  EXPECT_EQ(MetricOf("cycles[B-C].max.restitution_out", job), 0.7);
+  EXPECT_TRUE(std::isnan(MetricOf("cycles.last.restitution_out", job)));
+}
+
+TEST(SweepMetrics, OfNoEntryCountIsZeroAndNumbersAreUnknown) {
+  EXPECT_EQ(MetricOf("cycles.count", v1::Job()), 0);
+  EXPECT_EQ(MetricOf("groups[A-B].count", FourCycles()), 0);
+  for (const auto* metric : {"cycles.last.mu", "cycles.max.mu", "groups.min.mu"}) {
+    EXPECT_TRUE(std::isnan(MetricOf(metric, v1::Job()))) << metric;
+  }
+}
+
+TEST(SweepMetrics, ChoicesAreOfListsAndEndWithANumber) {
+  v1::Sweep sweep = Grid();
+  for (const auto* metric : {"cycles[0].last.mu", "cycles.count.mu", "cycles.max", "cycles.mean.mu",
+                             "cycles.last.contact"}) {
+    sweep.add_metrics(metric);
+  }
+  EXPECT_THAT(Mistakes(sweep),
+              ElementsAre(HasSubstr("metrics[1]: 'cycles[0].last.mu': unknown field 'last'"),
+                          "metrics[2]: 'cycles.count.mu': unknown field 'mu'",
+                          HasSubstr("metrics[3]: 'cycles.max' is not a number"),
+                          HasSubstr("metrics[4]: 'cycles.mean.mu': cycles is a list"),
+                          HasSubstr("metrics[5]: 'cycles.last.contact' is not a number")));
 }
 
 }  // namespace

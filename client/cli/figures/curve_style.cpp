@@ -52,6 +52,8 @@ std::string Style(const Figure::Curve& curve, const Pen& pen) {
       return "points pt 2" + ink;
     case Figure::Mark::kLinePoints:
       return fmt::format("linespoints lw {} dt {} pt 6{}", pen.width, pen.dash, ink);
+    case Figure::Mark::kPoints:
+      return "points pt 7 ps 0.4" + ink;
     case Figure::Mark::kFaint:
       return fmt::format("lines lw 0.5 lc rgb '{}'", kFaint);
     case Figure::Mark::kFaintDots:
@@ -84,6 +86,7 @@ std::string CharacterStyle(const Figure::Curve& curve) {
   const int type = (curve.colour + (dashed ? kDashedShift : 0)) % kCharacters + 1;
   if (curve.mark == Figure::Mark::kStart) return fmt::format("points pt 'o' lt {}", type);
   if (curve.mark == Figure::Mark::kEnd) return fmt::format("points pt '×' lt {}", type);
+  if (curve.mark == Figure::Mark::kPoints) return fmt::format("points pt '+' lt {}", type);
   if (curve.mark == Figure::Mark::kLinePoints) return fmt::format("linespoints pt 'o' lt {}", type);
   return fmt::format("lines lt {}", type);
 }

@@ -20,6 +20,7 @@ struct Figure {
     kStart,       ///< A circle at each point: where cycles start.
     kEnd,         ///< A cross at each point: where cycles end.
     kLinePoints,  ///< A circle at each point, joined by lines.
+    kPoints,      ///< A small dot at each point.
     kFaint,       ///< A thin grey line, for what is shown beside,
     kFaintDots,   ///< or a grey dot at each point.
   };

@@ -8,8 +8,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/spelling.h"
 #include "cli/base/failure.h"
 #include "cli/base/scalar.h"
+#include "cli/input/checked_scenario.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
 #include "wire/rules/field_path.h"
@@ -41,12 +43,26 @@ void AddSteps(double first, double last, int count, v1::Sweep::Axis* axis) {
   }
 }
 
-v1::Sweep::Axis ReadAxis(const std::string& text, bool drawn) {
+// Gives an axis over a variable the fields of the variable.
+void SetFields(const std::string& text, const VariableFields& variables, v1::Sweep::Axis* axis) {
+  const std::optional<VariableAxis> found = FindVariableAxis(axis->field(), variables);
+  if (!found) return;
+  if (found->fields.empty()) {
+    throw Failure(ExitCode::kUsage,
+                  WithHint(fmt::format("--grid {}: {}", text, found->problem), found->hint));
+  }
+  axis->set_label(axis->field());
+  axis->set_field(found->fields.front());
+  axis->mutable_also()->Assign(found->fields.begin() + 1, found->fields.end());
+}
+
+v1::Sweep::Axis ReadAxis(const std::string& text, bool drawn, const VariableFields& variables) {
   constexpr double kMostSteps = 10'000;
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) FailAxis(text, drawn);
   v1::Sweep::Axis axis;
   axis.set_field(text.substr(0, equals));
+  SetFields(text, variables, &axis);
   const bool range = text.find(':', equals) != std::string::npos;
   std::vector<double> numbers;
   for (const std::string& part : Split(text.substr(equals + 1), range ? ':' : ',')) {
@@ -86,18 +102,21 @@ v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& 
                    const std::string& metric, const DrawnCells& drawn,
                    const VariableValues& variables) {
   v1::Sweep sweep;
-  for (const std::string& axis : axes) *sweep.add_axes() = ReadAxis(axis, drawn.count > 0);
+  const ScenarioFile base = ScenarioFile::Open(scenario, variables);
+  for (const std::string& axis : axes) {
+    *sweep.add_axes() = ReadAxis(axis, drawn.count > 0, base.variables());
+  }
   sweep.add_metrics(metric.empty() ? "iterations" : metric);
   if (drawn.count > 0) {
     sweep.set_combination(drawn.latin_hypercube ? v1::Sweep::LATIN_HYPERCUBE : v1::Sweep::RANDOM);
     sweep.set_count(drawn.count);
     sweep.set_seed(drawn.seed);
   }
-  const ScenarioFile base = ScenarioFile::Open(scenario, variables);
   RequireNone(base.diagnostics());
   *sweep.mutable_base() = base.scenario();
   RequireNone(CheckSweep(sweep, &base,
                          [&axes](const Violation& violation) { return Place(violation, axes); }));
+  TellAdvice(base);
   return sweep;
 }
 

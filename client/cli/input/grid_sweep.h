@@ -20,7 +20,8 @@ struct DrawnCells {
 };
 
 /// The sweep of a scenario file over some fields. Each axis is `FIELD=FIRST:LAST:COUNT`, in equal
-/// steps, or `FIELD=A,B,C`, and the cells are all combinations; or, if `drawn.count` is not 0, each
+/// steps, or `FIELD=A,B,C`, where FIELD is a path, or `var:NAME` for the fields whose value is the
+/// variable of this name, and the cells are all combinations; or, if `drawn.count` is not 0, each
 /// is `FIELD=LOW:HIGH` or `FIELD=A,B,C`, and the cells are drawn from them. An empty `metric` is
 /// `iterations`. Prints advice on the standard error. Throws Failure: kUsage for an axis of another
 /// form or an unknown variable, kInvalidScenario with all mistakes, kLocal if there is no file.

@@ -4,12 +4,14 @@
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "cli/base/failure.h"
 #include "cli/input/yaml_reader.h"
 #include "wire/rules/field_path.h"
+#include "wire/scenario/entry_names.h"
 
 namespace contact::cli {
 namespace {
@@ -31,7 +33,7 @@ class Assignment {
       const auto& type = *message->GetDescriptor();
       return Add(here, "unknown field", FieldHint(type, step.name));
     }
-    if (step.index) {
+    if (step.index || !step.key.empty()) {
       AssignEntries(path, here, *field, message);
     } else if (path.size() == 1) {
       overridden_->push_back(here);
@@ -54,17 +56,30 @@ class Assignment {
     if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE || path.size() == 1) {
       return Add(here, "cannot be set entry by entry", "set a field of it, or the whole list");
     }
+    const std::optional<int> index = IndexOf(path.front(), here, field, *message);
+    if (!index) return;
     const auto* reflection = message->GetReflection();
-    const int size = reflection->FieldSize(*message, &field);
-    const int index = *path.front().index;
-    if (index >= size) {
-      return Add(fmt::format("{}[{}]", here, index), fmt::format("there are only {}", size), "");
-    }
-    const bool every = index == PathStep::kEvery;
-    for (int i = every ? 0 : index; i < (every ? size : index + 1); ++i) {
+    const bool every = *index == PathStep::kEvery;
+    const int end = every ? reflection->FieldSize(*message, &field) : *index + 1;
+    for (int i = every ? 0 : *index; i < end; ++i) {
       Assign(path.subspan(1), fmt::format("{}[{}]", here, i),
              reflection->MutableRepeatedMessage(message, &field, i));
     }
+  }
+
+  // The index that a step means in the list at `here`, or kEvery; nothing if it means no entry.
+  std::optional<int> IndexOf(const PathStep& step, const std::string& here,
+                             const FieldDescriptor& list, const Message& message) {
+    if (!step.key.empty()) {
+      const NamedEntry named = FindNamed(message, list, step.key);
+      if (named.index >= 0) return named.index;
+      Add(here, named.problem, named.hint);
+      return std::nullopt;
+    }
+    const int size = message.GetReflection()->FieldSize(message, &list);
+    if (*step.index < size) return step.index;
+    Add(fmt::format("{}[{}]", here, *step.index), fmt::format("there are only {}", size), "");
+    return std::nullopt;
   }
 
   YamlReader Reader() {
@@ -97,7 +112,7 @@ YAML::Node ParseValue(const std::string& text, const std::string& assignment) {
 std::vector<Diagnostic> Override(const std::string& assignment, v1::Scenario* scenario,
                                  std::vector<std::string>* overridden) {
   const std::size_t equals = assignment.find('=');
-  const std::vector<PathStep> path = ParsePath(assignment.substr(0, equals));
+  const std::vector<PathStep> path = ParsePath(assignment.substr(0, equals), true);
   if (equals == std::string::npos || path.empty()) {
     throw Failure(ExitCode::kUsage,
                   fmt::format("--set {}: expected FIELD=VALUE, such as contacts[0].restitution=0.7",

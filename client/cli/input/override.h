@@ -8,8 +8,9 @@
 
 namespace contact::cli {
 
-/// Sets the fields that `contacts[*].restitution=0.7` names, and adds their paths to
-/// `overridden`. Returns the mistakes. Throws Failure (kUsage) if this is no assignment.
+/// Sets the fields that `contacts[*].restitution=0.7` names, or `contacts[B1-B2].restitution=0.7`,
+/// and adds their paths, with indices, to `overridden`. Returns the mistakes. Throws Failure
+/// (kUsage) if this is no assignment.
 std::vector<Diagnostic> Override(const std::string& assignment, v1::Scenario* scenario,
                                  std::vector<std::string>* overridden);
 

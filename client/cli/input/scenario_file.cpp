@@ -53,7 +53,12 @@ void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& v
     AddAt(documents[1].Mark(), "", "holds a second document", "a file is one scenario");
   }
   const YamlReader::Report report = std::bind_front(&ScenarioFile::AddAt, this);
-  RequireKnown(variables, ResolveVariables(variables, report, &root_));
+  const auto advise = [this](const YAML::Mark& mark, const std::string& field,
+                             const std::string& what, const std::string& hint) {
+    advice_.push_back(DiagnosticAt(name_, mark, field, what, hint));
+  };
+  variables_ = ResolveVariables(variables, report, advise, &root_);
+  RequireKnown(variables, variables_);
   YamlReader(report).ReadMessage(root_, "", &scenario_);
 }
 

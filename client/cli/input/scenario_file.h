@@ -23,8 +23,9 @@ class ScenarioFile {
   /// the variables.
   ScenarioFile(std::string name, const std::string& text, const VariableValues& variables = {});
 
-  /// Overrides a field: `contacts[0].restitution=0.7`. `[*]` is every entry of a list. The value
-  /// is YAML. Throws Failure (kUsage) if this is no assignment.
+  /// Overrides a field: `contacts[0].restitution=0.7`. In brackets may stand the name of a body or
+  /// contact, or `*` for every entry of a list. The value is YAML. Throws Failure (kUsage) if this
+  /// is no assignment.
   void Set(const std::string& assignment);
 
   /// Checks the rules of the contract, in the words of the server. Where the file itself has
@@ -43,8 +44,12 @@ class ScenarioFile {
   /// All mistakes, in order of place.
   std::vector<Diagnostic> diagnostics() const;
 
-  /// What Check found that is no mistake, but will probably not show what the author wants.
+  /// What is no mistake, but will probably not show what the author wants: variables that are used
+  /// nowhere, and what Check found.
   const std::vector<Diagnostic>& advice() const { return advice_; }
+
+  /// The fields of each variable that the file declares.
+  const VariableFields& variables() const { return variables_; }
 
  private:
   /// Reads the YAML and fills the scenario.
@@ -59,6 +64,7 @@ class ScenarioFile {
   /// The document, whose nodes know their places.
   YAML::Node root_;
   v1::Scenario scenario_;
+  VariableFields variables_;
   /// Paths of the fields that Set has replaced: they have no place in the file.
   std::vector<std::string> overridden_;
   std::vector<Diagnostic> diagnostics_;

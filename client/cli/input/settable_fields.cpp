@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cli/input/yaml_reader.h"
+#include "wire/scenario/entry_names.h"
 
 namespace contact::cli {
 namespace {
@@ -29,8 +30,10 @@ void AddEntries(const Message& message, const FieldDescriptor& field, const std:
   const auto& reflection = *message.GetReflection();
   const int size = reflection.FieldSize(message, &field);
   for (int i = 0; i < std::min(size, kMostEntries); ++i) {
-    AddFields(reflection.GetRepeatedMessage(message, &field, i), fmt::format("{}[{}].", path, i),
-              fields);
+    const Message& entry = reflection.GetRepeatedMessage(message, &field, i);
+    AddFields(entry, fmt::format("{}[{}].", path, i), fields);
+    const std::string name = NameOfEntry(message, field, i);
+    if (!name.empty()) AddFields(entry, fmt::format("{}[{}].", path, name), fields);
   }
   const Message& typical =
       size > 0 ? reflection.GetRepeatedMessage(message, &field, 0)

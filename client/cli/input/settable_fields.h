@@ -15,8 +15,9 @@ struct SettableField {
   std::vector<std::string> words;
 };
 
-/// The fields of a scenario, those of the first entries of each list, and with `[*]` those of all
-/// its entries. Parts that a scenario may lack, such as a wall, are there if it has them.
+/// The fields of a scenario, those of the first entries of each list, by index and by name, and
+/// with `[*]` those of all its entries. Parts that a scenario may lack, such as a wall, are there
+/// if it has them.
 std::vector<SettableField> SettableFields(const v1::Scenario& scenario);
 
 }  // namespace contact::cli

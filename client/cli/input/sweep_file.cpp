@@ -1,13 +1,19 @@
 #include "cli/input/sweep_file.h"
 
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cli/base/scalar.h"
 #include "cli/base/text_file.h"
+#include "cli/input/checked_scenario.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
 #include "cli/input/yaml_place.h"
@@ -37,8 +43,12 @@ class SweepFile {
  private:
   void ReadRoot() {
     if (root_.IsNull()) return AddAt(root_.Mark(), "", "is empty", "a sweep has base and axes");
-    const VariableValues own =
-        ResolveVariables(variables_, std::bind_front(&SweepFile::AddAt, this), &root_);
+    const auto advise = [this](const YAML::Mark& mark, const std::string& field,
+                               const std::string& what, const std::string& hint) {
+      advice_.push_back(DiagnosticAt(name(), mark, field, what, hint));
+    };
+    const VariableFields own =
+        ResolveVariables(variables_, std::bind_front(&SweepFile::AddAt, this), advise, &root_);
     if (!mistakes_.empty()) return;  // A text that names an unknown variable has no value.
     std::erase_if(variables_, [&own](const auto& given) { return own.contains(given.first); });
     YAML::Node rest = YAML::Clone(root_);
@@ -48,6 +58,7 @@ class SweepFile {
     } else {
       RequireKnown(variables_, own);
     }
+    NameFields(base_ ? base_->variables() : WithinBase(own), &rest);
     NumberEnums(&rest);
     // The reader sees a clone, whose nodes have no marks.
     const auto report = [this](const YAML::Mark&, const std::string& field, const std::string& what,
@@ -55,6 +66,39 @@ class SweepFile {
       AddAt(FindNode(root_, field).node.Mark(), field, what, hint);
     };
     YamlReader(report).ReadMessage(rest, "", &sweep_);
+  }
+
+  // The fields of variables that lie in the base, as paths from there.
+  static VariableFields WithinBase(const VariableFields& variables) {
+    constexpr std::string_view kBase = "base.";
+    VariableFields within;
+    for (const auto& [name, fields] : variables) {
+      for (const std::string& field : fields) {
+        if (field.starts_with(kBase)) within[name].push_back(field.substr(kBase.size()));
+      }
+      within[name];  // Also if it is no field.
+    }
+    return within;
+  }
+
+  // Gives axes over a variable the fields of the variable.
+  void NameFields(const VariableFields& variables, YAML::Node* sweep) {
+    if (!sweep->IsMap() || !(*sweep)["axes"].IsSequence()) return;
+    int index = 0;
+    for (YAML::Node axis : (*sweep)["axes"]) {
+      const std::string path = fmt::format("axes[{}].field", index++);
+      if (!axis.IsMap() || !axis["field"].IsScalar()) continue;
+      const auto found = FindVariableAxis(axis["field"].Scalar(), variables);
+      if (!found) continue;
+      if (found->fields.empty()) {
+        AddAt(FindNode(root_, path).node.Mark(), path, found->problem, found->hint);
+        continue;
+      }
+      if (!axis["label"].IsDefined()) axis["label"] = axis["field"].Scalar();
+      axis["field"] = found->fields.front();
+      for (std::size_t i = 1; i < found->fields.size(); ++i)
+        axis["also"].push_back(found->fields[i]);
+    }
   }
 
   // The values of an enum are its numbers on the wire; here they may be its words.
@@ -85,6 +129,9 @@ class SweepFile {
       const YAML::Mark mark = FindNode(root_, rule.field).node.Mark();
       return DiagnosticAt(name(), mark, rule.field, rule.description, rule.hint);
     });
+    if (!mistakes_.empty()) return;
+    for (const Diagnostic& advice : advice_) fmt::print(stderr, "{}\n", Format(advice, "warning"));
+    if (base_) TellAdvice(*base_);
   }
 
   void AddAt(const YAML::Mark& mark, std::string field, std::string what, std::string hint) {
@@ -100,6 +147,7 @@ class SweepFile {
   std::optional<ScenarioFile> base_;  ///< If it is a file of its own.
   v1::Sweep sweep_;
   std::vector<Diagnostic> mistakes_;
+  std::vector<Diagnostic> advice_;  ///< On the file's own variables.
 };
 
 }  // namespace

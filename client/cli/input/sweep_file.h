@@ -8,7 +8,8 @@
 namespace contact::cli {
 
 /// Reads a sweep file: the message Sweep in YAML, whose `base` may also be the name of a scenario
-/// file, from the folder of the sweep file. Checks the rules of the contract. Throws Failure:
+/// file, from the folder of the sweep file. The field of an axis may be `var:NAME`, for the fields
+/// whose value is the variable of this name. Checks the rules of the contract. Throws Failure:
 /// kInvalidScenario, which lists every mistake at its place, or kLocal.
 ///
 /// `variables` are those of the file or of its base; the file has the first claim on a name. Throws

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -27,43 +28,65 @@ bool IsName(std::string_view text) {
                              [&](unsigned char c) { return letter(c) || std::isdigit(c) != 0; });
 }
 
-std::vector<std::string_view> NamesOf(const VariableValues& values) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : values) names.push_back(name);
-  return names;
+std::string Join(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
 }
 
-// Hint for an unknown variable: the nearest name, or all names.
-std::string Instead(const std::string& name, const VariableValues& known) {
-  const std::vector<std::string_view> names = NamesOf(known);
-  return DidYouMean(
-      name, names,
-      names.empty() ? "the file has none" : fmt::format("there are {}", fmt::join(names, ", ")));
+// The name in a text that is `${name}` and nothing else; empty for any other text.
+std::string WholeName(std::string_view text) {
+  if (!text.starts_with("${") || text.find('}') != text.size() - 1) return "";
+  return std::string(text.substr(2, text.size() - 3));
 }
 
-// Puts values into all scalars of a document, each once however many aliases it has.
+// Puts values into all scalars of a document, each once however many aliases it has, and notes
+// where they went.
 class Resolver {
  public:
   Resolver(const VariableValues& values, const YamlReader::Report& report)
-      : values_(values), report_(report) {}
+      : values_(values), report_(report) {
+    for (const auto& [name, value] : values) fields_[name];
+  }
 
-  void Resolve(YAML::Node node) {
+  // `path` is that of the node.
+  void Resolve(YAML::Node node, const std::string& path) {
     if (node.IsMap()) {
-      for (const auto& entry : node) Resolve(entry.second);
-    } else if (node.IsSequence()) {
-      for (const auto& entry : node) Resolve(entry);
-    } else if (node.IsScalar() && node.Scalar().find("${") != std::string::npos &&
-               seen_.insert(node.Mark().pos).second) {
-      const std::optional<std::string> text = Text(node);
-      if (text) {
-        node = *text;  // Keeps the node's place.
-      } else {
-        node = YAML::Node(YAML::NodeType::Null);  // One mistake is enough.
+      for (const auto& entry : node) {
+        Resolve(entry.second, Join(path, entry.first.IsScalar() ? entry.first.Scalar() : ""));
       }
+    } else if (node.IsSequence()) {
+      int index = 0;
+      for (const auto& entry : node) Resolve(entry, fmt::format("{}[{}]", path, index++));
+    } else if (node.IsScalar()) {
+      ResolveScalar(node, path);
     }
   }
 
+  // True if some scalar has the variable in it.
+  bool Uses(const std::string& name) const { return used_.contains(name); }
+
+  VariableFields Take() { return std::move(fields_); }
+
  private:
+  void ResolveScalar(YAML::Node node, const std::string& path) {
+    const auto seen = whole_.find(node.Mark().pos);
+    if (seen != whole_.end()) return AddField(seen->second, path);
+    if (node.Scalar().find("${") == std::string::npos) return;
+    const std::string& name = whole_[node.Mark().pos] = WholeName(node.Scalar());
+    AddField(name, path);
+    const std::optional<std::string> text = Text(node);
+    if (text) {
+      node = *text;  // Keeps the node's place.
+    } else {
+      node = YAML::Node(YAML::NodeType::Null);  // One mistake is enough.
+    }
+  }
+
+  void AddField(const std::string& name, const std::string& path) {
+    if (const auto found = fields_.find(name); found != fields_.end()) {
+      found->second.push_back(path);
+    }
+  }
+
   // The text with values in it. Nothing if it names an unknown variable, which is reported.
   std::optional<std::string> Text(const YAML::Node& node) {
     std::string_view rest = node.Scalar();
@@ -84,9 +107,10 @@ class Resolver {
       const auto found = values_.find(name);
       if (found == values_.end()) {
         report_(node.Mark(), "", fmt::format("undefined variable {}", Quoted(name)),
-                Instead(name, values_));
+                KnownVariables(name, fields_));
         return std::nullopt;
       }
+      used_.insert(name);
       text += found->second;
       rest.remove_prefix(end + 1);
     }
@@ -95,7 +119,10 @@ class Resolver {
 
   const VariableValues& values_;
   const YamlReader::Report& report_;
-  std::set<int> seen_;
+  // By the place of a scalar that had variables: the one that was all of it, or empty.
+  std::map<int, std::string> whole_;
+  std::set<std::string> used_;
+  VariableFields fields_;
 };
 
 // The values that stand in the mapping itself.
@@ -121,6 +148,16 @@ VariableValues Defaults(const YAML::Node& mapping, const YamlReader::Report& rep
   return values;
 }
 
+void AdviseOnUnused(const YAML::Node& mapping, const Resolver& resolver,
+                    const YamlReader::Report& advise) {
+  for (const auto& entry : mapping) {
+    const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    if (!IsName(name) || resolver.Uses(name)) continue;
+    advise(entry.first.Mark(), fmt::format("{}.{}", kVariables, name), "is used nowhere",
+           fmt::format("${{{}}} stands for its value", name));
+  }
+}
+
 }  // namespace
 
 void AddVariableFlag(CLI::App& command, std::vector<std::string>* assignments) {
@@ -136,25 +173,36 @@ VariableValues ParseVariables(const std::vector<std::string>& assignments) {
   return ParseAssignments(assignments, "--var", "VARIABLE=VALUE, such as restitution=0.7");
 }
 
-VariableValues ResolveVariables(const VariableValues& given, const YamlReader::Report& report,
-                                YAML::Node* document) {
+VariableFields ResolveVariables(const VariableValues& given, const YamlReader::Report& report,
+                                const YamlReader::Report& advise, YAML::Node* document) {
   if (!document->IsMap() || !std::as_const(*document)[kVariables].IsDefined()) return {};
-  VariableValues values = Defaults((*document)[kVariables], report);
+  const YAML::Node mapping = (*document)[kVariables];
+  VariableValues values = Defaults(mapping, report);
   document->remove(kVariables);
   for (const auto& [name, value] : given) {
     const auto found = values.find(name);
     if (found != values.end()) found->second = value;
   }
-  Resolver(values, report).Resolve(*document);
-  return values;
+  Resolver resolver(values, report);
+  resolver.Resolve(*document, "");
+  if (mapping.IsMap()) AdviseOnUnused(mapping, resolver, advise);
+  return resolver.Take();
 }
 
-void RequireKnown(const VariableValues& given, const VariableValues& known) {
+void RequireKnown(const VariableValues& given, const VariableFields& known) {
   for (const auto& [name, value] : given) {
     if (known.contains(name)) continue;
     throw Failure(ExitCode::kUsage, fmt::format("--var {}: unknown variable {} — {}", name,
-                                                Quoted(name), Instead(name, known)));
+                                                Quoted(name), KnownVariables(name, known)));
   }
+}
+
+std::string KnownVariables(const std::string& name, const VariableFields& known) {
+  std::vector<std::string_view> names;
+  for (const auto& [each, fields] : known) names.push_back(each);
+  return DidYouMean(
+      name, names,
+      names.empty() ? "the file has none" : fmt::format("there are {}", fmt::join(names, ", ")));
 }
 
 }  // namespace contact::cli

@@ -72,6 +72,10 @@ std::vector<std::string> EnumWords(const EnumDescriptor& type) {
   return words;
 }
 
+const EnumValueDescriptor* FindWord(const EnumDescriptor& type, const std::string& text) {
+  return type.FindValueByName(EnumName(text));
+}
+
 void YamlReader::ReadMessage(const YAML::Node& node, const std::string& path,
                              Message* message) const {
   if (node.IsNull()) return;
@@ -179,7 +183,7 @@ void YamlReader::ReadEnum(const YAML::Node& node, const std::string& path,
   const std::vector<std::string> words = EnumWords(type);
   const std::string all = fmt::format("one of {}", fmt::join(words, ", "));
   if (!node.IsScalar()) return Refuse(node, path, all);
-  const EnumValueDescriptor* value = type.FindValueByName(EnumName(node.Scalar()));
+  const EnumValueDescriptor* value = FindWord(type, node.Scalar());
   if (value != nullptr) {
     return Store(field, message, value->number(), &google::protobuf::Reflection::SetEnumValue,
                  &google::protobuf::Reflection::AddEnumValue);

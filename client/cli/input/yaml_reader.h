@@ -15,6 +15,11 @@ namespace contact::cli {
 /// an unset field.
 std::vector<std::string> EnumWords(const google::protobuf::EnumDescriptor& type);
 
+/// The value of an enum that a text names, in either case and with `-` for `_`; null if there is
+/// none.
+const google::protobuf::EnumValueDescriptor* FindWord(const google::protobuf::EnumDescriptor& type,
+                                                      const std::string& text);
+
 /// Reads YAML nodes into messages by reflection: keys are field names, enum values their names in
 /// either case. Goes on after a mistake, so that all are reported. A key without a value leaves
 /// its field out, but makes a message of nothing where the field is one (`gravity:`).

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "cli/base/message.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
+#include "cli/input/measured.h"
 #include "cli/link/connect.h"
 #include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
@@ -13,6 +15,7 @@
 #include "cli/text/comparison/render_comparison.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/options.h"
+#include "cli/verbs/measured_comparison.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -24,6 +27,9 @@ struct CompareArguments {
   std::string format;
   std::string plot;  // File to draw the runs to.
   std::vector<std::string> channels;
+  MeasuredComparison measured;
+  const CLI::Option* absolute = nullptr;  // --abs
+  const CLI::Option* relative = nullptr;  // --rel
 };
 
 // The settings with the format of --format, an older flag that wins over -o.
@@ -73,9 +79,35 @@ void Print(const JobComparison& comparison, const Settings& settings) {
   }
 }
 
+// What --abs and --rel allow of measured data, whose digits are fewer.
+SignalTolerance ToleranceOfSignals(const CompareArguments& arguments) {
+  SignalTolerance tolerance;
+  if (arguments.absolute->count() > 0) tolerance.absolute = arguments.tolerance.absolute;
+  if (arguments.relative->count() > 0) tolerance.relative = arguments.tolerance.relative;
+  return tolerance;
+}
+
+ExitCode CompareMeasured(const CompareArguments& arguments, const Settings& settings) {
+  const bool swapped = IsTable(arguments.jobs.front());
+  const std::string& file = swapped ? arguments.jobs.front() : arguments.jobs.back();
+  const std::string& job = swapped ? arguments.jobs.back() : arguments.jobs.front();
+  if (arguments.jobs.size() != 2 || IsTable(job)) {
+    throw Failure(ExitCode::kUsage, "a file of measured data is compared with one job");
+  }
+  if (!arguments.channels.empty()) {
+    throw Failure(ExitCode::kUsage, "--channels: measured data has its channels in its headers");
+  }
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kCsv});
+  return arguments.measured.Run(job, file, ToleranceOfSignals(arguments), arguments.plot, settings);
+}
+
 ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) {
   const Settings settings = WithFormat(arguments, global);
   if (!arguments.plot.empty()) FormatOfFigure(arguments.plot);  // Refused before anything is read.
+  if (std::ranges::any_of(arguments.jobs, IsTable)) return CompareMeasured(arguments, settings);
+  if (const std::string flag = arguments.measured.GivenFlag(); !flag.empty()) {
+    throw Failure(ExitCode::kUsage, fmt::format("{} goes with a file of measured data", flag));
+  }
   const std::vector<v1::Job> runs = ReadRuns(arguments.jobs, settings);
   if (!arguments.plot.empty()) DrawRuns(arguments, settings);
   const JobComparison comparison = Compare(runs, arguments.tolerance);
@@ -83,12 +115,16 @@ ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) 
   return comparison.Holds() ? ExitCode::kOk : ExitCode::kDiffers;
 }
 
-void AddTolerance(CLI::App& command, Tolerance* tolerance) {
+void AddTolerance(CLI::App& command, CompareArguments* arguments) {
   const auto add = [&command](const char* name, double* value, const char* about) {
-    command.add_option(name, *value, about)->check(AtLeast(0))->capture_default_str();
+    return command.add_option(name, *value, about)->check(AtLeast(0))->capture_default_str();
   };
-  add("--abs", &tolerance->absolute, "Deviation that does not matter");
-  add("--rel", &tolerance->relative, "The same relative to the baseline; the larger one counts");
+  arguments->absolute =
+      add("--abs", &arguments->tolerance.absolute,
+          "Deviation that does not matter; with measured data 0 if it is not given");
+  arguments->relative = add("--rel", &arguments->tolerance.relative,
+                            "The same relative to the baseline, with measured data to the peak, "
+                            "then 0.05 if it is not given; the larger one counts");
 }
 
 }  // namespace
@@ -97,10 +133,11 @@ void AddCompare(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<CompareArguments>();
   AddOption(line, command, "JOB", &arguments->jobs, ValueKind::kJob,
             "Two or more: IDs, or files with what describe -o json printed; the first is the "
-            "baseline")
+            "baseline. Or one ID and a table of measured data, such as measured.csv")
       ->required()
       ->expected(2, 1000);
-  AddTolerance(command, &arguments->tolerance);
+  AddTolerance(command, arguments.get());
+  arguments->measured.AddTo(command);
   AddOption(line, command, "--format", &arguments->format,
             {"table", "json", "yaml", "csv", "latex"}, "The same as -o")
       ->type_name("FORMAT");

@@ -160,8 +160,9 @@ void AddAxes(CLI::App& run, SweepArguments* arguments) {
       Repeatable(
           run.add_option("--grid", arguments->grid,
                          "An axis; its values are combined with those of all other axes, such as "
-                         "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. --metric is "
-                         "then what is computed, by default iterations"))
+                         "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. FIELD may "
+                         "name an entry, contacts[A-B].restitution, or be a variable of the file, "
+                         "var:NAME. --metric is then what is computed, by default iterations"))
           ->type_name("FIELD=VALUES");
   CLI::Option* random = AddDrawn(
       run, "--random", &arguments->random, grid,

@@ -1,35 +1,48 @@
-"""The client for asyncio: the same calls, awaited."""
+"""The client for asyncio. client.py is made from this file by make_client.py: change this one."""
 
 from __future__ import annotations
 
 import asyncio
-import os
 import pathlib
-from typing import Any, AsyncIterator, Iterable, Mapping
+import uuid
+from typing import Any, AsyncIterator, Callable, Iterable, Mapping
 
 import grpc
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
-from .client import (DEFAULT_ADDRESS, OPTIONS, JobLike, create_request, deadline_of, ended,
-                     job_name)
-from .downloading import Download, PathLike
-from .errors import from_rpc
+from . import tools
+from .calls import (OPTIONS, TRIES, JobLike, address_of, create_request, deadline_of, ended,
+                    job_name)
+from .downloading import Download
+from .errors import CallError, RunFailed, from_rpc
+from .keywords import hinted
+from .progress import ProgressBar
 from .recording import KINDS, Recording
 from .result import Result
 from .scenario import ScenarioLike
+from .sweeping import AxisValue, SweepResult, make_sweep
+from .tools import PathLike
 from .watching import WHOLE, JobChange, Position, Roster, delivery_options
 
 
 class AsyncClient:
-    """As Client, for use in one event loop; an asynchronous context manager."""
+    """A connection to one contactd, as Client, for one event loop; an async context manager.
+
+    `address` is HOST:PORT; by default the environment variable CONTACT_SERVER, or
+    127.0.0.1:7070. `timeout_s` limits each call, not the run of a job.
+
+    A scenario is a file, a template, a dict or a message, see load_scenario. `set` overrides its
+    fields by their paths, `variables` those that a file declares.
+    """
 
     def __init__(self, address: str | None = None, *, timeout_s: float = 10.0) -> None:
-        self.address = address or os.environ.get("CONTACT_SERVER", DEFAULT_ADDRESS)
+        self.address = address_of(address)
         self._timeout_s = timeout_s
         self._channel = grpc.aio.insecure_channel(self.address, options=OPTIONS)
         self._stub = job_service_pb2_grpc.JobServiceStub(self._channel)
 
     async def close(self) -> None:
+        """Ends the connection."""
         await self._channel.close()
 
     async def __aenter__(self) -> AsyncClient:
@@ -38,39 +51,121 @@ class AsyncClient:
     async def __aexit__(self, *_: object) -> None:
         await self.close()
 
-    async def run(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
-                  timeout_s: float | None = None) -> Result:
-        """Submits a scenario, follows it to its end and returns its result."""
-        job = await self.submit(scenario, labels=labels)
-        return await self.result(job, timeout_s=timeout_s)
+    @hinted
+    async def run(self, scenario: ScenarioLike, *, set: Mapping[str, Any] | None = None,
+                  variables: Mapping[str, Any] | None = None,
+                  labels: Mapping[str, str] | None = None,
+                  on_event: Callable[[event_pb2.Event], None] | None = None,
+                  progress: bool = False, timeout_s: float | None = None) -> Result:
+        """Submits a scenario, follows it to its end and returns its result.
 
-    async def submit(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
+        `set` has values by path: `{"contacts[B1-B2].restitution": 0.7}`. `on_event` hears every
+        event as it happens; `progress` shows a bar, for which tqdm must be installed. Raises
+        InvalidScenario, RunFailed, and Timeout after `timeout_s`; the job then goes on.
+        """
+        deadline = deadline_of(timeout_s)
+        with ProgressBar(progress) as bar:
+            job = await self.submit(scenario, set=set, variables=variables, labels=labels)
+            return await self._follow(job.name, on_event, deadline, bar)
+
+    @hinted
+    async def submit(self, scenario: ScenarioLike, *, set: Mapping[str, Any] | None = None,
+                     variables: Mapping[str, Any] | None = None,
+                     labels: Mapping[str, str] | None = None,
                      request_id: str | None = None) -> job_pb2.Job:
-        """Submits a scenario and returns its job at once."""
-        return await self._call(self._stub.CreateJob,
-                                create_request(scenario, labels, request_id))
+        """Submits a scenario and returns its job at once.
 
-    async def watch(self, job: JobLike, *, after_sequence: int = 0, kinds: Iterable[str] = (),
-                    live_only: bool = False, min_frame_interval_s: float = 0.0,
-                    timeout_s: float | None = None) -> AsyncIterator[event_pb2.Event]:
-        """The events of a job until it has ended, across connections; see Client.watch."""
+        The same `request_id` and scenario make one job, however often submitted.
+        """
+        request = create_request(scenario, set, variables, labels, request_id)
+        job: job_pb2.Job = await self._call(self._stub.CreateJob, request)
+        return job
+
+    @hinted
+    async def sweep(self, scenario: ScenarioLike, grid: Mapping[str, Iterable[AxisValue]],
+                    metrics: Iterable[str] = ("iterations",), *,
+                    set: Mapping[str, Any] | None = None,
+                    variables: Mapping[str, Any] | None = None,
+                    labels: Mapping[str, str] | None = None, progress: bool = False,
+                    timeout_s: float | None = None) -> SweepResult:
+        """Solves a scenario for every combination of values of its fields, as one job.
+
+        `grid` has the values by path, such as `{"contacts[*].restitution": [0.9, 0.8]}`, or by
+        variable, `var:NAME`; values of an enum may be its words. `metrics` are paths of numbers in
+        the result, such as `cycles[B1-B2].last.alpha`. Cells that fail or do not converge do not
+        raise: the result tells which. `progress` shows a bar, for which tqdm must be installed.
+        Raises InvalidScenario, RunFailed if the whole sweep ended early, and Timeout after
+        `timeout_s`; the job then goes on.
+        """
+        deadline = deadline_of(timeout_s)
+        job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics, variables, set), labels=labels)
+        request = job_service_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
+        with ProgressBar(progress) as bar:
+            created: job_pb2.Job = await self._call(self._stub.CreateJob, request)
+            return await self._sweep(created.name, deadline, bar)
+
+    async def sweep_result(self, job: JobLike, *, timeout_s: float | None = None) -> SweepResult:
+        """The cells of a sweep, once it has ended."""
+        return await self._sweep(job_name(job), deadline_of(timeout_s), ProgressBar(False))
+
+    async def _sweep(self, name: str, deadline: float | None, bar: ProgressBar) -> SweepResult:
+        position = Position(name, self.address, 0, ["sweep_cell", *bar.kinds], deadline)
+        cells = []
+        async for event in self._stream(self._stub.WatchJob, position):
+            bar.hear(event)
+            if event.WhichOneof("payload") == "sweep_cell":
+                cells.append(event.sweep_cell)
+        job = await self.get(name)
+        if job.state != job_pb2.Job.SUCCEEDED:
+            raise RunFailed(job)
+        return SweepResult(job, cells)
+
+    @hinted
+    async def validate(self, scenario: ScenarioLike, *, set: Mapping[str, Any] | None = None,
+                       variables: Mapping[str, Any] | None = None) -> job_pb2.Job:
+        """Raises InvalidScenario unless the server would accept the scenario.
+
+        Returns a job that was not submitted: its `warnings` tell what the scenario will probably
+        not show, its `estimate` what it would take.
+        """
+        request = create_request(scenario, set, variables, None, None)
+        request.validate_only = True
+        job: job_pb2.Job = await self._call(self._stub.CreateJob, request)
+        return job
+
+    def watch(self, job: JobLike, *, after_sequence: int = 0, kinds: Iterable[str] = (),
+              live_only: bool = False, min_frame_interval_s: float = 0.0,
+              timeout_s: float | None = None) -> AsyncIterator[event_pb2.Event]:
+        """The events of a job: those stored, then new ones as they happen, until it has ended.
+
+        Reconnects with growing pauses when the link breaks; no durable event is missed or
+        repeated. `kinds` are names of Event.payload, such as `cycle`; state_changed always comes.
+        `live_only` begins after the newest event. Of frame chunks that follow each other within
+        `min_frame_interval_s` only the newest comes, and a gap for the others.
+        """
         position = Position(job_name(job), self.address, after_sequence, kinds,
                             deadline_of(timeout_s), live_only=live_only,
                             delivery=delivery_options(min_frame_interval_s))
-        async for event in self._stream(self._stub.WatchJob, position):
-            yield event
+        return self._stream(self._stub.WatchJob, position)
 
-    async def watch_jobs(self, *, states: Iterable[str] = (),
-                         labels: Mapping[str, str] | None = None,
-                         timeout_s: float | None = None) -> AsyncIterator[JobChange]:
-        """What becomes of all jobs of a filter, without end; see Client.watch_jobs."""
+    def watch_jobs(self, *, states: Iterable[str] = (), labels: Mapping[str, str] | None = None,
+                   timeout_s: float | None = None) -> AsyncIterator[JobChange]:
+        """What becomes of all jobs of a filter: those there are, then each change as it happens.
+
+        Never ends by itself; raises Timeout after `timeout_s`. Reconnects as watch does. Of
+        changes that follow each other quickly only the newest may come; none comes twice.
+        """
         roster = Roster(self.address, states, labels, deadline_of(timeout_s))
-        async for change in self._stream(self._stub.WatchJobs, roster):
-            yield change
+        return self._stream(self._stub.WatchJobs, roster)
 
     async def download(self, job: JobLike, artifact: str, path: PathLike | None = None, *,
                        timeout_s: float | None = None) -> pathlib.Path:
-        """Fetches an artifact of an ended job into a file; see Client.download."""
+        """Fetches an artifact of an ended job, one of `get(job).artifacts`, into a file.
+
+        By default that of the last part of its name, in the current folder. Goes on where it was
+        when the link breaks, and with PATH.part where an earlier try has left it. Raises
+        JobNotFound, DownloadFailed, and Timeout after `timeout_s`; the part then stays.
+        """
         target = pathlib.Path(path or pathlib.PurePosixPath(artifact).name)
         with Download(job_name(job), artifact, target, self.address,
                       deadline_of(timeout_s)) as download:
@@ -79,6 +174,7 @@ class AsyncClient:
         return target
 
     async def _stream(self, method: Any, link: Any) -> AsyncIterator[Any]:
+        """What the messages of a stream bring, across connections."""
         while not link.finished:
             call = method(link.request(), timeout=link.time_left())
             error = None
@@ -94,27 +190,93 @@ class AsyncClient:
                 call.cancel()
             await asyncio.sleep(link.lost(error))
 
+    async def wait(self, job: JobLike, *, timeout_s: float | None = None) -> job_pb2.Job:
+        """The job once it has ended, however it did."""
+        async for _ in self.watch(job, kinds=["state_changed"], timeout_s=timeout_s):
+            pass
+        return await self.get(job)
+
     async def result(self, job: JobLike, *, timeout_s: float | None = None) -> Result:
         """The result of a job: waits for its end and fetches all that it recorded."""
-        recording = Recording()
-        position = Position(job_name(job), self.address, 0, KINDS, deadline_of(timeout_s),
-                            delivery=WHOLE)
-        async for event in self._stream(self._stub.WatchJob, position):
-            recording.add(event)
-        return ended(await self.get(job), recording)
+        return await self._follow(job_name(job), None, deadline_of(timeout_s), ProgressBar(False))
 
     async def get(self, job: JobLike) -> job_pb2.Job:
         """The job as it is now, with its ledger so far."""
-        return await self._call(self._stub.GetJob,
-                                job_service_pb2.GetJobRequest(name=job_name(job)))
+        request = job_service_pb2.GetJobRequest(name=job_name(job))
+        answer: job_pb2.Job = await self._call(self._stub.GetJob, request)
+        return answer
+
+    def list(self, *, states: Iterable[str] = (),
+             labels: Mapping[str, str] | None = None) -> AsyncIterator[job_pb2.Job]:
+        """Jobs, newest first, page by page; without specs and ledgers."""
+        return self._pages(job_service_pb2.ListJobsRequest(
+            states=[job_pb2.Job.State.Value(state) for state in states], labels=labels))
+
+    async def _pages(self, request: job_service_pb2.ListJobsRequest) -> AsyncIterator[job_pb2.Job]:
+        while True:
+            page: job_service_pb2.ListJobsResponse = await self._call(self._stub.ListJobs, request)
+            for job in page.jobs:
+                yield job
+            request.page_token = page.next_page_token
+            if not request.page_token:
+                return
 
     async def cancel(self, job: JobLike) -> job_pb2.Job:
         """Asks a job to stop; what it recorded is kept."""
-        return await self._call(self._stub.CancelJob,
-                                job_service_pb2.CancelJobRequest(name=job_name(job)))
+        request = job_service_pb2.CancelJobRequest(name=job_name(job))
+        answer: job_pb2.Job = await self._call(self._stub.CancelJob, request)
+        return answer
+
+    async def delete(self, job: JobLike) -> None:
+        """Removes an ended job and its events."""
+        await self._call(self._stub.DeleteJob, job_service_pb2.DeleteJobRequest(name=job_name(job)))
+
+    async def server_info(self) -> job_service_pb2.ServerInfo:
+        """What the server is and accepts."""
+        request = job_service_pb2.GetServerInfoRequest()
+        info: job_service_pb2.ServerInfo = await self._call(self._stub.GetServerInfo, request)
+        return info
+
+    async def report(self, jobs: Iterable[JobLike], path: PathLike = "report.html") -> pathlib.Path:
+        """Writes a page about jobs that needs no network: ledger, figures, balances.
+
+        contactctl draws it and must be installed, gnuplot too. Raises ToolFailed.
+        """
+        names = [job_name(job) for job in jobs]
+        return await asyncio.to_thread(tools.report, self.address, names, path)
+
+    async def paper(self, folder: PathLike = "paper", items: Iterable[str] = ("all",)) -> bool:
+        """Makes figures and tables of the paper again in a folder, with index.html of all.
+
+        True if no number deviates by more than documented. contactctl makes them and must be
+        installed; without gnuplot there are no figures. Raises ToolFailed.
+        """
+        return await asyncio.to_thread(tools.paper, self.address, items, folder)
+
+    async def _follow(self, name: str, on_event: Callable[[event_pb2.Event], None] | None,
+                      deadline: float | None, bar: ProgressBar) -> Result:
+        recording = Recording()
+        kinds = () if on_event else (*KINDS, *bar.kinds)
+        position = Position(name, self.address, 0, kinds, deadline, delivery=WHOLE)
+        async for event in self._stream(self._stub.WatchJob, position):
+            recording.add(event)
+            bar.hear(event)
+            if on_event:
+                on_event(event)
+        return ended(await self.get(name), recording)
 
     async def _call(self, method: Any, request: Any) -> Any:
-        try:
-            return await method(request, timeout=self._timeout_s)
-        except grpc.RpcError as error:
-            raise from_rpc(error, self.address) from error
+        """A unary call, tried again while the server cannot be reached."""
+        failure: CallError | None = None
+        for attempt in range(TRIES):
+            if attempt > 0:
+                await asyncio.sleep(0.05 * 2**attempt)
+            try:
+                return await method(request, timeout=self._timeout_s)
+            except grpc.RpcError as error:
+                failure = from_rpc(error, self.address)
+                failure.__cause__ = error
+            if failure.code != grpc.StatusCode.UNAVAILABLE:
+                break
+        assert failure is not None
+        raise failure

@@ -1,39 +1,28 @@
-"""The client: submits scenarios, watches jobs, fetches results."""
+"""The client. Made from aio.py by make_client.py: change that one."""
 
 from __future__ import annotations
 
-import os
 import pathlib
 import time
 import uuid
-from typing import Any, Callable, Iterable, Iterator, Mapping, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping
 
 import grpc
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
-from .downloading import Download, PathLike
-from .errors import RunFailed, from_rpc
+from . import tools
+from .calls import (OPTIONS, TRIES, JobLike, address_of, create_request, deadline_of, ended,
+                    job_name)
+from .downloading import Download
+from .errors import CallError, RunFailed, from_rpc
+from .keywords import hinted
 from .progress import ProgressBar
 from .recording import KINDS, Recording
 from .result import Result
-from .scenario import ScenarioLike, load_scenario
-from .sweeping import SweepResult, make_sweep
+from .scenario import ScenarioLike
+from .sweeping import AxisValue, SweepResult, make_sweep
+from .tools import PathLike
 from .watching import WHOLE, JobChange, Position, Roster, delivery_options
-
-JobLike = Union[str, job_pb2.Job, Result]
-
-DEFAULT_ADDRESS = "127.0.0.1:7070"
-OPTIONS = (
-    ("grpc.max_receive_message_length", 256 << 20),  # A ledger has no limit but this.
-    ("grpc.initial_reconnect_backoff_ms", 100),
-    ("grpc.min_reconnect_backoff_ms", 100),
-    ("grpc.max_reconnect_backoff_ms", 5000),
-    ("grpc.keepalive_time_ms", 30_000),
-    ("grpc.keepalive_timeout_ms", 20_000),
-    ("grpc.http2.max_pings_without_data", 0),
-    ("grpc.enable_http_proxy", 0),  # A proxy for the web does not know contactd.
-)
-_TRIES = 3
 
 
 class Client:
@@ -41,15 +30,19 @@ class Client:
 
     `address` is HOST:PORT; by default the environment variable CONTACT_SERVER, or
     127.0.0.1:7070. `timeout_s` limits each call, not the run of a job.
+
+    A scenario is a file, a template, a dict or a message, see load_scenario. `set` overrides its
+    fields by their paths, `variables` those that a file declares.
     """
 
     def __init__(self, address: str | None = None, *, timeout_s: float = 10.0) -> None:
-        self.address = address or os.environ.get("CONTACT_SERVER", DEFAULT_ADDRESS)
+        self.address = address_of(address)
         self._timeout_s = timeout_s
         self._channel = grpc.insecure_channel(self.address, options=OPTIONS)
         self._stub = job_service_pb2_grpc.JobServiceStub(self._channel)
 
     def close(self) -> None:
+        """Ends the connection."""
         self._channel.close()
 
     def __enter__(self) -> Client:
@@ -58,44 +51,58 @@ class Client:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def run(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
+    @hinted
+    def run(self, scenario: ScenarioLike, *, set: Mapping[str, Any] | None = None,
+            variables: Mapping[str, Any] | None = None,
+            labels: Mapping[str, str] | None = None,
             on_event: Callable[[event_pb2.Event], None] | None = None,
             progress: bool = False, timeout_s: float | None = None) -> Result:
         """Submits a scenario, follows it to its end and returns its result.
 
-        `on_event` hears every event as it happens; `progress` shows a bar, for which tqdm must be
-        installed. Raises InvalidScenario, RunFailed, and Timeout after `timeout_s`; the job then
-        goes on.
+        `set` has values by path: `{"contacts[B1-B2].restitution": 0.7}`. `on_event` hears every
+        event as it happens; `progress` shows a bar, for which tqdm must be installed. Raises
+        InvalidScenario, RunFailed, and Timeout after `timeout_s`; the job then goes on.
         """
         deadline = deadline_of(timeout_s)
         with ProgressBar(progress) as bar:
-            return self._follow(self.submit(scenario, labels=labels).name, on_event, deadline, bar)
+            job = self.submit(scenario, set=set, variables=variables, labels=labels)
+            return self._follow(job.name, on_event, deadline, bar)
 
-    def submit(self, scenario: ScenarioLike, *, labels: Mapping[str, str] | None = None,
+    @hinted
+    def submit(self, scenario: ScenarioLike, *, set: Mapping[str, Any] | None = None,
+               variables: Mapping[str, Any] | None = None,
+               labels: Mapping[str, str] | None = None,
                request_id: str | None = None) -> job_pb2.Job:
         """Submits a scenario and returns its job at once.
 
         The same `request_id` and scenario make one job, however often submitted.
         """
-        return self._call(self._stub.CreateJob, create_request(scenario, labels, request_id))
+        request = create_request(scenario, set, variables, labels, request_id)
+        job: job_pb2.Job = self._call(self._stub.CreateJob, request)
+        return job
 
-    def sweep(self, scenario: ScenarioLike, grid: Mapping[str, Iterable[float]],
+    @hinted
+    def sweep(self, scenario: ScenarioLike, grid: Mapping[str, Iterable[AxisValue]],
               metrics: Iterable[str] = ("iterations",), *,
+              set: Mapping[str, Any] | None = None,
+              variables: Mapping[str, Any] | None = None,
               labels: Mapping[str, str] | None = None, progress: bool = False,
               timeout_s: float | None = None) -> SweepResult:
         """Solves a scenario for every combination of values of its fields, as one job.
 
-        `grid` has the values by path, such as `{"contacts[*].restitution": [0.9, 0.8]}`; `metrics`
-        are paths of numbers in the result, such as `cycles[B1-B2].alpha`. Cells that fail or do
-        not converge do not raise: the result tells which. `progress` shows a bar, for which tqdm
-        must be installed. Raises InvalidScenario, RunFailed if the
-        whole sweep ended early, and Timeout after `timeout_s`; the job then goes on.
+        `grid` has the values by path, such as `{"contacts[*].restitution": [0.9, 0.8]}`, or by
+        variable, `var:NAME`; values of an enum may be its words. `metrics` are paths of numbers in
+        the result, such as `cycles[B1-B2].last.alpha`. Cells that fail or do not converge do not
+        raise: the result tells which. `progress` shows a bar, for which tqdm must be installed.
+        Raises InvalidScenario, RunFailed if the whole sweep ended early, and Timeout after
+        `timeout_s`; the job then goes on.
         """
         deadline = deadline_of(timeout_s)
-        job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics), labels=labels)
+        job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics, variables, set), labels=labels)
         request = job_service_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
         with ProgressBar(progress) as bar:
-            return self._sweep(self._call(self._stub.CreateJob, request).name, deadline, bar)
+            created: job_pb2.Job = self._call(self._stub.CreateJob, request)
+            return self._sweep(created.name, deadline, bar)
 
     def sweep_result(self, job: JobLike, *, timeout_s: float | None = None) -> SweepResult:
         """The cells of a sweep, once it has ended."""
@@ -104,7 +111,7 @@ class Client:
     def _sweep(self, name: str, deadline: float | None, bar: ProgressBar) -> SweepResult:
         position = Position(name, self.address, 0, ["sweep_cell", *bar.kinds], deadline)
         cells = []
-        for event in self._watch(position):
+        for event in self._stream(self._stub.WatchJob, position):
             bar.hear(event)
             if event.WhichOneof("payload") == "sweep_cell":
                 cells.append(event.sweep_cell)
@@ -113,15 +120,18 @@ class Client:
             raise RunFailed(job)
         return SweepResult(job, cells)
 
-    def validate(self, scenario: ScenarioLike) -> job_pb2.Job:
+    @hinted
+    def validate(self, scenario: ScenarioLike, *, set: Mapping[str, Any] | None = None,
+                 variables: Mapping[str, Any] | None = None) -> job_pb2.Job:
         """Raises InvalidScenario unless the server would accept the scenario.
 
         Returns a job that was not submitted: its `warnings` tell what the scenario will probably
         not show, its `estimate` what it would take.
         """
-        request = create_request(scenario, None, None)
+        request = create_request(scenario, set, variables, None, None)
         request.validate_only = True
-        return self._call(self._stub.CreateJob, request)
+        job: job_pb2.Job = self._call(self._stub.CreateJob, request)
+        return job
 
     def watch(self, job: JobLike, *, after_sequence: int = 0, kinds: Iterable[str] = (),
               live_only: bool = False, min_frame_interval_s: float = 0.0,
@@ -133,9 +143,10 @@ class Client:
         `live_only` begins after the newest event. Of frame chunks that follow each other within
         `min_frame_interval_s` only the newest comes, and a gap for the others.
         """
-        return self._watch(Position(job_name(job), self.address, after_sequence, kinds,
-                                    deadline_of(timeout_s), live_only=live_only,
-                                    delivery=delivery_options(min_frame_interval_s)))
+        position = Position(job_name(job), self.address, after_sequence, kinds,
+                            deadline_of(timeout_s), live_only=live_only,
+                            delivery=delivery_options(min_frame_interval_s))
+        return self._stream(self._stub.WatchJob, position)
 
     def watch_jobs(self, *, states: Iterable[str] = (), labels: Mapping[str, str] | None = None,
                    timeout_s: float | None = None) -> Iterator[JobChange]:
@@ -144,8 +155,8 @@ class Client:
         Never ends by itself; raises Timeout after `timeout_s`. Reconnects as watch does. Of
         changes that follow each other quickly only the newest may come; none comes twice.
         """
-        return self._stream(self._stub.WatchJobs,
-                            Roster(self.address, states, labels, deadline_of(timeout_s)))
+        roster = Roster(self.address, states, labels, deadline_of(timeout_s))
+        return self._stream(self._stub.WatchJobs, roster)
 
     def download(self, job: JobLike, artifact: str, path: PathLike | None = None, *,
                  timeout_s: float | None = None) -> pathlib.Path:
@@ -162,16 +173,15 @@ class Client:
                 pass
         return target
 
-    def _watch(self, position: Position) -> Iterator[event_pb2.Event]:
-        return self._stream(self._stub.WatchJob, position)
-
     def _stream(self, method: Any, link: Any) -> Iterator[Any]:
+        """What the messages of a stream bring, across connections."""
         while not link.finished:
             call = method(link.request(), timeout=link.time_left())
             error = None
             try:
                 for message in call:
-                    yield from link.take(message)
+                    for heard in link.take(message):
+                        yield heard
                     if link.finished:
                         return
             except grpc.RpcError as caught:
@@ -192,24 +202,30 @@ class Client:
 
     def get(self, job: JobLike) -> job_pb2.Job:
         """The job as it is now, with its ledger so far."""
-        return self._call(self._stub.GetJob, job_service_pb2.GetJobRequest(name=job_name(job)))
+        request = job_service_pb2.GetJobRequest(name=job_name(job))
+        answer: job_pb2.Job = self._call(self._stub.GetJob, request)
+        return answer
 
     def list(self, *, states: Iterable[str] = (),
              labels: Mapping[str, str] | None = None) -> Iterator[job_pb2.Job]:
         """Jobs, newest first, page by page; without specs and ledgers."""
-        request = job_service_pb2.ListJobsRequest(
-            states=[job_pb2.Job.State.Value(state) for state in states], labels=labels)
+        return self._pages(job_service_pb2.ListJobsRequest(
+            states=[job_pb2.Job.State.Value(state) for state in states], labels=labels))
+
+    def _pages(self, request: job_service_pb2.ListJobsRequest) -> Iterator[job_pb2.Job]:
         while True:
-            page = self._call(self._stub.ListJobs, request)
-            yield from page.jobs
+            page: job_service_pb2.ListJobsResponse = self._call(self._stub.ListJobs, request)
+            for job in page.jobs:
+                yield job
             request.page_token = page.next_page_token
             if not request.page_token:
                 return
 
     def cancel(self, job: JobLike) -> job_pb2.Job:
         """Asks a job to stop; what it recorded is kept."""
-        return self._call(self._stub.CancelJob,
-                          job_service_pb2.CancelJobRequest(name=job_name(job)))
+        request = job_service_pb2.CancelJobRequest(name=job_name(job))
+        answer: job_pb2.Job = self._call(self._stub.CancelJob, request)
+        return answer
 
     def delete(self, job: JobLike) -> None:
         """Removes an ended job and its events."""
@@ -217,14 +233,32 @@ class Client:
 
     def server_info(self) -> job_service_pb2.ServerInfo:
         """What the server is and accepts."""
-        return self._call(self._stub.GetServerInfo, job_service_pb2.GetServerInfoRequest())
+        request = job_service_pb2.GetServerInfoRequest()
+        info: job_service_pb2.ServerInfo = self._call(self._stub.GetServerInfo, request)
+        return info
+
+    def report(self, jobs: Iterable[JobLike], path: PathLike = "report.html") -> pathlib.Path:
+        """Writes a page about jobs that needs no network: ledger, figures, balances.
+
+        contactctl draws it and must be installed, gnuplot too. Raises ToolFailed.
+        """
+        names = [job_name(job) for job in jobs]
+        return tools.report(self.address, names, path)
+
+    def paper(self, folder: PathLike = "paper", items: Iterable[str] = ("all",)) -> bool:
+        """Makes figures and tables of the paper again in a folder, with index.html of all.
+
+        True if no number deviates by more than documented. contactctl makes them and must be
+        installed; without gnuplot there are no figures. Raises ToolFailed.
+        """
+        return tools.paper(self.address, items, folder)
 
     def _follow(self, name: str, on_event: Callable[[event_pb2.Event], None] | None,
                 deadline: float | None, bar: ProgressBar) -> Result:
         recording = Recording()
         kinds = () if on_event else (*KINDS, *bar.kinds)
-        for event in self._watch(Position(name, self.address, 0, kinds, deadline,
-                                          delivery=WHOLE)):
+        position = Position(name, self.address, 0, kinds, deadline, delivery=WHOLE)
+        for event in self._stream(self._stub.WatchJob, position):
             recording.add(event)
             bar.hear(event)
             if on_event:
@@ -232,42 +266,17 @@ class Client:
         return ended(self.get(name), recording)
 
     def _call(self, method: Any, request: Any) -> Any:
-        for attempt in range(_TRIES):
+        """A unary call, tried again while the server cannot be reached."""
+        failure: CallError | None = None
+        for attempt in range(TRIES):
+            if attempt > 0:
+                time.sleep(0.05 * 2**attempt)
             try:
                 return method(request, timeout=self._timeout_s)
             except grpc.RpcError as error:
                 failure = from_rpc(error, self.address)
-                if failure.code != grpc.StatusCode.UNAVAILABLE or attempt == _TRIES - 1:
-                    raise failure from error
-            time.sleep(0.1 * 2**attempt)
-
-
-def ended(job: job_pb2.Job, recording: Recording) -> Result:
-    """The result of a job that has ended; raises RunFailed if it did not succeed."""
-    if job.state != job_pb2.Job.SUCCEEDED:
-        raise RunFailed(job)
-    # An answer has not the end of a long list.
-    for kept, heard in (job.cycles, recording.cycles), (job.groups, recording.groups):
-        if len(kept) < len(heard):
-            del kept[:]
-            kept.extend(heard.values())
-    return Result(job, recording)
-
-
-def create_request(scenario: ScenarioLike, labels: Mapping[str, str] | None,
-                   request_id: str | None) -> job_service_pb2.CreateJobRequest:
-    job = job_pb2.Job(scenario=load_scenario(scenario), labels=labels)
-    return job_service_pb2.CreateJobRequest(job=job, request_id=request_id or str(uuid.uuid4()))
-
-
-def job_name(job: JobLike) -> str:
-    """`jobs/ID` for a job, a result, `jobs/ID` or `ID`."""
-    if isinstance(job, Result):
-        job = job.job
-    name = job.name if isinstance(job, job_pb2.Job) else job
-    return name if name.startswith("jobs/") else f"jobs/{name}"
-
-
-def deadline_of(timeout_s: float | None) -> float | None:
-    """When a call that may take so long must end, by time.monotonic()."""
-    return None if timeout_s is None else time.monotonic() + timeout_s
+                failure.__cause__ = error
+            if failure.code != grpc.StatusCode.UNAVAILABLE:
+                break
+        assert failure is not None
+        raise failure

@@ -5,15 +5,14 @@ from __future__ import annotations
 import hashlib
 import os
 import pathlib
-from typing import BinaryIO, Union
+from typing import BinaryIO
 
 import grpc
 from contact.v1 import job_pb2, job_service_pb2
 
 from .errors import DownloadFailed
+from .tools import PathLike
 from .watching import Link
-
-PathLike = Union[str, "os.PathLike[str]"]
 
 
 class Download(Link):

@@ -6,7 +6,10 @@ import dataclasses
 import math
 
 import numpy as np
+import numpy.typing as npt
 from contact.v1 import scenario_pb2
+
+Array = npt.NDArray[np.float64]
 
 _STANDARD_GRAVITY = 9.80665  # m/s²
 
@@ -21,18 +24,29 @@ class ContactLaw:
     exponent: float
 
 
+def contact_pairs(contact: scenario_pb2.Contact) -> list[tuple[str, ...]]:
+    """The bodies of each contact that an entry makes."""
+    between = list(contact.between)
+    return list(zip(between, between[1:])) or [tuple(between)]
+
+
+def contact_names(contact: scenario_pb2.Contact) -> list[str]:
+    """The names that the server gives to the contacts of an entry."""
+    pairs = contact_pairs(contact)
+    if not contact.name:
+        return ["-".join(bodies if len(bodies) > 1 else [*bodies, "wall"]) for bodies in pairs]
+    if len(pairs) == 1:
+        return [contact.name]
+    return [f"{contact.name}-{number}" for number in range(1, len(pairs) + 1)]
+
+
 def contact_laws(scenario: scenario_pb2.Scenario) -> list[ContactLaw]:
     """The contacts with the names that the server gives them."""
     laws = []
     for contact in scenario.contacts:
         exponent = contact.exponent if contact.HasField("exponent") else 1.5
-        between = list(contact.between)
-        groups = list(zip(between, between[1:])) or [tuple(between)]
-        for number, bodies in enumerate(groups, 1):
-            name = contact.name or "-".join(bodies if len(bodies) > 1 else [*bodies, "wall"])
-            if contact.name and len(groups) > 1:
-                name = f"{contact.name}-{number}"
-            laws.append(ContactLaw(name, bodies, contact.stiffness, exponent))
+        laws += [ContactLaw(name, bodies, contact.stiffness, exponent)
+                 for name, bodies in zip(contact_names(contact), contact_pairs(contact))]
     return laws
 
 
@@ -67,7 +81,7 @@ def constant_loads(scenario: scenario_pb2.Scenario) -> list[tuple[str, float]]:
 
 
 def mechanical_energy(scenario: scenario_pb2.Scenario,
-                      arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+                      arrays: dict[str, Array]) -> dict[str, Array]:
     """Kinetic energy, elastic energy of contacts and supports, that of constant loads, which is 0
     where positions are, and their sum, in J."""
     zero = np.zeros_like(arrays["time"])
@@ -83,13 +97,13 @@ def mechanical_energy(scenario: scenario_pb2.Scenario,
     return {**parts, "sum": sum(parts.values(), zero)}
 
 
-def _elastic(law: ContactLaw, arrays: dict[str, np.ndarray]) -> np.ndarray:
+def _elastic(law: ContactLaw, arrays: dict[str, Array]) -> Array:
     """∫ k δⁿ dδ."""
     deformation = np.maximum(arrays[f"{law.name}.deformation"], 0)
     return law.stiffness * deformation**(law.exponent + 1) / (law.exponent + 1)
 
 
-def _spring(support: scenario_pb2.Support, arrays: dict[str, np.ndarray]) -> np.ndarray:
+def _spring(support: scenario_pb2.Support, arrays: dict[str, Array]) -> Array:
     stretch = arrays[f"{support.body}.position"] - support.rest_position_m
     if support.other:
         stretch = stretch - arrays[f"{support.other}.position"]

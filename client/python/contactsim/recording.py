@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from contact.v1 import event_pb2, job_pb2
 
+from .model import Array
+
 #: The events that a recording needs.
 KINDS = ("attempt_started", "iteration", "cycle", "group", "frame_chunk")
 
@@ -18,7 +20,7 @@ class Recording:
         self.groups: dict[int, job_pb2.Group] = {}  #: By sequence.
         self.units: dict[str, str] = {}  #: Unit by name of column, in their order.
         self._chunks: dict[int, tuple[int, list[bytes]]] = {}  # By first sample.
-        self._columns: dict[str, np.ndarray] | None = None
+        self._columns: dict[str, Array] | None = None
 
     def add(self, event: event_pb2.Event) -> None:
         """Takes an event; one that was taken before changes nothing."""
@@ -53,7 +55,7 @@ class Recording:
         return False
 
     @property
-    def columns(self) -> dict[str, np.ndarray]:
+    def columns(self) -> dict[str, Array]:
         """The samples by name of column, read-only.
 
         They lie in the bytes of the message where there is one chunk; several are joined once.
@@ -65,7 +67,7 @@ class Recording:
         return self._columns
 
 
-def _join(parts: list[bytes]) -> np.ndarray:
+def _join(parts: list[bytes]) -> Array:
     if len(parts) == 1:
         return np.frombuffer(parts[0], dtype="<f8")
     joined = np.concatenate([np.frombuffer(part, dtype="<f8") for part in parts])

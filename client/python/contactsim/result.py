@@ -11,6 +11,9 @@ import pandas as pd
 from contact.v1 import event_pb2, job_pb2, scenario_pb2
 from google.protobuf.descriptor import FieldDescriptor
 
+from .comparing import Comparison, compare
+from .measured import MeasuredLike, SignalComparison, compare_measured
+from .model import Array
 from .plotting import Plots
 from .recording import Recording
 
@@ -44,7 +47,7 @@ class Result:
         return self.job.convergence == job_pb2.Job.FULL
 
     @property
-    def arrays(self) -> dict[str, np.ndarray]:
+    def arrays(self) -> dict[str, Array]:
         """The trajectory as read-only arrays by name, such as `B1.velocity`; `time` is first."""
         return self._recording.columns
 
@@ -53,7 +56,7 @@ class Result:
         """The unit of each array."""
         return self._recording.units
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Array:
         """One column of the trajectory, such as `B1-B2.contact_force`."""
         try:
             return self.arrays[name]
@@ -62,19 +65,22 @@ class Result:
 
     @functools.cached_property
     def series(self) -> pd.DataFrame:
-        """The trajectory: a row a sample, columns such as `B1.velocity [m/s]`.
+        """The trajectory: a row a sample, indexed by `time [s]`, columns such as
+        `B1.velocity [m/s]`.
 
-        The frame shares the memory of `arrays`, which is read-only: copy() it to change it.
+        It is a copy of `arrays`, made once, and may be changed.
         """
         named = {f"{name} [{self.units[name]}]": values for name, values in self.arrays.items()}
-        return pd.DataFrame(named, copy=False)
+        time = named.pop("time [s]", np.empty(0))
+        return pd.DataFrame(named, index=pd.Index(np.array(time), name="time [s]"), copy=True)
 
     @functools.cached_property
     def xr(self) -> xarray.Dataset:
-        """The trajectory over `time`, with units as attributes. Needs xarray."""
+        """The trajectory over `time`, with units as attributes. A copy, as `series` is. Needs
+        xarray."""
         import xarray  # Only who asks for it needs it.
 
-        variables = {name: ("time", values, {"units": self.units[name]})
+        variables = {name: ("time", np.array(values), {"units": self.units[name]})
                      for name, values in self.arrays.items()}
         return xarray.Dataset(variables, attrs=self.provenance)
 
@@ -116,6 +122,15 @@ class Result:
         return {"job": self.name, "server_version": self.job.server_version,
                 "server_revision": self.job.server_revision,
                 "scenario_sha256": self.job.spec_sha256}
+
+    def compare(self, *others: Result, abs_tol: float = 1e-12,
+                rel_tol: float = 1e-6) -> Comparison:
+        """What differs between this run, the baseline, and others; see compare."""
+        return compare(self, *others, abs_tol=abs_tol, rel_tol=rel_tol)
+
+    def compare_measured(self, measured: MeasuredLike, **options: Any) -> SignalComparison:
+        """This run beside measured data; see compare_measured for the options."""
+        return compare_measured(self, measured, **options)
 
     def __repr__(self) -> str:
         return f"<Result {self._headline()}>"

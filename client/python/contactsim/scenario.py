@@ -1,4 +1,4 @@
-"""Scenarios from dicts, YAML or JSON files: one schema, that of contact.v1.Scenario."""
+"""Scenarios from dicts, files and templates: one schema, that of contact.v1.Scenario."""
 
 from __future__ import annotations
 
@@ -14,33 +14,76 @@ from contact.v1 import scenario_pb2
 from google.protobuf.descriptor import Descriptor, EnumDescriptor, FieldDescriptor
 
 from .errors import InvalidScenario, Violation
+from .model import contact_names
+from .units import steps_of
 
 _VARIABLE = re.compile(r"\$\$\{|\$\{([^}]+)\}")
 
 ScenarioLike = Union[scenario_pb2.Scenario, Mapping[str, Any], str, "os.PathLike[str]"]
 
 
-def load_scenario(source: ScenarioLike,
-                  variables: Mapping[str, Any] | None = None) -> scenario_pb2.Scenario:
-    """The scenario of a dict, of a YAML or JSON file, or the message itself.
+def load_scenario(source: ScenarioLike, variables: Mapping[str, Any] | None = None, *,
+                  set: Mapping[str, Any] | None = None) -> scenario_pb2.Scenario:
+    """The scenario of a dict, of a YAML or JSON file, of a template, or the message itself.
 
-    `variables` are other values for those that the file declares and uses as `${name}`. Raises
-    ValueError if it has not one of them, and InvalidScenario with every field that does not exist
-    or has the wrong type. Ranges are for the server to check.
+    A text names a file, or else one of `templates()`. `variables` are other values for those that
+    the file declares and uses as `${name}`. `set` has values by the path of their fields, such as
+    `{"contacts[0].restitution": 0.7}`; in brackets may stand the name of a body or contact, or `*`
+    for every entry. The message that is given is not changed.
+
+    Raises ValueError if it has not one of the variables, FileNotFoundError if there is neither file
+    nor template, and InvalidScenario with every field that does not exist or has the wrong type.
+    Ranges are for the server to check.
     """
+    return read_scenario(source, variables, set)[0]
+
+
+def read_scenario(source: ScenarioLike, variables: Mapping[str, Any] | None,
+                  set_: Mapping[str, Any] | None
+                  ) -> tuple[scenario_pb2.Scenario, dict[str, list[str]]]:
+    """As load_scenario, and the fields of each variable: those whose whole value it is."""
+    reader = _Reader()
+    scenario = scenario_pb2.Scenario()
     if isinstance(source, scenario_pb2.Scenario):
         if variables:
             raise ValueError("a message has no variables")
-        return source
-    if not isinstance(source, Mapping):
-        # BaseLoader: every scalar stays text, so that 1e8, on and 007 mean what they say.
-        source = yaml.load(pathlib.Path(source).read_bytes(), yaml.BaseLoader)
-    scenario = scenario_pb2.Scenario()
-    reader = _Reader()
-    reader.message(reader.resolved(source, variables or {}), "", scenario)
+        if not set_:
+            return source, {}
+        scenario.CopyFrom(source)
+    else:
+        document = source if isinstance(source, Mapping) else _document(source)
+        reader.message(reader.resolved(document, variables or {}), "", scenario)
+    for path, value in (set_ or {}).items():
+        reader.set(path, value, scenario)
     if reader.violations:
         raise InvalidScenario(reader.violations)
-    return scenario
+    return scenario, reader.fields
+
+
+def templates() -> list[str]:
+    """The names of the scenarios that come with the package, for load_scenario and run."""
+    return sorted(path.stem for path in _template_folder().glob("*.yaml")
+                  if not path.stem.endswith("-sweep"))
+
+
+def _template_folder() -> pathlib.Path:
+    here = pathlib.Path(__file__).resolve()
+    packed = here.parent / "templates"  # Where setup.py puts them.
+    return packed if packed.is_dir() else here.parents[2] / "scenarios"
+
+
+def _document(source: str | os.PathLike[str]) -> Any:
+    """What a file holds, or the template of this name."""
+    path = pathlib.Path(source)
+    if not path.is_file() and isinstance(source, str):
+        names = templates()
+        if source not in names:
+            near = difflib.get_close_matches(source, names, 1)
+            hint = f"did you mean {near[0]!r}?" if near else f"templates are {', '.join(names)}"
+            raise FileNotFoundError(f"there is no file and no template {source!r}; {hint}")
+        path = _template_folder() / f"{source}.yaml"
+    # BaseLoader: every scalar stays text, so that 1e8, on and 007 mean what they say.
+    return yaml.load(path.read_bytes(), yaml.BaseLoader)
 
 
 class _Reader:
@@ -48,6 +91,7 @@ class _Reader:
 
     def __init__(self) -> None:
         self.violations: list[Violation] = []
+        self.fields: dict[str, list[str]] = {}  #: Of each variable those whose whole value it is.
 
     def resolved(self, source: Any, given: Mapping[str, Any]) -> Any:
         """The document without its `variables`, their values where it names them."""
@@ -60,6 +104,7 @@ class _Reader:
         if not isinstance(source, Mapping) or "variables" not in source:
             return source
         values.update(given)
+        self.fields = {name: [] for name in values}
         return {key: self._put(value, values, str(key)) for key, value in source.items()
                 if key != "variables"}
 
@@ -77,6 +122,7 @@ class _Reader:
             return None
         alone = _VARIABLE.fullmatch(part)
         if alone and alone[1]:
+            self.fields[alone[1]].append(path)
             return values[alone[1]]
         return _VARIABLE.sub(lambda found: str(values[found[1]]) if found[1] else "${", part)
 
@@ -102,7 +148,11 @@ class _Reader:
         if rival:
             self.violations.append(
                 Violation(path, f"cannot stand beside {rival}", "make an entry of each"))
-        elif field.label == FieldDescriptor.LABEL_REPEATED:
+        else:
+            self._assign(value, path, field, message)
+
+    def _assign(self, value: Any, path: str, field: FieldDescriptor, message: Any) -> None:
+        if field.label == FieldDescriptor.LABEL_REPEATED:
             self._list(value, path, field, getattr(message, field.name))
         elif field.message_type:
             part = getattr(message, field.name)
@@ -112,6 +162,61 @@ class _Reader:
             scalar = self._scalar(value, path, field)
             if scalar is not None:
                 setattr(message, field.name, scalar)
+
+    def set(self, path: str, value: Any, scenario: scenario_pb2.Scenario) -> None:
+        """Replaces the fields at a path, or clears them if the value is None."""
+        steps = steps_of(path)
+        if steps:
+            self._set(steps, "", value, scenario, scenario)
+        else:
+            self.violations.append(Violation(path, "is no path", "such as contacts[0].restitution"))
+
+    def _set(self, steps: list[tuple[str, str]], walked: str, value: Any, message: Any,
+             scenario: scenario_pb2.Scenario) -> None:
+        (name, key), *rest = steps
+        here = f"{walked}.{name}" if walked else name
+        field = message.DESCRIPTOR.fields_by_name.get(name)
+        if field is None:
+            hint = _field_hint(message.DESCRIPTOR, name)
+            self.violations.append(Violation(here, "unknown field", hint))
+        elif key and not rest:
+            self.violations.append(Violation(here, "cannot be set entry by entry",
+                                             "set a field of it, or the whole list"))
+        elif key:
+            for index in self._entries(key, here, field, message, scenario):
+                part = getattr(message, name)[index]
+                self._set(rest, f"{here}[{index}]", value, part, scenario)
+        elif not rest:
+            message.ClearField(name)
+            if value is not None:
+                self._assign(value, here, field, message)
+        elif field.label == FieldDescriptor.LABEL_REPEATED:
+            self.violations.append(
+                Violation(here, "is a list", f"{here}[0], or {here}[*] for every entry"))
+        elif not field.message_type:
+            self.violations.append(Violation(here, f"has no field '{rest[0][0]}'"))
+        else:
+            self._set(rest, here, value, getattr(message, name), scenario)
+
+    def _entries(self, key: str, here: str, field: FieldDescriptor, message: Any,
+                 scenario: scenario_pb2.Scenario) -> list[int]:
+        """The indices that stand in brackets, or are meant by a name there."""
+        if field.label != FieldDescriptor.LABEL_REPEATED or not field.message_type:
+            self.violations.append(Violation(here, "has no entries with fields"))
+            return []
+        size = len(getattr(message, field.name))
+        if key == "*":
+            return list(range(size))
+        if key.isdecimal():
+            if int(key) < size:
+                return [int(key)]
+            self.violations.append(Violation(f"{here}[{key}]", f"there are only {size}"))
+            return []
+        entry = _named_entry(scenario, here, key)
+        if isinstance(entry, Violation):
+            self.violations.append(entry)
+            return []
+        return [entry]
 
     def _list(self, values: Any, path: str, field: FieldDescriptor, target: Any) -> None:
         if isinstance(values, (str, Mapping)) or not isinstance(values, Sequence):
@@ -150,6 +255,31 @@ class _Reader:
         got = ("a mapping" if isinstance(value, Mapping) else
                "a list" if isinstance(value, (list, tuple)) else f"'{value}'")
         self.violations.append(Violation(path or "scenario", f"expected {expected}, got {got}"))
+
+
+def _named_entry(scenario: scenario_pb2.Scenario, path: str, name: str) -> int | Violation:
+    """The index of a body or contact of this name in its list, or why there is none."""
+    names: list[str] = []
+    if path == "bodies":
+        names = [body.name for body in scenario.bodies]
+        if name in names:
+            return names.index(name)
+    elif path == "contacts":
+        for index, contact in enumerate(scenario.contacts):
+            made = contact_names(contact)
+            if name == contact.name or made == [name]:
+                return index
+            if name in made:
+                return Violation(path, f"'{name}' has its fields in common with the other contacts "
+                                 f"of contacts[{index}]", f"contacts[{index}] sets them for all")
+            names += made
+    else:
+        return Violation(path, "its entries have no names", "give an index, or [*]")
+    near = difflib.get_close_matches(name, names, 1)
+    what = {"bodies": "body", "contacts": "contact"}[path]
+    known = f"there are {', '.join(names)}" if 0 < len(names) <= 8 else ""
+    return Violation(path, f"there is no {what} '{name}'",
+                     f"did you mean '{near[0]}'?" if near else known)
 
 
 def _number(value: Any) -> float:

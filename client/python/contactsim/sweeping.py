@@ -3,25 +3,71 @@
 from __future__ import annotations
 
 import html
-from typing import TYPE_CHECKING, Any, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Union
 
 import numpy as np
 import pandas as pd
 from contact.v1 import event_pb2, job_pb2, scenario_pb2
+from google.protobuf.descriptor import FieldDescriptor
 
-from .scenario import ScenarioLike, load_scenario
+from .scenario import ScenarioLike, read_scenario
+from .units import field_at, unit_of, unit_of_metric
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
+#: A value of an axis: a number, or the word of an enum.
+AxisValue = Union[float, str]
 
-def make_sweep(scenario: ScenarioLike, grid: Mapping[str, Iterable[float]],
-               metrics: Iterable[str]) -> scenario_pb2.Sweep:
+_VARIABLE = "var:"
+
+
+def make_sweep(scenario: ScenarioLike, grid: Mapping[str, Iterable[AxisValue]],
+               metrics: Iterable[str], variables: Mapping[str, Any] | None,
+               set_: Mapping[str, Any] | None) -> scenario_pb2.Sweep:
     """A grid: every value of each field with every value of the others."""
-    axes = [scenario_pb2.Sweep.Axis(field=field, values=[float(value) for value in values])
-            for field, values in grid.items()]
-    return scenario_pb2.Sweep(base=load_scenario(scenario), axes=axes, metrics=list(metrics))
+    base, fields = read_scenario(scenario, variables, set_)
+    axes = [_axis(name, values, fields) for name, values in grid.items()]
+    return scenario_pb2.Sweep(base=base, axes=axes, metrics=list(metrics))
+
+
+def _axis(name: str, values: Iterable[AxisValue],
+          variables: Mapping[str, list[str]]) -> scenario_pb2.Sweep.Axis:
+    """The axis of a path, or of all numbers that are the variable `var:NAME`."""
+    axis = scenario_pb2.Sweep.Axis(field=name)
+    if name.startswith(_VARIABLE):
+        paths = _numbers(name[len(_VARIABLE):], variables)
+        axis = scenario_pb2.Sweep.Axis(field=paths[0], also=paths[1:], label=name)
+    field = field_at(scenario_pb2.Scenario.DESCRIPTOR, axis.field)
+    axis.values.extend(_number_of(value, field) for value in values)
+    return axis
+
+
+def _numbers(name: str, variables: Mapping[str, list[str]]) -> list[str]:
+    if name not in variables:
+        known = ", ".join(variables) or "none"
+        raise ValueError(f"unknown variable '{name}': the scenario has {known}")
+    paths = []
+    for path in variables[name]:
+        field = field_at(scenario_pb2.Scenario.DESCRIPTOR, path)
+        if field is not None and field.cpp_type != FieldDescriptor.CPPTYPE_STRING:
+            paths.append(path)
+    if not paths:
+        raise ValueError(f"the variable '{name}' is the whole value of no number")
+    return paths
+
+
+def _number_of(value: AxisValue, field: FieldDescriptor | None) -> float:
+    """The number of a value on the wire."""
+    if not isinstance(value, str):
+        return float(value)
+    word = value.upper().replace("-", "_")
+    words = field.enum_type.values_by_name if field is not None and field.enum_type else {}
+    if word not in words:
+        raise ValueError(f"{value!r} is no value of the axis"
+                         + (f"; one of {', '.join(words)}" if words else ""))
+    return float(words[word].number)
 
 
 class SweepResult:
@@ -29,11 +75,14 @@ class SweepResult:
 
     def __init__(self, job: job_pb2.Job, cells: Iterable[event_pb2.SweepCell]) -> None:
         self.job = job  #: The Job message, with its spec and progress.
-        self.axes = [axis.field for axis in job.sweep.axes]
+        self.axes = [axis.label or axis.field for axis in job.sweep.axes]
         self.metrics = list(job.sweep.metrics)
+        #: SI unit of each axis and metric: `1` without dimension, empty for words.
+        self.units = {name: unit_of(field) for name, field in zip(self.axes, self._fields())}
+        self.units.update({metric: unit_of_metric(metric) for metric in self.metrics})
         by_index = {cell.index: cell for cell in cells}
-        #: A row a cell: axes, metrics, `state`, `convergence`, `message`. Metrics of a cell that
-        #: failed are NaN.
+        #: A row a cell: axes, metrics, `state`, `convergence`, `message`. Axes of an enum have its
+        #: words. Metrics of a cell that failed are NaN.
         self.frame = pd.DataFrame(
             [self._row(by_index[index]) for index in sorted(by_index)],
             columns=[*self.axes, *self.metrics, "state", "convergence", "message"],
@@ -46,8 +95,11 @@ class SweepResult:
 
     @property
     def xr(self) -> xarray.Dataset:
-        """The metrics of a grid over its axes. Needs xarray."""
-        return self.frame.set_index(self.axes)[self.metrics].to_xarray()
+        """The metrics of a grid over its axes, with units as attributes. Needs xarray."""
+        data: xarray.Dataset = self.frame.set_index(self.axes)[self.metrics].to_xarray()
+        for name in (*self.axes, *self.metrics):
+            data[name].attrs["units"] = self.units[name]
+        return data
 
     def heatmap(self, metric: str | None = None, ax: Axes | None = None) -> Axes:
         """A metric, by default the first, over the two axes of the sweep: the first one down.
@@ -65,8 +117,8 @@ class SweepResult:
         image = ax.imshow(np.ma.masked_invalid(table.to_numpy(float)), aspect="auto",
                           cmap="viridis")
         ax.figure.colorbar(image, ax=ax, label=metric)
-        ax.set_xticks(range(table.shape[1]), [f"{value:.4g}" for value in table.columns])
-        ax.set_yticks(range(table.shape[0]), [f"{value:.4g}" for value in table.index])
+        ax.set_xticks(range(table.shape[1]), [_text(value) for value in table.columns])
+        ax.set_yticks(range(table.shape[0]), [_text(value) for value in table.index])
         ax.set(xlabel=self.axes[1], ylabel=self.axes[0])
         self._mark(ax, table)
         return ax
@@ -85,8 +137,14 @@ class SweepResult:
     def _row(self, cell: event_pb2.SweepCell) -> list[Any]:
         failed = cell.state == job_pb2.Job.FAILED
         metrics = [float("nan")] * len(self.metrics) if failed else list(cell.metrics)
-        return [*cell.values, *metrics, job_pb2.Job.State.Name(cell.state),
+        values = [_shown(value, field) for value, field in zip(cell.values, self._fields())]
+        return [*values, *metrics, job_pb2.Job.State.Name(cell.state),
                 "" if failed else job_pb2.Job.Convergence.Name(cell.convergence), cell.message]
+
+    def _fields(self) -> list[FieldDescriptor | None]:
+        """The field of each axis."""
+        return [field_at(scenario_pb2.Scenario.DESCRIPTOR, axis.field)
+                for axis in self.job.sweep.axes]
 
     def __repr__(self) -> str:
         return f"<SweepResult {self._headline()}>"
@@ -100,3 +158,15 @@ class SweepResult:
     def _repr_html_(self) -> str:
         return (f"<p><b>{html.escape(self._headline())}</b></p>"
                 f"{self.frame.to_html(max_rows=20)}")
+
+
+def _shown(value: float, field: FieldDescriptor | None) -> AxisValue:
+    """The word of an enum, or the number."""
+    if field is None or not field.enum_type:
+        return value
+    choice = field.enum_type.values_by_number.get(round(value))
+    return choice.name if choice is not None else value
+
+
+def _text(value: AxisValue) -> str:
+    return value if isinstance(value, str) else f"{value:.4g}"

@@ -15,6 +15,7 @@
 #include "jobs/run/run_state_codec.h"
 #include "jobs/run/sweep_runner.h"
 #include "version.h"
+#include "wire/result_advice.h"
 #include "wire/result_codec.h"
 #include "wire/scenario/scenario_codec.h"
 #include "wire/scenario_advice.h"
@@ -158,7 +159,10 @@ Outcome JobRunner::RunScenario(const Scenario& scenario, const StoredJob& spec,
   assignment.record->Do([&](v1::Job& job) {
     EncodeOutcome(scenario, outcome, &job);
     job.mutable_summary()->set_wall_time_s(wall.count());
-    if (outcome.end != Outcome::End::kFinished) job.clear_convergence();
+    if (outcome.end != Outcome::End::kFinished) return job.clear_convergence();
+    for (const Violation& a : AdviseOnResult(scenario, job, recorder.passings())) {
+      job.add_warnings(Text(a));
+    }
   });
   return outcome;
 }

@@ -51,7 +51,7 @@ class JobRunner {
   /// Decodes the scenario, runs it, and adds advice on its time to the record.
   Transition SolveScenario(const StoredJob& spec, const std::optional<RunState>& from,
                            const Assignment& assignment, LogWriter& writer) const;
-  /// Runs the scenario and puts its outcome into the record.
+  /// Runs the scenario and puts its outcome into the record, with advice on it.
   Outcome RunScenario(const Scenario& scenario, const StoredJob& spec,
                       const std::optional<RunState>& from, const Assignment& assignment,
                       LogWriter& writer) const;

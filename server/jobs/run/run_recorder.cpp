@@ -47,6 +47,7 @@ void RunRecorder::OnGroup(const Group& group) {
 }
 
 void RunRecorder::Keep(v1::Event event) {
+  if (event.has_frame_chunk()) passings_.See(event.frame_chunk());
   v1::Job row;
   if (event.has_cycle()) *row.add_cycles() = event.cycle();
   if (event.has_group()) *row.add_groups() = event.group();
@@ -70,6 +71,7 @@ std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& sa
 
 void RunRecorder::OnSamples(const Samples& samples) {
   for (v1::FrameChunk& chunk : ChunksOf(scenario_, samples)) {
+    passings_.See(chunk);
     v1::Event event = Event();
     *event.mutable_frame_chunk() = std::move(chunk);
     writer_.Add(std::move(event));

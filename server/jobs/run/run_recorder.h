@@ -9,6 +9,7 @@
 #include "jobs/run/assignment.h"
 #include "jobs/run/log_writer.h"
 #include "simulation/run.h"
+#include "wire/result_advice.h"
 
 namespace contact {
 
@@ -27,11 +28,15 @@ class RunRecorder final : public Observer {
         assignment_(assignment),
         writer_(writer),
         checkpoint_interval_(checkpoint_interval),
-        last_checkpoint_(clock.Elapsed()) {}
+        last_checkpoint_(clock.Elapsed()),
+        passings_(scenario) {}
 
   /// Adds an event to the log, and what the ledger has of it to the record: also for events that an
   /// earlier attempt has recorded.
   void Keep(v1::Event event);
+
+  /// What the samples show of neighbours without a contact between them.
+  const Passings& passings() const { return passings_; }
 
   void OnIteration(const Iteration& iteration) override;
   void OnGrowth(const Group& group) override;
@@ -56,6 +61,7 @@ class RunRecorder final : public Observer {
   const std::chrono::milliseconds checkpoint_interval_;
   std::chrono::steady_clock::time_point last_checkpoint_;
   std::chrono::steady_clock::time_point last_progress_ = {};
+  Passings passings_;
 };
 
 }  // namespace contact

@@ -6,6 +6,7 @@ namespace contact {
 
 /// What a run will probably take, from its scenario alone. Nothing is solved: cycles are counted
 /// from the first meetings of contacts (first_meeting.h), steps and seconds from measured averages.
+/// tests/simulation/estimates.cpp prints how far that is off for random scenarios.
 struct RunEstimate {
   /// Integration steps of all passes.
   double steps = 0;

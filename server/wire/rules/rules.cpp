@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -37,6 +38,13 @@ double Rules::Read(const google::protobuf::Message& message, const NumberField& 
 bool Rules::RequireAtMost(std::string_view field, std::int64_t entries, std::int64_t most) const {
   if (entries > most) Break(field, fmt::format("holds {}; must hold at most {}", entries, most));
   return entries <= most;
+}
+
+void Rules::RequireShort(std::string_view field, std::string_view text, int most) const {
+  const auto characters = std::ranges::count_if(
+      text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; });
+  if (characters <= most) return;
+  Break(field, fmt::format("has {} characters; must have at most {}", characters, most));
 }
 
 void Rules::RequireKnown(std::string_view field, int value,

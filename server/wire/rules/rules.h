@@ -41,6 +41,9 @@ class Rules {
   /// The list `field` must not have more entries than `most`. Returns whether it has not.
   bool RequireAtMost(std::string_view field, std::int64_t entries, std::int64_t most) const;
 
+  /// The text `field` must not have more characters than `most`.
+  void RequireShort(std::string_view field, std::string_view text, int most) const;
+
   /// Returns `value`, which must lie in the range that the contract states for the number in
   /// `Message` with this field number. For messages of which a scenario has thousands: Read asks
   /// the message by reflection, which takes several times as long. The caller sees to fields that

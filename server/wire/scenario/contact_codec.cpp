@@ -100,7 +100,7 @@ class ContactDecoder {
     }
     for (std::size_t i = 0; i + 1 < touching.size(); ++i) {
       if (touching[i] == kNone || touching[i + 1] == kNone) continue;
-      AddPair(message, law, touching[i], touching[i + 1], i + 1, rules);
+      AddPair(message, law, touching[i], touching[i + 1], static_cast<int>(i) + 1, rules);
     }
   }
 
@@ -199,7 +199,7 @@ class ContactDecoder {
     (left ? contact.right : contact.left) = index;
     contact.wall_position = wall;
     FillStiffness(message, &contact, rules);
-    contact.name = message.name().empty() ? body.name + "-wall" : message.name();
+    contact.name = ContactName(message, 1);
 
     if (body.fixed) {
       rules.Break("between", fmt::format("{} is fixed, as the wall is", Quoted(body.name)),
@@ -216,16 +216,14 @@ class ContactDecoder {
     Add(std::move(contact), rules);
   }
 
-  void AddPair(const v1::Contact& message, Contact contact, int left, int right, std::size_t number,
+  void AddPair(const v1::Contact& message, Contact contact, int left, int right, int number,
                const Rules& rules) {
     const Body& a = bodies_[static_cast<std::size_t>(left)];
     const Body& b = bodies_[static_cast<std::size_t>(right)];
     contact.left = left;
     contact.right = right;
     FillStiffness(message, &contact, rules);
-    contact.name = message.name().empty()       ? a.name + "-" + b.name
-                   : message.between_size() > 2 ? fmt::format("{}-{}", message.name(), number)
-                                                : message.name();
+    contact.name = ContactName(message, number);
     if (CheckPair(a, b, rules)) {
       if (!pairs_.insert({std::min(left, right), std::max(left, right), 0.0}).second) {
         rules.Break("between", fmt::format("repeats the contact of {} and {}", Quoted(a.name),
@@ -299,6 +297,19 @@ std::int64_t CountContacts(const v1::Scenario& message) {
     count += std::max(1, contact.between_size() - 1);
   }
   return count;
+}
+
+int ContactsOf(const v1::Contact& entry) {
+  return entry.has_wall() ? std::min(1, entry.between_size())
+                          : std::max(0, entry.between_size() - 1);
+}
+
+std::string ContactName(const v1::Contact& entry, int number) {
+  if (entry.name().empty()) {
+    return fmt::format("{}-{}", entry.between(number - 1),
+                       entry.has_wall() ? "wall" : entry.between(number));
+  }
+  return entry.between_size() > 2 ? fmt::format("{}-{}", entry.name(), number) : entry.name();
 }
 
 std::vector<Contact> DecodeContacts(const v1::Scenario& message, const std::vector<Body>& bodies,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "contact/v1/scenario.pb.h"
@@ -11,6 +13,12 @@ namespace contact {
 
 /// Number of contacts after neighbours are expanded: an entry with n > 2 names counts n − 1.
 std::int64_t CountContacts(const v1::Scenario& message);
+
+/// Number of contacts that a valid entry makes: one at a wall, or one for each pair of neighbours.
+int ContactsOf(const v1::Contact& entry);
+
+/// Name of the contact `number`, from 1 to ContactsOf(entry), of a valid entry.
+std::string ContactName(const v1::Contact& entry, int number);
 
 /// Checks the contacts of a scenario and reads them, one for each pair of neighbours. `bodies` are
 /// those of the same scenario, `names` finds them. Entries whose bodies are unknown are left out.

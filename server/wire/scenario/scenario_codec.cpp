@@ -155,14 +155,6 @@ void CheckCounts(const v1::Scenario& message, const ScenarioLimits& limits,
   rules.RequireAtMost("loads", message.loads_size(), limits.max_contacts);
 }
 
-void CheckTitle(const std::string& title, const Rules& rules) {
-  const auto characters = std::ranges::count_if(
-      title, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; });
-  const int longest = RuleOf<v1::Scenario>(v1::Scenario::kTitleFieldNumber).max_characters();
-  if (characters <= longest) return;
-  rules.Break("title", fmt::format("has {} characters; must have at most {}", characters, longest));
-}
-
 }  // namespace
 
 DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits& limits) {
@@ -172,7 +164,8 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   if (!violations->empty()) return decoded;
 
   const Rules rules(violations);
-  CheckTitle(message.title(), rules);
+  rules.RequireShort("title", message.title(),
+                     RuleOf<v1::Scenario>(v1::Scenario::kTitleFieldNumber).max_characters());
   Scenario& scenario = decoded.scenario;
   scenario.bodies = DecodeBodies(message, violations);
   const BodyNames names(scenario.bodies);

@@ -38,6 +38,8 @@ void CheckRange(const std::string& name, const v1::Sweep::Range& range, bool dra
 
 void CheckAxis(const v1::Sweep::Axis& axis, bool drawn, std::int32_t max_cells,
                const Rules& rules) {
+  rules.RequireShort("label", axis.label(),
+                     RuleOf<v1::Sweep::Axis>(v1::Sweep::Axis::kLabelFieldNumber).max_characters());
   const int ways = static_cast<int>(!axis.values().empty()) + static_cast<int>(axis.has_linear()) +
                    static_cast<int>(axis.has_log());
   if (ways != 1) {

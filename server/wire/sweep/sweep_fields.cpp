@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/spelling.h"
+#include "wire/rules/rules.h"
+#include "wire/scenario/entry_names.h"
 
 namespace contact {
 namespace {
@@ -33,73 +36,97 @@ double SetNumber(const FieldDescriptor& field, double value, google::protobuf::M
   return whole;
 }
 
+// The index that a step means in a list of `message`, which is at `here`, or kEvery; nothing if no
+// entry is meant.
+std::optional<int> IndexOf(const PathStep& step, const std::string& here,
+                           const FieldDescriptor& list, const google::protobuf::Message& message,
+                           const std::function<void(std::string, std::string)>& fail) {
+  if (!step.key.empty()) {
+    const NamedEntry named = FindNamed(message, list, step.key);
+    if (named.index >= 0) return named.index;
+    fail(fmt::format("{}: {}", here, named.problem), named.hint);
+    return std::nullopt;
+  }
+  const int size = message.GetReflection()->FieldSize(message, &list);
+  if (*step.index < size && size > 0) return step.index;
+  fail(fmt::format("{}: there are only {}", here, size), "");
+  return std::nullopt;
+}
+
 }  // namespace
 
 SweepFields::SweepFields(const v1::Sweep& sweep, std::vector<Violation>* violations)
     : scenario_(std::make_unique<v1::Scenario>(sweep.base())) {
+  const int most = RuleOf<v1::Sweep::Axis>(v1::Sweep::Axis::kAlsoFieldNumber).max_entries();
   for (int i = 0; i < sweep.axes_size(); ++i) {
     const Rules rules(violations, "axes", i);
-    const std::string& field = sweep.axes(i).field();
-    const std::vector<PathStep> path = ParsePath(field);
+    const v1::Sweep::Axis& axis = sweep.axes(i);
     targets_.emplace_back();
-    if (path.empty()) {
-      rules.Break("field",
-                  field.empty() ? "is missing" : fmt::format("{} is no path", Quoted(field)),
-                  "name a number of the scenario, such as contacts[0].restitution");
-    } else {
-      Find(path, "", scenario_.get(), rules);
+    Read(axis.field(), [&rules](std::string description, std::string hint) {
+      rules.Break("field", std::move(description), std::move(hint));
+    });
+    if (!rules.RequireAtMost("also", axis.also_size(), most)) continue;
+    for (int j = 0; j < axis.also_size(); ++j) {
+      Read(axis.also(j), [&rules, j](std::string description, std::string hint) {
+        rules.Break(fmt::format("also[{}]", j), std::move(description), std::move(hint));
+      });
     }
   }
 }
 
+void SweepFields::Read(const std::string& path, const Break& fail) {
+  const std::vector<PathStep> steps = ParsePath(path, true);
+  if (!steps.empty()) return Find(steps, "", scenario_.get(), fail);
+  fail(path.empty() ? "is missing" : fmt::format("{} is no path", Quoted(path)),
+       "name a number of the scenario, such as contacts[0].restitution");
+}
+
 void SweepFields::Find(std::span<const PathStep> path, const std::string& walked, Message* message,
-                       const Rules& rules) {
+                       const Break& fail) {
   const PathStep& step = path.front();
   const std::string here = walked.empty() ? step.name : walked + "." + step.name;
   const FieldDescriptor* field = message->GetDescriptor()->FindFieldByName(step.name);
   if (field == nullptr) {
-    return rules.Break("field", fmt::format("{}: unknown field", Quoted(here)),
-                       FieldHint(*message->GetDescriptor(), step.name));
+    return fail(fmt::format("{}: unknown field", Quoted(here)),
+                FieldHint(*message->GetDescriptor(), step.name));
   }
-  if (step.index) return FindEntries(path, here, *field, message, rules);
-  if (path.size() == 1) return AddTarget(here, *field, message, rules);
+  if (step.index || !step.key.empty()) return FindEntries(path, here, *field, message, fail);
+  if (path.size() == 1) return AddTarget(here, *field, message, fail);
   const auto* reflection = message->GetReflection();
   if (field->is_repeated()) {
-    rules.Break("field", here + " is a list", here + "[0], or [*] for every entry");
+    fail(here + " is a list", here + "[0], or [*] for every entry");
   } else if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) {
-    rules.Break("field", fmt::format("{} has no field {}", here, Quoted(path[1].name)));
+    fail(fmt::format("{} has no field {}", here, Quoted(path[1].name)), "");
   } else if (field->real_containing_oneof() != nullptr && !reflection->HasField(*message, field)) {
-    rules.Break("field", fmt::format("the base has no {}", here));
+    fail(fmt::format("the base has no {}", here), "");
   } else {
-    Find(path.subspan(1), here, reflection->MutableMessage(message, field), rules);
+    Find(path.subspan(1), here, reflection->MutableMessage(message, field), fail);
   }
 }
 
 void SweepFields::FindEntries(std::span<const PathStep> path, const std::string& here,
-                              const FieldDescriptor& field, Message* message, const Rules& rules) {
+                              const FieldDescriptor& field, Message* message, const Break& fail) {
   if (!field.is_repeated() || field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE ||
       path.size() == 1) {
-    return rules.Break("field", here + " has no entries with numbers");
+    return fail(here + " has no entries with numbers", "");
   }
+  const std::optional<int> index = IndexOf(path.front(), here, field, *message, fail);
+  if (!index) return;
   const auto* reflection = message->GetReflection();
-  const int size = reflection->FieldSize(*message, &field);
-  const int index = *path.front().index;
-  if (index >= size || size == 0) {
-    return rules.Break("field", fmt::format("{}: there are only {}", here, size));
-  }
-  const bool every = index == PathStep::kEvery;
-  for (int i = every ? 0 : index; i < (every ? size : index + 1); ++i) {
+  const bool every = *index == PathStep::kEvery;
+  const int end = every ? reflection->FieldSize(*message, &field) : *index + 1;
+  for (int i = every ? 0 : *index; i < end; ++i) {
     Find(path.subspan(1), fmt::format("{}[{}]", here, i),
-         reflection->MutableRepeatedMessage(message, &field, i), rules);
+         reflection->MutableRepeatedMessage(message, &field, i), fail);
   }
 }
 
 void SweepFields::AddTarget(const std::string& here, const FieldDescriptor& field, Message* message,
-                            const Rules& rules) {
+                            const Break& fail) {
   if (!IsNumber(field)) {
-    rules.Break("field", here + " is not a number, so it cannot vary");
+    fail(here + " is not a number, so it cannot vary", "");
   } else if (!paths_.insert(here).second) {
-    rules.Break("field", here + " has an axis already");
+    fail(here + " has an axis already", "");
   } else {
     targets_.back().push_back({message, &field});
   }

@@ -2,7 +2,9 @@
 
 #include <google/protobuf/message.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -10,7 +12,6 @@
 
 #include "contact/v1/scenario.pb.h"
 #include "wire/rules/field_path.h"
-#include "wire/rules/rules.h"
 #include "wire/scenario/scenario_codec.h"
 
 namespace contact {
@@ -31,23 +32,27 @@ class SweepFields {
 
  private:
   using Message = google::protobuf::Message;
+  // Notes what is wrong with the path that is read, and what to do about it.
+  using Break = std::function<void(std::string description, std::string hint)>;
   // A field to set.
   struct Target {
     Message* message;
     const google::protobuf::FieldDescriptor* field;
   };
 
+  // Reads a path and adds its fields to the axis read last.
+  void Read(const std::string& path, const Break& fail);
   // Follows the rest of a path from `message` on and adds the fields at its end. `walked` is the
   // path up to there.
   void Find(std::span<const PathStep> path, const std::string& walked, Message* message,
-            const Rules& rules);
-  // Find for a step with an index: goes on in that entry, or in every one.
+            const Break& fail);
+  // Find for a step with an index or a name: goes on in that entry, or in every one.
   void FindEntries(std::span<const PathStep> path, const std::string& here,
                    const google::protobuf::FieldDescriptor& field, Message* message,
-                   const Rules& rules);
+                   const Break& fail);
   // Adds a field to the axis read last, if the field is a number without an axis.
   void AddTarget(const std::string& here, const google::protobuf::FieldDescriptor& field,
-                 Message* message, const Rules& rules);
+                 Message* message, const Break& fail);
 
   // On the heap, since targets_ point into it.
   std::unique_ptr<v1::Scenario> scenario_;

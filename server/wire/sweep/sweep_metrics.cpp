@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -52,35 +53,60 @@ SweepMetrics::SweepMetrics(const v1::Sweep& sweep, std::vector<Violation>* viola
 }
 
 SweepMetrics::Path SweepMetrics::Find(const std::string& text, const Rules& rules) {
-  Path path;
   const std::vector<PathStep> steps = Whole(ParsePath(text, true));
-  if (steps.empty() || std::ranges::find(kRoots, steps.front().name) == kRoots.end()) {
-    rules.Break("", fmt::format("{} is no number of a result", Quoted(text)), RootHint());
-    return path;
+  if (!steps.empty() && std::ranges::find(kRoots, steps.front().name) != kRoots.end()) {
+    return Follow(steps, text, rules);
   }
+  rules.Break("", fmt::format("{} is no number of a result", Quoted(text)), RootHint());
+  return {};
+}
+
+SweepMetrics::Path SweepMetrics::Follow(std::span<const PathStep> steps, const std::string& text,
+                                        const Rules& rules) {
+  Path path;
   const Descriptor* type = v1::Job::descriptor();
-  for (const PathStep& step : steps) {
+  while (!steps.empty()) {
+    const PathStep& step = steps.front();
     const FieldDescriptor* field = type == nullptr ? nullptr : type->FindFieldByName(step.name);
     if (field == nullptr) {
       rules.Break("", fmt::format("{}: unknown field {}", Quoted(text), Quoted(step.name)),
                   type == nullptr ? "" : FieldHint(*type, step.name));
       return path;
     }
-    const bool entry = step.index.has_value() || !step.key.empty();
+    steps = steps.subspan(1);
+    const std::optional<Pick> pick =
+        field->is_repeated() && !step.index ? PickOf(steps) : std::nullopt;
+    const bool entry = step.index.has_value() || !step.key.empty() || pick.has_value();
     if (field->is_repeated() != entry || step.index == PathStep::kEvery) {
       rules.Break("",
                   fmt::format("{}: {} {}", Quoted(text), step.name,
                               field->is_repeated() ? "is a list" : "is no list"),
-                  field->is_repeated() ? "say which entry, by index or name" : "");
+                  field->is_repeated() ? "say which entry, by index or name, or .first, .last, "
+                                         ".max, .min or .count of all"
+                                       : "");
       return path;
     }
-    type = field->message_type();
-    path.push_back({field, step.index, step.key});
+    if (pick) steps = steps.subspan(1);
+    type = pick == Pick::kCount ? nullptr : field->message_type();
+    path.push_back({field, step.index, step.key, pick.value_or(Pick::kFirst)});
   }
-  if (!IsNumber(*path.back().field)) {
+  if (path.back().pick != Pick::kCount && !IsNumber(*path.back().field)) {
     rules.Break("", Quoted(text) + " is not a number", "name a number in it");
   }
   return path;
+}
+
+std::optional<SweepMetrics::Pick> SweepMetrics::PickOf(std::span<const PathStep> steps) {
+  constexpr std::array<std::pair<std::string_view, Pick>, 5> kPicks{{{"first", Pick::kFirst},
+                                                                     {"last", Pick::kLast},
+                                                                     {"max", Pick::kMax},
+                                                                     {"min", Pick::kMin},
+                                                                     {"count", Pick::kCount}}};
+  if (steps.empty() || steps.front().index || !steps.front().key.empty()) return std::nullopt;
+  for (const auto& [word, pick] : kPicks) {
+    if (word == steps.front().name) return pick;
+  }
+  return std::nullopt;
 }
 
 void SweepMetrics::CheckNames(const Scenario& scenario, std::vector<Violation>* violations) const {
@@ -107,33 +133,37 @@ std::vector<double> SweepMetrics::Of(const v1::Job& result) const {
   return values;
 }
 
-double SweepMetrics::Value(const Path& path, const Message& message) {
-  const Message* at = &message;
-  for (const Step& step : path) {
-    const auto* reflection = at->GetReflection();
-    if (step.field->is_repeated()) {
-      at = Entry(step, *at);
-      if (at == nullptr) return kNaN;
-    } else if (IsNumber(*step.field)) {
-      const bool unset = step.field->has_presence() && !reflection->HasField(*at, step.field);
-      if (unset) return kNaN;
-      return NumberIn(*at, *step.field);
-    } else {
-      at = &reflection->GetMessage(*at, step.field);
-    }
+double SweepMetrics::Value(std::span<const Step> path, const Message& message) {
+  const auto* reflection = message.GetReflection();
+  const FieldDescriptor& field = *path.front().field;
+  if (field.is_repeated()) return ValueOfList(path, message);
+  if (IsNumber(field)) {
+    const bool unset = field.has_presence() && !reflection->HasField(message, &field);
+    return unset ? kNaN : NumberIn(message, field);
   }
-  return kNaN;
+  return Value(path.subspan(1), reflection->GetMessage(message, &field));
 }
 
-const Message* SweepMetrics::Entry(const Step& step, const Message& message) {
+double SweepMetrics::ValueOfList(std::span<const Step> path, const Message& message) {
+  const Step& step = path.front();
   const auto* reflection = message.GetReflection();
   const FieldDescriptor* name = step.key.empty() ? nullptr : NameField(*step.field->message_type());
   const int size = reflection->FieldSize(message, step.field);
+  double value = step.pick == Pick::kCount ? 0 : kNaN;
   for (int i = step.index.value_or(0); i < size; ++i) {
     const Message& entry = reflection->GetRepeatedMessage(message, step.field, i);
-    if (name == nullptr || entry.GetReflection()->GetString(entry, name) == step.key) return &entry;
+    if (name != nullptr && entry.GetReflection()->GetString(entry, name) != step.key) continue;
+    if (step.pick == Pick::kCount) {
+      ++value;
+      continue;
+    }
+    const double next = Value(path.subspan(1), entry);
+    if (step.pick == Pick::kFirst) return next;
+    if (step.pick == Pick::kLast) value = next;
+    if (step.pick == Pick::kMax) value = std::fmax(value, next);  // The number, if one is NaN.
+    if (step.pick == Pick::kMin) value = std::fmin(value, next);
   }
-  return nullptr;
+  return value;
 }
 
 }  // namespace contact

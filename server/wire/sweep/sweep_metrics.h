@@ -3,12 +3,14 @@
 #include <google/protobuf/message.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "contact/v1/job.pb.h"
 #include "contact/v1/scenario.pb.h"
 #include "simulation/model/scenario.h"
+#include "wire/rules/field_path.h"
 #include "wire/rules/rules.h"
 #include "wire/scenario/scenario_codec.h"
 
@@ -31,23 +33,30 @@ class SweepMetrics {
 
  private:
   using Message = google::protobuf::Message;
-  // One step of a path: a field, and the entry of a list.
+  // What a step through a list takes of the entries that it means.
+  enum class Pick { kFirst, kLast, kMax, kMin, kCount };
+  // One step of a path: a field, and of a list the entries that it means.
   struct Step {
     const google::protobuf::FieldDescriptor* field;
-    // Index of the entry.
+    // Index of the only entry.
     std::optional<int> index;
-    // Name of the entry if it has no index; else empty.
+    // Name of the entries; empty: all.
     std::string key;
+    Pick pick = Pick::kFirst;
   };
   using Path = std::vector<Step>;
 
   // The path that `text` names from a Job. Notes if there is none, or if no number is at its end;
   // the path is then incomplete.
   static Path Find(const std::string& text, const Rules& rules);
+  // Find for the steps of a path.
+  static Path Follow(std::span<const PathStep> steps, const std::string& text, const Rules& rules);
+  // What the first of these steps picks; nothing if it is the name of a field, or none.
+  static std::optional<Pick> PickOf(std::span<const PathStep> steps);
   // The number at the end of the path from `message`; NaN if an entry is missing.
-  static double Value(const Path& path, const Message& message);
-  // The entry of the list in `message` that the step means; null if there is none.
-  static const Message* Entry(const Step& step, const Message& message);
+  static double Value(std::span<const Step> path, const Message& message);
+  // Value for a path that begins with a list of `message`.
+  static double ValueOfList(std::span<const Step> path, const Message& message);
 
   // One path for each metric.
   std::vector<Path> paths_;

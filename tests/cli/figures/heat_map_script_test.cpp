@@ -80,6 +80,19 @@ std::vector<Point> Contours(const std::vector<double>& values, std::size_t colum
   return points;
 }
 
+TEST(HeatMapScript, TicsOfAnEnumAreItsWords) {
+  v1::Job job = Sweep();
+  job.mutable_sweep()->mutable_axes(0)->set_field("contacts[0].damping");
+  job.mutable_sweep()->mutable_axes(0)->set_label("var:law");
+  SweepCells cells = Grid(2, 2, [](int row, int column) { return row + column; });
+  for (auto& [index, cell] : cells) {
+    cell.set_values(0, index < 2 ? v1::Contact::EXACT : v1::Contact::FLORES);
+  }
+  EXPECT_THAT(HeatMapScript(job, cells, HeatScale(cells, 0, false), false, kSvg, "map.svg"),
+              AllOf(HasSubstr("set ytics out nomirror ('EXACT' 0, 'FLORES' 1)"),
+                    HasSubstr("set ylabel 'var:law'")));
+}
+
 TEST(LogLevels, AreRoundAndWithinTheValues) {
   EXPECT_THAT(LogLevels(0.03, 3), Pointwise(DoubleEq(), {0.05, 0.1, 0.2, 0.5, 1.0, 2.0}));
   EXPECT_THAT(LogLevels(1, 1e5), Pointwise(DoubleEq(), {1.0, 10.0, 100.0, 1e3, 1e4, 1e5}));

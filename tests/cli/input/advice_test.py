@@ -48,6 +48,29 @@ class AdviceTest(CliTest):
         said = self.run_it("validate", sweep)[1]
         self.assertRegex(said, rf"^{re.escape(str(base))}:\d+:\d+: warning: solver.step_s: gives")
 
+    def test_variable_that_is_used_nowhere_is_told_at_its_place(self):
+        path = self.write("unused.yaml", "variables: {speed: 2}\n" + CHAIN.read_text("utf-8"))
+        warning = (f"{path}:1:13: warning: variables.speed: is used nowhere — ${{speed}} stands "
+                   "for its value\n")
+        self.assertEqual(self.run_it("validate", path)[1], warning)
+        self.assertIn(warning, self.run_it("sweep", "run", path, "--grid", "end_time_s=1e-3",
+                                           "-o", "name", code=None)[1])
+
+    def test_neighbours_without_a_contact_are_told_before_and_after(self):
+        text = CHAIN.read_text("utf-8")
+        lonely = "\n".join(line for line in text.splitlines() if "between: [B2, B3]" not in line)
+        path = self.write("lonely.yaml", lonely.replace("position_m: 0.2}",
+                                                        "position_m: 0.2, velocity_m_per_s: -1}"))
+        said = self.run_it("validate", path)[1]
+        self.assertIn("warning: contacts: have none between B2 and B3", said)
+        name = self.run_it("run", path, "-o", "name", code=None)[0].strip()
+        self.assertIn("which passed into each other", self.run_it("describe", name)[0])
+
+    def test_run_that_touches_nothing_says_so(self):
+        name = self.run_it("run", CHAIN, "--set", "bodies[B1].velocity_m_per_s=-1", "-o",
+                           "name")[0].strip()
+        self.assertIn("contacts: were not touched in 0.004 s", self.run_it("describe", name)[0])
+
     def test_shipped_scenarios_and_sweeps_need_none(self):
         for path in sorted(CHAIN.parent.glob("*.yaml")):
             with self.subTest(path.stem):

@@ -59,6 +59,8 @@ TEST_F(GridSweepTest, AListIsTakenAsItStands) {
 TEST_F(GridSweepTest, WordsOfAnEnumAreItsNumbers) {
   EXPECT_THAT(Grid({"solver.phase_split=PEAK_FORCE,PEAK_DEFORMATION"}).axes(0).values(),
               ElementsAre(v1::Solver::PEAK_FORCE, v1::Solver::PEAK_DEFORMATION));
+  EXPECT_THAT(Grid({"contacts[A-B].damping=exact,Hunt-Crossley"}).axes(0).values(),
+              ElementsAre(v1::Contact::EXACT, v1::Contact::HUNT_CROSSLEY));
 }
 
 TEST_F(GridSweepTest, BaseAndMetricComeAlong) {
@@ -107,6 +109,28 @@ TEST_F(GridSweepTest, BrokenRulesNameTheAxisAndAreToldAtOnce) {
 TEST_F(GridSweepTest, MistakesOfTheScenarioHaveTheirPlace) {
   WriteText("end_time_s: 1\nbodies:\n- {nam: A, mass_kg: 1}\n", file_);
   EXPECT_THAT(Refused({"end_time_s=1,2"}).what(), HasSubstr("two.yaml:3:4: bodies[0].nam"));
+}
+
+TEST_F(GridSweepTest, AnAxisOverAVariableSetsAllItsFields) {
+  WriteText(
+      "variables: {r: 0.05, law: EXACT, unused: 1}\nend_time_s: 4e-3\ntitle: ${r}\nbodies:\n"
+      "- {name: A, mass_kg: 0.5, radius_m: \"${r}\", velocity_m_per_s: 0.2}\n"
+      "- {name: B, mass_kg: 0.5, position_m: 0.1, radius_m: \"${r}\"}\n"
+      "contacts:\n- {between: [A, B], stiffness: 1e10, restitution: 0.8, damping: \"${law}\"}\n",
+      file_);
+  const v1::Sweep sweep = Grid({"var:r=0.01:0.05:3", "var:law=EXACT,FLORES"});
+  EXPECT_EQ(sweep.axes(0).field(), "bodies[0].radius_m");
+  EXPECT_THAT(sweep.axes(0).also(), ElementsAre("bodies[1].radius_m"));
+  EXPECT_EQ(sweep.axes(0).label(), "var:r");
+  EXPECT_THAT(sweep.axes(0).values(), ElementsAre(0.01, 0.03, 0.05));
+  EXPECT_EQ(sweep.axes(1).field(), "contacts[0].damping");
+  EXPECT_THAT(sweep.axes(1).values(), ElementsAre(v1::Contact::EXACT, v1::Contact::FLORES));
+  EXPECT_THAT(Refused({"var:radius=1,2"}).what(), HasSubstr("unknown variable 'radius'"));
+  const Failure unused = Refused({"var:unused=1,2"});
+  EXPECT_EQ(unused.code(), ExitCode::kUsage);
+  EXPECT_STREQ(unused.what(),
+               "--grid var:unused=1,2: 'unused' is the whole value of no number — an axis sets "
+               "fields such as mass_kg: ${unused}");
 }
 
 TEST_F(GridSweepTest, VariablesAreThoseOfTheScenario) {

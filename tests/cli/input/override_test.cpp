@@ -49,6 +49,20 @@ TEST(Override, StarIsEveryEntry) {
   EXPECT_EQ(scenario.contacts(1).damping(), v1::Contact::FLORES);
 }
 
+TEST(Override, EntriesAreFoundByTheirNames) {
+  const v1::Scenario scenario = With("contacts[b-c].restitution=0.7");
+  EXPECT_EQ(scenario.contacts(0).restitution(), 0.5);
+  EXPECT_EQ(scenario.contacts(1).restitution(), 0.7);
+  EXPECT_EQ(With("bodies[b].mass_kg=3").bodies(1).mass_kg(), 3);
+}
+
+TEST(Override, UnknownNameIsToldAndAKnownOneIsPlacedAtItsField) {
+  EXPECT_THAT(Mistakes("contacts[b-d].restitution=1"),
+              ElementsAre("--set: contacts: there is no contact 'b-d' — did you mean 'b-c'?"));
+  EXPECT_THAT(Mistakes("contacts[b-c].restitution=1.2"),
+              ElementsAre("--set: contacts[1].restitution: is 1.2; must be in (0, 1]"));
+}
+
 TEST(Override, MakesMessagesThatAreNotThere) {
   EXPECT_EQ(With("solver.max_iterations=7").solver().max_iterations(), 7);
 }

@@ -40,6 +40,12 @@ TEST(SettableFields, EveryPathCanBeSet) {
   }
 }
 
+TEST(SettableFields, EntriesWithANameAreThereByItToo) {
+  const std::vector<SettableField> fields = SettableFields(TwoBalls());
+  EXPECT_NE(Find(fields, "contacts[A-B].restitution"), nullptr);
+  EXPECT_NE(Find(fields, "bodies[B].mass_kg"), nullptr);
+}
+
 TEST(SettableFields, EnumsAndFlagsHaveTheirWords) {
   const std::vector<SettableField> fields = SettableFields(TwoBalls());
   const SettableField* method = Find(fields, "solver.method");

@@ -93,6 +93,34 @@ TEST_F(SweepFileTest, VariablesGoToTheSweepFirstAndThenToItsBase) {
   EXPECT_THAT(Refused(text, {{"lwo", "1"}}), HasSubstr("unknown variable 'lwo'"));
 }
 
+TEST_F(SweepFileTest, AnAxisMayBeAVariableOfTheBase) {
+  WriteText("variables: {e: 0.8}\n" +
+                std::string(kBase).replace(std::string(kBase).find("0.8"), 3, "\"${e}\""),
+            folder_.path() / "base.yaml");
+  const std::string axes = "axes: [{field: 'var:e', values: [0.5, 0.9]}]\n";
+  const v1::Sweep beside = Read("base: base.yaml\n" + axes);
+  EXPECT_EQ(beside.axes(0).field(), "contacts[0].restitution");
+  EXPECT_EQ(beside.axes(0).label(), "var:e");
+  EXPECT_THAT(beside.axes(0).values(), ElementsAre(0.5, 0.9));
+  std::string inside = "variables: {e: 0.8}\nbase:\n";
+  std::istringstream lines(
+      std::string(kBase).replace(std::string(kBase).find("0.8"), 3, "\"${e}\""));
+  for (std::string line; std::getline(lines, line);) inside += "  " + line + "\n";
+  EXPECT_EQ(Read(inside + axes).SerializeAsString(), beside.SerializeAsString());
+  EXPECT_THAT(Refused("base: base.yaml\naxes: [{field: 'var:f', values: [1]}]\n"),
+              HasSubstr("sweep.yaml:2:16: axes[0].field: unknown variable 'f' — there are e"));
+}
+
+TEST_F(SweepFileTest, WordsOfAVariableAxisAreThoseOfItsField) {
+  WriteText("variables: {law: EXACT}\n" +
+                std::string(kBase).replace(std::string(kBase).find("restitution"), 0,
+                                           "damping: \"${law}\", "),
+            folder_.path() / "base.yaml");
+  const v1::Sweep sweep =
+      Read("base: base.yaml\naxes: [{field: 'var:law', values: [FLORES, exact]}]\n");
+  EXPECT_THAT(sweep.axes(0).values(), ElementsAre(v1::Contact::FLORES, v1::Contact::EXACT));
+}
+
 TEST_F(SweepFileTest, BaseOrAxesTellASweepFromAScenario) {
   EXPECT_TRUE(IsSweep("base: a.yaml\n"));
   EXPECT_TRUE(IsSweep("axes: []\n"));

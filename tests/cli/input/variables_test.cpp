@@ -93,6 +93,35 @@ TEST(Variables, AliasIsResolvedLikeItsAnchor) {
   EXPECT_EQ(file.scenario().bodies(1).mass_kg(), 2);
 }
 
+std::vector<std::string> Advice(const std::string& text) {
+  std::vector<std::string> lines;
+  for (const Diagnostic& advice : ScenarioFile("f", text).advice()) lines.push_back(Format(advice));
+  return lines;
+}
+
+TEST(Variables, OneThatIsUsedNowhereIsToldAtItsPlace) {
+  EXPECT_THAT(
+      Advice("variables: {e: 0.8, height_m: 1}\ntitle: ${e}\n"),
+      ElementsAre("f:1:21: variables.height_m: is used nowhere — ${height_m} stands for its "
+                  "value"));
+  EXPECT_THAT(Advice("variables:\n  e: 0.8\n  v: 2\ntitle: $${e}\n"),
+              ElementsAre(testing::HasSubstr("f:2:3: variables.e"),
+                          testing::HasSubstr("f:3:3: variables.v")));
+  EXPECT_THAT(Advice(kBall), IsEmpty());
+  EXPECT_THAT(Advice("title: nothing\n"), IsEmpty());
+}
+
+TEST(Variables, FieldsOfOneAreThoseWhoseWholeValueItIs) {
+  const ScenarioFile file("f",
+                          "variables: {m: 2, t: x}\ntitle: ${t} of ${m}\nbodies:\n"
+                          "  - {name: A, mass_kg: &m \"${m}\"}\n  - {name: B, mass_kg: *m}\n"
+                          "end_time_s: ${m}\n");
+  EXPECT_THAT(file.variables(),
+              ElementsAre(testing::Pair("m", ElementsAre("bodies[0].mass_kg", "bodies[1].mass_kg",
+                                                         "end_time_s")),
+                          testing::Pair("t", IsEmpty())));
+}
+
 TEST(Variables, MistakesOfTheMappingHaveTheirPlace) {
   EXPECT_THAT(Mistakes(ScenarioFile("f", "variables: [a]\n")),
               ElementsAre("f:1:12: variables: expected a mapping of names to values"));

@@ -102,5 +102,38 @@ TEST(RenderSweep, CsvQuotesWhatNeedsIt) {
             "3,2,0.8,nan,FAILED,,\"NUMERIC: at 1 s, \"\"B1\"\"\"\n");
 }
 
+// Two laws by two restitutions, the first axis over a variable.
+v1::Job OfLaws() {
+  v1::Job job = Job();
+  v1::Sweep& sweep = *job.mutable_sweep();
+  sweep.mutable_axes(0)->set_field("contacts[A-B].damping");
+  sweep.mutable_axes(0)->set_label("var:law");
+  return job;
+}
+
+SweepCells CellsOfLaws() {
+  SweepCells cells;
+  int index = 0;
+  for (const int law : {v1::Contact::EXACT, v1::Contact::FLORES}) {
+    for (const double restitution : {0.9, 0.8}) {
+      cells[index] = Cell(index, law, restitution, index);
+      ++index;
+    }
+  }
+  return cells;
+}
+
+TEST(RenderSweep, ValuesOfAnEnumAreItsWordsEverywhere) {
+  const std::string text = RenderSweep(OfLaws(), CellsOfLaws(), {});
+  EXPECT_THAT(text, testing::ContainsRegex("1 +EXACT +0.8 +1 +FULL"));
+  EXPECT_THAT(text, testing::ContainsRegex("2 +FLORES +0.9 +2 +FULL"));
+  EXPECT_THAT(SweepCsv(OfLaws().sweep(), CellsOfLaws()),
+              testing::AllOf(testing::StartsWith("cell,var:law,contacts[0].restitution,"),
+                             HasSubstr("\n3,FLORES,0.8,3,SUCCEEDED")));
+  EXPECT_THAT(RenderHeatMap(OfLaws().sweep(), CellsOfLaws(), 0, {}),
+              HasSubstr("over var:law (down) and contacts[0].restitution (across, 0.9 … 0.8)\n"
+                        " EXACT  "));
+}
+
 }  // namespace
 }  // namespace contact::cli

@@ -88,6 +88,19 @@ TEST_F(FindCellTest, CombinationWithoutACellIsTold) {
             "no cell has velocity_m_per_s=0.2,mass_kg=3 together");
 }
 
+TEST_F(FindCellTest, WordsAndVariablesNameTheCellToo) {
+  v1::Sweep::Axis& axis = *job_.mutable_sweep()->mutable_axes(0);
+  axis.set_field("contacts[0].damping");
+  axis.set_label("var:law");
+  for (auto& [index, cell] : cells_) {
+    cell.set_values(0, index < 3 ? v1::Contact::EXACT : v1::Contact::FLORES);
+  }
+  EXPECT_EQ(Found("var:law=FLORES,mass_kg=2"), 4);
+  EXPECT_EQ(Found("law=exact,mass_kg=2"), 1);
+  EXPECT_EQ(Refusal("law=HUNT_CROSSLEY,mass_kg=2"), "no cell has var:law=HUNT_CROSSLEY");
+  EXPECT_THAT(RenderCell(job_, cells_.at(4), Style()), testing::ContainsRegex("var:law +FLORES\n"));
+}
+
 TEST_F(FindCellTest, ScenarioIsTheBaseWithTheValuesOfTheCell) {
   const v1::Scenario scenario = ScenarioOf(job_.sweep(), cells_.at(5));
   EXPECT_DOUBLE_EQ(scenario.bodies(0).velocity_m_per_s(), 0.2);

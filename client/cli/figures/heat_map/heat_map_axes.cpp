@@ -10,6 +10,7 @@
 
 #include "cli/base/number.h"
 #include "cli/figures/heat_map/contours.h"
+#include "cli/text/sweep/axis_text.h"
 #include "cli/text/sweep/sweep_labels.h"
 
 namespace contact::cli {
@@ -28,19 +29,20 @@ std::size_t RoundStep(std::size_t least) {
 }
 
 // The list of tics of an axis: value and place, every n-th where there is no room for all.
-std::string Tics(const std::vector<double>& values, bool across) {
+std::string Tics(const v1::Sweep::Axis& axis, const std::vector<double>& values, bool across,
+                 const GnuplotTerminal& terminal) {
   constexpr std::size_t kSpace = 2;  // Between two values.
   std::vector<std::string> texts;
   std::size_t longest = 0;
   for (const double value : values) {
-    texts.push_back(Digits(value, 4));
+    texts.push_back(AxisText(axis, value, 4));
     longest = std::max(longest, texts.back().size());
   }
   const std::size_t most = across ? kCharacters / (longest + kSpace) : kMostTics;
   const std::size_t step = RoundStep((values.size() + most - 1) / most);
   std::vector<std::string> tics;
   for (std::size_t i = 0; i < values.size(); i += step) {
-    tics.push_back(fmt::format("'{}' {}", texts[i], i));
+    tics.push_back(fmt::format("{} {}", terminal.Text(texts[i]), i));
   }
   return fmt::format("{}", fmt::join(tics, ", "));
 }
@@ -87,8 +89,10 @@ std::string HeatMapAxes(const v1::Sweep& sweep, const HeatScale& scale, const Sw
              "set label {} at screen 0.01,0.015{}\nunset key\n",
              terminal.Text(sweep.base().title()), terminal.Text(AxisLabel(sweep, 1)),
              terminal.Text(AxisLabel(sweep, 0)),
-             terminal.Text(MetricLabel(sweep.metrics(scale.metric()))), Tics(grid.columns(), true),
-             Tics(grid.rows(), false), static_cast<double>(grid.columns().size()) - 0.5,
+             terminal.Text(MetricLabel(sweep.metrics(scale.metric()))),
+             Tics(sweep.axes(1), grid.columns(), true, terminal),
+             Tics(sweep.axes(0), grid.rows(), false, terminal),
+             static_cast<double>(grid.columns().size()) - 0.5,
              static_cast<double>(grid.rows().size()) - 0.5, range.low, range.high,
              terminal.Text(Legend(scale)), terminal.Font(9)) +
          ColourTics(scale, range);

@@ -125,6 +125,8 @@ bodies:
 
 `run`, `submit`, `validate` and `sweep run` take other values: `--var restitution=0.7`. Of a sweep file
 whose base is a file, each has its own variables; `--var` is for that which has the name.
+
+An axis of a sweep may be a variable, `var:restitution`: it sets every number whose value is `${restitution}`.
 )";
 
 std::string Shipped() {

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "cli/base/number.h"
+#include "cli/text/sweep/axis_text.h"
 #include "cli/text/sweep/heat_scale.h"
 #include "cli/text/sweep/sweep_grid.h"
+#include "wire/sweep/axis_words.h"
 
 namespace contact::cli {
 namespace {
@@ -33,9 +35,11 @@ std::string Glyph(const v1::SweepCell* cell, const HeatScale& scale, const Style
 }
 
 std::string Title(const v1::Sweep& sweep, int metric, const SweepGrid& grid) {
+  const v1::Sweep::Axis& across = sweep.axes(1);
   return fmt::format("\n{} over {} (down) and {} (across, {} … {})\n", sweep.metrics(metric),
-                     sweep.axes(0).field(), sweep.axes(1).field(),
-                     Digits(grid.columns().front(), 4), Digits(grid.columns().back(), 4));
+                     AxisName(sweep.axes(0)), AxisName(across),
+                     AxisText(across, grid.columns().front(), 4),
+                     AxisText(across, grid.columns().back(), 4));
 }
 
 std::string Legend(const HeatScale& scale) {
@@ -53,7 +57,7 @@ std::string RenderHeatMap(const v1::Sweep& sweep, const SweepCells& cells, int m
   const std::optional<SweepGrid> grid = SweepGrid::Of(sweep, cells);
   if (!grid || metric < 0 || metric >= sweep.metrics_size()) return "";
   std::vector<std::string> labels;
-  for (const double row : grid->rows()) labels.push_back(Digits(row, 4));
+  for (const double row : grid->rows()) labels.push_back(AxisText(sweep.axes(0), row, 4));
   const int label = Width(*std::ranges::max_element(labels, {}, Width));
   const int width = label + 2 + 3 * static_cast<int>(grid->columns().size());
   if (labels.size() > kMostMapRows || (style.width > 0 && width > style.width)) return "";

@@ -12,6 +12,8 @@
 #include "cli/base/table.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
+#include "cli/text/sweep/axis_text.h"
+#include "wire/sweep/axis_words.h"
 
 namespace contact::cli {
 namespace {
@@ -37,10 +39,20 @@ Table::Cell Verdict(const v1::SweepCell& cell) {
   return {v1::Job::Convergence_Name(cell.convergence()), full ? Tone::kGood : Tone::kWarning};
 }
 
+// Adds the values of the axes, see AxisText.
+void AddValues(const v1::Sweep& sweep, const v1::SweepCell& cell, int digits,
+               std::vector<Table::Cell>* row) {
+  for (int i = 0; i < cell.values_size(); ++i) {
+    row->emplace_back(AxisText(sweep.axes(i), cell.values(i), digits));
+  }
+}
+
 // The columns of cell, axes and metrics. A narrow terminal leaves out metrics first.
 std::vector<Table::Column> Quantities(const v1::Sweep& sweep) {
   std::vector<Table::Column> columns{{"CELL", true}};
-  for (const auto& axis : sweep.axes()) columns.push_back({axis.field(), true, 0, axis.field()});
+  for (const v1::Sweep::Axis& axis : sweep.axes()) {
+    columns.push_back({AxisName(axis), true, 0, AxisName(axis)});
+  }
   for (const std::string& metric : sweep.metrics()) {
     columns.push_back({metric, true, static_cast<int>(columns.size()), metric});
   }
@@ -53,7 +65,7 @@ std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style
   Table table(SweepColumns(job.sweep()));
   for (const auto& [index, cell] : cells) {
     std::vector<Table::Cell> row{fmt::to_string(index)};
-    for (const double value : cell.values()) row.emplace_back(Digits(value, 6));
+    AddValues(job.sweep(), cell, 6, &row);
     for (int i = 0; i < job.sweep().metrics_size(); ++i) {
       row.emplace_back(i < cell.metrics_size() ? Digits(cell.metrics(i), 8) : "-");
     }
@@ -69,7 +81,7 @@ std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells,
   Table table(SweepCsvColumns(sweep));
   for (const auto& [index, cell] : cells) {
     std::vector<Table::Cell> row{fmt::to_string(index)};
-    for (const double value : cell.values()) row.emplace_back(fmt::to_string(value));
+    AddValues(sweep, cell, 0, &row);
     for (const double metric : cell.metrics()) row.emplace_back(fmt::to_string(metric));
     for (int i = cell.metrics_size(); i < sweep.metrics_size(); ++i) row.emplace_back("nan");
     const bool failed = cell.state() == v1::Job::FAILED;

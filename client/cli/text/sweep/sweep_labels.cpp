@@ -13,6 +13,7 @@
 
 #include "wire/column_name.h"
 #include "wire/rules/field_path.h"
+#include "wire/sweep/axis_words.h"
 
 namespace contact::cli {
 namespace {
@@ -76,6 +77,7 @@ std::string NameOf(const v1::Contact& contact) {
 
 // Whose the entry of a scenario's list is.
 std::string OwnerIn(const v1::Scenario& base, const PathStep& step) {
+  if (!step.key.empty()) return step.key;
   if (step.index == PathStep::kEvery) return fmt::format("all {}", step.name);
   const int i = *step.index;
   const std::string entry = fmt::format("{}[{}]", step.name, i);
@@ -92,10 +94,12 @@ std::string OwnerIn(const PathStep& step) {
 }  // namespace
 
 std::string AxisLabel(const v1::Sweep& sweep, int axis) {
-  const std::string& field = sweep.axes(axis).field();
+  const v1::Sweep::Axis& varied = sweep.axes(axis);
+  if (!varied.label().empty()) return varied.label();
   const auto owner = [&](const PathStep& step) { return OwnerIn(sweep.base(), step); };
-  const std::string label = Label(ParsePath(field), *v1::Scenario::descriptor(), {}, owner);
-  return label.empty() ? field : label;
+  const std::string label =
+      Label(ParsePath(varied.field(), true), *v1::Scenario::descriptor(), {}, owner);
+  return label.empty() ? varied.field() : label;
 }
 
 std::string MetricLabel(const std::string& metric) {
@@ -116,8 +120,8 @@ std::string MetricLabel(const std::string& metric) {
 }
 
 bool HasWords(const v1::Sweep& sweep, int axis) {
-  const auto fields = FieldsOf(ParsePath(sweep.axes(axis).field()), v1::Scenario::descriptor());
-  return !fields.empty() && fields.back()->cpp_type() == FieldDescriptor::CPPTYPE_ENUM;
+  const FieldDescriptor* field = FieldAt(sweep.axes(axis).field());
+  return field != nullptr && field->enum_type() != nullptr;
 }
 
 }  // namespace contact::cli

@@ -12,7 +12,10 @@
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
 #include "cli/base/table.h"
+#include "cli/input/sweep_rules.h"
 #include "cli/text/render_job.h"
+#include "cli/text/sweep/axis_text.h"
+#include "wire/sweep/axis_words.h"
 #include "wire/sweep/sweep_fields.h"
 
 namespace contact::cli {
@@ -24,40 +27,46 @@ struct Choice {
   double value = 0;
 };
 
-// The axis of a field, or of the last part of its name. Throws Failure (kUsage) if there is none.
-int AxisOf(const v1::Sweep& sweep, const std::string& field) {
+// The axis of this name, or whose name ends in it after a point or colon. Throws Failure (kUsage)
+// if there is none.
+int AxisOf(const v1::Sweep& sweep, const std::string& text) {
   std::vector<int> found;
   std::vector<std::string_view> axes;
   std::vector<std::string_view> names;  // The axes, and the last part of each.
   for (int i = 0; i < sweep.axes_size(); ++i) {
-    const std::string& name = sweep.axes(i).field();
-    if (name == field) return i;
-    if (name.ends_with("." + field)) found.push_back(i);
+    const std::string& name = AxisName(sweep.axes(i));
+    if (name == text) return i;
+    if (name.ends_with("." + text) || name.ends_with(":" + text)) found.push_back(i);
     axes.push_back(name);
     names.push_back(name);
-    names.push_back(std::string_view(name).substr(name.rfind('.') + 1));
+    names.push_back(std::string_view(name).substr(name.find_last_of(".:") + 1));
   }
   if (found.size() == 1) return found.front();
   throw Failure(
       ExitCode::kUsage,
-      WithHint(fmt::format("{} is no axis of this sweep", Quoted(field)),
-               DidYouMean(field, names, fmt::format("axes are {}", fmt::join(axes, ", ")))));
+      WithHint(fmt::format("{} is no axis of this sweep", Quoted(text)),
+               DidYouMean(text, names, fmt::format("axes are {}", fmt::join(axes, ", ")))));
+}
+
+// One FIELD=VALUE. The value is a number, or the word of an enum. Throws Failure (kUsage) for a
+// text that is none.
+Choice ReadChoice(const v1::Sweep& sweep, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals != std::string::npos) {
+    const int axis = AxisOf(sweep, text.substr(0, equals));
+    const auto value = AxisValue(sweep.axes(axis).field(), text.substr(equals + 1));
+    if (value) return {axis, *value};
+  }
+  throw Failure(ExitCode::kUsage,
+                fmt::format("{}: expected the number of a cell, or FIELD=VALUE,… such as {}=0.5",
+                            Quoted(text), AxisName(sweep.axes(0))));
 }
 
 std::vector<Choice> ReadChoices(const v1::Sweep& sweep, const std::string& text) {
   std::vector<Choice> choices;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string part = text.substr(begin, end - begin);
-    const std::size_t equals = part.find('=');
-    const auto value = ParseNumber(equals == std::string::npos ? part : part.substr(equals + 1));
-    if (equals == std::string::npos || !value) {
-      throw Failure(
-          ExitCode::kUsage,
-          fmt::format("{}: expected the number of a cell, or FIELD=VALUE,… such as {}=0.5",
-                      Quoted(part), sweep.axes(0).field()));
-    }
-    choices.push_back({AxisOf(sweep, part.substr(0, equals)), *value});
+    choices.push_back(ReadChoice(sweep, text.substr(begin, end - begin)));
     begin = end + 1;
   }
   return choices;
@@ -81,9 +90,12 @@ void RequireValue(const v1::Sweep& sweep, const SweepCells& cells, const Choice&
   };
   const double nearest = std::ranges::min_element(cells, {}, distance)->second.values(choice.axis);
   if (Near(nearest, choice.value)) return;
+  const v1::Sweep::Axis& axis = sweep.axes(choice.axis);
   throw Failure(ExitCode::kUsage,
-                fmt::format("no cell has {}={}; the nearest value is {}",
-                            sweep.axes(choice.axis).field(), choice.value, nearest));
+                fmt::format("no cell has {}={}{}", AxisName(axis), AxisText(axis, choice.value),
+                            AxisWord(axis, nearest).empty()
+                                ? fmt::format("; the nearest value is {}", AxisText(axis, nearest))
+                                : ""));  // No word is near another.
 }
 
 }  // namespace
@@ -129,7 +141,7 @@ std::string RenderCell(const v1::Job& job, const v1::SweepCell& cell, const Styl
   }
   Table values({{"FIELD"}, {"VALUE", true}});
   for (int i = 0; i < cell.values_size(); ++i) {
-    values.Add({sweep.axes(i).field(), fmt::to_string(cell.values(i))});
+    values.Add({AxisName(sweep.axes(i)), AxisText(sweep.axes(i), cell.values(i))});
   }
   Table metrics({{"METRIC"}, {"VALUE", true}});
   for (int i = 0; i < sweep.metrics_size(); ++i) {

@@ -1,0 +1,69 @@
+"""What both clients say and hear: addresses, requests, and what follows from answers."""
+
+from __future__ import annotations
+
+import os
+import time
+import uuid
+from typing import Any, Mapping, Sequence, Union
+
+from contact.v1 import job_pb2, job_service_pb2
+
+from .errors import RunFailed
+from .recording import Recording
+from .result import Result
+from .scenario import ScenarioLike, load_scenario
+
+JobLike = Union[str, job_pb2.Job, Result]
+
+OPTIONS: Sequence[tuple[str, int]] = (
+    ("grpc.max_receive_message_length", 256 << 20),  # A ledger has no limit but this.
+    ("grpc.initial_reconnect_backoff_ms", 100),
+    ("grpc.min_reconnect_backoff_ms", 100),
+    ("grpc.max_reconnect_backoff_ms", 5000),
+    ("grpc.keepalive_time_ms", 30_000),
+    ("grpc.keepalive_timeout_ms", 20_000),
+    ("grpc.http2.max_pings_without_data", 0),
+    ("grpc.enable_http_proxy", 0),  # A proxy for the web does not know contactd.
+)
+TRIES = 3  # Of a unary call.
+
+
+def address_of(address: str | None) -> str:
+    """The address given, else that of the environment, else the default."""
+    return address or os.environ.get("CONTACT_SERVER", "127.0.0.1:7070")
+
+
+def create_request(scenario: ScenarioLike, set_: Mapping[str, Any] | None,
+                   variables: Mapping[str, Any] | None, labels: Mapping[str, str] | None,
+                   request_id: str | None) -> job_service_pb2.CreateJobRequest:
+    """The request that submits a scenario."""
+    job = job_pb2.Job(scenario=load_scenario(scenario, variables, set=set_), labels=labels)
+    return job_service_pb2.CreateJobRequest(job=job, request_id=request_id or str(uuid.uuid4()))
+
+
+def ended(job: job_pb2.Job, recording: Recording) -> Result:
+    """The result of a job that has ended; raises RunFailed if it did not succeed."""
+    if job.state != job_pb2.Job.SUCCEEDED:
+        raise RunFailed(job)
+    # An answer has not the end of a long list.
+    if len(job.cycles) < len(recording.cycles):
+        del job.cycles[:]
+        job.cycles.extend(recording.cycles.values())
+    if len(job.groups) < len(recording.groups):
+        del job.groups[:]
+        job.groups.extend(recording.groups.values())
+    return Result(job, recording)
+
+
+def job_name(job: JobLike) -> str:
+    """`jobs/ID` for a job, a result, `jobs/ID` or `ID`."""
+    if isinstance(job, Result):
+        job = job.job
+    name = job.name if isinstance(job, job_pb2.Job) else job
+    return name if name.startswith("jobs/") else f"jobs/{name}"
+
+
+def deadline_of(timeout_s: float | None) -> float | None:
+    """When a call that may take so long must end, by time.monotonic()."""
+    return None if timeout_s is None else time.monotonic() + timeout_s
