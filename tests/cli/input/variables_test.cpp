@@ -95,7 +95,8 @@ TEST(Variables, AliasIsResolvedLikeItsAnchor) {
 
 std::vector<std::string> Advice(const std::string& text) {
   std::vector<std::string> lines;
-  for (const Diagnostic& advice : ScenarioFile("f", text).advice()) lines.push_back(Format(advice));
+  const ScenarioFile file("f", text);
+  for (const Diagnostic& advice : file.advice()) lines.push_back(Format(advice));
   return lines;
 }
 
