@@ -49,8 +49,8 @@ std::string WithTitle(const std::string& header, const std::string& spec) {
 
 // From 3: headers have the title of the job. Damaged ones are left as they are, and so found.
 void AddTitles(SQLite::Database& connection) {
-  SQLite::Statement jobs(connection,
-                         "SELECT number, crc32, header, spec FROM jobs JOIN specs ON job=number");
+  SQLite::Statement jobs(
+      connection, "SELECT number, jobs.crc32, header, spec FROM jobs JOIN specs ON job=number");
   SQLite::Statement update(connection, "UPDATE jobs SET crc32=?, header=? WHERE number=?");
   while (jobs.executeStep()) {
     const std::string header = jobs.getColumn(2).getString();

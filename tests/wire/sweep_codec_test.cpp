@@ -202,7 +202,8 @@ TEST(SweepAxes, MistakesAreToldTogether) {
           "you mean 'velocity_m_per_s'?",
           "metrics[3]: 'title': unknown field 'title' — fields are steps, evaluations, iterations, "
           "episodes, wall_time_s, worst_identity_residual, momentum_residual, energy_residual, "
-          "kinetic_energy_j, time_reached_s, growths, growths_no_progress"));
+          "kinetic_energy_j, time_reached_s, growths, growths_no_progress, cycles, "
+          "cycles_not_converged, cycles_infeasible"));
 }
 
 TEST(SweepBase, IsCheckedWithTheFirstCell) {

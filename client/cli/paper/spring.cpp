@@ -74,9 +74,9 @@ void NameCurves(Figure* figure) {
   bool ends = false;
   for (Figure::Curve& curve : figure->panels.front().curves) {
     if (curve.mark == Figure::Mark::kStart && !std::exchange(starts, true)) {
-      curve.label = "start of a cycle";
+      curve.label = "start of a cycle", curve.keyed = true;
     } else if (curve.mark == Figure::Mark::kEnd && !std::exchange(ends, true)) {
-      curve.label = "end of a cycle";
+      curve.label = "end of a cycle", curve.keyed = true;
     } else if (curve.mark == Figure::Mark::kDashed) {
       curve.label = "equivalent external force";
     } else if (curve.label == kContact) {

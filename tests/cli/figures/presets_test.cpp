@@ -108,7 +108,8 @@ TEST(Presets, CyclesHaveMarksInTheColourOfTheirContact) {
 
 std::vector<std::pair<double, double>> BandsOf(const Recording& run, const FigurePart& part = {}) {
   std::vector<std::pair<double, double>> bands;
-  for (const Figure::Band& band : PresetFigure("force", run, part).panels.at(0).bands) {
+  const Figure figure = PresetFigure("force", run, part);
+  for (const Figure::Band& band : figure.panels.at(0).bands) {
     bands.emplace_back(band.start, band.end);
   }
   return bands;
@@ -283,7 +284,8 @@ Recording RunWithPeaks(const std::vector<double>& peaks) {
 
 std::vector<double> LabelledPeaks(const Recording& run) {
   std::vector<double> peaks;
-  for (const auto& label : PresetFigure("force", run).panels.at(0).labels) peaks.push_back(label.y);
+  const Figure figure = PresetFigure("force", run);
+  for (const auto& label : figure.panels.at(0).labels) peaks.push_back(label.y);
   return peaks;
 }
 

@@ -53,8 +53,8 @@ TEST(RenderJob, ShowsLedgerBodiesAndBalances) {
             "BODY  POSITION [m]  VELOCITY [m/s]\n"
             "A             0.25            -0.5\n"
             "\n"
-            "convergence FULL; residuals: momentum 1.0e-16, energy 2.0e-15, cycle identity "
-            "3.0e-14; 250 steps\n"
+            "convergence FULL (1 of 2 cycles); residuals: momentum 1.0e-16, energy 2.0e-15, "
+            "cycle identity 3.0e-14; 250 steps\n"
             "warning: the law has no velocity\n");
 }
 

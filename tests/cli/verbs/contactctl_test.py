@@ -118,7 +118,7 @@ class SweepTest(CliTest):
         svg = figure.read_text("utf-8")
         self.assertEqual(svg.count("<pattern"), 1)  # One cell did not converge.
         self.assertEqual(svg.count("rgb(176,   0,  32)"), 2)  # Two failed.
-        self.assertIn("contacts[0].restitution", svg)
+        self.assertIn("restitution of B1-B2 [1]", svg)
         png = self.folder / "map.png"
         self.run_it("sweep", "export", job, "--heatmap", png)
         self.assertTrue(png.read_bytes().startswith(b"\x89PNG"))

@@ -112,6 +112,10 @@ class RefusalsOfAServer(CliTest):
         self.assertEqual(list(self.folder.glob("r.html")), [])
         self.assertIn("there is no cell 2; the last is 1",
                       self.refused("sweep", "cell", sweep, 2, code=2))
+
+    def test_heat_map_of_three_axes(self):
+        grids = [f"--grid=bodies[{i}].velocity_m_per_s=0.7,0.8" for i in range(3)]
+        sweep = self.run_it("sweep", "run", CHAIN, *grids, "-o", "name")[0].strip()
         self.assertIn("heat map is of a grid of two axes",
                       self.refused("sweep", "heatmap", sweep, code=2))
 

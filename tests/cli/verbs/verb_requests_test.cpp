@@ -218,7 +218,7 @@ TEST_F(VerbRequestsTest, ArtifactsAreNamed) {
   artifact.set_size_bytes(12);
   EXPECT_EQ(Run({"artifact", "list", "a"}).printed, "trajectory.csv\n");
   const json object = json::parse(Run({"artifact", "list", "a", "-o", "jsonl"}).printed);
-  EXPECT_EQ(object["size_bytes"], "12");
+  EXPECT_EQ(object["size_bytes"], 12);
 }
 
 TEST_F(VerbRequestsTest, FlagsOfASubmissionAreItsJob) {

@@ -74,7 +74,8 @@ TEST(VerbUsageTest, FolderThatIsNotThereIsFoundBeforeAnyWork) {
 
 TEST(VerbUsageTest, HeatMapThatCannotBeDrawnIsRefusedBeforeTheSweep) {
   const std::string chain = CONTACT_SOURCE_DIR "/client/scenarios/three-ball-chain.yaml";
-  const std::string e = "contacts[*].restitution=", v = "bodies[0].velocity_m_per_s=";
+  const std::string e = "contacts[*].restitution=", v = "bodies[0].velocity_m_per_s=",
+                    r = "bodies[0].radius_m=";
   const auto draw = [&](const std::vector<std::string>& grids, const std::string& path) {
     std::vector<std::string> words = {"sweep", "run", chain, "--heatmap", path};
     for (const std::string& grid : grids) words.insert(words.end(), {"--grid", grid});
@@ -83,7 +84,8 @@ TEST(VerbUsageTest, HeatMapThatCannotBeDrawnIsRefusedBeforeTheSweep) {
   const ScratchFolder folder;
   const std::string map = folder.path() / "map.svg";
   for (const std::vector<std::string>& grids :
-       {std::vector<std::string>{e + "0.5:0.9:5"}, {e + "0.5:0.9:101", v + "0.1:0.5:100"}}) {
+       {std::vector<std::string>{e + "0.5:0.9:5", v + "0.1:0.5:5", r + "0.04:0.06:5"},
+        {e + "0.5:0.9:101", v + "0.1:0.5:100"}}) {
     const End end = draw(grids, map);
     EXPECT_EQ(end.code, ExitCode::kUsage) << end.told;
     EXPECT_THAT(end.told, HasSubstr("a grid of two axes with at most 10000 cells"));
