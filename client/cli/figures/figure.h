@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/export/provenance.h"
@@ -60,6 +61,8 @@ struct Figure {
     std::string y_label;  ///< Quantity and unit.
     /// True if x are whole numbers, such as passes: tics and range are then whole.
     bool counted_x = false;
+    /// Values of x and the words at their tics; empty: numbers.
+    std::vector<std::pair<double, std::string>> x_words = {};
     /// True if the axis is logarithmic.
     bool log_x = false;
     bool log_y = false;

@@ -1,6 +1,7 @@
 #include "cli/figures/gnuplot_script.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -86,6 +87,7 @@ class Script {
     Line("x_unit = {:e}\ny_unit = {:e}", units.x.size, units.y.size);
     AxisLabels(units);
     text_ += AxisCommands(panel, units);
+    if (!panel.x_words.empty()) Words(panel);
     if (!terminal_.characters()) Bands(panel);
     Labels(panel);
     DottedLines(panel);
@@ -103,6 +105,14 @@ class Script {
     } else {
       Line("set ylabel {}", terminal_.Text(units.y.label));
     }
+  }
+
+  void Words(const Figure::Panel& panel) {
+    std::vector<std::string> tics;
+    for (const auto& [x, word] : panel.x_words) {
+      tics.push_back(fmt::format("{} {}", terminal_.Text(word), x));
+    }
+    Line("set xtics ({})", fmt::join(tics, ", "));
   }
 
   void Bands(const Figure::Panel& panel) {

@@ -99,14 +99,15 @@ Diagnostic Place(const Violation& violation, const std::vector<std::string>& axe
 }  // namespace
 
 v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
-                   const std::string& metric, const DrawnCells& drawn,
+                   const std::vector<std::string>& metrics, const DrawnCells& drawn,
                    const VariableValues& variables) {
   v1::Sweep sweep;
   const ScenarioFile base = ScenarioFile::Open(scenario, variables);
   for (const std::string& axis : axes) {
     *sweep.add_axes() = ReadAxis(axis, drawn.count > 0, base.variables());
   }
-  sweep.add_metrics(metric.empty() ? "iterations" : metric);
+  for (const std::string& metric : metrics) sweep.add_metrics(metric);
+  if (metrics.empty()) sweep.add_metrics("iterations");
   if (drawn.count > 0) {
     sweep.set_combination(drawn.latin_hypercube ? v1::Sweep::LATIN_HYPERCUBE : v1::Sweep::RANDOM);
     sweep.set_count(drawn.count);

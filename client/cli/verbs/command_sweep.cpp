@@ -99,7 +99,7 @@ v1::Sweep Open(const SweepArguments& arguments) {
   const DrawnCells drawn{.count = std::max(arguments.random, arguments.latin_hypercube),
                          .latin_hypercube = arguments.latin_hypercube > 0,
                          .seed = arguments.seed};
-  return MakeGrid(arguments.file, arguments.grid, arguments.map.metric(), drawn, variables);
+  return MakeGrid(arguments.file, arguments.grid, arguments.map.metrics(), drawn, variables);
 }
 
 ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
@@ -158,11 +158,12 @@ CLI::Option* AddDrawn(CLI::App& run, const char* name, int* cells, CLI::Option* 
 void AddAxes(CLI::App& run, SweepArguments* arguments) {
   CLI::Option* grid =
       Repeatable(
-          run.add_option("--grid", arguments->grid,
-                         "An axis; its values are combined with those of all other axes, such as "
-                         "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. FIELD may "
-                         "name an entry, contacts[A-B].restitution, or be a variable of the file, "
-                         "var:NAME. --metric is then what is computed, by default iterations"))
+          run.add_option(
+              "--grid", arguments->grid,
+              "An axis; its values are combined with those of all other axes, such as "
+              "contacts[*].restitution=0.5:0.9:5 or …=0.5,0.7; repeatable. FIELD may "
+              "name an entry, contacts[A-B].restitution, or be a variable of the file, "
+              "var:NAME. --metric is then what is computed, one or several, by default iterations"))
           ->type_name("FIELD=VALUES");
   CLI::Option* random = AddDrawn(
       run, "--random", &arguments->random, grid,

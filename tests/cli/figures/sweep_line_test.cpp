@@ -13,7 +13,9 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::IsNan;
+using testing::Pair;
 using testing::SizeIs;
 
 v1::Job Sweep() {
@@ -51,6 +53,14 @@ TEST(SweepLine, GoesThroughTheCellsInTheOrderOfTheirValues) {
   EXPECT_EQ(figure.title, "a sweep");
   EXPECT_EQ(figure.note, "");
   EXPECT_FALSE(panel.log_x || panel.log_y);
+}
+
+TEST(SweepLine, AxisOfAnEnumHasItsWordsAtTheTics) {
+  v1::Job job = Sweep();
+  EXPECT_THAT(SweepLineFigure(job, Cells({2, 6}), 0, false).panels[0].x_words, IsEmpty());
+  job.mutable_sweep()->mutable_axes(0)->set_field("contacts[0].damping");
+  EXPECT_THAT(SweepLineFigure(job, Cells({2, 6}), 0, false).panels[0].x_words,
+              ElementsAre(Pair(2, "EXACT"), Pair(6, "FLORES")));
 }
 
 TEST(SweepLine, IsBrokenWhereACellFailedAndCrossedWhereItDidNotConverge) {

@@ -58,13 +58,5 @@ TEST(MetricLabel, FieldsOfTheSummaryMayStandAlone) {
   EXPECT_EQ(MetricLabel("summary"), "summary");
 }
 
-TEST(HasWords, IsTrueOfEnums) {
-  v1::Sweep sweep;
-  sweep.add_axes()->set_field("contacts[*].damping");
-  sweep.add_axes()->set_field("contacts[*].restitution");
-  EXPECT_TRUE(HasWords(sweep, 0));
-  EXPECT_FALSE(HasWords(sweep, 1));
-}
-
 }  // namespace
 }  // namespace contact::cli

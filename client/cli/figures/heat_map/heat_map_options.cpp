@@ -34,8 +34,9 @@ OutputFormat FormatOfMap(const std::string& path) {
 }  // namespace
 
 void HeatMapOptions::AddTo(CommandLine& line, CLI::App& command) {
-  line.SetKind(command.add_option("--metric", metric_, "What is drawn. Default: the first"),
-               ValueKind::kMetric);
+  CLI::Option* metric = command.add_option(
+      "--metric", metrics_, "What is drawn, of several the first. Default: that of the sweep");
+  line.SetKind(metric->delimiter(',')->take_all()->allow_extra_args(false), ValueKind::kMetric);
   line.SetWords(
           command.add_option("--scale", scale_,
                              "Of the colours of the heat map, or the axis of the line: linear "
@@ -49,13 +50,13 @@ void HeatMapOptions::AddTo(CommandLine& line, CLI::App& command) {
 }
 
 int HeatMapOptions::MetricOf(const v1::Sweep& sweep) const {
-  if (metric_.empty()) return 0;
-  const auto found = std::ranges::find(sweep.metrics(), metric_);
+  if (metrics_.empty()) return 0;
+  const auto found = std::ranges::find(sweep.metrics(), metrics_.front());
   if (found != sweep.metrics().end()) {
     return static_cast<int>(found - sweep.metrics().begin());
   }
   throw Failure(ExitCode::kUsage,
-                fmt::format("--metric {}: the sweep has none of this name", metric_));
+                fmt::format("--metric {}: the sweep has none of this name", metrics_.front()));
 }
 
 std::string HeatMapOptions::Text(const v1::Sweep& sweep, const SweepCells& cells,

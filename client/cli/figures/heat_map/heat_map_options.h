@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/base/style.h"
 #include "cli/figures/figure.h"
@@ -17,11 +18,11 @@ class HeatMapOptions {
   /// Declares the flags. This object must outlive `command`, which writes to it.
   void AddTo(CommandLine& line, CLI::App& command);
 
-  /// The metric as the user named it; empty: the first of the sweep.
-  const std::string& metric() const { return metric_; }
+  /// The metrics as the user named them; the first is drawn. Empty: the first of the sweep.
+  const std::vector<std::string>& metrics() const { return metrics_; }
 
-  /// The place of the metric among those of the sweep. Throws Failure (kUsage) if the sweep has
-  /// none of this name.
+  /// The place of the drawn metric among those of the sweep. Throws Failure (kUsage) if the sweep
+  /// has none of this name.
   int MetricOf(const v1::Sweep& sweep) const;
 
   /// The map in characters, see RenderHeatMap. Throws as MetricOf does.
@@ -43,8 +44,8 @@ class HeatMapOptions {
   /// Draws a heat map.
   void DrawMap(const v1::Job& job, const SweepCells& cells, const std::string& path) const;
 
-  /// As in metric().
-  std::string metric_;
+  /// As in metrics().
+  std::vector<std::string> metrics_;
   /// linear or log.
   std::string scale_ = "linear";
   /// True if Draw adds lines of equal value.

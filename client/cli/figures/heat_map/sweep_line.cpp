@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "cli/export/provenance.h"
 #include "cli/text/sweep/heat_scale.h"
 #include "cli/text/sweep/sweep_labels.h"
+#include "wire/sweep/axis_words.h"
 
 namespace contact::cli {
 namespace {
@@ -37,6 +39,16 @@ std::string Note(const SweepCells& cells, const HeatScale& scale, bool missed) {
   return note;
 }
 
+// The words that the values of an axis stand for; empty if they are numbers.
+std::vector<std::pair<double, std::string>> WordsOf(const v1::Sweep::Axis& axis,
+                                                    const Figure::Curve& line) {
+  std::vector<std::pair<double, std::string>> words;
+  for (const double x : line.x) {
+    if (const auto word = AxisWord(axis, x); !word.empty()) words.emplace_back(x, word);
+  }
+  return words;
+}
+
 }  // namespace
 
 Figure SweepLineFigure(const v1::Job& job, const SweepCells& cells, int metric, bool log) {
@@ -58,10 +70,10 @@ Figure SweepLineFigure(const v1::Job& job, const SweepCells& cells, int metric, 
   const std::string note = Note(cells, scale, !missed.x.empty());
   Figure::Panel panel{.x_label = AxisLabel(job.sweep(), 0),
                       .y_label = MetricLabel(job.sweep().metrics(metric)),
-                      .counted_x = HasWords(job.sweep(), 0),
                       .log_x = job.sweep().axes(0).has_log(),
                       .log_y = log,
                       .curves = {std::move(line)}};
+  panel.x_words = WordsOf(job.sweep().axes(0), panel.curves.front());
   if (!missed.x.empty()) panel.curves.push_back(std::move(missed));
   return {.title = job.sweep().base().title(),
           .panels = {std::move(panel)},

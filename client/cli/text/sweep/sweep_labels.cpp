@@ -13,7 +13,6 @@
 
 #include "wire/column_name.h"
 #include "wire/rules/field_path.h"
-#include "wire/sweep/axis_words.h"
 
 namespace contact::cli {
 namespace {
@@ -117,11 +116,6 @@ std::string MetricLabel(const std::string& metric) {
     if (const std::string text = label(*type, before); !text.empty()) return text;
   }
   return metric;
-}
-
-bool HasWords(const v1::Sweep& sweep, int axis) {
-  const FieldDescriptor* field = FieldAt(sweep.axes(axis).field());
-  return field != nullptr && field->enum_type() != nullptr;
 }
 
 }  // namespace contact::cli

@@ -15,7 +15,4 @@ std::string AxisLabel(const v1::Sweep& sweep, int axis);
 /// `final_bodies[B3].velocity_m_per_s`. A path that the contract does not know stays as it is.
 std::string MetricLabel(const std::string& metric);
 
-/// True if the values of an axis are the numbers of words, such as those of `damping`.
-bool HasWords(const v1::Sweep& sweep, int axis);
-
 }  // namespace contact::cli

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
+#include <string_view>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "cli/base/interrupt.h"
 #include "cli/base/message.h"
@@ -105,22 +110,25 @@ void TellRegained() { Tell("connected again\n"); }
 
 std::string NextSteps(const v1::Job& job) {
   const std::string id = ShortName(job.name());
-  std::string text = fmt::format(
-      "Next:  contactctl watch {0}             the iteration and all events again\n"
-      "       contactctl describe {0} -o json  every number\n",
-      id);
-  if (job.cycles_size() > 0 && !job.scenario().output().ledger_only()) {
-    text += fmt::format("       contactctl plot {} hysteresis   force over deformation\n", id);
-  }
   const std::string hints = ConvergenceHints(job);
-  if (hints.empty()) return text;
-  return text +
-         fmt::format(
-             "       contactctl describe {} --only-missed  the cycles that miss\n"
-             "       contactctl explain                         what the words of the ledger "
-             "mean\n",
-             id) +
-         hints;
+  std::vector<std::pair<std::string, std::string_view>> steps = {
+      {"watch " + id, "the iteration and all events again"},
+      {fmt::format("describe {} -o json", id), "every number"}};
+  if (job.cycles_size() > 0 && !job.scenario().output().ledger_only()) {
+    steps.emplace_back(fmt::format("plot {} hysteresis", id), "force over deformation");
+  }
+  if (!hints.empty()) {
+    steps.emplace_back(fmt::format("describe {} --only-missed", id), "the cycles that miss");
+    steps.emplace_back("explain", "what the words of the ledger mean");
+  }
+  std::size_t width = 0;
+  for (const auto& [words, about] : steps) width = std::max(width, words.size());
+  std::string text;
+  for (const auto& [words, about] : steps) {
+    text += fmt::format("{} contactctl {:<{}}  {}\n", text.empty() ? "Next: " : "      ", words,
+                        width, about);
+  }
+  return text + hints;
 }
 
 }  // namespace contact::cli
