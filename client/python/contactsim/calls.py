@@ -31,7 +31,7 @@ TRIES = 3  # Of a unary call.
 
 def address_of(address: str | None) -> str:
     """The address given, else that of the environment, else the default."""
-    return address or os.environ.get("CONTACT_SERVER", "127.0.0.1:7070")
+    return address or os.environ.get("CONTACT_SERVER") or "127.0.0.1:7070"
 
 
 def create_request(scenario: ScenarioLike, set_: Mapping[str, Any] | None,

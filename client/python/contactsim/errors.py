@@ -108,9 +108,10 @@ def _details(error: grpc.RpcError) -> tuple[Any, Any]:
     trailers = error.trailing_metadata() or ()
     packed = next((value for key, value in trailers if key == "grpc-status-details-bin"), b"")
     for detail in status_pb2.Status.FromString(packed).details:
-        for message in (info, request):
-            if detail.Is(message.DESCRIPTOR):
-                detail.Unpack(message)
+        if detail.Is(info.DESCRIPTOR):
+            detail.Unpack(info)
+        if detail.Is(request.DESCRIPTOR):
+            detail.Unpack(request)
     return info, request
 
 

@@ -70,6 +70,6 @@ class Recording:
 def _join(parts: list[bytes]) -> Array:
     if len(parts) == 1:
         return np.frombuffer(parts[0], dtype="<f8")
-    joined = np.concatenate([np.frombuffer(part, dtype="<f8") for part in parts])
+    joined: Array = np.concatenate([np.frombuffer(part, dtype="<f8") for part in parts])
     joined.flags.writeable = False
     return joined

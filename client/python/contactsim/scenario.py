@@ -245,7 +245,7 @@ class _Reader:
         if isinstance(value, int) and value in type_.values_by_number:
             return value
         if name in type_.values_by_name:
-            return type_.values_by_name[name].number
+            return int(type_.values_by_name[name].number)
         near = difflib.get_close_matches(name, choices, 1)
         hint = (f"did you mean {near[0]}? " if near else "") + f"one of {', '.join(choices)}"
         self.violations.append(Violation(path, f"unknown value '{value}'", hint))

@@ -114,8 +114,7 @@ class SweepResult:
         table = self.frame.pivot(index=self.axes[0], columns=self.axes[1], values=metric)
         if ax is None:
             ax = plt.subplots(layout="constrained")[1]
-        image = ax.imshow(np.ma.masked_invalid(table.to_numpy(float)), aspect="auto",
-                          cmap="viridis")
+        image = ax.imshow(table.to_numpy(float), aspect="auto", cmap="viridis")
         ax.figure.colorbar(image, ax=ax, label=metric)
         ax.set_xticks(range(table.shape[1]), [_text(value) for value in table.columns])
         ax.set_yticks(range(table.shape[0]), [_text(value) for value in table.index])
