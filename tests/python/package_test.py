@@ -35,6 +35,26 @@ class PackageTest(unittest.TestCase):
             self.assertTrue(said.stdout.startswith(str(built)), said.stdout)
             self.assertIn("Two balls, one collision", said.stdout)
 
+    def test_wheel_installs_without_protoc_in_a_bare_environment(self):
+        with tempfile.TemporaryDirectory() as folder:
+            wheel = subprocess.run([ROOT / "deploy" / "wheel", folder], check=True, timeout=120,
+                                   capture_output=True, text=True).stdout.strip()
+            bare = pathlib.Path(folder) / "bare"
+            subprocess.run([sys.executable, "-m", "venv", bare], check=True, timeout=120)
+            python = bare / "bin" / "python"
+            # Without an index: what it depends on is lent by Debian below.
+            subprocess.run([python, "-m", "pip", "install", "-q", "--no-index", "--no-deps", wheel],
+                           check=True, timeout=120)
+            environment = {"PATH": str(bare / "bin"), "PYTHONPATH": "/usr/lib/python3/dist-packages"}
+            said = subprocess.run(
+                [python, "-c", "import contactsim, contact.v1.job_service_pb2_grpc as g; "
+                 "print(contactsim.__file__, g.__file__); "
+                 "print(contactsim.load_scenario('two-balls').title)"],
+                cwd=folder, env=environment, check=True, timeout=120, capture_output=True,
+                text=True).stdout
+            self.assertEqual(said.count(str(bare)), 2, said)
+            self.assertIn("Two balls, one collision", said)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -22,7 +22,7 @@ constexpr std::size_t kCharacters = 64;  // That stand beside each other below a
 // A number of cells between two tics that people count in, at least this.
 std::size_t RoundStep(std::size_t least) {
   for (std::size_t decade = 1;; decade *= 10) {
-    for (const std::size_t part : {1, 2, 5}) {
+    for (const std::size_t part : {1U, 2U, 5U}) {
       if (part * decade >= least) return part * decade;
     }
   }
