@@ -33,7 +33,9 @@ CLI::App* FindVerb(CLI::App* command, const std::string& name) {
 // completion makes.
 void KeepGlobal(const CLI::App& app, CLI::Option* option, const std::string& value) {
   const auto global = app.get_options();
-  if (std::ranges::find(global, option) != global.end()) option->add_result(value);
+  if (std::ranges::find(global, option) == global.end()) return;
+  option->add_result(value);
+  option->run_callback();
 }
 
 // Reads the words as the parser would.
@@ -193,6 +195,8 @@ std::string Complete(CommandLine& line, const std::vector<std::string>& split) t
   }
   return PrintAssignments(typed, word, prefix, after_equals) + Directive(line, *typed.open);
 } catch (const Failure&) {  // Such as a wrong address: there is nothing to offer.
+  return ":none\n";
+} catch (const CLI::Error&) {  // The value of a global flag is none.
   return ":none\n";
 }
 

@@ -1,7 +1,6 @@
 """How jobs are named and recognised, and how a user learns which cycles miss their restitution."""
 
 import json
-import os
 import subprocess
 import unittest
 
@@ -45,9 +44,9 @@ class NamingJobsTest(CliTest):
         self.assertRegex(self.run_it("list")[0], rf"(?m)^{name}  SUCCEEDED  Triple-ball chain ")
         self.assertEqual(json.loads(self.run_it("list", "-o", "json")[0])["jobs"][0]["title"],
                          "Triple-ball chain")
-        program, _, server = self.command()
-        offered = subprocess.run([program, "__complete", "describe", name[:3]],
-                                 env={**os.environ, "CONTACT_SERVER": server}, capture_output=True, encoding="utf-8", timeout=PATIENCE_S,
+        program, *server = self.command()
+        offered = subprocess.run([program, "__complete", *server, "describe", name[:3]],
+                                 capture_output=True, encoding="utf-8", timeout=PATIENCE_S,
                                  check=True).stdout
         self.assertIn(f"{name}\tSUCCEEDED Triple-ball chain\n", offered)
 
