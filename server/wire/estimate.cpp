@@ -23,11 +23,13 @@ void SetSeconds(double seconds, google::protobuf::Duration* duration) {
 
 v1::Estimate Encode(const RunEstimate& run) {
   v1::Estimate estimate;
-  estimate.set_steps(Whole(run.steps));
+  if (run.steps) estimate.set_steps(Whole(*run.steps));
   estimate.set_samples(Whole(run.samples));
   estimate.set_output_bytes(Whole(run.sample_bytes + run.ledger_bytes));
   estimate.set_memory_bytes(Whole(run.memory_bytes));
-  SetSeconds(run.solve_seconds + run.sample_seconds, estimate.mutable_wall_time());
+  if (run.solve_seconds) {
+    SetSeconds(*run.solve_seconds + run.sample_seconds, estimate.mutable_wall_time());
+  }
   return estimate;
 }
 
@@ -44,12 +46,12 @@ v1::Estimate EstimateSweep(const v1::Sweep& sweep, const DecodedSweep& plan) {
   const RunEstimate one = EstimateRunOf(plan.first);
   const double numbers = sweep.axes_size() + sweep.metrics_size();
   RunEstimate all;
-  all.steps = cells * std::floor(one.steps);
+  if (one.steps) all.steps = cells * std::floor(*one.steps);
   all.samples = kept * one.samples;
   all.sample_bytes = kept * one.sample_bytes;
   all.ledger_bytes = kSweepBytes + cells * (kCellBytes + kNumberBytes * numbers);
   all.memory_bytes = one.memory_bytes;
-  all.solve_seconds = cells * one.solve_seconds;
+  if (one.solve_seconds) all.solve_seconds = cells * *one.solve_seconds;
   all.sample_seconds = kept * one.sample_seconds;
   return Encode(all);
 }

@@ -136,7 +136,7 @@ class ClientTest(ServerTest):
         run, sweep, listed, checked, waited = asyncio.run(use())
         self.assertEqual(set(listed), {run.name, sweep.name})
         self.assertEqual(len(sweep.frame), 2)
-        self.assertGreater(checked.estimate.steps, 0)
+        self.assertGreater(checked.estimate.samples, 0)
         self.assertEqual(waited.name, run.name)
 
     def test_sweep_gives_a_tidy_frame_and_a_heat_map(self):

@@ -9,6 +9,7 @@ from contactsim import Client, load_scenario
 
 SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
 FACTOR = 3
+COUPLED = "three-ball-chain", "newton-cradle"  # A body touches two others: the search is open.
 PATIENCE_S = 120
 
 
@@ -39,11 +40,14 @@ class EstimateTest(ServerTest):
             self.assertEqual(list(result.job.warnings), deep)
             self.assertEqual(len(deep), name.startswith("spring-wall"))
             output = sum(event.ByteSize() for event in self.client.watch(result.job))
-            self.assert_near(estimate.steps, result.job.summary.steps, "steps")
+            if name in COUPLED:
+                self.assertEqual((estimate.steps, estimate.HasField("wall_time")), (0, False))
+            else:
+                self.assert_near(estimate.steps, result.job.summary.steps, "steps")
+                self.assertGreater(estimate.wall_time.ToMicroseconds(), 0)
             self.assertEqual(estimate.samples, len(result.series))
             self.assert_near(estimate.output_bytes, output, "bytes")
             self.assertGreater(estimate.memory_bytes, 0)
-            self.assertGreater(estimate.wall_time.ToMicroseconds(), 0)
             self.assertFalse(result.job.HasField("estimate"))
 
     def test_shipped_scenarios_take_what_is_estimated_within_a_factor_of_three(self):

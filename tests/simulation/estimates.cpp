@@ -1,7 +1,8 @@
 // Estimates seeded random scenarios, runs them, and prints how far each estimate was off: what
 // README.md and Estimate in job.proto say of estimates is judged by this.
 //   simulation_estimates [SCENARIOS]   of each kind, 10 if it is not given
-// A factor is estimate / run. The last lines have the quantiles of each kind and of all.
+// A factor is estimate / run; scenarios without estimate do not count. The last lines have the
+// quantiles of each kind and of all.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -59,18 +60,19 @@ void Compare(unsigned seed, int kind, Tally& own, Tally& all) {
   Scenario scenario = testing::Dice(seed, static_cast<testing::Kind>(kind)).Roll();
   scenario.sample_interval = scenario.end_time / kSamples;
   const RunEstimate estimate = EstimateRunOf(scenario);
+  if (!estimate.steps) return;  // It has no estimate.
   SampleCounter counter;
   const double start = Seconds();
   const Outcome outcome = Run(scenario, counter);
   const double took = Seconds() - start;
   const double steps =
-      estimate.steps / static_cast<double>(std::max<std::int64_t>(outcome.steps, 1));
-  const double seconds = (estimate.solve_seconds + estimate.sample_seconds) / std::max(took, 1e-6);
+      *estimate.steps / static_cast<double>(std::max<std::int64_t>(outcome.steps, 1));
+  const double seconds = (*estimate.solve_seconds + estimate.sample_seconds) / std::max(took, 1e-6);
   const double samples = estimate.samples / std::max(counter.rows, 1.0);
   std::printf("%-9s %3u steps %.0f of %lld, seconds %.3g of %.3g, factors %.3g %.3g%s\n",
-              testing::kKindNames[kind], seed, estimate.steps,
+              testing::kKindNames[kind], seed, *estimate.steps,
               static_cast<long long>(outcome.steps),
-              estimate.solve_seconds + estimate.sample_seconds, took, steps, seconds,
+              *estimate.solve_seconds + estimate.sample_seconds, took, steps, seconds,
               outcome.end == Outcome::End::kFinished ? "" : " (not finished)");
   std::fflush(stdout);
   for (Tally* tally : {&own, &all}) {

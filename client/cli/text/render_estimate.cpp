@@ -66,11 +66,13 @@ std::string RenderEstimate(const v1::Job& job, const v1::ServerLimits& limits, c
   const auto add = [&table](std::string what, std::string about, std::string limit) {
     table.Add({std::move(what), std::move(about), std::move(limit)});
   };
-  add("steps", About(static_cast<double>(estimate.steps())), number(steps));
+  const bool told = estimate.has_wall_time();  // And steps.
+  add("steps", told ? About(static_cast<double>(estimate.steps())) : "-", number(steps));
   add("samples", fmt::to_string(estimate.samples()), number(limits.max_samples()));
   add("output", Bytes(estimate.output_bytes()), output > 0 ? Bytes(output) : "-");
   add("memory", Bytes(estimate.memory_bytes()), "-");
-  add("wall time", Seconds(SecondsOf(estimate.wall_time())), wall > 0 ? Seconds(wall) : "-");
+  add("wall time", told ? Seconds(SecondsOf(estimate.wall_time())) : "-",
+      wall > 0 ? Seconds(wall) : "-");
   return table.Text(style);
 }
 

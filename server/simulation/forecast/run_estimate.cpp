@@ -1,6 +1,7 @@
 #include "simulation/forecast/run_estimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -181,18 +182,28 @@ double SolveSeconds(const Scenario& scenario, double steps) {
   return share * steps * (kStepSeconds + kBodySeconds * parts / 2);
 }
 
+bool ABodyTouchesTwoOthers(const Scenario& scenario) {
+  std::vector<int> contacts(scenario.bodies.size());
+  return std::ranges::any_of(scenario.contacts, [&](const Contact& contact) {
+    return std::ranges::any_of(std::array{contact.left, contact.right}, [&](int body) {
+      return body != kNone && ++contacts[static_cast<std::size_t>(body)] > 1;
+    });
+  });
+}
+
 }  // namespace
 
 RunEstimate EstimateRunOf(const Scenario& scenario) {
   const std::vector<Cycles> cycles = Expect(scenario);
   RunEstimate estimate;
-  estimate.steps = Steps(scenario, cycles);
   estimate.samples = Rows(scenario, cycles);
   estimate.sample_bytes = SampleBytes(scenario, estimate.samples);
   estimate.ledger_bytes = LedgerBytes(cycles);
   estimate.memory_bytes = Memory(scenario, cycles);
   estimate.sample_seconds = kValueSeconds * estimate.samples * Columns(scenario);
-  estimate.solve_seconds = SolveSeconds(scenario, estimate.steps);
+  if (ABodyTouchesTwoOthers(scenario)) return estimate;
+  estimate.steps = Steps(scenario, cycles);
+  estimate.solve_seconds = SolveSeconds(scenario, *estimate.steps);
   return estimate;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "simulation/model/scenario.h"
 
 namespace contact {
@@ -8,8 +10,9 @@ namespace contact {
 /// from the first meetings of contacts (first_meeting.h), steps and seconds from measured averages.
 /// tests/simulation/estimates.cpp prints how far that is off for random scenarios.
 struct RunEstimate {
-  /// Integration steps of all passes.
-  double steps = 0;
+  /// Integration steps of all passes. None where a body touches two others: nothing tells in
+  /// advance how many passes the search for their μ takes.
+  std::optional<double> steps = {};
   /// Rows of the trajectory; exact if the run reaches its end and cycles have no samples of their
   /// own.
   double samples = 0;
@@ -21,8 +24,8 @@ struct RunEstimate {
   double memory_bytes = 0;
   /// Time to interpolate, encode and store the samples [s].
   double sample_seconds = 0;
-  /// Time of everything else, in a release build on one core [s].
-  double solve_seconds = 0;
+  /// Time of everything else, in a release build on one core [s]; none as `steps`.
+  std::optional<double> solve_seconds = {};
 };
 
 /// The estimate for one run of a checked scenario. Takes time in proportion to its bodies,

@@ -7,11 +7,12 @@ import unittest
 
 from cli_case import CHAIN, CliTest
 
+BALLS = CHAIN.parent / "two-balls.yaml"
 SWEEP = CHAIN.parent / "table-3-sweep.yaml"
 COARSE = CHAIN.read_text("utf-8").replace("solver: {", "solver: {method: RK4, step_s: 1.0e-4, ")
 
 
-class AdviceTest(CliTest):
+class FileTest(CliTest):
 
     def write(self, name, text):
         folder = tempfile.TemporaryDirectory()
@@ -19,6 +20,9 @@ class AdviceTest(CliTest):
         path = pathlib.Path(folder.name) / name
         path.write_text(text, "utf-8")
         return path
+
+
+class AdviceTest(FileTest):
 
     def test_coarse_step_is_told_at_its_place_and_is_no_error(self):
         path = self.write("coarse.yaml", COARSE)
@@ -77,26 +81,36 @@ class AdviceTest(CliTest):
                 self.assertEqual(self.run_it("validate", path)[1], "")
 
 
-class EstimateTest(CliTest):
+class EstimateTest(FileTest):
 
     flags = ("--max-steps", "5000000", "--max-wall-time", "1h")
 
     def test_server_estimates_beside_its_limits(self):
-        printed = self.run_it("validate", CHAIN, "--on-server")[0]
-        rows = dict(re.split(r"  +", line.strip(), maxsplit=1)
-                    for line in printed.splitlines()[2:] if "  " in line)
+        rows = self.estimate(BALLS)
         self.assertEqual(list(rows), ["TAKES", "steps", "samples", "output", "memory", "wall time"])
         self.assertRegex(rows["steps"], r"^\d+ +5000000$")
         self.assertRegex(rows["samples"], r"^1001 +\d+$")
-        self.assertRegex(rows["output"], r"^\d+ kB +-$")
+        self.assertRegex(rows["output"], r"^[\d.]+ kB +-$")
         self.assertRegex(rows["wall time"], r"^[\d.]+ [µm]?s +")
 
     def test_estimate_of_a_sweep_is_that_of_its_cells(self):
-        steps = []
-        for path in (CHAIN, SWEEP):
-            printed = self.run_it("validate", path, "--on-server")[0]
-            steps.append(float(re.search(r"^steps +(\S+)", printed, re.MULTILINE)[1]))
-        self.assertAlmostEqual(steps[1] / steps[0], 50, delta=3)  # Two digits are shown.
+        base = BALLS.read_text("utf-8").replace("\n", "\n  ")
+        sweep = self.write("sweep.yaml", f"base:\n  {base}\naxes:\n"
+                           "- field: contacts[0].restitution\n"
+                           "  linear: {low: 0.5, high: 0.9, count: 50}\nmetrics: [iterations]\n")
+        one, all_cells = (float(self.estimate(path)["steps"].split()[0])
+                          for path in (BALLS, sweep))
+        self.assertAlmostEqual(all_cells / one, 50, delta=3)  # Two digits are shown.
+
+    def test_steps_of_coupled_contacts_are_not_told(self):
+        rows = self.estimate(CHAIN)
+        self.assertRegex(rows["steps"], r"^- +5000000$")
+        self.assertRegex(rows["wall time"], r"^- +")
+
+    def estimate(self, path):
+        printed = self.run_it("validate", path, "--on-server")[0]
+        return dict(re.split(r"  +", line.strip(), maxsplit=1)
+                    for line in printed.splitlines()[2:] if "  " in line)
 
 
 if __name__ == "__main__":
