@@ -79,7 +79,7 @@ std::string OwnerIn(const v1::Scenario& base, const PathStep& step) {
   if (!step.key.empty()) return step.key;
   if (step.index == PathStep::kEvery) return fmt::format("all {}", step.name);
   const int i = *step.index;
-  const std::string entry = fmt::format("{}[{}]", step.name, i);
+  std::string entry = fmt::format("{}[{}]", step.name, i);
   if (step.name == "bodies" && i < base.bodies_size()) return base.bodies(i).name();
   if (step.name == "contacts" && i < base.contacts_size()) return NameOf(base.contacts(i));
   if (step.name == "loads" && i < base.loads_size()) return entry + " on " + base.loads(i).body();
@@ -113,7 +113,7 @@ std::string MetricLabel(const std::string& metric) {
   if (path.front().name == "groups") before = {"group"};
   if (path.front().name == "summary") path.erase(path.begin());
   for (const Descriptor* type : {v1::RunSummary::descriptor(), v1::Job::descriptor()}) {
-    if (const std::string text = label(*type, before); !text.empty()) return text;
+    if (std::string text = label(*type, before); !text.empty()) return text;
   }
   return metric;
 }
