@@ -87,6 +87,15 @@ TEST(RenderEstimate, HasAtMostTwoDigitsOfWhatIsGuessed) {
                     ContainsRegex("wall time +3 s +-")));
 }
 
+TEST(RenderEstimate, StepsAndTimeThatAreNotToldAreNotShown) {
+  v1::Job job = Estimated();
+  job.mutable_estimate()->clear_steps();
+  job.mutable_estimate()->clear_wall_time();
+  EXPECT_THAT(RenderEstimate(job, {}, {}), ContainsRegex("steps +- "));
+  EXPECT_THAT(RenderEstimate(job, {}, {}), ContainsRegex("samples +601 "));
+  EXPECT_THAT(RenderEstimate(job, {}, {}), ContainsRegex("wall time +- "));
+}
+
 TEST(RenderEstimate, ShowsTheLowestOfTheLimits) {
   v1::Job job = Estimated();
   job.mutable_budget()->set_steps(5000);
