@@ -1,5 +1,10 @@
 #include "jobs/job_creator.h"
 
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -7,22 +12,42 @@
 #include "jobs/predict.h"
 #include "jobs/read/create_rules.h"
 #include "storage/job_parts.h"
+#include "wire/estimate.h"
 #include "wire/scenario/scenario_codec.h"
 #include "wire/sweep/sweep_codec.h"
 
 namespace contact {
 namespace {
 
+// The violations of a spec in the field `spec` of the job, or else that its run would take more
+// memory than the server gives it.
+std::vector<Violation> Complete(std::vector<Violation> violations, const std::string& spec,
+                                const std::function<v1::Estimate()>& estimate, std::int64_t most) {
+  for (Violation& violation : violations) violation.field = spec + '.' + violation.field;
+  if (!violations.empty() || most == 0) return violations;
+  const std::int64_t memory = estimate().memory_bytes();
+  if (memory <= most) return {};
+  return {{spec,
+           fmt::format("would take about {} MB of memory; must take at most {} MB, the server's "
+                       "limit",
+                       memory / 1'000'000, most / 1'000'000),
+           "take fewer bodies and contacts, or keep fewer trajectories"}};
+}
+
 // The rules that the scenario or sweep breaks, with paths from the job.
-std::vector<Violation> CheckSpec(const v1::Job& job, const ScenarioLimits& limits) {
-  if (job.spec_case() == v1::Job::SPEC_NOT_SET) return {};
-  std::vector<Violation> violations = job.has_sweep()
-                                          ? DecodeSweep(job.sweep(), limits).violations
-                                          : DecodeScenario(job.scenario(), limits).violations;
-  for (Violation& violation : violations) {
-    violation.field = (job.has_sweep() ? "sweep." : "scenario.") + violation.field;
+std::vector<Violation> CheckSpec(const v1::Job& job, const JobOptions& options) {
+  const std::int64_t memory = options.max_budget.memory_bytes;
+  if (job.has_sweep()) {
+    DecodedSweep plan = DecodeSweep(job.sweep(), options.scenario_limits);
+    return Complete(
+        std::move(plan.violations), "sweep", [&] { return EstimateSweep(job.sweep(), plan); },
+        memory);
   }
-  return violations;
+  if (!job.has_scenario()) return {};
+  DecodedScenario decoded = DecodeScenario(job.scenario(), options.scenario_limits);
+  return Complete(
+      std::move(decoded.violations), "scenario", [&] { return EstimateRun(decoded.scenario); },
+      memory);
 }
 
 // Moves the scenario or sweep.
@@ -84,7 +109,7 @@ void JobCreator::Check(const std::shared_ptr<Creation>& creation) const {
   }
   v1::CreateJobRequest& request = creation->request;
   std::vector<Violation> of_request = CheckCreate(request, parts_.options.max_budget);
-  std::vector<Violation> of_spec = CheckSpec(request.job(), parts_.options.scenario_limits);
+  std::vector<Violation> of_spec = CheckSpec(request.job(), parts_.options);
   if (!of_request.empty() || !of_spec.empty()) {
     return Refuse(*creation, Invalid(std::move(of_request), std::move(of_spec)));
   }

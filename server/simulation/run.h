@@ -14,7 +14,7 @@ struct RunState;
 /// observer and same outcome, to the byte.
 ///
 /// Blocks until the run has ended, and calls `observer` on the calling thread. `stop` is looked at
-/// in every step, and once in kSamplesPerChunk samples. How the run ended is in Outcome::end; only
+/// in every step, and once in RowsPerChunk samples. How the run ended is in Outcome::end; only
 /// exceptions of the observer leave this function.
 Outcome Run(const Scenario& scenario, Observer& observer, std::stop_token stop = {});
 

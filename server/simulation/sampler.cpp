@@ -122,7 +122,7 @@ void Sampler::Record(double time, const Eigen::ArrayXd& y) {
   }
   ++next_;
   last_ = time;
-  if (samples_.rows() == kSamplesPerChunk) Flush();
+  if (samples_.rows() == RowsPerChunk(samples_.columns)) Flush();
 }
 
 void Sampler::Flush() {
@@ -153,7 +153,11 @@ void Sampler::Hold() { before_ = Save(); }
 
 void Sampler::Release() {
   before_.reset();
-  for (const Samples& samples : held_) observer_.OnSamples(samples);
+  for (const Samples& samples : held_) {
+    if (stop_.stop_requested()) cut_short_ = true;
+    if (cut_short_) break;
+    observer_.OnSamples(samples);
+  }
   held_.clear();
 }
 

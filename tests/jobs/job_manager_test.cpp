@@ -493,27 +493,23 @@ TEST_F(JobsTest, FinishedRunTellsOfWhatItsAuthorMayNotWant) {
                           HasSubstr("contacts: have none between ball and other, which passed")));
 }
 
-TEST_F(JobsTest, LargeSamplesAreCutIntoChunksThatFitMessages) {
-  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
-    observer.OnSamples(
-        {.first = 5, .columns = 7, .values = std::vector<double>(std::size_t{7} * 40'000, 1)});
-    return Outcome{};
-  });
-  JobOptions options;
-  options.run = std::ref(run);
-  Open(options);
-  run.Allow();
-  std::int64_t next = 5;
-  int chunks = 0;
-  for (const v1::Event& event : Log(Create(), 0, {"frame_chunk"})) {
-    if (!event.has_frame_chunk()) continue;
-    EXPECT_EQ(event.frame_chunk().first_sample(), next);
-    EXPECT_LT(event.ByteSizeLong(), 2U << 20);
-    next += event.frame_chunk().samples();
-    ++chunks;
+TEST_F(JobsTest, WhatNeedsMoreMemoryThanARunGetsIsRefusedWithBothFigures) {
+  Open({.max_budget = {.memory_bytes = 1'000'000}});
+  EXPECT_TRUE(Create(RequestFor(BouncingBall(1))).ok());
+  v1::Scenario row;
+  for (int i = 0; i < 1000; ++i) {
+    v1::Body& body = *row.add_bodies();
+    body.set_name(fmt::format("B{}", i));
+    body.set_mass_kg(1);
+    body.set_position_m(i);
   }
-  EXPECT_EQ(next, 40'005);
-  EXPECT_EQ(chunks, 3);
+  row.set_end_time_s(1);
+  const auto refused = Create(RequestFor(row));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().reason, "SCENARIO_INVALID");
+  EXPECT_THAT(refused.error().message,
+              testing::MatchesRegex("scenario: would take about [0-9]+ MB "
+                                    "of memory; must take at most 1 MB.*"));
 }
 
 TEST_F(JobsTest, TitleIsToldWhereTheSpecIsLeftOut) {

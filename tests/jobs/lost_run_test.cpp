@@ -128,6 +128,16 @@ TEST_F(LostRunTest, SpentOutputIsSeenAlsoWhenTheRunIsThrough) {
   EXPECT_EQ(Ended(Create()).state_reason(), "BUDGET_OUTPUT");
 }
 
+TEST_F(LostRunTest, ALedgerThatOutgrowsTheMemoryEndsARealRunAndIsKept) {
+  Open({.max_budget = {.memory_bytes = 1'000'000}});
+  const v1::Job job = Ended(Create(BouncingBall()));
+  EXPECT_EQ(job.state(), v1::Job::FAILED);
+  EXPECT_EQ(job.state_reason(), "BUDGET_MEMORY");
+  EXPECT_THAT(job.error().message(), HasSubstr("250000 bytes of memory for the ledger"));
+  EXPECT_GT(job.cycles_size(), 100);
+  EXPECT_LT(job.cycles_size(), 250'000 / 400);
+}
+
 TEST_F(LostRunTest, SpentWallTimeEndsARealRun) {
   Open(LookOften({.max_budget = {.wall_time = seconds(100)}}));
   v1::CreateJobRequest request = RequestFor(BouncingBall());

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/run.h"
 #include "testing/cases.h"
 
 namespace contact {
@@ -166,6 +167,22 @@ TEST(Sampler, AnotherOneGoesOnWithWhatWasPending) {
   const std::vector<double> rest = later.observer.Values();
   values.insert(values.end(), rest.begin(), rest.end());
   EXPECT_EQ(values, flight.observer.Values());
+}
+
+TEST(Sampler, ManyColumnsMakeShortChunksThatFitMessages) {
+  Scenario many = Flight::OneBall(1e-3);
+  many.bodies.resize(1000, many.bodies.front());
+  Chunks chunks;
+  contact::Run(many, chunks, {});
+  std::int64_t next = 0;
+  for (const Samples& chunk : chunks.chunks) {
+    EXPECT_EQ(chunk.first, next);
+    EXPECT_LE(chunk.values.size(), std::size_t{kValuesPerChunk});
+    EXPECT_GT(chunk.rows(), next < 1000 - 65 ? kValuesPerChunk / 2001 - 1 : 0);
+    next += chunk.rows();
+  }
+  EXPECT_EQ(next, 1001);
+  EXPECT_EQ(RowsPerChunk(kValuesPerChunk + 1), 1);
 }
 
 TEST(Sampler, AStopEndsAStepOfManySamplesAfterAChunk) {

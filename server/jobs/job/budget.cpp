@@ -21,7 +21,7 @@ RunBudget BudgetOf(const v1::Job& job, const RunBudget& limits) {
   const std::chrono::milliseconds wall_time(
       google::protobuf::util::TimeUtil::DurationToMilliseconds(budget.wall_time()));
   return {Smaller(wall_time, limits.wall_time), Smaller(budget.steps(), limits.steps),
-          Smaller(budget.output_bytes(), limits.output_bytes)};
+          Smaller(budget.output_bytes(), limits.output_bytes), limits.memory_bytes};
 }
 
 }  // namespace contact

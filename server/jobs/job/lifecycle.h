@@ -45,6 +45,7 @@ inline constexpr char kNotConverged[] = "NOT_CONVERGED";
 inline constexpr char kBudgetSteps[] = "BUDGET_STEPS";
 inline constexpr char kBudgetWallTime[] = "BUDGET_WALL_TIME";
 inline constexpr char kBudgetOutput[] = "BUDGET_OUTPUT";
+inline constexpr char kBudgetMemory[] = "BUDGET_MEMORY";
 inline constexpr char kStalled[] = "STALLED";
 inline constexpr char kCrashed[] = "CRASHED";
 inline constexpr char kInternal[] = "INTERNAL";

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <string>
 #include <utility>
 
 #include "jobs/job/errors.h"
 #include "jobs/job/lifecycle.h"
-#include "jobs/run/run_recorder.h"
 #include "wire/ledger_codec.h"
 #include "wire/result_codec.h"
 
@@ -29,7 +27,7 @@ class CellObserver final : public Observer {
   void OnCycle(const Cycle& cycle) override { *result_->add_cycles() = Encode(scenario_, cycle); }
   void OnGroup(const Group& group) override { *result_->add_groups() = Encode(scenario_, group); }
   void OnSamples(const Samples& samples) override {
-    std::ranges::move(ChunksOf(scenario_, samples), std::back_inserter(*trajectory_));
+    trajectory_->push_back(Encode(scenario_, samples));
   }
   void OnProgress(const Progress& /*progress*/) override { write_(); }
   // In batches: all workers count on the same number.

@@ -62,7 +62,8 @@ std::optional<RunState> CheckpointOf(const Spec& spec) {
 // True if the run has not come to an end of its own.
 bool Stopped(const Transition& transition, StopCause cause) {
   return transition.to == v1::Job::CANCELLED ||
-         (transition.to == v1::Job::SUCCEEDED && cause == StopCause::kOutput);
+         (transition.to == v1::Job::SUCCEEDED &&
+          (cause == StopCause::kOutput || cause == StopCause::kMemory));
 }
 
 // The server stops: another start of it will run the job again, as the same attempt.
@@ -96,7 +97,7 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
     ended = nullptr;
   } else {
     if (stopped) transition = TransitionAfterStop(control.cause(), control.budget());
-    job.MergeFrom(assignment.record->Get(true));
+    assignment.record->Do([&job](const v1::Job& record) { job.MergeFrom(record); });
     job.set_server_version(kVersion);
     job.set_server_revision(kRevision);
     if (spec.ok()) job.set_spec_sha256(SpecSha256((*spec)->job));

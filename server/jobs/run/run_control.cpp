@@ -7,6 +7,9 @@
 namespace contact {
 namespace {
 
+// The ledger of a run may take the memory of its budget divided by this.
+constexpr std::int64_t kLedgerShare = 4;
+
 Transition OverBudget(const char* state_reason, const std::string& what) {
   return {v1::Job::FAILED, state_reason, fmt::format("the budget of {} was spent", what),
           absl::StatusCode::kResourceExhausted};
@@ -30,6 +33,13 @@ bool RunControl::CountOutput(std::int64_t bytes) {
   if (budget_.output_bytes == 0 || used <= budget_.output_bytes) return true;
   Stop(StopCause::kOutput);
   return false;
+}
+
+void RunControl::CountLedger(std::int64_t bytes) {
+  const std::int64_t used = ledger_bytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
+  if (budget_.memory_bytes > 0 && used > budget_.memory_bytes / kLedgerShare) {
+    Stop(StopCause::kMemory);
+  }
 }
 
 RunControl::Hold::Hold(RunControl& run) : run_(run), held_(run.Enter()) {}
@@ -68,6 +78,9 @@ Transition TransitionAfterStop(StopCause cause, const RunBudget& budget) {
     case StopCause::kOutput:
       return OverBudget(reason::kBudgetOutput,
                         fmt::format("{} bytes of output", budget.output_bytes));
+    case StopCause::kMemory:
+      return OverBudget(reason::kBudgetMemory, fmt::format("{} bytes of memory for the ledger",
+                                                           budget.memory_bytes / kLedgerShare));
     case StopCause::kStalled:
       return {v1::Job::FAILED, reason::kStalled, "the run made no step for too long",
               absl::StatusCode::kDeadlineExceeded};

@@ -24,6 +24,8 @@ enum class StopCause {
   kSteps,
   /// The output bytes of the budget are spent.
   kOutput,
+  /// The ledger takes its part of the memory of the budget.
+  kMemory,
   /// The run made no step for too long.
   kStalled,
 };
@@ -49,6 +51,9 @@ class RunControl {
   void CountSteps(std::int64_t steps);
   /// Counts bytes that are to be recorded. False: that is too many; the run is stopped.
   bool CountOutput(std::int64_t bytes);
+  /// Counts memory that the ledger takes. Stops the run if that is more than a quarter of the
+  /// budget: at the end of the run there are copies of it for the result and for the store.
+  void CountLedger(std::int64_t bytes);
   /// A number that changes while the run makes progress.
   std::int64_t signs() const { return steps_ + output_bytes_; }
 
@@ -82,6 +87,7 @@ class RunControl {
   std::atomic<StopCause> cause_ = StopCause::kServer;
   std::atomic<std::int64_t> steps_ = 0;
   std::atomic<std::int64_t> output_bytes_ = 0;
+  std::atomic<std::int64_t> ledger_bytes_ = 0;
 
   mutable Mutex mutex_;
   /// Number of holds.

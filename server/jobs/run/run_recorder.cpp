@@ -1,6 +1,5 @@
 #include "jobs/run/run_recorder.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "jobs/job/lifecycle.h"
@@ -11,9 +10,9 @@
 namespace contact {
 namespace {
 
-// Values in one frame chunk, so that the frames of a large scenario fit into a message: 1 MiB.
-constexpr std::ptrdiff_t kMaxChunkValues = std::ptrdiff_t{128} * 1024;
 constexpr std::chrono::milliseconds kProgressTime{100};
+// What a row of the ledger takes in memory beside its content.
+constexpr std::size_t kRowBytes = 400;
 // A larger checkpoint is not stored, because it would delay the commits of other jobs. Most of a
 // checkpoint is samples of an unfinished chunk, so the next one may be smaller.
 constexpr std::size_t kMaxCheckpointBytes = 4 << 20;
@@ -54,28 +53,14 @@ void RunRecorder::Keep(v1::Event event) {
   if (event.has_log_entry()) row.add_warnings(event.log_entry().message());
   const bool kept = event.has_cycle() || event.has_group() || event.has_log_entry();
   if (!writer_.Add(std::move(event)) || !kept) return;
+  assignment_.control->CountLedger(static_cast<std::int64_t>(row.ByteSizeLong() + kRowBytes));
   assignment_.record->Do([&](v1::Job& job) { job.MergeFrom(row); });
 }
 
-std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples) {
-  const std::ptrdiff_t rows = std::max<std::ptrdiff_t>(1, kMaxChunkValues / samples.columns);
-  std::vector<v1::FrameChunk> chunks;
-  for (std::ptrdiff_t first = 0; first < samples.rows(); first += rows) {
-    const auto begin = samples.values.begin() + first * samples.columns;
-    const auto count = std::min<std::ptrdiff_t>(rows, samples.rows() - first) * samples.columns;
-    chunks.push_back(
-        Encode(scenario, Samples{samples.first + first, samples.columns, {begin, begin + count}}));
-  }
-  return chunks;
-}
-
 void RunRecorder::OnSamples(const Samples& samples) {
-  for (v1::FrameChunk& chunk : ChunksOf(scenario_, samples)) {
-    passings_.See(chunk);
-    v1::Event event = Event();
-    *event.mutable_frame_chunk() = std::move(chunk);
-    writer_.Add(std::move(event));
-  }
+  v1::Event event = Event();
+  *event.mutable_frame_chunk() = Encode(scenario_, samples);
+  Keep(std::move(event));
 }
 
 void RunRecorder::OnProgress(const Progress& progress) {

@@ -13,9 +13,6 @@
 
 namespace contact {
 
-/// Samples as chunks that each fit into a message.
-std::vector<v1::FrameChunk> ChunksOf(const Scenario& scenario, const Samples& samples);
-
 /// Makes events of what a run reports, and hands them to the log writer. Used by the worker's
 /// thread.
 class RunRecorder final : public Observer {

@@ -32,6 +32,8 @@ constexpr double kFixedStepShare = 0.45;  // Four evaluations instead of twelve.
 constexpr double kValueSeconds = 0.1e-6;  // Of a sample: interpolated, encoded and stored.
 
 constexpr double kColumnBytes = 60;    // Name, quantity and unit of a column, in such an event.
+constexpr double kColumnMemory = 300;  // The same in memory, of each chunk.
+constexpr double kChunksAtOnce = 3;    // Being filled, waiting, and being written.
 constexpr double kCycleBytes = 470;    // A row of the ledger and its group, as events.
 constexpr double kUnknownBytes = 110;  // A cycle in a row of the iteration.
 constexpr double kLogBytes = 600;      // States, attempt and progress of any job.
@@ -148,10 +150,15 @@ double Rows(const Scenario& scenario, const std::vector<Cycles>& cycles) {
          std::min(std::round(in_cycles), static_cast<double>(scenario.most_contact_samples));
 }
 
-// What they take as events, headers of chunks included.
-double SampleBytes(const Scenario& scenario, double samples) {
+// Rows of a chunk.
+double ChunkRows(const Scenario& scenario) {
+  return RowsPerChunk(static_cast<int>(Columns(scenario)));
+}
+
+// What they take if each column of a chunk takes so much beside its values.
+double SampleBytes(const Scenario& scenario, double samples, double column_bytes) {
   return Columns(scenario) *
-         (samples * sizeof(double) + std::ceil(samples / kSamplesPerChunk) * kColumnBytes);
+         (samples * sizeof(double) + std::ceil(samples / ChunkRows(scenario)) * column_bytes);
 }
 
 double LedgerBytes(const std::vector<Cycles>& cycles) {
@@ -160,8 +167,8 @@ double LedgerBytes(const std::vector<Cycles>& cycles) {
   return bytes;
 }
 
-// The slopes of a step with their sensitivities to each unknown μ, a chunk of samples, the ledger.
-double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles) {
+// The slopes of a step with their sensitivities to each unknown μ, chunks of samples, the ledger.
+double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles, double samples) {
   double unknowns = 0;
   double ledger = 0;
   for (const Cycles& c : cycles) {
@@ -171,9 +178,9 @@ double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   const double state = 2 * static_cast<double>(scenario.bodies.size()) +
                        5 * static_cast<double>(scenario.contacts.size());
   const double columns = std::min<double>(unknowns, MostWindowCycles(scenario.contacts.size()));
-  return sizeof(double) *
-             (kStages * state * (1 + columns) + 2 * kSamplesPerChunk * Columns(scenario)) +
-         ledger;
+  const double pending = std::min(samples, kChunksAtOnce * ChunkRows(scenario));
+  return sizeof(double) * kStages * state * (1 + columns) +
+         SampleBytes(scenario, pending, kColumnMemory) + ledger;
 }
 
 double SolveSeconds(const Scenario& scenario, double steps) {
@@ -197,9 +204,10 @@ RunEstimate EstimateRunOf(const Scenario& scenario) {
   const std::vector<Cycles> cycles = Expect(scenario);
   RunEstimate estimate;
   estimate.samples = Rows(scenario, cycles);
-  estimate.sample_bytes = SampleBytes(scenario, estimate.samples);
+  estimate.sample_bytes = SampleBytes(scenario, estimate.samples, kColumnBytes);
+  estimate.sample_memory = SampleBytes(scenario, estimate.samples, kColumnMemory);
   estimate.ledger_bytes = LedgerBytes(cycles);
-  estimate.memory_bytes = Memory(scenario, cycles);
+  estimate.memory_bytes = Memory(scenario, cycles, estimate.samples);
   estimate.sample_seconds = kValueSeconds * estimate.samples * Columns(scenario);
   if (ABodyTouchesTwoOthers(scenario)) return estimate;
   estimate.steps = Steps(scenario, cycles);

@@ -18,9 +18,11 @@ struct RunEstimate {
   double samples = 0;
   /// Size of these rows as events, with the headers of their chunks [byte].
   double sample_bytes = 0;
+  /// Memory of all these rows, where they are kept until the run ends [byte].
+  double sample_memory = 0;
   /// Size of cycles, iterations and states of the job as events [byte].
   double ledger_bytes = 0;
-  /// Largest memory of the solver, a chunk of samples and the ledger [byte].
+  /// Largest memory of the solver, its chunks of samples and the ledger [byte].
   double memory_bytes = 0;
   /// Time to interpolate, encode and store the samples [s].
   double sample_seconds = 0;

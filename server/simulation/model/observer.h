@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -23,7 +24,7 @@ class Observer {
   virtual void OnGrowth(const Group&) {}
   /// A group has ended in the recorded trajectory, or the run cuts it; comes after its cycles.
   virtual void OnGroup(const Group&) {}
-  /// The next rows of the recorded trajectory, 1 to kSamplesPerChunk of them.
+  /// The next rows of the recorded trajectory, 1 to RowsPerChunk of them.
   virtual void OnSamples(const Samples&) {}
   /// Called after each episode and each flight between two of them.
   virtual void OnProgress(const Progress&) {}
@@ -38,5 +39,13 @@ class Observer {
 
 /// The most rows of Samples in one call of OnSamples.
 inline constexpr int kSamplesPerChunk = 256;
+/// The most values in one call, unless a single row has more: 1 MiB, so that it fits into a
+/// message.
+inline constexpr int kValuesPerChunk = 128 * 1024;
+
+/// The most rows of so many columns, at least 1, in one call of OnSamples.
+constexpr int RowsPerChunk(int columns) {
+  return std::clamp(kValuesPerChunk / columns, 1, kSamplesPerChunk);
+}
 
 }  // namespace contact
