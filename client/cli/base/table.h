@@ -47,8 +47,8 @@ class Table {
   /// A table without rows.
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-  /// Adds a row; one cell a column.
-  void Add(std::vector<Cell> row) { rows_.push_back(std::move(row)); }
+  /// Adds a row; one cell a column. Characters that steer a terminal become spaces.
+  void Add(std::vector<Cell> row);
 
   /// The table, with at most `most` rows (0: all): of more, the first and the last are shown and
   /// `more` stands between them, its {} being how many are not.

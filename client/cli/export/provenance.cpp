@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <set>
 
+#include "base/spelling.h"
 #include "cli/input/no_limits.h"
 #include "cli/text/render_json.h"
 #include "wire/scenario/scenario_codec.h"
@@ -97,10 +98,7 @@ std::string Lines(const std::vector<Provenance>& sources, std::string_view prefi
     if (!text.empty()) text.append(prefix.substr(0, prefix.find(' '))).append("\n");
     for (const auto& [name, value] : source) {
       // A title may be of more lines; in the second it could become a command.
-      std::string line = value;
-      std::ranges::replace_if(
-          line, [](unsigned char c) { return c < 0x20; }, ' ');
-      text += fmt::format("{}{}: {}\n", prefix, name, line);
+      text += fmt::format("{}{}: {}\n", prefix, name, Printable(value, ' '));
     }
   }
   return text;

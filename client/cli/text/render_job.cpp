@@ -50,7 +50,7 @@ std::string Title(const v1::Job& job, const Style& style) {
   parts.insert(parts.end(), extent.begin(), extent.end());
   const std::string& title = TitleOf(job);
   return fmt::format("{}\n", fmt::join(Fold(parts, style.width), "\n")) +
-         (title.empty() ? "" : Wrap(title + "\n", style));
+         (title.empty() ? "" : Wrap(OneLine(title) + "\n", style));
 }
 
 double InSeconds(const google::protobuf::Duration& span) {
@@ -114,7 +114,7 @@ std::string RenderJob(const v1::Job& job, const Style& style) {
     text += fmt::format("cells: contactctl sweep watch {}\n", job.name());
   }
   for (const std::string& warning : job.warnings()) {
-    text += Wrap(Paint("warning: ", Tone::kWarning, style) + warning + "\n", style);
+    text += Wrap(Paint("warning: ", Tone::kWarning, style) + OneLine(warning) + "\n", style);
   }
   return text;
 }
@@ -130,7 +130,7 @@ std::string StateText(v1::Job::State state, const std::string& reason, const Sty
 
 std::string ErrorLine(const v1::Job& job, const Style& style) {
   if (!job.has_error()) return "";
-  return Wrap(Paint("error: ", Tone::kBad, style) + job.error().message() + "\n", style);
+  return Wrap(Paint("error: ", Tone::kBad, style) + OneLine(job.error().message()) + "\n", style);
 }
 
 Tone ToneOf(v1::Job::State state) {

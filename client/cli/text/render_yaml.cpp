@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/spelling.h"
+
 namespace contact::cli {
 namespace {
 
@@ -50,6 +52,7 @@ void Emit(const Json& value, YAML::Emitter* out) {
     *out << YAML::EndSeq;
   } else if (value.is_string()) {
     const auto& text = value.get_ref<const std::string&>();
+    if (Printable(text) != text) *out << YAML::EscapeNonAscii << YAML::DoubleQuoted;
     if (NeedsQuotes(text)) *out << YAML::DoubleQuoted;
     *out << text;
   } else if (value.is_null()) {

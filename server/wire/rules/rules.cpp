@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/spelling.h"
+
 namespace contact {
 
 void Rules::Break(std::string_view field, std::string description, std::string hint) const {
@@ -45,6 +47,11 @@ void Rules::RequireShort(std::string_view field, std::string_view text, int most
       text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; });
   if (characters <= most) return;
   Break(field, fmt::format("has {} characters; must have at most {}", characters, most));
+}
+
+void Rules::RequirePrintable(std::string_view field, std::string_view text) const {
+  if (Printable(text) == text) return;
+  Break(field, fmt::format("holds control characters: {}", Quoted(text)), "remove them");
 }
 
 void Rules::RequireKnown(std::string_view field, int value,

@@ -63,6 +63,9 @@ class Rules {
     return Read(message, NumberOf<Message>(number), hint);
   }
 
+  /// The text `field` must not have characters that steer a terminal, see Printable.
+  void RequirePrintable(std::string_view field, std::string_view text) const;
+
   /// `field` must have one of the values of its enum. A newer client may send others.
   template <class Enum>
   void RequireKnown(std::string_view field, Enum value) const {

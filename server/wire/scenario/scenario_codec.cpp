@@ -166,6 +166,7 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   const Rules rules(violations);
   rules.RequireShort("title", message.title(),
                      RuleOf<v1::Scenario>(v1::Scenario::kTitleFieldNumber).max_characters());
+  rules.RequirePrintable("title", message.title());
   Scenario& scenario = decoded.scenario;
   scenario.bodies = DecodeBodies(message, violations);
   const BodyNames names(scenario.bodies);
