@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/spelling.h"
 #include "storage/checksum.h"
 #include "storage/database.h"
 #include "storage/schema.h"
@@ -103,7 +104,7 @@ std::string ListSql(const JobQuery& query) {
 }  // namespace
 
 absl::Status NoSuchJob(const std::string& name) {
-  return absl::NotFoundError(absl::StrCat("there is no job ", name));
+  return absl::NotFoundError(absl::StrCat("there is no job ", Shortened(name)));
 }
 
 absl::Status FailsChecksum(const std::string& name) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <utility>
 
+#include "base/spelling.h"
 #include "storage/records.h"
 
 namespace contact {
@@ -82,8 +83,9 @@ Error MakeError(Reason reason, std::string message) {
 }
 
 Error JobError(Reason reason, const std::string& name, const std::string& what) {
-  Error error = MakeError(reason, name + ' ' + what);
-  error.metadata["name"] = name;
+  const std::string shown = Shortened(name);  // It may be what a client sent.
+  Error error = MakeError(reason, shown + ' ' + what);
+  error.metadata["name"] = shown;
   return error;
 }
 
@@ -136,7 +138,7 @@ Error EventsCompacted(const std::string& name, std::uint64_t oldest_sequence) {
 
 Error NoArtifact(const std::string& name, const std::string& artifact) {
   return JobError(Reason::kArtifactNotFound, name,
-                  fmt::format("has no artifact '{}'", artifact.substr(0, 64)));
+                  fmt::format("has no artifact {}", Quoted(artifact)));
 }
 
 Error OffsetOutOfRange(std::int64_t offset, std::int64_t size) {
@@ -162,7 +164,7 @@ Error ToError(const absl::Status& status, const std::string& name) {
   if (const auto uid = status.GetPayload(kUidPayload)) return UidMismatch(name, std::string(*uid));
   const Reason reason = ReasonOf(status.code());
   Error error = MakeError(reason, std::string(status.message()));
-  if (!name.empty()) error.metadata["name"] = name;
+  if (!name.empty()) error.metadata["name"] = Shortened(name);
   if (IsOfTheDisk(reason)) {
     spdlog::error("job={} reason={} message={}", name, error.reason, error.message);
   }
