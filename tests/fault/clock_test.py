@@ -16,13 +16,15 @@ JUMPS = {"an hour ahead": "+3600", "an hour back": "-3600", "ten years ahead": "
 class ClockTest(FaultTest):
     """F15."""
 
+    flags = ("--workers=3",)
+
     def make_server(self):
         self.offset = self.folder / "offset"
         self.offset.write_text("+0")
         environment = os.environ | {
             "LD_PRELOAD": LIBRARY, "FAKETIME_TIMESTAMP_FILE": str(self.offset),
             "FAKETIME_NO_CACHE": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"}
-        return Server(self.folder / "data", "--workers=3", environment=environment)
+        return Server(self.folder / "data", *self.flags, environment=environment)
 
     def jump(self, offset):
         """Written beside it and renamed: the server reads it all the time."""
@@ -48,6 +50,27 @@ class ClockTest(FaultTest):
             self.assertAlmostEqual(offset, int(expected), delta=60, msg="the clock did not jump")
         final = self.assertPromises(self.server, golden=golden, max_attempts=1)
         self.figures |= dict(jumps=len(JUMPS), jobs=len(final))
+
+
+class RetentionTest(ClockTest):
+    """F15, where ended jobs are kept for a month."""
+
+    flags = ("--workers=3", "--retain-for=30d")
+
+    def test_a_server_that_starts_a_year_later_deletes_nothing(self):
+        names = [submit(self.server, self.history, three_ball_chain(), f"{i}").name
+                 for i in range(20)]
+        for name in names:
+            follow(self.server, self.history.watch(name))
+        self.server.terminate()
+        self.jump("+31536000")
+        self.server.start()
+        wait_for(lambda: "h ahead of the time that has passed" in self.server.log())
+        time.sleep(1)  # The pass that has said so is over.
+        left = [job for job in all_jobs(self.server) if job.name in names]
+        self.assertGreater(left[0].expire_time.seconds, 0)
+        self.assertLess(left[0].expire_time.seconds, time.time() + 31536000)
+        self.assertEqual(len(left), 20)
 
 
 if __name__ == "__main__":

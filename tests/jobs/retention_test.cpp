@@ -33,6 +33,15 @@ TEST(Expired, WhatIsTooOldMakesRoomForTheRest) {
   EXPECT_THAT(Expired(jobs, At(5), {.bytes = 19}), ElementsAre("b", "a"));
 }
 
+TEST(Expired, OfManyATenthGoesForItsAgeAndAllThatAskedForIt) {
+  std::vector<EndedJob> jobs(200, {"old", At(5)});
+  EXPECT_EQ(Expired(jobs, At(5), {}).size(), 20U);
+  jobs.resize(15);
+  EXPECT_EQ(Expired(jobs, At(5), {}).size(), 10U);
+  for (EndedJob& job : jobs) job.asked = true;
+  EXPECT_EQ(Expired(jobs, At(5), {}).size(), 15U);
+}
+
 TEST(ExpiryOf, JobSaysItOrElseTheServer) {
   v1::Job job;
   job.set_state(v1::Job::RUNNING);
@@ -114,6 +123,18 @@ TEST_F(RetentionTest, FirstToEndGoWhenTheirBytesAreTooMany) {
   EXPECT_TRUE(Get(second).ok());
 }
 
+TEST_F(RetentionTest, AClockThatJumpsDeletesNothing) {
+  Open(WithFakeRun());
+  for (int i = 0; i < 3; ++i) EndedJobName();
+  Retention retention(*store_, clock_, {.age = hours(720)}, feed_);
+  clock_.Jump(hours(24 * 365));
+  EXPECT_EQ(retention.Purge(), 0);
+  clock_.Advance(hours(719));
+  EXPECT_EQ(retention.Purge(), 0);
+  clock_.Advance(hours(1));
+  EXPECT_EQ(retention.Purge(), 3) << "but time that passes counts, whatever the clock says";
+}
+
 TEST_F(RetentionTest, ManyJobsGoPageByPage) {
   Open(WithFakeRun({.workers = 4}));
   for (int i = 0; i < 450; ++i) ASSERT_TRUE(Create(RequestFor(BouncingBall())).ok());
@@ -122,7 +143,8 @@ TEST_F(RetentionTest, ManyJobsGoPageByPage) {
     std::this_thread::yield();
   }
   clock_.Advance(seconds(2));
-  EXPECT_EQ(Retention(*store_, clock_, {.age = seconds(1)}, feed_).Purge(), 450);
+  EXPECT_EQ(Retention(*store_, clock_, {.age = seconds(1)}, feed_).Purge(), 45) << "a tenth";
+  EXPECT_EQ(Retention(*store_, clock_, {.bytes = 1}, feed_).Purge(), 405);
   EXPECT_EQ(List({}).value().jobs_size(), 0);
 }
 

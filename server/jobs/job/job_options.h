@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stop_token>
@@ -22,6 +23,8 @@ struct RetentionLimits {
   std::int64_t bytes = 0;
   /// Time from the end of a job until its frame chunks are dropped; 0: they stay with the job.
   std::chrono::seconds compact_after{0};
+  /// File that keeps the time by which jobs grow old, see RetentionClock; empty: none.
+  std::filesystem::path clock_file = {};
 };
 
 /// How the server treats jobs: what it takes, how long it lets them run, what it keeps of them.

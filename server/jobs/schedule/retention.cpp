@@ -24,6 +24,8 @@ using google::protobuf::util::TimeUtil;
 
 constexpr std::chrono::minutes kPeriod{1};
 constexpr int kPage = 200;
+// Jobs that may go at once for their age, however few there are.
+constexpr std::size_t kFew = 10;
 
 absl::StatusOr<JobPage> ReadPage(Store& store, std::int64_t before) {
   return Await<absl::StatusOr<JobPage>>([&](auto done) {
@@ -68,12 +70,15 @@ void SetExpireTime(const RetentionLimits& limits, v1::Job* job) {
 
 std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now,
                                  const RetentionLimits& limits) {
+  std::size_t left = std::max(kFew, jobs.size() / 10);  // May still go for their age.
   std::int64_t kept = 0;
   std::vector<std::string> expired;
   for (const EndedJob& job : jobs) {
     const bool old = job.expiry && *job.expiry <= now;
-    if (old) expired.push_back(job.name);
     if (!old) kept += job.bytes;
+    if (!old || (!job.asked && left == 0)) continue;
+    expired.push_back(job.name);
+    if (!job.asked) --left;
   }
   if (limits.bytes == 0) return expired;
   for (auto job = jobs.begin(); job != jobs.end() && kept > limits.bytes; ++job) {
@@ -85,7 +90,7 @@ std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now
 }
 
 Retention::Retention(Store& store, const Clock& clock, RetentionLimits limits, JobFeed& feed)
-    : store_(store), clock_(clock), limits_(limits), feed_(feed) {}
+    : store_(store), clock_(clock, limits.clock_file), limits_(std::move(limits)), feed_(feed) {}
 
 Retention::~Retention() { Stop(); }
 
@@ -109,16 +114,17 @@ void Retention::Stop() {
 }
 
 int Retention::Purge() {
-  const std::vector<EndedJob> jobs = ListEnded();
-  const int deleted = Delete(jobs);
+  const WallTime now = clock_.Now();
+  const std::vector<EndedJob> jobs = ListEnded(now);
+  const int deleted = Delete(jobs, now);
   Compact(jobs);
   return deleted;
 }
 
 // An error means in both that another call has deleted the job meanwhile.
-int Retention::Delete(const std::vector<EndedJob>& jobs) {
+int Retention::Delete(const std::vector<EndedJob>& jobs, WallTime now) {
   int deleted = 0;
-  for (const std::string& name : Expired(jobs, clock_.Now(), limits_)) {
+  for (const std::string& name : Expired(jobs, now, limits_)) {
     if (stopped()) break;
     const auto done = Await<absl::StatusOr<bool>>(
         [&](auto callback) { store_.Delete(name, "", std::move(callback)); });
@@ -139,7 +145,7 @@ void Retention::Compact(const std::vector<EndedJob>& jobs) {
   }
 }
 
-std::vector<EndedJob> Retention::ListEnded() {
+std::vector<EndedJob> Retention::ListEnded(WallTime now) {
   std::vector<std::pair<std::int64_t, EndedJob>> found;
   const auto bytes =
       limits_.bytes > 0 ? ReadBytes(store_) : std::unordered_map<std::string, std::int64_t>();
@@ -150,9 +156,10 @@ std::vector<EndedJob> Retention::ListEnded() {
     for (const StoredJob& stored : page->jobs) {
       const v1::Job& job = stored.job;
       const auto size = bytes.find(job.name());
-      found.push_back({TimeUtil::TimestampToNanoseconds(job.end_time()),
-                       {job.name(), ExpiryOf(job, limits_), size == bytes.end() ? 0 : size->second,
-                        !stored.compacted && IsToCompact(job, clock_.Now(), limits_)}});
+      found.push_back(
+          {TimeUtil::TimestampToNanoseconds(job.end_time()),
+           {job.name(), ExpiryOf(job, limits_), size == bytes.end() ? 0 : size->second,
+            !stored.compacted && IsToCompact(job, now, limits_), job.has_time_to_live()}});
     }
     before = page->next;
   } while (before > 0 && !stopped());

@@ -10,6 +10,7 @@
 
 #include "contact/v1/job.pb.h"
 #include "jobs/job/job_options.h"
+#include "jobs/schedule/retention_clock.h"
 
 namespace contact {
 
@@ -37,8 +38,11 @@ struct EndedJob {
   std::int64_t bytes = 0;
   /// See IsToCompact.
   bool to_compact = false;
+  /// True if the job itself says how long it is kept.
+  bool asked = false;
 };
-/// Names of the jobs that are not kept any more. `jobs`: all that have ended, oldest end first.
+/// Names of the jobs that are not kept any more. `jobs`: all that have ended, oldest end first. Of
+/// those that the server alone finds too old, a tenth or a few; the others go next time.
 std::vector<std::string> Expired(const std::vector<EndedJob>& jobs, WallTime now,
                                  const RetentionLimits& limits);
 
@@ -53,23 +57,25 @@ class Retention {
 
   /// Starts the thread, named `retention`. Once only.
   void Start();
-  /// Deletes and compacts what is due now; waits for it. Returns how many jobs were deleted.
+  /// Deletes and compacts what is due now; waits for it. Returns how many jobs were deleted. By one
+  /// thread: the one that Start starts, if any.
   int Purge();
   /// Ends the thread. Idempotent; by one thread.
   void Stop();
 
  private:
   /// Deletes those that are due. Returns their number.
-  int Delete(const std::vector<EndedJob>& jobs);
+  int Delete(const std::vector<EndedJob>& jobs, WallTime now);
   /// Drops the frame chunks of those that are to be compacted.
   void Compact(const std::vector<EndedJob>& jobs);
   /// True once Stop was called: what is due can wait for the next start.
   bool stopped() const { return stop_.stop_requested(); }
   /// All ended jobs, oldest end first; fewer if the store fails.
-  std::vector<EndedJob> ListEnded();
+  std::vector<EndedJob> ListEnded(WallTime now);
 
   Store& store_;
-  const Clock& clock_;
+  /// Of whoever calls Purge.
+  RetentionClock clock_;
   const RetentionLimits limits_;
   JobFeed& feed_;
   std::stop_source stop_;
