@@ -100,9 +100,11 @@ std::optional<CommitThread::Batch> CommitThread::NextBatch() {
 
 void CommitThread::Commit(Batch& batch) {
   const auto begin = clock_.Elapsed();
-  const absl::Status status = Try([&] {
+  const auto run = [&] {
     for (const Operation& operation : batch) operation.run(*database_);
-  });
+  };
+  const bool frees = batch.size() == 1 && batch.front().frees;
+  const absl::Status status = frees ? TryFreeing(run) : Try(run);
   Count(begin, batch.size(), status);
   if (status.ok() || !failure_.ok() || batch.size() == 1) {
     for (const Operation& operation : batch) operation.done(status);
@@ -141,9 +143,19 @@ absl::Status CommitThread::Try(const std::function<void()>& work) {
   }
 }
 
+// The log goes back to its beginning before the reserve is taken again, so nothing else gets it.
+absl::Status CommitThread::TryFreeing(const std::function<void()>& work) {
+  absl::Status status = Try(work);
+  if (!absl::IsResourceExhausted(status) || !database_->reserve().Give()) return status;
+  status = Try(work);
+  Checkpoint();
+  database_->reserve().Take();
+  return status;
+}
+
 void CommitThread::Tidy() {
   bool more = false;
-  const absl::Status status = Try([&] { more = tidy_(*database_); });
+  const absl::Status status = TryFreeing([&] { more = tidy_(*database_); });
   untidy_ = status.ok() && more;
 }
 
@@ -177,6 +189,7 @@ void CommitThread::Checkpoint() {
   if (!failure_.ok() || database_->log_pages() == 0) return;
   try {
     database_->Checkpoint();
+    database_->reserve().Take();
   } catch (const SQLite::Exception& error) {
     // Without space the log goes on growing, and commits will tell.
     const absl::Status status = ToStatus(error);

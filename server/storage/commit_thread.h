@@ -32,6 +32,8 @@ class CommitThread {
     std::function<void(Database&)> run;
     /// Runs once, after the commit or with the reason why there is none.
     std::function<void(const absl::Status&)> done;
+    /// True: it frees space, and may use the reserve where there is none.
+    bool frees = false;
   };
 
   /// Work that takes too long for a transaction.
@@ -72,6 +74,8 @@ class CommitThread {
              const absl::Status& status);
   // Does `work` in a transaction; on error nothing is done.
   absl::Status Try(const std::function<void()>& work);
+  // Try for work that frees space: on a full disk once more, with the reserve.
+  absl::Status TryFreeing(const std::function<void()>& work);
   // Runs `tidy_`. What fails is tried again after the next batch.
   void Tidy();
   // Runs a step of the task under way, and ends the task after the last one.

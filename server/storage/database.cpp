@@ -31,6 +31,10 @@ absl::Status CheckPresence(const DataDirectory& directory) {
 
 absl::Status CheckAccess(const DataDirectory& directory) {
   const fs::path file = directory.database();
+  if (fs::is_symlink(file)) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        file.string(), " is a link; put the database there, or name its directory by --data-dir"));
+  }
   if (!fs::exists(file) || ::faccessat(AT_FDCWD, file.c_str(), R_OK | W_OK, AT_EACCESS) == 0) {
     return absl::OkStatus();
   }
@@ -53,7 +57,8 @@ void Defend(sqlite3* connection) {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Database>> Database::Open(DataDirectory directory,
-                                                         std::int64_t max_bytes) {
+                                                         std::int64_t max_bytes,
+                                                         std::int64_t reserve_bytes) {
   if (absl::Status present = CheckPresence(directory); !present.ok()) return present;
   if (absl::Status access = CheckAccess(directory); !access.ok()) return access;
   const std::string file = directory.database().string();
@@ -63,6 +68,7 @@ absl::StatusOr<std::unique_ptr<Database>> Database::Open(DataDirectory directory
     database->KeepOldVersion();
     database->Configure(max_bytes);
     if (absl::Status made = database->BringUpToDate(); !made.ok()) return made;
+    database->reserve_.emplace(database->directory().reserve(), reserve_bytes);
     return database;
   } catch (const SQLite::Exception& error) {
     if (absl::IsDataLoss(ToStatus(error))) return Damaged(file, error.what());

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 
 #include "storage/data_directory.h"
+#include "storage/reserve.h"
 
 namespace contact {
 
@@ -22,11 +24,12 @@ class Database {
   /// Opens the database, or makes it in a new directory, and checks it: it must be whole, not
   /// newer than this program, and there if the directory was initialised. An older one is brought
   /// up to date, after a copy of it was put beside it. `max_bytes` limits its size; 0: the disk
-  /// does. A database that is refused is left as it was.
+  /// does. `reserve_bytes`: see Reserve. A database that is refused is left as it was.
   ///
   /// Errors: DATA_LOSS (damaged or gone), FAILED_PRECONDITION (newer; cannot be written).
   static absl::StatusOr<std::unique_ptr<Database>> Open(DataDirectory directory,
-                                                        std::int64_t max_bytes);
+                                                        std::int64_t max_bytes,
+                                                        std::int64_t reserve_bytes = 0);
 
   /// The statement of an SQL text, prepared once. Use it through Query.
   SQLite::Statement& Prepared(const std::string& sql);
@@ -35,6 +38,8 @@ class Database {
   /// For transactions and copies.
   SQLite::Database& connection() { return connection_; }
   const DataDirectory& directory() const { return directory_; }
+  /// Space for operations that free some.
+  Reserve& reserve() { return *reserve_; }
 
   /// Pages in the write-ahead log that are not in the database file yet.
   int log_pages() const { return log_pages_; }
@@ -62,6 +67,8 @@ class Database {
   int version_ = 0;
   // Updated by a hook of SQLite at each commit.
   int log_pages_ = 0;
+  // Set once the database is open.
+  std::optional<Reserve> reserve_;
 };
 
 /// One use of a prepared statement: binds its parameters in order, and resets it at the end. Two

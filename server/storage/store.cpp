@@ -23,7 +23,7 @@ absl::StatusOr<std::unique_ptr<Store>> Store::Open(const std::filesystem::path& 
                                                    StoreOptions options) {
   absl::StatusOr<DataDirectory> locked = DataDirectory::Open(directory);
   if (!locked.ok()) return locked.status();
-  auto database = Database::Open(*std::move(locked), options.max_bytes);
+  auto database = Database::Open(*std::move(locked), options.max_bytes, options.reserve_bytes);
   if (!database.ok()) return database.status();
   return std::unique_ptr<Store>(new Store(*std::move(database), std::move(options)));
 }
@@ -35,7 +35,7 @@ Store::Store(std::unique_ptr<Database> database, StoreOptions options)
 Store::~Store() = default;
 
 template <class T, class Run>
-void Store::Post(Run run, Callback<T> done) {
+void Store::Post(Run run, Callback<T> done, bool frees) {
   const auto result = std::make_shared<std::optional<absl::StatusOr<T>>>();
   thread_.Post(CommitThread::Operation{
       [run = std::move(run), result](Database& database) { *result = run(database); },
@@ -45,7 +45,8 @@ void Store::Post(Run run, Callback<T> done) {
         } else {
           done(committed);
         }
-      }});
+      },
+      frees});
 }
 
 void Store::Create(const NewJob& job, Callback<StoredJob> done) {
@@ -110,13 +111,13 @@ void Store::ReadEvents(EventQuery query, Callback<EventPage> done) {
 void Store::Delete(std::string name, std::string expected_uid, Callback<bool> done) {
   Post([name = std::move(name), uid = std::move(expected_uid)](
            Database& database) { return Done(Remove(database, name, uid)); },
-       std::move(done));
+       std::move(done), true);
 }
 
 void Store::Compact(std::string name, Callback<bool> done) {
   Post([name =
             std::move(name)](Database& database) { return Done(contact::Compact(database, name)); },
-       std::move(done));
+       std::move(done), true);
 }
 
 void Store::Backup(std::stop_token stop, Callback<std::unique_ptr<BackupFile>> done) {

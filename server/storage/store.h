@@ -26,6 +26,8 @@ struct JobChange;
 struct StoreOptions {
   /// Largest size of the database in bytes; past it writes are RESOURCE_EXHAUSTED. 0: the disk's.
   std::int64_t max_bytes = 0;
+  /// Space that is kept for deletions on a full disk, see Reserve.
+  std::int64_t reserve_bytes = 0;
   /// Called once, on the store's thread, if the disk fails such that nothing can be promised any
   /// more. The process should end; the store refuses all that follows with UNAVAILABLE.
   std::function<void(const absl::Status&)> on_failure = {};
@@ -111,7 +113,7 @@ class Store {
 
   // Runs `run` in a transaction, and gives `done` what it returned once that is committed.
   template <class T, class Run>
-  void Post(Run run, Callback<T> done);
+  void Post(Run run, Callback<T> done, bool frees = false);
 
   CommitThread thread_;
 };

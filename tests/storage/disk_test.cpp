@@ -67,6 +67,25 @@ TEST_P(FailingDiskTest, FailedWriteOrSyncIsNeverASuccess) {
 INSTANTIATE_TEST_SUITE_P(Ever, FailingDiskTest, testing::Values(false));
 INSTANTIATE_TEST_SUITE_P(Once, FailingDiskTest, testing::Values(true));
 
+TEST_F(StoreTest, FullDiskTakesDeletionsByItsReserveAndNothingElse) {
+  FailingDisk disk;
+  const auto reserve = path() / "reserve";
+  Open({.reserve_bytes = 3 << 20});
+  EXPECT_EQ(std::filesystem::file_size(reserve), 3U << 20);
+  v1::Job job = MakeJob("jobs/a");
+  job.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Create(job).ok());
+  ASSERT_TRUE(Append("jobs/a", std::vector(100, LogEvent(std::string(2000, 'x')))).ok());
+  ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
+  disk.FullWhile([&] { return std::filesystem::file_size(reserve) > 0; });
+  EXPECT_TRUE(absl::IsResourceExhausted(Append("jobs/b", {LogEvent("x")}).status()));
+  EXPECT_TRUE(Delete("jobs/a").ok());
+  EXPECT_FALSE(Read("jobs/a").ok());
+  EXPECT_EQ(std::filesystem::file_size(reserve), 3U << 20);
+  EXPECT_TRUE(absl::IsResourceExhausted(Append("jobs/b", {LogEvent("x")}).status()));
+  store_.reset();
+}
+
 /// Restores the limit at the end of the scope.
 class FileSizeLimit {
  public:

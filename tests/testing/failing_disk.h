@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <cstring>
+#include <functional>
 #include <new>
+#include <utility>
 
 namespace contact {
 
@@ -33,6 +35,9 @@ class FailingDisk {
     once_ = true;
     left_ = n;
   }
+  /// From now on there is no space for writes while `full` says so. It is called on the thread that
+  /// writes.
+  void FullWhile(std::function<bool()> full) { full_ = std::move(full); }
   /// Succeeds from now on.
   void Heal() { left_ = kNever; }
   bool failed() const { return left_ < 0; }
@@ -66,6 +71,7 @@ class FailingDisk {
       return Real(f)->pMethods->xRead(Real(f), to, size, at);
     };
     methods.xWrite = [](sqlite3_file* f, const void* from, int size, sqlite3_int64 at) {
+      if (instance_->full_ && instance_->full_()) return SQLITE_FULL;
       return Fails() ? SQLITE_IOERR_WRITE : Real(f)->pMethods->xWrite(Real(f), from, size, at);
     };
     // The process does not lose its power, so a sync that succeeds need not take its time.
@@ -98,6 +104,7 @@ class FailingDisk {
   inline static FailingDisk* instance_ = nullptr;
   sqlite3_vfs* const real_;
   sqlite3_vfs vfs_;
+  std::function<bool()> full_;
   std::atomic<bool> once_ = false;
   std::atomic<int> left_ = kNever;
 };
