@@ -4,6 +4,7 @@
 #include <google/protobuf/util/time_util.h>
 #include <malloc.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <cstdio>
@@ -32,6 +33,9 @@ using namespace std::chrono_literals;
 
 // Time that open calls get to end. The whole shutdown must take less than 5 s.
 constexpr auto kGrace = 2s;
+
+// Space on the disk for deleting jobs when there is none.
+constexpr std::int64_t kReserve = 16 << 20;
 
 // Blocks the signals that WaitFor waits for. Must be called before the first thread starts, because
 // threads inherit the mask.
@@ -148,9 +152,12 @@ bool ServeMetrics(const Config& config, MetricsSources sources,
 int Serve(const Config& config, const sigset_t& signals) {
   StoreOptions options = config.store;
   options.on_failure = EndAfterDiskFailure;
+  options.reserve_bytes = kReserve;
   const auto store = Store::Open(config.data_dir, options);
   if (!store.ok()) return Refuse(store.status());
-  JobManager jobs(**store, SystemClock(), RandomIds(), config.jobs);
+  JobOptions job_options = config.jobs;
+  job_options.retention.clock_file = config.data_dir / "clock";
+  JobManager jobs(**store, SystemClock(), RandomIds(), job_options);
   GrpcServer server(jobs, **store, config.rpc, Identity(config));
   const auto port = server.Start(config.listen);
   std::unique_ptr<MetricsServer> metrics;
@@ -178,6 +185,7 @@ int Serve(const Config& config, const sigset_t& signals) {
 int main(int argc, char** argv) {
   const sigset_t signals = contact::BlockSignals();
   contact::KeepBuffers();
+  umask(077);  // What the server writes is its user's alone.
   const auto read = contact::ReadConfig(argc, argv);
   if (const auto* exit = std::get_if<contact::Exit>(&read)) {
     std::fputs(exit->text.c_str(), exit->code == contact::kExitOk ? stdout : stderr);

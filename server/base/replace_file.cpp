@@ -26,8 +26,10 @@ std::error_code WriteAll(int fd, std::string_view bytes) {
   return {};
 }
 
+// A draft that a crash has left is removed, and a link that somebody put there is not followed.
 std::error_code WriteDraft(const fs::path& draft, std::string_view contents, mode_t mode) {
-  const FileDescriptor out(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));
+  ::unlink(draft.c_str());
+  const FileDescriptor out(::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (!out.valid()) return LastError();
   return WriteAll(out.get(), contents);
 }

@@ -2,6 +2,7 @@
 
 #include <absl/strings/str_cat.h>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -59,12 +60,29 @@ absl::Status MakeFolder(const fs::path& path) {
                                                     "; choose another with --data-dir"));
 }
 
+// Who may write into the folder may replace its files by links, or by others.
+absl::Status CheckOwner(const fs::path& path) {
+  struct stat found = {};
+  if (::stat(path.c_str(), &found) != 0) return Failed("use", path);
+  constexpr mode_t kOthersWrite = S_IWGRP | S_IWOTH;
+  if ((found.st_mode & kOthersWrite) != 0) {
+    return absl::FailedPreconditionError(absl::StrCat("others may write into data directory ",
+                                                      path.string(), "; chmod go-w ", path.string(),
+                                                      ", or choose another with --data-dir"));
+  }
+  const uid_t self = ::geteuid();
+  if (found.st_uid == self || found.st_uid == 0 || self == 0) return absl::OkStatus();
+  errno = EPERM;
+  return Failed("use", path);
+}
+
 }  // namespace
 
 absl::StatusOr<DataDirectory> DataDirectory::Open(const fs::path& path) {
   if (absl::Status made = MakeFolder(path); !made.ok()) return made;
+  if (absl::Status owned = CheckOwner(path); !owned.ok()) return owned;
   const fs::path file = path / "lock";
-  FileDescriptor lock(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  FileDescriptor lock(::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
   if (!lock.valid()) return Failed("open", file);
   if (!TakeLock(lock.get(), F_WRLCK)) return Held(path, lock.get());
   if (::ftruncate(lock.get(), 0) != 0 || !WriteAll(lock.get(), std::to_string(::getpid()) + "\n")) {

@@ -20,7 +20,7 @@ inline constexpr char kGiveAccess[] =
 class DataDirectory {
  public:
   /// Creates the folder if it is missing and locks it. UNAVAILABLE if another process holds it.
-  /// FAILED_PRECONDITION if it cannot be made or written.
+  /// FAILED_PRECONDITION if it cannot be made or written, or if others may write into it.
   static absl::StatusOr<DataDirectory> Open(const std::filesystem::path& path);
 
   /// Locks it against processes that change it, without changing anything: for those that only
@@ -29,6 +29,9 @@ class DataDirectory {
 
   /// File of the database.
   std::filesystem::path database() const { return path_ / "contactd.db"; }
+
+  /// Space that is given up when the disk is full, see Reserve.
+  std::filesystem::path reserve() const { return path_ / "reserve"; }
 
   /// Where a backup is made before it is sent. Removed at the next Open if a crash leaves it.
   std::filesystem::path backup_draft() const { return path_ / "backup.tmp"; }

@@ -32,6 +32,35 @@ TEST_F(DataDirectoryTest, NewFolderIsItsOwnersAlone) {
   EXPECT_EQ(fs::status(path()).permissions(), fs::perms::owner_all);
 }
 
+TEST_F(DataDirectoryTest, FolderThatOthersMayWriteIsRefused) {
+  fs::create_directory(path());
+  for (const auto others : {fs::perms::group_write, fs::perms::others_write}) {
+    fs::permissions(path(), fs::perms::owner_all | others);
+    const absl::Status refused = DataDirectory::Open(path()).status();
+    EXPECT_TRUE(absl::IsFailedPrecondition(refused)) << refused;
+    EXPECT_NE(refused.message().find("chmod go-w"), std::string::npos) << refused;
+  }
+}
+
+TEST_F(DataDirectoryTest, LinksAreNotFollowed) {
+  const fs::path victim = folder_.path() / "victim";
+  std::ofstream(victim) << "mine";
+  ASSERT_TRUE(DataDirectory::Open(path()).ok());
+  for (const char* file : {"lock", "initialised.new"}) {
+    fs::remove(path() / file);
+    fs::create_symlink(victim, path() / file);
+    const auto directory = DataDirectory::Open(path());
+    if (directory.ok()) {
+      EXPECT_TRUE(directory->MarkInitialised().ok());
+    }
+    EXPECT_EQ(directory.ok(), std::string(file) != "lock");
+    std::string content;
+    EXPECT_TRUE(std::ifstream(victim) >> content);
+    EXPECT_EQ(content, "mine");
+    fs::remove(path() / file);
+  }
+}
+
 TEST_F(DataDirectoryTest, PermissionsOfAFolderThatWasThereStay) {
   const auto shared = fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec;
   fs::create_directory(path());

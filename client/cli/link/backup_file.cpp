@@ -1,13 +1,16 @@
 #include "cli/link/backup_file.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
 #include "base/digest.h"
+#include "base/file_descriptor.h"
 #include "base/replace_file.h"
 #include "cli/base/failure.h"
 #include "cli/base/output_file.h"
@@ -22,10 +25,18 @@ namespace fs = std::filesystem;
   throw Failure(ExitCode::kRunFailed, fmt::format("the backup is damaged: {}", what));
 }
 
+// Makes the file anew, for its owner alone: nothing that somebody put there is followed or written.
+std::string Fresh(const std::string& name) {
+  ::unlink(name.c_str());
+  const FileDescriptor made(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+  return name;  // OutputFile tells errors.
+}
+
 /// A file beside the one that it will replace. Removed with this object unless it has replaced it.
 class Draft {
  public:
-  explicit Draft(const std::string& path) : path_(path), name_(path + ".new"), file_(name_) {}
+  explicit Draft(const std::string& path)
+      : path_(path), name_(path + ".new"), file_(Fresh(name_)) {}
   ~Draft() { std::remove(name_.c_str()); }
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
