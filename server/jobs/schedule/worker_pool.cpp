@@ -5,6 +5,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <mutex>
+#include <system_error>
+
 namespace contact {
 namespace {
 
@@ -18,7 +22,12 @@ constexpr int kNiceness = 10;
 // core. On Linux each thread has a nice value of its own.
 void StepBack() {
   pthread_setname_np(pthread_self(), "worker");
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+  if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness) == 0) return;
+  static std::once_flag told;
+  std::call_once(told, [error = errno] {
+    spdlog::warn("workers cannot step back behind those who answer: setpriority: {}",
+                 std::generic_category().message(error));
+  });
 }
 
 }  // namespace
