@@ -1,11 +1,13 @@
 #include "rpc/grpc_log.h"
 
+#include <google/protobuf/stubs/logging.h>
 #include <grpc/support/log.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -64,8 +66,20 @@ void Log(gpr_log_func_args* line) {
   spdlog::log(Level(line->severity), "gRPC: {}", line->message);
 }
 
+// Whatever level it has, a client has sent it; what is fatal ends the process by itself.
+void LogOfProtobuf(google::protobuf::LogLevel /*level*/, const char* file, int line,
+                   const std::string& message) {
+  const auto left_out = TakeOf({file, line});
+  if (!left_out) return;
+  if (*left_out > 0) spdlog::warn("protobuf: {} lines left out", *left_out);
+  spdlog::warn("protobuf: {}", message);
+}
+
 }  // namespace
 
-void RouteGrpcLog() { gpr_set_log_function(Log); }
+void RouteGrpcLog() {
+  gpr_set_log_function(Log);
+  google::protobuf::SetLogHandler(LogOfProtobuf);
+}
 
 }  // namespace contact
