@@ -1,5 +1,6 @@
 #pragma once
 
+#include <google/protobuf/message.h>
 #include <grpcpp/grpcpp.h>
 
 #include <memory>
@@ -21,7 +22,8 @@ class CallStarter {
       : guard_(guard), loop_(std::move(loop)) {}
 
   /// Starts a unary call. `run(answer)` is called unless the call is refused; `answer` takes a
-  /// Result<T>, once, at once or later, on any thread. T is Response, or bool for an empty one.
+  /// Result<T>, once, at once or later, on any thread. T is Response, or bool for an empty one, or
+  /// a message for one of bytes.
   template <class T, class Response, class Run>
   grpc::ServerUnaryReactor* Unary(grpc::CallbackServerContext* context, Response* response, Run run,
                                   CallKind kind = CallKind::kUnary) {
@@ -55,6 +57,10 @@ class CallStarter {
  private:
   /// Moves a result into the response.
   static void Put(bool /*done*/, google::protobuf::Empty* /*response*/) {}
+  static void Put(const google::protobuf::Message& value, grpc::ByteBuffer* response) {
+    const grpc::Slice bytes(value.SerializeAsString());
+    *response = grpc::ByteBuffer(&bytes, 1);
+  }
   template <class T>
   static void Put(T value, T* response) {
     *response = std::move(value);

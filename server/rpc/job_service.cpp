@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "base/spelling.h"
 #include "jobs/job/errors.h"
 #include "rpc/stream/watch_source.h"
 
@@ -12,12 +13,14 @@ namespace contact {
 using grpc::ServerUnaryReactor;
 using grpc::ServerWriteReactor;
 
-ServerUnaryReactor* JobService::CreateJob(Context* context, const v1::CreateJobRequest* request,
-                                          v1::Job* response) {
+ServerUnaryReactor* JobService::CreateJob(Context* context, const grpc::ByteBuffer* request,
+                                          grpc::ByteBuffer* response) {
   const auto run = [&](auto answer) {
-    // gRPC made the request for this call alone, and a large scenario need not be in memory twice.
-    auto& mine = const_cast<v1::CreateJobRequest&>(*request);
-    jobs_.creator().Create(std::move(mine), answer, Abandonment(*context));
+    v1::CreateJobRequest parsed;
+    std::shared_ptr<const void> place;
+    if (const auto error = requests_.Parse(*request, &parsed, &place)) return answer(*error);
+    const auto done = [answer, place](Result<v1::Job> job) { answer(std::move(job)); };
+    jobs_.creator().Create(std::move(parsed), done, Abandonment(*context));
   };
   return calls_.Unary<v1::Job>(context, response, run, CallKind::kCreateJob);
 }
@@ -79,7 +82,7 @@ ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* context,
     };
     jobs_.watches().WatchJob(parsed, wake, watched);
   };
-  return calls_.Stream<grpc::ByteBuffer>(context, "job=" + parsed.name(), open);
+  return calls_.Stream<grpc::ByteBuffer>(context, "job=" + Shortened(parsed.name()), open);
 }
 
 ServerWriteReactor<v1::WatchJobsResponse>* JobService::WatchJobs(
@@ -92,7 +95,7 @@ ServerWriteReactor<v1::WatchJobsResponse>* JobService::WatchJobs(
 ServerWriteReactor<v1::ReadArtifactResponse>* JobService::ReadArtifact(
     Context* context, const v1::ReadArtifactRequest* request) {
   return calls_.Stream<v1::ReadArtifactResponse>(
-      context, "job=" + request->name(),
+      context, "job=" + Shortened(request->name()),
       [&](auto wake, auto opened) { jobs_.recordings().ReadArtifact(*request, wake, opened); });
 }
 

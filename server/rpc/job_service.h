@@ -6,6 +6,7 @@
 
 #include "contact/v1/job_service.grpc.pb.h"
 #include "jobs/job_manager.h"
+#include "rpc/call/request_budget.h"
 #include "rpc/call_starter.h"
 
 namespace contact {
@@ -13,9 +14,11 @@ namespace contact {
 /// The calls of the contract's JobService. Each is handed to the part of the JobManager that
 /// answers it. Handlers never wait, because gRPC runs all of them on a few threads.
 ///
-/// WatchJob sends serialised bytes, so that an event is serialised once for all watchers.
+/// WatchJob sends serialised bytes, so that an event is serialised once for all watchers. CreateJob
+/// takes them, so that what a request would take is known before it is parsed.
 class JobService final
-    : public v1::JobService::WithRawCallbackMethod_WatchJob<v1::JobService::CallbackService> {
+    : public v1::JobService::WithRawCallbackMethod_CreateJob<
+          v1::JobService::WithRawCallbackMethod_WatchJob<v1::JobService::CallbackService>> {
  public:
   /// `identity` is the answer of GetServerInfo without the numbers that the manager knows. The
   /// manager and `calls` outlive the service.
@@ -29,8 +32,8 @@ class JobService final
   using Stream = grpc::ServerWriteReactor<Message>;
 
   /// Answered by JobCreator once the job is on disk. Limited for each peer, see CallKind.
-  Unary* CreateJob(Context* context, const v1::CreateJobRequest* request,
-                   v1::Job* response) override;
+  Unary* CreateJob(Context* context, const grpc::ByteBuffer* request,
+                   grpc::ByteBuffer* response) override;
   /// Answered by JobReader, with ledger and artifacts.
   Unary* GetJob(Context* context, const v1::GetJobRequest* request, v1::Job* response) override;
   /// Answered by JobReader, with a page of headers.
@@ -59,6 +62,8 @@ class JobService final
 
   JobManager& jobs_;
   CallStarter& calls_;
+  /// Memory of CreateJob requests that are not answered yet.
+  RequestBudget requests_{256 << 20};
   /// The part of GetServerInfo that never changes.
   const v1::ServerInfo identity_;
 };

@@ -102,7 +102,7 @@ class OversizeTest(ServerTest):
         """Unknown groups: protobuf takes 100 levels."""
         start, end = b"\xc3\x3e", b"\xc4\x3e"  # Of field 1000.
         for depth, code in ((99, grpc.StatusCode.INVALID_ARGUMENT),
-                            (101, grpc.StatusCode.UNIMPLEMENTED)):  # gRPC's word for unparsable.
+                            (101, grpc.StatusCode.INVALID_ARGUMENT)):
             self.assertEqual(self.call(start * depth + end * depth), code, depth)
         self.assertLivesOn()
 
