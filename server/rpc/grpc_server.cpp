@@ -175,8 +175,8 @@ void GrpcServer::Shutdown(milliseconds grace) {
     const ShutdownTimer timer(grace + 500ms, cut, grace + 2s, give_up);
     server_->Shutdown(std::chrono::system_clock::now() + grace);
     server_.reset();
+    acceptor_.reset();
   }
-  acceptor_.reset();
   loop_->Stop();
 }
 

@@ -6,6 +6,7 @@ import struct
 import tempfile
 import termios
 import threading
+import time
 import unittest
 
 import http2
@@ -94,6 +95,37 @@ class StuckTest(FaultTest):
     def test_it_is_cut(self):
         freed = wait_for(lambda: descriptors(self.server) <= self.base)
         self.assertKept("cut_after", freed, 10)
+
+
+class StuckCrowdTest(FaultTest):
+    """Ten thousand watchers that open their windows wide, and never read."""
+
+    flags = ("--workers=1", "--max-watchers=10001", "--max-watchers-per-peer=10001")
+
+    def test_they_cost_little_and_do_not_hold_up_the_end(self):
+        scenario = spring_wall(0.4)  # 11 MB of events.
+        scenario.output.sample_interval_s = 2e-6
+        name = self.server.run(scenario).name
+        base = status_of(self.server, "VmRSS")
+        request = job_service_pb2.WatchJobRequest(name=name).SerializeToString()
+        for _ in range(100):
+            client = http2.greet(self.server.port, window=http2.LARGEST_WINDOW)
+            self.addCleanup(client.close)
+            client.sendall(b"".join(http2.headers(stream, WATCH) + http2.message(stream, request)
+                                    for stream in range(1, 201, 2)))
+        each = (self.settled() - base) / 10_000 * 1000
+        code, elapsed = self.server.terminate()
+        self.assertEqual(code, 0, self.server.log())
+        self.assertKept("kilobytes_a_watcher", each, 128, "kB", slack=1)
+        self.assertKept("exit", elapsed, 5, slack=1)
+
+    def settled(self):
+        """Memory once it has grown by less than a megabyte in a second, in MB."""
+        before, now = 0, status_of(self.server, "VmRSS")
+        while now > before + 1:
+            time.sleep(1)
+            before, now = now, status_of(self.server, "VmRSS")
+        return now
 
 
 class StuckOnFileTest(StuckTest):

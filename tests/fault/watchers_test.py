@@ -32,7 +32,8 @@ class CrowdTest(FaultTest):
 class StormTest(CrowdTest):
     """F11."""
 
-    flags = ("--workers=1", "--max-watchers=2500")  # A round finds no place if the last one is kept.
+    flags = ("--workers=1", "--max-watchers=2500", "--max-watchers-per-peer=2500")
+    # A round finds no place if the last one is kept.
 
     def test_killed_watchers_leave_nothing_behind(self):
         long = submit(self.server, self.history, endless_and_slow(), "long").name
@@ -106,7 +107,7 @@ class SlowReaderTest(CrowdTest):
 class IdleTest(CrowdTest):
     """F13."""
 
-    flags = ("--workers=1", "--max-watchers=10001")
+    flags = ("--workers=1", "--max-watchers=10001", "--max-watchers-per-peer=10001")
 
     def test_ten_thousand_idle_watchers_are_cheap(self):
         running = submit(self.server, self.history, endless_and_slow(), "running").name
