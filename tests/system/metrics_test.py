@@ -2,6 +2,7 @@
 
 import math
 import re
+import socket
 import time
 import unittest
 import urllib.request
@@ -119,6 +120,22 @@ class MetricsTest(ServerTest):
                 job_service_pb2.CreateJobRequest())
             self.assertGreater(details["RetryInfo"].retry_delay.seconds, 900)
         self.assertEqual(self.value("contactd_rpc_refused_total", reason="RATE_LIMITED"), 2)
+
+
+class SlowClientsTest(ServerTest):
+
+    flags = ("--metrics-listen=127.0.0.1:0",)
+
+    def test_requests_that_come_half_do_not_keep_others_waiting(self):
+        port = int(re.search(r"metrics on port (\d+)", self.server.log()).group(1))
+        for _ in range(100):
+            half = socket.create_connection(("127.0.0.1", port), PATIENCE_S)
+            self.addCleanup(half.close)
+            half.sendall(b"GET /metrics HTTP/1.1\r\nHost:")
+        start = time.monotonic()
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/metrics", timeout=30) as page:
+            self.assertIn(b"contactd_workers", page.read())
+        self.assertLess(time.monotonic() - start, 10)
 
 
 class PortTest(ServerTest):

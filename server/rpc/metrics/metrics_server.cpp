@@ -3,9 +3,21 @@
 #include <prometheus/exposer.h>
 
 #include <exception>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace contact {
+
+namespace {
+
+// A request that comes half holds a thread of the page until the time is over, and Prometheus needs
+// one.
+std::vector<std::string> OptionsFor(const std::string& address) {
+  return {"listening_ports", address, "num_threads", "32", "request_timeout_ms", "500"};
+}
+
+}  // namespace
 
 std::unique_ptr<MetricsServer> MetricsServer::Open(const std::string& address,
                                                    MetricsSources sources) {
@@ -18,7 +30,7 @@ std::unique_ptr<MetricsServer> MetricsServer::Open(const std::string& address,
 
 MetricsServer::MetricsServer(const std::string& address, MetricsSources sources)
     : page_(std::make_shared<MetricsPage>(std::move(sources))),
-      exposer_(std::make_unique<prometheus::Exposer>(address)) {
+      exposer_(std::make_unique<prometheus::Exposer>(OptionsFor(address))) {
   exposer_->RegisterCollectable(page_);
 }
 
