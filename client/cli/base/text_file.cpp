@@ -17,24 +17,29 @@ namespace contact::cli {
 namespace {
 
 // False if the stream cannot be read, as that of a folder. An empty one can.
-bool ReadAll(std::istream& stream, std::string* text) {
+// Reads little more than `most` bytes.
+bool ReadAll(std::istream& stream, std::size_t most, std::string* text) {
   if (!stream) return false;
   std::array<char, 1 << 16> block;
   while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
     text->append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text->size() > most) return true;
   }
   return stream.eof() && !stream.bad();
 }
 
 }  // namespace
 
-std::string ReadText(const std::string& path) {
+std::string ReadText(const std::string& path, std::size_t most) {
   std::string text;
   std::ifstream file;
   if (path != "-") file.open(path, std::ios::binary);
-  if (!ReadAll(path == "-" ? std::cin : file, &text)) {
+  if (!ReadAll(path == "-" ? std::cin : file, most, &text)) {
     throw Failure(ExitCode::kLocal,
                   fmt::format("cannot read {}: {}", path, std::generic_category().message(errno)));
+  }
+  if (text.size() > most) {
+    throw Failure(ExitCode::kLocal, fmt::format("{} has more than {} MiB", path, most >> 20));
   }
   return text;
 }

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "cli/base/scalar.h"
-#include "cli/base/text_file.h"
 #include "cli/input/override.h"
+#include "cli/input/yaml_load.h"
 #include "cli/input/yaml_place.h"
 #include "cli/input/yaml_reader.h"
 #include "wire/rules/field_path.h"
@@ -30,7 +30,7 @@ bool Within(std::string_view path, std::string_view whole) {
 }  // namespace
 
 ScenarioFile ScenarioFile::Open(const std::string& path, const VariableValues& variables) {
-  return {path == "-" ? "<stdin>" : path, ReadText(path), variables};
+  return {path == "-" ? "<stdin>" : path, ReadYaml(path), variables};
 }
 
 ScenarioFile::ScenarioFile(std::string name, const std::string& text,
@@ -44,7 +44,7 @@ ScenarioFile::ScenarioFile(std::string name, const std::string& text,
 }
 
 void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& variables) {
-  const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+  const std::vector<YAML::Node> documents = LoadYaml(text);
   if (documents.empty() || documents.front().IsNull()) {
     return AddAt(YAML::Mark::null_mark(), "", "is empty", "contactctl init writes an example");
   }

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "cli/base/scalar.h"
-#include "cli/base/text_file.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
+#include "cli/input/yaml_load.h"
 #include "cli/input/yaml_place.h"
 #include "cli/input/yaml_reader.h"
 
@@ -30,7 +30,7 @@ class SweepFile {
 
   v1::Sweep Read(const std::string& text) {
     try {
-      root_.reset(YAML::Load(text));
+      root_.reset(LoadFirstYaml(text));
       ReadRoot();
     } catch (const YAML::Exception& error) {
       AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
@@ -153,7 +153,7 @@ class SweepFile {
 }  // namespace
 
 v1::Sweep OpenSweep(const std::string& path, const VariableValues& variables) {
-  return ReadSweep(path, ReadText(path), variables);
+  return ReadSweep(path, ReadYaml(path), variables);
 }
 
 v1::Sweep ReadSweep(const std::string& path, const std::string& text,
@@ -163,7 +163,7 @@ v1::Sweep ReadSweep(const std::string& path, const std::string& text,
 
 bool IsSweep(const std::string& text) {
   try {
-    const YAML::Node root = YAML::Load(text);
+    const YAML::Node root = LoadFirstYaml(text);
     return root.IsMap() && (root["base"].IsDefined() || root["axes"].IsDefined());
   } catch (const YAML::Exception&) {
     return false;

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "cli/base/number.h"
-#include "cli/base/text_file.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/input/sweep_file.h"
+#include "cli/input/yaml_load.h"
 #include "cli/link/connect.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_estimate.h"
@@ -77,7 +77,7 @@ ValidFile CheckScenarioFile(const ValidateArguments& arguments, const std::strin
 }
 
 ValidFile Check(const ValidateArguments& arguments) {
-  const std::string text = ReadText(arguments.file);
+  const std::string text = ReadYaml(arguments.file);
   return IsSweep(text) ? CheckSweepFile(arguments, text) : CheckScenarioFile(arguments, text);
 }
 

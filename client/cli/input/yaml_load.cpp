@@ -1,0 +1,87 @@
+#include "cli/input/yaml_load.h"
+
+#include <yaml-cpp/eventhandler.h>
+
+#include <cstdint>
+#include <map>
+#include <sstream>
+
+#include "cli/base/text_file.h"
+
+namespace contact::cli {
+namespace {
+
+constexpr std::size_t kMostBytes = 16 << 20;
+constexpr std::int64_t kMostValues = 1'000'000;
+
+// Counts the values of a text while it is parsed, before anything is made of them.
+class ValueCounter final : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { One(mark, anchor); }
+  void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                const std::string& /*value*/) override {
+    One(mark, anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    Add(mark, values_[anchor]);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value /*style*/) override {
+    Begin(mark, anchor);
+  }
+  void OnSequenceEnd() override { End(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value /*style*/) override {
+    Begin(mark, anchor);
+  }
+  void OnMapEnd() override { End(); }
+
+ private:
+  struct Open {
+    YAML::anchor_t anchor;
+    std::int64_t before;  // Values before it.
+  };
+
+  void Add(const YAML::Mark& mark, std::int64_t values) {
+    total_ += values;
+    if (total_ > kMostValues) throw YAML::ParserException(mark, "more than a million values");
+  }
+  void One(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    Add(mark, 1);
+    if (anchor != 0) values_[anchor] = 1;
+  }
+  void Begin(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    open_.push_back({anchor, total_});
+    Add(mark, 1);
+  }
+  void End() {
+    if (open_.back().anchor != 0) values_[open_.back().anchor] = total_ - open_.back().before;
+    open_.pop_back();
+  }
+
+  std::int64_t total_ = 0;
+  std::vector<Open> open_;                         // Lists and mappings around the next value.
+  std::map<YAML::anchor_t, std::int64_t> values_;  // Of what has an anchor.
+};
+
+}  // namespace
+
+std::string ReadYaml(const std::string& path) { return ReadText(path, kMostBytes); }
+
+std::vector<YAML::Node> LoadYaml(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  ValueCounter counter;
+  while (parser.HandleNextDocument(counter)) {
+  }
+  return YAML::LoadAll(text);
+}
+
+YAML::Node LoadFirstYaml(const std::string& text) {
+  const std::vector<YAML::Node> documents = LoadYaml(text);
+  return documents.empty() ? YAML::Node() : documents.front();
+}
+
+}  // namespace contact::cli
