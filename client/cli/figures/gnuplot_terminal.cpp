@@ -18,12 +18,18 @@ constexpr double kLinesPerInch = 4.8;  // 24 lines for a single panel.
 
 }  // namespace
 
-// Between single quotes, gnuplot gives a meaning to the quote alone.
+// Between single quotes, gnuplot gives a meaning to the quote alone; and a doubled one is one only
+// after another character, so that others become apostrophes.
 std::string GnuplotString(std::string_view text) {
   std::string quoted = "'";
+  char before = '\'';
   for (const char c : text) {
-    if (c == '\'') quoted += '\'';
-    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    if (c != '\'') {
+      quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    } else {
+      quoted += before == '\'' ? "’" : "''";
+    }
+    before = c;
   }
   return quoted + "'";
 }

@@ -68,6 +68,12 @@ TEST(GnuplotScript, TextsCannotEndTheirStringOrTheirLine) {
   }
 }
 
+TEST(GnuplotScript, QuotesAreDoubledOnlyWhereGnuplotTakesThat) {
+  EXPECT_EQ(GnuplotString("Newton's"), "'Newton''s'");
+  EXPECT_EQ(GnuplotString("'Newton's"), "'’Newton''s'");
+  EXPECT_EQ(GnuplotString("a'''b"), "'a''’’b'");
+}
+
 TEST(GnuplotScript, TexCommandsInTextsAreSetAsTheyAre) {
   Figure figure = Plain();
   figure.panels[0].x_label = R"(\input{x} 5%)";
