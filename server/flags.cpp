@@ -102,8 +102,10 @@ void AddPeerLimits(CLI::App* app, Config* config, Switches* switches) {
 void AddSpaceLimits(CLI::App* app, Config* config) {
   AddNumber(app, "--max-rpc-memory-bytes", &config->rpc.max_memory_bytes, 16 << 20, 2047 << 20,
             "Bytes that connections and messages under way may take");
-  AddNumber(app, "--max-stored-bytes", &config->store.max_bytes, std::int64_t{0},
-            std::int64_t{1} << 50, "Bytes of the database; 0: what the disk has");
+  app->add_option("--max-stored-bytes", config->store.max_bytes,
+                  "Bytes of the database; 0: what the disk has")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 50))
+      ->default_str("80 % of the disk");
 }
 
 // A duration such as `10s`, `5m`, `12h`, `30d`; its default is the value that is there. Rounded up
@@ -139,6 +141,10 @@ void AddBudgets(CLI::App* app, JobOptions* jobs) {
             "Integration steps of a job, all its cells together; 0 is any");
   AddSize(app, "--max-output-bytes", &jobs->max_budget.output_bytes,
           "Bytes that a job may record, such as 2GB; 0 is any");
+  AddSize(
+      app, "--max-memory", &jobs->max_budget.memory_bytes,
+      "Memory of a worker for its run: a job that is estimated to need more is refused, and one "
+      "whose ledger needs more is ended; 0 is any");
   AddTime(app, "--step-timeout", &jobs->step_timeout,
           "A run that makes no step for this time is ended; 0 is never");
   AddNumber(app, "--max-attempts", &jobs->max_attempts, 1, 1000,

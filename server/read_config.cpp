@@ -7,8 +7,10 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -18,6 +20,9 @@
 
 namespace contact {
 namespace {
+
+// Of StoreOptions::max_bytes: no flag says it.
+constexpr std::int64_t kUnset = -1;
 
 std::filesystem::path DefaultDataDir() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/') {
@@ -62,6 +67,16 @@ bool CheckAddress(const char* flag, const std::string& listen, const char* forms
                 "use 127.0.0.1, or say --insecure-i-know");
 }
 
+// Most of the disk of a directory, which may be missing; 0: nobody knows.
+std::int64_t MostOfDisk(std::filesystem::path directory) {
+  while (!std::filesystem::exists(directory) && directory.has_relative_path()) {
+    directory = directory.parent_path();
+  }
+  std::error_code error;
+  const auto space = std::filesystem::space(directory.empty() ? "." : directory, error);
+  return error ? 0 : static_cast<std::int64_t>(space.capacity / 5 * 4);
+}
+
 // Sets what follows from several flags. Throws CLI::ValidationError for values that one flag's own
 // check cannot refuse.
 void Finish(const Switches& switches, Config* config) {
@@ -74,6 +89,7 @@ void Finish(const Switches& switches, Config* config) {
     CheckAddress("--metrics-listen", config->metrics_listen, "HOST:PORT", switches.insecure);
   }
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
+  if (config->store.max_bytes == kUnset) config->store.max_bytes = MostOfDisk(config->data_dir);
   config->rpc.reflection = loopback && !switches.no_reflection;
   config->rpc.channelz = loopback && switches.channelz;
   config->rpc.write_stall = std::chrono::milliseconds(std::llround(switches.write_stall_s * 1000));
@@ -98,12 +114,21 @@ std::vector<std::string> Arguments(const CLI::App& app, int argc, const char* co
   return arguments;
 }
 
-// The settings before any flag is read.
+// The settings before any flag is read. No job takes the server for itself, or its memory or disk,
+// unless a setting says so.
 Config Defaults() {
   Config config;
+  config.jobs.max_budget = {.wall_time = std::chrono::hours(1),
+                            .steps = 1'000'000'000,
+                            .output_bytes = 4'000'000'000,
+                            .memory_bytes = std::int64_t{2} << 30};
   config.data_dir = DefaultDataDir();
   config.jobs.workers = DefaultWorkers();
   config.jobs.checkpoint_interval = std::chrono::seconds(1);
+  config.store.max_bytes = kUnset;
+  config.jobs.max_watchers = 1000;
+  config.rpc.calls.max_watchers_per_peer = 100;
+  config.rpc.max_message_bytes = 2 << 20;
   return config;
 }
 

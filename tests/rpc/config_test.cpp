@@ -75,6 +75,20 @@ TEST_F(ConfigTest, DefaultsServeThisMachineOnly) {
   EXPECT_FALSE(config.rpc.channelz);
 }
 
+TEST_F(ConfigTest, DefaultsLetNoJobTakeTheServerForItself) {
+  const RunBudget& budget = Good({}).jobs.max_budget;
+  EXPECT_EQ(budget.wall_time, std::chrono::hours(1));
+  EXPECT_EQ(budget.steps, 1'000'000'000);
+  EXPECT_EQ(budget.output_bytes, 4'000'000'000);
+  EXPECT_EQ(budget.memory_bytes, std::int64_t{2} << 30);
+  EXPECT_GT(Good({}).store.max_bytes, 1'000'000) << "most of the disk";
+  EXPECT_EQ(Good({"--max-stored-bytes=0"}).store.max_bytes, 0);
+  const RunBudget any =
+      Good({"--max-wall-time=0", "--max-steps=0", "--max-output-bytes=0", "--max-memory=0"})
+          .jobs.max_budget;
+  EXPECT_EQ(any.wall_time.count() + any.steps + any.output_bytes + any.memory_bytes, 0);
+}
+
 TEST_F(ConfigTest, EveryFlagArrives) {
   const Config config = Good({"--listen",    "[::1]:0",
                               "--workers=3", "--max-message-bytes",

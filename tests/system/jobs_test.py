@@ -181,7 +181,7 @@ class LifeTest(ServerTest):
     def test_server_info_tells_limits(self):
         info = self.server.stub.GetServerInfo(job_service_pb2.GetServerInfoRequest())
         self.assertEqual(info.workers, 1)
-        self.assertEqual(info.limits.max_message_bytes, 8 << 20)
+        self.assertEqual(info.limits.max_message_bytes, 2 << 20)
         self.assertGreater(info.limits.max_bodies, 0)
         self.assertIn(info.version, self.server.greeting)
         self.assertTrue(info.instance_id)

@@ -9,7 +9,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SERVER = ROOT / "server"
 README = (SERVER / "README.md").read_text("utf-8")
-UNITS = {"": 1, "s": 1, "MiB": 2**20, "ms": 1e-3}
+UNITS = {"": 1, "s": 1, "h": 3600, "MiB": 2**20, "GiB": 2**30, "GB": 1e9, "ms": 1e-3}
 
 
 def rows(title):
@@ -29,7 +29,7 @@ def defaults_of_help():
     """{flag: default} of `contactd --help`."""
     text = subprocess.run([os.environ["CONTACTD"], "--help"], check=True, text=True,
                           stdout=subprocess.PIPE).stdout
-    found = re.findall(r"(--[a-z-]+) [^\n]*=([\d.e+]+)s? \(Env", text)
+    found = re.findall(r"(--[a-z-]+) [^\n]*=([\d.e+]+)(?:s| % of the disk)? \(Env", text)
     return {flag: float(value) for flag, value in found}
 
 
@@ -61,7 +61,13 @@ class ReadmeTest(unittest.TestCase):
         guard = (SERVER / "rpc/call/call_guard.cpp").read_text("utf-8")
         handshake = re.search(r"handshake_timeout\{([\d']+)\}", server).group(1)
         deadline = re.search(r"seconds kDefaultDeadline\{(\d+)\}", guard).group(1)
+        budget = (SERVER / "rpc/call/request_budget.cpp").read_text("utf-8")
+        fields = re.search(r"kMostFields = 1 << (\d+)", budget).group(1)
+        service = (SERVER / "rpc/job_service.h").read_text("utf-8")
+        requests = re.search(r"requests_\{(\d+) << 20\}", service).group(1)
         self.assertEqual(told, {
+            "fields in a CreateJob request": 2.0 ** int(fields),
+            "memory of CreateJob requests that are not answered yet": int(requests) * 2**20,
             "time until a connection begins HTTP/2": float(handshake.replace("'", "")) / 1000,
             "time in the queue of a unary call without deadline": float(deadline)})
 
