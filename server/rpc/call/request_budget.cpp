@@ -38,6 +38,7 @@ bool Count(CodedInputStream* in, const Descriptor& type, int depth, std::int64_t
     }
     std::uint32_t length = 0;
     if (!in->ReadVarint32(&length)) return false;
+    if (length > static_cast<std::uint32_t>(in->BytesUntilLimit())) return false;
     const auto limit = in->PushLimit(static_cast<int>(length));
     if (!Count(in, *inner, depth + 1, most, fields)) return false;
     if (*fields > most) return true;
