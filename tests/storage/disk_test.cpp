@@ -80,7 +80,8 @@ TEST_F(StoreTest, FullDiskTakesDeletionsByItsReserveAndNothingElse) {
   disk.FullWhile([&] { return std::filesystem::file_size(reserve) > 0; });
   EXPECT_TRUE(absl::IsResourceExhausted(Append("jobs/b", {LogEvent("x")}).status()));
   EXPECT_TRUE(Delete("jobs/a").ok());
-  EXPECT_FALSE(Read("jobs/a").ok());
+  // Its events go after it, some between two calls.
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(Read("jobs/a").ok());
   EXPECT_EQ(std::filesystem::file_size(reserve), 3U << 20);
   EXPECT_TRUE(absl::IsResourceExhausted(Append("jobs/b", {LogEvent("x")}).status()));
   store_.reset();
