@@ -57,8 +57,8 @@ void RetentionClock::Tell(std::chrono::duration<double> ahead) {
   if (!std::exchange(told_, far) && far) {
     spdlog::warn(
         "the clock is {:.1f} h ahead of the time that has passed, and no job grows old by that; if "
-        "it is right, remove {} and start again",
-        ahead.count() / 3600, file_.string());
+        "it is right, remove the file clock of the data directory and start again",
+        ahead.count() / 3600);
   }
 }
 
