@@ -73,11 +73,12 @@ void ChoosePlugins(const GrpcServerOptions& options, grpc::ServerBuilder* builde
   if (!options.channelz) builder->SetOption(std::make_unique<Without>("channelz_service"));
 }
 
-// Counts all calls in `metrics`, and the open streams of each peer in `streams`.
+// Counts all calls in `metrics`, and the open streams of each peer in `streams`; tells `floods`.
 void Monitor(std::shared_ptr<RpcMetrics> metrics, std::shared_ptr<PeerCounts> streams,
-             grpc::ServerBuilder* builder) {
+             std::shared_ptr<FloodGuard> floods, grpc::ServerBuilder* builder) {
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> monitors;
-  monitors.push_back(std::make_unique<CallMonitor>(std::move(metrics), std::move(streams)));
+  monitors.push_back(
+      std::make_unique<CallMonitor>(std::move(metrics), std::move(streams), std::move(floods)));
   builder->experimental().SetInterceptorCreators(std::move(monitors));
 }
 
@@ -130,7 +131,7 @@ std::optional<int> GrpcServer::Start(const std::string& address) {
   LimitMemory(options_, &builder);
   TimeConnections(options_, &builder);
   ChoosePlugins(options_, &builder);
-  Monitor(metrics_, streams_, &builder);
+  Monitor(metrics_, streams_, floods_, &builder);
   const auto port = Listen(OpenListener(address), builder);
   if (!port) return std::nullopt;
   server_->GetHealthCheckService()->SetServingStatus("contact.v1.JobService", true);
@@ -153,6 +154,7 @@ std::optional<int> GrpcServer::Listen(Listener listener, grpc::ServerBuilder& bu
         connection.fd = fd;
         grpc->HandleNewConnection(&connection);
       });
+  floods_->SetCut([this](const std::string& uri) { acceptor_->Cut(uri); });
   return port;
 }
 
@@ -175,6 +177,7 @@ void GrpcServer::Shutdown(milliseconds grace) {
     const ShutdownTimer timer(grace + 500ms, cut, grace + 2s, give_up);
     server_->Shutdown(std::chrono::system_clock::now() + grace);
     server_.reset();
+    floods_->SetCut(nullptr);
     acceptor_.reset();
   }
   loop_->Stop();

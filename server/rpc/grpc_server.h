@@ -16,6 +16,7 @@
 #include "rpc/call_starter.h"
 #include "rpc/job_service.h"
 #include "rpc/net/connection_acceptor.h"
+#include "rpc/net/flood_guard.h"
 #include "rpc/stream/stream_loop.h"
 
 namespace contact {
@@ -86,6 +87,8 @@ class GrpcServer {
   const std::shared_ptr<StreamLoop> loop_;
   /// Open streams of each peer.
   const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
+  /// Cuts connections by acceptor_.
+  const std::shared_ptr<FloodGuard> floods_ = std::make_shared<FloodGuard>();
   const std::shared_ptr<RpcMetrics> metrics_ = std::make_shared<RpcMetrics>();
   CallGuard guard_;
   /// Starts the calls of both services.

@@ -179,6 +179,13 @@ class FrameFloodTest(HonestTest):
         request = job_service_pb2.WatchJobRequest(name=name).SerializeToString()
         self.flood("RST_STREAM of watches", self.resets(WATCH, request), MOST_PER_BATCH)
 
+    def test_calls_whose_answers_are_not_read(self):
+        """No setting of the server is confirmed, so gRPC lets streams be opened without end."""
+        def frames(number):
+            return b"".join(http2.headers(stream, INFO) + http2.message(stream)
+                            for stream in range(200 * number + 1, 200 * number + 201, 2))
+        self.flood("unread calls", frames)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -65,7 +65,12 @@ class ReadmeTest(unittest.TestCase):
         fields = re.search(r"kMostFields = 1 << (\d+)", budget).group(1)
         service = (SERVER / "rpc/job_service.h").read_text("utf-8")
         requests = re.search(r"requests_\{(\d+) << 20\}", service).group(1)
+        floods = (SERVER / "rpc/net/flood_guard.cpp").read_text("utf-8")
+        most_open = re.search(r"kMostOpen = (\d+)", floods).group(1)
+        taken_back = re.search(r"kMostTakenBack = (\d+)", floods).group(1)
         self.assertEqual(told, {
+            "open calls of a connection": float(most_open),
+            "calls that a connection takes back in a second": float(taken_back),
             "fields in a CreateJob request": 2.0 ** int(fields),
             "memory of CreateJob requests that are not answered yet": int(requests) * 2**20,
             "time until a connection begins HTTP/2": float(handshake.replace("'", "")) / 1000,

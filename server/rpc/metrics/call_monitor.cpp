@@ -16,8 +16,15 @@ using std::chrono::steady_clock;
 // Interceptor of one call; lives as long as the call.
 class Call final : public grpc::experimental::Interceptor {
  public:
-  Call(const ServerRpcInfo& info, std::shared_ptr<RpcMetrics> metrics, PeerCounts::Lease stream)
-      : method_(info.method()), metrics_(std::move(metrics)), stream_(std::move(stream)) {
+  Call(ServerRpcInfo& info, std::shared_ptr<RpcMetrics> metrics, PeerCounts::Lease stream,
+       std::shared_ptr<FloodGuard> floods)
+      : info_(info),
+        uri_(info.server_context()->peer()),
+        method_(info.method()),
+        metrics_(std::move(metrics)),
+        stream_(std::move(stream)),
+        floods_(std::move(floods)),
+        open_(floods_->Enter(uri_)) {
     metrics_->Began(method_);
   }
   ~Call() override {
@@ -33,13 +40,21 @@ class Call final : public grpc::experimental::Interceptor {
     if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
       code_ = methods->GetSendStatus().error_code();
     }
+    if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_CLOSE) &&
+        info_.server_context()->IsCancelled()) {
+      floods_->TakenBack(uri_, steady_clock::now());
+    }
     methods->Proceed();
   }
 
  private:
+  ServerRpcInfo& info_;    // gRPC's, which owns this.
+  const std::string uri_;  // Of the connection.
   const std::string method_;
   const std::shared_ptr<RpcMetrics> metrics_;
   const PeerCounts::Lease stream_;  // Null for a call that is no stream.
+  const std::shared_ptr<FloodGuard> floods_;
+  const FloodGuard::Lease open_;
   const steady_clock::time_point begin_ = steady_clock::now();
   int code_ = grpc::StatusCode::CANCELLED;  // For calls that end without a status.
 };
@@ -49,7 +64,8 @@ class Call final : public grpc::experimental::Interceptor {
 grpc::experimental::Interceptor* CallMonitor::CreateServerInterceptor(ServerRpcInfo* info) {
   const bool stream = info->type() == ServerRpcInfo::Type::SERVER_STREAMING;
   return new Call(*info, metrics_,
-                  stream ? streams_->Enter(PeerOf(info->server_context()->peer())) : nullptr);
+                  stream ? streams_->Enter(PeerOf(info->server_context()->peer())) : nullptr,
+                  floods_);
 }
 
 }  // namespace contact

@@ -1,6 +1,7 @@
 #include "rpc/net/connection_acceptor.h"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -40,6 +41,17 @@ std::string AddressOf(const sockaddr_storage& address) {
   if (address.ss_family == AF_INET6) number = &v6.sin6_addr;
   inet_ntop(address.ss_family, number, text.data(), text.size());
   return text.data();
+}
+
+// The connection as gRPC calls it: `ipv4:127.0.0.1:5000`, `ipv6:%5B::1%5D:5000`.
+std::string UriOf(const sockaddr_storage& address) {
+  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
+  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
+  if (address.ss_family == AF_INET) {
+    return fmt::format("ipv4:{}:{}", AddressOf(address), ntohs(v4.sin_port));
+  }
+  if (address.ss_family != AF_INET6) return "unix:";
+  return fmt::format("ipv6:%5B{}%5D:{}", AddressOf(address), ntohs(v6.sin6_port));
 }
 
 // Sets TCP_NODELAY, as gRPC's own listener does, and a limit on the time that sent bytes may stay
@@ -104,6 +116,11 @@ void ConnectionAcceptor::Cut() {
   connections_.Cut();
 }
 
+void ConnectionAcceptor::Cut(const std::string& uri) {
+  const MutexLock lock(mutex_);
+  connections_.Cut(uri);
+}
+
 std::size_t ConnectionAcceptor::open() const {
   const MutexLock lock(mutex_);
   connections_.ForgetClosed();
@@ -151,7 +168,7 @@ bool ConnectionAcceptor::Accept(int listener) {
   FileDescriptor connection(accept4(listener, reinterpret_cast<sockaddr*>(&address), &size,
                                     SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!connection.valid()) return !IsShortage(errno);
-  if (Admit(connection.get(), AddressOf(address))) {
+  if (Admit(connection.get(), AddressOf(address), UriOf(address))) {
     Prepare(connection.get(), limits_.stall);
     hand_over_(listener, connection.Release());
   } else {
@@ -160,14 +177,14 @@ bool ConnectionAcceptor::Accept(int listener) {
   return true;
 }
 
-bool ConnectionAcceptor::Admit(int fd, const std::string& peer) {
+bool ConnectionAcceptor::Admit(int fd, const std::string& peer, const std::string& uri) {
   const MutexLock lock(mutex_);
   if (Full(peer) && steady_clock::now() - forgot_ >= kForgetInterval) {
     connections_.ForgetClosed();
     forgot_ = steady_clock::now();
   }
   if (Full(peer)) return false;
-  connections_.Add(fd, peer);
+  connections_.Add(fd, peer, uri);
   return true;
 }
 

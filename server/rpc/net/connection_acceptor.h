@@ -51,6 +51,8 @@ class ConnectionAcceptor {
   /// Cuts the connections that are open. gRPC closes none with a write under way, and a write to a
   /// peer that reads nothing never ends.
   void Cut();
+  /// Cuts the connection with this `ServerContext::peer()`, if it is open.
+  void Cut(const std::string& uri);
 
   /// Number of connections that are open now.
   std::size_t open() const;
@@ -70,7 +72,7 @@ class ConnectionAcceptor {
   /// the system's queue.
   bool Accept(int listener);
   /// Adds the connection to connections_. False: there are too many.
-  bool Admit(int fd, const std::string& peer);
+  bool Admit(int fd, const std::string& peer, const std::string& uri);
   /// True if no more connection of the peer may be open.
   bool Full(const std::string& peer) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Waits for `time`. True: Close was called.

@@ -16,9 +16,10 @@ ino_t InodeOf(int fd) {
 
 }  // namespace
 
-void OpenConnections::Add(int fd, const std::string& peer) {
+void OpenConnections::Add(int fd, const std::string& peer, const std::string& uri) {
   // If gRPC has closed a connection, the system reuses its descriptor.
-  sockets_.insert_or_assign(fd, Socket{.inode = InodeOf(fd), .lease = peers_->Enter(peer)});
+  sockets_.insert_or_assign(fd,
+                            Socket{.inode = InodeOf(fd), .lease = peers_->Enter(peer), .uri = uri});
 }
 
 void OpenConnections::ForgetClosed() {
@@ -29,6 +30,12 @@ void OpenConnections::ForgetClosed() {
 void OpenConnections::Cut() {
   ForgetClosed();
   for (const auto& [fd, socket] : sockets_) shutdown(fd, SHUT_RDWR);
+}
+
+void OpenConnections::Cut(const std::string& uri) {
+  for (const auto& [fd, socket] : sockets_) {
+    if (socket.uri == uri && InodeOf(fd) == socket.inode) shutdown(fd, SHUT_RDWR);
+  }
 }
 
 void OpenConnections::CutStalled(Time now, std::chrono::milliseconds stall) {

@@ -19,14 +19,17 @@ class OpenConnections {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Adds the connection `fd` of `peer`. An entry of the same descriptor is stale and is replaced.
-  void Add(int fd, const std::string& peer);
+  /// Adds the connection `fd` of `peer`, which gRPC calls `uri`. An entry of the same descriptor is
+  /// stale and is replaced.
+  void Add(int fd, const std::string& peer, const std::string& uri = "");
 
   /// Forgets the connections that gRPC has closed. Costs one system call for each entry.
   void ForgetClosed();
 
   /// Shuts down the connections that are open, as if their peers had left; gRPC then closes them.
   void Cut();
+  /// The one with this uri.
+  void Cut(const std::string& uri);
 
   /// Shuts down the connections whose peers have taken none of the bytes that wait for them for
   /// `stall`, as far as earlier calls have seen it. To be called several times within `stall`.
@@ -43,6 +46,7 @@ class OpenConnections {
     ino_t inode;
     /// Counts the connection of the peer.
     PeerCounts::Lease lease;
+    std::string uri;
     /// Bytes in the system's send queue when it was last looked at.
     int waiting = 0;
     /// When `waiting` was first seen with this value.
