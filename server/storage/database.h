@@ -11,8 +11,8 @@
 #include <string>
 #include <type_traits>
 
+#include "base/reserve.h"
 #include "storage/data_directory.h"
-#include "storage/reserve.h"
 
 namespace contact {
 

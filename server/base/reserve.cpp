@@ -1,4 +1,4 @@
-#include "storage/reserve.h"
+#include "base/reserve.h"
 
 #include <fcntl.h>
 #include <unistd.h>
