@@ -20,12 +20,12 @@ namespace contact {
 namespace {
 
 // The violations of a spec in the field `spec` of the job, or else that its run would take more
-// memory than the server gives it.
+// memory than the server gives it. A ledger that grows too large ends the run later.
 std::vector<Violation> Complete(std::vector<Violation> violations, const std::string& spec,
-                                const std::function<v1::Estimate()>& estimate, std::int64_t most) {
+                                const std::function<std::int64_t()>& estimate, std::int64_t most) {
   for (Violation& violation : violations) violation.field = spec + '.' + violation.field;
   if (!violations.empty() || most == 0) return violations;
-  const std::int64_t memory = estimate().memory_bytes();
+  const std::int64_t memory = estimate();
   if (memory <= most) return {};
   return {{spec,
            fmt::format("would take about {} MB of memory; must take at most {} MB, the server's "
@@ -40,13 +40,13 @@ std::vector<Violation> CheckSpec(const v1::Job& job, const JobOptions& options) 
   if (job.has_sweep()) {
     DecodedSweep plan = DecodeSweep(job.sweep(), options.scenario_limits);
     return Complete(
-        std::move(plan.violations), "sweep", [&] { return EstimateSweep(job.sweep(), plan); },
+        std::move(plan.violations), "sweep", [&] { return FixedMemory(job.sweep(), plan); },
         memory);
   }
   if (!job.has_scenario()) return {};
   DecodedScenario decoded = DecodeScenario(job.scenario(), options.scenario_limits);
   return Complete(
-      std::move(decoded.violations), "scenario", [&] { return EstimateRun(decoded.scenario); },
+      std::move(decoded.violations), "scenario", [&] { return FixedMemory(decoded.scenario); },
       memory);
 }
 

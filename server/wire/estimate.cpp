@@ -37,6 +37,15 @@ v1::Estimate Encode(const RunEstimate& run) {
 
 v1::Estimate EstimateRun(const Scenario& scenario) { return Encode(EstimateRunOf(scenario)); }
 
+std::int64_t FixedMemory(const Scenario& scenario) {
+  return Whole(EstimateRunOf(scenario).fixed_memory);
+}
+
+std::int64_t FixedMemory(const v1::Sweep& sweep, const DecodedSweep& plan) {
+  const RunEstimate one = EstimateRunOf(plan.first);
+  return Whole(one.fixed_memory + (sweep.keep_trajectories_size() > 0 ? one.sample_memory : 0));
+}
+
 v1::Estimate EstimateSweep(const v1::Sweep& sweep, const DecodedSweep& plan) {
   constexpr double kSweepBytes = 600;  // States, attempt and progress of the job.
   constexpr double kCellBytes = 60;    // The event of a cell, without its numbers.

@@ -161,26 +161,28 @@ double SampleBytes(const Scenario& scenario, double samples, double column_bytes
          (samples * sizeof(double) + std::ceil(samples / ChunkRows(scenario)) * column_bytes);
 }
 
+double LedgerMemory(const std::vector<Cycles>& cycles) {
+  double bytes = 0;
+  for (const Cycles& c : cycles) bytes += c.count * kCycleBytes;
+  return bytes;
+}
+
 double LedgerBytes(const std::vector<Cycles>& cycles) {
   double bytes = kLogBytes;
   for (const Cycles& c : cycles) bytes += c.count * (kCycleBytes + c.passes * kUnknownBytes);
   return bytes;
 }
 
-// The slopes of a step with their sensitivities to each unknown μ, chunks of samples, the ledger.
+// The slopes of a step with their sensitivities to each unknown μ, and chunks of samples.
 double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles, double samples) {
   double unknowns = 0;
-  double ledger = 0;
-  for (const Cycles& c : cycles) {
-    if (c.passes > 1) unknowns += c.count;
-    ledger += c.count * kCycleBytes;
-  }
+  for (const Cycles& c : cycles) unknowns += c.passes > 1 ? c.count : 0;
   const double state = 2 * static_cast<double>(scenario.bodies.size()) +
                        5 * static_cast<double>(scenario.contacts.size());
   const double columns = std::min<double>(unknowns, MostWindowCycles(scenario.contacts.size()));
   const double pending = std::min(samples, kChunksAtOnce * ChunkRows(scenario));
   return sizeof(double) * kStages * state * (1 + columns) +
-         SampleBytes(scenario, pending, kColumnMemory) + ledger;
+         SampleBytes(scenario, pending, kColumnMemory);
 }
 
 double SolveSeconds(const Scenario& scenario, double steps) {
@@ -207,7 +209,8 @@ RunEstimate EstimateRunOf(const Scenario& scenario) {
   estimate.sample_bytes = SampleBytes(scenario, estimate.samples, kColumnBytes);
   estimate.sample_memory = SampleBytes(scenario, estimate.samples, kColumnMemory);
   estimate.ledger_bytes = LedgerBytes(cycles);
-  estimate.memory_bytes = Memory(scenario, cycles, estimate.samples);
+  estimate.fixed_memory = Memory(scenario, cycles, estimate.samples);
+  estimate.memory_bytes = estimate.fixed_memory + LedgerMemory(cycles);
   estimate.sample_seconds = kValueSeconds * estimate.samples * Columns(scenario);
   if (ABodyTouchesTwoOthers(scenario)) return estimate;
   estimate.steps = Steps(scenario, cycles);

@@ -22,6 +22,8 @@ struct RunEstimate {
   double sample_memory = 0;
   /// Size of cycles, iterations and states of the job as events [byte].
   double ledger_bytes = 0;
+  /// Memory of the solver and its chunks of samples, however long the run is [byte].
+  double fixed_memory = 0;
   /// Largest memory of the solver, its chunks of samples and the ledger [byte].
   double memory_bytes = 0;
   /// Time to interpolate, encode and store the samples [s].
