@@ -1,6 +1,7 @@
 #include "rpc/grpc_server.h"
 
 #include <google/protobuf/message.h>
+#include <grpc/grpc.h>
 #include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -120,6 +121,9 @@ GrpcServer::GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options
 GrpcServer::~GrpcServer() { Shutdown(1s); }
 
 std::optional<int> GrpcServer::Start(const std::string& address) {
+  // Never taken back: the last grpc_shutdown waits 10 s for connections of clients that read
+  // nothing.
+  grpc_init();
   // gRPC answers health checks without a descriptor; this one lets reflection describe them.
   google::protobuf::LinkMessageReflection<grpc::health::v1::HealthCheckRequest>();
   grpc::EnableDefaultHealthCheckService(true);
