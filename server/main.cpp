@@ -16,10 +16,10 @@
 #include "base/ids.h"
 #include "base/replace_file.h"
 #include "jobs/job_manager.h"
+#include "listeners.h"
 #include "log.h"
 #include "read_config.h"
 #include "rpc/grpc_log.h"
-#include "rpc/grpc_server.h"
 #include "rpc/metrics/metrics_server.h"
 #include "storage/fsck.h"
 #include "storage/store.h"
@@ -116,18 +116,18 @@ std::int64_t StoredBytes(const std::filesystem::path& data_dir) {
 }
 
 MetricsSources Sources(const Config& config, const StoreOptions& store, const JobManager& jobs,
-                       const GrpcServer& server) {
-  const auto now = [&config, &jobs, &server] {
+                       const Listeners& listeners) {
+  const auto take = [&config, &jobs, &listeners] {
     const v1::ServerInfo info = jobs.Info();
-    return MetricsSources::Now{.workers = info.workers(),
-                               .queued_jobs = info.queued_jobs(),
-                               .running_jobs = info.running_jobs(),
-                               .watchers = server.watchers(),
-                               .connections = server.connections(),
-                               .refused_connections = server.refused_connections(),
-                               .stored_bytes = StoredBytes(config.data_dir)};
+    MetricsSources::Now now{.workers = info.workers(),
+                            .queued_jobs = info.queued_jobs(),
+                            .running_jobs = info.running_jobs(),
+                            .stored_bytes = StoredBytes(config.data_dir)};
+    listeners.AddTo(&now);
+    return now;
   };
-  return {now, config.jobs.metrics, store.metrics, server.metrics(), server.stream_metrics()};
+  return {take, config.jobs.metrics, store.metrics, listeners.metrics(),
+          listeners.stream_metrics()};
 }
 
 // Serves the metrics if --metrics-listen is given. False: the address cannot be had.
@@ -151,15 +151,17 @@ int Serve(const Config& config, const sigset_t& signals) {
   const auto store = Store::Open(config.data_dir, options);
   if (!store.ok()) return Refuse(store.status());
   JobManager jobs(**store, SystemClock(), RandomIds(), config.jobs);
-  GrpcServer server(jobs, **store, config.rpc, Identity(config));
-  const auto port = server.Start(config.listen);
+  Listeners listeners(jobs, **store, config, Identity(config));
   std::unique_ptr<MetricsServer> metrics;
   int code = kExitHeld;
-  if (!port) {
-    fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", config.listen);
-  } else if (!ServeMetrics(config, Sources(config, options, jobs, server), &metrics)) {
+  if (const std::string wrong = listeners.Prepare(); !wrong.empty()) {
+    fmt::print(stderr, "contactd: {}\n", wrong);
+    code = kExitUsage;
+  } else if (const std::string taken = listeners.Start(); !taken.empty()) {
+    fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", taken);
+  } else if (!ServeMetrics(config, Sources(config, options, jobs, listeners), &metrics)) {
     code = kExitHeld;
-  } else if (!Announce(config, *port)) {
+  } else if (!Announce(config, listeners.port())) {
     code = kExitUsage;
   } else {
     spdlog::info("{}: shutting down", strsignal(WaitFor(signals)));
@@ -167,7 +169,7 @@ int Serve(const Config& config, const sigset_t& signals) {
   }
   metrics.reset();
   jobs.creator().Drain();
-  server.Shutdown(kGrace);  // From here on no call asks anything of the manager.
+  listeners.Shutdown(kGrace);  // From here on no call asks anything of the manager.
   jobs.Stop();
   return code;
 }

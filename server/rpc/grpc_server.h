@@ -39,9 +39,19 @@ struct GrpcServerOptions {
   bool reflection = true;
   /// True: the server answers which connections there are, and what went over them.
   bool channelz = false;
+  /// Who comes in.
+  Door door = Door();
+  /// How connections are protected; null: not at all.
+  std::shared_ptr<grpc::ServerCredentials> credentials = {};
+  /// True: the server has AdminService.
+  bool admin = true;
+  /// Where calls are counted.
+  std::shared_ptr<RpcMetrics> metrics = std::make_shared<RpcMetrics>();
+  /// Where changes and refused calls are written; null: nowhere.
+  std::shared_ptr<AuditLog> audit = {};
 };
 
-/// The gRPC server: its settings, its services, its end. Plaintext, so for loopback only.
+/// The gRPC server of one listener: its settings, its services, its end.
 class GrpcServer {
  public:
   /// `identity`: see JobService. The manager, its store and the clock outlive the server.
@@ -86,7 +96,7 @@ class GrpcServer {
   const std::shared_ptr<StreamLoop> loop_;
   /// Open streams of each peer.
   const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
-  const std::shared_ptr<RpcMetrics> metrics_ = std::make_shared<RpcMetrics>();
+  const std::shared_ptr<RpcMetrics> metrics_;
   CallGuard guard_;
   /// Starts the calls of both services.
   CallStarter calls_;

@@ -43,6 +43,10 @@ constexpr std::array kReasons = std::to_array<ReasonInfo>({
      "the server is shutting down"},
     {Reason::kDeadlineExceeded, "DEADLINE_EXCEEDED", kDeadlineExceeded, kNever,
      "the deadline of the call passed before its turn came"},
+    {Reason::kUnauthenticated, "UNAUTHENTICATED", kUnauthenticated, kNever, ""},
+    {Reason::kPermissionDenied, "PERMISSION_DENIED", kPermissionDenied, kNever, ""},
+    {Reason::kAuditFailed, "AUDIT_FAILED", kUnavailable, kNever,
+     "the call cannot be written to the audit log"},
 });
 
 constexpr bool StandInOrder(std::span<const ReasonInfo> rows) {
@@ -120,6 +124,19 @@ Error Unreadable(const std::string& what) {
 Error UidMismatch(const std::string& name, const std::string& uid) {
   Error error = JobError(Reason::kUidMismatch, name, "is another job than the one expected");
   error.metadata["uid"] = uid;
+  return error;
+}
+
+Error Denied(const std::string& permission, const std::string& message) {
+  Error error = MakeError(Reason::kPermissionDenied, message);
+  error.metadata["permission"] = permission;
+  return error;
+}
+
+Error NotYours(const std::string& name, const std::string& owner) {
+  Error error = Denied("operator",
+                       fmt::format("{} belongs to {}; that needs the role operator", name, owner));
+  error.metadata["name"] = name;
   return error;
 }
 

@@ -30,7 +30,7 @@ class JobsCursor final : public StreamSource<v1::WatchJobsResponse> {
 
   /// What the reader wants.
   struct Rules {
-    /// The jobs to follow. Its `before` and `limit` are set by the cursor.
+    /// The jobs to follow: those of a tenant. `before` and `limit` are set by the cursor.
     JobQuery filter;
     /// Longest time without a message.
     std::chrono::milliseconds bookmark_interval{0};
