@@ -44,7 +44,7 @@ template <class Request, class Response>
 Response Ask(const Settings& settings,
              grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&, Response*),
              const Request& request) {
-  Client client(settings.server, kPatience);
+  Client client(settings.server, kPatience, CredentialsOf(settings));
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kPatience);
   Response response;
@@ -58,7 +58,7 @@ Response AskOfJob(const Settings& settings, const TypedWords& typed,
                   grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&,
                                                        Response*)) {
   if (typed.positionals.empty()) return {};
-  Client client(settings.server, kPatience);
+  Client client(settings.server, kPatience, CredentialsOf(settings));
   Request request;
   request.set_name(FindJob(client, typed.positionals.front()));
   return Ask(settings, method, request);

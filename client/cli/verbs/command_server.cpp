@@ -42,12 +42,14 @@ ExitCode Status(const Settings& settings) {
   fmt::print(
       "contactd {}{} at {}\n"
       "started   {} UTC, instance {}\n"
+      "you       {} of {}, {}\n"
       "workers   {}\n"
       "jobs      {} running, {} queued\n"
       "limits    {} bodies, {} contacts, {} samples, {} cells, {} bytes a request, {} queued "
       "jobs, {} watchers\n",
       info.version(), info.revision().empty() ? "" : fmt::format(" ({})", info.revision()),
-      client.server(), Instant(info.start_time()), info.instance_id(), info.workers(),
+      client.server(), Instant(info.start_time()), info.instance_id(), info.principal().name(),
+      info.principal().tenant(), fmt::join(info.principal().roles(), ","), info.workers(),
       info.running_jobs(), info.queued_jobs(), limits.max_bodies(), limits.max_contacts(),
       limits.max_samples(), limits.max_cells(), limits.max_message_bytes(),
       limits.max_queued_jobs(), limits.max_watchers());
@@ -106,6 +108,8 @@ void AddServer(CommandLine& line, CLI::App& server) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   line.SetAction(*metrics, address, Metrics);
+  AddToken(line, server);
+  AddAudit(line, server);
 }
 
 }  // namespace contact::cli
