@@ -22,7 +22,7 @@ ORDER = {
     "client/cli/text": [".", "comparison", "sweep"],
     "client/cli/figures": ["form", ".", "run", "heat_map"],
     "client/cli/help": ["contract", "."],
-    "client/cli/verbs": ["job", "laws", "sweep", "."],
+    "client/cli/verbs": ["identity", "job", "laws", "sweep", "."],
 }
 # What a folder must not include whatever the order says: folder, pattern, reason.
 REFUSED = [

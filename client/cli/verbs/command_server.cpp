@@ -12,6 +12,7 @@
 #include "cli/link/http_get.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
+#include "cli/verbs/identity/identity_commands.h"
 #include "cli/verbs/verbs.h"
 #include "version.h"
 

@@ -38,10 +38,6 @@ bool NeedsSettings(const CLI::App& app);
 #include "cli/verbs/verbs.def"
 #undef VERB
 
-/// Adds `token` and `audit` to `server`.
-void AddToken(CommandLine& line, CLI::App& server);
-void AddAudit(CommandLine& line, CLI::App& server);
-
 /// Adds `heatmap` and `cell` to `sweep`.
 void AddSweepCell(CommandLine& line, CLI::App& sweep);
 

@@ -1,3 +1,5 @@
+#include "cli/verbs/identity/identity_commands.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -15,7 +17,6 @@
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/verbs.h"
 #include "identity/audit_log.h"
 #include "identity/secret_file.h"
 #include "identity/token_table.h"
