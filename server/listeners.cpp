@@ -79,7 +79,7 @@ void Listeners::AddTo(MetricsSources::Now* now) const {
   now->tls_failures = files_->tls_failures();
   now->identity_failures = files_->failures();
   if (const auto end = files_->not_after()) {
-    const std::chrono::duration<double> left = *end - std::chrono::system_clock::now();
+    const std::chrono::duration<double> left = *end - SystemClock().Now();
     now->tls_seconds_left = left.count();
   }
 }

@@ -29,7 +29,7 @@ std::variant<T, std::string> Load(const fs::path& file, Read read) {
 
 }  // namespace
 
-IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed)
+IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed, const Clock& clock)
     : changed_(std::move(changed)) {
   if (!paths.tokens.empty()) {
     tokens_.emplace(std::vector{paths.tokens},
@@ -42,12 +42,13 @@ IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed)
   const TlsPaths& tls = paths.tls;
   if (tls.certificate.empty()) return;
   tls_.emplace(std::vector{tls.certificate, tls.key, tls.client_ca},
-               [tls] { return LoadTls(tls, std::chrono::system_clock::now()); });
+               [tls, &clock] { return LoadTls(tls, clock.Now()); });
 }
 
 std::variant<std::shared_ptr<IdentityFiles>, std::string> IdentityFiles::Open(
-    const IdentityPaths& paths, TlsChanged changed, std::chrono::milliseconds period) {
-  std::shared_ptr<IdentityFiles> files(new IdentityFiles(paths, std::move(changed)));
+    const IdentityPaths& paths, TlsChanged changed, const Clock& clock,
+    std::chrono::milliseconds period) {
+  std::shared_ptr<IdentityFiles> files(new IdentityFiles(paths, std::move(changed), clock));
   if (const std::string mistakes = files->Look(); !mistakes.empty()) return mistakes;
   files->thread_ = std::jthread(
       [self = files.get(), period](const std::stop_token& stop) { self->Follow(stop, period); });

@@ -10,6 +10,7 @@
 #include <thread>
 #include <variant>
 
+#include "base/clock.h"
 #include "identity/door.h"
 #include "identity/reloaded.h"
 #include "identity/tls_material.h"
@@ -32,9 +33,10 @@ class IdentityFiles final : public IdentitySource {
   /// Called with what TLS is to use from now on: once by Open, later on the thread.
   using TlsChanged = std::function<void(const TlsMaterial&)>;
 
-  /// Reads the files; words about the first mistake if one cannot be used.
+  /// Reads the files, and follows them by looking once a `period`; words about the first mistake if
+  /// one cannot be used. The clock outlives the files.
   static std::variant<std::shared_ptr<IdentityFiles>, std::string> Open(
-      const IdentityPaths& paths, TlsChanged changed,
+      const IdentityPaths& paths, TlsChanged changed, const Clock& clock = SystemClock(),
       std::chrono::milliseconds period = std::chrono::seconds(1));
   ~IdentityFiles() override;
   IdentityFiles(const IdentityFiles&) = delete;
@@ -51,7 +53,7 @@ class IdentityFiles final : public IdentitySource {
   std::optional<std::chrono::system_clock::time_point> not_after() const;
 
  private:
-  IdentityFiles(const IdentityPaths& paths, TlsChanged changed);
+  IdentityFiles(const IdentityPaths& paths, TlsChanged changed, const Clock& clock);
   /// Looks at all files. Returns the mistakes, a line each.
   std::string Look();
   /// Body of the thread.

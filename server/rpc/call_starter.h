@@ -30,13 +30,14 @@ class CallStarter {
                                   Response* response, Run run) {
     auto* reactor = context->DefaultReactor();
     const Admission admission = guard_.Check(*context, call.method, call.kind);
-    const auto answer = [reactor, response,
-                         audit = Audit(log_, *context, call, admission)](Result<T> result) {
-      audit.End(result);
-      if (!result.ok()) return reactor->Finish(ToGrpc(result.error()));
-      Put(std::move(result.value()), response);
-      reactor->Finish(grpc::Status::OK);
-    };
+    const auto answer =
+        [reactor, response,
+         audit = Audit(log_, loop_->clock(), *context, call, admission)](Result<T> result) {
+          audit.End(result);
+          if (!result.ok()) return reactor->Finish(ToGrpc(result.error()));
+          Put(std::move(result.value()), response);
+          reactor->Finish(grpc::Status::OK);
+        };
     if (admission.refusal) {
       answer(*admission.refusal);
     } else {
@@ -63,13 +64,15 @@ class CallStarter {
                                                    const Call& call, std::string label, Open open) {
     const Admission admission = guard_.Check(*context, call.method, call.kind);
     if (admission.refusal) return Refuse<Message>(context, call, admission);
-    return StreamReactor<Message>::Start(
-        loop_, context, std::move(label), [&](auto wake, auto opened) {
-          Audit(log_, *context, call, admission).Begin([open, wake, opened](bool written) {
-            if (!written) return opened(MakeError(Reason::kAuditFailed));
-            open(wake, opened);
-          });
-        });
+    return StreamReactor<Message>::Start(loop_, context, std::move(label),
+                                         [&](auto wake, auto opened) {
+                                           Audit(log_, loop_->clock(), *context, call, admission)
+                                               .Begin([open, wake, opened](bool written) {
+                                                 if (!written)
+                                                   return opened(MakeError(Reason::kAuditFailed));
+                                                 open(wake, opened);
+                                               });
+                                         });
   }
 
   /// The loop of all streams.
@@ -80,7 +83,7 @@ class CallStarter {
   template <class Message>
   grpc::ServerWriteReactor<Message>* Refuse(grpc::CallbackServerContext* context, const Call& call,
                                             const Admission& admission) {
-    Audit(log_, *context, call, admission).End(Result<bool>(*admission.refusal));
+    Audit(log_, loop_->clock(), *context, call, admission).End(Result<bool>(*admission.refusal));
     return StreamReactor<Message>::Refuse(loop_, context, *admission.refusal);
   }
 

@@ -13,14 +13,14 @@ constexpr std::size_t kMostOfName = 64;
 
 }  // namespace
 
-Audit::Audit(std::shared_ptr<AuditLog> log, const grpc::ServerContextBase& context,
-             const Call& call, const Admission& admission)
-    : log_(std::move(log)) {
+Audit::Audit(std::shared_ptr<AuditLog> log, const Clock& clock,
+             const grpc::ServerContextBase& context, const Call& call, const Admission& admission)
+    : log_(std::move(log)), clock_(&clock) {
   if (!log_) return;
   const MethodRule* rule = FindMethod(call.method);
   mutation_ = rule != nullptr && rule->mutation;
-  begin_ = std::chrono::steady_clock::now();
-  record_ = {.time = std::chrono::system_clock::now(),
+  begin_ = clock_->Elapsed();
+  record_ = {.time = clock_->Now(),
              .call = RandomIds().NextId(),
              .caller = admission.caller,
              .peer = context.peer(),
@@ -46,8 +46,8 @@ void Audit::Write(const Error* error, const std::string& job) const {
   record.code = absl::StatusCodeToString(code);
   if (error != nullptr) record.reason = error->reason;
   if (!job.empty()) record.job = job;
-  record.duration = std::chrono::duration_cast<std::chrono::microseconds>(
-      std::chrono::steady_clock::now() - begin_);
+  record.duration =
+      std::chrono::duration_cast<std::chrono::microseconds>(clock_->Elapsed() - begin_);
   log_->Write(std::move(record));
 }
 

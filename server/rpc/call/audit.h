@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "base/clock.h"
 #include "contact/v1/job.pb.h"
 #include "identity/audit_log.h"
 #include "jobs/job/errors.h"
@@ -27,9 +28,9 @@ struct Call {
 /// changes something, how it ended. Copyable.
 class Audit {
  public:
-  /// `log` may be null: then nothing is told.
-  Audit(std::shared_ptr<AuditLog> log, const grpc::ServerContextBase& context, const Call& call,
-        const Admission& admission);
+  /// `log` may be null: then nothing is told. The clock outlives it.
+  Audit(std::shared_ptr<AuditLog> log, const Clock& clock, const grpc::ServerContextBase& context,
+        const Call& call, const Admission& admission);
 
   /// The call has ended with this result.
   template <class T>
@@ -51,6 +52,7 @@ class Audit {
   void Write(const Error* error, const std::string& job) const;
 
   std::shared_ptr<AuditLog> log_;
+  const Clock* clock_;
   /// True if the call changes something.
   bool mutation_ = false;
   /// Without the end of the call.
