@@ -50,7 +50,7 @@ Result<Watches::Jobs> Watches::WatchJobs(const Principal& caller,
                                          const v1::WatchJobsRequest& request, Wake wake) {
   Result<JobsCursor::Rules> rules = ToRules(request);
   if (!rules.ok()) return rules.error();
-  rules.value().filter.tenant = caller.tenant;
+  rules.value().tenant = caller.tenant;
   Places::Place place = parts_.watchers.Take();
   if (!place) return WatcherLimit(parts_.watchers.count());
   return Jobs(std::make_unique<JobsCursor>(

@@ -77,8 +77,8 @@ void AwaitEnd(JobManager& jobs, const std::string& name) {
   request.set_name(name);
   request.add_kinds("state_changed");
   Await<Result<WatchedJob>> opened;
-  jobs.watches().WatchJob(LocalPrincipal(), 
-      request, [woken] { woken->release(); }, opened.callback());
+  jobs.watches().WatchJob(
+      LocalPrincipal(), request, [woken] { woken->release(); }, opened.callback());
   const Result<WatchedJob> watched = opened.Get();
   for (;;) {
     std::vector<LogRecord> records;

@@ -144,7 +144,7 @@ TEST_F(JobsCursorTest, ReaderThatFallsBehindAllBoundsIsToldSo) {
   OpenWithFakeRun();
   JobFeed feed;
   JobsCursor cursor(
-      *store_, feed, clock_, {{}, std::chrono::hours(1)}, [](StoredJob*) {}, reader_.wake(),
+      *store_, feed, clock_, {{}, std::chrono::hours(1), kLocal}, [](StoredJob*) {}, reader_.wake(),
       nullptr);
   Next(cursor);
   for (std::size_t i = 0; i <= JobFeed::kMostChanges; ++i) {

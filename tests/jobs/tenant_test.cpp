@@ -113,8 +113,7 @@ TEST_F(TenantJobsTest, OnlyOwnerAndOperatorChangeAJob) {
 TEST_F(TenantJobsTest, WatcherHearsOfTheJobsOfItsTenantOnly) {
   OpenWithFakeRun();
   LogReader reader;
-  const auto watch =
-      std::move(manager_->watches().WatchJobs(kAda, {}, reader.wake()).value());
+  const auto watch = std::move(manager_->watches().WatchJobs(kAda, {}, reader.wake()).value());
   const std::string hidden = CreateAs(kEve, BouncingBall());
   const std::string seen = CreateAs(kAda, BouncingBall());
   CancelAs(kEve, hidden);
