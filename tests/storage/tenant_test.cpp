@@ -30,7 +30,8 @@ class TenantTest : public StoreTest {
   }
   std::vector<std::string> Names(JobQuery query) {
     std::vector<std::string> names;
-    for (const StoredJob& stored : List(std::move(query))->jobs) names.push_back(stored.job.name());
+    const auto page = List(std::move(query));  // Outlives the loop.
+    for (const StoredJob& stored : page->jobs) names.push_back(stored.job.name());
     return names;
   }
 };
