@@ -15,6 +15,7 @@
 #include "cli/input/scenario_file.h"
 #include "cli/input/settable_fields.h"
 #include "cli/input/templates.h"
+#include "cli/link/credentials.h"
 #include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/paper/items.h"
