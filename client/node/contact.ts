@@ -25,7 +25,7 @@ const DEADLINE_MS = 10_000; // Of a unary call.
 
 /** Loads the contract from the folder that holds contact/v1. */
 export function loadContract(
-  protoDir = fileURLToPath(new URL('../../../proto', import.meta.url)),
+  protoDir = fileURLToPath(new URL('../proto', import.meta.url)),
 ): ProtoGrpcType['contact']['v1'] {
   const definition = loader.loadSync('contact/v1/job_service.proto', {
     includeDirs: [protoDir], keepCase: true, enums: String, longs: Number, oneofs: true,
