@@ -4,6 +4,7 @@
 #include <google/protobuf/util/time_util.h>
 #include <malloc.h>
 #include <spdlog/spdlog.h>
+#include <systemd/sd-daemon.h>
 
 #include <csignal>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "base/clock.h"
 #include "base/ids.h"
 #include "base/replace_file.h"
+#include "base/spelling.h"
 #include "jobs/job_manager.h"
 #include "log.h"
 #include "read_config.h"
@@ -83,9 +85,9 @@ bool Announce(const Config& config, int port) {
   }
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));
   const std::string address = port == 0 ? config.listen : fmt::format("{}:{}", host, port);
-  fmt::print("contactd {} listening on {}, data in {}\n", kVersion, address,
-             config.data_dir.string());
-  std::fflush(stdout);
+  Greet(config.log_format, fmt::format("contactd {} listening on {}, data in {}", kVersion, address,
+                                       config.data_dir.string()));
+  sd_notify(0, "READY=1");
   return true;
 }
 
@@ -99,8 +101,9 @@ int CheckData(const std::filesystem::path& directory) {
   const auto report =
       Fsck(directory, [](const std::string& finding) { fmt::print("{}\n", finding); });
   if (!report.ok()) return Refuse(report.status());
-  fmt::print("{}: {} jobs, {} events, {} findings\n", directory.string(), report->jobs,
-             report->events, report->findings);
+  fmt::print("{}: {}, {}, {}\n", directory.string(), Count(report->jobs, "job", "jobs"),
+             Count(report->events, "event", "events"),
+             Count(report->findings, "finding", "findings"));
   return report->findings == 0 ? kExitOk : kExitDamaged;
 }
 
@@ -163,6 +166,7 @@ int Serve(const Config& config, const sigset_t& signals) {
     code = kExitUsage;
   } else {
     spdlog::info("{}: shutting down", strsignal(WaitFor(signals)));
+    sd_notify(0, "STOPPING=1");
     code = kExitOk;
   }
   metrics.reset();
