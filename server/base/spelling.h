@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@ std::string DidYouMean(std::string_view name, const std::vector<std::string_view
 
 /// The line `message — hint`; the message alone if there is no hint.
 std::string WithHint(const std::string& message, const std::string& hint);
+
+/// A count with its noun: `1 body`, `2 bodies`.
+std::string Count(std::int64_t count, std::string_view one, std::string_view many);
 
 /// Text of a user in single quotes, to be shown in a message: cut to 64 bytes at the end of a
 /// UTF-8 character, with `?` for control characters.

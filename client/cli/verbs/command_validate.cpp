@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/base/text_file.h"
 #include "cli/input/checked_scenario.h"

@@ -7,6 +7,7 @@
 #include <array>
 #include <utility>
 
+#include "base/spelling.h"
 #include "storage/records.h"
 
 namespace contact {
@@ -97,12 +98,13 @@ Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec)
 }
 
 Error QueueFull(int max_queued_jobs) {
-  return MakeError(Reason::kQueueFull, fmt::format("{} jobs are waiting already", max_queued_jobs));
+  return MakeError(Reason::kQueueFull,
+                   Count(max_queued_jobs, "job is", "jobs are") + " waiting already");
 }
 
 Error WatcherLimit(int max_watchers) {
   return MakeError(Reason::kWatcherLimit,
-                   fmt::format("there are {} watchers already", max_watchers));
+                   Count(max_watchers, "watcher is", "watchers are") + " there already");
 }
 
 Error SlowWatcher(const std::string& what) {

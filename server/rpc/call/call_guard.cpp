@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "base/spelling.h"
+
 namespace contact {
 namespace {
 
@@ -60,8 +62,8 @@ std::optional<Error> CallGuard::CheckRate(const std::string& peer) {
 std::optional<Error> CallGuard::CheckStreams(const std::string& peer) const {
   if (streams_->Of(peer) <= limits_.max_watchers_per_peer) return std::nullopt;
   return Refuse(Reason::kWatcherLimit,
-                fmt::format("there are {} watchers from this address already",
-                            limits_.max_watchers_per_peer));
+                Count(limits_.max_watchers_per_peer, "watcher is", "watchers are") +
+                    " there from this address already");
 }
 
 Error CallGuard::Refuse(Reason reason, std::string message) const {
