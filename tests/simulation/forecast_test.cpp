@@ -193,6 +193,7 @@ TEST(RunEstimate, StepsAreThoseOfTheRunWithinAFactorOfThree) {
   fixed.solver.fixed_step = 1e-6;
   Scenario flight = law;
   flight.bodies[0].velocity = -2;
+  flight.loads = {{.body = 0, .constant = -30}};
   for (const Scenario& s : {testing::Collision(0.3, 2, 5e7, 1.5, 0.7), law, fixed, flight}) {
     const double ratio =
         *EstimateRunOf(s).steps / static_cast<double>(testing::RunAndRecord(s).outcome.steps);
