@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "identity/identity_files.h"
 #include "jobs/job_manager.h"
 #include "log.h"
 #include "rpc/grpc_server.h"
@@ -21,10 +23,26 @@ enum ExitCode : int {
   kExitHeld = 3,     ///< Another process holds the data directory or the address.
 };
 
+/// A socket file whose users are all one principal.
+struct SocketListener {
+  std::string path;
+  Principal principal;
+};
+
+/// True if those who come in by `--listen` are asked who they are.
+inline bool AsksWhoCalls(const IdentityPaths& paths) {
+  return !paths.tokens.empty() || !paths.tls.client_ca.empty();
+}
+
 /// The settings of contactd, checked.
 struct Config {
   std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
   std::string metrics_listen;             ///< HOST:PORT of the metrics; empty: none.
+  std::vector<SocketListener> listen_as;  ///< Socket files, each with one identity.
+  std::string listen_admin;               ///< unix:PATH of AdminService; empty: it is at `listen`.
+  bool admin_channelz = false;            ///< Channelz is served at `listen_admin`.
+  IdentityPaths identity;                 ///< Who may come in by `listen`.
+  std::filesystem::path audit_log;        ///< File of changes and refused calls; empty: none.
   std::filesystem::path data_dir;         ///< Directory of jobs and results; made if missing.
   std::filesystem::path port_file;        ///< File to write the port to; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;

@@ -56,6 +56,30 @@ void AddExposure(CLI::App* app, Switches* switches) {
                 "Listen without encryption and passwords on an address that others can reach");
 }
 
+// Who may come in, and what is written of it.
+void AddIdentity(CLI::App* app, Config* config, Switches* switches) {
+  IdentityPaths& identity = config->identity;
+  app->add_option("--tls-cert", identity.tls.certificate,
+                  "Certificate of the server and those up to its authority, PEM; read again when "
+                  "it changes");
+  app->add_option("--tls-key", identity.tls.key, "Private key of --tls-cert, PEM");
+  app->add_option("--tls-client-ca", identity.tls.client_ca,
+                  "Authorities whose client certificates are taken, PEM; clients need one then");
+  app->add_option("--identity-rules", identity.rules,
+                  "File that says which principal a client certificate is");
+  app->add_option("--tokens", identity.tokens,
+                  "File of tokens, made by contactctl server token; clients need one then");
+  app->add_option("--listen-as", switches->listen_as,
+                  "Also listen on a socket file whose users are all one principal: \"unix:PATH "
+                  "user:NAME tenant:NAME roles:ROLE\"")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--listen-admin", config->listen_admin,
+                  "unix:PATH of AdminService, reflection and channelz, which --listen then lacks");
+  app->add_option("--audit-log", config->audit_log,
+                  "File that gets a line for each change and each refused call");
+}
+
 // A number in [low, high]; its default is the value that is there.
 template <class Number>
 void AddNumber(CLI::App* app, const char* name, Number* value, Number low, Number high,
@@ -172,6 +196,7 @@ void AddFlags(CLI::App* app, Config* config, Switches* switches) {
   AddBasics(app, config);
   AddLog(app, config);
   AddExposure(app, switches);
+  AddIdentity(app, config, switches);
   AddRequestLimits(app, config);
   AddPeerLimits(app, config, switches);
   AddSpaceLimits(app, config);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "config.h"
 
 namespace CLI {
@@ -13,7 +16,8 @@ struct Switches {
   bool no_reflection = false;  ///< Hide the services on loopback, too.
   bool channelz = false;       ///< Show connections and calls on loopback.
   bool insecure = false;       ///< Listening on addresses that others can reach is intended.
-  double write_stall_s = 30;   ///< GrpcServerOptions::write_stall, in seconds.
+  std::vector<std::string> listen_as;  ///< See ReadConfig.
+  double write_stall_s = 30;           ///< GrpcServerOptions::write_stall, in seconds.
 };
 
 /// Adds every flag of contactd to `app`. Parsing then sets `config` and `switches`; their present

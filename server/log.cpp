@@ -45,4 +45,15 @@ void SetUpLog(spdlog::level::level_enum level, LogFormat format) {
   spdlog::set_default_logger(std::move(log));
 }
 
+void Greet(LogFormat format, const std::string& line) {
+  spdlog::logger greeting("greeting", std::make_shared<spdlog::sinks::stdout_sink_mt>());
+  if (format == LogFormat::kJson) {
+    SetFormat(format, &greeting);
+  } else {
+    greeting.set_pattern("%v");
+  }
+  greeting.info(line);
+  greeting.flush();
+}
+
 }  // namespace contact

@@ -2,6 +2,8 @@
 
 #include <spdlog/logger.h>
 
+#include <string>
+
 namespace contact {
 
 /// Form of the lines of the log.
@@ -15,5 +17,8 @@ void SetUpLog(spdlog::level::level_enum level, LogFormat format);
 
 /// Gives a logger the format.
 void SetFormat(LogFormat format, spdlog::logger* log);
+
+/// Prints a line to the standard output at once, in JSON as a line of the log.
+void Greet(LogFormat format, const std::string& line);
 
 }  // namespace contact

@@ -5,6 +5,7 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
+#include <systemd/sd-daemon.h>
 
 #include <csignal>
 #include <cstdio>
@@ -16,11 +17,12 @@
 #include "base/clock.h"
 #include "base/ids.h"
 #include "base/replace_file.h"
+#include "base/spelling.h"
 #include "jobs/job_manager.h"
+#include "listeners.h"
 #include "log.h"
 #include "read_config.h"
 #include "rpc/grpc_log.h"
-#include "rpc/grpc_server.h"
 #include "rpc/metrics/metrics_server.h"
 #include "storage/fsck.h"
 #include "storage/store.h"
@@ -87,9 +89,9 @@ bool Announce(const Config& config, int port) {
   }
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));
   const std::string address = port == 0 ? config.listen : fmt::format("{}:{}", host, port);
-  fmt::print("contactd {} listening on {}, data in {}\n", kVersion, address,
-             config.data_dir.string());
-  std::fflush(stdout);
+  Greet(config.log_format, fmt::format("contactd {} listening on {}, data in {}", kVersion, address,
+                                       config.data_dir.string()));
+  sd_notify(0, "READY=1");
   return true;
 }
 
@@ -103,8 +105,9 @@ int CheckData(const std::filesystem::path& directory) {
   const auto report =
       Fsck(directory, [](const std::string& finding) { fmt::print("{}\n", finding); });
   if (!report.ok()) return Refuse(report.status());
-  fmt::print("{}: {} jobs, {} events, {} findings\n", directory.string(), report->jobs,
-             report->events, report->findings);
+  fmt::print("{}: {}, {}, {}\n", directory.string(), Count(report->jobs, "job", "jobs"),
+             Count(report->events, "event", "events"),
+             Count(report->findings, "finding", "findings"));
   return report->findings == 0 ? kExitOk : kExitDamaged;
 }
 
@@ -120,18 +123,18 @@ std::int64_t StoredBytes(const std::filesystem::path& data_dir) {
 }
 
 MetricsSources Sources(const Config& config, const StoreOptions& store, const JobManager& jobs,
-                       const GrpcServer& server) {
-  const auto now = [&config, &jobs, &server] {
+                       const Listeners& listeners) {
+  const auto take = [&config, &jobs, &listeners] {
     const v1::ServerInfo info = jobs.Info();
-    return MetricsSources::Now{.workers = info.workers(),
-                               .queued_jobs = info.queued_jobs(),
-                               .running_jobs = info.running_jobs(),
-                               .watchers = server.watchers(),
-                               .connections = server.connections(),
-                               .refused_connections = server.refused_connections(),
-                               .stored_bytes = StoredBytes(config.data_dir)};
+    MetricsSources::Now now{.workers = info.workers(),
+                            .queued_jobs = info.queued_jobs(),
+                            .running_jobs = info.running_jobs(),
+                            .stored_bytes = StoredBytes(config.data_dir)};
+    listeners.AddTo(&now);
+    return now;
   };
-  return {now, config.jobs.metrics, store.metrics, server.metrics(), server.stream_metrics()};
+  return {take, config.jobs.metrics, store.metrics, listeners.metrics(),
+          listeners.stream_metrics()};
 }
 
 // Serves the metrics if --metrics-listen is given. False: the address cannot be had.
@@ -158,23 +161,26 @@ int Serve(const Config& config, const sigset_t& signals) {
   JobOptions job_options = config.jobs;
   job_options.retention.clock_file = config.data_dir / "clock";
   JobManager jobs(**store, SystemClock(), RandomIds(), job_options);
-  GrpcServer server(jobs, **store, config.rpc, Identity(config));
-  const auto port = server.Start(config.listen);
+  Listeners listeners(jobs, **store, config, Identity(config));
   std::unique_ptr<MetricsServer> metrics;
   int code = kExitHeld;
-  if (!port) {
-    fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", config.listen);
-  } else if (!ServeMetrics(config, Sources(config, options, jobs, server), &metrics)) {
+  if (const std::string wrong = listeners.Prepare(); !wrong.empty()) {
+    fmt::print(stderr, "contactd: {}\n", wrong);
+    code = kExitUsage;
+  } else if (const std::string taken = listeners.Start(); !taken.empty()) {
+    fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", taken);
+  } else if (!ServeMetrics(config, Sources(config, options, jobs, listeners), &metrics)) {
     code = kExitHeld;
-  } else if (!Announce(config, *port)) {
+  } else if (!Announce(config, listeners.port())) {
     code = kExitUsage;
   } else {
     spdlog::info("{}: shutting down", strsignal(WaitFor(signals)));
+    sd_notify(0, "STOPPING=1");
     code = kExitOk;
   }
   metrics.reset();
   jobs.creator().Drain();
-  server.Shutdown(kGrace);  // From here on no call asks anything of the manager.
+  listeners.Shutdown(kGrace);  // From here on no call asks anything of the manager.
   jobs.Stop();
   return code;
 }

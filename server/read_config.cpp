@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -55,16 +56,56 @@ std::vector<std::string> FlagsFromEnvironment(const CLI::App& app) {
 }
 
 // Whether the address is of this machine only. Throws CLI::ValidationError if it is none, and for
-// one that others can reach, unless they may.
-bool CheckAddress(const char* flag, const std::string& listen, const char* forms, bool insecure) {
+// one that others can reach, unless they may. `need` says what that would take.
+bool CheckAddress(const char* flag, const std::string& listen, const char* forms, bool allowed,
+                  const char* need) {
   const auto host = HostOf(listen);
   if (!host) throw CLI::ValidationError(flag, fmt::format("{} is not {}", listen, forms));
   const bool loopback = IsLoopback(*host);
-  if (loopback || insecure) return loopback;
+  if (loopback || allowed) return loopback;
   throw CLI::ValidationError(
-      flag, listen +
-                " is not a loopback address, and there is neither encryption nor password; "
-                "use 127.0.0.1, or say --insecure-i-know");
+      flag, fmt::format("{} is not a loopback address, and {}; use 127.0.0.1, or say "
+                        "--insecure-i-know",
+                        listen, need));
+}
+
+bool IsFile(const std::string& listen) { return listen.starts_with("unix:") && listen.size() > 5; }
+
+// Throws CLI::ValidationError for settings of identity that do not belong together.
+void CheckIdentity(const Config& config) {
+  const IdentityPaths& identity = config.identity;
+  const bool tls = !identity.tls.certificate.empty();
+  const auto refuse = [](const char* flag, const char* why) {
+    throw CLI::ValidationError(flag, why);
+  };
+  if (tls == identity.tls.key.empty()) refuse("--tls-cert", "goes with --tls-key");
+  if (!identity.tls.client_ca.empty() && !tls) refuse("--tls-client-ca", "needs --tls-cert");
+  if (!identity.rules.empty() && identity.tls.client_ca.empty()) {
+    refuse("--identity-rules", "needs --tls-client-ca");
+  }
+  if (!identity.tls.client_ca.empty() && identity.rules.empty() && identity.tokens.empty()) {
+    refuse("--tls-client-ca", "needs --identity-rules, or --tokens, to know who a client is");
+  }
+  if (!identity.tokens.empty() && !tls && !IsFile(config.listen)) {
+    refuse("--tokens",
+           "would go over the network unencrypted; give --tls-cert, or --listen "
+           "unix:PATH");
+  }
+  if (!config.listen_admin.empty() && !IsFile(config.listen_admin)) {
+    refuse("--listen-admin", "must be unix:PATH");
+  }
+}
+
+// Reads `unix:PATH user:NAME tenant:NAME roles:ROLE`. Throws CLI::ValidationError for another text.
+SocketListener ToSocket(const std::string& text) {
+  const std::size_t space = std::min(text.find(' '), text.size());
+  const std::string address = text.substr(0, space);
+  std::string mistake = "must be unix:PATH user:NAME tenant:NAME roles:ROLE";
+  std::optional<Principal> principal;
+  if (IsFile(address)) principal = ParsePrincipal(text.substr(space), &mistake);
+  if (!principal) throw CLI::ValidationError("--listen-as", fmt::format("{}: {}", text, mistake));
+  principal->how = "socket";
+  return {address.substr(5), *principal};
 }
 
 // Most of the disk of a directory, which may be missing; 0: nobody knows.
@@ -80,18 +121,27 @@ std::int64_t MostOfDisk(std::filesystem::path directory) {
 // Sets what follows from several flags. Throws CLI::ValidationError for values that one flag's own
 // check cannot refuse.
 void Finish(const Switches& switches, Config* config) {
-  constexpr std::string_view kUnix = "unix:";
   const std::string& listen = config->listen;
-  const bool file = listen.starts_with(kUnix) && listen.size() > kUnix.size();
+  const bool asks = AsksWhoCalls(config->identity);
+  const bool safe = asks && !config->identity.tls.certificate.empty();
   const bool loopback =
-      file || CheckAddress("--listen", listen, "HOST:PORT or unix:PATH", switches.insecure);
+      IsFile(listen) ||
+      CheckAddress("--listen", listen, "HOST:PORT or unix:PATH", switches.insecure || safe,
+                   "that needs --tls-cert, and --tokens or --tls-client-ca");
   if (!config->metrics_listen.empty()) {
-    CheckAddress("--metrics-listen", config->metrics_listen, "HOST:PORT", switches.insecure);
+    CheckAddress("--metrics-listen", config->metrics_listen, "HOST:PORT", switches.insecure,
+                 "metrics have neither encryption nor password");
   }
+  CheckIdentity(*config);
+  for (const std::string& text : switches.listen_as) config->listen_as.push_back(ToSocket(text));
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
   if (config->store.max_bytes == kUnset) config->store.max_bytes = MostOfDisk(config->data_dir);
-  config->rpc.reflection = loopback && !switches.no_reflection;
-  config->rpc.channelz = loopback && switches.channelz;
+  // Where callers are asked who they are, only --listen-admin tells of services and calls: gRPC's
+  // own services ask nobody.
+  config->rpc.reflection =
+      loopback && !asks && config->listen_admin.empty() && !switches.no_reflection;
+  config->rpc.channelz = loopback && !asks && config->listen_admin.empty() && switches.channelz;
+  config->admin_channelz = switches.channelz;
   config->rpc.write_stall = std::chrono::milliseconds(std::llround(switches.write_stall_s * 1000));
 }
 

@@ -12,7 +12,7 @@ MOST_FILES = 35
 
 # The rooms of each folder; a room may include those before it. `.` is the files of the folder.
 ORDER = {
-    "server": ["base", "simulation", "wire", "storage", "jobs", "rpc", "."],
+    "server": ["base", "identity", "simulation", "wire", "storage", "jobs", "rpc", "."],
     "server/wire": ["rules", "scenario", "sweep", "."],
     "server/simulation": ["laws", "model", "motion", "episode", "forecast", "."],
     "server/jobs": ["job", "log", "read", "run", "schedule", "."],
@@ -22,7 +22,7 @@ ORDER = {
     "client/cli/text": [".", "comparison", "sweep"],
     "client/cli/figures": ["form", ".", "run", "heat_map"],
     "client/cli/help": ["contract", "."],
-    "client/cli/verbs": ["job", "laws", "sweep", "."],
+    "client/cli/verbs": ["identity", "job", "laws", "sweep", "."],
 }
 # What a folder must not include whatever the order says: folder, pattern, reason.
 REFUSED = [

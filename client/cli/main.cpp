@@ -53,7 +53,7 @@ bool Serve(CommandLine& line, const std::vector<std::string>& words) {
 
 ExitCode Act(CommandLine& line) {
   if (!line.action()) {
-    fmt::print("{}\n", kTour);
+    PrintHelp(kTour);
     return ExitCode::kOk;
   }
   Settings& settings = line.settings();
@@ -76,8 +76,11 @@ int Main(int argc, char** argv) {
   if (Serve(line, {argv + 1, argv + argc})) return 0;
   try {
     line.app().parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return line.app().exit(help);
+  } catch (const CLI::CallForHelp&) {
+    PrintHelp(line.app().help());
+    return 0;
+  } catch (const CLI::Success& success) {
+    return line.app().exit(success);
   } catch (const CLI::ParseError& error) {
     throw Failure(ExitCode::kUsage, UsageMessage(line.app(), error));
   }

@@ -1,6 +1,7 @@
 // A contactd client for Node on @grpc/grpc-js, typed by what proto-loader-gen-types makes of proto/.
 
 import {randomUUID} from 'node:crypto';
+import {readFileSync, statSync} from 'node:fs';
 import {setTimeout as pause} from 'node:timers/promises';
 import {fileURLToPath} from 'node:url';
 
@@ -25,7 +26,7 @@ const DEADLINE_MS = 10_000; // Of a unary call.
 
 /** Loads the contract from the folder that holds contact/v1. */
 export function loadContract(
-  protoDir = fileURLToPath(new URL('../../../proto', import.meta.url)),
+  protoDir = fileURLToPath(new URL('../proto', import.meta.url)),
 ): ProtoGrpcType['contact']['v1'] {
   const definition = loader.loadSync('contact/v1/job_service.proto', {
     includeDirs: [protoDir], keepCase: true, enums: String, longs: Number, oneofs: true,
@@ -46,13 +47,47 @@ function answered<T>(call: (options: grpc.CallOptions, answer: Answer<T>) => voi
   });
 }
 
+/** Files by which client and server know each other. */
+export interface CredentialFiles {
+  /** Authorities of the server's certificate; without it there is no TLS. */
+  tlsCa?: string;
+  /** Certificate and private key that show the server who calls. */
+  cert?: string;
+  key?: string;
+  /** File with a token that shows it. Only with tlsCa. */
+  tokenFile?: string;
+}
+
+function secret(path: string): Buffer {
+  if (statSync(path).mode & 0o027) throw new Error(`${path} can be read or changed by others`);
+  return readFileSync(path);
+}
+
+function credentialsOf(files: CredentialFiles): grpc.ChannelCredentials {
+  if (!files.tlsCa) {
+    if (files.tokenFile || files.cert) throw new Error('tokens and certificates need tlsCa');
+    return grpc.credentials.createInsecure();
+  }
+  const channel = grpc.credentials.createSsl(
+    readFileSync(files.tlsCa), files.key ? secret(files.key) : null,
+    files.cert ? readFileSync(files.cert) : null);
+  if (!files.tokenFile) return channel;
+  const token = secret(files.tokenFile).toString().trim();
+  return grpc.credentials.combineChannelCredentials(
+    channel, grpc.credentials.createFromMetadataGenerator((_, done) => {
+      const metadata = new grpc.Metadata();
+      metadata.set('authorization', `Bearer ${token}`);
+      done(null, metadata);
+    }));
+}
+
 /** A connection to one contactd. */
 export class Client {
   readonly stub: JobServiceClient;
 
   /** @param address HOST:PORT */
-  constructor(address: string, contract = loadContract()) {
-    this.stub = new contract.JobService(address, grpc.credentials.createInsecure(), {
+  constructor(address: string, files: CredentialFiles = {}, contract = loadContract()) {
+    this.stub = new contract.JobService(address, credentialsOf(files), {
       'grpc.max_receive_message_length': 256 << 20,
       'grpc.enable_http_proxy': 0,
     });

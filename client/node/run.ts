@@ -16,7 +16,10 @@ const scenario: Scenario = {
 };
 
 const address = process.argv[2] ?? process.env.CONTACT_SERVER ?? '127.0.0.1:7070';
-const client = new Client(address);
+const client = new Client(address, {
+  tlsCa: process.env.CONTACT_TLS_CA, cert: process.env.CONTACT_CERT, key: process.env.CONTACT_KEY,
+  tokenFile: process.env.CONTACT_TOKEN_FILE,
+});
 
 async function solve(): Promise<void> {
   const {name} = await client.submit(scenario);

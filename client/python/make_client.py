@@ -21,7 +21,7 @@ CHANGES = (
      "import Any, Callable, Iterable, Iterator, Mapping"),
     ("AsyncIterator", "Iterator"),
     ("AsyncClient", "Client"),
-    ("grpc.aio.insecure_channel", "grpc.insecure_channel"),
+    ("open_channel(grpc.aio, ", "open_channel(grpc, "),
     ("__aenter__", "__enter__"),
     ("__aexit__", "__exit__"),
     ("await asyncio.sleep(", "time.sleep("),

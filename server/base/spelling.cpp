@@ -77,6 +77,10 @@ std::string WithHint(const std::string& message, const std::string& hint) {
   return hint.empty() ? message : message + " — " + hint;
 }
 
+std::string Count(std::int64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 std::string Shortened(std::string_view text) {
   const bool cut = text.size() > kLongest;
   std::size_t size = std::min(text.size(), kLongest);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ std::string DidYouMean(std::string_view name, const std::vector<std::string_view
 
 /// The line `message — hint`; the message alone if there is no hint.
 std::string WithHint(const std::string& message, const std::string& hint);
+
+/// A count with its noun: `1 body`, `2 bodies`.
+std::string Count(std::int64_t count, std::string_view one, std::string_view many);
 
 /// Length in bytes of the character that the text begins with, if it steers a terminal or turns the
 /// direction of what follows: control characters, C1 included, separators of lines, and the marks

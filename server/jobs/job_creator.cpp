@@ -75,6 +75,7 @@ v1::Job TakeRequested(v1::Job* from) {
 }  // namespace
 
 struct JobCreator::Creation {
+  JobOwner whose;
   v1::CreateJobRequest request;
   Callback<v1::Job> done;
   Abandoned abandoned;
@@ -84,15 +85,19 @@ struct JobCreator::Creation {
   std::vector<v1::Event> events = {};
 };
 
-void JobCreator::Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned) {
+void JobCreator::Create(const Principal& caller, v1::CreateJobRequest request,
+                        Callback<v1::Job> done, Abandoned abandoned) {
   if (draining_) return done(MakeError(Reason::kServerDraining));
   const bool reserved = !request.validate_only() && parts_.scheduler.Reserve();
   // A full queue still answers a request that was accepted before.
   if (!reserved && !request.validate_only() && request.request_id().empty()) {
     return done(QueueFull(parts_.options.max_queued_jobs));
   }
-  const auto creation = std::make_shared<Creation>(
-      Creation{std::move(request), std::move(done), std::move(abandoned), reserved});
+  const auto creation = std::make_shared<Creation>(Creation{{caller.name, caller.tenant},
+                                                            std::move(request),
+                                                            std::move(done),
+                                                            std::move(abandoned),
+                                                            reserved});
   if (!parts_.executor.Post([this, creation] { Check(creation); })) {
     Refuse(*creation, MakeError(Reason::kServerDraining));
   }
@@ -126,6 +131,8 @@ void JobCreator::Commit(const std::shared_ptr<Creation>& creation) const {
   v1::Job& job = *creation->request.mutable_job();
   job.set_name("jobs/" + parts_.ids.NextId());
   job.set_uid(parts_.ids.NextUuid());
+  job.set_owner(creation->whose.owner);
+  job.set_tenant(creation->whose.tenant);
   creation->events = {
       Apply({v1::Job::QUEUED, reason::kWaitingForWorker}, parts_.clock.Now(), &job)};
   parts_.store.Create({job, creation->request.request_id(), creation->events, creation->reserved},

@@ -7,6 +7,7 @@
 #include "base/executor.h"
 #include "base/ids.h"
 #include "contact/v1/job_service.pb.h"
+#include "identity/principal.h"
 #include "jobs/job/callback.h"
 #include "jobs/job/job_options.h"
 #include "jobs/job_reader.h"
@@ -33,9 +34,10 @@ class JobCreator {
   };
   explicit JobCreator(const Parts& parts) : parts_(parts) {}
 
-  /// Checks and stores a job; `done` gets it in state QUEUED. A request with a `request_id` that
-  /// was used before gets the job of that request.
-  void Create(v1::CreateJobRequest request, Callback<v1::Job> done, Abandoned abandoned = {});
+  /// Checks and stores a job of the caller; `done` gets it in state QUEUED. A request with a
+  /// `request_id` that was used before by the tenant gets the job of that request.
+  void Create(const Principal& caller, v1::CreateJobRequest request, Callback<v1::Job> done,
+              Abandoned abandoned = {});
 
   /// Refuses new jobs with SERVER_DRAINING from now on.
   void Drain() { draining_ = true; }

@@ -22,29 +22,46 @@ JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptio
 
 JobManager::~JobManager() { Stop(); }
 
-void JobManager::Cancel(const v1::CancelJobRequest& request, Callback<v1::Job> done) {
-  const std::string& name = request.name();
+void JobManager::IfAllowed(const Principal& caller, const std::string& name,
+                           std::function<void()> change, std::function<void(Error)> refuse) {
+  store_.Owner(caller.tenant, name,
+               [caller, name, change = std::move(change),
+                refuse = std::move(refuse)](const absl::StatusOr<JobOwner>& whose) {
+                 if (!whose.ok()) return refuse(ToError(whose.status(), name));
+                 const bool own = whose->owner == caller.name;
+                 if (own || May(caller, Permission::kChangeAny)) return change();
+                 refuse(NotYours(name, whose->owner));
+               });
+}
+
+void JobManager::Cancel(const Principal& caller, const v1::CancelJobRequest& request,
+                        Callback<v1::Job> done) {
   const std::string& uid = request.expected_uid();
   // Of a job that has ended the scheduler knows nothing.
-  auto checked = [uid, done = std::move(done)](Result<v1::Job> job) {
+  Callback<v1::Job> checked = [uid, done](Result<v1::Job> job) {
     const bool other = job.ok() && !uid.empty() && job.value().uid() != uid;
     done(other ? UidMismatch(job.value().name(), job.value().uid()) : std::move(job));
   };
-  scheduler_.Cancel(name, uid,
-                    [this, name, checked = std::move(checked)](const absl::Status& status) mutable {
-                      if (!status.ok()) return checked(ToError(status, name));
-                      reader_.Get(name, std::move(checked));
-                    });
+  const auto cancel = [this, caller, name = request.name(), uid, checked = std::move(checked)] {
+    scheduler_.Cancel(name, uid, [this, caller, name, checked](const absl::Status& status) {
+      if (!status.ok()) return checked(ToError(status, name));
+      reader_.Get(caller, name, checked);
+    });
+  };
+  IfAllowed(caller, request.name(), cancel, done);
 }
 
-void JobManager::Delete(const v1::DeleteJobRequest& request, Callback<bool> done) {
-  store_.Delete(
-      request.name(), request.expected_uid(),
-      [this, name = request.name(), done = std::move(done)](const absl::StatusOr<bool>& deleted) {
-        if (!deleted.ok()) return done(ToError(deleted.status(), name));
-        feed_.Changed(name);
-        done(true);
-      });
+void JobManager::Delete(const Principal& caller, const v1::DeleteJobRequest& request,
+                        Callback<bool> done) {
+  const auto remove = [this, request, done] {
+    const auto removed = [this, name = request.name(), done](const auto& whose) {
+      if (!whose.ok()) return done(ToError(whose.status(), name));
+      feed_.Changed(whose->tenant, name);
+      done(true);
+    };
+    store_.Delete(request.name(), request.expected_uid(), removed);
+  };
+  IfAllowed(caller, request.name(), remove, done);
 }
 
 v1::ServerInfo JobManager::Info() const {
@@ -62,10 +79,10 @@ void JobManager::Stop() {
   decoder_.Stop();
   retention_.Stop();
   scheduler_.Stop();
-  // Twice: what Cancel asks of the store first makes it ask once more.
-  Await<bool>([this](const auto& done) {
-    store_.Flush([this, done] { store_.Flush([done] { done(true); }); });
-  });
+  // Cancel asks the store three times, each time once the answer before has come.
+  for (int i = 0; i < 3; ++i) {
+    Await<bool>([this](const auto& done) { store_.Flush([done] { done(true); }); });
+  }
 }
 
 }  // namespace contact

@@ -4,6 +4,7 @@
 #include "base/executor.h"
 #include "base/ids.h"
 #include "contact/v1/job_service.pb.h"
+#include "identity/principal.h"
 #include "jobs/job/callback.h"
 #include "jobs/job/job_options.h"
 #include "jobs/job_creator.h"
@@ -43,10 +44,11 @@ class JobManager {
   Recordings& recordings() { return recordings_; }
 
   /// Takes the job from the queue or asks its run to stop; `done` gets the job as it is then. No
-  /// error if the job has ended.
-  void Cancel(const v1::CancelJobRequest& request, Callback<v1::Job> done);
-  /// Deletes a job that has ended, with its log.
-  void Delete(const v1::DeleteJobRequest& request, Callback<bool> done);
+  /// error if the job has ended. PERMISSION_DENIED: the job is not the caller's, nor may the caller
+  /// change those of others of the tenant.
+  void Cancel(const Principal& caller, const v1::CancelJobRequest& request, Callback<v1::Job> done);
+  /// Deletes a job that has ended, with its log. PERMISSION_DENIED: as Cancel.
+  void Delete(const Principal& caller, const v1::DeleteJobRequest& request, Callback<bool> done);
 
   /// What GetServerInfo tells of jobs: workers, queued and running jobs, limits.
   v1::ServerInfo Info() const;
@@ -56,6 +58,10 @@ class JobManager {
   void Stop();
 
  private:
+  /// Calls `change` if the caller may change the job, else `refuse` with the reason.
+  void IfAllowed(const Principal& caller, const std::string& name, std::function<void()> change,
+                 std::function<void(Error)> refuse);
+
   Store& store_;
   const JobOptions options_;
   JobFeed feed_;

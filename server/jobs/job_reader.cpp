@@ -36,18 +36,20 @@ void ShortenLedger(v1::Job* job) {
 
 }  // namespace
 
-void JobReader::Get(const std::string& name, Callback<v1::Job> done) const {
-  store_.Read(name, JobPart::kAll,
-              [this, name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
-                if (!stored.ok()) return done(ToError(stored.status(), name));
-                Answer(*std::move(stored), done);
-              });
+void JobReader::Get(const Principal& caller, const std::string& name,
+                    Callback<v1::Job> done) const {
+  store_.ReadOf(caller.tenant, name, JobPart::kAll,
+                [this, name, done = std::move(done)](absl::StatusOr<StoredJob> stored) {
+                  if (!stored.ok()) return done(ToError(stored.status(), name));
+                  Answer(*std::move(stored), done);
+                });
 }
 
-void JobReader::List(const v1::ListJobsRequest& request,
+void JobReader::List(const Principal& caller, const v1::ListJobsRequest& request,
                      Callback<v1::ListJobsResponse> done) const {
   Result<JobQuery> query = ToQuery(request);
   if (!query.ok()) return done(query.error());
+  query.value().tenant = caller.tenant;
   store_.List(std::move(query.value()),
               [this, done = std::move(done)](absl::StatusOr<JobPage> page) {
                 if (!page.ok()) return done(ToError(page.status(), ""));

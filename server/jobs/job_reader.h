@@ -4,6 +4,7 @@
 
 #include "base/executor.h"
 #include "contact/v1/job_service.pb.h"
+#include "identity/principal.h"
 #include "jobs/job/callback.h"
 #include "jobs/job/job_options.h"
 #include "jobs/schedule/scheduler.h"
@@ -12,7 +13,8 @@
 namespace contact {
 
 /// Answers what jobs are: reads them from the store, and adds what only the scheduler and the
-/// settings know. Thread-safe; no call waits.
+/// settings know. Jobs of other tenants than the caller's are not there. Thread-safe; no call
+/// waits.
 class JobReader {
  public:
   /// All outlive it. Results are parsed on the executor, because a ledger may be long.
@@ -20,9 +22,10 @@ class JobReader {
       : store_(store), options_(options), scheduler_(scheduler), executor_(executor) {}
 
   /// The job with ledger and artifacts; of a running job, what its run has brought so far.
-  void Get(const std::string& name, Callback<v1::Job> done) const;
+  void Get(const Principal& caller, const std::string& name, Callback<v1::Job> done) const;
   /// A page of job headers, newest first.
-  void List(const v1::ListJobsRequest& request, Callback<v1::ListJobsResponse> done) const;
+  void List(const Principal& caller, const v1::ListJobsRequest& request,
+            Callback<v1::ListJobsResponse> done) const;
 
   /// Adds to a stored header what is not stored, or that it is damaged.
   void Complete(StoredJob* stored) const;

@@ -8,13 +8,14 @@
 
 namespace contact {
 
-void Watches::WatchJob(const v1::WatchJobRequest& request, Wake wake, Callback<WatchedJob> done) {
+void Watches::WatchJob(const Principal& caller, const v1::WatchJobRequest& request, Wake wake,
+                       Callback<WatchedJob> done) {
   Result<WatchRules> rules = ToRules(request);
   if (!rules.ok()) return done(rules.error());
   Places::Place place = parts_.watchers.Take();
   if (!place) return done(WatcherLimit(parts_.watchers.count()));
-  parts_.source.store.Read(
-      request.name(), JobPart::kSpec,
+  parts_.source.store.ReadOf(
+      caller.tenant, request.name(), JobPart::kSpec,
       [this, request, rules = rules.value(), wake = std::move(wake), done = std::move(done),
        place = std::move(place)](absl::StatusOr<StoredJob> stored) mutable {
         const std::string& uid = request.expected_uid();
@@ -45,9 +46,11 @@ WatchedJob Watches::Open(const v1::WatchJobRequest& request, WatchRules rules, S
           rules.delivery.min_frame_interval.count() > 0};
 }
 
-Result<Watches::Jobs> Watches::WatchJobs(const v1::WatchJobsRequest& request, Wake wake) {
+Result<Watches::Jobs> Watches::WatchJobs(const Principal& caller,
+                                         const v1::WatchJobsRequest& request, Wake wake) {
   Result<JobsCursor::Rules> rules = ToRules(request);
   if (!rules.ok()) return rules.error();
+  rules.value().tenant = caller.tenant;
   Places::Place place = parts_.watchers.Take();
   if (!place) return WatcherLimit(parts_.watchers.count());
   return Jobs(std::make_unique<JobsCursor>(

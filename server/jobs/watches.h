@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "contact/v1/job_service.pb.h"
+#include "identity/principal.h"
 #include "jobs/job/callback.h"
 #include "jobs/job_reader.h"
 #include "jobs/log/job_feed.h"
@@ -45,12 +46,14 @@ class Watches {
   };
   explicit Watches(Parts parts) : parts_(std::move(parts)) {}
 
-  /// Opens a cursor over the log of a job.
-  void WatchJob(const v1::WatchJobRequest& request, Wake wake, Callback<WatchedJob> done);
+  /// Opens a cursor over the log of a job of the caller's tenant.
+  void WatchJob(const Principal& caller, const v1::WatchJobRequest& request, Wake wake,
+                Callback<WatchedJob> done);
 
-  /// Opens a source of the headers of all jobs that match a filter, and of their changes.
+  /// Opens a source of the headers of all jobs of the caller's tenant that match a filter, and of
+  /// their changes.
   using Jobs = std::unique_ptr<StreamSource<v1::WatchJobsResponse>>;
-  Result<Jobs> WatchJobs(const v1::WatchJobsRequest& request, Wake wake);
+  Result<Jobs> WatchJobs(const Principal& caller, const v1::WatchJobsRequest& request, Wake wake);
 
  private:
   /// Opens the watch of a stored job, which has the uid that the request expects.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <google/protobuf/empty.pb.h>
 #include <google/protobuf/message.h>
 #include <grpcpp/grpcpp.h>
 
@@ -7,54 +8,86 @@
 #include <string>
 #include <utility>
 
+#include "rpc/call/audit.h"
 #include "rpc/call/call_guard.h"
 #include "rpc/call/status.h"
 #include "rpc/stream/stream_reactor.h"
 
 namespace contact {
 
-/// Starts the calls of every service: refuses those that are past a limit, and turns results into
-/// responses and errors into statuses. Thread-safe.
+/// Starts the calls of every service: refuses those that the guard refuses, turns results into
+/// responses and errors into statuses, and has both written to the audit log. Thread-safe.
 class CallStarter {
  public:
-  /// The guard outlives it.
-  CallStarter(CallGuard& guard, std::shared_ptr<StreamLoop> loop)
-      : guard_(guard), loop_(std::move(loop)) {}
+  /// The guard outlives it. `log` may be null.
+  CallStarter(CallGuard& guard, std::shared_ptr<StreamLoop> loop, std::shared_ptr<AuditLog> log)
+      : guard_(guard), loop_(std::move(loop)), log_(std::move(log)) {}
 
-  /// Starts a unary call. `run(answer)` is called unless the call is refused; `answer` takes a
-  /// Result<T>, once, at once or later, on any thread. T is Response, or bool for an empty one, or
-  /// a message for one of bytes.
+  /// Starts a unary call. `run(caller, answer)` is called unless the call is refused; `answer`
+  /// takes a Result<T>, once, at once or later, on any thread. T is Response, or bool for an empty
+  /// one, or a message for one of bytes.
   template <class T, class Response, class Run>
-  grpc::ServerUnaryReactor* Unary(grpc::CallbackServerContext* context, Response* response, Run run,
-                                  CallKind kind = CallKind::kUnary) {
+  grpc::ServerUnaryReactor* Unary(grpc::CallbackServerContext* context, const Call& call,
+                                  Response* response, Run run) {
     auto* reactor = context->DefaultReactor();
-    const auto answer = [reactor, response](Result<T> result) {
-      if (!result.ok()) return reactor->Finish(ToGrpc(result.error()));
-      Put(std::move(result.value()), response);
-      reactor->Finish(grpc::Status::OK);
-    };
-    if (const auto refusal = guard_.Check(*context, kind)) {
-      answer(*refusal);
+    const Admission admission = guard_.Check(*context, call.method, call.kind);
+    const auto answer =
+        [reactor, response,
+         audit = Audit(log_, loop_->clock(), *context, call, admission)](Result<T> result) {
+          audit.End(result);
+          if (!result.ok()) return reactor->Finish(ToGrpc(result.error()));
+          Put(std::move(result.value()), response);
+          reactor->Finish(grpc::Status::OK);
+        };
+    if (admission.refusal) {
+      answer(*admission.refusal);
     } else {
-      run(answer);
+      run(*admission.caller, answer);
     }
     return reactor;
   }
 
-  /// Starts a stream. `label` and `open`: see StreamReactor::Start.
+  /// Starts a stream. `open(caller, wake, opened)` and `label`: see StreamReactor::Start.
   template <class Message, class Open>
-  grpc::ServerWriteReactor<Message>* Stream(grpc::CallbackServerContext* context, std::string label,
-                                            Open open) {
-    if (const auto refusal = guard_.Check(*context, CallKind::kStream)) {
-      return StreamReactor<Message>::Refuse(loop_, context, *refusal);
-    }
-    return StreamReactor<Message>::Start(loop_, context, std::move(label), std::move(open));
+  grpc::ServerWriteReactor<Message>* Stream(grpc::CallbackServerContext* context, const Call& call,
+                                            std::string label, Open open) {
+    const Admission admission = guard_.Check(*context, call.method, call.kind);
+    if (admission.refusal) return Refuse<Message>(context, call, admission);
+    return StreamReactor<Message>::Start(
+        loop_, context, std::move(label),
+        [&](auto wake, auto opened) { open(*admission.caller, wake, opened); });
+  }
+
+  /// As Stream, for a call that may begin only once the audit log has it: else the call ends with
+  /// AUDIT_FAILED. `open` is then called on the log's thread.
+  template <class Message, class Open>
+  grpc::ServerWriteReactor<Message>* AuditedStream(grpc::CallbackServerContext* context,
+                                                   const Call& call, std::string label, Open open) {
+    const Admission admission = guard_.Check(*context, call.method, call.kind);
+    if (admission.refusal) return Refuse<Message>(context, call, admission);
+    return StreamReactor<Message>::Start(loop_, context, std::move(label),
+                                         [&](auto wake, auto opened) {
+                                           Audit(log_, loop_->clock(), *context, call, admission)
+                                               .Begin([open, wake, opened](bool written) {
+                                                 if (!written)
+                                                   return opened(MakeError(Reason::kAuditFailed));
+                                                 open(wake, opened);
+                                               });
+                                         });
   }
 
   /// The loop of all streams.
   const StreamLoop& loop() const { return *loop_; }
 
  private:
+  /// A stream that ends at once as the guard says.
+  template <class Message>
+  grpc::ServerWriteReactor<Message>* Refuse(grpc::CallbackServerContext* context, const Call& call,
+                                            const Admission& admission) {
+    Audit(log_, loop_->clock(), *context, call, admission).End(Result<bool>(*admission.refusal));
+    return StreamReactor<Message>::Refuse(loop_, context, *admission.refusal);
+  }
+
   /// Moves a result into the response.
   static void Put(bool /*done*/, google::protobuf::Empty* /*response*/) {}
   static void Put(const google::protobuf::Message& value, grpc::ByteBuffer* response) {
@@ -68,6 +101,7 @@ class CallStarter {
 
   CallGuard& guard_;
   const std::shared_ptr<StreamLoop> loop_;
+  const std::shared_ptr<AuditLog> log_;
 };
 
 }  // namespace contact

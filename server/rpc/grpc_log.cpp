@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/mutex.h"
+#include "base/spelling.h"
 
 namespace contact {
 namespace {
@@ -62,7 +63,7 @@ std::optional<int> TakeOf(const Site& site) {
 void Log(gpr_log_func_args* line) {
   const auto left_out = TakeOf({line->file, line->line});
   if (!left_out) return;
-  if (*left_out > 0) spdlog::warn("gRPC: {} lines left out", *left_out);
+  if (*left_out > 0) spdlog::warn("gRPC: {} left out", Count(*left_out, "line", "lines"));
   spdlog::log(Level(line->severity), "gRPC: {}", line->message);
 }
 

@@ -113,8 +113,9 @@ GrpcServer::GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options
                        v1::ServerInfo identity, const Clock& clock)
     : options_(Fitted(options)),
       loop_(std::make_shared<StreamLoop>(clock, options.write_stall)),
-      guard_(options_.calls, streams_, metrics_, clock),
-      calls_(guard_, loop_),
+      metrics_(options_.metrics),
+      guard_(options_.calls, options_.door, streams_, metrics_, clock),
+      calls_(guard_, loop_, options_.audit),
       jobs_(jobs, calls_, WithLimits(std::move(identity), options_)),
       admin_(store, calls_) {}
 
@@ -131,7 +132,7 @@ std::optional<int> GrpcServer::Start(const std::string& address) {
   if (options_.channelz) grpc::channelz::experimental::InitChannelzService();
   grpc::ServerBuilder builder;
   builder.RegisterService(&jobs_);
-  builder.RegisterService(&admin_);
+  if (options_.admin) builder.RegisterService(&admin_);
   LimitMemory(options_, &builder);
   TimeConnections(options_, &builder);
   ChoosePlugins(options_, &builder);
@@ -148,7 +149,8 @@ std::optional<int> GrpcServer::Listen(Listener listener, grpc::ServerBuilder& bu
   using Experimental = grpc::ServerBuilder::experimental_type;
   const std::shared_ptr<grpc::experimental::ExternalConnectionAcceptor> grpc =
       builder.experimental().AddExternalConnectionAcceptor(
-          Experimental::ExternalConnectionType::FROM_FD, grpc::InsecureServerCredentials());
+          Experimental::ExternalConnectionType::FROM_FD,
+          options_.credentials ? options_.credentials : grpc::InsecureServerCredentials());
   server_ = builder.BuildAndStart();
   if (!server_) return std::nullopt;
   acceptor_ = std::make_unique<ConnectionAcceptor>(
@@ -184,6 +186,7 @@ void GrpcServer::Shutdown(milliseconds grace) {
     floods_->SetCut(nullptr);
     acceptor_.reset();
   }
+  if (options_.audit) options_.audit->Flush();  // What it has yet to begin uses the services.
   loop_->Stop();
 }
 

@@ -40,9 +40,19 @@ struct GrpcServerOptions {
   bool reflection = true;
   /// True: the server answers which connections there are, and what went over them.
   bool channelz = false;
+  /// Who comes in.
+  Door door = Door();
+  /// How connections are protected; null: not at all.
+  std::shared_ptr<grpc::ServerCredentials> credentials = {};
+  /// True: the server has AdminService.
+  bool admin = true;
+  /// Where calls are counted.
+  std::shared_ptr<RpcMetrics> metrics = std::make_shared<RpcMetrics>();
+  /// Where changes and refused calls are written; null: nowhere.
+  std::shared_ptr<AuditLog> audit = {};
 };
 
-/// The gRPC server: its settings, its services, its end. Plaintext, so for loopback only.
+/// The gRPC server of one listener: its settings, its services, its end.
 class GrpcServer {
  public:
   /// `identity`: see JobService. The manager, its store and the clock outlive the server.
@@ -89,7 +99,7 @@ class GrpcServer {
   const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
   /// Cuts connections by acceptor_.
   const std::shared_ptr<FloodGuard> floods_ = std::make_shared<FloodGuard>();
-  const std::shared_ptr<RpcMetrics> metrics_ = std::make_shared<RpcMetrics>();
+  const std::shared_ptr<RpcMetrics> metrics_;
   CallGuard guard_;
   /// Starts the calls of both services.
   CallStarter calls_;

@@ -9,61 +9,85 @@
 #include "rpc/stream/watch_source.h"
 
 namespace contact {
+namespace {
+
+v1::Principal ToMessage(const Principal& principal) {
+  v1::Principal message;
+  message.set_name(principal.name);
+  message.set_tenant(principal.tenant);
+  for (const Role role : principal.roles) message.add_roles(NameOf(role));
+  message.set_how(principal.how);
+  return message;
+}
+
+}  // namespace
 
 using grpc::ServerUnaryReactor;
 using grpc::ServerWriteReactor;
 
 ServerUnaryReactor* JobService::CreateJob(Context* context, const grpc::ByteBuffer* request,
                                           grpc::ByteBuffer* response) {
-  const auto run = [&](auto answer) {
+  const Call call{"/contact.v1.JobService/CreateJob", "", CallKind::kCreateJob};
+  return calls_.Unary<v1::Job>(context, call, response, [&](const auto& caller, auto answer) {
     v1::CreateJobRequest parsed;
     std::shared_ptr<const void> place;
     if (const auto error = requests_.Parse(*request, &parsed, &place)) return answer(*error);
     const auto done = [answer, place](Result<v1::Job> job) { answer(std::move(job)); };
-    jobs_.creator().Create(std::move(parsed), done, Abandonment(*context));
-  };
-  return calls_.Unary<v1::Job>(context, response, run, CallKind::kCreateJob);
+    jobs_.creator().Create(caller, std::move(parsed), done, Abandonment(*context));
+  });
 }
 
 ServerUnaryReactor* JobService::GetJob(Context* context, const v1::GetJobRequest* request,
                                        v1::Job* response) {
-  return calls_.Unary<v1::Job>(context, response,
-                               [&](auto answer) { jobs_.reader().Get(request->name(), answer); });
+  const Call call{"/contact.v1.JobService/GetJob", request->name()};
+  return calls_.Unary<v1::Job>(context, call, response, [&](const auto& caller, auto answer) {
+    jobs_.reader().Get(caller, request->name(), answer);
+  });
 }
 
 ServerUnaryReactor* JobService::ListJobs(Context* context, const v1::ListJobsRequest* request,
                                          v1::ListJobsResponse* response) {
+  const Call call{"/contact.v1.JobService/ListJobs"};
   return calls_.Unary<v1::ListJobsResponse>(
-      context, response, [&](auto answer) { jobs_.reader().List(*request, answer); });
+      context, call, response,
+      [&](const auto& caller, auto answer) { jobs_.reader().List(caller, *request, answer); });
 }
 
 ServerUnaryReactor* JobService::CancelJob(Context* context, const v1::CancelJobRequest* request,
                                           v1::Job* response) {
-  return calls_.Unary<v1::Job>(context, response,
-                               [&](auto answer) { jobs_.Cancel(*request, answer); });
+  const Call call{"/contact.v1.JobService/CancelJob", request->name()};
+  return calls_.Unary<v1::Job>(context, call, response, [&](const auto& caller, auto answer) {
+    jobs_.Cancel(caller, *request, answer);
+  });
 }
 
 ServerUnaryReactor* JobService::DeleteJob(Context* context, const v1::DeleteJobRequest* request,
                                           google::protobuf::Empty* response) {
-  return calls_.Unary<bool>(context, response,
-                            [&](auto answer) { jobs_.Delete(*request, answer); });
+  const Call call{"/contact.v1.JobService/DeleteJob", request->name()};
+  return calls_.Unary<bool>(context, call, response, [&](const auto& caller, auto answer) {
+    jobs_.Delete(caller, *request, answer);
+  });
 }
 
 ServerUnaryReactor* JobService::GetSeries(Context* context, const v1::GetSeriesRequest* request,
                                           v1::Series* response) {
-  return calls_.Unary<v1::Series>(context, response, [&](auto answer) {
-    jobs_.recordings().GetSeries(*request, answer, Abandonment(*context));
+  const Call call{"/contact.v1.JobService/GetSeries", request->name()};
+  return calls_.Unary<v1::Series>(context, call, response, [&](const auto& caller, auto answer) {
+    jobs_.recordings().GetSeries(caller, *request, answer, Abandonment(*context));
   });
 }
 
 ServerUnaryReactor* JobService::GetServerInfo(Context* context,
                                               const v1::GetServerInfoRequest* /*request*/,
                                               v1::ServerInfo* response) {
-  return calls_.Unary<v1::ServerInfo>(context, response, [&](auto answer) {
-    v1::ServerInfo info = jobs_.Info();
-    info.MergeFrom(identity_);
-    answer(std::move(info));
-  });
+  const Call call{"/contact.v1.JobService/GetServerInfo"};
+  return calls_.Unary<v1::ServerInfo>(context, call, response,
+                                      [&](const auto& caller, auto answer) {
+                                        v1::ServerInfo info = jobs_.Info();
+                                        info.MergeFrom(identity_);
+                                        *info.mutable_principal() = ToMessage(caller);
+                                        answer(std::move(info));
+                                      });
 }
 
 ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* context,
@@ -72,7 +96,7 @@ ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* context,
   grpc::ByteBuffer bytes = *request;
   const bool readable =
       grpc::SerializationTraits<v1::WatchJobRequest>::Deserialize(&bytes, &parsed).ok();
-  const auto open = [&](auto wake, auto opened) {
+  const auto open = [&](const auto& caller, auto wake, auto opened) {
     if (!readable) {
       return opened(MakeError(Reason::kFieldInvalid, "the request is no WatchJobRequest"));
     }
@@ -80,23 +104,29 @@ ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* context,
       if (!job.ok()) return opened(job.error());
       opened(MakeWatchSource(std::move(job.value()), loop.clock(), *loop.metrics()));
     };
-    jobs_.watches().WatchJob(parsed, wake, watched);
+    jobs_.watches().WatchJob(caller, parsed, wake, watched);
   };
-  return calls_.Stream<grpc::ByteBuffer>(context, "job=" + Shortened(parsed.name()), open);
+  const Call call{"/contact.v1.JobService/WatchJob", parsed.name(), CallKind::kStream};
+  return calls_.Stream<grpc::ByteBuffer>(context, call, "job=" + Shortened(parsed.name()), open);
 }
 
 ServerWriteReactor<v1::WatchJobsResponse>* JobService::WatchJobs(
     Context* context, const v1::WatchJobsRequest* request) {
-  return calls_.Stream<v1::WatchJobsResponse>(context, "job=*", [&](auto wake, auto opened) {
-    opened(jobs_.watches().WatchJobs(*request, wake));
-  });
+  const Call call{"/contact.v1.JobService/WatchJobs", "", CallKind::kStream};
+  return calls_.Stream<v1::WatchJobsResponse>(
+      context, call, "job=*", [&](const auto& caller, auto wake, auto opened) {
+        opened(jobs_.watches().WatchJobs(caller, *request, wake));
+      });
 }
 
 ServerWriteReactor<v1::ReadArtifactResponse>* JobService::ReadArtifact(
     Context* context, const v1::ReadArtifactRequest* request) {
-  return calls_.Stream<v1::ReadArtifactResponse>(
-      context, "job=" + Shortened(request->name()),
-      [&](auto wake, auto opened) { jobs_.recordings().ReadArtifact(*request, wake, opened); });
+  const Call call{"/contact.v1.JobService/ReadArtifact", request->name(), CallKind::kStream};
+  return calls_.Stream<v1::ReadArtifactResponse>(context, call, "job=" + Shortened(request->name()),
+                                                 [&](const auto& caller, auto wake, auto opened) {
+                                                   jobs_.recordings().ReadArtifact(caller, *request,
+                                                                                   wake, opened);
+                                                 });
 }
 
 }  // namespace contact

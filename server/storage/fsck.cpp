@@ -13,6 +13,7 @@
 #include "contact/v1/job.pb.h"
 #include "storage/checksum.h"
 #include "storage/data_directory.h"
+#include "storage/job_parts.h"
 #include "storage/schema.h"
 
 namespace contact {
@@ -78,8 +79,8 @@ class Checker {
     Check("database", "PRAGMA integrity_check(100)", &Checker::CheckPage);
     Check("database", "PRAGMA foreign_key_check", &Checker::CheckReference);
     Check("jobs",
-          "SELECT number, name, state, last_sequence, bytes, crc32, header, oldest_sequence"
-          " FROM jobs ORDER BY number",
+          "SELECT number, name, state, last_sequence, bytes, crc32, header, oldest_sequence,"
+          " owner, tenant FROM jobs ORDER BY number",
           &Checker::CheckJob);
     Check("specs", "SELECT job, crc32, spec FROM specs", &Checker::CheckSpec);
     Check("results", "SELECT job, crc32, result FROM results", &Checker::CheckResult);
@@ -139,7 +140,8 @@ class Checker {
     if (Checksum(header) != row.Integer(5)) {
       Find(job.name, ": the job fails its checksum");
     } else if (!message.ParseFromString(header) || message.name() != job.name ||
-               message.state() != row.Integer(2)) {
+               message.state() != row.Integer(2) || OwnerOf(message) != row.Bytes(8) ||
+               TenantOf(message) != row.Bytes(9)) {
       Find(job.name, ": the job is not what its row says");
     }
   }

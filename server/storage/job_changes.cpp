@@ -50,14 +50,19 @@ void WriteParts(Database& database, std::int64_t job, const JobChange& change) {
           Checksum(parts.result), Query::Blob{parts.result});
 }
 
+// What request_id holds: the id belongs to its tenant, whose name has no slash.
+std::string RequestKey(const JobInsert& insert) {
+  return insert.request_id.empty() ? "" : absl::StrCat(insert.whose.tenant, "/", insert.request_id);
+}
+
 void InsertJob(Database& database, const JobInsert& insert) {
   const JobParts& parts = insert.parts;
   Execute(database,
-          "INSERT INTO jobs(name, request_id, state, epoch, last_sequence, end_time, bytes, crc32,"
-          " header) VALUES(?, NULLIF(?, ''), ?, 0, ?, ?, ?, ?, ?)",
-          insert.name, insert.request_id, insert.state, insert.events.size(), parts.end_time,
-          parts.spec.size() + BytesOf(insert.events), Checksum(parts.header),
-          Query::Blob{parts.header});
+          "INSERT INTO jobs(name, request_id, owner, tenant, state, epoch, last_sequence, end_time,"
+          " bytes, crc32, header) VALUES(?, NULLIF(?, ''), ?, ?, ?, 0, ?, ?, ?, ?, ?)",
+          insert.name, RequestKey(insert), insert.whose.owner, insert.whose.tenant, insert.state,
+          insert.events.size(), parts.end_time, parts.spec.size() + BytesOf(insert.events),
+          Checksum(parts.header), Query::Blob{parts.header});
   const std::int64_t job = database.LastInsertRowid();
   Execute(database, "INSERT INTO specs(job, crc32, spec) VALUES(?,?,?)", job, Checksum(parts.spec),
           Query::Blob{parts.spec});
@@ -67,11 +72,19 @@ void InsertJob(Database& database, const JobInsert& insert) {
   InsertEvents(database, job, 0, insert.events);
 }
 
-// Number of the job, if it has ended.
-absl::StatusOr<std::int64_t> FindEnded(Database& database, const std::string& name) {
-  Query job(database, absl::StrCat("SELECT number, ", kEnded, " FROM jobs WHERE name=?"), name);
+// A job that has ended.
+struct EndedRow {
+  std::int64_t number;
+  JobOwner whose;
+};
+
+// The row of the job, if it has ended.
+absl::StatusOr<EndedRow> FindEnded(Database& database, const std::string& name) {
+  Query job(database,
+            absl::StrCat("SELECT number, owner, tenant, ", kEnded, " FROM jobs WHERE name=?"),
+            name);
   if (!job.Next()) return NoSuchJob(name);
-  if (job.Integer(1) != 0) return job.Integer(0);
+  if (job.Integer(3) != 0) return EndedRow{job.Integer(0), {job.Bytes(1), job.Bytes(2)}};
   return absl::FailedPreconditionError(absl::StrCat(name, " has not ended"));
 }
 
@@ -80,7 +93,7 @@ absl::StatusOr<std::int64_t> FindEnded(Database& database, const std::string& na
 absl::StatusOr<StoredJob> Insert(Database& database, const JobInsert& insert) {
   Query made(database,
              "SELECT name, spec FROM jobs LEFT JOIN specs ON job=number WHERE request_id=?",
-             insert.request_id);
+             RequestKey(insert));
   if (made.Next()) {
     const std::string name = made.Bytes(0);
     if (made.Bytes(1) == insert.parts.spec) return Read(database, name, JobPart::kAll);
@@ -116,31 +129,32 @@ absl::Status MarkCancelRequested(Database& database, const std::string& name) {
   return update.Run() == 1 ? absl::OkStatus() : NoSuchJob(name);
 }
 
-absl::Status Remove(Database& database, const std::string& name, const std::string& expected_uid) {
+absl::StatusOr<JobOwner> Remove(Database& database, const std::string& name,
+                                const std::string& expected_uid) {
   if (!expected_uid.empty()) {
     const absl::StatusOr<StoredJob> stored = Read(database, name, JobPart::kHeader);
     if (!stored.ok()) return stored.status();
     if (stored->job.uid() != expected_uid) return OtherJob(stored->job);
   }
-  const absl::StatusOr<std::int64_t> job = FindEnded(database, name);
+  const absl::StatusOr<EndedRow> job = FindEnded(database, name);
   if (!job.ok()) return job.status();
-  Execute(database, "INSERT INTO removed(job) VALUES(?)", *job);
-  Execute(database, "DELETE FROM jobs WHERE number=?", *job);
-  return absl::OkStatus();
+  Execute(database, "INSERT INTO removed(job) VALUES(?)", job->number);
+  Execute(database, "DELETE FROM jobs WHERE number=?", job->number);
+  return job->whose;
 }
 
-absl::Status Compact(Database& database, const std::string& name) {
-  const absl::StatusOr<std::int64_t> job = FindEnded(database, name);
+absl::StatusOr<JobOwner> Compact(Database& database, const std::string& name) {
+  const absl::StatusOr<EndedRow> job = FindEnded(database, name);
   if (!job.ok()) return job.status();
   Query last(database,
              "SELECT sequence FROM events WHERE job=? AND kind=? ORDER BY sequence DESC LIMIT 1",
-             *job, v1::Event::kFrameChunk);
+             job->number, v1::Event::kFrameChunk);
   const std::int64_t sequence = last.Next() ? last.Integer(0) : 0;
   Execute(database, "UPDATE jobs SET compacted=1, oldest_sequence=? WHERE number=?", sequence + 1,
-          *job);
-  if (sequence == 0) return absl::OkStatus();
-  Execute(database, "INSERT OR IGNORE INTO compacting(job, position) VALUES(?, 0)", *job);
-  return absl::OkStatus();
+          job->number);
+  if (sequence == 0) return job->whose;
+  Execute(database, "INSERT OR IGNORE INTO compacting(job, position) VALUES(?, 0)", job->number);
+  return job->whose;
 }
 
 }  // namespace contact

@@ -24,6 +24,8 @@ struct JobInsert {
   std::string name;
   /// Empty: none.
   std::string request_id;
+  /// Whose the job is.
+  JobOwner whose;
   /// A v1::Job::State.
   int state = 0;
   std::vector<std::pair<std::string, std::string>> labels;
@@ -55,10 +57,11 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
 absl::Status MarkCancelRequested(Database& database, const std::string& name);
 
 /// Removes an ended job: see Store::Delete. Its events only vanish from sight; Purge removes them.
-absl::Status Remove(Database& database, const std::string& name, const std::string& expected_uid);
+absl::StatusOr<JobOwner> Remove(Database& database, const std::string& name,
+                                const std::string& expected_uid);
 
 /// Gives up the frame chunks of an ended job: see Store::Compact. They only vanish from sight;
 /// Purge removes them.
-absl::Status Compact(Database& database, const std::string& name);
+absl::StatusOr<JobOwner> Compact(Database& database, const std::string& name);
 
 }  // namespace contact

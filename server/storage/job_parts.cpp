@@ -3,6 +3,8 @@
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
+#include "identity/principal.h"
+
 namespace contact {
 namespace {
 
@@ -55,6 +57,16 @@ JobParts Split(const v1::Job& job) {
 
 const std::string& TitleOf(const v1::Job& job) {
   return job.has_sweep() ? job.sweep().base().title() : job.scenario().title();
+}
+
+const std::string& OwnerOf(const v1::Job& job) {
+  static const std::string kEverybody = kLocal;
+  return job.owner().empty() ? kEverybody : job.owner();
+}
+
+const std::string& TenantOf(const v1::Job& job) {
+  static const std::string kEverybody = kLocal;
+  return job.tenant().empty() ? kEverybody : job.tenant();
 }
 
 std::vector<EventRow> ToRows(absl::Span<const v1::Event> events) {

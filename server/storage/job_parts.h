@@ -32,6 +32,10 @@ JobParts Split(const v1::Job& job);
 /// Job.title, which the header keeps, because lists read no specs.
 const std::string& TitleOf(const v1::Job& job);
 
+/// Owner and tenant of the job; those of everybody, `local`, if it has none.
+const std::string& OwnerOf(const v1::Job& job);
+const std::string& TenantOf(const v1::Job& job);
+
 /// An event to be stored.
 struct EventRow {
   /// Field number of its payload.

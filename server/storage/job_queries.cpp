@@ -11,6 +11,7 @@
 #include "base/spelling.h"
 #include "storage/checksum.h"
 #include "storage/database.h"
+#include "storage/job_parts.h"
 #include "storage/schema.h"
 
 namespace contact {
@@ -22,7 +23,7 @@ constexpr std::uint64_t kMaxScan = 4096;
 
 constexpr char kSelectJob[] =
     "SELECT number, name, state, epoch, cancel_requested, last_sequence, crc32, header,"
-    " oldest_sequence, compacted FROM jobs ";
+    " oldest_sequence, compacted, owner, tenant FROM jobs ";
 
 struct JobRow {
   std::int64_t number = 0;
@@ -35,10 +36,14 @@ JobRow RowOf(const Query& query) {
   v1::Job& job = row.stored.job;
   const std::string name = query.Bytes(1);
   const std::string header = query.Bytes(7);
-  row.stored.intact =
-      Checksum(header) == query.Integer(6) && job.ParseFromString(header) && job.name() == name;
+  const std::string owner = query.Bytes(10);
+  const std::string tenant = query.Bytes(11);
+  row.stored.intact = Checksum(header) == query.Integer(6) && job.ParseFromString(header) &&
+                      job.name() == name && OwnerOf(job) == owner && TenantOf(job) == tenant;
   if (!row.stored.intact) job.Clear();
   job.set_name(name);
+  job.set_owner(owner);
+  job.set_tenant(tenant);
   job.set_state(static_cast<v1::Job::State>(query.Integer(2)));
   row.stored.epoch = static_cast<std::uint64_t>(query.Integer(3));
   row.stored.cancel_requested = query.Integer(4) != 0;
@@ -91,6 +96,7 @@ std::string Placeholders(std::size_t count) {
 
 std::string ListSql(const JobQuery& query) {
   std::string sql = absl::StrCat(kSelectJob, "WHERE number<?");
+  if (query.tenant) absl::StrAppend(&sql, " AND tenant=?");
   if (!query.states.empty()) {
     absl::StrAppend(&sql, " AND state IN (", Placeholders(query.states.size()), ")");
   }
@@ -99,6 +105,20 @@ std::string ListSql(const JobQuery& query) {
   }
   if (!query.name_prefix.empty()) absl::StrAppend(&sql, " AND name>=? AND name<?");
   return absl::StrCat(sql, " ORDER BY number DESC LIMIT ?");
+}
+
+// Reads the job that the query finds.
+absl::StatusOr<StoredJob> ReadFound(Database& database, Query& query, const std::string& name,
+                                    JobPart part) {
+  if (!query.Next()) return NoSuchJob(name);
+  JobRow row = RowOf(query);
+  if (part != JobPart::kHeader) {
+    MergePart(database, "SELECT crc32, spec FROM specs WHERE job=?", row);
+  }
+  if (part == JobPart::kRun) AddCheckpoint(database, row);
+  if (part == JobPart::kAll) AddResult(database, row);
+  if (!row.stored.intact) return FailsChecksum(name);
+  return std::move(row.stored);
 }
 
 }  // namespace
@@ -125,20 +145,26 @@ absl::Status OtherJob(const v1::Job& job) {
 
 absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobPart part) {
   Query query(database, absl::StrCat(kSelectJob, "WHERE name=?"), name);
+  return ReadFound(database, query, name, part);
+}
+
+absl::StatusOr<StoredJob> ReadOf(Database& database, const std::string& tenant,
+                                 const std::string& name, JobPart part) {
+  Query query(database, absl::StrCat(kSelectJob, "WHERE name=? AND tenant=?"), name, tenant);
+  return ReadFound(database, query, name, part);
+}
+
+absl::StatusOr<JobOwner> FindOwner(Database& database, const std::string& tenant,
+                                   const std::string& name) {
+  Query query(database, "SELECT owner FROM jobs WHERE name=? AND tenant=?", name, tenant);
   if (!query.Next()) return NoSuchJob(name);
-  JobRow row = RowOf(query);
-  if (part != JobPart::kHeader) {
-    MergePart(database, "SELECT crc32, spec FROM specs WHERE job=?", row);
-  }
-  if (part == JobPart::kRun) AddCheckpoint(database, row);
-  if (part == JobPart::kAll) AddResult(database, row);
-  if (!row.stored.intact) return FailsChecksum(name);
-  return std::move(row.stored);
+  return JobOwner{query.Bytes(0), tenant};
 }
 
 JobPage List(Database& database, const JobQuery& query) {
   Query rows(database, ListSql(query));
   rows.Bind(query.before > 0 ? query.before : INT64_MAX);
+  if (query.tenant) rows.Bind(*query.tenant);
   for (const int state : query.states) rows.Bind(state);
   for (const auto& [key, value] : query.labels) {
     rows.Bind(key);

@@ -23,6 +23,12 @@ absl::Status OtherJob(const v1::Job& job);
 
 /// See Store::Read.
 absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobPart part);
+/// See Store::ReadOf.
+absl::StatusOr<StoredJob> ReadOf(Database& database, const std::string& tenant,
+                                 const std::string& name, JobPart part);
+/// See Store::Owner.
+absl::StatusOr<JobOwner> FindOwner(Database& database, const std::string& tenant,
+                                   const std::string& name);
 /// See Store::List.
 JobPage List(Database& database, const JobQuery& query);
 /// See Store::ListUnfinished.

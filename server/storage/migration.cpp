@@ -29,6 +29,15 @@ ALTER TABLE jobs ADD COLUMN oldest_sequence INTEGER NOT NULL DEFAULT 1;
 ALTER TABLE jobs ADD COLUMN compacted INTEGER NOT NULL DEFAULT 0;
 )sql";
 
+// From 4: jobs belong to somebody, and request ids to a tenant. All jobs so far are those of
+// `local`.
+constexpr char kToVersion5[] = R"sql(
+ALTER TABLE jobs ADD COLUMN owner TEXT NOT NULL DEFAULT 'local';
+ALTER TABLE jobs ADD COLUMN tenant TEXT NOT NULL DEFAULT 'local';
+CREATE INDEX jobs_by_tenant ON jobs(tenant, number);
+UPDATE jobs SET request_id = 'local/' || request_id WHERE request_id IS NOT NULL;
+)sql";
+
 // SQL function: the end of the job with this header in Unix seconds; 0 if it does not tell.
 void EndTimeOf(sqlite3_context* context, int, sqlite3_value** arguments) {
   v1::Job job;
@@ -77,7 +86,8 @@ void Migrate(SQLite::Database& connection, int version) {
     connection.exec(kToVersion3);
     connection.exec(kSchemaOfVersion3);
   }
-  AddTitles(connection);
+  if (version < 4) AddTitles(connection);
+  connection.exec(kToVersion5);
   connection.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
   transaction.commit();
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,8 +92,16 @@ struct StoredJob {
   bool MergeResult();
 };
 
+/// Whose a job is.
+struct JobOwner {
+  std::string owner;
+  std::string tenant;
+};
+
 /// Which jobs to list.
 struct JobQuery {
+  /// Jobs of this tenant; nothing: of all, for the server itself.
+  std::optional<std::string> tenant = {};
   /// Jobs in one of these states; empty: in any.
   std::vector<int> states = {};
   /// Jobs that have all of these labels.

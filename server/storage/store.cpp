@@ -50,8 +50,14 @@ void Store::Post(Run run, Callback<T> done, bool frees) {
 }
 
 void Store::Create(const NewJob& job, Callback<StoredJob> done) {
-  JobInsert insert{job.job.name(), job.request_id,     job.job.state(), {},
-                   Split(job.job), ToRows(job.events), job.may_create};
+  JobInsert insert{.name = job.job.name(),
+                   .request_id = job.request_id,
+                   .whose = {OwnerOf(job.job), TenantOf(job.job)},
+                   .state = job.job.state(),
+                   .labels = {},
+                   .parts = Split(job.job),
+                   .events = ToRows(job.events),
+                   .may_create = job.may_create};
   insert.labels.assign(job.job.labels().begin(), job.job.labels().end());
   Post([insert = std::move(insert)](Database& database) { return Insert(database, insert); },
        std::move(done));
@@ -89,6 +95,18 @@ void Store::Read(std::string name, JobPart part, Callback<StoredJob> done) {
        std::move(done));
 }
 
+void Store::ReadOf(std::string tenant, std::string name, JobPart part, Callback<StoredJob> done) {
+  Post([tenant = std::move(tenant), name = std::move(name),
+        part](Database& database) { return contact::ReadOf(database, tenant, name, part); },
+       std::move(done));
+}
+
+void Store::Owner(std::string tenant, std::string name, Callback<JobOwner> done) {
+  Post([tenant = std::move(tenant),
+        name = std::move(name)](Database& database) { return FindOwner(database, tenant, name); },
+       std::move(done));
+}
+
 void Store::List(JobQuery query, Callback<JobPage> done) {
   Post([query = std::move(query)](Database& database) { return contact::List(database, query); },
        std::move(done));
@@ -108,15 +126,14 @@ void Store::ReadEvents(EventQuery query, Callback<EventPage> done) {
        std::move(done));
 }
 
-void Store::Delete(std::string name, std::string expected_uid, Callback<bool> done) {
-  Post([name = std::move(name), uid = std::move(expected_uid)](
-           Database& database) { return Done(Remove(database, name, uid)); },
+void Store::Delete(std::string name, std::string expected_uid, Callback<JobOwner> done) {
+  Post([name = std::move(name),
+        uid = std::move(expected_uid)](Database& database) { return Remove(database, name, uid); },
        std::move(done), true);
 }
 
-void Store::Compact(std::string name, Callback<bool> done) {
-  Post([name =
-            std::move(name)](Database& database) { return Done(contact::Compact(database, name)); },
+void Store::Compact(std::string name, Callback<JobOwner> done) {
+  Post([name = std::move(name)](Database& database) { return contact::Compact(database, name); },
        std::move(done), true);
 }
 

@@ -79,25 +79,31 @@ class Store {
   /// Remembers that a user wants a job cancelled, whoever runs it. NOT_FOUND.
   void RequestCancel(std::string name, Callback<bool> done);
 
-  /// Reads a job, or the parts of it that `part` names. NOT_FOUND.
+  /// Reads a job, or the parts of it that `part` names, for the server itself. NOT_FOUND.
   void Read(std::string name, JobPart part, Callback<StoredJob> done);
+  /// As Read, for a caller of this tenant. NOT_FOUND, also for the job of another tenant.
+  void ReadOf(std::string tenant, std::string name, JobPart part, Callback<StoredJob> done);
+  /// Whose the job is, also of a damaged one. NOT_FOUND, also for the job of another tenant.
+  void Owner(std::string tenant, std::string name, Callback<JobOwner> done);
   /// A page of the jobs that `query` asks for, newest first.
   void List(JobQuery query, Callback<JobPage> done);
   /// Headers of the jobs that are QUEUED or RUNNING, oldest first.
   void ListUnfinished(Callback<std::vector<StoredJob>> done);
   /// Sizes of the jobs that have ended, the oldest end first.
   void Sizes(Callback<std::vector<JobSize>> done);
-  /// A page of a job's log. A page may be empty though more follows; go on from its position.
-  /// NOT_FOUND.
+  /// A page of a job's log. A page may be empty though more follows; go on from its position. Who
+  /// asks for a caller has read the job with ReadOf before: names are never used again. NOT_FOUND.
   void ReadEvents(EventQuery query, Callback<EventPage> done);
 
-  /// Removes a job and its log. NOT_FOUND; FAILED_PRECONDITION: it has not ended. ABORTED, with the
-  /// payload kUidPayload: its uid is not `expected_uid`, if that is not empty.
-  void Delete(std::string name, std::string expected_uid, Callback<bool> done);
+  /// Removes a job and its log, and answers whose it was. NOT_FOUND; FAILED_PRECONDITION: it has
+  /// not ended. ABORTED, with the payload kUidPayload: its uid is not `expected_uid`, if that is
+  /// not empty.
+  void Delete(std::string name, std::string expected_uid, Callback<JobOwner> done);
 
-  /// Drops the frame chunks of a job's log, for ever; see EventPage::oldest. NOT_FOUND;
+  /// Drops the frame chunks of a job's log, for ever; see EventPage::oldest. Answers whose the job
+  /// is. NOT_FOUND;
   /// FAILED_PRECONDITION: it has not ended.
-  void Compact(std::string name, Callback<bool> done);
+  void Compact(std::string name, Callback<JobOwner> done);
 
   /// Copies the store bit by bit, with other work between, into a file of its own. Everything
   /// that was asked for before is in it, and what is changed meanwhile may be. One backup is made

@@ -85,5 +85,10 @@ TEST(Spelling, QuotedTextIsNeverCutInsideACharacter) {
   EXPECT_EQ(quoted.substr(quoted.size() - 6), "δ…'") << quoted;
 }
 
+TEST(Count, KnowsItsPlural) {
+  EXPECT_EQ(Count(1, "body", "bodies"), "1 body");
+  EXPECT_EQ(Count(0, "body", "bodies"), "0 bodies");
+}
+
 }  // namespace
 }  // namespace contact

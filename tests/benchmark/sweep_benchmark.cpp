@@ -78,7 +78,7 @@ void AwaitEnd(JobManager& jobs, const std::string& name) {
   request.add_kinds("state_changed");
   Await<Result<WatchedJob>> opened;
   jobs.watches().WatchJob(
-      request, [woken] { woken->release(); }, opened.callback());
+      LocalPrincipal(), request, [woken] { woken->release(); }, opened.callback());
   const Result<WatchedJob> watched = opened.Get();
   for (;;) {
     std::vector<LogRecord> records;
@@ -97,7 +97,7 @@ void SweepJob(benchmark::State& state) {
                   {.workers = static_cast<int>(state.range(0))});
   while (state.KeepRunning()) {
     Await<Result<v1::Job>> created;
-    jobs.creator().Create(Study(), created.callback());
+    jobs.creator().Create(LocalPrincipal(), Study(), created.callback());
     AwaitEnd(jobs, created.Get().value().name());
   }
   jobs.Stop();

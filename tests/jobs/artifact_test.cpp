@@ -31,7 +31,8 @@ class ArtifactTest : public JobsTest {
     const auto box = std::make_shared<std::promise<Opened>>();
     LogReader waiter;
     manager_->recordings().ReadArtifact(
-        request, waiter.wake(), [box](Opened opened) { box->set_value(std::move(opened)); });
+        LocalPrincipal(), request, waiter.wake(),
+        [box](Opened opened) { box->set_value(std::move(opened)); });
     Opened opened = box->get_future().get();
     Read read;
     if (!opened.ok()) {

@@ -28,14 +28,15 @@ TEST_F(JobsTest, CreateIsDurableBeforeItIsAnswered) {
   OpenWithFakeRun();
   Await<Result<v1::Job>> created;
   std::filesystem::path image = directory_.path() / "image";
-  manager_->creator().Create(RequestFor(BouncingBall()), [&, done = created.callback()](auto job) {
-    // What a crash at this moment would leave.
-    std::filesystem::create_directory(image);
-    for (const char* file : {"contactd.db", "contactd.db-wal", "initialised"}) {
-      std::filesystem::copy(directory_.path() / file, image / file);
-    }
-    done(std::move(job));
-  });
+  manager_->creator().Create(
+      LocalPrincipal(), RequestFor(BouncingBall()), [&, done = created.callback()](auto job) {
+        // What a crash at this moment would leave.
+        std::filesystem::create_directory(image);
+        for (const char* file : {"contactd.db", "contactd.db-wal", "initialised"}) {
+          std::filesystem::copy(directory_.path() / file, image / file);
+        }
+        done(std::move(job));
+      });
   const v1::Job job = created.Get().value();
   EXPECT_EQ(job.state(), v1::Job::QUEUED);
   EXPECT_EQ(job.state_reason(), "WAITING_FOR_WORKER");
@@ -135,10 +136,12 @@ TEST_F(JobsTest, ValidateOnlyStoresNothing) {
 TEST_F(JobsTest, NothingIsStoredForACallerThatHasLeft) {
   OpenWithFakeRun();
   Await<Result<v1::Job>> left;
-  manager_->creator().Create(RequestFor(BouncingBall()), left.callback(), [] { return true; });
+  manager_->creator().Create(LocalPrincipal(), RequestFor(BouncingBall()), left.callback(),
+                             [] { return true; });
   EXPECT_EQ(left.Get().error().reason, "DEADLINE_EXCEEDED");
   Await<Result<v1::Job>> stayed;
-  manager_->creator().Create(RequestFor(BouncingBall()), stayed.callback(), [] { return false; });
+  manager_->creator().Create(LocalPrincipal(), RequestFor(BouncingBall()), stayed.callback(),
+                             [] { return false; });
   EXPECT_TRUE(stayed.Get().ok());
   EXPECT_EQ(List({}).value().jobs_size(), 1);
 }
@@ -159,7 +162,8 @@ TEST_F(JobsTest, RequestIdMakesOneJobHoweverOftenItIsSent) {
   constexpr int kTries = 200;
   std::vector<Await<Result<v1::Job>>> answers(kTries);
   for (auto& answer : answers) {
-    manager_->creator().Create(RequestFor(BouncingBall(), "again"), answer.callback());
+    manager_->creator().Create(LocalPrincipal(), RequestFor(BouncingBall(), "again"),
+                               answer.callback());
   }
   std::set<std::string> names;
   for (auto& answer : answers) names.insert(answer.Get().value().name());
@@ -408,12 +412,13 @@ TEST_F(JobsTest, LedgerIsNotParsedOnTheStoresThread) {
   const std::string name = Create(BouncingBall());
   Ended(name);
   Await<std::string> thread;
-  manager_->reader().Get(name, [told = thread.callback()](const Result<v1::Job>& job) {
-    EXPECT_EQ(job.value().cycles_size(), 1);
-    std::array<char, 16> own{};
-    pthread_getname_np(pthread_self(), own.data(), own.size());
-    told(own.data());
-  });
+  manager_->reader().Get(LocalPrincipal(), name,
+                         [told = thread.callback()](const Result<v1::Job>& job) {
+                           EXPECT_EQ(job.value().cycles_size(), 1);
+                           std::array<char, 16> own{};
+                           pthread_getname_np(pthread_self(), own.data(), own.size());
+                           told(own.data());
+                         });
   EXPECT_EQ(thread.Get(), "checker");
 }
 
@@ -603,9 +608,10 @@ TEST_F(JobsTest, EveryCallbackHasRunWhenStopReturns) {
   v1::CancelJobRequest cancel;
   cancel.set_name(Create());
   for (int i = 0; i < 100; ++i) {
-    manager_->creator().Create(RequestFor(BouncingBall()), [&](const auto&) { ++answered; });
-    manager_->reader().Get(cancel.name(), [&](const auto&) { ++answered; });
-    manager_->Cancel(cancel, [&](const auto&) { ++answered; });
+    manager_->creator().Create(LocalPrincipal(), RequestFor(BouncingBall()),
+                               [&](const auto&) { ++answered; });
+    manager_->reader().Get(LocalPrincipal(), cancel.name(), [&](const auto&) { ++answered; });
+    manager_->Cancel(LocalPrincipal(), cancel, [&](const auto&) { ++answered; });
   }
   manager_->Stop();
   EXPECT_EQ(answered, 300);

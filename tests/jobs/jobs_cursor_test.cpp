@@ -14,7 +14,8 @@ class JobsCursorTest : public JobsTest {
  protected:
   Watches::Jobs Watch(v1::WatchJobsRequest request = {}) {
     request.mutable_bookmark_interval()->set_seconds(3600);
-    return std::move(manager_->watches().WatchJobs(request, reader_.wake()).value());
+    return std::move(
+        manager_->watches().WatchJobs(LocalPrincipal(), request, reader_.wake()).value());
   }
   // The next message, waiting for it.
   v1::WatchJobsResponse Next(StreamSource<v1::WatchJobsResponse>& cursor) {
@@ -143,11 +144,11 @@ TEST_F(JobsCursorTest, ReaderThatFallsBehindAllBoundsIsToldSo) {
   OpenWithFakeRun();
   JobFeed feed;
   JobsCursor cursor(
-      *store_, feed, clock_, {{}, std::chrono::hours(1)}, [](StoredJob*) {}, reader_.wake(),
+      *store_, feed, clock_, {{}, std::chrono::hours(1), kLocal}, [](StoredJob*) {}, reader_.wake(),
       nullptr);
   Next(cursor);
   for (std::size_t i = 0; i <= JobFeed::kMostChanges; ++i) {
-    feed.Changed("jobs/" + std::to_string(i));
+    feed.Changed(kLocal, "jobs/" + std::to_string(i));
   }
   v1::WatchJobsResponse message;
   const StreamStep step = cursor.Read(&message);
@@ -158,12 +159,13 @@ TEST_F(JobsCursorTest, ReaderThatFallsBehindAllBoundsIsToldSo) {
 
 TEST(JobFeed, KeepsEachNameOnceAndNotTooMany) {
   JobFeed feed;
-  const auto reader = feed.Subscribe([] {});
-  for (int i = 0; i < 100'000; ++i) feed.Changed("jobs/a");
+  const auto reader = feed.Subscribe(kLocal, [] {});
+  for (int i = 0; i < 100'000; ++i) feed.Changed(kLocal, "jobs/a");
   EXPECT_THAT(reader->Take(10), ElementsAre("jobs/a"));
-  for (std::size_t i = 0; i < JobFeed::kMostChanges; ++i) feed.Changed("jobs/" + std::to_string(i));
+  for (std::size_t i = 0; i < JobFeed::kMostChanges; ++i)
+    feed.Changed(kLocal, "jobs/" + std::to_string(i));
   EXPECT_FALSE(reader->overflown());
-  feed.Changed("jobs/b");
+  feed.Changed(kLocal, "jobs/b");
   EXPECT_TRUE(reader->overflown());
   EXPECT_THAT(reader->Take(10), IsEmpty());
 }
@@ -171,16 +173,16 @@ TEST(JobFeed, KeepsEachNameOnceAndNotTooMany) {
 TEST(JobFeed, WakesOnceForWhatIsNotLookedAt) {
   JobFeed feed;
   int wakes = 0;
-  const auto reader = feed.Subscribe([&wakes] { ++wakes; });
-  feed.Changed("jobs/a");
-  feed.Changed("jobs/b");
+  const auto reader = feed.Subscribe(kLocal, [&wakes] { ++wakes; });
+  feed.Changed(kLocal, "jobs/a");
+  feed.Changed(kLocal, "jobs/b");
   EXPECT_EQ(wakes, 1);
   EXPECT_EQ(reader->Take(1).size(), 1U);
-  feed.Changed("jobs/c");
+  feed.Changed(kLocal, "jobs/c");
   EXPECT_EQ(wakes, 1) << "it still has something to look at";
   EXPECT_EQ(reader->Take(9).size(), 2U);
   EXPECT_TRUE(reader->Take(9).empty());
-  feed.Changed("jobs/d");
+  feed.Changed(kLocal, "jobs/d");
   EXPECT_EQ(wakes, 2);
 }
 

@@ -154,7 +154,7 @@ class JobsTest : public testing::Test {
 
   Result<v1::Job> Create(const v1::CreateJobRequest& request) {
     Await<Result<v1::Job>> result;
-    manager_->creator().Create(request, result.callback());
+    manager_->creator().Create(LocalPrincipal(), request, result.callback());
     return result.Get();
   }
   /// Name of a new job.
@@ -163,7 +163,7 @@ class JobsTest : public testing::Test {
   }
   Result<v1::Job> Get(const std::string& name) {
     Await<Result<v1::Job>> result;
-    manager_->reader().Get(name, result.callback());
+    manager_->reader().Get(LocalPrincipal(), name, result.callback());
     return result.Get();
   }
   Result<v1::Job> Cancel(const std::string& name, const std::string& expected_uid = "") {
@@ -171,7 +171,7 @@ class JobsTest : public testing::Test {
     request.set_name(name);
     request.set_expected_uid(expected_uid);
     Await<Result<v1::Job>> result;
-    manager_->Cancel(request, result.callback());
+    manager_->Cancel(LocalPrincipal(), request, result.callback());
     return result.Get();
   }
   Result<bool> Delete(const std::string& name, const std::string& expected_uid = "") {
@@ -179,12 +179,12 @@ class JobsTest : public testing::Test {
     request.set_name(name);
     request.set_expected_uid(expected_uid);
     Await<Result<bool>> result;
-    manager_->Delete(request, result.callback());
+    manager_->Delete(LocalPrincipal(), request, result.callback());
     return result.Get();
   }
   Result<v1::ListJobsResponse> List(const v1::ListJobsRequest& request) {
     Await<Result<v1::ListJobsResponse>> result;
-    manager_->reader().List(request, result.callback());
+    manager_->reader().List(LocalPrincipal(), request, result.callback());
     return result.Get();
   }
   Result<WatchedJob> Watch(const std::string& name, LogReader& reader, std::uint64_t after = 0,
@@ -199,9 +199,9 @@ class JobsTest : public testing::Test {
   Result<WatchedJob> Watch(const v1::WatchJobRequest& request, LogReader& reader) {
     // A promise of what can only be moved.
     auto box = std::make_shared<std::promise<Result<WatchedJob>>>();
-    manager_->watches().WatchJob(request, reader.wake(), [box](Result<WatchedJob> result) {
-      box->set_value(std::move(result));
-    });
+    manager_->watches().WatchJob(
+        LocalPrincipal(), request, reader.wake(),
+        [box](Result<WatchedJob> result) { box->set_value(std::move(result)); });
     return box->get_future().get();
   }
   /// The log of a job, waiting for its end.

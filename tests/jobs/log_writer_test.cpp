@@ -52,7 +52,7 @@ class LogWriterTest : public testing::Test {
     }
   }
   void MakeSpace() {
-    Await<absl::StatusOr<bool>> deleted;
+    Await<absl::StatusOr<JobOwner>> deleted;
     store_->Delete("jobs/old", "", deleted.callback());
     ASSERT_TRUE(deleted.Get().ok());
   }

@@ -471,7 +471,7 @@ TEST_F(LostRunTest, RetriesOfManyThreadsMakeOneJob) {
   for (int thread = 0; thread < kThreads; ++thread) {
     threads.emplace_back([&, thread] {
       for (int i = thread; i < kCalls; i += kThreads) {
-        manager_->creator().Create(RequestFor(BouncingBall(), "once"),
+        manager_->creator().Create(LocalPrincipal(), RequestFor(BouncingBall(), "once"),
                                    answers[static_cast<std::size_t>(i)].callback());
       }
     });

@@ -99,7 +99,7 @@ TEST_F(RecoveryTest, WishToCancelSurvivesACrash) {
   const auto store = *Store::Open(image.path());
   JobManager manager(*store, clock_, ids_, WithFakeRun());
   Await<Result<v1::Job>> job;
-  manager.reader().Get(name, job.callback());
+  manager.reader().Get(LocalPrincipal(), name, job.callback());
   const v1::Job recovered = job.Get().value();
   EXPECT_EQ(recovered.state(), v1::Job::CANCELLED);
   EXPECT_EQ(recovered.state_reason(), "USER_REQUEST");

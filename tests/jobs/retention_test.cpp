@@ -84,7 +84,7 @@ TEST_F(RetentionTest, EndedJobsGoByTheirAgeOnly) {
   EXPECT_FALSE(Get(running).value().has_expire_time());
 
   Retention retention(*store_, clock_, {.age = hours(1)}, feed_);
-  const auto reader = feed_.Subscribe([] {});
+  const auto reader = feed_.Subscribe(kLocal, [] {});
   clock_.Advance(seconds(59));
   EXPECT_EQ(retention.Purge(), 0);
   clock_.Advance(seconds(1));
@@ -179,7 +179,7 @@ TEST_F(RetentionTest, TrajectoriesGoAndResultsStay) {
   v1::GetSeriesRequest request;
   request.set_name(name);
   Await<Result<v1::Series>> series;
-  manager_->recordings().GetSeries(request, series.callback());
+  manager_->recordings().GetSeries(LocalPrincipal(), request, series.callback());
   const Result<v1::Series> answer = series.Get();
   EXPECT_EQ(answer.error().code, absl::StatusCode::kOutOfRange);
   EXPECT_EQ(answer.error().reason, "EVENTS_COMPACTED");

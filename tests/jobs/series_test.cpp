@@ -27,7 +27,7 @@ class SeriesTest : public JobsTest {
  protected:
   Result<v1::Series> Series(const v1::GetSeriesRequest& request) {
     Await<Result<v1::Series>> result;
-    manager_->recordings().GetSeries(request, result.callback());
+    manager_->recordings().GetSeries(LocalPrincipal(), request, result.callback());
     return result.Get();
   }
   static v1::GetSeriesRequest Ask(const std::string& name,
@@ -119,7 +119,8 @@ TEST_F(SeriesTest, NothingIsReadForACallerThatHasLeft) {
   const std::string name = Create(BouncingBall(2));
   Ended(name);
   Await<Result<v1::Series>> left;
-  manager_->recordings().GetSeries(Ask(name), left.callback(), [] { return true; });
+  manager_->recordings().GetSeries(LocalPrincipal(), Ask(name), left.callback(),
+                                   [] { return true; });
   EXPECT_EQ(left.Get().error().reason, "DEADLINE_EXCEEDED");
 }
 

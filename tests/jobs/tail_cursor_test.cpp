@@ -207,7 +207,7 @@ TEST_F(TailCursorTest, DeletedJobEndsTheWatch) {
   LogReader reader;
   log_ = std::make_shared<JobLog>(3, true);  // Nothing in memory, as after a restart.
   const auto cursor = Cursor(reader);
-  Await<absl::StatusOr<bool>> deleted;
+  Await<absl::StatusOr<JobOwner>> deleted;
   store_->Delete(name_, "", deleted.callback());
   ASSERT_TRUE(deleted.Get().ok());
   EXPECT_TRUE(reader.ToEnd(*cursor).empty());

@@ -20,7 +20,7 @@ class NodeTest(ServerTest):
         super().setUp()
         for part in ("client/node", "proto"):
             shutil.copytree(ROOT / part, self.folder / part, ignore=shutil.ignore_patterns(
-                "node_modules", "dist", "generated"))
+                "node_modules", "dist", "generated", *([] if part == "proto" else ["proto"])))
         self.example = self.folder / "client" / "node"
         try:
             install = subprocess.run(
@@ -50,6 +50,34 @@ class NodeTest(ServerTest):
             self.assertAlmostEqual(number / known, 1, delta=1e-6)
         self.assertIn("1001 samples, largest force B1-B2 104.65", printed)
         self.assertIn("SUCCEEDED  convergence FULL", printed)
+
+    def test_package_works_in_a_folder_that_has_nothing_else(self):
+        pack = self.tool("npm", "pack")
+        self.assertEqual(pack.returncode, 0, pack.stderr)
+        bare = self.folder / "bare"
+        bare.mkdir()
+        block = (self.example / "README.md").read_text("utf-8").split("$ cat first.mjs\n")[1]
+        program, printed = block.split("$ node first.mjs\n")
+        (bare / "first.mjs").write_text(
+            program.replace("127.0.0.1:7070", f"127.0.0.1:{self.server.port}"))
+        (bare / "wrong.mts").write_text("import {Client, type Scenario} from 'contactsim';\n"
+                                        "const scenario: Scenario = {titel: 'x'};\n"
+                                        "new Client('127.0.0.1:1').submit(scenario);\n")
+        install = subprocess.run(
+            ["npm", "install", "--no-audit", "--no-fund",
+             self.example / "contactsim-0.1.0.tgz", "typescript@5.9.3"],
+            cwd=bare, capture_output=True, text=True, timeout=120)
+        self.assertEqual(install.returncode, 0, install.stderr)
+        shutil.rmtree(self.folder / "client")  # What it needs is in the package.
+        shutil.rmtree(self.folder / "proto")
+        run = subprocess.run(["node", "first.mjs"], cwd=bare, capture_output=True, text=True,
+                             timeout=PATIENCE_S)
+        self.assertEqual((run.returncode, run.stdout), (0, printed.split("```")[0]), run.stderr)
+        check = subprocess.run(["npx", "tsc", "--noEmit", "--strict", "--module", "NodeNext",
+                                "--target", "ES2022", "wrong.mts"],
+                               cwd=bare, capture_output=True, text=True, timeout=4 * PATIENCE_S)
+        self.assertEqual(re.findall(r"^(\S+)\(2,\d+\)", check.stdout, re.MULTILINE),
+                         ["wrong.mts"], check.stdout)
 
     def test_missing_server_is_told_in_one_line(self):
         run = self.tool("node", "dist/run.js", "127.0.0.1:1")

@@ -17,6 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 const RateLimit::Time kStart{};
+constexpr char kGetJob[] = "/contact.v1.JobService/GetJob";
 
 TEST(RateLimitTest, BurstGoesThroughAndTheNextIsToldWhen) {
   RateLimit limit(4, 3);
@@ -73,7 +74,7 @@ TEST(PeerTest, CountsUntilTheLeaseGoes) {
 }
 
 TEST(CallGuardTest, MetadataUpToTheLimitIsTaken) {
-  CallGuard guard({.max_metadata_bytes = 1024}, std::make_shared<PeerCounts>(),
+  CallGuard guard({.max_metadata_bytes = 1024}, Door(), std::make_shared<PeerCounts>(),
                   std::make_shared<RpcMetrics>(), SystemClock());
   const std::string room(1024 - 2 * (32 + 2), 'x');  // Two entries with names of two bytes.
   for (const auto& [extra, taken] : {std::pair{"", true}, std::pair{"x", false}}) {
@@ -81,7 +82,7 @@ TEST(CallGuardTest, MetadataUpToTheLimitIsTaken) {
     grpc::testing::ServerContextTestSpouse spouse(&context);
     spouse.AddClientMetadata("k1", room);
     spouse.AddClientMetadata("k2", extra);
-    const auto refusal = guard.Check(context, CallKind::kUnary);
+    const auto refusal = guard.Check(context, kGetJob, CallKind::kUnary).refusal;
     EXPECT_EQ(!refusal, taken) << extra;
     EXPECT_EQ(refusal.value_or(Error{}).reason, taken ? "" : "METADATA_TOO_LARGE");
   }
@@ -90,11 +91,11 @@ TEST(CallGuardTest, MetadataUpToTheLimitIsTaken) {
 TEST(CallGuardTest, CreatesArePacedByTheClockAndOtherCallsAreNot) {
   FakeClock clock;
   const auto metrics = std::make_shared<RpcMetrics>();
-  CallGuard guard({.max_creates_per_second = 1, .max_create_burst = 1},
+  CallGuard guard({.max_creates_per_second = 1, .max_create_burst = 1}, Door(),
                   std::make_shared<PeerCounts>(), metrics, clock);
   grpc::ServerContext context;
   const auto reason = [&](CallKind kind) {
-    return guard.Check(context, kind).value_or(Error{}).reason;
+    return guard.Check(context, kGetJob, kind).refusal.value_or(Error{}).reason;
   };
   EXPECT_EQ(reason(CallKind::kCreateJob), "");
   EXPECT_EQ(reason(CallKind::kCreateJob), "RATE_LIMITED");

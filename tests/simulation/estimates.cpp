@@ -2,11 +2,10 @@
 // README.md and Estimate in job.proto say of estimates is judged by this.
 //   simulation_estimates [SCENARIOS]   of each kind, 10 if it is not given
 // A factor is estimate / run; scenarios without estimate do not count. The last lines have the
-// quantiles of each kind and of all.
+// quantiles of each kind and of all. python/estimate measures the wall time, on a server.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -19,8 +18,6 @@ namespace {
 
 constexpr double kSamples = 1000;  // Intervals of a recorded trajectory.
 constexpr double kGood = 3;        // The factor that the documentation promises for examples.
-
-double Seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct SampleCounter final : Observer {
   double rows = 0;
@@ -49,10 +46,10 @@ struct Factors {
 };
 
 struct Tally {
-  Factors steps{"steps"}, seconds{"seconds"}, samples{"samples"};
+  Factors steps{"steps"}, samples{"samples"};
 
   void Tell(const char* of) {
-    for (Factors* factors : {&steps, &seconds, &samples}) factors->Tell(of);
+    for (Factors* factors : {&steps, &samples}) factors->Tell(of);
   }
 };
 
@@ -62,22 +59,16 @@ void Compare(unsigned seed, int kind, Tally& own, Tally& all) {
   const RunEstimate estimate = EstimateRunOf(scenario);
   if (!estimate.steps) return;  // It has no estimate.
   SampleCounter counter;
-  const double start = Seconds();
   const Outcome outcome = Run(scenario, counter);
-  const double took = Seconds() - start;
   const double steps =
       *estimate.steps / static_cast<double>(std::max<std::int64_t>(outcome.steps, 1));
-  const double seconds = (*estimate.solve_seconds + estimate.sample_seconds) / std::max(took, 1e-6);
   const double samples = estimate.samples / std::max(counter.rows, 1.0);
-  std::printf("%-9s %3u steps %.0f of %lld, seconds %.3g of %.3g, factors %.3g %.3g%s\n",
-              testing::kKindNames[kind], seed, *estimate.steps,
-              static_cast<long long>(outcome.steps),
-              *estimate.solve_seconds + estimate.sample_seconds, took, steps, seconds,
+  std::printf("%-9s %3u steps %.0f of %lld, factor %.3g%s\n", testing::kKindNames[kind], seed,
+              *estimate.steps, static_cast<long long>(outcome.steps), steps,
               outcome.end == Outcome::End::kFinished ? "" : " (not finished)");
   std::fflush(stdout);
   for (Tally* tally : {&own, &all}) {
     tally->steps.values.push_back(steps);
-    tally->seconds.values.push_back(seconds);
     tally->samples.values.push_back(samples);
   }
 }

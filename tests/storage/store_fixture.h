@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "identity/principal.h"
 #include "storage/store.h"
 #include "testing/await.h"
 #include "testing/temp_directory.h"
@@ -21,6 +22,8 @@ inline v1::Job MakeJob(const std::string& name) {
   job.set_state(v1::Job::QUEUED);
   job.mutable_scenario()->set_title("of " + name);
   (*job.mutable_labels())["study"] = "a";
+  job.set_owner(kLocal);
+  job.set_tenant(kLocal);
   return job;
 }
 
@@ -87,6 +90,16 @@ class StoreTest : public testing::Test {
     if (stored.ok() && !stored->MergeResult()) return absl::DataLossError("the result is damaged");
     return stored;
   }
+  absl::StatusOr<StoredJob> ReadOf(const std::string& tenant, const std::string& name) {
+    Await<absl::StatusOr<StoredJob>> result;
+    store_->ReadOf(tenant, name, JobPart::kAll, result.callback());
+    return result.Get();
+  }
+  absl::StatusOr<JobOwner> Owner(const std::string& tenant, const std::string& name) {
+    Await<absl::StatusOr<JobOwner>> result;
+    store_->Owner(tenant, name, result.callback());
+    return result.Get();
+  }
   absl::StatusOr<JobPage> List(JobQuery query) {
     Await<absl::StatusOr<JobPage>> result;
     store_->List(std::move(query), result.callback());
@@ -126,12 +139,12 @@ class StoreTest : public testing::Test {
     return bytes;
   }
   absl::Status Delete(const std::string& name, const std::string& expected_uid = "") {
-    Await<absl::StatusOr<bool>> result;
+    Await<absl::StatusOr<JobOwner>> result;
     store_->Delete(name, expected_uid, result.callback());
     return result.Get().status();
   }
   absl::Status Compact(const std::string& name) {
-    Await<absl::StatusOr<bool>> result;
+    Await<absl::StatusOr<JobOwner>> result;
     store_->Compact(name, result.callback());
     return result.Get().status();
   }

@@ -1,10 +1,15 @@
-"""What contactd logs of a job can be found by its name, in both formats."""
+"""What contactd says of its jobs and itself: in its log, on its output, and to systemd."""
 
 import json
+import os
 import re
+import socket
+import subprocess
+import tempfile
 import unittest
 
-from contactd import Job, ServerTest, endless, is_cycle, three_ball_chain
+from contactd import (BINARY, PATIENCE_S, Job, Server, ServerTest, endless, is_cycle,
+                      three_ball_chain)
 
 
 class TextLogTest(ServerTest):
@@ -39,6 +44,43 @@ class JsonLogTest(ServerTest):
         for line in lines:
             self.assertEqual(set(line), {"time", "level", "message"})
             self.assertNotEqual(line["level"], "error")
+
+    def test_the_line_that_tells_the_address_is_an_object_too(self):
+        greeting = json.loads(self.server.greeting)
+        self.assertEqual((set(greeting), greeting["level"]), ({"time", "level", "message"}, "info"))
+        self.assertIn(f"listening on 127.0.0.1:{self.server.port}, data in", greeting["message"])
+
+
+class NotifyTest(unittest.TestCase):
+    """What systemd is told by a service of Type=notify."""
+
+    def test_readiness_and_end_are_told(self):
+        with tempfile.TemporaryDirectory(prefix="contactd-test-") as folder, \
+                socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+            manager.bind(f"{folder}/notify")
+            manager.settimeout(PATIENCE_S)
+            server = Server(f"{folder}/data",
+                            environment={**os.environ, "NOTIFY_SOCKET": f"{folder}/notify"})
+            server.start()
+            self.addCleanup(server.kill)
+            self.assertEqual(manager.recv(4096), b"READY=1")
+            server.run(three_ball_chain())  # It is: calls are answered.
+            self.assertEqual(server.terminate()[0], 0)
+            self.assertEqual(manager.recv(4096), b"STOPPING=1")
+
+    def test_a_server_that_cannot_listen_is_never_ready(self):
+        with tempfile.TemporaryDirectory(prefix="contactd-test-") as folder, \
+                socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager, \
+                socket.create_server(("127.0.0.1", 0)) as taken:
+            manager.bind(f"{folder}/notify")
+            manager.setblocking(False)
+            run = subprocess.run(
+                [BINARY, f"--listen=127.0.0.1:{taken.getsockname()[1]}", f"--data-dir={folder}/data"],
+                env={**os.environ, "NOTIFY_SOCKET": f"{folder}/notify"}, capture_output=True,
+                timeout=PATIENCE_S)
+            self.assertNotEqual(run.returncode, 0)
+            with self.assertRaises(BlockingIOError):
+                manager.recv(4096)
 
 
 if __name__ == "__main__":

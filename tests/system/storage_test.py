@@ -102,7 +102,7 @@ class FsckTest(ServerTest):
         self.server.terminate()
         good = fsck(self.server.data_dir)
         self.assertEqual(good.returncode, 0, good.stdout)
-        self.assertRegex(good.stdout, r"^\S+: 1 jobs, \d+ events, 0 findings\n$")
+        self.assertRegex(good.stdout, r"^\S+: 1 job, \d+ events, 0 findings\n$")
         with sqlite3.connect(self.server.data_dir / "contactd.db") as raw:
             raw.execute("UPDATE events SET payload=zeroblob(LENGTH(payload)) WHERE sequence=3")
         raw.close()
@@ -110,7 +110,7 @@ class FsckTest(ServerTest):
         damaged = fsck(self.server.data_dir)
         self.assertEqual(damaged.returncode, 1)
         self.assertIn("event 3 fails its checksum\n", damaged.stdout)
-        self.assertIn("1 findings\n", damaged.stdout)
+        self.assertIn("1 finding\n", damaged.stdout)
         self.assertEqual(contents(self.server.data_dir), before)
         none = fsck(self.folder / "none")
         self.assertEqual(none.returncode, 2)

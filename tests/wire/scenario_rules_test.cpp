@@ -253,7 +253,7 @@ std::vector<Case> Cases() {
        {}},
       {"TitleThatSteersATerminal",
        [](S& s) { s.set_title("ball\x1b]0;pwn\x07\u202e"); },
-       {"title: holds control characters: 'ball?]0;pwn??' — remove them"}},
+       {"title: holds control characters: 'ball?]0;pwn\?\?' — remove them"}},
       {"TitleOf201Characters",
        [](S& s) { s.set_title(std::string(201, 'x')); },
        {"title: has 201 characters; must have at most 200"}},

@@ -26,10 +26,6 @@ std::string Seconds(double seconds) {
   return fmt::format("{:.4g} s", seconds);
 }
 
-std::string Count(std::int64_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 std::string Instant(const google::protobuf::Timestamp& time) {
   if (time.seconds() == 0) return "-";
   return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(static_cast<std::time_t>(time.seconds())));

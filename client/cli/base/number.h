@@ -18,9 +18,6 @@ std::string RelativeError(double value);
 /// A time, given in seconds, in µs, ms or s, so that it needs few digits: `63 µs`, `2.5 ms`, `4 s`.
 std::string Seconds(double seconds);
 
-/// A count with its noun: `1 body`, `2 bodies`.
-std::string Count(std::int64_t count, std::string_view one, std::string_view many);
-
 /// `2026-11-21 01:07:00` in UTC; `-` if unset.
 std::string Instant(const google::protobuf::Timestamp& time);
 

@@ -173,7 +173,7 @@ std::string Table::Text(const Style& style, std::size_t most, const std::string&
   const Layout layout = style.width > 0 && full.Total() > style.width ? Narrow(style) : full;
   const bool blocks = style.width > 0 && layout.Total() > style.width;
   std::string text = blocks ? "" : Header(layout, style);
-  const std::size_t head = most == 0 || rows_.size() <= most ? rows_.size() : most / 2;
+  const std::size_t head = most == 0 || rows_.size() <= most + 1 ? rows_.size() : most / 2;
   const std::size_t tail = head == rows_.size() ? rows_.size() : rows_.size() - (most - head);
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     if (row == head) {

@@ -51,7 +51,7 @@ class Table {
   void Add(std::vector<Cell> row);
 
   /// The table, with at most `most` rows (0: all): of more, the first and the last are shown and
-  /// `more` stands between them, its {} being how many are not.
+  /// `more` stands between them, its {} being how many are not. One row more is shown instead.
   std::string Text(const Style& style, std::size_t most = 0, const std::string& more = "") const;
 
   /// All rows as CSV below the names of the columns: of those named, or of all. A cell of `-` is

@@ -35,7 +35,8 @@ KeyEntries EntriesBeside(const Figure::Panel& panel, std::size_t crowd,
   KeyEntries entries;
   const bool characters = terminal.characters();
   const auto faint = std::ranges::find_if(panel.curves, IsFaint);
-  if (crowd > 0 && faint != panel.curves.end()) {
+  const bool named = std::ranges::any_of(panel.curves, IsNamed);
+  if (crowd > 0 && named && faint != panel.curves.end()) {
     entries.emplace_back(characters ? "points pt ' '" : StyleOf(*faint, terminal),
                          fmt::format("{} smaller{}", crowd, characters ? ": not shown" : ""));
   }

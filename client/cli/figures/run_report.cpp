@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "base/spelling.h"
 #include "cli/base/escape.h"
 #include "cli/base/html.h"
 #include "cli/base/number.h"
@@ -21,9 +22,11 @@ std::string Preformatted(const std::string& text) {
   return fmt::format("<pre>{}</pre>\n", HtmlText(text));
 }
 
-std::string More(int all, const char* what) {
+// What is said below a table of a list of which only the first rows are shown.
+std::string More(int all, const std::string& one, const std::string& many) {
   if (all <= kMostRows) return "";
-  return fmt::format("<p>{} more {}; contactctl export has them all.</p>\n", all - kMostRows, what);
+  return fmt::format("<p>{}; contactctl export has all.</p>\n",
+                     Count(all - kMostRows, "more " + one, "more " + many));
 }
 
 bool Missed(v1::Cycle::Status status) {
@@ -49,7 +52,7 @@ std::string Ledger(const v1::Job& job) {
   return HtmlTable({"Contact", "#", "Group", "Kind", "End", "Status", "n", "μ", "α, or μ/k", "ε in",
                     "ε out", "Error", "Peak force [N]", "Start [s]", "End [s]"},
                    rows) +
-         More(job.cycles_size(), "cycles");
+         More(job.cycles_size(), "cycle", "cycles");
 }
 
 // The groups of which the ledger does not tell all.
@@ -73,7 +76,7 @@ std::string Groups(const v1::Job& job) {
          HtmlTable({"Contact", "Group", "Cycles", "End", "Status", "Grew", "μ", "ε in", "ε out",
                     "Error", "Residual", "Start [s]", "End [s]", "Reached"},
                    rows) +
-         More(all, "groups");
+         More(all, "group", "groups");
 }
 
 std::string Iterations(const std::vector<v1::Iteration>& iterations) {
@@ -91,7 +94,7 @@ std::string Iterations(const std::vector<v1::Iteration>& iterations) {
   }
   if (rows.empty()) return "<p>Nothing was iterated.</p>\n";
   return HtmlTable({"Episode", "Pass", "Cycle", "μ", "ε out", "Residual", "Next"}, rows) +
-         More(all, "rows");
+         More(all, "row", "rows");
 }
 
 std::string Bodies(const v1::Job& job) {
@@ -102,7 +105,7 @@ std::string Bodies(const v1::Job& job) {
         {{body.name(), Digits(body.position_m(), 10), Digits(body.velocity_m_per_s(), 10)}});
   }
   return HtmlTable({"Body", "Final position [m]", "Final velocity [m/s]"}, rows) +
-         More(job.final_bodies_size(), "bodies");
+         More(job.final_bodies_size(), "body", "bodies");
 }
 
 std::string Balances(const v1::RunSummary& summary) {
@@ -110,8 +113,9 @@ std::string Balances(const v1::RunSummary& summary) {
                    {{{"Momentum", RelativeError(summary.momentum_residual())}},
                     {{"Energy", RelativeError(summary.energy_residual())}},
                     {{"Worst cycle identity", RelativeError(summary.worst_identity_residual())}}}) +
-         fmt::format("<p>{} simulated; {} steps, {} evaluations, {} in {}; {} wall time.</p>\n",
-                     Seconds(summary.time_reached_s()), summary.steps(), summary.evaluations(),
+         fmt::format("<p>{} simulated; {}, {}, {} in {}; {} wall time.</p>\n",
+                     Seconds(summary.time_reached_s()), Count(summary.steps(), "step", "steps"),
+                     Count(summary.evaluations(), "evaluation", "evaluations"),
                      Count(summary.iterations(), "iteration", "iterations"),
                      Count(summary.episodes(), "episode", "episodes"),
                      Seconds(summary.wall_time_s()));
@@ -142,33 +146,78 @@ std::string HowToRepeat(const v1::Job& job, const std::string& server) {
   return Preformatted(text) + "<h3>Scenario</h3>\n" + Preformatted(scenario);
 }
 
-std::string Section(const RunPart& run, const std::string& server) {
-  const v1::Job& job = run.recording.job;
-  std::string section =
-      fmt::format("<h2>{}{}</h2>\n<p>{}, convergence {}.</p>\n", HtmlText(job.name()),
-                  job.scenario().title().empty() ? "" : ": " + HtmlText(job.scenario().title()),
-                  v1::Job::State_Name(job.state()), v1::Job::Convergence_Name(job.convergence()));
-  section += Warnings(job) + "<h3>Ledger</h3>\n" + Ledger(job) + Groups(job) + Bodies(job);
-  section += "<h3>Balances</h3>\n" + Balances(job.summary());
+// The name of a section, for links inside the page.
+std::string Anchor(const v1::Job& job, const char* section = "run") {
+  return HtmlText(fmt::format("{}-{}", section, job.name()));
+}
+
+std::string Heading(int level, const std::string& id, const std::string& markup) {
+  return fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", level, id, markup);
+}
+
+std::string Link(const std::string& id, const std::string& markup) {
+  return fmt::format("<a href=\"#{}\">{}</a>", id, markup);
+}
+
+std::string TitleOf(const v1::Job& job) {
+  const std::string& title = job.scenario().title();
+  return HtmlText(job.name()) + (title.empty() ? "" : ": " + HtmlText(title));
+}
+
+// Every run in a line: how it went, and where on the page what of it is.
+std::string Contents(const std::vector<RunPart>& runs) {
+  std::string list;
+  for (const RunPart& run : runs) {
+    const v1::Job& job = run.recording.job;
+    list += fmt::format(
+        "<li>{}: {}, convergence {}, {}; {}{}, {}, {}</li>\n", Link(Anchor(job), TitleOf(job)),
+        v1::Job::State_Name(job.state()), v1::Job::Convergence_Name(job.convergence()),
+        Count(job.summary().cycles(), "cycle", "cycles"), Link(Anchor(job, "ledger"), "ledger"),
+        run.figures.empty() ? "" : ", " + Link(Anchor(job, "figures"), "figures"),
+        Link(Anchor(job, "iteration"), "iteration of μ"),
+        Link(Anchor(job, "repeat"), "how to repeat it"));
+  }
+  if (runs.size() > 1)
+    list += fmt::format("<li>{}</li>\n", Link("differences", "where they differ"));
+  return fmt::format("<nav><ul>\n{}</ul></nav>\n", list);
+}
+
+std::string Figures(const RunPart& run) {
+  if (run.figures.empty()) return "";
+  std::string section = Heading(3, Anchor(run.recording.job, "figures"), "Figures");
   for (const std::string& figure : run.figures) {
     section += fmt::format("<figure>{}</figure>\n", figure);
   }
-  section += "<h3>Iteration of μ</h3>\n" + Iterations(run.recording.iterations);
-  return section + "<h3>How to repeat it</h3>\n" + HowToRepeat(job, server);
+  return section;
+}
+
+std::string Section(const RunPart& run, const std::string& server) {
+  const v1::Job& job = run.recording.job;
+  return Heading(2, Anchor(job), TitleOf(job)) +
+         fmt::format("<p>{}, convergence {}.</p>\n", v1::Job::State_Name(job.state()),
+                     v1::Job::Convergence_Name(job.convergence())) +
+         Warnings(job) + Heading(3, Anchor(job, "ledger"), "Ledger") + Ledger(job) + Groups(job) +
+         Bodies(job) + "<h3>Balances</h3>\n" + Balances(job.summary()) + Figures(run) +
+         Heading(3, Anchor(job, "iteration"), "Iteration of μ") +
+         Iterations(run.recording.iterations) +
+         Heading(3, Anchor(job, "repeat"), "How to repeat it") + HowToRepeat(job, server);
+}
+
+std::string Differences(const std::vector<RunPart>& runs, const std::string& overlay) {
+  if (runs.size() == 1) return "";
+  std::vector<v1::Job> jobs;
+  for (const RunPart& run : runs) jobs.push_back(run.recording.job);
+  return Heading(2, "differences", "Where they differ") + ComparisonHtml(Compare(jobs, {})) +
+         (overlay.empty() ? "" : fmt::format("<figure>{}</figure>\n", overlay));
 }
 
 }  // namespace
 
 std::string ReportPage(const std::vector<RunPart>& runs, const std::string& overlay,
                        const std::string& server) {
-  std::string body;
-  if (runs.size() > 1) {
-    std::vector<v1::Job> jobs;
-    for (const RunPart& run : runs) jobs.push_back(run.recording.job);
-    body += "<h2>Where they differ</h2>\n" + ComparisonHtml(Compare(jobs, {}));
-    if (!overlay.empty()) body += fmt::format("<figure>{}</figure>\n", overlay);
-  }
+  std::string body = Contents(runs);
   for (const RunPart& run : runs) body += Section(run, server);
+  body += Differences(runs, overlay);
   const std::string& title = runs.front().recording.job.scenario().title();
   return HtmlPage(runs.size() > 1 ? fmt::format("Report of {} runs", runs.size())
                   : title.empty() ? runs.front().recording.job.name()

@@ -15,7 +15,8 @@ struct RunPart {
   std::vector<std::string> figures;
 };
 
-/// A page about one run, or about several and where they differ. Needs nothing but itself.
+/// A page about one run, or about several and where they differ, with links to its parts at the
+/// top. Needs nothing but itself.
 /// `overlay` is SVG with several over each other, or empty; `server` is where they were read.
 std::string ReportPage(const std::vector<RunPart>& runs, const std::string& overlay,
                        const std::string& server);

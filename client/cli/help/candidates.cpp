@@ -15,6 +15,7 @@
 #include "cli/input/scenario_file.h"
 #include "cli/input/settable_fields.h"
 #include "cli/input/templates.h"
+#include "cli/link/credentials.h"
 #include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/paper/items.h"
@@ -44,7 +45,7 @@ template <class Request, class Response>
 Response Ask(const Settings& settings,
              grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&, Response*),
              const Request& request) {
-  Client client(settings.server, kPatience);
+  Client client(settings.server, kPatience, CredentialsOf(settings));
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kPatience);
   Response response;
@@ -58,7 +59,7 @@ Response AskOfJob(const Settings& settings, const TypedWords& typed,
                   grpc::Status (Client::Stub::*method)(grpc::ClientContext*, const Request&,
                                                        Response*)) {
   if (typed.positionals.empty()) return {};
-  Client client(settings.server, kPatience);
+  Client client(settings.server, kPatience, CredentialsOf(settings));
   Request request;
   request.set_name(FindJob(client, typed.positionals.front()));
   return Ask(settings, method, request);

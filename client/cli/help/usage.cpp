@@ -1,6 +1,8 @@
 #include "cli/help/usage.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "base/spelling.h"
+#include "cli/base/style.h"
 
 namespace contact::cli {
 namespace {
@@ -49,7 +52,60 @@ std::string WhatIsWrong(const CLI::App& app, const CLI::App& scope, const CLI::P
                   DidYouMean(extra.substr(0, extra.find('=')), {known.begin(), known.end()}));
 }
 
+// The text in parts that a line may end behind.
+std::vector<std::string> Breakable(std::string_view text) {
+  std::vector<std::string> parts = {""};
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char before = i == 0 ? 'a' : text[i - 1];
+    if (before == ',' || (before == ' ' && text[i] != ' ')) parts.emplace_back();
+    parts.back() += text[i];
+  }
+  return parts;
+}
+
+// The text folded to the right of `indent` spaces, but for the first line, which begins there.
+std::string Indented(std::string_view text, std::size_t indent, int width) {
+  const int room = std::max(width - static_cast<int>(indent), 1);
+  return fmt::format("{}\n",
+                     fmt::join(Fold(Breakable(text), room), "\n" + std::string(indent, ' ')));
+}
+
+// A line of a help: a name and what it means, or one of both, behind spaces.
+std::string WrapHelpLine(std::string_view line, int width) {
+  constexpr std::size_t kBelow = 6, kColumn = 20;  // A meaning without its name begins behind that.
+  const bool narrow = width < 60;
+  const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+  const std::size_t gap = line.find("  ", begin);
+  if (gap == std::string_view::npos) {
+    const bool meaning = begin >= kColumn;
+    const std::size_t first = meaning && narrow ? kBelow : begin;
+    return std::string(first, ' ') +
+           Indented(line.substr(begin), meaning ? first : begin + 2, width);
+  }
+  const std::size_t meaning = line.find_first_not_of(' ', gap);
+  if (!narrow) {
+    return std::string(line.substr(0, meaning)) + Indented(line.substr(meaning), meaning, width);
+  }
+  return std::string(begin, ' ') + Indented(line.substr(begin, gap - begin), begin + 2, width) +
+         std::string(kBelow, ' ') + Indented(line.substr(meaning), kBelow, width);
+}
+
 }  // namespace
+
+std::string WrapHelp(std::string_view text, int width) {
+  std::string wrapped;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    wrapped +=
+        width == 0 || Width(line) <= width ? std::string(line) + "\n" : WrapHelpLine(line, width);
+  }
+  return wrapped;
+}
+
+void PrintHelp(std::string_view text) {
+  fmt::print("{}", WrapHelp(text, StyleOf(STDOUT_FILENO, "never").width));
+}
 
 std::string UsageMessage(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& scope = Innermost(app);

@@ -4,13 +4,15 @@
 
 #include <utility>
 
+#include "base/spelling.h"
+
 namespace contact::cli {
 namespace {
 
 std::string Lines(const std::vector<Diagnostic>& mistakes) {
   std::string text;
   for (const Diagnostic& mistake : mistakes) text += Format(mistake) + "\n";
-  return text + (mistakes.size() == 1 ? "1 error" : fmt::format("{} errors", mistakes.size()));
+  return text + Count(static_cast<std::int64_t>(mistakes.size()), "error", "errors");
 }
 
 }  // namespace

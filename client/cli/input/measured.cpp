@@ -87,10 +87,11 @@ class TableReader {
   void ReadRow(const std::string& line) {
     const std::vector<Field> fields = Split(line, separator_);
     if (fields.size() > table_.columns.size()) {
-      return Add(
-          fields[table_.columns.size()].column,
-          fmt::format("has {} fields; the header has {}", fields.size(), table_.columns.size()),
-          separator_ == ',' ? "decimals are written with a point" : "");
+      return Add(fields[table_.columns.size()].column,
+                 fmt::format("has {}; the header has {}",
+                             Count(static_cast<std::int64_t>(fields.size()), "field", "fields"),
+                             table_.columns.size()),
+                 separator_ == ',' ? "decimals are written with a point" : "");
     }
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const Field field = i < fields.size() ? fields[i] : Field{};

@@ -65,6 +65,9 @@ void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& v
 void ScenarioFile::Set(const std::string& assignment) {
   for (Diagnostic& mistake : Override(assignment, &scenario_, &overridden_)) {
     mistake.source = kOverride;
+    if (variables_.contains(mistake.field)) {
+      mistake.hint = fmt::format("--var {} gives the variable of this name its value", assignment);
+    }
     diagnostics_.push_back(std::move(mistake));
   }
 }

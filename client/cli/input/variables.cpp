@@ -48,7 +48,7 @@ class Resolver {
   }
 
   // `path` is that of the node.
-  void Resolve(YAML::Node node, const std::string& path) {
+  void Resolve(const YAML::Node& node, const std::string& path) {
     if (node.IsMap()) {
       for (const auto& entry : node) {
         Resolve(entry.second, Join(path, entry.first.IsScalar() ? entry.first.Scalar() : ""));

@@ -89,6 +89,10 @@ std::string Words(const grpc::Status& status, const std::string& reason,
   if (reason == "EVENTS_COMPACTED") {
     words += "\n  the rest:  contactctl describe JOB, contactctl watch JOB --kinds cycle,iteration";
   }
+  if (reason == "UNAUTHENTICATED") {
+    words +=
+        "\n  say who you are:  --token-file FILE, or --cert FILE --key FILE, with --tls-ca FILE";
+  }
   return words.empty()
              ? fmt::format("the server failed with code {}", static_cast<int>(status.error_code()))
              : words;
@@ -164,10 +168,11 @@ Failure CallFailure::AllTold() const {
   return {code(), violations_.empty() ? what() : text};
 }
 
-Client::Client(std::string server, std::chrono::milliseconds call_timeout)
+Client::Client(std::string server, std::chrono::milliseconds call_timeout,
+               const std::shared_ptr<grpc::ChannelCredentials>& credentials)
     : server_(std::move(server)), call_timeout_(call_timeout) {
   RequireAddress(server_);
-  channel_ = grpc::CreateCustomChannel(server_, grpc::InsecureChannelCredentials(), Arguments());
+  channel_ = grpc::CreateCustomChannel(server_, credentials, Arguments());
   stub_ = v1::JobService::NewStub(channel_);
 }
 

@@ -47,7 +47,9 @@ class Client {
   using Stub = v1::JobService::Stub;
 
   /// Connects to HOST:PORT in the background. Throws Failure (kUsage) for any other text.
-  Client(std::string server, std::chrono::milliseconds call_timeout);
+  Client(std::string server, std::chrono::milliseconds call_timeout,
+         const std::shared_ptr<grpc::ChannelCredentials>& credentials =
+             grpc::InsecureChannelCredentials());
 
   /// Makes a unary call of JobService. Throws CallFailure.
   template <class Request, class Response>

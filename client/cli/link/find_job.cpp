@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
 #include "cli/base/style.h"

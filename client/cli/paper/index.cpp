@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/spelling.h"
 #include "cli/base/escape.h"
 #include "cli/base/html.h"
 #include "cli/base/number.h"
@@ -63,6 +64,7 @@ std::string Section(const PaperItem& item, const std::map<std::string, std::stri
       fmt::format("<h2 id=\"{0}\">{0}: {1}</h2>\n", item.id, HtmlText(item.title));
   const auto figure = figures.find(item.id);
   if (figure != figures.end()) section += fmt::format("<figure>{}</figure>\n", figure->second);
+  if (!item.note.empty()) section += fmt::format("<p>{}</p>\n", HtmlText(item.note));
   if (!item.numbers.empty()) section += Numbers(item);
   return section + Files(item);
 }

@@ -31,6 +31,7 @@ std::string Json(const PaperItem& item) {
   json["id"] = item.id;
   json["title"] = item.title;
   json["holds"] = item.holds();
+  if (!item.note.empty()) json["note"] = item.note;
   json["numbers"] = nlohmann::ordered_json::array();
   for (const Comparison& n : item.numbers) {
     json["numbers"].push_back({{"what", n.what},
@@ -69,6 +70,10 @@ Table Numbers() {
                 {"WHY", false, 1}});
 }
 
+std::string Note(const PaperItem& item, const std::string& before, const Style& style) {
+  return item.note.empty() ? "" : Wrap("\n" + before + item.note + "\n", style);
+}
+
 }  // namespace
 
 bool Comparison::holds() const {
@@ -92,7 +97,8 @@ void Write(const PaperItem& item, const std::filesystem::path& directory) {
   if (item.numbers.empty()) return;
   Table table = Numbers();
   AddRows(item, &table);
-  WriteText(item.title + "\n\n" + table.Text(Style{}), directory / (item.id + ".txt"));
+  WriteText(item.title + "\n\n" + table.Text(Style{}) + Note(item, "", Style{}),
+            directory / (item.id + ".txt"));
   WriteText(Json(item), directory / (item.id + ".json"));
 }
 
@@ -102,7 +108,9 @@ std::string Summary(const std::vector<PaperItem>& items, const Style& style) {
   }
   Table table = Numbers();
   for (const PaperItem& item : items) AddRows(item, &table);
-  return table.Text(style);
+  std::string text = table.Text(style);
+  for (const PaperItem& item : items) text += Note(item, item.id + ": ", style);
+  return text;
 }
 
 }  // namespace contact::cli

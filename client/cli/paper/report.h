@@ -53,6 +53,9 @@ struct PaperItem {
   std::vector<Data> data;
   std::optional<Figure> figure = {};  ///< None for tables.
 
+  /// What a reader should know of all its numbers, as a sentence; empty if nothing.
+  std::string note = {};
+
   /// True if all its numbers hold.
   bool holds() const;
 };
@@ -71,7 +74,7 @@ std::string DeviationText(const Comparison& number);
 /// compared.
 std::string LimitText(const Comparison& number);
 
-/// The numbers of all items as one table; empty if there are none.
+/// The numbers of all items as one table with their notes below; empty if there are none.
 std::string Summary(const std::vector<PaperItem>& items, const Style& style);
 
 }  // namespace contact::cli

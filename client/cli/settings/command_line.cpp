@@ -127,12 +127,30 @@ const std::vector<std::string>& CommandLine::WordsOf(const CLI::Option& option) 
 
 bool IsList(const CLI::Option& option) { return option.get_delimiter() == ','; }
 
+namespace {
+
+// The files by which client and server know each other.
+void AddCredentials(CommandLine& line) {
+  CLI::App& app = line.app();
+  Settings& settings = line.settings();
+  const auto add = [&](const char* name, std::string* file, const char* about) {
+    line.SetKind(app.add_option(name, *file, about), ValueKind::kFile);
+  };
+  add("--tls-ca", &settings.tls_ca, "Use TLS; the server's certificate is of these authorities");
+  add("--cert", &settings.cert, "Certificate that shows the server who you are");
+  add("--key", &settings.key, "Private key of --cert");
+  add("--token-file", &settings.token_file, "File with a token that shows the server who you are");
+}
+
+}  // namespace
+
 void AddGlobalFlags(CommandLine& line) {
   CLI::App& app = line.app();
   Settings& settings = line.settings();
   app.add_option("--server", settings.server, "The server")
       ->type_name("HOST:PORT")
       ->capture_default_str();
+  AddCredentials(line);
   AddPrinting(line);
   app.add_option("--timeout", settings.timeout,
                  "Give up after this time. Default: 10s for a call, none for run, watch and wait")

@@ -40,6 +40,11 @@ struct Settings {
   std::string progress = "auto";
   /// A duration such as `10s`; empty: the default of the command.
   std::string timeout;
+  /// Files by which client and server know each other, see CredentialsOf; each may be empty.
+  std::string tls_ca;
+  std::string cert;
+  std::string key;
+  std::string token_file;
 
   /// The origin of each value by its key in config files: a flag, a variable, or `path:line`. A
   /// value without an entry is the default.

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/text/render_ledger.h"
 #include "wire/rules/field_rule.h"

@@ -7,7 +7,9 @@
 
 namespace contact::cli {
 
-/// The header of the table of the μ-iteration. Wide tables have the bracket of μ, too.
+/// The header of the table of the μ-iteration. Wide tables, and terminals of 120 columns or more,
+/// have the bracket of μ, too. Terminals of less than 80 have no episode and next step; those of
+/// less than 60 no ε either, and μ in six digits, so that a row fits into 40.
 std::string IterationHeader(const Style& style);
 
 /// The row of one unknown in one pass of an iteration, below IterationHeader.

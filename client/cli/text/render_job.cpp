@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/text/convergence.h"
@@ -32,9 +33,10 @@ std::vector<std::string> Extent(const v1::Job& job) {
             Seconds(job.summary().wall_time_s()) + " wall"};
   }
   if (progress.cells() > 0) {
-    return {fmt::format("{} of {} cells, ", progress.cells_done(), progress.cells()),
-            fmt::format("{} failed, ", progress.cells_failed()),
-            fmt::format("{} not converged", progress.cells_not_converged())};
+    return {
+        fmt::format("{} of {}, ", progress.cells_done(), Count(progress.cells(), "cell", "cells")),
+        fmt::format("{} failed, ", progress.cells_failed()),
+        fmt::format("{} not converged", progress.cells_not_converged())};
   }
   if (progress.end_time_s() <= 0) return {};
   return {fmt::format("{} of {} simulated, ", Seconds(progress.time_s()),
@@ -65,9 +67,9 @@ std::string RequestedOptions(const v1::Job& job) {
   if (budget.has_wall_time()) {
     parts.push_back(fmt::format("budget {} wall", Seconds(InSeconds(budget.wall_time()))));
   }
-  if (budget.steps() > 0) parts.push_back(fmt::format("budget {} steps", budget.steps()));
+  if (budget.steps() > 0) parts.push_back("budget " + Count(budget.steps(), "step", "steps"));
   if (budget.output_bytes() > 0) {
-    parts.push_back(fmt::format("budget {} bytes", budget.output_bytes()));
+    parts.push_back("budget " + Count(budget.output_bytes(), "byte", "bytes"));
   }
   if (job.has_expire_time()) {
     parts.push_back(fmt::format("kept until {} UTC", Instant(job.expire_time())));
@@ -97,10 +99,10 @@ std::string Balances(const v1::Job& job, const Style& style) {
     line += fmt::format("convergence {}; ",
                         Paint(ConvergenceText(job), full ? Tone::kGood : Tone::kWarning, style));
   }
-  line += fmt::format("residuals: momentum {}, energy {}, cycle identity {}; {} steps\n",
-                      RelativeError(summary.momentum_residual()),
-                      RelativeError(summary.energy_residual()),
-                      RelativeError(summary.worst_identity_residual()), summary.steps());
+  line += fmt::format(
+      "residuals: momentum {}, energy {}, cycle identity {}; {}\n",
+      RelativeError(summary.momentum_residual()), RelativeError(summary.energy_residual()),
+      RelativeError(summary.worst_identity_residual()), Count(summary.steps(), "step", "steps"));
   return Wrap(line, style);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/base/style.h"
 
@@ -28,9 +29,10 @@ std::string TimeLeft(double part_done, double elapsed_s) {
 
 std::string ProgressWords(const v1::Progress& progress, double elapsed_s) {
   const double done = PartDone(progress);
-  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s, {} cycles, {} iterations{}", 100 * done,
-                     progress.time_s(), progress.end_time_s(), progress.cycles(),
-                     progress.iterations(), TimeLeft(done, elapsed_s));
+  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s, {}, {}{}", 100 * done, progress.time_s(),
+                     progress.end_time_s(), Count(progress.cycles(), "cycle", "cycles"),
+                     Count(progress.iterations(), "iteration", "iterations"),
+                     TimeLeft(done, elapsed_s));
 }
 
 std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width, bool utf8) {

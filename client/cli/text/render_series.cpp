@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/spelling.h"
 #include "cli/base/csv.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
@@ -41,8 +42,8 @@ std::string RenderSeries(const v1::Series& series, const Style& style) {
   }
   std::string text = table.Text(style, kMostRows, "… {} more samples; -o csv prints all");
   if (series.samples() == series.recorded_samples()) return text;
-  return text + Wrap(fmt::format("{} of {} samples, no peak left out\n", series.samples(),
-                                 series.recorded_samples()),
+  return text + Wrap(fmt::format("{} of {}, no peak left out\n", series.samples(),
+                                 Count(series.recorded_samples(), "sample", "samples")),
                      style);
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/spelling.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/message.h"
 #include "cli/base/number.h"

@@ -103,6 +103,11 @@ ExitCode CompareMeasured(const CompareArguments& arguments, const Settings& sett
 
 ExitCode CompareJobs(const CompareArguments& arguments, const Settings& global) {
   const Settings settings = WithFormat(arguments, global);
+  if (arguments.jobs.size() < 2) {
+    throw Failure(
+        ExitCode::kUsage,
+        "give two jobs or more, the baseline first, or a job and a table of measured data");
+  }
   if (!arguments.plot.empty()) FormatOfFigure(arguments.plot);  // Refused before anything is read.
   if (std::ranges::any_of(arguments.jobs, IsTable)) return CompareMeasured(arguments, settings);
   if (const std::string flag = arguments.measured.GivenFlag(); !flag.empty()) {
@@ -135,7 +140,7 @@ void AddCompare(CommandLine& line, CLI::App& command) {
             "Two or more: IDs, or files with what describe -o json printed; the first is the "
             "baseline. Or one ID and a table of measured data, such as measured.csv")
       ->required()
-      ->expected(2, 1000);
+      ->expected(1, 1000);
   AddTolerance(command, arguments.get());
   arguments->measured.AddTo(command);
   AddOption(line, command, "--format", &arguments->format,

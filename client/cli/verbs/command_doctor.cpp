@@ -10,6 +10,7 @@
 #include "cli/base/process.h"
 #include "cli/base/table.h"
 #include "cli/link/client.h"
+#include "cli/link/credentials.h"
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
@@ -42,7 +43,7 @@ Finding ClockSkew(const v1::ServerInfo& info) {
 // Adds findings about the server, its version and its clock; without a server only the first.
 void LookAtServer(const Settings& settings, Findings* findings) {
   try {
-    Client client(settings.server, std::chrono::seconds(3));
+    Client client(settings.server, std::chrono::seconds(3), CredentialsOf(settings));
     const v1::ServerInfo info =
         client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
     findings->push_back({"server", settings.server + " answers"});

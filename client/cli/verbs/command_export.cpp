@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/spelling.h"
 #include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/output_file.h"

@@ -42,7 +42,7 @@ void AddHelp(CommandLine& line, CLI::App& command) {
             "Such as run, or sweep run; tutorial shows the way");
   line.SetAction(command, [words, &app = line.app()] {
     const bool tutorial = words->size() == 1 && words->front() == "tutorial";
-    fmt::print("{}", tutorial ? kTutorial : HelpOf(app, *words));
+    PrintHelp(tutorial ? kTutorial : HelpOf(app, *words));
     return ExitCode::kOk;
   });
 }

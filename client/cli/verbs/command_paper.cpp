@@ -7,6 +7,7 @@
 #include <memory>
 #include <system_error>
 
+#include "base/spelling.h"
 #include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/text_file.h"

@@ -26,7 +26,7 @@ struct ReportArguments {
 
 // Draws with few points, so that the page of a long run stays small; no peak or corner is lost.
 std::string DrawThinned(Figure figure) {
-  constexpr std::size_t kPoints = 1000;
+  constexpr std::size_t kPoints = 500;
   Thin(kPoints, &figure);
   figure.sources.clear();  // The page names them.
   return DrawInline(figure);

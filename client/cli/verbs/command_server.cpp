@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/spelling.h"
 #include "cli/base/failure.h"
 #include "cli/base/number.h"
 #include "cli/link/backup_file.h"
@@ -12,6 +13,7 @@
 #include "cli/link/http_get.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
+#include "cli/verbs/identity/identity_commands.h"
 #include "cli/verbs/verbs.h"
 #include "version.h"
 
@@ -42,15 +44,19 @@ ExitCode Status(const Settings& settings) {
   fmt::print(
       "contactd {}{} at {}\n"
       "started   {} UTC, instance {}\n"
+      "you       {} of {}, {}\n"
       "workers   {}\n"
       "jobs      {} running, {} queued\n"
-      "limits    {} bodies, {} contacts, {} samples, {} cells, {} bytes a request, {} queued "
-      "jobs, {} watchers\n",
+      "limits    {}, {}, {}, {}, {} a request, {}, {}\n",
       info.version(), info.revision().empty() ? "" : fmt::format(" ({})", info.revision()),
-      client.server(), Instant(info.start_time()), info.instance_id(), info.workers(),
-      info.running_jobs(), info.queued_jobs(), limits.max_bodies(), limits.max_contacts(),
-      limits.max_samples(), limits.max_cells(), limits.max_message_bytes(),
-      limits.max_queued_jobs(), limits.max_watchers());
+      client.server(), Instant(info.start_time()), info.instance_id(), info.principal().name(),
+      info.principal().tenant(), fmt::join(info.principal().roles(), ","), info.workers(),
+      info.running_jobs(), info.queued_jobs(), Count(limits.max_bodies(), "body", "bodies"),
+      Count(limits.max_contacts(), "contact", "contacts"),
+      Count(limits.max_samples(), "sample", "samples"), Count(limits.max_cells(), "cell", "cells"),
+      Count(limits.max_message_bytes(), "byte", "bytes"),
+      Count(limits.max_queued_jobs(), "queued job", "queued jobs"),
+      Count(limits.max_watchers(), "watcher", "watchers"));
   return ExitCode::kOk;
 }
 
@@ -58,7 +64,7 @@ ExitCode Backup(const std::string& path, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable});
   Client client = Connect(settings);
   const std::int64_t bytes = ReceiveBackup(client, path, settings.Deadline());
-  fmt::print("{}  {} bytes, checked\n", path, bytes);
+  fmt::print("{}  {}, checked\n", path, Count(bytes, "byte", "bytes"));
   return ExitCode::kOk;
 }
 
@@ -106,6 +112,8 @@ void AddServer(CommandLine& line, CLI::App& server) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   line.SetAction(*metrics, address, Metrics);
+  AddToken(line, server);
+  AddAudit(line, server);
 }
 
 }  // namespace contact::cli

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/input/sweep_file.h"

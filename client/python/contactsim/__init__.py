@@ -4,7 +4,7 @@ from .aio import AsyncClient
 from .client import Client
 from .comparing import Comparison, compare
 from .errors import (CallError, ContactError, DownloadFailed, InvalidScenario, JobNotFound,
-                     Overloaded, RunFailed, Timeout, Unreachable, Violation)
+                     NotAllowed, Overloaded, RunFailed, Timeout, Unreachable, Violation)
 from .measured import SignalComparison, compare_measured
 from .result import Result
 from .scenario import load_scenario, templates
@@ -14,8 +14,8 @@ from .watching import JobChange
 
 __all__ = [
     "AsyncClient", "CallError", "Client", "Comparison", "ContactError", "DownloadFailed",
-    "InvalidScenario", "JobChange", "JobNotFound", "Overloaded", "Result", "RunFailed",
-    "SignalComparison", "SweepResult", "Timeout", "ToolFailed", "Unreachable", "Violation",
+    "InvalidScenario", "JobChange", "JobNotFound", "NotAllowed", "Overloaded", "Result",
+    "RunFailed", "SignalComparison", "SweepResult", "Timeout", "ToolFailed", "Unreachable", "Violation",
     "compare", "compare_measured", "load_scenario", "templates"
 ]
 __version__ = "0.1.0"

@@ -11,8 +11,8 @@ import grpc
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
 from . import tools
-from .calls import (OPTIONS, TRIES, JobLike, address_of, create_request, deadline_of, ended,
-                    job_name)
+from .calls import (TRIES, JobLike, address_of, create_request, deadline_of, ended, job_name,
+                    open_channel)
 from .downloading import Download
 from .errors import CallError, RunFailed, from_rpc
 from .keywords import hinted
@@ -29,16 +29,21 @@ class AsyncClient:
     """A connection to one contactd, as Client, for one event loop; an async context manager.
 
     `address` is HOST:PORT; by default the environment variable CONTACT_SERVER, or
-    127.0.0.1:7070. `timeout_s` limits each call, not the run of a job.
+    127.0.0.1:7070. `timeout_s` limits each call, not the run of a job. `tls_ca`, `cert`, `key` and
+    `token_file` are files by which client and server know each other; by default those that the
+    variables CONTACT_TLS_CA, CONTACT_CERT, CONTACT_KEY and CONTACT_TOKEN_FILE name.
 
     A scenario is a file, a template, a dict or a message, see load_scenario. `set` overrides its
     fields by their paths, `variables` those that a file declares.
     """
 
-    def __init__(self, address: str | None = None, *, timeout_s: float = 10.0) -> None:
+    def __init__(self, address: str | None = None, *, timeout_s: float = 10.0,
+                 tls_ca: str | None = None, cert: str | None = None, key: str | None = None,
+                 token_file: str | None = None) -> None:
         self.address = address_of(address)
         self._timeout_s = timeout_s
-        self._channel = grpc.aio.insecure_channel(self.address, options=OPTIONS)
+        files = {"tls_ca": tls_ca, "cert": cert, "key": key, "token_file": token_file}
+        self._channel = open_channel(grpc.aio, self.address, files)
         self._stub = job_service_pb2_grpc.JobServiceStub(self._channel)
 
     async def close(self) -> None:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+import pathlib
+import stat
 import time
 import uuid
 from typing import Any, Mapping, Sequence, Union
 
+import grpc
 from contact.v1 import job_pb2, job_service_pb2
 
 from .errors import RunFailed
@@ -32,6 +35,40 @@ TRIES = 3  # Of a unary call.
 def address_of(address: str | None) -> str:
     """The address given, else that of the environment, else the default."""
     return address or os.environ.get("CONTACT_SERVER") or "127.0.0.1:7070"
+
+
+def open_channel(library: Any, address: str, files: Mapping[str, str | None]) -> Any:
+    """A channel of grpc or grpc.aio. `files`: see Client; the environment has the others."""
+    paths = {name: given or os.environ.get(f"CONTACT_{name.upper()}")
+             for name, given in files.items()}
+    token = _secret(paths["token_file"]).decode().strip()
+    if paths["tls_ca"] or paths["cert"]:
+        credentials = grpc.ssl_channel_credentials(
+            _bytes(paths["tls_ca"]), _secret(paths["key"]) or None, _bytes(paths["cert"]))
+    elif not token:
+        return library.insecure_channel(address, options=OPTIONS)
+    elif address.startswith("unix:"):
+        credentials = grpc.local_channel_credentials(grpc.LocalConnectionType.UDS)
+    else:
+        raise ValueError("the token would go unencrypted; tls_ca names the authority of the "
+                         "server's certificate")
+    if token:
+        credentials = grpc.composite_channel_credentials(
+            credentials, grpc.access_token_call_credentials(token))
+    return library.secure_channel(address, credentials, options=OPTIONS)
+
+
+def _bytes(path: str | None) -> bytes | None:
+    return pathlib.Path(path).read_bytes() if path else None
+
+
+def _secret(path: str | None) -> bytes:
+    """The content of a file that only its owner and group may read."""
+    if not path:
+        return b""
+    if os.stat(path).st_mode & (stat.S_IWGRP | stat.S_IRWXO):
+        raise PermissionError(f"{path} can be read or changed by others; chmod 600 it")
+    return pathlib.Path(path).read_bytes()
 
 
 def create_request(scenario: ScenarioLike, set_: Mapping[str, Any] | None,

@@ -56,6 +56,10 @@ class JobNotFound(CallError):
     """The server has no such job, or the job has no such artifact; `reason` tells which."""
 
 
+class NotAllowed(CallError):
+    """The server does not know who calls, or the caller may not do that; `reason` tells which."""
+
+
 class Overloaded(CallError):
     """The server has too much to do; try again later."""
 
@@ -82,6 +86,8 @@ _KINDS: dict[grpc.StatusCode, type[CallError]] = {
     grpc.StatusCode.UNAVAILABLE: Unreachable,
     grpc.StatusCode.NOT_FOUND: JobNotFound,
     grpc.StatusCode.RESOURCE_EXHAUSTED: Overloaded,
+    grpc.StatusCode.UNAUTHENTICATED: NotAllowed,
+    grpc.StatusCode.PERMISSION_DENIED: NotAllowed,
     grpc.StatusCode.DEADLINE_EXCEEDED: Timeout,
 }
 

@@ -44,6 +44,10 @@ constexpr std::array kReasons = std::to_array<ReasonInfo>({
      "the server is shutting down"},
     {Reason::kDeadlineExceeded, "DEADLINE_EXCEEDED", kDeadlineExceeded, kNever,
      "the deadline of the call passed before its turn came"},
+    {Reason::kUnauthenticated, "UNAUTHENTICATED", kUnauthenticated, kNever, ""},
+    {Reason::kPermissionDenied, "PERMISSION_DENIED", kPermissionDenied, kNever, ""},
+    {Reason::kAuditFailed, "AUDIT_FAILED", kUnavailable, kNever,
+     "the call cannot be written to the audit log"},
 });
 
 constexpr bool StandInOrder(std::span<const ReasonInfo> rows) {
@@ -99,12 +103,13 @@ Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec)
 }
 
 Error QueueFull(int max_queued_jobs) {
-  return MakeError(Reason::kQueueFull, fmt::format("{} jobs are waiting already", max_queued_jobs));
+  return MakeError(Reason::kQueueFull,
+                   Count(max_queued_jobs, "job is", "jobs are") + " waiting already");
 }
 
 Error WatcherLimit(int max_watchers) {
   return MakeError(Reason::kWatcherLimit,
-                   fmt::format("there are {} watchers already", max_watchers));
+                   Count(max_watchers, "watcher is", "watchers are") + " there already");
 }
 
 Error SlowWatcher(const std::string& what) {
@@ -122,6 +127,19 @@ Error Unreadable(const std::string& what) {
 Error UidMismatch(const std::string& name, const std::string& uid) {
   Error error = JobError(Reason::kUidMismatch, name, "is another job than the one expected");
   error.metadata["uid"] = uid;
+  return error;
+}
+
+Error Denied(const std::string& permission, const std::string& message) {
+  Error error = MakeError(Reason::kPermissionDenied, message);
+  error.metadata["permission"] = permission;
+  return error;
+}
+
+Error NotYours(const std::string& name, const std::string& owner) {
+  Error error = Denied("operator",
+                       fmt::format("{} belongs to {}; that needs the role operator", name, owner));
+  error.metadata["name"] = name;
   return error;
 }
 

@@ -40,6 +40,9 @@ enum class Reason {
   kDataLoss,
   kServerDraining,
   kDeadlineExceeded,
+  kUnauthenticated,
+  kPermissionDenied,
+  kAuditFailed,
 };
 
 /// What all errors of one reason have in common.
@@ -116,6 +119,11 @@ Error SlowWatcher(const std::string& what);
 Error Unreadable(const std::string& what);
 /// The job called `name` has `uid`, which is not the one expected (kUidMismatch).
 Error UidMismatch(const std::string& name, const std::string& uid);
+/// The caller lacks a permission, which `permission` names (kPermissionDenied).
+Error Denied(const std::string& permission, const std::string& message);
+/// The job belongs to another principal of the tenant, and the caller may change own jobs only
+/// (kPermissionDenied).
+Error NotYours(const std::string& name, const std::string& owner);
 /// Frame chunks before `oldest_sequence` were asked for, and have been dropped (kEventsCompacted).
 Error EventsCompacted(const std::string& name, std::uint64_t oldest_sequence);
 /// The job has no such artifact (kArtifactNotFound).

@@ -33,20 +33,21 @@ void JobFeed::Reader::Add(const std::string& name) {
   wake_();
 }
 
-std::shared_ptr<JobFeed::Reader> JobFeed::Subscribe(std::function<void()> wake) {
-  auto reader = std::make_shared<Reader>(std::move(wake));
+std::shared_ptr<JobFeed::Reader> JobFeed::Subscribe(std::string tenant,
+                                                    std::function<void()> wake) {
+  auto reader = std::make_shared<Reader>(std::move(tenant), std::move(wake));
   const MutexLock lock(mutex_);
   readers_.push_back(reader);
   return reader;
 }
 
-void JobFeed::Changed(const std::string& name) {
+void JobFeed::Changed(const std::string& tenant, const std::string& name) {
   std::vector<std::shared_ptr<Reader>> readers;
   {
     const MutexLock lock(mutex_);
-    std::erase_if(readers_, [&readers](const auto& weak) {
+    std::erase_if(readers_, [&](const auto& weak) {
       auto reader = weak.lock();
-      if (reader) readers.push_back(std::move(reader));
+      if (reader && reader->tenant_ == tenant) readers.push_back(std::move(reader));
       return weak.expired();
     });
   }

@@ -11,7 +11,7 @@
 
 namespace contact {
 
-/// Tells those who watch all jobs which of them have changed. Thread-safe.
+/// Tells those who watch all jobs of a tenant which of them have changed. Thread-safe.
 class JobFeed {
  public:
   /// Past it a reader has lost its place: what it has not looked at may cost no more memory.
@@ -20,7 +20,8 @@ class JobFeed {
   /// Names of jobs that one reader has not looked at since they changed.
   class Reader {
    public:
-    explicit Reader(std::function<void()> wake) : wake_(std::move(wake)) {}
+    Reader(std::string tenant, std::function<void()> wake)
+        : tenant_(std::move(tenant)), wake_(std::move(wake)) {}
 
     /// Takes some of the names, `most` at most. If there are none, `wake` is called once there are.
     std::vector<std::string> Take(std::size_t most);
@@ -32,6 +33,8 @@ class JobFeed {
     /// Notes a change, and wakes the reader if it waits.
     void Add(const std::string& name);
 
+    /// It hears of the jobs of this tenant.
+    const std::string tenant_;
     const std::function<void()> wake_;
     mutable Mutex mutex_;
     /// Empty once overflown_.
@@ -41,11 +44,11 @@ class JobFeed {
     bool waiting_ ABSL_GUARDED_BY(mutex_) = true;
   };
 
-  /// Hears of changes from now on, until the reader is destroyed.
-  std::shared_ptr<Reader> Subscribe(std::function<void()> wake);
+  /// Hears of changes of the tenant's jobs from now on, until the reader is destroyed.
+  std::shared_ptr<Reader> Subscribe(std::string tenant, std::function<void()> wake);
 
-  /// A job was created, changed its state, or was deleted; and that is stored.
-  void Changed(const std::string& name);
+  /// A job of the tenant was created, changed its state, or was deleted; and that is stored.
+  void Changed(const std::string& tenant, const std::string& name);
 
  private:
   Mutex mutex_;

@@ -19,8 +19,10 @@ JobsCursor::JobsCursor(Store& store, JobFeed& feed, const Clock& clock, Rules ru
       complete_(std::move(complete)),
       wake_(std::make_shared<const Wake>(std::move(wake))),
       place_(std::move(place)),
-      changes_(feed.Subscribe(*wake_)),  // Before the snapshot, so that nothing falls between.
+      // Before the snapshot, so that nothing falls between.
+      changes_(feed.Subscribe(rules_.tenant, *wake_)),
       last_sent_(clock.Elapsed()) {
+  rules_.filter.tenant = rules_.tenant;
   rules_.filter.limit = kMostJobs;
 }
 
@@ -69,19 +71,19 @@ void JobsCursor::FetchPage() {
 void JobsCursor::FetchChanged(const std::vector<std::string>& names) {
   fetch_ = std::make_shared<Fetch>();
   for (const std::string& name : names) {
-    store_.Read(name, JobPart::kHeader,
-                [weak = std::weak_ptr(fetch_), name](absl::StatusOr<StoredJob> stored) {
-                  const auto fetch = weak.lock();
-                  if (!fetch) return;
-                  const MutexLock lock(fetch->mutex);
-                  if (stored.ok()) {
-                    fetch->page.jobs.push_back(*std::move(stored));
-                  } else if (absl::IsNotFound(stored.status())) {
-                    fetch->gone.push_back(name);
-                  } else if (!absl::IsDataLoss(stored.status())) {
-                    fetch->status = stored.status();
-                  }
-                });
+    store_.ReadOf(rules_.tenant, name, JobPart::kHeader,
+                  [weak = std::weak_ptr(fetch_), name](absl::StatusOr<StoredJob> stored) {
+                    const auto fetch = weak.lock();
+                    if (!fetch) return;
+                    const MutexLock lock(fetch->mutex);
+                    if (stored.ok()) {
+                      fetch->page.jobs.push_back(*std::move(stored));
+                    } else if (absl::IsNotFound(stored.status())) {
+                      fetch->gone.push_back(name);
+                    } else if (!absl::IsDataLoss(stored.status())) {
+                      fetch->status = stored.status();
+                    }
+                  });
   }
   WakeWhenFetched();
 }

@@ -30,10 +30,12 @@ class JobsCursor final : public StreamSource<v1::WatchJobsResponse> {
 
   /// What the reader wants.
   struct Rules {
-    /// The jobs to follow. Its `before` and `limit` are set by the cursor.
+    /// The jobs to follow. Its `tenant`, `before` and `limit` are set by the cursor.
     JobQuery filter;
     /// Longest time without a message.
     std::chrono::milliseconds bookmark_interval{0};
+    /// Whose jobs. Nobody has the empty one.
+    std::string tenant = {};
   };
 
   /// `place` is kept until the cursor is destroyed. Store, feed and clock outlive the cursor.

@@ -8,20 +8,20 @@
 
 namespace contact {
 
-void Recordings::GetSeries(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
-                           Abandoned abandoned) {
-  std::make_shared<SeriesReader>(store_, executor_, limits_, request, std::move(done),
-                                 std::move(abandoned))
+void Recordings::GetSeries(const Principal& caller, const v1::GetSeriesRequest& request,
+                           Callback<v1::Series> done, Abandoned abandoned) {
+  std::make_shared<SeriesReader>(store_, executor_, limits_, caller.tenant, request,
+                                 std::move(done), std::move(abandoned))
       ->Start();
 }
 
-void Recordings::ReadArtifact(const v1::ReadArtifactRequest& request, Wake wake,
-                              Callback<Artifact> done) {
+void Recordings::ReadArtifact(const Principal& caller, const v1::ReadArtifactRequest& request,
+                              Wake wake, Callback<Artifact> done) {
   if (request.offset() < 0) return done(OffsetOutOfRange(request.offset(), -1));
   Places::Place place = readers_.Take();
   if (!place) return done(WatcherLimit(readers_.count()));
-  store_.Read(
-      request.name(), JobPart::kAll,
+  store_.ReadOf(
+      caller.tenant, request.name(), JobPart::kAll,
       [this, request, wake = std::move(wake), done = std::move(done),
        place = std::move(place)](absl::StatusOr<StoredJob> stored) mutable {
         Result<ArtifactPlan> plan = stored.ok() ? PlanArtifact(*std::move(stored), request)

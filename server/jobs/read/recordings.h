@@ -4,6 +4,7 @@
 
 #include "base/executor.h"
 #include "contact/v1/job_service.pb.h"
+#include "identity/principal.h"
 #include "jobs/job/callback.h"
 #include "jobs/log/places.h"
 #include "jobs/log/stream_source.h"
@@ -12,7 +13,7 @@
 
 namespace contact {
 
-/// Answers requests for what jobs have recorded. Thread-safe; no call waits.
+/// Answers requests for what jobs of the caller's tenant have recorded. Thread-safe; no call waits.
 class Recordings {
  public:
   /// Store and executor outlive it. What takes long is done on the executor. `readers` are the
@@ -21,12 +22,13 @@ class Recordings {
       : store_(store), executor_(executor), limits_(limits), readers_(std::move(readers)) {}
 
   /// The recorded trajectory of a job, decimated to what the request allows.
-  void GetSeries(const v1::GetSeriesRequest& request, Callback<v1::Series> done,
-                 Abandoned abandoned = {});
+  void GetSeries(const Principal& caller, const v1::GetSeriesRequest& request,
+                 Callback<v1::Series> done, Abandoned abandoned = {});
 
   /// Opens an artifact of an ended job. The source must not outlive the store.
   using Artifact = std::unique_ptr<StreamSource<v1::ReadArtifactResponse>>;
-  void ReadArtifact(const v1::ReadArtifactRequest& request, Wake wake, Callback<Artifact> done);
+  void ReadArtifact(const Principal& caller, const v1::ReadArtifactRequest& request, Wake wake,
+                    Callback<Artifact> done);
 
  private:
   Store& store_;

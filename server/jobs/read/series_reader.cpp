@@ -14,20 +14,21 @@ constexpr std::size_t kPageBytes = 1 << 18;
 }  // namespace
 
 SeriesReader::SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
-                           v1::GetSeriesRequest request, Callback<v1::Series> done,
-                           Abandoned abandoned)
+                           std::string tenant, v1::GetSeriesRequest request,
+                           Callback<v1::Series> done, Abandoned abandoned)
     : store_(store),
       executor_(executor),
       limits_(limits),
+      tenant_(std::move(tenant)),
       request_(std::move(request)),
       done_(std::move(done)),
       abandoned_(std::move(abandoned)) {}
 
 void SeriesReader::Start() {
-  store_.Read(request_.name(), JobPart::kSpec,
-              [self = shared_from_this()](absl::StatusOr<StoredJob> stored) {
-                self->Post([self, stored = std::move(stored)] { self->Open(stored); });
-              });
+  store_.ReadOf(tenant_, request_.name(), JobPart::kSpec,
+                [self = shared_from_this()](absl::StatusOr<StoredJob> stored) {
+                  self->Post([self, stored = std::move(stored)] { self->Open(stored); });
+                });
 }
 
 void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {

@@ -25,8 +25,8 @@ class Executor;
 /// place where the range begins is found by halving.
 class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
  public:
-  /// Store and executor outlive the reading.
-  SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
+  /// Store and executor outlive the reading. The job is one of the tenant.
+  SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits, std::string tenant,
                v1::GetSeriesRequest request, Callback<v1::Series> done, Abandoned abandoned);
 
   /// Starts to read. To be called once.
@@ -60,6 +60,7 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
   Store& store_;
   Executor& executor_;
   const ScenarioLimits limits_;
+  const std::string tenant_;
   const v1::GetSeriesRequest request_;
   const Callback<v1::Series> done_;
   const Abandoned abandoned_;

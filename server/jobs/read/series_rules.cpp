@@ -87,10 +87,12 @@ Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request, const C
   const std::size_t most = kMaxSeriesBytes / sizeof(double) / selection.columns.size();
   if (request.max_points() < 0 ||
       (request.max_points() > 0 && static_cast<std::size_t>(request.max_points()) < least)) {
-    violations.push_back({"max_points",
-                          fmt::format("is {}; must be at least {} for {} channels",
-                                      request.max_points(), least, selection.columns.size() - 1),
-                          "ask for more points, or fewer channels"});
+    violations.push_back(
+        {"max_points",
+         fmt::format(
+             "is {}; must be at least {} for {}", request.max_points(), least,
+             Count(static_cast<std::int64_t>(selection.columns.size()) - 1, "channel", "channels")),
+         "ask for more points, or fewer channels"});
   }
   if (!violations.empty()) return Invalid(std::move(violations));
   if (least > most) return SeriesTooLarge(most);

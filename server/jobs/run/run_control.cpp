@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "base/spelling.h"
+
 namespace contact {
 namespace {
 
@@ -74,13 +76,14 @@ Transition TransitionAfterStop(StopCause cause, const RunBudget& budget) {
           reason::kBudgetWallTime,
           fmt::format("{} s wall time", static_cast<double>(budget.wall_time.count()) / 1000));
     case StopCause::kSteps:
-      return OverBudget(reason::kBudgetSteps, fmt::format("{} steps", budget.steps));
+      return OverBudget(reason::kBudgetSteps, Count(budget.steps, "step", "steps"));
     case StopCause::kOutput:
       return OverBudget(reason::kBudgetOutput,
-                        fmt::format("{} bytes of output", budget.output_bytes));
+                        Count(budget.output_bytes, "byte", "bytes") + " of output");
     case StopCause::kMemory:
-      return OverBudget(reason::kBudgetMemory, fmt::format("{} bytes of memory for the ledger",
-                                                           budget.memory_bytes / kLedgerShare));
+      return OverBudget(
+          reason::kBudgetMemory,
+          Count(budget.memory_bytes / kLedgerShare, "byte", "bytes") + " of memory for the ledger");
     case StopCause::kStalled:
       return {v1::Job::FAILED, reason::kStalled, "the run made no step for too long",
               absl::StatusCode::kDeadlineExceeded};

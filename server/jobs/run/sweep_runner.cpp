@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/spelling.h"
 #include "jobs/run/replay.h"
 #include "wire/scenario_advice.h"
 
@@ -152,7 +153,10 @@ Transition SweepRunner::Conclude(const std::vector<Violation>& advice) {
   const bool full = failed == 0 && progress_.cells_not_converged() == 0;
   assignment_.record->Do([&](v1::Job& job) {
     job.set_convergence(full ? v1::Job::FULL : v1::Job::PARTIAL);
-    if (failed > 0) job.add_warnings(fmt::format("{} of {} cells failed", failed, cells));
+    if (failed > 0) {
+      const std::string all = contact::Count(cells, "cell", "cells");
+      job.add_warnings(fmt::format("{} of {} failed", failed, all));
+    }
     for (const Violation& a : advice) job.add_warnings(Text(a));
   });
   return {v1::Job::SUCCEEDED};

@@ -126,10 +126,10 @@ int Retention::Delete(const std::vector<EndedJob>& jobs, WallTime now) {
   int deleted = 0;
   for (const std::string& name : Expired(jobs, now, limits_)) {
     if (stopped()) break;
-    const auto done = Await<absl::StatusOr<bool>>(
+    const auto done = Await<absl::StatusOr<JobOwner>>(
         [&](auto callback) { store_.Delete(name, "", std::move(callback)); });
     if (!done.ok()) continue;
-    feed_.Changed(name);
+    feed_.Changed(done->tenant, name);
     ++deleted;
   }
   return deleted;
@@ -139,9 +139,9 @@ void Retention::Compact(const std::vector<EndedJob>& jobs) {
   for (const EndedJob& job : jobs) {
     if (stopped()) break;
     if (!job.to_compact) continue;
-    const auto done = Await<absl::StatusOr<bool>>(
+    const auto done = Await<absl::StatusOr<JobOwner>>(
         [&](auto callback) { store_.Compact(job.name, std::move(callback)); });
-    if (done.ok()) feed_.Changed(job.name);
+    if (done.ok()) feed_.Changed(done->tenant, job.name);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/future.h"
 #include "jobs/job/lifecycle.h"
+#include "storage/job_parts.h"
 #include "storage/job_queries.h"
 #include "version.h"
 
@@ -50,8 +51,10 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options
 
 Scheduler::~Scheduler() { Stop(); }
 
-std::shared_ptr<JobLog> Scheduler::NewLog(const std::string& name, std::uint64_t last) {
-  return std::make_shared<JobLog>(last, false, [this, name] { feed_.Changed(name); });
+std::shared_ptr<JobLog> Scheduler::NewLog(const v1::Job& job, std::uint64_t last) {
+  return std::make_shared<JobLog>(last, false, [this, tenant = TenantOf(job), name = job.name()] {
+    feed_.Changed(tenant, name);
+  });
 }
 
 void Scheduler::Recover() {
@@ -68,7 +71,7 @@ void Scheduler::Recover(StoredJob stored) {
   if (!stored.intact) spdlog::error("job={} fails its checksum in the store", stored.job.name());
   const Transition transition = TransitionAfterCrash(stored, options_.max_attempts);
   Active active;
-  active.log = NewLog(stored.job.name(), stored.job.last_sequence());
+  active.log = NewLog(stored.job, stored.job.last_sequence());
   active.epoch = stored.epoch;
   active.job = std::move(stored.job);
   if (active.job.state() == v1::Job::RUNNING) {
@@ -126,7 +129,7 @@ void Scheduler::Release() {
 void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
   Active active;
   active.job = std::move(job);
-  active.log = NewLog(active.job.name(), 0);
+  active.log = NewLog(active.job, 0);
   active.log->Append(1, std::move(events));
   const MutexLock lock(mutex_);
   --reserved_;

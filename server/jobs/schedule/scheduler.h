@@ -85,7 +85,7 @@ class Scheduler {
   /// Decides about one of them: a job that was running has lost its worker.
   void Recover(StoredJob stored);
   /// A log in memory whose changes of state are told to feed_.
-  std::shared_ptr<JobLog> NewLog(const std::string& name, std::uint64_t last);
+  std::shared_ptr<JobLog> NewLog(const v1::Job& job, std::uint64_t last);
   /// Takes in a job that waits for a worker.
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Queue(const Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);

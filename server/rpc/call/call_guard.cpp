@@ -1,9 +1,14 @@
 #include "rpc/call/call_guard.h"
 
 #include <fmt/format.h>
+#include <grpc/grpc_security_constants.h>
 
 #include <chrono>
 #include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/spelling.h"
 
 namespace contact {
 namespace {
@@ -23,18 +28,65 @@ std::size_t MetadataBytes(const grpc::ServerContextBase& context) {
   return bytes;
 }
 
+void AddNames(const grpc::AuthContext& peer, const char* property, const std::string& prefix,
+              std::vector<std::string>* names) {
+  for (const grpc::string_ref& value : peer.FindPropertyValues(property)) {
+    names->push_back(prefix + std::string(value.data(), value.size()));
+  }
+}
+
+// What the caller shows of itself: the token of the call, the names in the certificate of the
+// connection.
+Presented PresentedBy(const grpc::ServerContextBase& context) {
+  Presented presented;
+  const auto& metadata = context.client_metadata();
+  const auto [begin, end] = metadata.equal_range("authorization");
+  for (auto entry = begin; entry != end; ++entry) {
+    presented.authorization.emplace_back(entry->second.data(), entry->second.size());
+  }
+  const auto peer = context.auth_context();
+  if (!peer || !peer->IsPeerAuthenticated()) return presented;
+  AddNames(*peer, GRPC_PEER_URI_PROPERTY_NAME, "", &presented.certificate);
+  AddNames(*peer, GRPC_PEER_DNS_PROPERTY_NAME, "dns:", &presented.certificate);
+  AddNames(*peer, GRPC_PEER_EMAIL_PROPERTY_NAME, "email:", &presented.certificate);
+  AddNames(*peer, GRPC_X509_CN_PROPERTY_NAME, "cn:", &presented.certificate);
+  return presented;
+}
+
 }  // namespace
 
-CallGuard::CallGuard(CallLimits limits, std::shared_ptr<const PeerCounts> streams,
+CallGuard::CallGuard(CallLimits limits, Door door, std::shared_ptr<const PeerCounts> streams,
                      std::shared_ptr<RpcMetrics> metrics, const Clock& clock)
     : limits_(limits),
+      door_(std::move(door)),
       clock_(clock),
       streams_(std::move(streams)),
       metrics_(std::move(metrics)),
       creates_(limits.max_creates_per_second, limits.max_create_burst) {}
 
-std::optional<Error> CallGuard::Check(const grpc::ServerContextBase& context, CallKind kind) {
-  if (auto refusal = CheckMetadata(context)) return refusal;
+Admission CallGuard::Check(const grpc::ServerContextBase& context, std::string_view method,
+                           CallKind kind) {
+  if (auto refusal = CheckMetadata(context)) return {{}, refusal};
+  const auto known =
+      door_.Identify(door_.asks() ? PresentedBy(context) : Presented{}, clock_.Now());
+  if (const auto* why = std::get_if<std::string>(&known)) {
+    return {{}, Refuse(Reason::kUnauthenticated, *why)};
+  }
+  const auto& caller = std::get<Principal>(known);
+  if (const MethodRule* rule = FindMethod(method); !rule || !May(caller, rule->needs)) {
+    return {caller, Deny(caller, rule)};
+  }
+  return {caller, CheckLimits(context, kind)};
+}
+
+Error CallGuard::Deny(const Principal& caller, const MethodRule* rule) const {
+  const std::string needed = rule ? NameOf(rule->needs) : "none";
+  metrics_->Refused(InfoOf(Reason::kPermissionDenied).name);
+  return Denied(needed,
+                fmt::format("{} may not do that; it needs the role {}", caller.name, needed));
+}
+
+std::optional<Error> CallGuard::CheckLimits(const grpc::ServerContextBase& context, CallKind kind) {
   if (kind == CallKind::kUnary) return std::nullopt;
   const std::string peer = PeerOf(context.peer());
   return kind == CallKind::kStream ? CheckStreams(peer) : CheckRate(peer);
@@ -60,8 +112,8 @@ std::optional<Error> CallGuard::CheckRate(const std::string& peer) {
 std::optional<Error> CallGuard::CheckStreams(const std::string& peer) const {
   if (streams_->Of(peer) <= limits_.max_watchers_per_peer) return std::nullopt;
   return Refuse(Reason::kWatcherLimit,
-                fmt::format("there are {} watchers from this address already",
-                            limits_.max_watchers_per_peer));
+                Count(limits_.max_watchers_per_peer, "watcher is", "watchers are") +
+                    " there from this address already");
 }
 
 Error CallGuard::Refuse(Reason reason, std::string message) const {

@@ -7,8 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/clock.h"
+#include "identity/door.h"
+#include "identity/permissions.h"
 #include "jobs/job/errors.h"
 #include "rpc/call/rate_limit.h"
 #include "rpc/metrics/rpc_metrics.h"
@@ -38,20 +41,31 @@ enum class CallKind {
   kStream,
 };
 
-/// Refuses calls before anything is done for them. Thread-safe.
+/// Who calls, once that has been found out; and why the call is refused, if it is.
+struct Admission {
+  /// Nothing if the caller is not known.
+  std::optional<Principal> caller = {};
+  std::optional<Error> refusal = {};
+};
+
+/// Refuses calls before anything is done for them: the one place that asks who calls and what that
+/// one may do. Thread-safe.
 class CallGuard {
  public:
   /// `streams` counts the streams that are open, including the one in question. `clock` outlives
   /// the guard.
-  CallGuard(CallLimits limits, std::shared_ptr<const PeerCounts> streams,
+  CallGuard(CallLimits limits, Door door, std::shared_ptr<const PeerCounts> streams,
             std::shared_ptr<RpcMetrics> metrics, const Clock& clock);
 
-  /// The error with which the call is refused before its request is looked at; nothing if it is
-  /// not: METADATA_TOO_LARGE for every call, RATE_LIMITED for kCreateJob, WATCHER_LIMIT for
-  /// kStream. Takes a CreateJob's token from the bucket of its peer. Counts refusals.
-  std::optional<Error> Check(const grpc::ServerContextBase& context, CallKind kind);
+  /// Says who makes the call, and whether it is refused before its request is looked at. In this
+  /// order: METADATA_TOO_LARGE, UNAUTHENTICATED, PERMISSION_DENIED by the table of methods,
+  /// RATE_LIMITED for kCreateJob, WATCHER_LIMIT for kStream. Takes a CreateJob's token from the
+  /// bucket of its peer. Counts refusals.
+  Admission Check(const grpc::ServerContextBase& context, std::string_view method, CallKind kind);
 
  private:
+  /// The errors of the limits.
+  std::optional<Error> CheckLimits(const grpc::ServerContextBase& context, CallKind kind);
   /// gRPC limits metadata too, but a client that does not confirm the server's HTTP/2 settings
   /// gets around that.
   std::optional<Error> CheckMetadata(const grpc::ServerContextBase& context) const;
@@ -59,10 +73,13 @@ class CallGuard {
   std::optional<Error> CheckRate(const std::string& peer);
   /// Counts the streams of the peer.
   std::optional<Error> CheckStreams(const std::string& peer) const;
+  /// The error of a caller that the row, or its absence, forbids.
+  Error Deny(const Principal& caller, const MethodRule* rule) const;
   /// An error of this reason, which is counted.
   Error Refuse(Reason reason, std::string message) const;
 
   const CallLimits limits_;
+  const Door door_;
   const Clock& clock_;
   /// Open streams of each peer.
   const std::shared_ptr<const PeerCounts> streams_;

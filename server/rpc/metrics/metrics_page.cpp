@@ -78,6 +78,15 @@ void AddNow(const MetricsSources::Now& now, Page* page) {
   page->Counter("contactd_connections_refused_total", "Connections past a limit")
       .Add(now.refused_connections);
   page->Gauge("contactd_store_bytes", "Size of the database files").Add(now.stored_bytes);
+  page->Counter("contactd_identity_reload_failed_total",
+                "Changes of tokens and rules that could not be used")
+      .Add(now.identity_failures);
+  page->Counter("contactd_tls_reload_failed_total",
+                "Changes of certificate and key that could not be used")
+      .Add(now.tls_failures);
+  if (!now.tls_seconds_left) return;
+  page->Gauge("contactd_tls_not_after_seconds", "Time until the certificate ends")
+      .Add(*now.tls_seconds_left);
 }
 
 void AddJobs(const JobMetrics& jobs, Page* page) {

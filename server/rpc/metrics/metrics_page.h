@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "jobs/job/job_metrics.h"
@@ -34,6 +35,11 @@ struct MetricsSources {
     std::int64_t refused_connections = 0;
     /// Size of the database files.
     std::int64_t stored_bytes = 0;
+    /// Time until the server's certificate ends; nothing without TLS.
+    std::optional<double> tls_seconds_left = {};
+    /// Changes of the files of TLS, and of tokens and rules, that could not be used.
+    std::int64_t tls_failures = 0;
+    std::int64_t identity_failures = 0;
   };
   /// Takes them. Thread-safe.
   std::function<Now()> now;

@@ -10,8 +10,8 @@ namespace contact {
 /// from the first meetings of contacts (first_meeting.h), steps and seconds from measured averages.
 /// tests/simulation/estimates.cpp prints how far that is off for random scenarios.
 struct RunEstimate {
-  /// Integration steps of all passes. None where a body touches two others: nothing tells in
-  /// advance how many passes the search for their μ takes.
+  /// Integration steps of all passes. None where a support holds a body or a body touches two
+  /// others: nothing tells in advance how many passes the search for their μ takes.
   std::optional<double> steps = {};
   /// Rows of the trajectory; exact if the run reaches its end and cycles have no samples of their
   /// own.
@@ -28,7 +28,7 @@ struct RunEstimate {
   double memory_bytes = 0;
   /// Time to interpolate, encode and store the samples [s].
   double sample_seconds = 0;
-  /// Time of everything else, in a release build on one core [s]; none as `steps`.
+  /// Time of everything else that a job takes, in a release build on one core [s]; none as `steps`.
   std::optional<double> solve_seconds = {};
 };
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "base/spelling.h"
 #include "wire/rules/rules.h"
 
 namespace contact {
@@ -139,7 +140,10 @@ SweepAxes::SweepAxes(const v1::Sweep& sweep, std::int32_t max_cells,
     cells = grid_ ? cells * static_cast<double>(size) : static_cast<double>(size);
     if (!grid_ && size != values_.front().size()) {
       Rules(violations, "axes", i)
-          .Break("", fmt::format("has {} values, but axes[0] has {}", size, values_.front().size()),
+          .Break("",
+                 fmt::format("has {}, but axes[0] has {}",
+                             Count(static_cast<std::int64_t>(size), "value", "values"),
+                             values_.front().size()),
                  "axes of a ZIP are equally long");
     }
   }

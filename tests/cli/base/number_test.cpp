@@ -25,11 +25,6 @@ TEST(Number, TimesHaveTheUnitThatSuitsThem) {
   EXPECT_EQ(Seconds(12.5), "12.5 s");
 }
 
-TEST(Number, CountsKnowTheirPlural) {
-  EXPECT_EQ(Count(1, "body", "bodies"), "1 body");
-  EXPECT_EQ(Count(0, "body", "bodies"), "0 bodies");
-}
-
 TEST(Number, InstantsAreInUtc) {
   google::protobuf::Timestamp time;
   EXPECT_EQ(Instant(time), "-");

@@ -104,6 +104,7 @@ TEST(Table, LongTableShowsItsFirstAndLastRows) {
   Table table({{"N", true}});
   for (int i = 1; i <= 7; ++i) table.Add({std::to_string(i)});
   EXPECT_EQ(table.Text({}, 7, "… {} more"), "N\n1\n2\n3\n4\n5\n6\n7\n");
+  EXPECT_EQ(table.Text({}, 6, "… {} more"), "N\n1\n2\n3\n4\n5\n6\n7\n");
   EXPECT_EQ(table.Text({}, 4, "… {} more"), "N\n1\n2\n… 3 more\n6\n7\n");
 }
 

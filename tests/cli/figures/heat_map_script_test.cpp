@@ -218,5 +218,14 @@ TEST(ColourRange, HasTwoEndsForOneValueOrNone) {
   }
 }
 
+TEST(HeatMap, TellsHowManyCellsHaveNoValue) {
+  const auto none = Grid(2, 3, [](int row, int) { return row == 0 ? std::nan("") : 1.0; });
+  EXPECT_THAT(Script(none), HasSubstr("white: 3 without value"));
+  const auto some =
+      Grid(2, 3, [](int row, int column) { return row == 0 ? std::nan("") : 1.0 * column; });
+  EXPECT_THAT(Script(some, false, true), HasSubstr("white: 1 value <= 0, 3 without value"));
+  EXPECT_THAT(Script(Grid(2, 3, [](int, int) { return 1.0; })), Not(HasSubstr("white:")));
+}
+
 }  // namespace
 }  // namespace contact::cli

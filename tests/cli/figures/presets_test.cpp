@@ -145,9 +145,9 @@ TEST(Presets, CycleHasTheRestitutionOfItsGroup) {
   group.set_restitution_out(0.8);
   const Figure::Panel panel = PresetFigure("restitution", run).panels.at(0);
   EXPECT_THAT(panel.curves,
-              Contains(AllOf(Field(&Curve::label, "W had"), Field(&Curve::y, ElementsAre(0.8)))));
-  EXPECT_THAT(panel.curves, Contains(AllOf(Field(&Curve::label, "A-B had"),
-                                           Field(&Curve::y, ElementsAre(0.79)))));
+              Contains(AllOf(Field(&Curve::label, "W"), Field(&Curve::y, ElementsAre(0.8)))));
+  EXPECT_THAT(panel.curves,
+              Contains(AllOf(Field(&Curve::label, "A-B"), Field(&Curve::y, ElementsAre(0.79)))));
 }
 
 TEST(Presets, ErrorsOfTheRestitutionHaveALogarithmicPanel) {
@@ -384,6 +384,15 @@ TEST(Presets, ResidualOfZeroStaysOnALogarithmicAxis) {
   EXPECT_THAT(panels[0].curves.at(0).y, ElementsAre(1e6, 2e6, 3e6));
   EXPECT_TRUE(panels[1].log_y);
   EXPECT_THAT(panels[1].curves.at(0).y, Each(testing::Gt(0)));
+}
+
+TEST(Presets, FactorsOfManySizesHaveALogarithmicAxis) {
+  Recording run = SampleRun();
+  EXPECT_FALSE(PresetFigure("iterations", run).panels[0].log_y);
+  run.iterations.front().mutable_unknowns(0)->set_mu(1e3);
+  EXPECT_TRUE(PresetFigure("iterations", run).panels[0].log_y);
+  run.iterations.front().mutable_unknowns(0)->set_mu(0);
+  EXPECT_FALSE(PresetFigure("iterations", run).panels[0].log_y);
 }
 
 TEST(Presets, OnlyTheEpisodeWithMostPassesIsShown) {

@@ -30,7 +30,25 @@ TEST(ReportPage, EscapesEveryTextOfUserAndServer) {
 
 TEST(ReportPage, NeedsNoOtherFile) {
   const std::string page = ReportPage({Part()}, "", "127.0.0.1:7070");
-  EXPECT_THAT(page, AllOf(Not(HasSubstr("src=")), Not(HasSubstr("href=")), Not(HasSubstr("url("))));
+  EXPECT_THAT(page, AllOf(Not(HasSubstr("src=")), Not(HasSubstr("url("))));
+}
+
+TEST(ReportPage, BeginsWithItsContentsOfWhichEveryLinkLeadsSomewhere) {
+  const std::string page = ReportPage({Part(), Part("other")}, "", "s");
+  std::size_t links = 0;
+  for (std::size_t at = 0; (at = page.find("href=\"", at)) != std::string::npos; ++links) {
+    at += std::string("href=\"").size();
+    const std::string target = page.substr(at, page.find('"', at) - at);
+    ASSERT_EQ(target.front(), '#');
+    EXPECT_THAT(page, HasSubstr(" id=\"" + target.substr(1) + "\"")) << target;
+  }
+  EXPECT_EQ(links, 11U);  // Of each run it, ledger, figures, iteration, how; where they differ.
+  EXPECT_LT(page.find("<nav>"), page.find("<h2"));
+}
+
+TEST(ReportPage, ShowsResultsBeforeDifferences) {
+  const std::string page = ReportPage({Part(), Part("other")}, "", "s");
+  EXPECT_LT(page.rfind("How to repeat it"), page.find("Where they differ"));
 }
 
 TEST(ReportPage, OfOneRunHasItsFiguresAndNoComparison) {

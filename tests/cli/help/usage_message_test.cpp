@@ -123,5 +123,33 @@ TEST_F(ManualTest, ServerThatFailsIsALocalError) {
   }
 }
 
+TEST(WrapHelp, IsTheTextItselfWhereItFits) {
+  const std::string help = "Usage: x\n\n  run                         Run a file\n";
+  EXPECT_EQ(WrapHelp(help, 0), help);
+  EXPECT_EQ(WrapHelp(help, 60), help);
+}
+
+TEST(WrapHelp, KeepsWhatANameMeansInItsColumn) {
+  EXPECT_EQ(
+      WrapHelp("  --law LAW                   Which law of damping it is that is taken\n", 60),
+      "  --law LAW                   Which law of damping it is\n"
+      "                              that is taken\n");
+}
+
+TEST(WrapHelp, NarrowTerminalsHaveItBelowTheName) {
+  EXPECT_EQ(
+      WrapHelp("  --law LAW:{EXACT,FLORES,HUNT_CROSSLEY,LINEAR} Which law of damping is taken\n",
+               40)
+          .find("  --law LAW:{EXACT,FLORES,"),
+      0U);
+  EXPECT_EQ(
+      WrapHelp("  --law LAW                   Which law of damping it is that is taken\n", 40),
+      "  --law LAW\n"
+      "      Which law of damping it is that is\n"
+      "      taken\n");
+  EXPECT_EQ(WrapHelp("                              Which law of damping is taken\n", 40),
+            "      Which law of damping is taken\n");
+}
+
 }  // namespace
 }  // namespace contact::cli

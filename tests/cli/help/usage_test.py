@@ -46,6 +46,16 @@ class Usage(unittest.TestCase):
             self.assertIn("Usage:", printed)
             self.assertEqual(said, "")
 
+    def test_what_a_newcomer_tries_is_answered_with_what_would_work(self):
+        self.assertEqual(self.run_it("run", "bouncing-ball", code=11)[1],
+                         "contactctl: there is no file bouncing-ball — --template bouncing-ball "
+                         "takes the example of this name\n")
+        self.assertIn("give two jobs or more, the baseline first",
+                      self.run_it("compare", "last", code=2)[1])
+        said = self.run_it("run", "-t", "bouncing-ball", "--set", "restitution=0.3", code=3)[1]
+        self.assertIn("--set: restitution: unknown field — --var restitution=0.3 gives the variable "
+                      "of this name its value\n", said)
+
     def test_help_is_a_command_too(self):
         self.assertEqual(self.run_it("help", "run", code=0), self.run_it("run", "--help", code=0))
         self.assertEqual(self.run_it("help", "sweep", "export", code=0),

@@ -54,6 +54,15 @@ class Paper(ServerTest):
         self.assertEqual(re.findall(r"<tr><td>(\w+)</td><td>[^<]*</td><td>(\w+)</td></tr>", page),
                          [("fig3", "shown"), ("table2", "holds"), ("table3", "shown")])
 
+    def test_table_3_says_that_nothing_was_published_to_compare_it_with(self):
+        made, run = self.make("table3")
+        note = "no map of them was published: there is nothing to compare these numbers with."
+        self.assertIn("table3: The cells of the printed Table 3", run.stdout)
+        for text in (run.stdout, (made / "table3.txt").read_text("utf-8"),
+                     (made / "index.html").read_text("utf-8"),
+                     json.loads((made / "table3.json").read_text("utf-8"))["note"]):
+            self.assertIn(note, text)
+
     def test_table_2_and_4_are_those_of_the_paper(self):
         made, _ = self.make("table2", "table4")
         self.assertEqual(sorted(path.name for path in made.iterdir()),

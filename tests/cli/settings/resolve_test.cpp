@@ -132,7 +132,8 @@ TEST_F(ResolveTest, MistakeInAFileIsAProblemAndTheOthersCount) {
 
 TEST_F(ResolveTest, KeysAreTheLongNamesOfTheFlags) {
   EXPECT_THAT(ConfigKeys(line_.app()),
-              testing::ElementsAre("server", "output", "color", "progress", "timeout", "profile"));
+              testing::ElementsAre("server", "tls_ca", "cert", "key", "token_file", "output",
+                                   "color", "progress", "timeout", "profile"));
   EXPECT_EQ(VariableOf("time_to_live"), "CONTACT_TIME_TO_LIVE");
 }
 

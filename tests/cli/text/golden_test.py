@@ -87,6 +87,16 @@ class GoldenTest(CliTest):
         job = self.run_it("run", CHAIN, "-o", "name")[0].strip()
         self.check("describe", "describe", job)
 
+    def test_help_of_every_command_fits_a_narrow_terminal(self):
+        for words in ((), ("--help",), ("run", "--help"), ("plot", "--help"), ("compare", "--help"),
+                      ("help", "tutorial"), ("help", "sweep", "run")):
+            printed = self.on_terminal(40, *words).replace("\r", "")
+            with self.subTest(words):
+                for line in printed.splitlines():
+                    self.assertTrue(len(line) <= 40 or " " not in line.strip(), line)
+                wide = self.run_it(*words)[0]
+                self.assertEqual(re.sub(r"\s", "", printed), re.sub(r"\s", "", wide))
+
     def test_list(self):
         for _ in range(2):
             self.run_it("run", CHAIN, "--label", "study=chain", "-o", "name")

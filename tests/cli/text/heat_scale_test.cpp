@@ -44,6 +44,7 @@ TEST(HeatScale, LeavesOutWhatHasNoLogarithm) {
   const SweepCells cells = Cells({-1, 0, 0.01, 1, NAN});
   const HeatScale log(cells, 0, true);
   EXPECT_EQ(log.unshown(), 2);
+  EXPECT_EQ(log.valueless(), 1);
   EXPECT_EQ(log.low(), 0.01);
   EXPECT_DOUBLE_EQ(log.Height(0.1), 0.5);
   EXPECT_TRUE(std::isnan(log.Shown(cells.at(0))));

@@ -35,6 +35,26 @@ TEST(IterationTable, WideTablesHaveTheBracketWithItsOpenSide) {
   EXPECT_THAT(IterationHeader({.wide = true}), EndsWith("BRACKET OF μ"));
 }
 
+TEST(IterationTable, WideTerminalsHaveTheBracketToo) {
+  EXPECT_THAT(IterationHeader({.width = 120}), EndsWith("BRACKET OF μ"));
+  EXPECT_THAT(IterationHeader({.width = 119}), EndsWith("NEXT"));
+}
+
+TEST(IterationTable, RowsFitIntoEveryTerminalOfFortyColumnsOrMore) {
+  v1::Iteration::Unknown unknown = Unknown();
+  unknown.set_contact("the-longest-name-of-any-contact");
+  unknown.set_mu(-1.23456789e-100);
+  unknown.set_update(v1::Iteration::PAPER_NEWTON);
+  for (const int width : {40, 59, 60, 79}) {
+    const std::string header = IterationHeader({.width = width});
+    const std::string row = IterationRow({}, unknown, {.width = width});
+    EXPECT_LE(Width(row), width);
+    EXPECT_LE(Width(header), width);
+    EXPECT_EQ(row.find("the-longe"), header.find("CONTACT")) << width;
+    EXPECT_EQ(Width(row), Width(header)) << width;
+  }
+}
+
 TEST(IterationTable, SaysWhatComesNext) {
   v1::Iteration pass;
   v1::Iteration::Unknown unknown = Unknown();

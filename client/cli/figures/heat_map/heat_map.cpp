@@ -126,11 +126,12 @@ std::string HeatMapScript(const v1::Job& job, const SweepCells& cells, const Hea
   if (lines) text += FindContours(Converged(grid, cells, scale), columns, scale);
   text += Overlays(grid, cells, scale) + HeatMapAxes(job.sweep(), scale, grid, terminal) +
           terminal.CaptionCommands({SourceOf(job)});
-  // Boxes keep the map a vector drawing, where `with image` would embed a bitmap.
+  // Boxes keep the map a vector drawing, where `with image` would embed a bitmap. They overlap, for
+  // else the background shines through between them.
   text +=
       "set style fill solid noborder\nset style textbox opaque noborder fillcolor rgb 'white' "
       "margins 1.5,1.2\n"
-      "plot $cells using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror lc palette";
+      "plot $cells using 1:2:($1-0.5):($1+0.52):($2-0.5):($2+0.52):3 with boxxyerror lc palette";
   if (lines) {
     text += DrawContours(rows, columns, terminal);
   } else if (cells.size() <= kMostNumbers) {

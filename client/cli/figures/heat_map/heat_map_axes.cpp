@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/figures/heat_map/contours.h"
 #include "cli/text/sweep/axis_text.h"
@@ -48,9 +49,12 @@ std::string Tics(const v1::Sweep::Axis& axis, const std::vector<double>& values,
 }
 
 std::string Legend(const HeatScale& scale) {
-  std::string legend = "hatched: not converged; crossed: failed";
-  if (scale.unshown() == 0) return legend;
-  return legend + fmt::format("; white: {}", Count(scale.unshown(), "value <= 0", "values <= 0"));
+  std::vector<std::string> white;
+  if (scale.unshown() > 0) white.push_back(Count(scale.unshown(), "value <= 0", "values <= 0"));
+  if (scale.valueless() > 0)
+    white.push_back(Count(scale.valueless(), "without value", "without value"));
+  const std::string legend = "hatched: not converged; crossed: failed";
+  return white.empty() ? legend : fmt::format("{}; white: {}", legend, fmt::join(white, ", "));
 }
 
 std::string ColourTics(const HeatScale& scale, const ColourRange& range) {

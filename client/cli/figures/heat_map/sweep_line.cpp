@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/spelling.h"
 #include "cli/base/failure.h"
 #include "cli/base/number.h"
 #include "cli/export/provenance.h"

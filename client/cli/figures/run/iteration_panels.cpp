@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -28,6 +29,18 @@ class CycleCurves {
     }
     curves_[place->second].x.push_back(pass);
     curves_[place->second].y.push_back(value);
+  }
+  /// True if the values are > 0 and some are thousands of times as large as others, so that these
+  /// would lie on the axis.
+  bool HaveManySizes() const {
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0;
+    for (const Figure::Curve& curve : curves_) {
+      const auto [least, most] = std::ranges::minmax(curve.y);
+      low = std::min(low, least);
+      high = std::max(high, most);
+    }
+    return low > 0 && high > 1000 * low;
   }
   std::vector<Figure::Curve> Take() { return std::move(curves_); }
 
@@ -53,13 +66,17 @@ std::vector<Figure::Panel> IterationPanels(const std::vector<v1::Iteration>& ite
     }
   }
   const std::string x_label = only ? "pass" : fmt::format("pass of episode {}", episode);
-  return {
-      {.x_label = x_label, .y_label = "μ [N·s/m^(n+1)]", .counted_x = true, .curves = mu.Take()},
-      {.x_label = x_label,
-       .y_label = "|W_r/W_c + ε²| [1]",
-       .counted_x = true,
-       .log_y = true,
-       .curves = residual.Take()}};
+  const bool log_mu = mu.HaveManySizes();
+  return {{.x_label = x_label,
+           .y_label = "μ [N·s/m^(n+1)]",
+           .counted_x = true,
+           .log_y = log_mu,
+           .curves = mu.Take()},
+          {.x_label = x_label,
+           .y_label = "|W_r/W_c + ε²| [1]",
+           .counted_x = true,
+           .log_y = true,
+           .curves = residual.Take()}};
 }
 
 }  // namespace contact::cli

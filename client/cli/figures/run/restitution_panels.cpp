@@ -46,7 +46,7 @@ std::vector<Panel> RestitutionPanels(const RunCurves& run) {
   const Restitutions groups = OfGroups(run.recording().job);
   run.EachContact([&](const std::string& name, int colour) {
     Figure::Curve asked{name + " asked for", colour, Mark::kStart, {}, {}, false};
-    Figure::Curve had{name + " had", colour, Mark::kEnd, {}, {}};
+    Figure::Curve had{name, colour, Mark::kEnd, {}, {}};
     Figure::Curve error{name, colour, Mark::kEnd, {}, {}, false};
     run.EachCycle(name, [&](const v1::Cycle& cycle, int place) {
       const auto group = groups.find({name, cycle.group()});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 
 namespace contact::cli {

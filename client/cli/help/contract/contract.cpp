@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/spelling.h"
 #include "wire/rules/field_rule.h"
 
 namespace contact::cli {
@@ -35,9 +36,11 @@ std::string RuleText(const google::protobuf::FieldDescriptor& field) {
   add("Range: ", RangeText(field));
   add("Default: ", DefaultText(field, rule));
   if (rule.max_characters() > 0)
-    text += fmt::format(" At most {} characters.", rule.max_characters());
-  if (rule.min_entries() > 0) text += fmt::format(" At least {} entries.", rule.min_entries());
-  if (rule.max_entries() > 0) text += fmt::format(" At most {} entries.", rule.max_entries());
+    text += fmt::format(" At most {}.", Count(rule.max_characters(), "character", "characters"));
+  if (rule.min_entries() > 0)
+    text += fmt::format(" At least {}.", Count(rule.min_entries(), "entry", "entries"));
+  if (rule.max_entries() > 0)
+    text += fmt::format(" At most {}.", Count(rule.max_entries(), "entry", "entries"));
   return text;
 }
 

@@ -9,7 +9,7 @@ HeatScale::HeatScale(const SweepCells& cells, int metric, bool log) : metric_(me
   for (const auto& [index, cell] : cells) {
     const double value = Shown(cell);
     if (std::isnan(value)) {
-      if (std::isfinite(Value(cell))) ++unshown_;
+      if (cell.state() != v1::Job::FAILED) ++(std::isfinite(Value(cell)) ? unshown_ : valueless_);
       continue;
     }
     low_ = std::min(low_, value);

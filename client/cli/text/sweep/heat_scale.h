@@ -34,6 +34,8 @@ class HeatScale {
   bool whole() const { return whole_; }
   /// The number of finite values that a logarithmic scale cannot show.
   int unshown() const { return unshown_; }
+  /// The number of cells that did not fail and have no finite value.
+  int valueless() const { return valueless_; }
 
  private:
   /// The value of a cell whatever the scale; NaN if the cell failed or has none.
@@ -45,6 +47,7 @@ class HeatScale {
   double high_ = -std::numeric_limits<double>::infinity();
   bool whole_ = true;
   int unshown_ = 0;
+  int valueless_ = 0;
 };
 
 }  // namespace contact::cli

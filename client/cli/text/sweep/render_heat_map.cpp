@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/text/sweep/axis_text.h"
 #include "cli/text/sweep/heat_scale.h"

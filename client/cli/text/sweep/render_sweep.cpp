@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/text/render_job.h"
@@ -22,9 +23,9 @@ constexpr std::size_t kMostRows = 40;
 
 std::string Title(const v1::Job& job, const Style& style) {
   const v1::Progress& progress = job.progress();
-  std::string line = fmt::format("{}  {}  {} of {} cells", Paint(job.name(), Tone::kStrong, style),
+  std::string line = fmt::format("{}  {}  {} of {}", Paint(job.name(), Tone::kStrong, style),
                                  StateText(job.state(), job.state_reason(), style),
-                                 progress.cells_done(), progress.cells());
+                                 progress.cells_done(), Count(progress.cells(), "cell", "cells"));
   if (progress.cells_failed() > 0) line += fmt::format(", {} failed", progress.cells_failed());
   if (progress.cells_not_converged() > 0) {
     line += fmt::format(", {} not converged", progress.cells_not_converged());

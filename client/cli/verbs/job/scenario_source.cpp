@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 
 #include "cli/base/message.h"
 #include "cli/input/checked_scenario.h"
@@ -29,6 +30,15 @@ void TellOfOtherServer(Client& client, const v1::Job& job) {
   }
   Tell("{} was made by contactd {} {}, this one is {} {}: last digits may differ\n", job.name(),
        job.server_version(), job.server_revision(), info.version(), info.revision());
+}
+
+// Throws Failure (kLocal) if there is no such file, but an example with this name.
+void RequireNoTemplate(const std::string& file) {
+  const auto shipped = std::ranges::find(Templates(), file, &Template::name);
+  if (shipped == Templates().end() || std::filesystem::exists(file)) return;
+  throw Failure(ExitCode::kLocal, fmt::format("there is no file {0} — --template {0} takes the "
+                                              "example of this name",
+                                              file));
 }
 
 }  // namespace
@@ -56,6 +66,7 @@ ScenarioFile ScenarioSource::Read(Client& client) const {
   }
   if (!template_.empty()) return ReadTemplate();
   if (!like_.empty()) return ReadJob(client);
+  RequireNoTemplate(file_);
   return ScenarioFile::Open(file_, ParseVariables(variables_));
 }
 

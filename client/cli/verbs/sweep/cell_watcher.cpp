@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/spelling.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/message.h"
+#include "cli/base/style.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/link/watch_to_end.h"
@@ -48,15 +50,17 @@ void CellWatcher::Show(const v1::Progress& progress) {
   if (json_progress_) json_progress_->Update(progress);
   const double done = PartDone(progress);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  const std::string words = fmt::format(
-      "{} of {} cells, {} failed, {} not converged{}", progress.cells_done(), progress.cells(),
-      progress.cells_failed(), progress.cells_not_converged(), TimeLeft(done, elapsed.count()));
+  const std::string words =
+      fmt::format("{} of {}, {} failed, {} not converged{}", progress.cells_done(),
+                  Count(progress.cells(), "cell", "cells"), progress.cells_failed(),
+                  progress.cells_not_converged(), TimeLeft(done, elapsed.count()));
   const int tenths = static_cast<int>(10 * done);
   if (form_ == ProgressForm::kLines && tenths > std::exchange(told_tenths_, tenths)) {
     Tell("{}\n", words);
   }
   if (form_ != ProgressForm::kBar) return;
-  fmt::print(stderr, "\r\x1b[K{}", words);
+  const int width = StyleOf(fileno(stderr), "never").width;  // It may have been resized.
+  fmt::print(stderr, "\r\x1b[K{}", width > 1 ? Cut(words, width - 1) : words);
   std::fflush(stderr);
   shown_ = true;
 }

@@ -1,0 +1,186 @@
+#include "cli/verbs/identity/identity_commands.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/file_descriptor.h"
+#include "base/replace_file.h"
+#include "base/spelling.h"
+#include "cli/base/failure.h"
+#include "cli/base/number.h"
+#include "cli/base/table.h"
+#include "cli/text/print_job.h"
+#include "identity/audit_log.h"
+#include "identity/secret_file.h"
+#include "identity/token_table.h"
+
+namespace contact::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::system_clock;
+
+// What the commands about tokens ask.
+struct TokenOptions {
+  std::string file;
+  std::string name;
+  std::string tenant;
+  std::vector<std::string> roles;
+  std::string ttl = "90d";
+  std::string id;
+};
+
+std::vector<TokenRecord> ReadTokens(const std::string& file) {
+  if (!fs::exists(file)) return {};
+  std::string text, mistake;
+  if (!ReadSecretFile(file, &text, &mistake)) throw Failure(ExitCode::kLocal, mistake);
+  const auto table = TokenTable::Parse(text);
+  if (const auto* wrong = std::get_if<std::string>(&table)) {
+    throw Failure(ExitCode::kLocal, fmt::format("{}: {}", file, *wrong));
+  }
+  return std::get<TokenTable>(table).records();
+}
+
+// Changes the file while nobody else does.
+template <class Change>
+void ChangeTokens(const std::string& file, Change change) {
+  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : ".";
+  const FileDescriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (lock.valid()) ::flock(lock.get(), LOCK_EX);
+  std::vector<TokenRecord> records = ReadTokens(file);
+  change(&records);
+  constexpr mode_t kOwnerOnly = 0600;
+  if (const auto error = ReplaceFile(file, TokenTable::Format(records), kOwnerOnly)) {
+    throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", file, error.message()));
+  }
+}
+
+Principal PrincipalOf(const TokenOptions& options) {
+  std::string mistake;
+  const auto principal = ParsePrincipal(fmt::format("user:{} tenant:{} roles:{}", options.name,
+                                                    options.tenant, fmt::join(options.roles, ",")),
+                                        &mistake);
+  if (!principal) throw Failure(ExitCode::kUsage, mistake);
+  return *principal;
+}
+
+ExitCode CreateToken(const TokenOptions& options, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable});
+  const auto expires =
+      std::chrono::floor<std::chrono::seconds>(system_clock::now() + RequireDuration(options.ttl));
+  const NewToken made = MakeToken(PrincipalOf(options), expires);
+  ChangeTokens(options.file, [&made](auto* records) { records->push_back(made.record); });
+  fmt::print("{}\n", made.token);
+  fmt::print(stderr, "token {} of {} until {}; it is shown this once\n", made.record.id,
+             options.name, FormatUtc(expires));
+  return ExitCode::kOk;
+}
+
+ExitCode RevokeToken(const TokenOptions& options, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable});
+  ChangeTokens(options.file, [&options](auto* records) {
+    const auto found = std::ranges::find(*records, options.id, &TokenRecord::id);
+    if (found == records->end()) {
+      throw Failure(ExitCode::kNotFound,
+                    fmt::format("{} has no token {}", options.file, options.id));
+    }
+    found->revoked = true;
+  });
+  fmt::print("{} revoked\n", options.id);
+  return ExitCode::kOk;
+}
+
+ExitCode ListTokens(const TokenOptions& options, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
+  Table table({{"ID"}, {"USER"}, {"TENANT"}, {"ROLES"}, {"EXPIRES"}, {"STATE"}});
+  auto json = nlohmann::ordered_json::array();
+  for (const TokenRecord& record : ReadTokens(options.file)) {
+    const bool expired = record.expires <= system_clock::now();
+    const std::string state = record.revoked ? "revoked" : expired ? "expired" : "valid";
+    std::vector<std::string> roles;
+    for (const Role role : record.principal.roles) roles.emplace_back(NameOf(role));
+    json.push_back({{"id", record.id},
+                    {"user", record.principal.name},
+                    {"tenant", record.principal.tenant},
+                    {"roles", roles},
+                    {"expires", FormatUtc(record.expires)},
+                    {"state", state}});
+    table.Add({record.id, record.principal.name, record.principal.tenant,
+               fmt::format("{}", fmt::join(roles, ",")), FormatUtc(record.expires), state});
+  }
+  if (settings.output == OutputFormat::kJson) {
+    PrintJson(json.dump(2) + "\n", settings);
+  } else {
+    fmt::print("{}", table.Text(settings.OutputStyle()));
+  }
+  return ExitCode::kOk;
+}
+
+ExitCode CheckAudit(const std::string& file, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable});
+  const auto findings = VerifyAudit(file);
+  if (!findings) throw Failure(ExitCode::kLocal, "cannot read " + file);
+  if (findings->bad_line > 0) {
+    throw Failure(ExitCode::kRunFailed, fmt::format("{}:{}: does not fit: {}", file,
+                                                    findings->bad_line, findings->mistake));
+  }
+  fmt::print("{}  {}, unbroken; the last is {}\n", file, Count(findings->lines, "line", "lines"),
+             findings->last);
+  return ExitCode::kOk;
+}
+
+void AddTokenFile(CommandLine& line, CLI::App& command, TokenOptions* options) {
+  line.SetKind(command.add_option("--tokens", options->file,
+                                  "The file that --tokens of the server names"),
+               ValueKind::kFile)
+      ->required();
+}
+
+}  // namespace
+
+void AddToken(CommandLine& line, CLI::App& server) {
+  CLI::App* token = server.add_subcommand(
+      "token", "Make, list and revoke tokens in the file of a server, on its machine");
+  token->require_subcommand(1);
+  auto options = std::make_shared<TokenOptions>();
+  CLI::App* create = token->add_subcommand("create", "Make a token and show it, this once");
+  AddTokenFile(line, *create, options.get());
+  create->add_option("--name", options->name, "Whose it is; jobs have this owner")->required();
+  create->add_option("--tenant", options->tenant, "Whose jobs it sees")->required();
+  line.SetWords(create->add_option("--role", options->roles, "What it may do"),
+                {"read", "submit", "operator", "admin"})
+      ->required();
+  create->add_option("--ttl", options->ttl, "How long it is valid")
+      ->type_name("TIME")
+      ->capture_default_str();
+  line.SetAction(*create, options, CreateToken);
+  CLI::App* list = token->add_subcommand("list", "List tokens, without their secrets");
+  AddTokenFile(line, *list, options.get());
+  line.SetAction(*list, options, ListTokens);
+  CLI::App* revoke = token->add_subcommand("revoke", "Make a token invalid, a second later");
+  AddTokenFile(line, *revoke, options.get());
+  revoke->add_option("ID", options->id, "The id that list shows")->required();
+  line.SetAction(*revoke, options, RevokeToken);
+}
+
+void AddAudit(CommandLine& line, CLI::App& server) {
+  CLI::App* audit = server.add_subcommand("audit", "Look at the audit log of a server");
+  audit->require_subcommand(1);
+  CLI::App* verify =
+      audit->add_subcommand("verify", "Check that no line was changed, left out or put in");
+  auto file = std::make_shared<std::string>();
+  line.SetKind(verify->add_option("FILE", *file, "The file that --audit-log of the server names"),
+               ValueKind::kFile)
+      ->required();
+  line.SetAction(*verify, file, CheckAudit);
+}
+
+}  // namespace contact::cli

@@ -1,0 +1,169 @@
+#include "identity/audit_log.h"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "identity/hex.h"
+#include "identity/token_table.h"
+
+namespace contact {
+namespace {
+
+constexpr int kUnknownCallersPerSecond = 100;
+
+std::string FirstPrevious() { return std::string(64, '0'); }
+
+std::string LineOf(const AuditRecord& record, const std::string& previous,
+                   std::int64_t suppressed) {
+  using std::chrono::milliseconds;
+  const auto ms = std::chrono::duration_cast<milliseconds>(record.time.time_since_epoch());
+  std::string time = FormatUtc(record.time);
+  time.insert(time.size() - 1, fmt::format(".{:03}", ms.count() % 1000));
+  nlohmann::ordered_json json = {{"time", time}, {"call", record.call}};
+  if (record.caller) {
+    json["principal"] = record.caller->name;
+    json["tenant"] = record.caller->tenant;
+    json["how"] = record.caller->how;
+    if (!record.caller->token_id.empty()) json["token"] = record.caller->token_id;
+  }
+  json["peer"] = record.peer;
+  json["method"] = record.method;
+  if (!record.job.empty()) json["job"] = record.job;
+  json["code"] = record.code;
+  if (!record.reason.empty()) json["reason"] = record.reason;
+  json["duration_us"] = record.duration.count();
+  if (suppressed > 0) json["suppressed"] = suppressed;
+  json["prev"] = previous;
+  // Names of jobs are whatever the caller has sent.
+  return json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+bool WriteAll(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+// The end of the last whole line of a file, and that line without its end.
+struct LastLine {
+  std::streamoff end = 0;
+  std::string text;
+};
+LastLine FindLastLine(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  LastLine last;
+  for (std::string line; std::getline(in, line) && !in.eof();) {
+    last = {static_cast<std::streamoff>(in.tellg()), line};
+  }
+  return last;
+}
+
+std::string Problem(const std::filesystem::path& file) {
+  return fmt::format("cannot write {}: {}", file.string(), std::generic_category().message(errno));
+}
+
+}  // namespace
+
+std::variant<std::unique_ptr<AuditLog>, std::string> AuditLog::Open(
+    const std::filesystem::path& file) {
+  constexpr mode_t kOwnerOnly = 0600;
+  FileDescriptor out(
+      ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, kOwnerOnly));
+  struct stat status = {};
+  if (!out.valid() || ::fstat(out.get(), &status) != 0) return Problem(file);
+  if (!S_ISREG(status.st_mode)) return file.string() + " is no file";
+  const LastLine last = FindLastLine(file);
+  if (::lseek(out.get(), 0, SEEK_END) != last.end) {
+    spdlog::warn("{}: cut off a line that was not finished", file.string());
+    if (::ftruncate(out.get(), last.end) != 0) return Problem(file);
+  }
+  const std::string previous = last.end == 0 ? FirstPrevious() : Sha256Hex(last.text);
+  return std::unique_ptr<AuditLog>(new AuditLog(std::move(out), previous));
+}
+
+void AuditLog::Write(AuditRecord record) {
+  executor_.Post([this, record = std::move(record)] {
+    if (!IsSuppressed(record)) Append(record);
+  });
+}
+
+void AuditLog::WriteDurably(AuditRecord record, std::function<void(bool)> done) {
+  const auto write = [this, record = std::move(record), done] {
+    done(Append(record) && ::fdatasync(file_.get()) == 0);
+  };
+  if (!executor_.Post(write)) done(false);
+}
+
+void AuditLog::Flush() {
+  const auto written = std::make_shared<std::promise<void>>();
+  if (executor_.Post([written] { written->set_value(); })) written->get_future().wait();
+}
+
+bool AuditLog::Append(const AuditRecord& record) {
+  const std::string line = LineOf(record, previous_, suppressed_);
+  const ::off_t before = ::lseek(file_.get(), 0, SEEK_END);
+  if (WriteAll(file_.get(), line + '\n')) {
+    previous_ = Sha256Hex(line);
+    suppressed_ = 0;
+    failed_ = false;
+    return true;
+  }
+  if (!std::exchange(failed_, true)) {
+    spdlog::error("the audit log cannot be written: {}", std::generic_category().message(errno));
+  }
+  // Half a line would break the chain.
+  if (before >= 0 && ::ftruncate(file_.get(), before) != 0) return false;
+  return false;
+}
+
+bool AuditLog::IsSuppressed(const AuditRecord& record) {
+  if (record.caller) return false;
+  const auto second =
+      std::chrono::duration_cast<std::chrono::seconds>(record.time.time_since_epoch()).count();
+  if (std::exchange(second_, second) != second) of_second_ = 0;
+  if (++of_second_ <= kUnknownCallersPerSecond) return false;
+  ++suppressed_;
+  return true;
+}
+
+std::optional<AuditFindings> VerifyAudit(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  AuditFindings findings;
+  findings.last = FirstPrevious();
+  for (std::string line; std::getline(in, line);) {
+    ++findings.lines;
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    std::string mistake;
+    if (in.eof()) {
+      mistake = "it is not finished";
+    } else if (!json.is_object()) {
+      mistake = "it is no JSON object";
+    } else if (json.value("prev", nlohmann::json()) != findings.last) {
+      mistake = "the line before is not the one that it was written after";
+    }
+    findings.last = Sha256Hex(line);
+    if (mistake.empty()) continue;
+    findings.bad_line = findings.lines;
+    findings.mistake = mistake;
+    break;
+  }
+  return findings;
+}
+
+}  // namespace contact

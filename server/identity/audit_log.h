@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "base/executor.h"
+#include "base/file_descriptor.h"
+#include "identity/principal.h"
+
+namespace contact {
+
+/// What the audit log says of a call. Holds no secret.
+struct AuditRecord {
+  std::chrono::system_clock::time_point time;
+  /// Identifies the call.
+  std::string call;
+  /// Nothing if the caller is not known.
+  std::optional<Principal> caller;
+  /// Where the call came from, as gRPC tells it.
+  std::string peer;
+  std::string method;
+  /// Name of the job that it is about; may be empty.
+  std::string job;
+  /// Name of its status code, such as `OK`; `STARTED` for a call that is written before it begins.
+  std::string code;
+  /// ErrorInfo.reason; empty without error.
+  std::string reason;
+  std::chrono::microseconds duration{0};
+};
+
+/// A file with a JSON object a line for each change and each refused call. Each line has the
+/// SHA-256 of the line before as `prev`, so that a line that is changed, left out or put in is
+/// found; see VerifyAudit. Written on a thread of its own. Thread-safe.
+class AuditLog {
+ public:
+  /// Opens the file, of mode 0600 if it is made, and goes on with its chain. What a crash has left
+  /// of a line that was not finished is cut off. Words that say why, if it cannot.
+  static std::variant<std::unique_ptr<AuditLog>, std::string> Open(
+      const std::filesystem::path& file);
+
+  /// Writes the record, some time later. Of calls whose caller is not known at most 100 a second
+  /// are written; the next record says as `suppressed` how many are left out.
+  void Write(AuditRecord record);
+  /// Writes the record and synchronises the disk, then calls `done` on the log's thread. False: it
+  /// could not be written.
+  void WriteDurably(AuditRecord record, std::function<void(bool)> done);
+  /// Waits until what was given before is written.
+  void Flush();
+
+ private:
+  AuditLog(FileDescriptor file, std::string previous)
+      : file_(std::move(file)), previous_(std::move(previous)) {}
+
+  /// Appends the record. On the thread.
+  bool Append(const AuditRecord& record);
+  /// True if the record is one too many of unknown callers. On the thread.
+  bool IsSuppressed(const AuditRecord& record);
+
+  // All of the thread.
+  const FileDescriptor file_;
+  /// SHA-256 of the last line.
+  std::string previous_;
+  /// The second of the last record of an unknown caller, and how many it had.
+  std::int64_t second_ = 0;
+  int of_second_ = 0;
+  std::int64_t suppressed_ = 0;
+  /// True while nothing can be written, so that the log says it once.
+  bool failed_ = false;
+  Executor executor_{"audit"};  // Last: its tasks use the above.
+};
+
+/// What VerifyAudit finds.
+struct AuditFindings {
+  std::int64_t lines = 0;
+  /// SHA-256 of the last line, to be kept elsewhere: it shows whether lines are missing at the end.
+  std::string last;
+  /// The first line that does not fit, from 1; 0: all fit.
+  std::int64_t bad_line = 0;
+  /// What is wrong with it.
+  std::string mistake;
+};
+
+/// Follows the chain of an audit log. Nothing if the file cannot be read.
+std::optional<AuditFindings> VerifyAudit(const std::filesystem::path& file);
+
+}  // namespace contact

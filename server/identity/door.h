@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "identity/certificate_rules.h"
+#include "identity/principal.h"
+#include "identity/token_table.h"
+
+namespace contact {
+
+/// What a caller shows of itself.
+struct Presented {
+  /// The values of the metadata `authorization`. Secret.
+  std::vector<std::string> authorization = {};
+  /// Names in the client certificate, which TLS has verified; see CertificateRules.
+  std::vector<std::string> certificate = {};
+};
+
+/// Where a listener has its tokens and rules from. Thread-safe.
+class IdentitySource {
+ public:
+  virtual ~IdentitySource() = default;
+  /// The tokens that are valid now; null: none are taken.
+  virtual std::shared_ptr<const TokenTable> tokens() const = 0;
+  /// The rules for certificates; null: none.
+  virtual std::shared_ptr<const CertificateRules> rules() const = 0;
+};
+
+/// Decides who comes in through one listener. Thread-safe.
+class Door {
+ public:
+  /// Everybody who comes in here is `everybody`.
+  explicit Door(Principal everybody = LocalPrincipal()) : everybody_(std::move(everybody)) {}
+  /// Only those come in whom the source knows.
+  explicit Door(std::shared_ptr<const IdentitySource> source) : source_(std::move(source)) {}
+
+  /// False if everybody comes in, whatever is presented.
+  bool asks() const { return !everybody_; }
+
+  /// The caller, or words that say why it is not known; they hold no secret. A token decides if one
+  /// is shown and tokens are taken, then the certificate. A token that is not valid is refused,
+  /// whatever else is shown.
+  std::variant<Principal, std::string> Identify(const Presented& presented,
+                                                std::chrono::system_clock::time_point now) const;
+
+ private:
+  /// Nothing if there is a source.
+  std::optional<Principal> everybody_ = {};
+  std::shared_ptr<const IdentitySource> source_ = {};
+};
+
+}  // namespace contact

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace contact {
+
+/// The bytes as hexadecimal digits, in lower case.
+std::string Hex(std::string_view bytes);
+
+/// SHA-256 of the bytes, 64 hexadecimal digits in lower case.
+std::string Sha256Hex(std::string_view bytes);
+
+}  // namespace contact

@@ -1,0 +1,96 @@
+#include "identity/principal.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace contact {
+namespace {
+
+constexpr std::array<std::pair<Role, const char*>, 4> kRoles = {{{Role::kRead, "read"},
+                                                                 {Role::kSubmit, "submit"},
+                                                                 {Role::kOperator, "operator"},
+                                                                 {Role::kAdmin, "admin"}}};
+
+bool IsName(std::string_view text) {
+  return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '.' || c == '_' || c == '@' || c == '-';
+  });
+}
+
+// The least role that has the permission.
+Role LeastRole(Permission permission) { return static_cast<Role>(permission); }
+static_assert(static_cast<int>(Permission::kAdmin) == static_cast<int>(Role::kAdmin));
+
+bool ReadRoles(const std::string& text, std::set<Role>* roles, std::string* mistake) {
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::optional<Role> role = FindRole(word);
+    if (!role) {
+      *mistake = "'" + word + "' is no role; there are read, submit, operator and admin";
+      return false;
+    }
+    roles->insert(*role);
+  }
+  return true;
+}
+
+}  // namespace
+
+const Principal& LocalPrincipal() {
+  static const Principal kEverybody{kLocal, kLocal, {Role::kAdmin}, "local"};
+  return kEverybody;
+}
+
+bool May(const Principal& principal, Permission permission) {
+  return !principal.roles.empty() && *principal.roles.rbegin() >= LeastRole(permission);
+}
+
+const char* NameOf(Role role) { return kRoles.at(static_cast<std::size_t>(role)).second; }
+
+std::optional<Role> FindRole(std::string_view name) {
+  for (const auto& [role, word] : kRoles) {
+    if (name == word) return role;
+  }
+  return std::nullopt;
+}
+
+const char* NameOf(Permission permission) { return NameOf(LeastRole(permission)); }
+
+std::optional<Principal> ParsePrincipal(const std::string& text, std::string* mistake) {
+  std::map<std::string, std::string> parts;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::size_t colon = word.find(':');
+    const std::string key = word.substr(0, colon);
+    const bool known = key == "user" || key == "tenant" || key == "roles";
+    if (colon == std::string::npos || !known || parts.contains(key)) {
+      *mistake = "'" + word + "' is none of user:NAME, tenant:NAME and roles:ROLE, each once";
+      return std::nullopt;
+    }
+    parts[key] = word.substr(colon + 1);
+  }
+  Principal principal{parts["user"], parts["tenant"], {}, ""};
+  if (!IsName(principal.name) || !IsName(principal.tenant)) {
+    *mistake = "user and tenant need names of 1 to 64 letters, digits and ._@-";
+    return std::nullopt;
+  }
+  if (!ReadRoles(parts["roles"], &principal.roles, mistake)) return std::nullopt;
+  if (!principal.roles.empty()) return principal;
+  *mistake = "roles are missing";
+  return std::nullopt;
+}
+
+std::string FormatPrincipal(const Principal& principal) {
+  std::string text = "user:" + principal.name + " tenant:" + principal.tenant + " roles:";
+  for (const Role role : principal.roles) {
+    if (!text.ends_with(':')) text += ',';
+    text += NameOf(role);
+  }
+  return text;
+}
+
+}  // namespace contact

@@ -1,0 +1,55 @@
+#include "identity/secret_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include "base/file_descriptor.h"
+
+namespace contact {
+namespace {
+
+constexpr std::size_t kMostBytes = 1 << 20;
+
+bool Read(const std::filesystem::path& file, mode_t refused, std::string* text,
+          std::string* mistake) {
+  const FileDescriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat status = {};
+  if (!in.valid() || ::fstat(in.get(), &status) != 0) {
+    *mistake = "cannot read " + file.string() + ": " + std::generic_category().message(errno);
+    return false;
+  }
+  if (!S_ISREG(status.st_mode)) {
+    *mistake = file.string() + " is no file";
+    return false;
+  }
+  if ((status.st_mode & refused) != 0) {
+    *mistake = file.string() + " can be read or changed by others; chmod 600 it";
+    return false;
+  }
+  text->clear();
+  std::array<char, 4096> part;
+  for (ssize_t n; (n = ::read(in.get(), part.data(), part.size())) > 0;) {
+    text->append(part.data(), static_cast<std::size_t>(n));
+    if (text->size() <= kMostBytes) continue;
+    *mistake = file.string() + " is larger than 1 MiB";
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool ReadTextFile(const std::filesystem::path& file, std::string* text, std::string* mistake) {
+  return Read(file, 0, text, mistake);
+}
+
+bool ReadSecretFile(const std::filesystem::path& file, std::string* text, std::string* mistake) {
+  return Read(file, S_IWGRP | S_IROTH | S_IWOTH, text, mistake);
+}
+
+}  // namespace contact

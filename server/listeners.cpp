@@ -1,0 +1,91 @@
+#include "listeners.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace contact {
+namespace {
+
+bool HasFiles(const IdentityPaths& paths) {
+  return !paths.tokens.empty() || !paths.tls.certificate.empty();
+}
+
+}  // namespace
+
+Listeners::Listeners(JobManager& jobs, Store& store, const Config& config, v1::ServerInfo info)
+    : jobs_(jobs), store_(store), config_(config), info_(std::move(info)) {}
+
+std::string Listeners::Prepare() {
+  if (!config_.audit_log.empty()) {
+    auto opened = AuditLog::Open(config_.audit_log);
+    if (const auto* why = std::get_if<std::string>(&opened)) return "--audit-log: " + *why;
+    audit_ = std::move(std::get<std::unique_ptr<AuditLog>>(opened));
+  }
+  if (!HasFiles(config_.identity)) return "";
+  auto opened = IdentityFiles::Open(config_.identity, [this](const TlsMaterial& material) {
+    if (tls_) return tls_->Replace(material);
+    tls_ = std::make_shared<TlsCredentials>(material);
+  });
+  if (const auto* why = std::get_if<std::string>(&opened)) return *why;
+  files_ = std::get<std::shared_ptr<IdentityFiles>>(std::move(opened));
+  return "";
+}
+
+Door Listeners::MainDoor() const {
+  return AsksWhoCalls(config_.identity) ? Door(files_) : Door(LocalPrincipal());
+}
+
+std::string Listeners::Start() {
+  GrpcServerOptions options = config_.rpc;
+  options.metrics = calls_;
+  options.audit = audit_;
+  options.door = MainDoor();
+  options.credentials = tls_ && !config_.listen.starts_with("unix:") ? tls_->Make() : nullptr;
+  options.admin = config_.listen_admin.empty();
+  const auto port = Open(config_.listen, options);
+  if (!port) return config_.listen;
+  port_ = *port;
+  options.credentials = nullptr;
+  options.reflection = options.channelz = options.admin = false;
+  for (const SocketListener& socket : config_.listen_as) {
+    options.door = Door(socket.principal);
+    if (!Open("unix:" + socket.path, options)) return socket.path;
+  }
+  if (config_.listen_admin.empty()) return "";
+  options.door = Door(Principal{"admin", kLocal, {Role::kAdmin}, "socket"});
+  options.reflection = options.admin = true;
+  options.channelz = config_.admin_channelz;
+  return Open(config_.listen_admin, options) ? "" : config_.listen_admin;
+}
+
+std::optional<int> Listeners::Open(const std::string& address, GrpcServerOptions options) {
+  servers_.push_back(std::make_unique<GrpcServer>(jobs_, store_, std::move(options), info_));
+  return servers_.back()->Start(address);
+}
+
+void Listeners::Shutdown(std::chrono::milliseconds grace) {
+  for (const auto& server : servers_) server->Drain();
+  for (const auto& server : servers_) server->Shutdown(grace);
+}
+
+void Listeners::AddTo(MetricsSources::Now* now) const {
+  for (const auto& server : servers_) {
+    now->watchers += server->watchers();
+    now->connections += server->connections();
+    now->refused_connections += server->refused_connections();
+  }
+  if (!files_) return;
+  now->tls_failures = files_->tls_failures();
+  now->identity_failures = files_->failures();
+  if (const auto end = files_->not_after()) {
+    const std::chrono::duration<double> left = *end - SystemClock().Now();
+    now->tls_seconds_left = left.count();
+  }
+}
+
+std::shared_ptr<const StreamMetrics> Listeners::stream_metrics() const {
+  return servers_.front()->stream_metrics();
+}
+
+}  // namespace contact

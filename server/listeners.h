@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config.h"
+#include "identity/identity_files.h"
+#include "rpc/metrics/metrics_page.h"
+#include "rpc/net/tls_credentials.h"
+
+namespace contact {
+
+/// All listeners of the server, each with the identity that it asks for: `--listen`, every
+/// `--listen-as`, and `--listen-admin`.
+class Listeners {
+ public:
+  /// Manager and store outlive it. `info`: see JobService.
+  Listeners(JobManager& jobs, Store& store, const Config& config, v1::ServerInfo info);
+
+  /// Reads the files of identity and opens the audit log. Returns what is wrong; empty: nothing.
+  std::string Prepare();
+
+  /// Opens all listeners. Returns the address that cannot be had; empty: none.
+  std::string Start();
+
+  /// The port of `--listen`; 0 for a socket file.
+  int port() const { return port_; }
+
+  /// Ends them, as GrpcServer::Shutdown.
+  void Shutdown(std::chrono::milliseconds grace);
+
+  /// Adds what is known of connections, streams, certificate and files of identity.
+  void AddTo(MetricsSources::Now* now) const;
+  /// Counters of the calls of all listeners, and of the streams of `--listen`.
+  std::shared_ptr<const RpcMetrics> metrics() const { return calls_; }
+  std::shared_ptr<const StreamMetrics> stream_metrics() const;
+
+ private:
+  /// Who comes in by `--listen`.
+  Door MainDoor() const;
+  /// Opens a listener; its port, or nothing if the address cannot be had.
+  std::optional<int> Open(const std::string& address, GrpcServerOptions options);
+
+  JobManager& jobs_;
+  Store& store_;
+  const Config& config_;
+  const v1::ServerInfo info_;
+  const std::shared_ptr<RpcMetrics> calls_ = std::make_shared<RpcMetrics>();
+  std::shared_ptr<AuditLog> audit_;
+  /// Null without TLS.
+  std::shared_ptr<TlsCredentials> tls_;
+  /// Null without files of identity.
+  std::shared_ptr<IdentityFiles> files_;
+  int port_ = 0;
+  /// That of `--listen` first.
+  std::vector<std::unique_ptr<GrpcServer>> servers_;
+};
+
+}  // namespace contact

@@ -1,0 +1,117 @@
+"""contactctl against a server that asks who calls: files, exit codes, profiles, tokens, audit."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from authority import Authority
+from cli_case import CHAIN, CONTACTCTL
+from contactd import PATIENCE_S, Server
+
+
+class CredentialsTest(unittest.TestCase):
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="contactd-test-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        ca = Authority(self.folder)
+        pair = ca.issue("server", "DNS:localhost,IP:127.0.0.1")
+        self.ca, self.tokens = ca.pem, self.folder / "tokens"
+        self.ada = ca.issue("ada", "URI:spiffe://acme/user/ada")
+        (self.folder / "rules").write_text("cert spiffe://acme/user/* user:$1 tenant:acme "
+                                           "roles:submit\n")
+        self.token = self.make_token("ci", "submit")
+        self.server = Server(self.folder / "data", f"--tls-cert={pair[0]}", f"--tls-key={pair[1]}",
+                             f"--tokens={self.tokens}", f"--audit-log={self.folder / 'audit.log'}")
+        self.addCleanup(self.server.kill)
+        self.server.start()
+
+    def make_token(self, name, role):
+        token = self.run_it("server", "token", "create", "--tokens", self.tokens, "--name", name,
+                            "--tenant", "acme", "--role", role)[0]
+        path = self.folder / f"{name}.token"
+        path.touch(mode=0o600)
+        path.write_text(token)
+        return path
+
+    def run_it(self, *arguments, code=0, environment=None):
+        run = subprocess.run([CONTACTCTL, *map(str, arguments)], capture_output=True, text=True,
+                             timeout=PATIENCE_S, cwd=self.folder,
+                             env={**os.environ, **(environment or {})})
+        self.assertEqual(run.returncode, code, run.stdout + run.stderr)
+        return run.stdout, run.stderr
+
+    def ask(self, *arguments, **keywords):
+        return self.run_it("--server", f"localhost:{self.server.port}", "--tls-ca", self.ca,
+                           *arguments, **keywords)
+
+    def test_token_lets_a_job_run(self):
+        self.ask("--token-file", self.token, "run", CHAIN, "-o", "name")
+        status = self.ask("--token-file", self.token, "server", "status")[0]
+        self.assertIn("you       ci of acme, submit", status)
+
+    def test_who_is_not_known_or_not_allowed_gets_code_9(self):
+        said = self.ask("list", code=9)[1]
+        self.assertIn("--token-file FILE", said)
+        (self.folder / "bad.token").touch(mode=0o600)
+        (self.folder / "bad.token").write_text("ctk_00000000_" + "x" * 43)
+        self.assertNotIn("xxx", self.ask("--token-file", self.folder / "bad.token", "list",
+                                         code=9)[1])
+        said = self.ask("--token-file", self.token, "server", "backup", "-f", "x.db", code=9)[1]
+        self.assertIn("admin", said)
+        reader = self.make_token("eye", "read")
+        self.ask("--token-file", reader, "submit", CHAIN, code=9)
+
+    def test_without_tls_there_is_no_connection_and_no_token_goes_out(self):
+        self.run_it("--server", f"localhost:{self.server.port}", "list", code=4)
+        said = self.run_it("--server", f"localhost:{self.server.port}", "--token-file", self.token,
+                           "list", code=2)[1]
+        self.assertIn("unencrypted", said)
+
+    def test_file_that_others_can_read_is_refused(self):
+        self.token.chmod(0o644)
+        said = self.ask("--token-file", self.token, "list", code=11)[1]
+        self.assertIn("chmod 600", said)
+        self.assertNotIn(self.token.read_text()[13:], said)
+
+    def test_profile_and_variables_name_the_files(self):
+        home = self.folder / "home" / "contact"
+        home.mkdir(parents=True)
+        (home / "config.toml").write_text(
+            f'[profile.lab]\nserver = "localhost:{self.server.port}"\ntls_ca = "{self.ca}"\n'
+            f'token_file = "{self.token}"\n')
+        where = {"XDG_CONFIG_HOME": str(home.parent)}
+        self.run_it("--profile", "lab", "list", environment=where)
+        self.ask("list", environment={"CONTACT_TOKEN_FILE": str(self.token)})
+
+    def test_tokens_are_listed_and_revoked(self):
+        listed = json.loads(self.run_it("server", "token", "list", "--tokens", self.tokens,
+                                        "-o", "json")[0])
+        self.assertEqual([(row["user"], row["tenant"], row["roles"], row["state"])
+                          for row in listed], [("ci", "acme", ["submit"], "valid")])
+        secret = self.token.read_text().strip()
+        self.assertNotIn(secret[13:], self.tokens.read_text() + json.dumps(listed))
+        self.assertEqual(self.tokens.stat().st_mode & 0o777, 0o600)
+        self.run_it("server", "token", "revoke", listed[0]["id"], "--tokens", self.tokens)
+        self.run_it("server", "token", "revoke", "nobody", "--tokens", self.tokens, code=6)
+        table = self.run_it("server", "token", "list", "--tokens", self.tokens)[0]
+        self.assertIn("revoked", table)
+
+    def test_audit_log_is_verified(self):
+        self.ask("--token-file", self.token, "run", CHAIN, "-o", "name")
+        self.ask("list", code=9)
+        self.server.terminate()
+        audit = self.folder / "audit.log"
+        said = self.run_it("server", "audit", "verify", audit)[0]
+        self.assertRegex(said, r"2 lines, unbroken; the last is [0-9a-f]{64}")
+        audit.write_text(audit.read_text().replace('"ci"', '"eve"', 1))
+        said = self.run_it("server", "audit", "verify", audit, code=1)[1]
+        self.assertIn("audit.log:2: does not fit", said)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,153 @@
+#include "identity/audit_log.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "testing/temp_directory.h"
+
+namespace contact {
+namespace {
+
+class AuditLogTest : public testing::Test {
+ protected:
+  std::unique_ptr<AuditLog> Open() {
+    auto log = AuditLog::Open(file_);
+    if (const auto* why = std::get_if<std::string>(&log)) ADD_FAILURE() << *why;
+    return std::get<std::unique_ptr<AuditLog>>(std::move(log));
+  }
+  static AuditRecord RecordOf(const std::string& job, bool known = true) {
+    AuditRecord record;
+    record.time = std::chrono::system_clock::from_time_t(1'800'000'000);
+    record.call = "c1";
+    if (known) record.caller = Principal{"ci", "acme", {Role::kRead}, "token", "id7"};
+    record.peer = "ipv4:127.0.0.1:4711";
+    record.method = "/contact.v1.JobService/DeleteJob";
+    record.job = job;
+    record.code = "OK";
+    record.duration = std::chrono::microseconds(1500);
+    return record;
+  }
+  static bool WriteDurably(AuditLog& log) {
+    std::promise<bool> written;
+    log.WriteDurably(RecordOf("jobs/a"), [&written](bool good) { written.set_value(good); });
+    return written.get_future().get();
+  }
+  std::vector<std::string> Lines() const {
+    std::ifstream in(file_);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+  }
+  void Rewrite(const std::vector<std::string>& lines) const {
+    std::ofstream out(file_, std::ios::trunc);
+    for (const std::string& line : lines) out << line << '\n';
+  }
+  void WriteJobs(int count) {
+    const auto log = Open();
+    for (int i = 0; i < count; ++i) log->Write(RecordOf("jobs/" + std::to_string(i)));
+    log->Flush();
+  }
+
+  const TempDirectory folder_;
+  const std::filesystem::path file_ = folder_.path() / "audit.log";
+};
+
+TEST_F(AuditLogTest, LineSaysWhoDidWhat) {
+  WriteJobs(1);
+  const auto line = nlohmann::json::parse(Lines().at(0));
+  const auto expected = nlohmann::json::parse(R"({
+    "time": "2027-01-15T08:00:00.000Z", "call": "c1", "principal": "ci", "tenant": "acme",
+    "how": "token", "token": "id7", "peer": "ipv4:127.0.0.1:4711",
+    "method": "/contact.v1.JobService/DeleteJob", "job": "jobs/0", "code": "OK",
+    "duration_us": 1500,
+    "prev": "0000000000000000000000000000000000000000000000000000000000000000"})");
+  EXPECT_EQ(line, expected);
+  using std::filesystem::perms;
+  EXPECT_EQ(std::filesystem::status(file_).permissions(), perms::owner_read | perms::owner_write);
+}
+
+TEST_F(AuditLogTest, ChainGoesOnAfterARestart) {
+  WriteJobs(3);
+  WriteJobs(2);
+  const auto findings = VerifyAudit(file_);
+  ASSERT_TRUE(findings);
+  EXPECT_EQ(findings->lines, 5);
+  EXPECT_EQ(findings->bad_line, 0) << findings->mistake;
+}
+
+TEST_F(AuditLogTest, EveryChangeOfALineIsFound) {
+  WriteJobs(5);
+  const std::vector<std::string> lines = Lines();
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    std::vector<std::string> changed = lines;
+    changed[i].replace(changed[i].find("acme"), 4, "evil");
+    Rewrite(changed);
+    EXPECT_EQ(VerifyAudit(file_)->bad_line, static_cast<std::int64_t>(i) + 2);
+    std::vector<std::string> shorter = lines;
+    shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(i));
+    Rewrite(shorter);
+    EXPECT_EQ(VerifyAudit(file_)->bad_line, static_cast<std::int64_t>(i) + 1);
+  }
+  Rewrite({lines[0], lines[1], lines[3], lines[2], lines[4]});
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 3);
+  Rewrite({lines[0], lines[1], lines[2]});
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 0) << "only the digest of the last line tells";
+  EXPECT_NE(VerifyAudit(file_)->last, "");
+}
+
+TEST_F(AuditLogTest, UnfinishedLineIsCutOff) {
+  WriteJobs(2);
+  std::ofstream(file_, std::ios::app) << R"({"time": "20)";
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 3);
+  WriteJobs(1);
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 0);
+  EXPECT_EQ(VerifyAudit(file_)->lines, 3);
+}
+
+TEST_F(AuditLogTest, UnknownCallersCannotFillTheDisk) {
+  {
+    const auto log = Open();
+    for (int i = 0; i < 250; ++i) log->Write(RecordOf("", false));
+    log->Write(RecordOf("jobs/a"));
+    log->Flush();
+  }
+  const auto lines = Lines();
+  ASSERT_EQ(lines.size(), 101U);
+  EXPECT_EQ(nlohmann::json::parse(lines.back()).at("suppressed"), 150);
+}
+
+TEST_F(AuditLogTest, WhatCannotBeWrittenIsTold) {
+  const auto log = Open();
+  EXPECT_TRUE(WriteDurably(*log));
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit = {};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit full = {600, limit.rlim_max};  // One line fits, the second does not.
+  setrlimit(RLIMIT_FSIZE, &full);
+  EXPECT_FALSE(WriteDurably(*log));
+  setrlimit(RLIMIT_FSIZE, &limit);
+  EXPECT_TRUE(WriteDurably(*log));
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 0);
+  EXPECT_EQ(VerifyAudit(file_)->lines, 2);
+  EXPECT_TRUE(std::holds_alternative<std::string>(AuditLog::Open("/dev/null")));
+  EXPECT_TRUE(std::holds_alternative<std::string>(AuditLog::Open(folder_.path() / "no/audit.log")));
+}
+
+TEST_F(AuditLogTest, StrangeNamesStayOneLine) {
+  const auto log = Open();
+  log->Write(RecordOf("jobs/\n\x1b]0;x\x07\xff\xfe\""));
+  log->Flush();
+  ASSERT_EQ(Lines().size(), 1U);
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 0);
+}
+
+}  // namespace
+}  // namespace contact
