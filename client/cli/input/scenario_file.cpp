@@ -44,14 +44,12 @@ ScenarioFile::ScenarioFile(std::string name, const std::string& text,
 }
 
 void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& variables) {
-  const std::vector<YAML::Node> documents = LoadYaml(text);
-  if (documents.empty() || documents.front().IsNull()) {
+  const YamlText yaml = LoadYaml(text);
+  if (!yaml.first.IsDefined() || yaml.first.IsNull()) {
     return AddAt(YAML::Mark::null_mark(), "", "is empty", "contactctl init writes an example");
   }
-  root_.reset(documents.front());
-  if (documents.size() > 1) {
-    AddAt(documents[1].Mark(), "", "holds a second document", "a file is one scenario");
-  }
+  root_.reset(yaml.first);
+  if (yaml.second) AddAt(*yaml.second, "", "holds a second document", "a file is one scenario");
   const YamlReader::Report report = std::bind_front(&ScenarioFile::AddAt, this);
   const auto advise = [this](const YAML::Mark& mark, const std::string& field,
                              const std::string& what, const std::string& hint) {

@@ -30,7 +30,7 @@ class SweepFile {
 
   v1::Sweep Read(const std::string& text) {
     try {
-      root_.reset(LoadFirstYaml(text));
+      root_.reset(LoadYaml(text).first);
       ReadRoot();
     } catch (const YAML::Exception& error) {
       AddAt(error.mark, "", "malformed YAML: " + error.msg, "");
@@ -163,7 +163,7 @@ v1::Sweep ReadSweep(const std::string& path, const std::string& text,
 
 bool IsSweep(const std::string& text) {
   try {
-    const YAML::Node root = LoadFirstYaml(text);
+    const YAML::Node root = LoadYaml(text).first;
     return root.IsMap() && (root["base"].IsDefined() || root["axes"].IsDefined());
   } catch (const YAML::Exception&) {
     return false;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <sstream>
+#include <vector>
 
 #include "cli/base/text_file.h"
 
@@ -17,6 +18,10 @@ constexpr std::int64_t kMostValues = 1'000'000;
 // Counts the values of a text while it is parsed, before anything is made of them.
 class ValueCounter final : public YAML::EventHandler {
  public:
+  // Where the first value stands, since the last Forget.
+  const std::optional<YAML::Mark>& begin() const { return begin_; }
+  void Forget() { begin_.reset(); }
+
   void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { One(mark, anchor); }
@@ -45,6 +50,7 @@ class ValueCounter final : public YAML::EventHandler {
   };
 
   void Add(const YAML::Mark& mark, std::int64_t values) {
+    if (!begin_) begin_ = mark;
     total_ += values;
     if (total_ > kMostValues) throw YAML::ParserException(mark, "more than a million values");
   }
@@ -61,6 +67,7 @@ class ValueCounter final : public YAML::EventHandler {
     open_.pop_back();
   }
 
+  std::optional<YAML::Mark> begin_;
   std::int64_t total_ = 0;
   std::vector<Open> open_;                         // Lists and mappings around the next value.
   std::map<YAML::anchor_t, std::int64_t> values_;  // Of what has an anchor.
@@ -70,18 +77,18 @@ class ValueCounter final : public YAML::EventHandler {
 
 std::string ReadYaml(const std::string& path) { return ReadText(path, kMostBytes); }
 
-std::vector<YAML::Node> LoadYaml(const std::string& text) {
+// YAML::LoadAll would find a second document too, but of some texts, such as `{},`, yaml-cpp 0.7
+// finds documents without end.
+YamlText LoadYaml(const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
   ValueCounter counter;
-  while (parser.HandleNextDocument(counter)) {
+  std::optional<YAML::Mark> second;
+  if (parser.HandleNextDocument(counter)) {
+    counter.Forget();
+    if (parser.HandleNextDocument(counter)) second = counter.begin();
   }
-  return YAML::LoadAll(text);
-}
-
-YAML::Node LoadFirstYaml(const std::string& text) {
-  const std::vector<YAML::Node> documents = LoadYaml(text);
-  return documents.empty() ? YAML::Node() : documents.front();
+  return {YAML::Load(text), second};
 }
 
 }  // namespace contact::cli

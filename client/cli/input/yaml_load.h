@@ -2,8 +2,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace contact::cli {
 
@@ -11,11 +11,16 @@ namespace contact::cli {
 /// or has more than 16 MiB.
 std::string ReadYaml(const std::string& path);
 
-/// The documents of a text. Throws YAML::ParserException at the first mistake, or where it has more
-/// than a million values, each counted as often as it is referred to.
-std::vector<YAML::Node> LoadYaml(const std::string& text);
+/// What a text holds.
+struct YamlText {
+  /// The first document; null if there is none.
+  YAML::Node first;
+  /// Where a second one begins; nothing if there is none.
+  std::optional<YAML::Mark> second = {};
+};
 
-/// The first of them; null if there is none.
-YAML::Node LoadFirstYaml(const std::string& text);
+/// Reads a text. Throws YAML::ParserException at the first mistake in two documents, or where they
+/// have more than a million values, each counted as often as it is referred to.
+YamlText LoadYaml(const std::string& text);
 
 }  // namespace contact::cli

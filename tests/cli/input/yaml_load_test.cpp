@@ -19,7 +19,7 @@ std::string List(int values) {
 }
 
 TEST(LoadYaml, TakesAMillionValuesAndNoMore) {
-  EXPECT_EQ(LoadYaml(List(1'000'000)).front().size(), 999'999U);
+  EXPECT_EQ(LoadYaml(List(1'000'000)).first.size(), 999'999U);
   EXPECT_THROW(LoadYaml(List(1'000'001)), YAML::ParserException);
 }
 
@@ -27,7 +27,7 @@ TEST(LoadYaml, CountsAValueAsOftenAsItIsReferredTo) {
   const std::string table = "table: &t " + List(1000) + "\nuses: [";
   std::string uses;
   for (int i = 0; i < 998; ++i) uses += "*t,";
-  EXPECT_EQ(LoadFirstYaml(table + uses + "]")["uses"].size(), 998U);
+  EXPECT_EQ(LoadYaml(table + uses + "]").first["uses"].size(), 998U);
   EXPECT_THROW(LoadYaml(table + uses + "*t,]"), YAML::ParserException);
 }
 
@@ -38,6 +38,15 @@ TEST(LoadYaml, RefusesWhatDoublesWithoutEndAtOnce) {
     text += "- &a" + std::to_string(i) + " [" + before + "," + before + "]\n";
   }
   EXPECT_THROW(LoadYaml(text), YAML::ParserException);
+}
+
+// Of such texts yaml-cpp finds documents without end.
+TEST(LoadYaml, ReadsTwoDocumentsAtMost) {
+  const YamlText text = LoadYaml("{},");
+  ASSERT_TRUE(text.second);
+  EXPECT_EQ(text.second->column, 2);
+  EXPECT_FALSE(LoadYaml("{}").second);
+  EXPECT_FALSE(LoadYaml("").second);
 }
 
 TEST(ReadYaml, RefusesAFileWithoutEnd) {
