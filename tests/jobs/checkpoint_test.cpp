@@ -182,6 +182,16 @@ TEST_F(CheckpointTest, RunWhoseEventsAreDamagedBeginsAnew) {
   EXPECT_EQ(Starts(name).back(), std::nullopt);
 }
 
+TEST(RunStateCodec, AskForNoMoreMemoryThanTheirBytes) {
+  const std::string bytes = EncodeRunState({});
+  // Any eight bytes may be the length of a list.
+  for (std::size_t i = 0; i + 8 <= bytes.size(); ++i) {
+    std::string damaged = bytes;
+    damaged.replace(i, 8, "\xff\xff\xff\xff\xff\xff\xff\x0f");
+    EXPECT_NO_THROW(DecodeRunState(damaged)) << i;
+  }
+}
+
 TEST(RunStateCodec, RefusesTheBytesOfAnotherBuild) {
   RunState state;
   state.state.time = 1.5;

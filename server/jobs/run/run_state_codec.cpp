@@ -3,13 +3,66 @@
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/vector.hpp>
+#include <cstddef>
+#include <cstring>
+#include <memory>
 #include <sstream>
+#include <string_view>
+#include <type_traits>
 
 #include "version.h"
 
 namespace contact {
 
-// Every member of each value, in order; cereal finds these functions by their name.
+// Reads what cereal::BinaryOutputArchive has written. Unlike cereal::BinaryInputArchive it makes no
+// room for a list with more entries than bytes are left.
+class RunStateReader : public cereal::InputArchive<RunStateReader> {
+ public:
+  explicit RunStateReader(std::string_view bytes) : InputArchive(this), rest_(bytes) {}
+
+  void Read(void* data, std::size_t size) {
+    Require(size);
+    std::memcpy(data, rest_.data(), size);
+    rest_.remove_prefix(size);
+  }
+
+  void Require(std::size_t bytes) const {
+    if (bytes > rest_.size()) throw cereal::Exception("ends too early");
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+}  // namespace contact
+
+// cereal wants to know which archive writes what this one reads.
+template <>
+struct cereal::traits::detail::get_output_from_input<contact::RunStateReader> {
+  using type = cereal::BinaryOutputArchive;
+};
+
+namespace contact {
+
+// cereal finds these functions by their name.
+
+template <class T>
+std::enable_if_t<std::is_arithmetic_v<T>> load(RunStateReader& reader, T& value) {
+  reader.Read(std::addressof(value), sizeof value);
+}
+
+template <class T>
+void load(RunStateReader& reader, cereal::BinaryData<T>& block) {
+  if (block.size > 0) reader.Read(block.data, block.size);
+}
+
+template <class T>
+void load(RunStateReader& reader, cereal::SizeTag<T>& list) {
+  load(reader, list.size);
+  reader.Require(list.size);
+}
+
+// Every member of each value, in order; these too.
 
 template <class Archive>
 void serialize(Archive& archive, Cycle& c) {
@@ -115,8 +168,7 @@ std::string EncodeRunState(const RunState& state) {
 std::optional<RunState> DecodeRunState(const std::string& bytes) {
   if (bytes.empty()) return std::nullopt;
   try {
-    std::istringstream stream(bytes);
-    cereal::BinaryInputArchive archive(stream);
+    RunStateReader archive(bytes);
     std::string build;
     archive(build);
     if (build != Build()) return std::nullopt;
