@@ -106,6 +106,8 @@ void AddPeerLimits(CLI::App* app, Config* config, Switches* switches) {
   CallLimits& calls = config->rpc.calls;
   AddNumber(app, "--max-queued-jobs", &config->jobs.max_queued_jobs, 1, 1'000'000,
             "Jobs that wait for a worker");
+  AddNumber(app, "--max-running-per-owner", &config->jobs.max_running_per_owner, 0, 1024,
+            "Jobs of one owner that run at a time; 0: as many as there are workers");
   AddNumber(app, "--max-creates-per-second", &calls.max_creates_per_second, 0.0, 1e6,
             "CreateJob calls of one address, on average; 0: any number");
   AddNumber(app, "--max-create-burst", &calls.max_create_burst, 1, 1'000'000,

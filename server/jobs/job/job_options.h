@@ -33,6 +33,8 @@ struct JobOptions {
   int workers = 1;
   /// Jobs that may wait for a worker. Past it CreateJob answers QUEUE_FULL.
   int max_queued_jobs = 10'000;
+  /// Jobs of one owner that may run at a time; 0: as many as there are workers.
+  int max_running_per_owner = 0;
   /// Streams that may watch jobs or read artifacts. Past it they end with WATCHER_LIMIT.
   int max_watchers = 10'000;
   /// What a scenario or sweep may hold.

@@ -30,8 +30,9 @@ enum class StopCause {
   kStalled,
 };
 
-/// Connects one attempt of a job with those who watch over it: why it is to stop, its signs of
-/// life, what it has used, and whether it was given up. Thread-safe.
+/// Connects one attempt of a job with those who watch over it: why it is to stop, whether another
+/// is to have its worker, its signs of life, what it has used, and whether it was given up.
+/// Thread-safe.
 class RunControl {
  public:
   explicit RunControl(RunBudget budget = {}) : budget_(budget) {}
@@ -44,6 +45,16 @@ class RunControl {
   /// The token that the solver polls.
   std::stop_token token() const { return stop_.get_token(); }
   const RunBudget& budget() const { return budget_; }
+
+  /// Asks the run to let another have its worker, as soon as it can.
+  void AskToYield() { yielding_ = true; }
+  bool yielding() const { return yielding_; }
+  /// The run begins or ends to wait for its turn. The wait does not count as wall time.
+  void SetWaiting(bool waiting) {
+    waiting_ = waiting;
+    yielding_ = false;
+  }
+  bool waiting() const { return waiting_; }
 
   /// Counts a step that begins. Stops the run if that is too many.
   void CountStep() { CountSteps(1); }
@@ -85,6 +96,8 @@ class RunControl {
   const RunBudget budget_;
   std::stop_source stop_;
   std::atomic<StopCause> cause_ = StopCause::kServer;
+  std::atomic<bool> yielding_ = false;
+  std::atomic<bool> waiting_ = false;
   std::atomic<std::int64_t> steps_ = 0;
   std::atomic<std::int64_t> output_bytes_ = 0;
   std::atomic<std::int64_t> ledger_bytes_ = 0;

@@ -47,6 +47,7 @@ Transition SweepRunner::Run(const v1::Sweep& sweep) {
                                               options_, assignment_.control, sink);
   if (const RunControl::Hold hold(*assignment_.control); hold) assignment_.offer(run);
   while (run->Work(kSlice)) {
+    if (assignment_.control->yielding()) assignment_.yield();
   }
   while (!run->AwaitIdle(kWriteTime)) WriteIfDue();
   return Conclude(advice);

@@ -5,11 +5,12 @@
 namespace contact {
 
 RunSupervisor::RunSupervisor(const Clock& clock, const JobOptions& options, EndingRuns& endings,
-                             Lost lost)
+                             Lost lost, std::function<void()> look)
     : clock_(clock),
       options_(options),
       endings_(endings),
       lost_(std::move(lost)),
+      look_(std::move(look)),
       thread_([this](const std::stop_token& stop) { Loop(stop); }) {}
 
 void RunSupervisor::Add(const std::string& job, std::shared_ptr<RunControl> run) {
@@ -33,6 +34,7 @@ void RunSupervisor::Loop(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     for (const auto& [job, run] : Look(stop)) lost_(job, *run);
     endings_.Retry();
+    look_();
   }
 }
 

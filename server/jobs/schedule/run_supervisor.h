@@ -26,9 +26,11 @@ class RunSupervisor {
   /// Called on the thread, once a run was given up, with the name of its job.
   using Lost = std::function<void(const std::string& job, const RunControl& run)>;
 
-  /// Starts the thread. At each look it also has `endings` try again. Clock, options and endings
-  /// outlive the supervisor.
-  RunSupervisor(const Clock& clock, const JobOptions& options, EndingRuns& endings, Lost lost);
+  /// Starts the thread. At each look it also has `endings` try again and calls `look`. Clock,
+  /// options and endings outlive the supervisor.
+  RunSupervisor(
+      const Clock& clock, const JobOptions& options, EndingRuns& endings, Lost lost,
+      std::function<void()> look = [] {});
 
   /// A run begins. It is watched until it is removed or given up.
   void Add(const std::string& job, std::shared_ptr<RunControl> run);
@@ -54,6 +56,7 @@ class RunSupervisor {
   const JobOptions& options_;
   EndingRuns& endings_;
   const Lost lost_;
+  const std::function<void()> look_;
 
   Mutex mutex_;
   /// Notified when there is a run where none was.

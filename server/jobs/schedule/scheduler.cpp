@@ -41,12 +41,22 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options
       clock_(clock),
       options_(options),
       feed_(feed),
+      turns_(options.workers, options.max_running_per_owner),
       workers_([this](Worker& worker) { Work(worker); }),
-      supervisor_(clock, options, endings_, [this](const std::string& job, const RunControl& run) {
-        FailLostRun(job, run);
-      }) {
+      supervisor_(
+          clock, options, endings_,
+          [this](const std::string& job, const RunControl& run) { FailLostRun(job, run); },
+          [this] { Balance(); }) {
   Recover();
+  {
+    const MutexLock lock(mutex_);
+    idle_ = options_.workers;
+  }
   workers_.Start(options_.workers);
+}
+
+double Scheduler::Now() const {
+  return std::chrono::duration<double>(clock_.Elapsed().time_since_epoch()).count();
 }
 
 Scheduler::~Scheduler() { Stop(); }
@@ -105,18 +115,23 @@ void Scheduler::Add(Active active) {
   active_.emplace(std::move(name), std::move(active));
 }
 
-void Scheduler::Queue(const Active& active) {
+Turns::Job Scheduler::TurnOf(const Active& active) const {
   const v1::Job& job = active.job;
-  queue_.Push(job.name(), job.priority(), active.number, IsLastAttempt(job, options_.max_attempts));
-  changed_.notify_one();
+  return {.share = {TenantOf(job), OwnerOf(job)},
+          .name = job.name(),
+          .priority = job.priority(),
+          .number = active.number,
+          .last_attempt = IsLastAttempt(job, options_.max_attempts)};
+}
+
+void Scheduler::Queue(const Active& active) {
+  turns_.Add(TurnOf(active));
+  changed_.notify_all();
 }
 
 bool Scheduler::Reserve() {
   const MutexLock lock(mutex_);
-  if (queue_.size() + static_cast<std::size_t>(reserved_) >=
-      static_cast<std::size_t>(options_.max_queued_jobs)) {
-    return false;
-  }
+  if (turns_.waiting() + reserved_ >= options_.max_queued_jobs) return false;
   ++reserved_;
   return true;
 }
@@ -143,10 +158,11 @@ void Scheduler::Work(Worker& worker) {
     if (task.sweep) {
       task.sweep->Work(kHelpTime);
     } else {
-      const std::string name = task.job->job.name();
-      runner.Run(*std::move(task.job), [this, name] { Remove(name); });
+      runner.Run(*std::move(task.job), [this, name = task.name] { Remove(name); });
     }
     if (!worker.End()) return;  // This may not exist any more.
+    const MutexLock lock(mutex_);
+    EndTask(task);
   }
 }
 
@@ -154,18 +170,58 @@ Scheduler::Task Scheduler::Next(Worker& worker) {
   const MutexLock lock(mutex_);
   for (;;) {
     if (shutdown_.stop_requested()) return {};
-    const bool careful = std::ranges::any_of(running_, [](const auto& job) { return job.second; });
-    if (const auto next = queue_.Pop(careful)) {
-      Task task{Assign(active_.at(*next)), nullptr};
+    if (const auto next = turns_.Take(careful(), Now())) {
+      changed_.notify_all();  // It may be the turn of a run that has yielded, or of one more.
+      if (next->parked) continue;
+      --idle_;
+      Task task{Assign(active_.at(next->name)), nullptr, next->name};
       worker.Begin(task.job->control);
       return task;
     }
-    if (auto sweep = FindSweep()) {
+    if (auto sweep = FindSweep(); sweep && turns_.Borrow()) {
+      --idle_;
       worker.Begin(sweep->control());
       return {std::nullopt, std::move(sweep)};
     }
     changed_.wait(mutex_);
   }
+}
+
+void Scheduler::EndTask(const Task& task) {
+  ++idle_;
+  // A run that was given up may have been ended for it.
+  if (task.sweep || !turns_.End(task.name, Now())) turns_.GiveBack();
+}
+
+bool Scheduler::careful() const {
+  return std::ranges::any_of(running_, [](const auto& job) { return job.second; });
+}
+
+void Scheduler::Balance() {
+  const MutexLock lock(mutex_);
+  const auto name = turns_.ToYield(careful(), Now());
+  if (!name) return;
+  if (const auto found = active_.find(*name); found != active_.end()) {
+    found->second.control->AskToYield();
+  }
+}
+
+void Scheduler::Yield(const std::string& name, RunControl& control) {
+  const RunControl::Hold hold(control);
+  if (!hold) return;
+  const MutexLock lock(mutex_);
+  control.SetWaiting(true);
+  turns_.Park(name, Now());
+  if (idle_ == 0) {
+    ++idle_;
+    workers_.Start(1);
+  }
+  changed_.notify_all();
+  changed_.wait(mutex_, control.token(), [this, &name]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    return !turns_.parked(name);
+  });
+  if (turns_.parked(name)) turns_.Unpark(name, Now());
+  control.SetWaiting(false);
 }
 
 Assignment Scheduler::Assign(Active& active) {
@@ -183,7 +239,8 @@ Assignment Scheduler::Assign(Active& active) {
           active.log,
           active.record,
           active.control,
-          [this](const std::shared_ptr<SweepRun>& sweep) { Offer(sweep); }};
+          [this](const std::shared_ptr<SweepRun>& sweep) { Offer(sweep); },
+          [this, name = job.name(), control = active.control] { Yield(name, *control); }};
 }
 
 void Scheduler::Offer(const std::shared_ptr<SweepRun>& sweep) {
@@ -221,8 +278,7 @@ void Scheduler::Cancel(const std::string& name, const std::string& expected_uid,
     } else if (found != active_.end() && found->second.control) {
       running = true;
       found->second.control->Stop(StopCause::kUser);
-    } else if (found != active_.end() &&
-               queue_.Remove(found->second.job.priority(), found->second.number)) {
+    } else if (found != active_.end() && turns_.Remove(TurnOf(found->second))) {
       specs_.Take(name);
       queued = found->second;  // From here on no worker finds it.
     }
@@ -265,7 +321,7 @@ std::shared_ptr<const RunRecord> Scheduler::Record(const v1::Job& job) const {
 
 int Scheduler::queued() const {
   const MutexLock lock(mutex_);
-  return static_cast<int>(queue_.size());
+  return turns_.waiting();
 }
 
 int Scheduler::running() const {
@@ -274,11 +330,14 @@ int Scheduler::running() const {
 }
 
 void Scheduler::FailLostRun(const std::string& name, const RunControl& run) {
-  workers_.Replace(run);
+  const int lost = workers_.Replace(run);
   Active active;
   {
     const MutexLock lock(mutex_);
     running_.erase(name);
+    idle_ += lost;
+    const bool ended = lost > 0 && turns_.End(name, Now());
+    turns_.GiveBack(ended ? lost - 1 : lost);
     active = active_.at(name);
   }
   store_.Read(name, JobPart::kHeader,

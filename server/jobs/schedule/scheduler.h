@@ -16,15 +16,19 @@
 #include "jobs/run/ending_runs.h"
 #include "jobs/run/job_runner.h"
 #include "jobs/run/sweep_run.h"
-#include "jobs/schedule/job_queue.h"
 #include "jobs/schedule/run_supervisor.h"
 #include "jobs/schedule/spec_cache.h"
+#include "jobs/schedule/turns.h"
 #include "jobs/schedule/worker_pool.h"
 
 namespace contact {
 
-/// Decides when a job runs: knows the jobs that have not ended, queues them by priority, has the
-/// worker threads and watches over them. A worker without a job helps with a sweep. Thread-safe.
+/// Decides when a job runs: knows the jobs that have not ended, gives each its turn, has the worker
+/// threads and watches over them. A worker without a job helps with a sweep. Thread-safe.
+///
+/// A run that yields keeps its thread and waits in it. So there are as many threads as workers, one
+/// more for each such run, and at least one that waits for a job while something waits for its
+/// turn.
 ///
 /// A job that was running each time the server died, and has one attempt left, never runs together
 /// with another such one: so each next death tells which of them is to blame.
@@ -89,6 +93,8 @@ class Scheduler {
   /// Takes in a job that waits for a worker.
   void Add(Active active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Queue(const Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// The job as its turn has it.
+  Turns::Job TurnOf(const Active& active) const;
   /// Moves a job that no worker has into its next state: in the store, then in its log. `take`
   /// raises the epoch, so that a lost worker can store nothing more. `stored` is called on the
   /// store's thread. Returns the job in its next state.
@@ -99,9 +105,21 @@ class Scheduler {
   struct Task {
     std::optional<Assignment> job;
     std::shared_ptr<SweepRun> sweep;
+    /// Name of the job.
+    std::string name = {};
   };
   /// Waits for a task.
   Task Next(Worker& worker);
+  /// The calling thread has ended its task.
+  void EndTask(const Task& task) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Asks a run to yield if others have waited for too long.
+  void Balance();
+  /// Has the calling worker wait while it is another's turn.
+  void Yield(const std::string& name, RunControl& control);
+  /// True if a job runs on its last attempt, see the class comment.
+  bool careful() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  /// Seconds of the monotonic clock.
+  double Now() const;
   /// Hands a queued job to the calling worker: it is RUNNING from here on.
   Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Lets idle workers help with a sweep.
@@ -126,7 +144,9 @@ class Scheduler {
   std::condition_variable_any changed_;
   /// By the names of the jobs.
   std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
-  JobQueue queue_ ABSL_GUARDED_BY(mutex_);
+  Turns turns_ ABSL_GUARDED_BY(mutex_);
+  /// Threads that wait in Next, or will soon.
+  int idle_ ABSL_GUARDED_BY(mutex_) = 0;
   /// Specs of jobs in the queue.
   SpecCache specs_ ABSL_GUARDED_BY(mutex_);
   /// Number of the newest job.

@@ -13,9 +13,11 @@ constexpr std::chrono::seconds kMostIdle{1};
 }  // namespace
 
 bool Watchdog::Look(RunControl& control, Time now, const Patience& patience) {
-  const auto passed = std::min<Time::duration>(now - std::exchange(last_look_, now), kMostIdle);
+  const Time::duration since_look = now - std::exchange(last_look_, now);
+  const auto passed = std::min<Time::duration>(since_look, kMostIdle);
+  if (!control.waiting()) used_ += since_look;
   const auto wall_time = control.budget().wall_time;
-  if (wall_time.count() > 0 && now - start_ >= wall_time) control.Stop(StopCause::kWallTime);
+  if (wall_time.count() > 0 && used_ >= wall_time) control.Stop(StopCause::kWallTime);
   const std::int64_t signs = control.signs();
   const bool stopping = control.stopping();
   const bool alive = signs != std::exchange(signs_, signs) ||

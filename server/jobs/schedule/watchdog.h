@@ -21,15 +21,16 @@ class Watchdog {
   };
 
   /// The run begins at `start`.
-  explicit Watchdog(Time start) : start_(start), last_look_(start) {}
+  explicit Watchdog(Time start) : last_look_(start) {}
 
   /// Looks at the run, and stops it if its time is spent. True: the run does not react to a stop,
   /// and is to be given up.
   bool Look(RunControl& control, Time now, const Patience& patience);
 
  private:
-  const Time start_;
   Time last_look_;
+  /// Wall time without that in which the run waited for its turn.
+  std::chrono::nanoseconds used_{0};
   /// Time without a sign of life, as far as the process itself was running.
   std::chrono::nanoseconds idle_{0};
   /// RunControl::signs at the last look.

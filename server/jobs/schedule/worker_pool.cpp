@@ -79,7 +79,7 @@ void WorkerPool::Start(int threads) {
   }
 }
 
-void WorkerPool::Replace(const RunControl& run) {
+int WorkerPool::Replace(const RunControl& run) {
   int lost = 0;
   {
     const MutexLock lock(mutex_);
@@ -87,6 +87,7 @@ void WorkerPool::Replace(const RunControl& run) {
   }
   if (lost > 0) spdlog::warn("{} worker threads hang in a run; others take their place", lost);
   Start(lost);
+  return lost;
 }
 
 void WorkerPool::Stop(std::chrono::milliseconds patience) {

@@ -55,8 +55,9 @@ class WorkerPool {
 
   /// Starts so many workers more.
   void Start(int threads);
-  /// Gives up the workers of a run that was given up, and starts as many others. Thread-safe.
-  void Replace(const RunControl& run);
+  /// Gives up the workers of a run that was given up, and starts as many others. Returns how many.
+  /// Thread-safe.
+  int Replace(const RunControl& run);
   /// Waits until the loops have returned, and gives up those that take longer than `patience`.
   /// Not together with the other calls. Idempotent.
   void Stop(std::chrono::milliseconds patience);
