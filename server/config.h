@@ -31,7 +31,7 @@ struct SocketListener {
 
 /// True if those who come in by `--listen` are asked who they are.
 inline bool AsksWhoCalls(const IdentityPaths& paths) {
-  return !paths.tokens.empty() || !paths.tls.client_ca.empty();
+  return !paths.tokens.empty() || !paths.jwt_keys.empty() || !paths.tls.client_ca.empty();
 }
 
 /// The settings of contactd, checked.

@@ -69,6 +69,17 @@ void AddIdentity(CLI::App* app, Config* config, Switches* switches) {
                   "File that says which principal a client certificate is");
   app->add_option("--tokens", identity.tokens,
                   "File of tokens, made by contactctl server token; clients need one then");
+  app->add_option("--jwt-keys", identity.jwt_keys,
+                  "File of the public keys of an identity provider (JWKS), whose JSON Web Tokens "
+                  "are taken; read again when it changes");
+  app->add_option("--jwt-issuer", identity.jwt.issuer, "Issuer of the JSON Web Tokens");
+  app->add_option("--jwt-audience", identity.jwt.audience, "Audience of the JSON Web Tokens");
+  app->add_option("--jwt-user-claim", identity.jwt.user_claim, "Claim with the name of the holder")
+      ->capture_default_str();
+  app->add_option("--jwt-tenant-claim", identity.jwt.tenant_claim, "Claim with the tenant")
+      ->capture_default_str();
+  app->add_option("--jwt-roles-claim", identity.jwt.roles_claim, "Claim with the roles")
+      ->capture_default_str();
   app->add_option("--listen-as", switches->listen_as,
                   "Also listen on a socket file whose users are all one principal: \"unix:PATH "
                   "user:NAME tenant:NAME roles:ROLE\"")

@@ -83,11 +83,18 @@ void CheckIdentity(const Config& config) {
   if (!identity.rules.empty() && identity.tls.client_ca.empty()) {
     refuse("--identity-rules", "needs --tls-client-ca");
   }
-  if (!identity.tls.client_ca.empty() && identity.rules.empty() && identity.tokens.empty()) {
-    refuse("--tls-client-ca", "needs --identity-rules, or --tokens, to know who a client is");
+  if (!identity.tls.client_ca.empty() && identity.rules.empty() && identity.tokens.empty() &&
+      identity.jwt_keys.empty()) {
+    refuse("--tls-client-ca",
+           "needs --identity-rules, --tokens or --jwt-keys to know who a client is");
   }
-  if (!identity.tokens.empty() && !tls && !IsFile(config.listen)) {
-    refuse("--tokens",
+  if (!identity.jwt_keys.empty() &&
+      (identity.jwt.issuer.empty() || identity.jwt.audience.empty())) {
+    refuse("--jwt-keys", "needs --jwt-issuer and --jwt-audience");
+  }
+  const bool tokens = !identity.tokens.empty() || !identity.jwt_keys.empty();
+  if (tokens && !tls && !IsFile(config.listen)) {
+    refuse(identity.tokens.empty() ? "--jwt-keys" : "--tokens",
            "would go over the network unencrypted; give --tls-cert, or --listen "
            "unix:PATH");
   }

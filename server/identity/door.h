@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "identity/certificate_rules.h"
+#include "identity/jwt.h"
 #include "identity/principal.h"
 #include "identity/token_table.h"
 
@@ -29,6 +30,8 @@ class IdentitySource {
   virtual std::shared_ptr<const TokenTable> tokens() const = 0;
   /// The rules for certificates; null: none.
   virtual std::shared_ptr<const CertificateRules> rules() const = 0;
+  /// What verifies JSON Web Tokens; null: none are taken.
+  virtual std::shared_ptr<const JwtVerifier> jwt() const { return nullptr; }
 };
 
 /// Decides who comes in through one listener. Thread-safe.
@@ -43,8 +46,8 @@ class Door {
   bool asks() const { return !everybody_; }
 
   /// The caller, or words that say why it is not known; they hold no secret. A token decides if one
-  /// is shown and tokens are taken, then the certificate. A token that is not valid is refused,
-  /// whatever else is shown.
+  /// is shown and tokens are taken, ours or JSON Web Tokens, then the certificate. A token that is
+  /// not valid is refused, whatever else is shown.
   std::variant<Principal, std::string> Identify(const Presented& presented,
                                                 std::chrono::system_clock::time_point now) const;
 

@@ -15,12 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Reads a file and parses it; the mistake names the file.
-template <class T, class Read>
-std::variant<T, std::string> Load(const fs::path& file, Read read) {
+// Reads a file and parses it, with `more` beside its text; the mistake names the file.
+template <class T, class Read, class... More>
+std::variant<T, std::string> Load(const fs::path& file, Read read, const More&... more) {
   std::string text, mistake;
   if (!read(file, &text, &mistake)) return mistake;
-  auto parsed = T::Parse(text);
+  auto parsed = T::Parse(text, more...);
   if (const auto* wrong = std::get_if<std::string>(&parsed)) {
     return fmt::format("{}: {}", file.string(), *wrong);
   }
@@ -38,6 +38,11 @@ IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed, con
   if (!paths.rules.empty()) {
     rules_.emplace(std::vector{paths.rules},
                    [file = paths.rules] { return Load<CertificateRules>(file, ReadTextFile); });
+  }
+  if (!paths.jwt_keys.empty()) {
+    jwt_.emplace(std::vector{paths.jwt_keys}, [file = paths.jwt_keys, policy = paths.jwt] {
+      return Load<JwtVerifier>(file, ReadTextFile, policy);
+    });
   }
   const TlsPaths& tls = paths.tls;
   if (tls.certificate.empty()) return;
@@ -77,6 +82,7 @@ std::string IdentityFiles::Look() {
   };
   look(tokens_);
   look(rules_);
+  look(jwt_);
   look(tls_);
   const auto tls = tls_ ? tls_->value() : nullptr;
   if (tls && tls != told_) {
@@ -95,10 +101,15 @@ std::shared_ptr<const CertificateRules> IdentityFiles::rules() const {
   return rules_ ? rules_->value() : nullptr;
 }
 
+std::shared_ptr<const JwtVerifier> IdentityFiles::jwt() const {
+  return jwt_ ? jwt_->value() : nullptr;
+}
+
 std::int64_t IdentityFiles::tls_failures() const { return tls_ ? tls_->failures() : 0; }
 
 std::int64_t IdentityFiles::failures() const {
-  return (tokens_ ? tokens_->failures() : 0) + (rules_ ? rules_->failures() : 0);
+  return (tokens_ ? tokens_->failures() : 0) + (rules_ ? rules_->failures() : 0) +
+         (jwt_ ? jwt_->failures() : 0);
 }
 
 std::optional<std::chrono::system_clock::time_point> IdentityFiles::not_after() const {

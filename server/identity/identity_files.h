@@ -23,6 +23,9 @@ struct IdentityPaths {
   std::filesystem::path tokens = {};
   /// See CertificateRules.
   std::filesystem::path rules = {};
+  /// Keys of an identity provider, see JwtVerifier.
+  std::filesystem::path jwt_keys = {};
+  JwtPolicy jwt = {};
   TlsPaths tls = {};
 };
 
@@ -44,6 +47,7 @@ class IdentityFiles final : public IdentitySource {
 
   std::shared_ptr<const TokenTable> tokens() const override;
   std::shared_ptr<const CertificateRules> rules() const override;
+  std::shared_ptr<const JwtVerifier> jwt() const override;
 
   /// Number of changes of the files of TLS, and of those of tokens and rules, that could not be
   /// used.
@@ -63,6 +67,7 @@ class IdentityFiles final : public IdentitySource {
   /// Nothing if the server has no such file.
   std::optional<Reloaded<TokenTable>> tokens_;
   std::optional<Reloaded<CertificateRules>> rules_;
+  std::optional<Reloaded<JwtVerifier>> jwt_;
   std::optional<Reloaded<TlsMaterial>> tls_;
   /// What changed_ was called with last.
   std::shared_ptr<const TlsMaterial> told_;

@@ -14,6 +14,7 @@ import unittest
 
 import grpc
 import http2
+from authority import Authority
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
 from contactd import PATIENCE_S, Job, Server, ServerTest, three_ball_chain
 from tools import tool
@@ -31,28 +32,6 @@ def free_port():
         return listener.getsockname()[1]
 
 
-class Certificates:
-    """An authority, and certificates of it, in a folder."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        self.run("req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes",
-                 "-days", "2", "-subj", "/CN=authority", "-keyout", "ca.key", "-out", "ca.pem")
-        (folder / "names").write_text("subjectAltName=DNS:localhost\n")
-        for name in ("server", "client"):
-            self.run("req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes",
-                     "-subj", f"/CN={name}", "-keyout", f"{name}.key", "-out", f"{name}.csr")
-            self.run("x509", "-req", "-in", f"{name}.csr", "-CA", "ca.pem", "-CAkey", "ca.key",
-                     "-CAcreateserial", "-days", "2", "-extfile", "names", "-out", f"{name}.pem")
-
-    def run(self, *arguments):
-        subprocess.run(["openssl", *arguments], cwd=self.folder, check=True, capture_output=True,
-                       timeout=PATIENCE_S)
-
-    def read(self, name):
-        return (self.folder / name).read_bytes()
-
-
 class NginxTest(ServerTest):
 
     def make_server(self):
@@ -61,7 +40,9 @@ class NginxTest(ServerTest):
     def setUp(self):
         nginx = tool("nginx")
         super().setUp()
-        self.certificates = Certificates(self.folder)
+        self.ca = Authority(self.folder)
+        self.ca.issue("server", "DNS:localhost")
+        self.client = self.ca.issue("client", "DNS:client")
         self.port = free_port()
         (self.folder / "contactd.conf").write_text(self.configuration())
         (self.folder / "nginx.conf").write_text(
@@ -91,17 +72,16 @@ class NginxTest(ServerTest):
         text = SHIPPED.read_text()
         for place, here in (("/run/contactd", self.folder), ("listen 443 ", f"listen 127.0.0.1:{self.port} "),
                             ("contactd.example.org", "localhost"),
-                            ("/etc/nginx/contactd/clients.pem", self.folder / "ca.pem"),
+                            ("/etc/nginx/contactd/clients.pem", self.ca.pem),
                             ("/etc/nginx/contactd", self.folder)):
             self.assertIn(place, text)
             text = text.replace(place, str(here))
         return text
 
     def connect(self, known=True):
-        read = self.certificates.read
-        who = (read("client.key"), read("client.pem")) if known else ()
-        channel = grpc.secure_channel(f"localhost:{self.port}",
-                                      grpc.ssl_channel_credentials(read("ca.pem"), *who))
+        chain, key = (file.read_bytes() if known else None for file in self.client)
+        credentials = grpc.ssl_channel_credentials(self.ca.pem.read_bytes(), key, chain)
+        channel = grpc.secure_channel(f"localhost:{self.port}", credentials)
         self.addCleanup(channel.close)
         return job_service_pb2_grpc.JobServiceStub(channel)
 
@@ -131,8 +111,8 @@ class NginxTest(ServerTest):
     # Floods, by a client that has a certificate.
 
     def greet(self):
-        context = ssl.create_default_context(cafile=self.folder / "ca.pem")
-        context.load_cert_chain(self.folder / "client.pem", self.folder / "client.key")
+        context = ssl.create_default_context(cafile=self.ca.pem)
+        context.load_cert_chain(*self.client)
         context.set_alpn_protocols(["h2"])
         plain = socket.create_connection(("127.0.0.1", self.port), 5)
         connection = context.wrap_socket(plain, server_hostname="localhost")
