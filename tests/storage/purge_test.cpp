@@ -25,6 +25,7 @@ class PurgeTest : public testing::Test {
     SQLite::Transaction transaction(database_->connection());
     JobInsert insert;
     insert.name = name;
+    insert.whose = {"ada", "acme"};
     insert.state = v1::Job::SUCCEEDED;
     insert.parts = Split(MakeJob(name));
     insert.events = ToRows(events);

@@ -22,12 +22,14 @@ class Call final : public grpc::experimental::Interceptor {
         uri_(info.server_context()->peer()),
         method_(info.method()),
         metrics_(std::move(metrics)),
+        ours_(method_.starts_with("/contact.")),
         stream_(std::move(stream)),
         floods_(std::move(floods)),
         open_(floods_->Enter(uri_)) {
     metrics_->Began(method_);
   }
   ~Call() override {
+    if (!ours_ && code_ == grpc::StatusCode::CANCELLED) TakenBack();
     const std::chrono::duration<double> time = steady_clock::now() - begin_;
     metrics_->Ended(method_, code_, time.count());
   }
@@ -40,18 +42,22 @@ class Call final : public grpc::experimental::Interceptor {
     if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
       code_ = methods->GetSendStatus().error_code();
     }
-    if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_CLOSE) &&
+    if (ours_ && methods->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_CLOSE) &&
         info_.server_context()->IsCancelled()) {
-      floods_->TakenBack(uri_, steady_clock::now());
+      TakenBack();
     }
     methods->Proceed();
   }
 
  private:
+  void TakenBack() { floods_->TakenBack(uri_, steady_clock::now()); }
+
   ServerRpcInfo& info_;    // gRPC's, which owns this.
   const std::string uri_;  // Of the connection.
   const std::string method_;
   const std::shared_ptr<RpcMetrics> metrics_;
+  // gRPC's own services are synchronous: for them IsCancelled would come back here without end.
+  const bool ours_;
   const PeerCounts::Lease stream_;  // Null for a call that is no stream.
   const std::shared_ptr<FloodGuard> floods_;
   const FloodGuard::Lease open_;

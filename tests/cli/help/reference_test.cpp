@@ -81,8 +81,10 @@ TEST(Contract, FieldTextEndsWithTheRules) {
       text("Scenario", "end_time_s"),
       "Simulated time at which the run ends. The run starts at 0. Required. Range: (0, 1e6].");
   EXPECT_EQ(text("Support", "other"), "The body at the other end. Default: the ground.");
-  EXPECT_EQ(text("Scenario", "title"),
-            "What the scenario shows, in one line. Optional. At most 200 characters.");
+  EXPECT_EQ(
+      text("Scenario", "title"),
+      "What the scenario shows, in one line, without control characters. Optional. At most 200 "
+      "characters.");
   EXPECT_NE(text("Contact", "stiffness").find("Unit: N/m^exponent. Range: (0, 1e30]."),
             std::string::npos);
   EXPECT_NE(

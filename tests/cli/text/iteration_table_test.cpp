@@ -43,7 +43,7 @@ TEST(IterationTable, WideTerminalsHaveTheBracketToo) {
 TEST(IterationTable, RowsFitIntoEveryTerminalOfFortyColumnsOrMore) {
   v1::Iteration::Unknown unknown = Unknown();
   unknown.set_contact("the-longest-name-of-any-contact");
-  unknown.set_mu(-1.23456789e-100);
+  unknown.set_mu(1.23456789e-100);
   unknown.set_update(v1::Iteration::PAPER_NEWTON);
   for (const int width : {40, 59, 60, 79}) {
     const std::string header = IterationHeader({.width = width});

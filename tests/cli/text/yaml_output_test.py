@@ -12,7 +12,7 @@ import yaml
 from cli_case import CHAIN, SPRING, CliTest
 
 TABLE3 = CHAIN.parent / "table-3-sweep.yaml"
-NASTY = 'NaN: "1e5" #no ${x} \\ it\'s ε\n- true'
+NASTY = '- NaN: "1e5" #no ${x} \\ it\'s ε - true'
 
 
 class YamlOutputTest(CliTest):
