@@ -25,11 +25,12 @@ class PurgeTest : public testing::Test {
     SQLite::Transaction transaction(database_->connection());
     JobInsert insert;
     insert.name = name;
-    insert.whose = {"ada", "acme"};
+    insert.whose = {"local", "local"};  // As the header says.
     insert.state = v1::Job::SUCCEEDED;
     insert.parts = Split(MakeJob(name));
     insert.events = ToRows(events);
-    ASSERT_TRUE(Insert(*database_, insert).ok());
+    const auto stored = Insert(*database_, insert);
+    ASSERT_TRUE(stored.ok()) << stored.status();
     transaction.commit();
   }
 
