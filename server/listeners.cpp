@@ -8,7 +8,7 @@ namespace contact {
 namespace {
 
 bool HasFiles(const IdentityPaths& paths) {
-  return !paths.tokens.empty() || !paths.tls.certificate.empty();
+  return AsksWhoCalls(paths) || !paths.tls.certificate.empty();
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ class RefusalTest(ServerTest):
         self.folder.chmod(0o755)
         other = dict(user=65534, group=65534, extra_groups=[])
         self.assertRefused(2, "Permission denied", "run contactd as the user", **other)
-        self.data.chmod(0o777)
+        os.chown(self.data, 65534, 65534)
         (self.data / "lock").unlink()
         self.database.chmod(0o600)
         self.assertRefused(2, "Permission denied", "run contactd as the user", **other)
