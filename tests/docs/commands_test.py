@@ -34,6 +34,7 @@ RUN_ELSEWHERE = {
     "$ contactctl dev\n": "tests/cli/verbs/dev_test.py",
     "source <(contactctl completion bash)": "tests/cli/help/completion_test.py",
     "$ cd client/node": "tests/node/example_test.py",
+    "$ npm install": "tests/node/example_test.py",
     "deploy/wheel": "tests/python/package_test.py",
     "for change in client.watch_jobs": "tests/python/client_test.py",
     "contactctl server backup": "tests/cli/verbs/backup_test.py",
