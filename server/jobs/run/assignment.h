@@ -33,8 +33,8 @@ struct Assignment {
   std::shared_ptr<RunControl> control;
   /// Lets idle workers help with a sweep.
   std::function<void(std::shared_ptr<SweepRun>)> offer;
-  /// Lets others compute, if the run was asked to yield, and returns when it is its turn again or it
-  /// is to stop. To be called where the run holds no lock.
+  /// Lets others compute, if the run was asked to yield, and returns when it is its turn again or
+  /// it is to stop. To be called where the run holds no lock.
   std::function<void()> yield = [] {};
 };
 

@@ -44,8 +44,8 @@ class RunRecorder final : public Observer {
   void OnProgress(const Progress& progress) override;
   void OnWarning(const std::string& warning) override;
   void OnStep() override { assignment_.control->CountStep(); }
-  /// Lets others compute if the run is asked to. Stores a checkpoint if it is time for one and it is
-  /// not too large.
+  /// Lets others compute if the run is asked to. Stores a checkpoint if it is time for one and it
+  /// is not too large.
   void OnBoundary(const std::function<RunState()>& state) override;
 
  private:
