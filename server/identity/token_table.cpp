@@ -42,6 +42,8 @@ std::optional<system_clock::time_point> ParseUtc(const std::string& text) {
   std::tm time = {};
   const char* end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &time);
   if (end == nullptr || *end != '\0') return std::nullopt;
+  // Years that a time point holds, from 1970 to 2199.
+  if (time.tm_year < 70 || time.tm_year >= 300) return std::nullopt;
   return system_clock::from_time_t(timegm(&time));
 }
 

@@ -77,6 +77,7 @@ TEST(TokenTableTest, MistakeIsToldWithItsLine) {
   const std::string line = good.substr(good.find('\n') + 1);
   for (const std::string& bad :
        {std::string("x"), line,
+        "a " + std::string(64, '0') + " 0027-01-15T08:00:00Z valid user:a tenant:b roles:read",
         "a " + std::string(64, '0') + " never valid user:a tenant:b roles:read",
         std::string("a 00 2027-01-15T08:00:00Z valid user:a tenant:b roles:read"),
         "a " + std::string(64, '0') + " 2027-01-15T08:00:00Z maybe user:a tenant:b roles:read",

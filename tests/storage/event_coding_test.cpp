@@ -112,6 +112,12 @@ TEST(EventCodingTest, OtherEventsAndOddChunksComeBack) {
   ExpectSame(event);
 }
 
+TEST(EventCodingTest, ChunkOfManySamplesOfNothingComesBack) {
+  v1::Event event;
+  event.mutable_frame_chunk()->set_samples(std::numeric_limits<int>::max());
+  ExpectSame(event);
+}
+
 TEST(EventCodingTest, SmoothMotionTakesAThirdAtMost) {
   const v1::Event event = Frames({Sine(256), Sine(256), Sine(256)});
   const CodedEvent coded = EncodeEvent(event);

@@ -4,6 +4,7 @@
 #include <cereal/types/string.hpp>
 #include <cereal/types/vector.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <sstream>
@@ -49,6 +50,14 @@ namespace contact {
 template <class T>
 std::enable_if_t<std::is_arithmetic_v<T>> load(RunStateReader& reader, T& value) {
   reader.Read(std::addressof(value), sizeof value);
+}
+
+// A byte that is neither 0 nor 1 is no bool, not even to compare it.
+inline void load(RunStateReader& reader, bool& value) {
+  std::uint8_t byte = 0;
+  reader.Read(&byte, sizeof byte);
+  if (byte > 1) throw cereal::Exception("holds no bool");
+  value = byte == 1;
 }
 
 template <class T>
