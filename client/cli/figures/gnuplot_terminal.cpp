@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/spelling.h"
 #include "cli/base/escape.h"
 
 namespace contact::cli {
@@ -23,9 +24,9 @@ constexpr double kLinesPerInch = 4.8;  // 24 lines for a single panel.
 std::string GnuplotString(std::string_view text) {
   std::string quoted = "'";
   char before = '\'';
-  for (const char c : text) {
+  for (const char c : Printable(text, ' ')) {
     if (c != '\'') {
-      quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      quoted += c;
     } else {
       quoted += before == '\'' ? "’" : "''";
     }
