@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "testing/about.h"
+
 namespace contact {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
-using testing::Ge;
 using testing::Le;
 
 const Share kLocal{"local", "local"};
@@ -117,9 +117,6 @@ class Shares : public testing::Test {
   // The jobs that run, by when they end.
   std::multimap<double, std::string> until_;
 };
-
-// Within 5 %.
-auto About(double value) { return AllOf(Ge(0.95 * value), Le(1.05 * value)); }
 
 TEST_F(Shares, OwnersGetTheSameTimeHoweverManyJobsTheyHaveAndHoweverLong) {
   Add({"t", "flood"}, 10'000, 0.01);

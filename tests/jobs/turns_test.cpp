@@ -6,16 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "testing/about.h"
+
 namespace contact {
 namespace {
-
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::Ge;
-using testing::Le;
-
-// Within 5 %.
-auto About(double value) { return AllOf(Ge(0.95 * value), Le(1.05 * value)); }
 
 // Runs that never end and yield as soon as they are asked to, on some workers.
 class Endless : public testing::Test {
@@ -109,6 +103,21 @@ TEST(Turns, RunThatIsToEndGoesOnThoughNoWorkerIsFree) {
   EXPECT_FALSE(turns.Borrow()) << "the second computes";
   EXPECT_TRUE(turns.End("second", 2));
   EXPECT_TRUE(turns.Borrow());
+}
+
+TEST(Turns, RunThatCannotYieldDoesNotStandInForTheOthers) {
+  Turns turns(2, 0);
+  turns.Add({{"t", "a"}, "one", 0, 1, false});
+  turns.Add({{"t", "a"}, "other", 0, 2, false});
+  turns.Take(false, 0);
+  turns.Take(false, 0);
+  turns.Add({{"t", "b"}, "waits", 0, 3, false});
+  const auto first = turns.ToYield(false, 1);  // It is in a long episode.
+  const auto second = turns.ToYield(false, 2);
+  ASSERT_TRUE(first && second);
+  EXPECT_NE(*first, *second);
+  turns.Park(*second, 2);
+  EXPECT_EQ(turns.Take(false, 2)->name, "waits");
 }
 
 TEST(Turns, RemovedJobDoesNotWait) {

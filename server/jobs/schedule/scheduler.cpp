@@ -171,8 +171,10 @@ Scheduler::Task Scheduler::Next(Worker& worker) {
   for (;;) {
     if (shutdown_.stop_requested()) return {};
     if (const auto next = turns_.Take(careful(), Now())) {
-      changed_.notify_all();  // It may be the turn of a run that has yielded, or of one more.
-      if (next->parked) continue;
+      if (next->parked) {  // Its thread goes on.
+        changed_.notify_all();
+        continue;
+      }
       --idle_;
       Task task{Assign(active_.at(next->name)), nullptr, next->name};
       worker.Begin(task.job->control);

@@ -31,7 +31,7 @@ std::optional<Turns::Next> Turns::Take(bool careful, double now) {
     --parked_;
     return Next{*std::move(name), true};
   }
-  runs_.emplace(*name, Run{std::move(jobs_.extract(*name).mapped()), false});
+  runs_.emplace(*name, Run{std::move(jobs_.extract(*name).mapped())});
   return Next{*std::move(name), false};
 }
 
@@ -45,16 +45,18 @@ bool Turns::End(const std::string& name, double now) {
 
 std::optional<std::string> Turns::ToYield(bool careful, double now) {
   if (busy_ < workers_ || parked_ >= kMostParked) return std::nullopt;
-  std::optional<std::string> yields;
+  Run* yields = nullptr;
   double most = kTurn;
-  for (const auto& [name, run] : runs_) {
-    if (run.parked) continue;
+  for (auto& [name, run] : runs_) {
+    if (run.parked || run.told) continue;
     const auto ahead = queue_.Ahead(run.job.share, careful, now);
     if (!ahead || *ahead < most) continue;
     most = *ahead;
-    yields = name;
+    yields = &run;
   }
-  return yields;
+  if (yields == nullptr) return std::nullopt;
+  yields->told = true;
+  return yields->job.name;
 }
 
 void Turns::Park(const std::string& name, double now) {
@@ -64,6 +66,7 @@ void Turns::Park(const std::string& name, double now) {
   queue_.Ended(run.job.share, now);
   --busy_;
   run.parked = true;
+  run.told = false;
   ++parked_;
 }
 

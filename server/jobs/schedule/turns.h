@@ -47,7 +47,8 @@ class Turns {
   /// A job that computes ends. False: it has ended before.
   bool End(const std::string& name, double now);
 
-  /// The run that is to let another compute; nothing if all is fair.
+  /// One more run that is to let another compute; nothing if all is fair. A run is told once until
+  /// it does so: one that cannot yield for long does not stand in for the others.
   std::optional<std::string> ToYield(bool careful, double now);
   /// It does so: it waits again, until Take has it.
   void Park(const std::string& name, double now);
@@ -63,7 +64,10 @@ class Turns {
  private:
   struct Run {
     Job job;
-    bool parked;
+    /// It waits for its turn again.
+    bool parked = false;
+    /// ToYield has named it.
+    bool told = false;
   };
 
   const int workers_;
