@@ -1,10 +1,10 @@
 #include "identity/certificate_rules.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <sstream>
 #include <string_view>
+
+#include "identity/lines.h"
 
 namespace contact {
 namespace {
@@ -52,24 +52,18 @@ std::string MistakeOf(const std::string& pattern, const std::string& principal) 
 
 std::variant<CertificateRules, std::string> CertificateRules::Parse(const std::string& text) {
   CertificateRules rules;
-  std::istringstream lines(text);
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    std::istringstream words(line.substr(0, line.find('#')));
+  std::string mistake = ReadLines(text, [&](const std::string& line) -> std::string {
+    std::istringstream words(line);
     std::string kind, pattern, principal;
-    if (!(words >> kind)) continue;
-    words >> pattern;
+    words >> kind >> pattern;
     std::getline(words, principal);
     if (kind != "cert" || pattern.empty()) {
-      return fmt::format("line {}: a rule is 'cert PATTERN user:NAME tenant:NAME roles:ROLE'",
-                         number);
-    }
-    if (const std::string mistake = MistakeOf(pattern, principal); !mistake.empty()) {
-      return fmt::format("line {}: {}", number, mistake);
+      return "a rule is 'cert PATTERN user:NAME tenant:NAME roles:ROLE'";
     }
     rules.rules_.push_back({pattern, principal});
-  }
+    return MistakeOf(pattern, principal);
+  });
+  if (!mistake.empty()) return mistake;
   return rules;
 }
 

@@ -14,6 +14,7 @@
 
 #include "base/digest.h"
 #include "identity/hex.h"
+#include "identity/lines.h"
 
 namespace contact {
 namespace {
@@ -96,20 +97,17 @@ NewToken MakeToken(const Principal& principal, system_clock::time_point expires)
 
 std::variant<TokenTable, std::string> TokenTable::Parse(const std::string& text) {
   TokenTable table;
-  std::istringstream lines(text);
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    line = line.substr(0, line.find('#'));
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+  std::string first = ReadLines(text, [&](const std::string& line) -> std::string {
     std::string mistake;
     auto record = ParseRecord(line, &mistake);
-    if (!record) return fmt::format("line {}: {}", number, mistake);
+    if (!record) return mistake;
     if (!table.places_.emplace(record->id, table.records_.size()).second) {
-      return fmt::format("line {}: the id {} stands there twice", number, record->id);
+      return fmt::format("the id {} stands there twice", record->id);
     }
     table.records_.push_back(*std::move(record));
-  }
+    return "";
+  });
+  if (!first.empty()) return first;
   return table;
 }
 
