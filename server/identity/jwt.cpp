@@ -20,6 +20,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr std::size_t kMostBytes = 16'384;
 // Clocks of two machines may differ by so much.
 constexpr Seconds kLeeway{30};
+constexpr const char* kNoToken = "the token is no JSON Web Token";
 
 // A member that is a text; empty if it is not there or something else.
 std::string Text(const json& object, const std::string& name) {
@@ -91,6 +92,22 @@ std::string Mistake(const json& claims, const JwtPolicy& policy,
   return "";
 }
 
+// Whom the claims name; words if that is nobody.
+std::variant<Principal, std::string> Holder(const json& claims, const JwtPolicy& policy) {
+  Principal holder{.name = Text(claims, policy.user_claim),
+                   .tenant = Text(claims, policy.tenant_claim),
+                   .roles = RolesOf(claims, policy.roles_claim),
+                   .how = "jwt"};
+  if (holder.roles.empty()) return "the token has no role";
+  std::string mistake;
+  const std::optional<Principal> read = ParsePrincipal(FormatPrincipal(holder), &mistake);
+  // Names with spaces in them would read as something else.
+  if (!read || read->name != holder.name || read->tenant != holder.tenant) {
+    return "the token has no user and tenant with a name";
+  }
+  return holder;
+}
+
 }  // namespace
 
 std::variant<JwtVerifier, std::string> JwtVerifier::Parse(const std::string& jwks,
@@ -121,32 +138,27 @@ std::variant<Principal, std::string> JwtVerifier::Verify(
   if (token.size() > kMostBytes) return "the token is too long";
   std::string_view rest = token;
   const std::string_view head = TakePart(&rest), body = TakePart(&rest);
-  const std::optional<json> header = Object(head), claims = Object(body);
-  const std::optional<std::string> signature = FromBase64Url(rest);
-  if (!header || !claims || !signature) return "the token is no JSON Web Token";
+  if (std::string mistake = MistakeInSignature(head, body, rest); !mistake.empty()) return mistake;
+  const std::optional<json> claims = Object(body);
+  if (!claims) return kNoToken;
+  if (std::string mistake = Mistake(*claims, policy_, now); !mistake.empty()) return mistake;
+  return Holder(*claims, policy_);
+}
+
+std::string JwtVerifier::MistakeInSignature(std::string_view head, std::string_view body,
+                                            std::string_view signature) const {
+  const std::optional<json> header = Object(head);
+  const std::optional<std::string> bytes = FromBase64Url(signature);
+  if (!header || !bytes) return kNoToken;
   const auto key = keys_.find(Text(*header, "kid"));
   if (key == keys_.end()) return "the token is signed with a key that is not known";
   // The key says which algorithm: what the token says may be forged.
   if (Text(*header, "alg") != key->second.algorithm) return "the token has another algorithm";
   if (header->contains("crit")) return "the token asks for an extension";
-  const std::string_view signed_part(token.data(), head.size() + 1 + body.size());
-  if (!IsSignedBy(key->second.key.get(), key->second.algorithm, signed_part, *signature)) {
-    return "the signature of the token is wrong";
-  }
-  if (std::string mistake = Mistake(*claims, policy_, now); !mistake.empty()) return mistake;
-  Principal holder{.name = Text(*claims, policy_.user_claim),
-                   .tenant = Text(*claims, policy_.tenant_claim),
-                   .roles = RolesOf(*claims, policy_.roles_claim),
-                   .how = "jwt"};
-  if (holder.roles.empty()) return "the token has no role";
-  std::string mistake;
-  const std::string words = FormatPrincipal(holder);
-  const std::optional<Principal> read = ParsePrincipal(words, &mistake);
-  // Names with spaces in them would read as something else.
-  if (!read || read->name != holder.name || read->tenant != holder.tenant) {
-    return "the token has no user and tenant with a name";
-  }
-  return holder;
+  const std::string signed_part = std::string(head) + '.' + std::string(body);
+  return IsSignedBy(key->second.key.get(), key->second.algorithm, signed_part, *bytes)
+             ? ""
+             : "the signature of the token is wrong";
 }
 
 }  // namespace contact

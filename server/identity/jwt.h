@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "identity/principal.h"
@@ -44,6 +45,10 @@ class JwtVerifier {
     std::string algorithm;
     std::shared_ptr<EVP_PKEY> key;
   };
+
+  /// Why the parts of a token are not signed with a key of these; empty if they are.
+  std::string MistakeInSignature(std::string_view head, std::string_view body,
+                                 std::string_view signature) const;
 
   JwtPolicy policy_;
   /// By `kid`.
