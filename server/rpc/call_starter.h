@@ -65,15 +65,14 @@ class CallStarter {
                                                    const Call& call, std::string label, Open open) {
     const Admission admission = guard_.Check(*context, call.method, call.kind);
     if (admission.refusal) return Refuse<Message>(context, call, admission);
-    return StreamReactor<Message>::Start(loop_, context, std::move(label),
-                                         [&](auto wake, auto opened) {
-                                           Audit(log_, loop_->clock(), *context, call, admission)
-                                               .Begin([open, wake, opened](bool written) {
-                                                 if (!written)
-                                                   return opened(MakeError(Reason::kAuditFailed));
-                                                 open(wake, opened);
-                                               });
-                                         });
+    const auto audited = [open, audit = Audit(log_, loop_->clock(), *context, call, admission)](
+                             auto wake, auto opened) {
+      audit.Begin([open, wake, opened](bool written) {
+        if (!written) return opened(MakeError(Reason::kAuditFailed));
+        open(wake, opened);
+      });
+    };
+    return StreamReactor<Message>::Start(loop_, context, std::move(label), audited);
   }
 
   /// The loop of all streams.

@@ -182,7 +182,7 @@ TEST_F(CheckpointTest, RunWhoseEventsAreDamagedBeginsAnew) {
   EXPECT_EQ(Starts(name).back(), std::nullopt);
 }
 
-TEST(RunStateCodec, AskForNoMoreMemoryThanTheirBytes) {
+TEST(RunStateCodec, AsksForNoMoreMemoryThanItsBytes) {
   const std::string bytes = EncodeRunState({});
   // Any eight bytes may be the length of a list.
   for (std::size_t i = 0; i + 8 <= bytes.size(); ++i) {
