@@ -8,6 +8,11 @@ function(contact_precompile name)
   add_library(${name} STATIC ${PROJECT_BINARY_DIR}/precompiled/${name}.cpp)
   target_link_libraries(${name} PUBLIC ${P_LINK} PRIVATE contact_options)
   target_precompile_headers(${name} PRIVATE ${P_HEADERS})
+  # ccache would take the header that is there for one of the sources, though it is of an older contract.
+  if(CMAKE_CXX_COMPILER_LAUNCHER)
+    set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER
+      "${PROJECT_SOURCE_DIR}/deploy/without-output;${CMAKE_CXX_COMPILER_LAUNCHER}")
+  endif()
   # ccache takes two precompiled headers with the time of their making in them for different.
   target_compile_options(${name} PRIVATE
     "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
