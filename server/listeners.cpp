@@ -64,6 +64,11 @@ std::optional<int> Listeners::Open(const std::string& address, GrpcServerOptions
   return servers_.back()->Start(address);
 }
 
+SelfProbe Listeners::Probe() const {
+  if (!config_.identity.tls.client_ca.empty()) return SelfProbe(servers_.front()->Inside());
+  return {config_.listen, port_, tls_ && port_ != 0};
+}
+
 void Listeners::Shutdown(std::chrono::milliseconds grace) {
   for (const auto& server : servers_) server->Drain();
   for (const auto& server : servers_) server->Shutdown(grace);

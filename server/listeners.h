@@ -10,6 +10,7 @@
 #include "identity/identity_files.h"
 #include "rpc/metrics/metrics_page.h"
 #include "rpc/net/tls_credentials.h"
+#include "self_probe.h"
 
 namespace contact {
 
@@ -28,6 +29,9 @@ class Listeners {
 
   /// The port of `--listen`; 0 for a socket file.
   int port() const { return port_; }
+
+  /// Asks the server at `--listen`; past the listener if that wants client certificates.
+  SelfProbe Probe() const;
 
   /// Ends them, as GrpcServer::Shutdown.
   void Shutdown(std::chrono::milliseconds grace);

@@ -7,7 +7,9 @@
 #include <sys/stat.h>
 #include <systemd/sd-daemon.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -24,6 +26,7 @@
 #include "read_config.h"
 #include "rpc/grpc_log.h"
 #include "rpc/metrics/metrics_server.h"
+#include "self_probe.h"
 #include "storage/fsck.h"
 #include "storage/store.h"
 #include "version.h"
@@ -59,11 +62,25 @@ void KeepBuffers() {
   mallopt(M_MMAP_THRESHOLD, kMostKept);
 }
 
-int WaitFor(const sigset_t& signals) {
-  int signal = 0;
-  while (sigwait(&signals, &signal) != 0) {
+// Waits for one of the signals. Tells systemd in the meantime that the server answers, three times
+// in each span after which systemd would take it for dead (WatchdogSec).
+int WaitFor(const sigset_t& signals, const SelfProbe& probe) {
+  std::uint64_t span = 0;
+  const bool watched = sd_watchdog_enabled(0, &span) > 0;
+  const std::chrono::microseconds interval(span / 3);
+  const auto time = std::chrono::duration_cast<std::chrono::nanoseconds>(interval);
+  const timespec timeout{.tv_sec = time / 1s, .tv_nsec = (time % 1s).count()};
+  for (;;) {
+    const int signal =
+        watched ? sigtimedwait(&signals, nullptr, &timeout) : sigwaitinfo(&signals, nullptr);
+    if (signal > 0) return signal;
+    if (errno != EAGAIN) continue;
+    if (probe.Answers(interval)) {
+      sd_notify(0, "WATCHDOG=1");
+    } else {
+      spdlog::error("the server does not answer its own health check");
+    }
   }
-  return signal;
 }
 
 // Ends the process: after a failed write the store can no longer acknowledge anything.
@@ -174,7 +191,7 @@ int Serve(const Config& config, const sigset_t& signals) {
   } else if (!Announce(config, listeners.port())) {
     code = kExitUsage;
   } else {
-    spdlog::info("{}: shutting down", strsignal(WaitFor(signals)));
+    spdlog::info("{}: shutting down", strsignal(WaitFor(signals, listeners.Probe())));
     sd_notify(0, "STOPPING=1");
     code = kExitOk;
   }

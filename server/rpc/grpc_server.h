@@ -70,6 +70,9 @@ class GrpcServer {
   /// socket file that its owner and group may use; its port is 0.
   std::optional<int> Start(const std::string& address);
 
+  /// A channel to the services that passes neither listener nor acceptor. After Start only.
+  std::shared_ptr<grpc::Channel> Inside() const { return server_->InProcessChannel({}); }
+
   /// Health turns NOT_SERVING; streams, also those that begin later, end with SERVER_DRAINING.
   void Drain();
 

@@ -2,12 +2,14 @@
 
 import json
 import os
+import pathlib
 import re
 import socket
 import subprocess
 import tempfile
 import unittest
 
+from authority import Authority
 from contactd import (BINARY, PATIENCE_S, Job, Server, ServerTest, endless, is_cycle,
                       three_ball_chain)
 
@@ -67,6 +69,34 @@ class NotifyTest(unittest.TestCase):
             server.run(three_ball_chain())  # It is: calls are answered.
             self.assertEqual(server.terminate()[0], 0)
             self.assertEqual(manager.recv(4096), b"STOPPING=1")
+
+    def test_watchdog_is_fed_by_every_kind_of_listener(self):
+        with tempfile.TemporaryDirectory(prefix="contactd-test-") as folder:
+            ca = Authority(folder)
+            certificate, key = ca.issue("server", "DNS:localhost")
+            tls = (f"--tls-cert={certificate}", f"--tls-key={key}")
+            rules = pathlib.Path(folder, "rules")
+            rules.write_text("cert cn:ops user:ops tenant:acme roles:admin\n")
+            for kind in ((), (f"--listen=unix:{folder}/socket",), tls,
+                         (*tls, f"--tls-client-ca={ca.pem}", f"--identity-rules={rules}")):
+                with self.subTest(kind):
+                    self.assertEqual(self.fed(folder, kind), 2)
+
+    @staticmethod
+    def fed(folder, flags):
+        """How often a server feeds a watchdog of .6 s, until it has done so twice."""
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager, \
+                tempfile.TemporaryDirectory(dir=folder) as place:
+            manager.bind(f"{place}/notify")
+            manager.settimeout(PATIENCE_S)
+            server = Server(f"{place}/data", *flags, environment={
+                **os.environ, "NOTIFY_SOCKET": f"{place}/notify", "WATCHDOG_USEC": "600000"})
+            server.start()
+            try:
+                told = [manager.recv(4096) for _ in range(3)]
+            finally:
+                server.kill()
+            return told.count(b"WATCHDOG=1")
 
     def test_a_server_that_cannot_listen_is_never_ready(self):
         with tempfile.TemporaryDirectory(prefix="contactd-test-") as folder, \
