@@ -39,12 +39,13 @@ struct Config {
   std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
   std::string metrics_listen;             ///< HOST:PORT of the metrics; empty: none.
   std::vector<SocketListener> listen_as;  ///< Socket files, each with one identity.
-  std::string listen_admin;               ///< unix:PATH of AdminService; empty: it is at `listen`.
-  bool admin_channelz = false;            ///< Channelz is served at `listen_admin`.
-  IdentityPaths identity;                 ///< Who may come in by `listen`.
-  std::filesystem::path audit_log;        ///< File of changes and refused calls; empty: none.
-  std::filesystem::path data_dir;         ///< Directory of jobs and results; made if missing.
-  std::filesystem::path port_file;        ///< File to write the port to; empty: none.
+  std::string trusted_proxy;        ///< unix:PATH of a proxy that says who calls; empty: none.
+  std::string listen_admin;         ///< unix:PATH of AdminService; empty: it is at `listen`.
+  bool admin_channelz = false;      ///< Channelz is served at `listen_admin`.
+  IdentityPaths identity;           ///< Who may come in by `listen`.
+  std::filesystem::path audit_log;  ///< File of changes and refused calls; empty: none.
+  std::filesystem::path data_dir;   ///< Directory of jobs and results; made if missing.
+  std::filesystem::path port_file;  ///< File to write the port to; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;
   bool fsck = false;  ///< Check the data directory and end.
   LogFormat log_format = LogFormat::kText;

@@ -85,6 +85,9 @@ void AddIdentity(CLI::App* app, Config* config, Switches* switches) {
                   "user:NAME tenant:NAME roles:ROLE\"")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--trusted-proxy", config->trusted_proxy,
+                  "Also listen on unix:PATH for a proxy, which says in x-contactd-principal who "
+                  "calls: \"user:NAME tenant:NAME roles:ROLE\"");
   app->add_option("--listen-admin", config->listen_admin,
                   "unix:PATH of AdminService, reflection and channelz, which --listen then lacks");
   app->add_option("--audit-log", config->audit_log,

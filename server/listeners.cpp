@@ -52,6 +52,10 @@ std::string Listeners::Start() {
     options.door = Door(socket.principal);
     if (!Open("unix:" + socket.path, options)) return socket.path;
   }
+  options.door = Door(TrustedProxy());
+  if (!config_.trusted_proxy.empty() && !Open(config_.trusted_proxy, options)) {
+    return config_.trusted_proxy;
+  }
   if (config_.listen_admin.empty()) return "";
   options.door = Door(Principal{"admin", kLocal, {Role::kAdmin}, "socket"});
   options.reflection = options.admin = true;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "address.h"
@@ -98,8 +99,9 @@ void CheckIdentity(const Config& config) {
            "would go over the network unencrypted; give --tls-cert, or --listen "
            "unix:PATH");
   }
-  if (!config.listen_admin.empty() && !IsFile(config.listen_admin)) {
-    refuse("--listen-admin", "must be unix:PATH");
+  for (const auto& [flag, address] : {std::pair("--listen-admin", config.listen_admin),
+                                      std::pair("--trusted-proxy", config.trusted_proxy)}) {
+    if (!address.empty() && !IsFile(address)) refuse(flag, "must be unix:PATH");
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -20,7 +20,15 @@ struct Presented {
   std::vector<std::string> authorization = {};
   /// Names in the client certificate, which TLS has verified; see CertificateRules.
   std::vector<std::string> certificate = {};
+  /// The values of the metadata kPrincipalHeader.
+  std::vector<std::string> principal = {};
 };
+
+/// The metadata by which a trusted proxy says who calls, as ParsePrincipal reads it.
+inline constexpr char kPrincipalHeader[] = "x-contactd-principal";
+
+/// Marks a listener whose only user is a proxy that has found out who calls.
+struct TrustedProxy {};
 
 /// Where a listener has its tokens and rules from. Thread-safe.
 class IdentitySource {
@@ -38,12 +46,14 @@ class IdentitySource {
 class Door {
  public:
   /// Everybody who comes in here is `everybody`.
-  explicit Door(Principal everybody = LocalPrincipal()) : everybody_(std::move(everybody)) {}
+  explicit Door(Principal everybody = LocalPrincipal()) : who_(std::move(everybody)) {}
   /// Only those come in whom the source knows.
-  explicit Door(std::shared_ptr<const IdentitySource> source) : source_(std::move(source)) {}
+  explicit Door(std::shared_ptr<const IdentitySource> source) : who_(std::move(source)) {}
+  /// Those come in whom the proxy names.
+  explicit Door(TrustedProxy proxy) : who_(proxy) {}
 
   /// False if everybody comes in, whatever is presented.
-  bool asks() const { return !everybody_; }
+  bool asks() const { return !std::holds_alternative<Principal>(who_); }
 
   /// The caller, or words that say why it is not known; they hold no secret. A token decides if one
   /// is shown and tokens are taken, ours or JSON Web Tokens, then the certificate. A token that is
@@ -52,9 +62,7 @@ class Door {
                                                 std::chrono::system_clock::time_point now) const;
 
  private:
-  /// Nothing if there is a source.
-  std::optional<Principal> everybody_ = {};
-  std::shared_ptr<const IdentitySource> source_ = {};
+  std::variant<Principal, std::shared_ptr<const IdentitySource>, TrustedProxy> who_;
 };
 
 }  // namespace contact

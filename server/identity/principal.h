@@ -30,7 +30,7 @@ struct Principal {
   std::string tenant;
   /// Not empty.
   std::set<Role> roles;
-  /// How it is known: `local`, `token`, `jwt`, `certificate` or `socket`.
+  /// How it is known: `local`, `token`, `jwt`, `certificate`, `socket` or `proxy`.
   std::string how;
   /// Id of the token that it has shown; empty: none.
   std::string token_id = {};

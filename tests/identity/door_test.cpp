@@ -84,5 +84,20 @@ TEST(DoorTest, WithoutTokensOnlyTheCertificateCounts) {
             "this server asks who calls; show a token or a client certificate");
 }
 
+TEST(DoorTest, ProxyAloneSaysWhoCalls) {
+  const std::string ada = "user:ada tenant:lab roles:read";
+  const Door proxied{TrustedProxy()};
+  EXPECT_EQ(Decide(proxied, {.principal = {ada}}), "proxy");
+  EXPECT_EQ(Decide(proxied, {.principal = {ada, ada}}),
+            "the proxy must name the caller in one x-contactd-principal");
+  EXPECT_EQ(Decide(proxied, {{"Bearer " + kGood.token}, {"cn:ada"}}),
+            "the proxy must name the caller in one x-contactd-principal");
+  EXPECT_EQ(Decide(proxied, {.principal = {"user:ada tenant:lab"}}), "roles are missing");
+  const Door asks(std::make_shared<const FakeSource>());
+  EXPECT_EQ(Decide(asks, {.principal = {ada}}),
+            "this server asks who calls; show a token or a client certificate");
+  EXPECT_EQ(Decide(Door(), {.principal = {ada}}), "local");
+}
+
 }  // namespace
 }  // namespace contact

@@ -346,6 +346,7 @@ class SettingsTest(IdentityTest):
             (f"--tls-client-ca={self.ca.pem}",): "needs --tls-cert",
             (*pair, f"--tls-client-ca={self.ca.pem}"): "needs --identity-rules",
             ("--listen-admin=127.0.0.1:0",): "must be unix:PATH",
+            ("--trusted-proxy=127.0.0.1:0",): "must be unix:PATH",
             ("--listen-as=unix:/x user:a",): "tenant",
             (*pair, "--tokens=/dev/null/x"): "cannot read",
             (pair[0], "--tls-key=/dev/null"): "is no file",

@@ -35,7 +35,8 @@ def free_port():
 class NginxTest(ServerTest):
 
     def make_server(self):
-        return Server(self.folder / "data", f"--listen=unix:{self.folder}/contactd.sock")
+        return Server(self.folder / "data", f"--listen=unix:{self.folder}/contactd.sock",
+                      f"--trusted-proxy=unix:{self.folder}/proxy.sock")
 
     def setUp(self):
         nginx = tool("nginx")
@@ -60,8 +61,8 @@ class NginxTest(ServerTest):
         self.info(wait_for_ready=True)
 
     def info(self, stub=None, **options):
-        (stub or self.server.stub).GetServerInfo(job_service_pb2.GetServerInfoRequest(),
-                                                 timeout=PATIENCE_S, **options)
+        return (stub or self.server.stub).GetServerInfo(
+            job_service_pb2.GetServerInfoRequest(), timeout=PATIENCE_S, **options)
 
     def stop_nginx(self):
         self.nginx.kill()
@@ -94,6 +95,16 @@ class NginxTest(ServerTest):
         with self.assertRaises(grpc.RpcError) as refused:
             call(*arguments)
         self.assertEqual(refused.exception.code(), code, refused.exception)
+
+    def test_server_knows_the_client_by_the_certificate_that_nginx_saw(self):
+        for claim in ((), [("x-contactd-principal", "user:eve tenant:acme roles:admin")]):
+            principal = self.info(metadata=claim).principal
+            self.assertEqual((principal.name, principal.tenant, *principal.roles, principal.how),
+                             ("client", "acme", "submit", "proxy"))
+
+    def test_client_whose_name_is_none_is_refused(self):
+        self.client = self.ca.issue("not a name", "DNS:client")
+        self.assertRefused(grpc.StatusCode.UNAUTHENTICATED, self.info, self.connect())
 
     def test_client_without_a_certificate_is_refused(self):
         with self.assertRaises(grpc.RpcError):

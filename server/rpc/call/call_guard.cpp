@@ -35,15 +35,22 @@ void AddNames(const grpc::AuthContext& peer, const char* property, const std::st
   }
 }
 
-// What the caller shows of itself: the token of the call, the names in the certificate of the
-// connection.
+// All values of a name in the metadata of the call.
+std::vector<std::string> ValuesOf(const char* name, const grpc::ServerContextBase& context) {
+  std::vector<std::string> values;
+  const auto [begin, end] = context.client_metadata().equal_range(name);
+  for (auto entry = begin; entry != end; ++entry) {
+    values.emplace_back(entry->second.data(), entry->second.size());
+  }
+  return values;
+}
+
+// What the caller shows of itself: in the metadata of the call, and by the names in the certificate
+// of the connection.
 Presented PresentedBy(const grpc::ServerContextBase& context) {
   Presented presented;
-  const auto& metadata = context.client_metadata();
-  const auto [begin, end] = metadata.equal_range("authorization");
-  for (auto entry = begin; entry != end; ++entry) {
-    presented.authorization.emplace_back(entry->second.data(), entry->second.size());
-  }
+  presented.authorization = ValuesOf("authorization", context);
+  presented.principal = ValuesOf(kPrincipalHeader, context);
   const auto peer = context.auth_context();
   if (!peer || !peer->IsPeerAuthenticated()) return presented;
   AddNames(*peer, GRPC_PEER_URI_PROPERTY_NAME, "", &presented.certificate);
