@@ -80,8 +80,9 @@ class Checker {
     Check("database", "PRAGMA foreign_key_check", &Checker::CheckReference);
     Check("jobs",
           "SELECT number, name, state, last_sequence, bytes, crc32, header, oldest_sequence,"
-          " owner, tenant FROM jobs ORDER BY number",
+          " owner, tenant, end_time FROM jobs ORDER BY number",
           &Checker::CheckJob);
+    Check("labels", "SELECT job, key, value FROM labels", &Checker::KeepLabel);
     Check("specs", "SELECT job, crc32, spec FROM specs", &Checker::CheckSpec);
     Check("results", "SELECT job, crc32, result FROM results", &Checker::CheckResult);
     Check("events",
@@ -100,6 +101,8 @@ class Checker {
     std::int64_t oldest_sequence = 1;
     std::int64_t last_sequence = 0;
     std::int64_t bytes = 0;
+    std::map<std::string, std::string> labels;
+    std::string title;
     bool has_spec = false;
     std::int64_t found_sequence = 0;
     std::int64_t found_bytes = 0;
@@ -141,26 +144,47 @@ class Checker {
       Find(job.name, ": the job fails its checksum");
     } else if (!message.ParseFromString(header) || message.name() != job.name ||
                message.state() != row.Integer(2) || OwnerOf(message) != row.Bytes(8) ||
-               TenantOf(message) != row.Bytes(9)) {
+               TenantOf(message) != row.Bytes(9) ||
+               message.end_time().seconds() != row.Integer(10)) {
       Find(job.name, ": the job is not what its row says");
     }
+    job.title = message.title();
   }
 
-  void CheckSpec(Row row) { CheckPart("spec", row); }
-  void CheckResult(Row row) { CheckPart("result", row); }
-
-  void CheckPart(const std::string& part, Row row) {
+  void KeepLabel(Row row) {
     const auto job = jobs_.find(row.Integer(0));
-    if (job == jobs_.end()) return;  // CheckReference has told.
+    if (job != jobs_.end()) job->second.labels[row.Bytes(1)] = row.Bytes(2);
+  }
+
+  void CheckSpec(Row row) {
+    v1::Job spec;
+    Job* job = CheckPart("spec", row, &spec);
+    if (job == nullptr) return;
+    const std::map<std::string, std::string> labels(spec.labels().begin(), spec.labels().end());
+    if (labels != job->labels) Find(job->name, ": its labels are not those of its spec");
+    if (TitleOf(spec) != job->title) Find(job->name, ": its spec is that of another job");
+  }
+
+  void CheckResult(Row row) {
+    v1::Job result;
+    CheckPart("result", row, &result);
+  }
+
+  // Reads what a row has of a job into `message`. Returns the job; null if the part cannot be used.
+  Job* CheckPart(const std::string& part, Row row, v1::Job* message) {
+    const auto job = jobs_.find(row.Integer(0));
+    if (job == jobs_.end()) return nullptr;  // CheckReference has told.
     const std::string bytes = row.Bytes(2);
     job->second.found_bytes += static_cast<std::int64_t>(bytes.size());
     job->second.has_spec |= part == "spec";
-    v1::Job message;
     if (Checksum(bytes) != row.Integer(1)) {
       Find(job->second.name, ": its ", part, " fails its checksum");
-    } else if (!message.ParseFromString(bytes)) {
+    } else if (!message->ParseFromString(bytes)) {
       Find(job->second.name, ": its ", part, " is no message");
+    } else {
+      return &job->second;
     }
+    return nullptr;
   }
 
   void CheckEvent(Row row) {

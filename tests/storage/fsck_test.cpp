@@ -104,6 +104,17 @@ TEST_F(FsckTest, EachKindOfDamageIsOneLine) {
                                      HasSubstr("jobs/b: its spec is missing")}));
 }
 
+TEST_F(FsckTest, ColumnsThatNoChecksumCoversAreComparedWithTheJob) {
+  Fill();
+  store_.reset();
+  EXPECT_THAT(After("UPDATE jobs SET end_time=1 WHERE number=1"),
+              ElementsAre("jobs/a: the job is not what its row says"));
+  EXPECT_THAT(After("UPDATE labels SET value='x' WHERE job=2"),
+              Contains("jobs/b: its labels are not those of its spec"));
+  EXPECT_THAT(After("REPLACE INTO specs SELECT 1, crc32, spec FROM specs WHERE job=2"),
+              Contains("jobs/a: its spec is that of another job"));
+}
+
 TEST_F(FsckTest, RemovedJobsAreNoDamage) {
   Fill();
   store_.reset();

@@ -20,7 +20,8 @@ inline v1::Job MakeJob(const std::string& name) {
   v1::Job job;
   job.set_name(name);
   job.set_state(v1::Job::QUEUED);
-  job.mutable_scenario()->set_title("of " + name);
+  job.set_title("of " + name);
+  job.mutable_scenario()->set_title(job.title());
   (*job.mutable_labels())["study"] = "a";
   job.set_owner(kLocal);
   job.set_tenant(kLocal);
