@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "base/spelling.h"
+
 namespace contact::cli {
 namespace {
 
@@ -39,6 +41,12 @@ constexpr Escape kLatex[] = {
 std::string Escaped(std::string_view text, std::span<const Escape> escapes) {
   std::string escaped;
   while (!text.empty()) {
+    const std::size_t unprintable = text.front() == '\n' ? 0 : UnprintableBytes(text);
+    if (unprintable > 0) {
+      escaped += ' ';
+      text.remove_prefix(unprintable);
+      continue;
+    }
     const auto begins = [text](const Escape& escape) { return text.starts_with(escape.first); };
     const auto found = std::ranges::find_if(escapes, begins);
     const auto [plain, shown] =

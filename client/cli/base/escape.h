@@ -6,6 +6,7 @@
 namespace contact::cli {
 
 /// Texts of users and servers, escaped for the languages of the pages and tables that quote them.
+/// Characters that are not printable (UnprintableBytes) become spaces, but ends of lines stay.
 
 /// `text` with the special characters of HTML escaped, so that it cannot become markup. It may
 /// also stand in an attribute between double quotes.

@@ -12,6 +12,7 @@
 #include <regex>
 #include <utility>
 
+#include "base/spelling.h"
 #include "cli/base/escape.h"
 #include "cli/base/style.h"
 #include "cli/base/text_file.h"
@@ -118,17 +119,17 @@ std::string StampedCharacters(const std::string& drawn, const std::vector<Proven
 void StampProvenance(OutputFormat format, const std::string& path, const std::string& title,
                      const std::vector<Provenance>& sources) {
   std::string file = ReadText(path);
-  const std::string lines = Lines(sources, "");
+  const std::string shown = Printable(title, ' '), lines = Lines(sources, "");
   if (format == OutputFormat::kPng) {
-    file = StampedPng(std::move(file), title, lines);
+    file = StampedPng(std::move(file), shown, lines);
   } else if (format == OutputFormat::kPdf) {
-    file = StampedPdf(std::move(file), title, lines);
+    file = StampedPdf(std::move(file), shown, lines);
   } else if (format == OutputFormat::kTikz) {
     file = StampedTikz(file, sources);
   } else if (format == OutputFormat::kText) {
     file = StampedCharacters(file, sources);
   } else {
-    file = StampedSvg(std::move(file), title, lines);
+    file = StampedSvg(std::move(file), shown, lines);
   }
   WriteText(file, path);
 }

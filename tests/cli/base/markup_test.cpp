@@ -12,6 +12,7 @@ using testing::Not;
 TEST(Html, TextCannotBecomeMarkup) {
   EXPECT_EQ(HtmlText("<b a=\"1\">&</b>"), "&lt;b a=&quot;1&quot;&gt;&amp;&lt;/b&gt;");
   EXPECT_EQ(HtmlText("\u03b5 = 0.7"), "\u03b5 = 0.7");
+  EXPECT_EQ(HtmlText("a\x1b[2J\u009b\nb"), "a [2J \nb");
   EXPECT_THAT(HtmlTable({"<h>"}, {{{"<c>"}}}), Not(HasSubstr("<c>")));
   EXPECT_THAT(HtmlPage("<t>", ""), Not(HasSubstr("<t>")));
 }

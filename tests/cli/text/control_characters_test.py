@@ -82,11 +82,13 @@ class ControlCharactersTest(CliTest):
                       ["compare", name, name]):
             with self.subTest(words=words):
                 self.assertHarmless(*words)
-        for form in ("gp", "svg"):
-            path = self.folder / f"force.{form}"
-            self.run_it("plot", name, "force", "-o", path, server=self.liar)
-            self.assertIn("begin", path.read_text("utf-8"), form)
-            self.assertNoneIn(path.read_text("utf-8"), form)
+        for verb in (["plot", name, "force", "-o", "force.gp"],
+                     ["plot", name, "force", "-o", "force.svg"], ["report", name, "-f", "run.html"]):
+            path = self.folder / verb.pop()
+            self.run_it(*verb, path, server=self.liar)
+            text = path.read_text("utf-8").replace("\t", " ")  # gnuplot indents with tabs.
+            self.assertIn("begin", text, path)
+            self.assertNoneIn(text, path)
         shown = json.loads(self.assertHarmless("describe", name, "-o", "json"))
         self.assertEqual(shown["title"], EVIL, "escaped, not changed")
 
