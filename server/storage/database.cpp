@@ -68,6 +68,7 @@ absl::StatusOr<std::unique_ptr<Database>> Database::Open(DataDirectory directory
     database->KeepOldVersion();
     database->Configure(max_bytes);
     if (absl::Status made = database->BringUpToDate(); !made.ok()) return made;
+    database->connection_.exec(kOwnerBytes);
     database->reserve_.emplace(database->directory().reserve(), reserve_bytes);
     return database;
   } catch (const SQLite::Exception& error) {

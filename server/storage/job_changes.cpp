@@ -1,5 +1,6 @@
 #include "storage/job_changes.h"
 
+#include <absl/strings/cord.h>
 #include <absl/strings/str_cat.h>
 
 #include <utility>
@@ -72,6 +73,16 @@ void InsertJob(Database& database, const JobInsert& insert) {
   InsertEvents(database, job, 0, insert.events);
 }
 
+// RESOURCE_EXHAUSTED if the owner's jobs take as much as they may.
+absl::Status CheckOwnerBytes(Database& database, const JobInsert& insert) {
+  if (insert.max_owner_bytes == 0) return absl::OkStatus();
+  const std::int64_t bytes = OwnerBytes(database, insert.whose);
+  if (bytes < insert.max_owner_bytes) return absl::OkStatus();
+  absl::Status status = absl::ResourceExhaustedError("the owner's jobs take too much");
+  status.SetPayload(kOwnerBytesPayload, absl::Cord(absl::StrCat(bytes)));
+  return status;
+}
+
 // A job that has ended.
 struct EndedRow {
   std::int64_t number;
@@ -100,6 +111,7 @@ absl::StatusOr<StoredJob> Insert(Database& database, const JobInsert& insert) {
     return absl::AlreadyExistsError(absl::StrCat("request_id was used with another job, ", name));
   }
   if (!insert.may_create) return absl::ResourceExhaustedError("the job is new");
+  if (absl::Status room = CheckOwnerBytes(database, insert); !room.ok()) return room;
   InsertJob(database, insert);
   absl::StatusOr<StoredJob> stored = Read(database, insert.name, JobPart::kHeader);
   if (stored.ok()) stored->created = true;

@@ -33,6 +33,8 @@ struct JobInsert {
   std::vector<EventRow> events;
   /// See NewJob::may_create.
   bool may_create = true;
+  /// See NewJob::max_owner_bytes.
+  std::int64_t max_owner_bytes = 0;
 };
 /// Stores a job, or finds the one that the same request has made: see Store::Create.
 absl::StatusOr<StoredJob> Insert(Database& database, const JobInsert& insert);

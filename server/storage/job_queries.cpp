@@ -161,6 +161,12 @@ absl::StatusOr<JobOwner> FindOwner(Database& database, const std::string& tenant
   return JobOwner{query.Bytes(0), tenant};
 }
 
+std::int64_t OwnerBytes(Database& database, const JobOwner& whose) {
+  Query sum(database, "SELECT bytes FROM temp.owner_bytes WHERE tenant=? AND owner=?", whose.tenant,
+            whose.owner);
+  return sum.Next() ? sum.Integer(0) : 0;
+}
+
 JobPage List(Database& database, const JobQuery& query) {
   Query rows(database, ListSql(query));
   rows.Bind(query.before > 0 ? query.before : INT64_MAX);

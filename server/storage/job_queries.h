@@ -3,6 +3,7 @@
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ absl::StatusOr<StoredJob> ReadOf(Database& database, const std::string& tenant,
 /// See Store::Owner.
 absl::StatusOr<JobOwner> FindOwner(Database& database, const std::string& tenant,
                                    const std::string& name);
+/// See Store::OwnerBytes.
+std::int64_t OwnerBytes(Database& database, const JobOwner& whose);
 /// See Store::List.
 JobPage List(Database& database, const JobQuery& query);
 /// See Store::ListUnfinished.

@@ -25,6 +25,9 @@ struct NewJob {
   absl::Span<const v1::Event> events;
   /// False: a repeated request is answered, a new one is RESOURCE_EXHAUSTED.
   bool may_create = true;
+  /// A new job is refused with kOwnerBytesPayload if the jobs of its owner take so many bytes
+  /// already; 0: never.
+  std::int64_t max_owner_bytes = 0;
 };
 
 /// Where the run of a job may go on after a crash. Removed when the job ends.
@@ -52,6 +55,9 @@ struct JobUpdate {
 
 /// Payload of a status: the uid of the job that was found in place of the one expected.
 inline constexpr char kUidPayload[] = "contact/uid";
+
+/// Payload of a RESOURCE_EXHAUSTED status: the bytes that the jobs of the owner take.
+inline constexpr char kOwnerBytesPayload[] = "contact/owner_bytes";
 
 /// What of a job to read.
 enum class JobPart {

@@ -86,4 +86,30 @@ CREATE TABLE checkpoints(
 ) STRICT;
 )sql";
 
+/// What the jobs of each owner take, summed up when the database is opened and kept in step with
+/// every transaction by triggers, which are undone with it. In memory only, so nothing of it can be
+/// damaged.
+inline constexpr char kOwnerBytes[] = R"sql(
+PRAGMA temp_store=MEMORY;
+CREATE TEMP TABLE owner_bytes(
+  tenant TEXT NOT NULL,
+  owner TEXT NOT NULL,
+  bytes INTEGER NOT NULL,
+  PRIMARY KEY(tenant, owner)
+) WITHOUT ROWID, STRICT;
+INSERT INTO owner_bytes SELECT tenant, owner, SUM(bytes) FROM jobs GROUP BY tenant, owner;
+
+CREATE TEMP TRIGGER job_comes AFTER INSERT ON main.jobs BEGIN
+  INSERT INTO owner_bytes VALUES(new.tenant, new.owner, new.bytes)
+    ON CONFLICT DO UPDATE SET bytes=bytes+excluded.bytes;
+END;
+CREATE TEMP TRIGGER job_grows AFTER UPDATE OF bytes ON main.jobs BEGIN
+  UPDATE owner_bytes SET bytes=bytes+new.bytes-old.bytes
+    WHERE tenant=new.tenant AND owner=new.owner;
+END;
+CREATE TEMP TRIGGER job_goes AFTER DELETE ON main.jobs BEGIN
+  UPDATE owner_bytes SET bytes=bytes-old.bytes WHERE tenant=old.tenant AND owner=old.owner;
+END;
+)sql";
+
 }  // namespace contact

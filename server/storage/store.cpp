@@ -57,7 +57,8 @@ void Store::Create(const NewJob& job, Callback<StoredJob> done) {
                    .labels = {},
                    .parts = Split(job.job),
                    .events = ToRows(job.events),
-                   .may_create = job.may_create};
+                   .may_create = job.may_create,
+                   .max_owner_bytes = job.max_owner_bytes};
   insert.labels.assign(job.job.labels().begin(), job.job.labels().end());
   Post([insert = std::move(insert)](Database& database) { return Insert(database, insert); },
        std::move(done));
@@ -105,6 +106,14 @@ void Store::Owner(std::string tenant, std::string name, Callback<JobOwner> done)
   Post([tenant = std::move(tenant),
         name = std::move(name)](Database& database) { return FindOwner(database, tenant, name); },
        std::move(done));
+}
+
+void Store::OwnerBytes(JobOwner whose, Callback<std::int64_t> done) {
+  Post(
+      [whose = std::move(whose)](Database& database) -> absl::StatusOr<std::int64_t> {
+        return contact::OwnerBytes(database, whose);
+      },
+      std::move(done));
 }
 
 void Store::List(JobQuery query, Callback<JobPage> done) {

@@ -61,7 +61,7 @@ class Store {
 
   /// Stores a job with the first events of its log and answers its header; or, if `request_id` was
   /// used before to ask for the same, answers all of that job. ALREADY_EXISTS: it was used to ask
-  /// for something else. See JobParts::spec.
+  /// for something else. RESOURCE_EXHAUSTED: see NewJob. See JobParts::spec.
   void Create(const NewJob& job, Callback<StoredJob> done);
 
   /// Changes a job and appends to its log in one transaction. Answers the sequence of the first
@@ -85,6 +85,8 @@ class Store {
   void ReadOf(std::string tenant, std::string name, JobPart part, Callback<StoredJob> done);
   /// Whose the job is, also of a damaged one. NOT_FOUND, also for the job of another tenant.
   void Owner(std::string tenant, std::string name, Callback<JobOwner> done);
+  /// Bytes of events, specs and results of all jobs of the owner.
+  void OwnerBytes(JobOwner whose, Callback<std::int64_t> done);
   /// A page of the jobs that `query` asks for, newest first.
   void List(JobQuery query, Callback<JobPage> done);
   /// Headers of the jobs that are QUEUED or RUNNING, oldest first.

@@ -1,0 +1,91 @@
+// The sums of what the jobs of each owner take are those of their rows, whatever happens.
+#include <absl/strings/cord.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "storage/store_fixture.h"
+
+namespace contact {
+namespace {
+
+const JobOwner kAda{"ada", "acme"};
+const JobOwner kBob{"bob", "acme"};
+
+class OwnerBytesTest : public StoreTest {
+ protected:
+  static v1::Job Of(const JobOwner& whose, const std::string& name) {
+    v1::Job job = MakeJob(name);
+    job.set_owner(whose.owner);
+    job.set_tenant(whose.tenant);
+    return job;
+  }
+  std::int64_t BytesOf(const JobOwner& whose) {
+    Await<absl::StatusOr<std::int64_t>> bytes;
+    store_->OwnerBytes(whose, bytes.callback());
+    return bytes.Get().value();
+  }
+  // What the tables hold of these jobs. Closes the store for a moment.
+  std::int64_t Stored(const std::vector<std::string>& names) {
+    std::int64_t bytes = 0;
+    for (const std::string& name : names) bytes += StoredBytes(name);
+    return bytes;
+  }
+  void End(v1::Job job) {
+    job.set_state(v1::Job::SUCCEEDED);
+    job.mutable_end_time()->set_seconds(7);
+    job.add_cycles()->set_contact("A-B");
+    ASSERT_TRUE(Update({.name = job.name(), .job = &job}).ok());
+  }
+};
+
+TEST_F(OwnerBytesTest, SumIsThatOfTheRowsThroughTheLifeOfJobs) {
+  Open();
+  EXPECT_EQ(BytesOf(kAda), 0);
+  const std::vector<std::string> names = {"jobs/a", "jobs/b"};
+  for (const std::string& name : names) ASSERT_TRUE(Create(Of(kAda, name)).ok());
+  ASSERT_TRUE(Create(Of(kBob, "jobs/c")).ok());
+  ASSERT_TRUE(Append("jobs/a", {FrameEvent(), FrameEvent(64), LogEvent("x")}).ok());
+  const std::int64_t grown = BytesOf(kAda);
+  EXPECT_EQ(grown, Stored(names));
+  EXPECT_EQ(BytesOf(kAda), grown) << "after a restart";
+  End(Of(kAda, "jobs/a"));
+  EXPECT_GT(BytesOf(kAda), grown) << "its result has come";
+  EXPECT_EQ(BytesOf(kAda), Stored(names));
+  ASSERT_TRUE(Compact("jobs/a").ok());
+  for (std::int64_t before = -1; before != BytesOf(kAda);) before = BytesOf(kAda);
+  EXPECT_EQ(BytesOf(kAda), Stored(names));
+  ASSERT_TRUE(Delete("jobs/a").ok());
+  EXPECT_EQ(BytesOf(kAda), Stored({"jobs/b"}));
+  EXPECT_EQ(BytesOf(kBob), Stored({"jobs/c"}));
+}
+
+TEST_F(OwnerBytesTest, RefusedChangeCountsNothing) {
+  Open();
+  ASSERT_TRUE(Create(Of(kAda, "jobs/a")).ok());
+  const std::int64_t bytes = BytesOf(kAda);
+  EXPECT_FALSE(Create(Of(kAda, "jobs/a")).ok()) << "the name is taken: the transaction is undone";
+  EXPECT_FALSE(Update({.name = "jobs/a", .epoch = 9, .events = {}}).ok());
+  EXPECT_EQ(BytesOf(kAda), bytes);
+}
+
+TEST_F(OwnerBytesTest, NewJobOfAnOwnerWithTooMuchIsRefusedAndARepeatedOneAnswered) {
+  Open();
+  const std::vector<v1::Event> events = {StateEvent(v1::Job::QUEUED)};
+  const auto create = [&](const JobOwner& whose, const std::string& name, const std::string& id) {
+    const v1::Job job = Of(whose, name);
+    Await<absl::StatusOr<StoredJob>> result;
+    store_->Create({job, id, events, true, 1}, result.callback());
+    return result.Get();
+  };
+  ASSERT_TRUE(create(kAda, "jobs/a", "first").ok());
+  const absl::Status refused = create(kAda, "jobs/b", "second").status();
+  EXPECT_TRUE(absl::IsResourceExhausted(refused));
+  EXPECT_EQ(refused.GetPayload(kOwnerBytesPayload), absl::Cord(std::to_string(BytesOf(kAda))));
+  EXPECT_FALSE(create(kAda, "jobs/a", "first")->created);
+  EXPECT_TRUE(create(kBob, "jobs/c", "").ok());
+}
+
+}  // namespace
+}  // namespace contact
