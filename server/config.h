@@ -2,6 +2,7 @@
 
 #include <spdlog/common.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -44,8 +45,9 @@ struct Config {
   bool admin_channelz = false;      ///< Channelz is served at `listen_admin`.
   IdentityPaths identity;           ///< Who may come in by `listen`.
   std::filesystem::path audit_log;  ///< File of changes and refused calls; empty: none.
-  std::filesystem::path data_dir;   ///< Directory of jobs and results; made if missing.
-  std::filesystem::path port_file;  ///< File to write the port to; empty: none.
+  std::int64_t max_audit_bytes = 100'000'000;  ///< See AuditLog::Open.
+  std::filesystem::path data_dir;              ///< Directory of jobs and results; made if missing.
+  std::filesystem::path port_file;             ///< File to write the port to; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;
   bool fsck = false;  ///< Check the data directory and end.
   LogFormat log_format = LogFormat::kText;

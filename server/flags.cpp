@@ -56,6 +56,14 @@ void AddExposure(CLI::App* app, Switches* switches) {
                 "Listen without encryption and passwords on an address that others can reach");
 }
 
+// A size such as `2GB`; its default is the value that is there.
+void AddSize(CLI::App* app, const char* name, std::int64_t* value, const char* description) {
+  app->add_option(name, *value, description)
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES")
+      ->capture_default_str();
+}
+
 // Who may come in, and what is written of it.
 void AddIdentity(CLI::App* app, Config* config, Switches* switches) {
   IdentityPaths& identity = config->identity;
@@ -92,6 +100,10 @@ void AddIdentity(CLI::App* app, Config* config, Switches* switches) {
                   "unix:PATH of AdminService, reflection and channelz, which --listen then lacks");
   app->add_option("--audit-log", config->audit_log,
                   "File that gets a line for each change and each refused call");
+  AddSize(
+      app, "--max-audit-bytes", &config->max_audit_bytes,
+      "Size at which the file of --audit-log becomes FILE.1, FILE.2 and so on, and a new one is "
+      "begun; 0 is any");
 }
 
 // A number in [low, high]; its default is the value that is there.
@@ -120,8 +132,6 @@ void AddPeerLimits(CLI::App* app, Config* config, Switches* switches) {
   CallLimits& calls = config->rpc.calls;
   AddNumber(app, "--max-queued-jobs", &config->jobs.max_queued_jobs, 1, 1'000'000,
             "Jobs that wait for a worker");
-  AddNumber(app, "--max-running-per-owner", &config->jobs.max_running_per_owner, 0, 1024,
-            "Jobs of one owner that run at a time; 0: as many as there are workers");
   AddNumber(app, "--max-creates-per-second", &calls.max_creates_per_second, 0.0, 1e6,
             "CreateJob calls of one address, on average; 0: any number");
   AddNumber(app, "--max-create-burst", &calls.max_create_burst, 1, 1'000'000,
@@ -138,6 +148,45 @@ void AddPeerLimits(CLI::App* app, Config* config, Switches* switches) {
             "A reader of a stream that takes nothing for this time is dropped");
 }
 
+// A limit of what one owner may have; unset, it is what ReadConfig finds right.
+template <class Number>
+void AddOwnerLimit(CLI::App* app, const char* name, Number* value, const char* preset,
+                   const char* description) {
+  constexpr Number kMost = 1'000'000'000;
+  app->add_option(name, *value, description)
+      ->check(CLI::Range(Number{0}, kMost))
+      ->default_str(fmt::format("{}; any number where nobody is asked who calls", preset));
+}
+
+// Limits of what one owner may have, and what is kept for admins.
+void AddOwnerLimits(CLI::App* app, JobOptions* jobs) {
+  OwnerLimits& owner = jobs->owner_limits;
+  AddNumber(app, "--max-running-per-owner", &jobs->max_running_per_owner, 0, 1024,
+            "Jobs of one owner that run at a time; 0: as many as there are workers");
+  AddOwnerLimit(app, "--max-unfinished-per-owner", &owner.unfinished_jobs, "1000",
+                "Jobs of one owner that wait or run; 0: any number");
+  AddOwnerLimit(app, "--max-cells-per-owner", &owner.cells, "200000",
+                "Cells of the sweeps of one owner that wait or run; 0: any number");
+  app->add_option("--max-stored-bytes-per-owner", owner.stored_bytes,
+                  "Bytes of the jobs of one owner at which it may create no more; 0: any number")
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES")
+      ->default_str("half of --max-stored-bytes; any number where nobody is asked who calls");
+  AddOwnerLimit(app, "--max-creates-per-second-per-owner", &owner.creates_per_second, "100",
+                "CreateJob calls of one owner, on average; 0: any number");
+  AddNumber(app, "--max-create-burst-per-owner", &owner.create_burst, 1, 1'000'000,
+            "CreateJob calls of one owner at once");
+  AddOwnerLimit(app, "--max-watchers-per-owner", &owner.streams, "100",
+                "Streams of one owner; 0: any number");
+  AddOwnerLimit(app, "--max-calls-per-owner", &owner.calls, "500",
+                "Calls of one owner that are open, beside streams; 0: any number");
+  AddOwnerLimit(app, "--max-connections-per-owner", &owner.connections, "100",
+                "Connections on which one owner has calls open; 0: any number");
+  AddNumber(app, "--admin-slots", &jobs->admin_slots, 0, 1000,
+            "Of --max-queued-jobs and --max-watchers, so many are kept for admins, but no more "
+            "than half");
+}
+
 // Limits of memory and disk.
 void AddSpaceLimits(CLI::App* app, Config* config) {
   AddNumber(app, "--max-rpc-memory-bytes", &config->rpc.max_memory_bytes, 16 << 20, 2047 << 20,
@@ -146,6 +195,9 @@ void AddSpaceLimits(CLI::App* app, Config* config) {
                   "Bytes of the database; 0: what the disk has")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 50))
       ->default_str("80 % of the disk");
+  AddNumber(app, "--max-disk-percent", &config->jobs.max_disk_percent, 0, 100,
+            "No jobs are accepted while the disk of --data-dir is fuller and has less than 10 GB "
+            "left; 0: however full it is");
 }
 
 // A duration such as `10s`, `5m`, `12h`, `30d`; its default is the value that is there. Rounded up
@@ -162,14 +214,6 @@ void AddTime(CLI::App* app, const std::string& name, Duration* value,
   app->add_option_function<std::string>(name, set, description)
       ->type_name("TIME")
       ->default_str(fmt::format("{:g}s", seconds.count()));
-}
-
-// A size such as `2GB`; its default is the value that is there.
-void AddSize(CLI::App* app, const char* name, std::int64_t* value, const char* description) {
-  app->add_option(name, *value, description)
-      ->transform(CLI::AsSizeValue(true))
-      ->type_name("BYTES")
-      ->capture_default_str();
 }
 
 // What one job may use.
@@ -215,6 +259,7 @@ void AddFlags(CLI::App* app, Config* config, Switches* switches) {
   AddIdentity(app, config, switches);
   AddRequestLimits(app, config);
   AddPeerLimits(app, config, switches);
+  AddOwnerLimits(app, &config->jobs);
   AddSpaceLimits(app, config);
   AddBudgets(app, &config->jobs);
   AddRetention(app, &config->jobs.retention);

@@ -139,6 +139,16 @@ std::int64_t StoredBytes(const std::filesystem::path& data_dir) {
   return bytes;
 }
 
+// The disk of the directory as df tells it; nothing known if it cannot be asked.
+DiskSpace SpaceOf(const std::filesystem::path& directory) {
+  std::error_code error;
+  const auto space = std::filesystem::space(directory, error);
+  if (error) return {};
+  const std::uintmax_t used = space.capacity - space.free;
+  return {static_cast<std::int64_t>(used + space.available),
+          static_cast<std::int64_t>(space.available)};
+}
+
 MetricsSources Sources(const Config& config, const StoreOptions& store, const JobManager& jobs,
                        const Listeners& listeners) {
   const auto take = [&config, &jobs, &listeners] {
@@ -176,6 +186,7 @@ int Serve(const Config& config, const sigset_t& signals) {
   const auto store = Store::Open(config.data_dir, options);
   if (!store.ok()) return Refuse(store.status());
   JobOptions job_options = config.jobs;
+  job_options.disk = [directory = config.data_dir] { return SpaceOf(directory); };
   job_options.retention.clock_file = config.data_dir / "clock";
   JobManager jobs(**store, SystemClock(), RandomIds(), job_options);
   Listeners listeners(jobs, **store, config, Identity(config));

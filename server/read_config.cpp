@@ -13,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@
 namespace contact {
 namespace {
 
-// Of StoreOptions::max_bytes: no flag says it.
+// Of StoreOptions::max_bytes and the limits of owners: no flag says it.
 constexpr std::int64_t kUnset = -1;
 
 std::filesystem::path DefaultDataDir() {
@@ -127,6 +128,23 @@ std::int64_t MostOfDisk(std::filesystem::path directory) {
   return error ? 0 : static_cast<std::int64_t>(space.capacity / 5 * 4);
 }
 
+// What no flag says of the limits of each owner. Where nobody is asked who calls there is one
+// owner, and they would only be those of the server, once more.
+void SettleOwnerLimits(const Config& config, OwnerLimits* limits) {
+  const bool told_apart = AsksWhoCalls(config.identity) || !config.listen_as.empty();
+  const auto settle = [told_apart](auto* limit, std::int64_t protective) {
+    using Number = std::remove_pointer_t<decltype(limit)>;
+    if (*limit == kUnset) *limit = static_cast<Number>(told_apart ? protective : 0);
+  };
+  settle(&limits->unfinished_jobs, 1000);
+  settle(&limits->cells, 200'000);
+  settle(&limits->stored_bytes, config.store.max_bytes / 2);
+  settle(&limits->creates_per_second, 100);
+  settle(&limits->streams, 100);
+  settle(&limits->calls, 500);
+  settle(&limits->connections, 100);
+}
+
 // Sets what follows from several flags. Throws CLI::ValidationError for values that one flag's own
 // check cannot refuse.
 void Finish(const Switches& switches, Config* config) {
@@ -145,6 +163,7 @@ void Finish(const Switches& switches, Config* config) {
   for (const std::string& text : switches.listen_as) config->listen_as.push_back(ToSocket(text));
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
   if (config->store.max_bytes == kUnset) config->store.max_bytes = MostOfDisk(config->data_dir);
+  SettleOwnerLimits(*config, &config->jobs.owner_limits);
   // Where callers are asked who they are, only --listen-admin tells of services and calls: gRPC's
   // own services ask nobody.
   config->rpc.reflection =
@@ -180,13 +199,22 @@ Config Defaults() {
   config.jobs.max_budget = {.wall_time = std::chrono::hours(1),
                             .steps = 1'000'000'000,
                             .output_bytes = 4'000'000'000,
-                            .memory_bytes = std::int64_t{2} << 30};
+                            .memory_bytes = std::int64_t{1} << 30};
   config.data_dir = DefaultDataDir();
   config.jobs.workers = DefaultWorkers();
   config.jobs.checkpoint_interval = std::chrono::seconds(1);
   config.store.max_bytes = kUnset;
   config.jobs.max_watchers = 1000;
   config.rpc.calls.max_watchers_per_peer = 100;
+  config.jobs.owner_limits = {.unfinished_jobs = kUnset,
+                              .cells = kUnset,
+                              .stored_bytes = kUnset,
+                              .creates_per_second = kUnset,
+                              .streams = kUnset,
+                              .calls = kUnset,
+                              .connections = kUnset};
+  config.jobs.admin_slots = 10;
+  config.jobs.max_disk_percent = 80;
   config.rpc.max_message_bytes = 2 << 20;
   return config;
 }

@@ -15,7 +15,7 @@ ORDER = {
     "server": ["base", "identity", "simulation", "wire", "storage", "jobs", "rpc", "."],
     "server/wire": ["rules", "scenario", "sweep", "."],
     "server/simulation": ["laws", "model", "motion", "episode", "forecast", "."],
-    "server/jobs": ["job", "log", "read", "run", "schedule", "."],
+    "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],
     "client/cli": ["base", "input", "settings", "link", "text", "export", "figures", "paper", "help",
                    "verbs", "."],

@@ -49,6 +49,10 @@ bool May(const Principal& principal, Permission permission) {
   return !principal.roles.empty() && *principal.roles.rbegin() >= LeastRole(permission);
 }
 
+bool IsKnownAdmin(const Principal& principal) {
+  return principal.how != kLocal && May(principal, Permission::kAdmin);
+}
+
 const char* NameOf(Role role) { return kRoles.at(static_cast<std::size_t>(role)).second; }
 
 std::optional<Role> FindRole(std::string_view name) {

@@ -48,6 +48,9 @@ const Principal& LocalPrincipal();
 /// True if a role of the principal gives it the permission.
 bool May(const Principal& principal, Permission permission);
 
+/// True for an admin of a server that asks who calls. Where nobody is asked everybody is admin.
+bool IsKnownAdmin(const Principal& principal);
+
 /// Their names in files, flags and answers: `read`, `submit`, `operator`, `admin`.
 const char* NameOf(Role role);
 std::optional<Role> FindRole(std::string_view name);

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "jobs/job/lifecycle.h"
 #include "jobs/predict.h"
+#include "jobs/quota/places.h"
 #include "jobs/read/create_rules.h"
 #include "storage/job_parts.h"
 #include "wire/estimate.h"
@@ -34,20 +36,42 @@ std::vector<Violation> Complete(std::vector<Violation> violations, const std::st
            "take fewer bodies and contacts, or keep fewer trajectories"}};
 }
 
-// The rules that the scenario or sweep breaks, with paths from the job.
-std::vector<Violation> CheckSpec(const v1::Job& job, const JobOptions& options) {
+// Why the disk takes no more jobs; nothing if it does. Its last gigabytes are enough on a large
+// one.
+std::optional<Error> CheckDisk(const JobOptions& options) {
+  constexpr std::int64_t kEnough = 10'000'000'000;
+  if (options.max_disk_percent == 0) return std::nullopt;
+  const DiskSpace disk = options.disk();
+  if (disk.total == 0 || disk.free >= kEnough) return std::nullopt;
+  const auto used = static_cast<int>(100 - 100.0 * static_cast<double>(disk.free) /
+                                               static_cast<double>(disk.total));
+  if (used <= options.max_disk_percent) return std::nullopt;
+  return DiskFull(used, options.max_disk_percent, disk.free);
+}
+
+// What the check of a scenario or sweep finds.
+struct CheckedSpec {
+  // With paths from the job.
+  std::vector<Violation> violations = {};
+  // Of a sweep.
+  std::int64_t cells = 0;
+};
+
+CheckedSpec CheckSpec(const v1::Job& job, const JobOptions& options) {
   const std::int64_t memory = options.max_budget.memory_bytes;
   if (job.has_sweep()) {
     DecodedSweep plan = DecodeSweep(job.sweep(), options.scenario_limits);
-    return Complete(
+    auto violations = Complete(
         std::move(plan.violations), "sweep", [&] { return FixedMemory(job.sweep(), plan); },
         memory);
+    const std::int64_t cells = violations.empty() ? plan.axes.cells() : 0;
+    return {std::move(violations), cells};
   }
   if (!job.has_scenario()) return {};
   DecodedScenario decoded = DecodeScenario(job.scenario(), options.scenario_limits);
-  return Complete(
+  return {Complete(
       std::move(decoded.violations), "scenario", [&] { return FixedMemory(decoded.scenario); },
-      memory);
+      memory)};
 }
 
 // Moves the scenario or sweep.
@@ -80,7 +104,11 @@ struct JobCreator::Creation {
   Callback<v1::Job> done;
   Abandoned abandoned;
   // A place in the queue is kept for the job.
-  bool reserved;
+  bool reserved = false;
+  // What it takes of its owner's limits.
+  Quotas::Place held = {};
+  // Why a limit forbids the job. A request that was accepted before is answered nevertheless.
+  std::optional<Error> refusal = {};
   // The first events of its log.
   std::vector<v1::Event> events = {};
 };
@@ -88,24 +116,44 @@ struct JobCreator::Creation {
 void JobCreator::Create(const Principal& caller, v1::CreateJobRequest request,
                         Callback<v1::Job> done, Abandoned abandoned) {
   if (draining_) return done(MakeError(Reason::kServerDraining));
-  const bool reserved = !request.validate_only() && parts_.scheduler.Reserve();
-  // A full queue still answers a request that was accepted before.
-  if (!reserved && !request.validate_only() && request.request_id().empty()) {
-    return done(QueueFull(parts_.options.max_queued_jobs));
+  const auto creation = std::make_shared<Creation>(Creation{
+      {caller.name, caller.tenant}, std::move(request), std::move(done), std::move(abandoned)});
+  if (!creation->request.validate_only()) creation->refusal = Reserve(caller, creation.get());
+  if (creation->refusal && creation->request.request_id().empty()) {
+    return Refuse(*creation, *creation->refusal);
   }
-  const auto creation = std::make_shared<Creation>(Creation{{caller.name, caller.tenant},
-                                                            std::move(request),
-                                                            std::move(done),
-                                                            std::move(abandoned),
-                                                            reserved});
   if (!parts_.executor.Post([this, creation] { Check(creation); })) {
     Refuse(*creation, MakeError(Reason::kServerDraining));
   }
 }
 
-void JobCreator::Refuse(const Creation& creation, Error error) const {
-  if (creation.reserved) parts_.scheduler.Release();
+std::optional<Error> JobCreator::Reserve(const Principal& caller, Creation* creation) const {
+  Result<Quotas::Place> held = parts_.quotas.Take(creation->whose, v1::Quota::UNFINISHED_JOBS);
+  if (!held.ok()) return held.error();
+  const int places = OpenTo(caller, parts_.options.max_queued_jobs, parts_.options.admin_slots);
+  if (!parts_.scheduler.Reserve(places)) return QueueFull(places);
+  creation->reserved = true;
+  creation->held = std::move(held.value());
+  return std::nullopt;
+}
+
+std::optional<Error> JobCreator::Admit(Creation* creation, std::int64_t cells) const {
+  if (auto full = CheckDisk(parts_.options)) return full;
+  if (cells == 0) return std::nullopt;
+  Result<Quotas::Place> held = parts_.quotas.Take(creation->whose, v1::Quota::CELLS, cells);
+  if (!held.ok()) return held.error();
+  creation->held = Quotas::Both(std::move(creation->held), std::move(held.value()));
+  return std::nullopt;
+}
+
+void JobCreator::Refuse(Creation& creation, Error error) const {
+  GiveBack(&creation);
   creation.done(std::move(error));
+}
+
+void JobCreator::GiveBack(Creation* creation) const {
+  if (std::exchange(creation->reserved, false)) parts_.scheduler.Release();
+  creation->held = nullptr;
 }
 
 void JobCreator::Check(const std::shared_ptr<Creation>& creation) const {
@@ -114,14 +162,19 @@ void JobCreator::Check(const std::shared_ptr<Creation>& creation) const {
   }
   v1::CreateJobRequest& request = creation->request;
   std::vector<Violation> of_request = CheckCreate(request, parts_.options.max_budget);
-  std::vector<Violation> of_spec = CheckSpec(request.job(), parts_.options);
-  if (!of_request.empty() || !of_spec.empty()) {
-    return Refuse(*creation, Invalid(std::move(of_request), std::move(of_spec)));
+  CheckedSpec spec = CheckSpec(request.job(), parts_.options);
+  if (!of_request.empty() || !spec.violations.empty()) {
+    return Refuse(*creation, Invalid(std::move(of_request), std::move(spec.violations)));
   }
   v1::Job job = TakeRequested(request.mutable_job());
   if (request.validate_only()) {
     Predict(parts_.options.scenario_limits, &job);
     return creation->done(std::move(job));
+  }
+  if (spec.cells > 0) job.mutable_progress()->set_cells(static_cast<std::int32_t>(spec.cells));
+  if (!creation->refusal) creation->refusal = Admit(creation.get(), spec.cells);
+  if (creation->refusal && request.request_id().empty()) {
+    return Refuse(*creation, *creation->refusal);
   }
   *request.mutable_job() = std::move(job);
   Commit(creation);
@@ -135,25 +188,30 @@ void JobCreator::Commit(const std::shared_ptr<Creation>& creation) const {
   job.set_tenant(creation->whose.tenant);
   creation->events = {
       Apply({v1::Job::QUEUED, reason::kWaitingForWorker}, parts_.clock.Now(), &job)};
-  parts_.store.Create({job, creation->request.request_id(), creation->events, creation->reserved},
+  parts_.store.Create({job, creation->request.request_id(), creation->events, !creation->refusal,
+                       parts_.quotas.max_stored_bytes()},
                       [this, creation](absl::StatusOr<StoredJob> stored) {
                         if (stored.ok()) return Accept(*creation, *std::move(stored));
-                        const bool full =
-                            !creation->reserved && absl::IsResourceExhausted(stored.status());
-                        Refuse(*creation, full ? QueueFull(parts_.options.max_queued_jobs)
-                                               : ToError(stored.status(), ""));
+                        Refuse(*creation, ErrorOf(stored.status(), *creation));
                       });
+}
+
+Error JobCreator::ErrorOf(const absl::Status& status, const Creation& creation) const {
+  if (creation.refusal && absl::IsResourceExhausted(status)) return *creation.refusal;
+  const auto bytes = status.GetPayload(kOwnerBytesPayload);
+  if (!bytes) return ToError(status, "");
+  return parts_.quotas.TooManyBytes(creation.whose, std::stoll(std::string(*bytes)));
 }
 
 void JobCreator::Accept(Creation& creation, StoredJob stored) const {
   if (!stored.created) {
-    if (creation.reserved) parts_.scheduler.Release();
+    GiveBack(&creation);
     return parts_.reader.Answer(std::move(stored), creation.done);
   }
   v1::Job& job = stored.job;
   parts_.options.metrics->Moved(v1::Job::STATE_UNSPECIFIED, job);
   MoveSpec(creation.request.mutable_job(), &job);
-  parts_.scheduler.Enqueue(job, creation.events);
+  parts_.scheduler.Enqueue(job, creation.events, std::move(creation.held));
   creation.done(std::move(job));
 }
 

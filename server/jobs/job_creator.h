@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "base/clock.h"
 #include "base/executor.h"
@@ -11,6 +13,7 @@
 #include "jobs/job/callback.h"
 #include "jobs/job/job_options.h"
 #include "jobs/job_reader.h"
+#include "jobs/quota/quotas.h"
 #include "jobs/schedule/scheduler.h"
 #include "storage/store.h"
 
@@ -27,6 +30,7 @@ class JobCreator {
     IdSource& ids;
     const JobOptions& options;
     Scheduler& scheduler;
+    Quotas& quotas;
     /// Answers requests that were accepted before.
     const JobReader& reader;
     /// Checks scenarios, which takes too long for the callers' threads.
@@ -46,14 +50,22 @@ class JobCreator {
   /// One CreateJob on its way: it is checked, then stored. Every step may refuse it.
   struct Creation;
 
+  /// Takes a place in the queue and of the owner's jobs; why not, if it cannot.
+  std::optional<Error> Reserve(const Principal& caller, Creation* creation) const;
+  /// Takes what only the checked job tells, and looks whether the disk has room.
+  std::optional<Error> Admit(Creation* creation, std::int64_t cells) const;
   /// Checks the request. On the executor.
   void Check(const std::shared_ptr<Creation>& creation) const;
   /// Gives the job its name and stores it.
   void Commit(const std::shared_ptr<Creation>& creation) const;
   /// Queues the stored job and answers with it. On the store's thread.
   void Accept(Creation& creation, StoredJob stored) const;
-  /// Answers with an error, and gives the place in the queue back.
-  void Refuse(const Creation& creation, Error error) const;
+  /// Answers with an error, and gives back what was taken.
+  void Refuse(Creation& creation, Error error) const;
+  /// Gives back what was taken for the job.
+  void GiveBack(Creation* creation) const;
+  /// What a refusal of the store means.
+  Error ErrorOf(const absl::Status& status, const Creation& creation) const;
 
   const Parts parts_;
   std::atomic<bool> draining_ = false;

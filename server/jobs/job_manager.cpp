@@ -10,11 +10,12 @@ namespace contact {
 JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptions options)
     : store_(store),
       options_(std::move(options)),
-      scheduler_(store, clock, options_, feed_),
+      quotas_(options_.owner_limits, clock),
+      scheduler_(store, clock, options_, feed_, quotas_),
       retention_(store, clock, options_.retention, feed_),
-      watchers_(options_.max_watchers),
+      watchers_(options_.max_watchers, options_.admin_slots),
       reader_(store, options_, scheduler_, executor_),
-      creator_({store, clock, ids, options_, scheduler_, reader_, executor_}),
+      creator_({store, clock, ids, options_, scheduler_, quotas_, reader_, executor_}),
       watches_({{store, decoder_}, clock, scheduler_, reader_, feed_, watchers_}),
       recordings_(store, executor_, options_.scenario_limits, watchers_) {
   retention_.Start();
@@ -71,6 +72,26 @@ v1::ServerInfo JobManager::Info() const {
   info.set_running_jobs(scheduler_.running());
   *info.mutable_limits() = LimitsOf(options_);
   return info;
+}
+
+void JobManager::InfoFor(const Principal& caller, Callback<v1::ServerInfo> done) const {
+  const JobOwner whose{caller.name, caller.tenant};
+  store_.OwnerBytes(whose,
+                    [this, whose, done = std::move(done)](absl::StatusOr<std::int64_t> bytes) {
+                      if (!bytes.ok()) return done(ToError(bytes.status(), ""));
+                      v1::ServerInfo info = Info();
+                      for (v1::Quota& quota : quotas_.Of(whose))
+                        *info.add_quotas() = std::move(quota);
+                      v1::Quota& running = *info.add_quotas();
+                      running.set_resource(v1::Quota::RUNNING_JOBS);
+                      running.set_limit(options_.max_running_per_owner);
+                      running.set_used(scheduler_.RunningOf(whose));
+                      v1::Quota& stored = *info.add_quotas();
+                      stored.set_resource(v1::Quota::STORED_BYTES);
+                      stored.set_limit(quotas_.max_stored_bytes());
+                      stored.set_used(*bytes);
+                      done(std::move(info));
+                    });
 }
 
 void JobManager::Stop() {

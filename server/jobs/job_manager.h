@@ -10,7 +10,8 @@
 #include "jobs/job_creator.h"
 #include "jobs/job_reader.h"
 #include "jobs/log/job_feed.h"
-#include "jobs/log/places.h"
+#include "jobs/quota/places.h"
+#include "jobs/quota/quotas.h"
 #include "jobs/read/recordings.h"
 #include "jobs/schedule/retention.h"
 #include "jobs/schedule/scheduler.h"
@@ -42,6 +43,8 @@ class JobManager {
   Watches& watches() { return watches_; }
   /// Reads what jobs have recorded.
   Recordings& recordings() { return recordings_; }
+  /// Limits what each principal may have.
+  Quotas& quotas() { return quotas_; }
 
   /// Takes the job from the queue or asks its run to stop; `done` gets the job as it is then. No
   /// error if the job has ended. PERMISSION_DENIED: the job is not the caller's, nor may the caller
@@ -52,6 +55,8 @@ class JobManager {
 
   /// What GetServerInfo tells of jobs: workers, queued and running jobs, limits.
   v1::ServerInfo Info() const;
+  /// As Info, with what the caller may have and has.
+  void InfoFor(const Principal& caller, Callback<v1::ServerInfo> done) const;
 
   /// Stops the workers, puts running jobs back into the queue without burning their attempt, and
   /// waits for the threads. Refuses new jobs. Idempotent.
@@ -65,6 +70,7 @@ class JobManager {
   Store& store_;
   const JobOptions options_;
   JobFeed feed_;
+  Quotas quotas_;
   Scheduler scheduler_;
   Retention retention_;
   /// Checks scenarios and reads series: too long for the callers' threads.

@@ -12,8 +12,8 @@ void Watches::WatchJob(const Principal& caller, const v1::WatchJobRequest& reque
                        Callback<WatchedJob> done) {
   Result<WatchRules> rules = ToRules(request);
   if (!rules.ok()) return done(rules.error());
-  Places::Place place = parts_.watchers.Take();
-  if (!place) return done(WatcherLimit(parts_.watchers.count()));
+  Places::Place place = parts_.watchers.Take(caller);
+  if (!place) return done(WatcherLimit(parts_.watchers.open(caller)));
   parts_.source.store.ReadOf(
       caller.tenant, request.name(), JobPart::kSpec,
       [this, request, rules = rules.value(), wake = std::move(wake), done = std::move(done),
@@ -51,8 +51,8 @@ Result<Watches::Jobs> Watches::WatchJobs(const Principal& caller,
   Result<JobsCursor::Rules> rules = ToRules(request);
   if (!rules.ok()) return rules.error();
   rules.value().tenant = caller.tenant;
-  Places::Place place = parts_.watchers.Take();
-  if (!place) return WatcherLimit(parts_.watchers.count());
+  Places::Place place = parts_.watchers.Take(caller);
+  if (!place) return WatcherLimit(parts_.watchers.open(caller));
   return Jobs(std::make_unique<JobsCursor>(
       parts_.source.store, parts_.feed, parts_.clock, std::move(rules.value()),
       [this](StoredJob* stored) { parts_.reader.Complete(stored); }, std::move(wake),

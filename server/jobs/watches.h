@@ -10,9 +10,9 @@
 #include "jobs/job_reader.h"
 #include "jobs/log/job_feed.h"
 #include "jobs/log/log_cursor.h"
-#include "jobs/log/places.h"
 #include "jobs/log/stream_source.h"
 #include "jobs/log/tail_cursor.h"
+#include "jobs/quota/places.h"
 #include "jobs/read/watch_rules.h"
 #include "jobs/schedule/scheduler.h"
 

@@ -30,20 +30,24 @@ class CallStarter {
   grpc::ServerUnaryReactor* Unary(grpc::CallbackServerContext* context, const Call& call,
                                   Response* response, Run run) {
     auto* reactor = context->DefaultReactor();
-    const Admission admission = guard_.Check(*context, call.method, call.kind);
-    const auto answer =
-        [reactor, response,
-         audit = Audit(log_, loop_->clock(), *context, call, admission)](Result<T> result) {
-          audit.End(result);
-          if (!result.ok()) return reactor->Finish(ToGrpc(result.error()));
-          Put(std::move(result.value()), response);
-          reactor->Finish(grpc::Status::OK);
-        };
+    Admission admission = guard_.Check(*context, call.method, call.kind);
+    const Audit audit(log_, loop_->clock(), *context, call, admission);
     if (admission.refusal) {
-      answer(*admission.refusal);
-    } else {
-      run(*admission.caller, answer);
+      audit.End(Result<T>(*admission.refusal));
+      reactor->Finish(ToGrpc(*admission.refusal));
+      return reactor;
     }
+    const auto held = std::make_shared<Quotas::Place>(std::move(admission.held));
+    run(*admission.caller, [this, reactor, response, audit, held](Result<T> result) {
+      audit.End(result);
+      *held = nullptr;  // Before the client knows.
+      if (!result.ok()) {
+        guard_.NoteRefusal(result.error());
+        return reactor->Finish(ToGrpc(result.error()));
+      }
+      Put(std::move(result.value()), response);
+      reactor->Finish(grpc::Status::OK);
+    });
     return reactor;
   }
 
@@ -51,10 +55,10 @@ class CallStarter {
   template <class Message, class Open>
   grpc::ServerWriteReactor<Message>* Stream(grpc::CallbackServerContext* context, const Call& call,
                                             std::string label, Open open) {
-    const Admission admission = guard_.Check(*context, call.method, call.kind);
+    Admission admission = guard_.Check(*context, call.method, call.kind);
     if (admission.refusal) return Refuse<Message>(context, call, admission);
     return StreamReactor<Message>::Start(
-        loop_, context, std::move(label),
+        loop_, context, std::move(label), std::move(admission.held),
         [&](auto wake, auto opened) { open(*admission.caller, wake, opened); });
   }
 
@@ -63,7 +67,7 @@ class CallStarter {
   template <class Message, class Open>
   grpc::ServerWriteReactor<Message>* AuditedStream(grpc::CallbackServerContext* context,
                                                    const Call& call, std::string label, Open open) {
-    const Admission admission = guard_.Check(*context, call.method, call.kind);
+    Admission admission = guard_.Check(*context, call.method, call.kind);
     if (admission.refusal) return Refuse<Message>(context, call, admission);
     const auto audited = [open, audit = Audit(log_, loop_->clock(), *context, call, admission)](
                              auto wake, auto opened) {
@@ -72,7 +76,8 @@ class CallStarter {
         open(wake, opened);
       });
     };
-    return StreamReactor<Message>::Start(loop_, context, std::move(label), audited);
+    return StreamReactor<Message>::Start(loop_, context, std::move(label),
+                                         std::move(admission.held), audited);
   }
 
   /// The loop of all streams.

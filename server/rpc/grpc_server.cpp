@@ -114,7 +114,7 @@ GrpcServer::GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options
     : options_(Fitted(options)),
       loop_(std::make_shared<StreamLoop>(clock, options.write_stall)),
       metrics_(options_.metrics),
-      guard_(options_.calls, options_.door, streams_, metrics_, clock),
+      guard_(options_.calls, options_.door, jobs.quotas(), streams_, metrics_, clock),
       calls_(guard_, loop_, options_.audit),
       jobs_(jobs, calls_, WithLimits(std::move(identity), options_)),
       admin_(store, calls_) {}

@@ -81,13 +81,15 @@ ServerUnaryReactor* JobService::GetServerInfo(Context* context,
                                               const v1::GetServerInfoRequest* /*request*/,
                                               v1::ServerInfo* response) {
   const Call call{"/contact.v1.JobService/GetServerInfo"};
-  return calls_.Unary<v1::ServerInfo>(context, call, response,
-                                      [&](const auto& caller, auto answer) {
-                                        v1::ServerInfo info = jobs_.Info();
-                                        info.MergeFrom(identity_);
-                                        *info.mutable_principal() = ToMessage(caller);
-                                        answer(std::move(info));
-                                      });
+  return calls_.Unary<v1::ServerInfo>(
+      context, call, response, [&](const auto& caller, auto answer) {
+        jobs_.InfoFor(caller, [this, caller, answer](Result<v1::ServerInfo> info) {
+          if (!info.ok()) return answer(info.error());
+          info.value().MergeFrom(identity_);
+          *info.value().mutable_principal() = ToMessage(caller);
+          answer(std::move(info));
+        });
+      });
 }
 
 ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* context,

@@ -48,7 +48,7 @@ class JobService final
   /// Answered by Recordings, on the thread that checks scenarios.
   Unary* GetSeries(Context* context, const v1::GetSeriesRequest* request,
                    v1::Series* response) override;
-  /// Answered at once: what the manager knows, with `identity`.
+  /// Answered by the manager, with `identity`.
   Unary* GetServerInfo(Context* context, const v1::GetServerInfoRequest* request,
                        v1::ServerInfo* response) override;
   /// Opened by Watches; a WatchSource makes the messages.

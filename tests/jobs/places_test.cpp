@@ -1,4 +1,4 @@
-#include "jobs/log/places.h"
+#include "jobs/quota/places.h"
 
 #include <gtest/gtest.h>
 
@@ -10,42 +10,63 @@
 namespace contact {
 namespace {
 
+const Principal kUser{"ada", "acme", {Role::kSubmit}, "token"};
+const Principal kAdmin{"root", "acme", {Role::kAdmin}, "token"};
+
 TEST(Places, AreGivenUpToTheirNumber) {
   for (const int count : {0, 1, 3}) {
     const Places places(count);
-    EXPECT_EQ(places.count(), count);
+    EXPECT_EQ(places.open(kUser), count);
     std::vector<Places::Place> taken;
     for (int i = 0; i < count; ++i) {
-      taken.push_back(places.Take());
+      taken.push_back(places.Take(kUser));
       EXPECT_TRUE(taken.back());
     }
-    EXPECT_FALSE(places.Take());
-    EXPECT_FALSE(places.Take()) << "a refusal takes none";
+    EXPECT_FALSE(places.Take(kUser));
+    EXPECT_FALSE(places.Take(kUser)) << "a refusal takes none";
   }
 }
 
 TEST(Places, PlaceIsFreeOnceItsLastCopyIsGone) {
   const Places places(1);
-  auto place = places.Take();
+  auto place = places.Take(kUser);
   auto copy = place;
   place = nullptr;
-  EXPECT_FALSE(places.Take());
+  EXPECT_FALSE(places.Take(kUser));
   copy = nullptr;
-  EXPECT_TRUE(places.Take());
+  EXPECT_TRUE(places.Take(kUser));
 }
 
 TEST(Places, CopiesShareThem) {
   const Places places(1);
-  const auto take = [copy = places] { return copy.Take(); };
+  const auto take = [copy = places] { return copy.Take(kUser); };
   const auto place = take();
-  EXPECT_FALSE(places.Take());
+  EXPECT_FALSE(places.Take(kUser));
 }
 
 TEST(Places, PlaceMayOutliveThem) {
   std::optional<Places> places(1);
-  const auto place = places->Take();
+  const auto place = places->Take(kUser);
   places.reset();
   EXPECT_TRUE(place);
+}
+
+TEST(Places, SomeAreForAdmins) {
+  const Places places(4, 1);
+  EXPECT_EQ(places.open(kUser), 3);
+  std::vector<Places::Place> taken;
+  for (int i = 0; i < 3; ++i) taken.push_back(places.Take(kUser));
+  EXPECT_FALSE(places.Take(kUser));
+  const auto kept = places.Take(kAdmin);
+  EXPECT_TRUE(kept);
+  EXPECT_FALSE(places.Take(kAdmin)) << "there are no more";
+}
+
+TEST(Places, AtMostHalfAreForAdmins) {
+  EXPECT_EQ(OpenTo(kUser, 1, 10), 1);
+  EXPECT_EQ(OpenTo(kUser, 2, 10), 1);
+  EXPECT_EQ(OpenTo(kUser, 100, 10), 90);
+  EXPECT_EQ(OpenTo(kAdmin, 2, 10), 2);
 }
 
 TEST(Places, ThreadsNeverHaveMoreThanThereAre) {
@@ -56,7 +77,7 @@ TEST(Places, ThreadsNeverHaveMoreThanThereAre) {
   for (int thread = 0; thread < 4; ++thread) {
     threads.emplace_back([&] {
       for (int i = 0; i < 10'000; ++i) {
-        if (const auto place = places.Take()) {
+        if (const auto place = places.Take(kUser)) {
           const int now = ++held;
           for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
           }

@@ -16,43 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const RateLimit::Time kStart{};
 constexpr char kGetJob[] = "/contact.v1.JobService/GetJob";
-
-TEST(RateLimitTest, BurstGoesThroughAndTheNextIsToldWhen) {
-  RateLimit limit(4, 3);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(limit.Take("a", kStart), 0ms) << i;
-  EXPECT_EQ(limit.Take("a", kStart), 250ms);
-  EXPECT_EQ(limit.Take("a", kStart + 100ms), 150ms);
-  EXPECT_EQ(limit.Take("a", kStart + 250ms), 0ms);
-  EXPECT_EQ(limit.Take("a", kStart + 250ms), 250ms);
-}
-
-TEST(RateLimitTest, RestFillsTheBucketUpToTheBurst) {
-  RateLimit limit(4, 3);
-  limit.Take("a", kStart);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(limit.Take("a", kStart + 1h), 0ms) << i;
-  EXPECT_GT(limit.Take("a", kStart + 1h), 0ms);
-}
-
-TEST(RateLimitTest, PeersDoNotShare) {
-  RateLimit limit(1, 1);
-  EXPECT_EQ(limit.Take("a", kStart), 0ms);
-  EXPECT_EQ(limit.Take("b", kStart), 0ms);
-  EXPECT_GT(limit.Take("a", kStart), 0ms);
-}
-
-TEST(RateLimitTest, ZeroIsAnyNumber) {
-  RateLimit limit(0, 1);
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(limit.Take("a", kStart), 0ms);
-  EXPECT_EQ(limit.peers(), 0U);
-}
-
-TEST(RateLimitTest, PeersThatRestAreForgotten) {
-  RateLimit limit(1, 1);
-  for (int i = 0; i < 100'000; ++i) limit.Take(std::to_string(i), kStart + i * 10ms);
-  EXPECT_LE(limit.peers(), 1024U);
-}
 
 TEST(PeerTest, IsTheAddressWithoutThePort) {
   EXPECT_EQ(PeerOf("ipv4:127.0.0.1:4711"), "ipv4:127.0.0.1");
@@ -74,7 +38,8 @@ TEST(PeerTest, CountsUntilTheLeaseGoes) {
 }
 
 TEST(CallGuardTest, MetadataUpToTheLimitIsTaken) {
-  CallGuard guard({.max_metadata_bytes = 1024}, Door(), std::make_shared<PeerCounts>(),
+  Quotas quotas({}, SystemClock());
+  CallGuard guard({.max_metadata_bytes = 1024}, Door(), quotas, std::make_shared<PeerCounts>(),
                   std::make_shared<RpcMetrics>(), SystemClock());
   const std::string room(1024 - 2 * (32 + 2), 'x');  // Two entries with names of two bytes.
   for (const auto& [extra, taken] : {std::pair{"", true}, std::pair{"x", false}}) {
@@ -91,7 +56,8 @@ TEST(CallGuardTest, MetadataUpToTheLimitIsTaken) {
 TEST(CallGuardTest, CreatesArePacedByTheClockAndOtherCallsAreNot) {
   FakeClock clock;
   const auto metrics = std::make_shared<RpcMetrics>();
-  CallGuard guard({.max_creates_per_second = 1, .max_create_burst = 1}, Door(),
+  Quotas quotas({}, clock);
+  CallGuard guard({.max_creates_per_second = 1, .max_create_burst = 1}, Door(), quotas,
                   std::make_shared<PeerCounts>(), metrics, clock);
   grpc::ServerContext context;
   const auto reason = [&](CallKind kind) {
@@ -103,6 +69,52 @@ TEST(CallGuardTest, CreatesArePacedByTheClockAndOtherCallsAreNot) {
   clock.Advance(1s);
   EXPECT_EQ(reason(CallKind::kCreateJob), "");
   EXPECT_EQ(metrics->refused()["RATE_LIMITED"], 1);
+}
+
+TEST(CallGuardTest, QuotasHoldForThePrincipalWhateverTheConnection) {
+  FakeClock clock;
+  const auto metrics = std::make_shared<RpcMetrics>();
+  Quotas quotas({.creates_per_second = 1, .create_burst = 2, .streams = 1, .calls = 2}, clock);
+  const auto guard_of = [&](const char* name) {
+    return CallGuard({}, Door(Principal{name, "acme", {Role::kSubmit}, "socket"}), quotas,
+                     std::make_shared<PeerCounts>(), metrics, clock);
+  };
+  CallGuard ada = guard_of("ada"), ada_elsewhere = guard_of("ada"), bob = guard_of("bob");
+  grpc::ServerContext context;
+  const auto reason = [](const Admission& admission) {
+    return admission.refusal.value_or(Error{}).reason;
+  };
+  Admission first = ada.Check(context, kGetJob, CallKind::kStream);
+  EXPECT_EQ(reason(first), "");
+  EXPECT_EQ(reason(ada_elsewhere.Check(context, kGetJob, CallKind::kStream)), "QUOTA_EXCEEDED");
+  EXPECT_EQ(reason(bob.Check(context, kGetJob, CallKind::kStream)), "");
+  EXPECT_EQ(reason(ada.Check(context, kGetJob, CallKind::kUnary)), "") << "another resource";
+  first = {};
+  EXPECT_EQ(reason(ada.Check(context, kGetJob, CallKind::kStream)), "");
+  for (const char* expected : {"", "", "QUOTA_EXCEEDED"}) {
+    EXPECT_EQ(reason(ada.Check(context, kGetJob, CallKind::kCreateJob)), expected);
+  }
+  EXPECT_EQ(metrics->refused()["QUOTA_EXCEEDED"], 2);
+  EXPECT_EQ(metrics->past_quota()["STREAMS"], 1);
+  EXPECT_EQ(metrics->past_quota()["CREATE_CALLS"], 1);
+}
+
+TEST(CallGuardTest, LimitsOfAPeerDoNotKeepAKnownAdminOut) {
+  FakeClock clock;
+  Quotas quotas({}, clock);
+  const auto streams = std::make_shared<PeerCounts>();
+  grpc::ServerContext context;
+  const auto crowd = streams->Enter(PeerOf(context.peer()));
+  for (const Role role : {Role::kOperator, Role::kAdmin}) {
+    CallGuard guard(
+        {.max_creates_per_second = 1e-9, .max_create_burst = 1, .max_watchers_per_peer = 0},
+        Door(Principal{"x", "acme", {role}, "token"}), quotas, streams,
+        std::make_shared<RpcMetrics>(), clock);
+    guard.Check(context, kGetJob, CallKind::kCreateJob);
+    const bool admin = role == Role::kAdmin;
+    EXPECT_EQ(!guard.Check(context, kGetJob, CallKind::kCreateJob).refusal, admin);
+    EXPECT_EQ(!guard.Check(context, kGetJob, CallKind::kStream).refusal, admin);
+  }
 }
 
 // What the details of a status say.

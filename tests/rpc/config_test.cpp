@@ -80,13 +80,64 @@ TEST_F(ConfigTest, DefaultsLetNoJobTakeTheServerForItself) {
   EXPECT_EQ(budget.wall_time, std::chrono::hours(1));
   EXPECT_EQ(budget.steps, 1'000'000'000);
   EXPECT_EQ(budget.output_bytes, 4'000'000'000);
-  EXPECT_EQ(budget.memory_bytes, std::int64_t{2} << 30);
+  EXPECT_EQ(budget.memory_bytes, std::int64_t{1} << 30);
   EXPECT_GT(Good({}).store.max_bytes, 1'000'000) << "most of the disk";
   EXPECT_EQ(Good({"--max-stored-bytes=0"}).store.max_bytes, 0);
   const RunBudget any =
       Good({"--max-wall-time=0", "--max-steps=0", "--max-output-bytes=0", "--max-memory=0"})
           .jobs.max_budget;
   EXPECT_EQ(any.wall_time.count() + any.steps + any.output_bytes + any.memory_bytes, 0);
+}
+
+TEST_F(ConfigTest, DefaultsLetNoClientTakeTheServerForItself) {
+  const Config config = Good({});
+  EXPECT_EQ(config.rpc.max_message_bytes, 2 << 20);
+  EXPECT_EQ(config.rpc.calls.max_watchers_per_peer, 100);
+  EXPECT_EQ(config.jobs.max_disk_percent, 80);
+  EXPECT_EQ(config.jobs.admin_slots, 10);
+  EXPECT_EQ(config.max_audit_bytes, 100'000'000);
+}
+
+TEST_F(ConfigTest, DefaultsLimitEachOwnerWhereCallersAreToldApart) {
+  for (const char* flag : {"--tokens=/t", "--listen-as=unix:/x user:ci tenant:acme roles:submit"}) {
+    const Config config = Good({"--listen=unix:/s", flag});
+    const OwnerLimits& owner = config.jobs.owner_limits;
+    EXPECT_EQ(owner.unfinished_jobs, 1000);
+    EXPECT_EQ(owner.cells, 200'000);
+    EXPECT_EQ(owner.stored_bytes, config.store.max_bytes / 2);
+    EXPECT_EQ(owner.creates_per_second, 100);
+    EXPECT_EQ(owner.create_burst, 1000);
+    EXPECT_EQ(owner.streams, 100);
+    EXPECT_EQ(owner.calls, 500);
+    EXPECT_EQ(owner.connections, 100);
+  }
+  const OwnerLimits all = Good({}).jobs.owner_limits;
+  EXPECT_EQ(all.unfinished_jobs + all.cells + all.stored_bytes + all.streams + all.calls, 0);
+  EXPECT_EQ(all.connections + all.creates_per_second, 0) << "everybody is one owner";
+}
+
+TEST_F(ConfigTest, LimitsOfOwnersArrive) {
+  const Config config =
+      Good({"--max-unfinished-per-owner=1", "--max-cells-per-owner=2",
+            "--max-stored-bytes-per-owner=3MB", "--max-creates-per-second-per-owner=0.5",
+            "--max-create-burst-per-owner=4", "--max-watchers-per-owner=5",
+            "--max-calls-per-owner=6", "--max-connections-per-owner=7", "--max-running-per-owner=8",
+            "--admin-slots=9", "--max-disk-percent=90", "--max-audit-bytes=10MB"});
+  const OwnerLimits& owner = config.jobs.owner_limits;
+  EXPECT_EQ(owner.unfinished_jobs, 1);
+  EXPECT_EQ(owner.cells, 2);
+  EXPECT_EQ(owner.stored_bytes, 3'000'000);
+  EXPECT_EQ(owner.creates_per_second, 0.5);
+  EXPECT_EQ(owner.create_burst, 4);
+  EXPECT_EQ(owner.streams, 5);
+  EXPECT_EQ(owner.calls, 6);
+  EXPECT_EQ(owner.connections, 7);
+  EXPECT_EQ(config.jobs.max_running_per_owner, 8);
+  EXPECT_EQ(config.jobs.admin_slots, 9);
+  EXPECT_EQ(config.jobs.max_disk_percent, 90);
+  EXPECT_EQ(config.max_audit_bytes, 10'000'000);
+  EXPECT_EQ(Bad({"--max-calls-per-owner=-1"}).code, 2);
+  EXPECT_EQ(Bad({"--max-disk-percent=101"}).code, 2);
 }
 
 TEST_F(ConfigTest, EveryFlagArrives) {

@@ -115,6 +115,14 @@ TEST(ToGrpcTest, OnlyWhatAppliesIsSaid) {
   EXPECT_EQ(Find<google::rpc::RetryInfo>(retry)->retry_delay().seconds(), 1);
   EXPECT_EQ(Find<google::rpc::RetryInfo>(retry)->retry_delay().nanos(), 500'000'000);
 
+  const grpc::Status quota = ToGrpc({.code = absl::StatusCode::kResourceExhausted,
+                                     .reason = "QUOTA_EXCEEDED",
+                                     .message = "ada has 5",
+                                     .metadata = {{"principal", "ada"}}});
+  EXPECT_EQ(Find<google::rpc::QuotaFailure>(quota)->violations(0).subject(), "principal:ada");
+  EXPECT_EQ(Find<google::rpc::QuotaFailure>(quota)->violations(0).description(), "ada has 5");
+  EXPECT_FALSE(Find<google::rpc::QuotaFailure>(retry));
+
   const grpc::Status missing =
       ToGrpc({absl::StatusCode::kNotFound, "JOB_NOT_FOUND", "no jobs/x", {}, {{"name", "jobs/x"}}});
   const auto resource = Find<google::rpc::ResourceInfo>(missing);

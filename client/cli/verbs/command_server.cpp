@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cctype>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -32,6 +33,18 @@ ExitCode Version(const Settings& settings) {
   return ExitCode::kOk;
 }
 
+// What the caller has of its own limits, such as `streams 1 of 100`.
+std::string TextOf(const v1::ServerInfo& info) {
+  std::string text;
+  for (const v1::Quota& quota : info.quotas()) {
+    std::string name = v1::Quota::Resource_Name(quota.resource());
+    for (char& c : name) c = c == '_' ? ' ' : static_cast<char>(std::tolower(c));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, quota.used());
+    if (quota.limit() > 0) text += fmt::format(" of {}", quota.limit());
+  }
+  return text;
+}
+
 ExitCode Status(const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   Client client = Connect(settings);
@@ -47,7 +60,8 @@ ExitCode Status(const Settings& settings) {
       "you       {} of {}, {}\n"
       "workers   {}\n"
       "jobs      {} running, {} queued\n"
-      "limits    {}, {}, {}, {}, {} a request, {}, {}\n",
+      "limits    {}, {}, {}, {}, {} a request, {}, {}\n"
+      "yours     {}\n",
       info.version(), info.revision().empty() ? "" : fmt::format(" ({})", info.revision()),
       client.server(), Instant(info.start_time()), info.instance_id(), info.principal().name(),
       info.principal().tenant(), fmt::join(info.principal().roles(), ","), info.workers(),
@@ -56,7 +70,7 @@ ExitCode Status(const Settings& settings) {
       Count(limits.max_samples(), "sample", "samples"), Count(limits.max_cells(), "cell", "cells"),
       Count(limits.max_message_bytes(), "byte", "bytes"),
       Count(limits.max_queued_jobs(), "queued job", "queued jobs"),
-      Count(limits.max_watchers(), "watcher", "watchers"));
+      Count(limits.max_watchers(), "watcher", "watchers"), TextOf(info));
   return ExitCode::kOk;
 }
 

@@ -34,6 +34,7 @@ constexpr std::array kReasons = std::to_array<ReasonInfo>({
     {Reason::kWatcherLimit, "WATCHER_LIMIT", kResourceExhausted, kSoon, ""},
     {Reason::kSlowWatcher, "SLOW_WATCHER", kResourceExhausted, kSoon, ""},
     {Reason::kRateLimited, "RATE_LIMITED", kResourceExhausted, kSoon, ""},
+    {Reason::kQuotaExceeded, "QUOTA_EXCEEDED", kResourceExhausted, kSoon, ""},
     {Reason::kMetadataTooLarge, "METADATA_TOO_LARGE", kResourceExhausted, kNever, ""},
     {Reason::kBackupRunning, "BACKUP_RUNNING", kResourceExhausted, kSoon,
      "another backup is being made"},
@@ -105,6 +106,14 @@ Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec)
 Error QueueFull(int max_queued_jobs) {
   return MakeError(Reason::kQueueFull,
                    Count(max_queued_jobs, "job is", "jobs are") + " waiting already");
+}
+
+Error DiskFull(int used_percent, int max_percent, std::int64_t free) {
+  return MakeError(
+      Reason::kStoreFull,
+      fmt::format("the disk of the store is {} % full, {} MB are left; new jobs are "
+                  "accepted up to {} %: delete jobs, or have the server's disk cleared",
+                  used_percent, free / 1'000'000, max_percent));
 }
 
 Error WatcherLimit(int max_watchers) {

@@ -33,6 +33,7 @@ enum class Reason {
   kWatcherLimit,
   kSlowWatcher,
   kRateLimited,
+  kQuotaExceeded,
   kMetadataTooLarge,
   kBackupRunning,
   kStoreFull,
@@ -110,6 +111,8 @@ Error Invalid(std::vector<Violation> of_request, std::vector<Violation> of_spec 
 
 /// As many jobs wait as may (kQueueFull).
 Error QueueFull(int max_queued_jobs);
+/// The disk of the store is so full that no job is accepted (kStoreFull). `free`: bytes left.
+Error DiskFull(int used_percent, int max_percent, std::int64_t free);
 /// As many streams are open as may be (kWatcherLimit).
 Error WatcherLimit(int max_watchers);
 /// The watcher of `what` was too slow to keep up with it (kSlowWatcher).

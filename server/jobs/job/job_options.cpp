@@ -19,6 +19,8 @@ v1::ServerLimits LimitsOf(const JobOptions& options) {
   limits.set_max_queued_jobs(options.max_queued_jobs);
   limits.set_max_watchers(options.max_watchers);
   limits.set_max_cells(options.scenario_limits.max_cells);
+  limits.set_max_disk_percent(options.max_disk_percent);
+  limits.set_admin_slots(options.admin_slots);
   v1::Budget& budget = *limits.mutable_max_budget();
   *budget.mutable_wall_time() = ToDuration(options.max_budget.wall_time);
   budget.set_steps(options.max_budget.steps);

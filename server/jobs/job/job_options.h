@@ -27,6 +27,29 @@ struct RetentionLimits {
   std::filesystem::path clock_file = {};
 };
 
+/// Most that one owner may have of what all share, see the contract's Quota; 0: any number.
+struct OwnerLimits {
+  /// Jobs that wait or run.
+  std::int64_t unfinished_jobs = 0;
+  /// Cells of sweeps that wait or run.
+  std::int64_t cells = 0;
+  /// Bytes in the store at which no more jobs are accepted.
+  std::int64_t stored_bytes = 0;
+  /// CreateJob calls, on average and at once.
+  double creates_per_second = 0;
+  int create_burst = 1000;
+  /// Streams, other calls, and connections that are open.
+  std::int64_t streams = 0;
+  std::int64_t calls = 0;
+  std::int64_t connections = 0;
+};
+
+/// Space of a disk [byte]; 0: nobody knows.
+struct DiskSpace {
+  std::int64_t total = 0;
+  std::int64_t free = 0;
+};
+
 /// How the server treats jobs: what it takes, how long it lets them run, what it keeps of them.
 struct JobOptions {
   /// Threads that run simulations, at least 1.
@@ -35,6 +58,14 @@ struct JobOptions {
   int max_queued_jobs = 10'000;
   /// Jobs of one owner that may run at a time; 0: as many as there are workers.
   int max_running_per_owner = 0;
+  /// What each owner may have.
+  OwnerLimits owner_limits = {};
+  /// Of `max_queued_jobs` and `max_watchers`, so many are kept for admins, see OpenTo.
+  int admin_slots = 0;
+  /// No job is accepted while the disk is fuller [%], see DiskFull; 0: however full it is.
+  int max_disk_percent = 0;
+  /// The disk of the store.
+  std::function<DiskSpace()> disk = [] { return DiskSpace(); };
   /// Streams that may watch jobs or read artifacts. Past it they end with WATCHER_LIMIT.
   int max_watchers = 10'000;
   /// What a scenario or sweep may hold.

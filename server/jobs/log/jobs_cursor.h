@@ -11,8 +11,8 @@
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job/callback.h"
 #include "jobs/log/job_feed.h"
-#include "jobs/log/places.h"
 #include "jobs/log/stream_source.h"
+#include "jobs/quota/places.h"
 #include "storage/store.h"
 
 namespace contact {

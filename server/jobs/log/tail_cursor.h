@@ -11,7 +11,7 @@
 #include "base/mutex.h"
 #include "jobs/log/job_log.h"
 #include "jobs/log/log_cursor.h"
-#include "jobs/log/places.h"
+#include "jobs/quota/places.h"
 #include "storage/store.h"
 
 namespace contact {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "contact/v1/job_service.pb.h"
-#include "jobs/log/places.h"
 #include "jobs/log/stream_source.h"
+#include "jobs/quota/places.h"
 #include "jobs/read/artifact_maker.h"
 
 namespace contact {

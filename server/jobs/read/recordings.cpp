@@ -18,8 +18,8 @@ void Recordings::GetSeries(const Principal& caller, const v1::GetSeriesRequest& 
 void Recordings::ReadArtifact(const Principal& caller, const v1::ReadArtifactRequest& request,
                               Wake wake, Callback<Artifact> done) {
   if (request.offset() < 0) return done(OffsetOutOfRange(request.offset(), -1));
-  Places::Place place = readers_.Take();
-  if (!place) return done(WatcherLimit(readers_.count()));
+  Places::Place place = readers_.Take(caller);
+  if (!place) return done(WatcherLimit(readers_.open(caller)));
   store_.ReadOf(
       caller.tenant, request.name(), JobPart::kAll,
       [this, request, wake = std::move(wake), done = std::move(done),

@@ -6,8 +6,8 @@
 #include "contact/v1/job_service.pb.h"
 #include "identity/principal.h"
 #include "jobs/job/callback.h"
-#include "jobs/log/places.h"
 #include "jobs/log/stream_source.h"
+#include "jobs/quota/places.h"
 #include "storage/store.h"
 #include "wire/scenario/scenario_codec.h"
 

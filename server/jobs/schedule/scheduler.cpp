@@ -29,6 +29,15 @@ Transition TransitionAfterCrash(const StoredJob& stored, int max_attempts) {
           absl::StatusCode::kAborted};
 }
 
+// What an unfinished job of an earlier start takes of its owner's limits.
+std::shared_ptr<const void> Hold(Quotas* quotas, const v1::Job& job) {
+  const JobOwner whose{OwnerOf(job), TenantOf(job)};
+  auto place = quotas->Keep(whose, v1::Quota::UNFINISHED_JOBS);
+  if (job.progress().cells() == 0) return place;
+  return Quotas::Both(std::move(place),
+                      quotas->Keep(whose, v1::Quota::CELLS, job.progress().cells()));
+}
+
 // True if the job was running when the server died, and may be run only once more.
 bool IsLastAttempt(const v1::Job& job, int max_attempts) {
   return job.attempt() > 0 && job.attempt() + 1 >= max_attempts;
@@ -36,11 +45,13 @@ bool IsLastAttempt(const v1::Job& job, int max_attempts) {
 
 }  // namespace
 
-Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed)
+Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed,
+                     Quotas& quotas)
     : store_(store),
       clock_(clock),
       options_(options),
       feed_(feed),
+      quotas_(quotas),
       turns_(options.workers, options.max_running_per_owner),
       workers_([this](Worker& worker) { Work(worker); }),
       supervisor_(
@@ -87,8 +98,10 @@ void Scheduler::Recover(StoredJob stored) {
   if (active.job.state() == v1::Job::RUNNING) {
     active.job = Commit(active, transition, false, [](const absl::Status& /*stored*/) {});
   }
+  if (IsFinal(active.job.state())) return;
+  active.held = Hold(&quotas_, active.job);
   const MutexLock lock(mutex_);
-  if (!IsFinal(active.job.state())) Add(std::move(active));
+  Add(std::move(active));
 }
 
 v1::Job Scheduler::Commit(Active active, const Transition& transition, bool take, Done stored) {
@@ -129,9 +142,9 @@ void Scheduler::Queue(const Active& active) {
   changed_.notify_all();
 }
 
-bool Scheduler::Reserve() {
+bool Scheduler::Reserve(int most) {
   const MutexLock lock(mutex_);
-  if (turns_.waiting() + reserved_ >= options_.max_queued_jobs) return false;
+  if (turns_.waiting() + reserved_ >= most) return false;
   ++reserved_;
   return true;
 }
@@ -141,9 +154,11 @@ void Scheduler::Release() {
   --reserved_;
 }
 
-void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events) {
+void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events,
+                        std::shared_ptr<const void> held) {
   Active active;
   active.job = std::move(job);
+  active.held = std::move(held);
   active.log = NewLog(active.job, 0);
   active.log->Append(1, std::move(events));
   const MutexLock lock(mutex_);
@@ -261,7 +276,9 @@ std::shared_ptr<SweepRun> Scheduler::FindSweep() {
 
 void Scheduler::Remove(const std::string& name) {
   supervisor_.Remove(name);
+  std::shared_ptr<const void> held;  // Goes after the lock.
   const MutexLock lock(mutex_);
+  if (const auto found = active_.find(name); found != active_.end()) held = found->second.held;
   active_.erase(name);
   running_.erase(name);
   changed_.notify_all();  // A last attempt may have waited for this.
@@ -295,7 +312,7 @@ void Scheduler::Cancel(const std::string& name, const std::string& expected_uid,
 
 void Scheduler::Withdraw(const Active& active, Done done) {
   Commit(active, {v1::Job::CANCELLED, reason::kUserRequest}, false,
-         [this, active, done = std::move(done)](const absl::Status& stored) {
+         [this, active = active, done = std::move(done)](const absl::Status& stored) mutable {
            {
              const MutexLock lock(mutex_);
              if (stored.ok()) {
@@ -304,6 +321,7 @@ void Scheduler::Withdraw(const Active& active, Done done) {
                Queue(active);
              }
            }
+           active.held = nullptr;
            done(stored);
          });
 }
@@ -324,6 +342,16 @@ std::shared_ptr<const RunRecord> Scheduler::Record(const v1::Job& job) const {
 int Scheduler::queued() const {
   const MutexLock lock(mutex_);
   return turns_.waiting();
+}
+
+int Scheduler::RunningOf(const JobOwner& whose) const {
+  const MutexLock lock(mutex_);
+  return static_cast<int>(
+      std::ranges::count_if(running_, [&](const auto& run) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+        const auto found = active_.find(run.first);
+        return found != active_.end() && OwnerOf(found->second.job) == whose.owner &&
+               TenantOf(found->second.job) == whose.tenant;
+      }));
 }
 
 int Scheduler::running() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "jobs/log/job_feed.h"
+#include "jobs/quota/quotas.h"
 #include "jobs/run/ending_runs.h"
 #include "jobs/run/job_runner.h"
 #include "jobs/run/sweep_run.h"
@@ -38,16 +39,18 @@ namespace contact {
 class Scheduler {
  public:
   /// Queues the jobs that an earlier process left unfinished, and starts the workers. Every change
-  /// of a job's state is told to `feed`.
-  Scheduler(Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed);
+  /// of a job's state is told to `feed`. Jobs that are there already count in `quotas`.
+  Scheduler(Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed,
+            Quotas& quotas);
   ~Scheduler();
 
-  /// Keeps a place in the queue for a job that is being stored. False: the queue is full.
-  bool Reserve();
+  /// Keeps a place for a job that is being stored. False: there are `most` jobs in the queue.
+  bool Reserve(int most);
   /// Gives it back, if the job does not come.
   void Release();
-  /// Fills it with a job that is stored now, all of it, with the first events of its log.
-  void Enqueue(v1::Job job, std::vector<v1::Event> events);
+  /// Fills it with a job that is stored now, all of it, with the first events of its log. `held`
+  /// goes when the job ends.
+  void Enqueue(v1::Job job, std::vector<v1::Event> events, std::shared_ptr<const void> held);
 
   /// Takes a job from the queue, or asks its worker to stop. `done` is called on the store's
   /// thread when that is stored, or at once if there is nothing to do. ABORTED, with the payload
@@ -64,6 +67,8 @@ class Scheduler {
   int queued() const;
   /// Number of jobs that a worker runs, or whose end is being stored.
   int running() const;
+  /// As running(), of this owner alone.
+  int RunningOf(const JobOwner& whose) const;
 
   /// Puts running jobs back into the queue, in the store, and joins the workers. Idempotent.
   void Stop();
@@ -79,6 +84,8 @@ class Scheduler {
     std::uint64_t number = 0;
     std::shared_ptr<JobLog> log;
     std::shared_ptr<RunRecord> record = std::make_shared<RunRecord>();
+    /// What of its owner's limits it takes.
+    std::shared_ptr<const void> held;
     /// Null until a worker has the job.
     std::shared_ptr<RunControl> control;
   };
@@ -137,6 +144,7 @@ class Scheduler {
   const Clock& clock_;
   const JobOptions& options_;
   JobFeed& feed_;
+  Quotas& quotas_;
   std::stop_source shutdown_;
 
   mutable Mutex mutex_;

@@ -39,7 +39,8 @@ void Audit::Begin(std::function<void(bool)> begin) const {
 
 void Audit::Write(const Error* error, const std::string& job) const {
   const bool refused = error != nullptr && (error->code == absl::StatusCode::kUnauthenticated ||
-                                            error->code == absl::StatusCode::kPermissionDenied);
+                                            error->code == absl::StatusCode::kPermissionDenied ||
+                                            error->reason == InfoOf(Reason::kQuotaExceeded).name);
   if (!mutation_ && !refused) return;
   AuditRecord record = record_;
   const absl::StatusCode code = error == nullptr ? absl::StatusCode::kOk : error->code;

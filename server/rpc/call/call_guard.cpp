@@ -62,10 +62,12 @@ Presented PresentedBy(const grpc::ServerContextBase& context) {
 
 }  // namespace
 
-CallGuard::CallGuard(CallLimits limits, Door door, std::shared_ptr<const PeerCounts> streams,
-                     std::shared_ptr<RpcMetrics> metrics, const Clock& clock)
+CallGuard::CallGuard(CallLimits limits, Door door, Quotas& quotas,
+                     std::shared_ptr<const PeerCounts> streams, std::shared_ptr<RpcMetrics> metrics,
+                     const Clock& clock)
     : limits_(limits),
       door_(std::move(door)),
+      quotas_(quotas),
       clock_(clock),
       streams_(std::move(streams)),
       metrics_(std::move(metrics)),
@@ -83,7 +85,32 @@ Admission CallGuard::Check(const grpc::ServerContextBase& context, std::string_v
   if (const MethodRule* rule = FindMethod(method); !rule || !May(caller, rule->needs)) {
     return {caller, Deny(caller, rule)};
   }
-  return {caller, CheckLimits(context, kind)};
+  if (!IsKnownAdmin(caller)) {
+    if (auto refusal = CheckPeer(context, kind)) return {caller, refusal};
+  }
+  Result<Quotas::Place> held = CheckQuotas(context, caller, kind);
+  if (held.ok()) return {caller, {}, std::move(held.value())};
+  NoteRefusal(held.error());
+  return {caller, held.error()};
+}
+
+void CallGuard::NoteRefusal(const Error& error) const {
+  if (error.reason != InfoOf(Reason::kQuotaExceeded).name) return;
+  metrics_->Refused(error.reason, error.metadata.at("resource"));
+}
+
+Result<Quotas::Place> CallGuard::CheckQuotas(const grpc::ServerContextBase& context,
+                                             const Principal& caller, CallKind kind) {
+  const JobOwner whose{caller.name, caller.tenant};
+  if (kind == CallKind::kCreateJob) {
+    if (auto refusal = quotas_.TakeCreateCall(whose)) return *refusal;
+  }
+  Result<Quotas::Place> connection = quotas_.TakeConnection(whose, context.peer());
+  if (!connection.ok()) return connection;
+  Result<Quotas::Place> call =
+      quotas_.Take(whose, kind == CallKind::kStream ? v1::Quota::STREAMS : v1::Quota::CALLS);
+  if (!call.ok()) return call;
+  return Quotas::Both(std::move(connection.value()), std::move(call.value()));
 }
 
 Error CallGuard::Deny(const Principal& caller, const MethodRule* rule) const {
@@ -93,7 +120,7 @@ Error CallGuard::Deny(const Principal& caller, const MethodRule* rule) const {
                 fmt::format("{} may not do that; it needs the role {}", caller.name, needed));
 }
 
-std::optional<Error> CallGuard::CheckLimits(const grpc::ServerContextBase& context, CallKind kind) {
+std::optional<Error> CallGuard::CheckPeer(const grpc::ServerContextBase& context, CallKind kind) {
   if (kind == CallKind::kUnary) return std::nullopt;
   const std::string peer = PeerOf(context.peer());
   return kind == CallKind::kStream ? CheckStreams(peer) : CheckRate(peer);

@@ -13,7 +13,8 @@
 #include "identity/door.h"
 #include "identity/permissions.h"
 #include "jobs/job/errors.h"
-#include "rpc/call/rate_limit.h"
+#include "jobs/quota/quotas.h"
+#include "jobs/quota/rate_limit.h"
 #include "rpc/metrics/rpc_metrics.h"
 #include "rpc/net/peer.h"
 
@@ -46,26 +47,34 @@ struct Admission {
   /// Nothing if the caller is not known.
   std::optional<Principal> caller = {};
   std::optional<Error> refusal = {};
+  /// What the call takes of the caller's limits while it is open.
+  Quotas::Place held = {};
 };
 
 /// Refuses calls before anything is done for them: the one place that asks who calls and what that
 /// one may do. Thread-safe.
 class CallGuard {
  public:
-  /// `streams` counts the streams that are open, including the one in question. `clock` outlives
-  /// the guard.
-  CallGuard(CallLimits limits, Door door, std::shared_ptr<const PeerCounts> streams,
+  /// `streams` counts the streams that are open, including the one in question. `quotas` and
+  /// `clock` outlive the guard.
+  CallGuard(CallLimits limits, Door door, Quotas& quotas, std::shared_ptr<const PeerCounts> streams,
             std::shared_ptr<RpcMetrics> metrics, const Clock& clock);
 
   /// Says who makes the call, and whether it is refused before its request is looked at. In this
   /// order: METADATA_TOO_LARGE, UNAUTHENTICATED, PERMISSION_DENIED by the table of methods,
-  /// RATE_LIMITED for kCreateJob, WATCHER_LIMIT for kStream. Takes a CreateJob's token from the
-  /// bucket of its peer. Counts refusals.
+  /// RATE_LIMITED for kCreateJob, WATCHER_LIMIT for kStream, QUOTA_EXCEEDED. Takes a CreateJob's
+  /// token from the buckets of its peer and its caller. The limits of a peer do not hold for known
+  /// admins: others at the same address must not keep them out. Counts refusals.
   Admission Check(const grpc::ServerContextBase& context, std::string_view method, CallKind kind);
+  /// Counts a call that was refused later, if that was for a quota.
+  void NoteRefusal(const Error& error) const;
 
  private:
-  /// The errors of the limits.
-  std::optional<Error> CheckLimits(const grpc::ServerContextBase& context, CallKind kind);
+  /// The errors of the limits of a peer.
+  std::optional<Error> CheckPeer(const grpc::ServerContextBase& context, CallKind kind);
+  /// Takes what the call needs of the caller's limits.
+  Result<Quotas::Place> CheckQuotas(const grpc::ServerContextBase& context, const Principal& caller,
+                                    CallKind kind);
   /// gRPC limits metadata too, but a client that does not confirm the server's HTTP/2 settings
   /// gets around that.
   std::optional<Error> CheckMetadata(const grpc::ServerContextBase& context) const;
@@ -80,6 +89,7 @@ class CallGuard {
 
   const CallLimits limits_;
   const Door door_;
+  Quotas& quotas_;
   const Clock& clock_;
   /// Open streams of each peer.
   const std::shared_ptr<const PeerCounts> streams_;

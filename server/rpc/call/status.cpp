@@ -64,6 +64,14 @@ google::rpc::ResourceInfo Missing(const Error& error) {
   return resource;
 }
 
+google::rpc::QuotaFailure Failure(const Error& error) {
+  google::rpc::QuotaFailure failure;
+  google::rpc::QuotaFailure::Violation& violation = *failure.add_violations();
+  violation.set_subject("principal:" + error.metadata.at("principal"));
+  violation.set_description(error.message);
+  return failure;
+}
+
 google::rpc::RetryInfo Retry(std::chrono::milliseconds delay) {
   using google::protobuf::util::TimeUtil;
   google::rpc::RetryInfo retry;
@@ -83,6 +91,9 @@ grpc::Status ToGrpc(const Error& error) {
   status.add_details()->PackFrom(Info(error, error.violations.size() - listed));
   if (listed > 0) status.add_details()->PackFrom(request);
   if (error.code == absl::StatusCode::kNotFound) status.add_details()->PackFrom(Missing(error));
+  if (error.reason == InfoOf(Reason::kQuotaExceeded).name) {
+    status.add_details()->PackFrom(Failure(error));
+  }
   if (error.retry_after.count() > 0) status.add_details()->PackFrom(Retry(error.retry_after));
 
   return {static_cast<grpc::StatusCode>(error.code), status.message(), status.SerializeAsString()};

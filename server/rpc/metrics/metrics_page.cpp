@@ -130,6 +130,8 @@ void AddCalls(const RpcMetrics& rpc, Page* page) {
   for (const auto& [name, calls] : methods) page->Add(calls.streamed_bytes, {{"method", name}});
   page->Counter("contactd_rpc_refused_total", "Calls refused at once, by reason");
   for (const auto& [reason, count] : rpc.refused()) page->Add(count, {{"reason", reason}});
+  page->Counter("contactd_quota_refused_total", "Calls refused for a quota, by resource");
+  for (const auto& [what, count] : rpc.past_quota()) page->Add(count, {{"resource", what}});
 }
 
 void AddStreams(const StreamMetrics& streams, Page* page) {

@@ -20,9 +20,10 @@ void RpcMetrics::Streamed(const std::string& method, std::int64_t bytes) {
   methods_[method].streamed_bytes += bytes;
 }
 
-void RpcMetrics::Refused(const std::string& reason) {
+void RpcMetrics::Refused(const std::string& reason, const std::string& resource) {
   const MutexLock lock(mutex_);
   ++refused_[reason];
+  if (!resource.empty()) ++past_quota_[resource];
 }
 
 std::map<std::string, RpcMetrics::Method> RpcMetrics::methods() const {
@@ -33,6 +34,11 @@ std::map<std::string, RpcMetrics::Method> RpcMetrics::methods() const {
 std::map<std::string, std::int64_t> RpcMetrics::refused() const {
   const MutexLock lock(mutex_);
   return refused_;
+}
+
+std::map<std::string, std::int64_t> RpcMetrics::past_quota() const {
+  const MutexLock lock(mutex_);
+  return past_quota_;
 }
 
 }  // namespace contact

@@ -20,8 +20,9 @@ class RpcMetrics {
   void Ended(const std::string& method, int code, double seconds);
   /// A stream has sent a message of `bytes` bytes.
   void Streamed(const std::string& method, std::int64_t bytes);
-  /// A call was refused before anything was done for it. `reason` is that of its ErrorInfo.
-  void Refused(const std::string& reason);
+  /// A call was refused before anything was done for it. `reason` is that of its ErrorInfo; of a
+  /// quota, `resource` is what there was too much of.
+  void Refused(const std::string& reason, const std::string& resource = "");
 
   /// Counters of one method.
   struct Method {
@@ -38,6 +39,8 @@ class RpcMetrics {
   std::map<std::string, Method> methods() const;
   /// Numbers of refused calls, by reason.
   std::map<std::string, std::int64_t> refused() const;
+  /// Those refused for a quota, by resource.
+  std::map<std::string, std::int64_t> past_quota() const;
 
  private:
   mutable Mutex mutex_;
@@ -45,6 +48,8 @@ class RpcMetrics {
   std::map<std::string, Method> methods_ ABSL_GUARDED_BY(mutex_);
   /// By reason.
   std::map<std::string, std::int64_t> refused_ ABSL_GUARDED_BY(mutex_);
+  /// By resource.
+  std::map<std::string, std::int64_t> past_quota_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace contact

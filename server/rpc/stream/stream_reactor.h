@@ -31,11 +31,12 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
   /// Starts the call, which owns itself until gRPC is done with it. `open(wake, opened)` is called
   /// once, at once; what it starts calls `opened` with a Result<Source>, once, at any time, on any
   /// thread. The source may call `wake` at any time, also after the stream's end. `label` names in
-  /// the log what is read.
+  /// the log what is read. `held` goes when the stream ends.
   template <class Open>
   static StreamReactor* Start(const std::shared_ptr<StreamLoop>& loop,
-                              grpc::CallbackServerContext* context, std::string label, Open open) {
-    const auto self = Make(loop, context, std::move(label));
+                              grpc::CallbackServerContext* context, std::string label,
+                              std::shared_ptr<const void> held, Open open) {
+    const auto self = Make(loop, context, std::move(label), std::move(held));
     loop->Add(self);
     const std::weak_ptr<StreamReactor> weak = self;
     open([weak, loop] { loop->Wake(weak); },
@@ -48,7 +49,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
   /// A call that ends at once with this error.
   static StreamReactor* Refuse(const std::shared_ptr<StreamLoop>& loop,
                                grpc::CallbackServerContext* context, const Error& error) {
-    const auto self = Make(loop, context, "");
+    const auto self = Make(loop, context, "", nullptr);
     self->End(ToGrpc(error));
     return self.get();
   }
@@ -76,17 +77,19 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
   enum class State { kIdle, kWriting, kFinishing, kDone };
 
   StreamReactor(std::string label, grpc::CallbackServerContext* context,
-                std::shared_ptr<StreamLoop> loop)
+                std::shared_ptr<StreamLoop> loop, std::shared_ptr<const void> held)
       : label_(std::move(label)),
         loop_(std::move(loop)),
         context_(context),
+        held_(std::move(held)),
         last_write_(loop_->clock().Elapsed()) {}
 
   /// A reactor that owns itself.
   static std::shared_ptr<StreamReactor> Make(const std::shared_ptr<StreamLoop>& loop,
                                              grpc::CallbackServerContext* context,
-                                             std::string label) {
-    std::shared_ptr<StreamReactor> self(new StreamReactor(std::move(label), context, loop));
+                                             std::string label, std::shared_ptr<const void> held) {
+    std::shared_ptr<StreamReactor> self(
+        new StreamReactor(std::move(label), context, loop, std::move(held)));
     const MutexLock lock(self->mutex_);
     self->self_ = self;
     return self;
@@ -116,7 +119,9 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
     const auto begin = std::chrono::steady_clock::now();
     State next = State::kIdle;
     grpc::Status end;
-    Source read;  // Goes before the client learns of the end, and outside of the lock.
+    // They go before the client learns of the end, and outside of the lock.
+    Source read;
+    std::shared_ptr<const void> held;
     {
       const MutexLock lock(mutex_);
       if (state_ != State::kIdle) return;  // OnWriteDone comes back here.
@@ -125,9 +130,11 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
       if (next == State::kFinishing) {
         end = *end_;
         read = std::move(source_);
+        held = std::move(held_);
       }
     }
     read.reset();
+    held.reset();
     if (next == State::kWriting) this->StartWrite(&out_);
     if (next == State::kFinishing) this->Finish(end);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
@@ -184,6 +191,8 @@ class StreamReactor final : public grpc::ServerWriteReactor<Message>, public Str
   State state_ ABSL_GUARDED_BY(mutex_) = State::kIdle;
   /// Null until opened, and from kFinishing on.
   Source source_ ABSL_GUARDED_BY(mutex_);
+  /// What the stream takes of its caller's limits. Null from kFinishing on.
+  std::shared_ptr<const void> held_ ABSL_GUARDED_BY(mutex_);
   /// To finish with when idle. Nothing while the stream goes on.
   std::optional<grpc::Status> end_ ABSL_GUARDED_BY(mutex_);
   /// Start of the last write.

@@ -22,6 +22,9 @@ class RateLimit {
   /// there is one, rounded up.
   std::chrono::milliseconds Take(const std::string& peer, Time now);
 
+  /// Tokens that the peer has taken and that have not come back.
+  double TakenBy(const std::string& peer, Time now) const;
+
   /// Number of buckets that are kept. Full ones are forgotten now and then.
   std::size_t peers() const;
 

@@ -1,4 +1,4 @@
-#include "rpc/call/rate_limit.h"
+#include "jobs/quota/rate_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,12 @@ std::chrono::milliseconds RateLimit::Take(const std::string& peer, Time now) {
   }
   --bucket.tokens;
   return std::chrono::milliseconds(0);
+}
+
+double RateLimit::TakenBy(const std::string& peer, Time now) const {
+  const MutexLock lock(mutex_);
+  const auto bucket = buckets_.find(peer);
+  return bucket == buckets_.end() ? 0 : burst_ - TokensAt(bucket->second, now);
 }
 
 std::size_t RateLimit::peers() const {
