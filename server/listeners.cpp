@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "identity/token_changes.h"
+
 namespace contact {
 namespace {
 
@@ -18,15 +20,23 @@ Listeners::Listeners(JobManager& jobs, Store& store, const Config& config, v1::S
 
 std::string Listeners::Prepare() {
   if (!config_.audit_log.empty()) {
-    auto opened = AuditLog::Open(config_.audit_log);
+    auto opened = AuditLog::Open(config_.audit_log, config_.max_audit_bytes);
     if (const auto* why = std::get_if<std::string>(&opened)) return "--audit-log: " + *why;
     audit_ = std::move(std::get<std::unique_ptr<AuditLog>>(opened));
   }
   if (!HasFiles(config_.identity)) return "";
-  auto opened = IdentityFiles::Open(config_.identity, [this](const TlsMaterial& material) {
+  const auto take = [this](const TlsMaterial& material) {
     if (tls_) return tls_->Replace(material);
     tls_ = std::make_shared<TlsCredentials>(material);
-  });
+  };
+  const auto note = [audit = audit_, file = config_.identity.tokens.string()](
+                        const TokenTable* before, const TokenTable& now) {
+    if (!audit) return;
+    for (AuditRecord& record : TokenChanges(before, now, file, SystemClock().Now())) {
+      audit->Write(std::move(record));
+    }
+  };
+  auto opened = IdentityFiles::Open(config_.identity, take, note);
   if (const auto* why = std::get_if<std::string>(&opened)) return *why;
   files_ = std::get<std::shared_ptr<IdentityFiles>>(std::move(opened));
   return "";

@@ -8,21 +8,22 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "base/replace_file.h"
+#include "identity/audit_chain.h"
 #include "identity/hex.h"
 #include "identity/token_table.h"
 
 namespace contact {
 namespace {
 
-constexpr int kUnknownCallersPerSecond = 100;
-
-std::string FirstPrevious() { return std::string(64, '0'); }
+// Of records that cost the caller nothing.
+constexpr int kCheapPerSecond = 100;
 
 std::string LineOf(const AuditRecord& record, const std::string& previous,
                    std::int64_t suppressed) {
@@ -59,31 +60,21 @@ bool WriteAll(int fd, std::string_view bytes) {
   return true;
 }
 
-// The end of the last whole line of a file, and that line without its end.
-struct LastLine {
-  std::streamoff end = 0;
-  std::string text;
-};
-LastLine FindLastLine(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  LastLine last;
-  for (std::string line; std::getline(in, line) && !in.eof();) {
-    last = {static_cast<std::streamoff>(in.tellg()), line};
-  }
-  return last;
-}
-
 std::string Problem(const std::filesystem::path& file) {
   return fmt::format("cannot write {}: {}", file.string(), std::generic_category().message(errno));
+}
+
+FileDescriptor OpenFile(const std::filesystem::path& file, int flags) {
+  constexpr mode_t kOwnerOnly = 0600;
+  return FileDescriptor(::open(
+      file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | flags, kOwnerOnly));
 }
 
 }  // namespace
 
 std::variant<std::unique_ptr<AuditLog>, std::string> AuditLog::Open(
-    const std::filesystem::path& file) {
-  constexpr mode_t kOwnerOnly = 0600;
-  FileDescriptor out(
-      ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, kOwnerOnly));
+    const std::filesystem::path& file, std::int64_t max_bytes) {
+  FileDescriptor out = OpenFile(file, 0);
   struct stat status = {};
   if (!out.valid() || ::fstat(out.get(), &status) != 0) return Problem(file);
   if (!S_ISREG(status.st_mode)) return file.string() + " is no file";
@@ -92,8 +83,8 @@ std::variant<std::unique_ptr<AuditLog>, std::string> AuditLog::Open(
     spdlog::warn("{}: cut off a line that was not finished", file.string());
     if (::ftruncate(out.get(), last.end) != 0) return Problem(file);
   }
-  const std::string previous = last.end == 0 ? FirstPrevious() : Sha256Hex(last.text);
-  return std::unique_ptr<AuditLog>(new AuditLog(std::move(out), previous));
+  return std::unique_ptr<AuditLog>(
+      new AuditLog(file, max_bytes, std::move(out), LastDigest(AuditFiles(file))));
 }
 
 void AuditLog::Write(AuditRecord record) {
@@ -116,7 +107,12 @@ void AuditLog::Flush() {
 
 bool AuditLog::Append(const AuditRecord& record) {
   const std::string line = LineOf(record, previous_, suppressed_);
-  const ::off_t before = ::lseek(file_.get(), 0, SEEK_END);
+  ::off_t before = ::lseek(file_.get(), 0, SEEK_END);
+  if (max_bytes_ > 0 && before > 0 &&
+      before + static_cast<std::int64_t>(line.size()) + 1 > max_bytes_) {
+    Rotate();
+    before = ::lseek(file_.get(), 0, SEEK_END);
+  }
   if (WriteAll(file_.get(), line + '\n')) {
     previous_ = Sha256Hex(line);
     suppressed_ = 0;
@@ -131,39 +127,34 @@ bool AuditLog::Append(const AuditRecord& record) {
   return false;
 }
 
+// After a crash between the two renames Open makes the new file.
+void AuditLog::Rotate() {
+  const std::vector<AuditFile> files = AuditFiles(path_);
+  const int last = files.size() < 2 ? 0 : files[files.size() - 2].number;
+  const std::string away = fmt::format("{}.{}", path_.string(), last + 1);
+  const std::string draft = path_.string() + ".new";
+  ::unlink(draft.c_str());
+  FileDescriptor next = OpenFile(draft, O_EXCL);
+  if (next.valid() && !MoveIntoPlace(path_, away) && !MoveIntoPlace(draft, path_)) {
+    file_ = std::move(next);
+    stuck_ = false;
+    return;
+  }
+  if (!std::exchange(stuck_, true)) {
+    spdlog::error("{} grows past its limit, as no other can be begun", path_.string());
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(path_, error)) std::filesystem::rename(away, path_, error);
+}
+
 bool AuditLog::IsSuppressed(const AuditRecord& record) {
-  if (record.caller) return false;
+  if (record.caller && record.code != "RESOURCE_EXHAUSTED") return false;
   const auto second =
       std::chrono::duration_cast<std::chrono::seconds>(record.time.time_since_epoch()).count();
   if (std::exchange(second_, second) != second) of_second_ = 0;
-  if (++of_second_ <= kUnknownCallersPerSecond) return false;
+  if (++of_second_ <= kCheapPerSecond) return false;
   ++suppressed_;
   return true;
-}
-
-std::optional<AuditFindings> VerifyAudit(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  AuditFindings findings;
-  findings.last = FirstPrevious();
-  for (std::string line; std::getline(in, line);) {
-    ++findings.lines;
-    const auto json = nlohmann::json::parse(line, nullptr, false);
-    std::string mistake;
-    if (in.eof()) {
-      mistake = "it is not finished";
-    } else if (!json.is_object()) {
-      mistake = "it is no JSON object";
-    } else if (json.value("prev", nlohmann::json()) != findings.last) {
-      mistake = "the line before is not the one that it was written after";
-    }
-    findings.last = Sha256Hex(line);
-    if (mistake.empty()) continue;
-    findings.bad_line = findings.lines;
-    findings.mistake = mistake;
-    break;
-  }
-  return findings;
 }
 
 }  // namespace contact

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "base/executor.h"
@@ -36,16 +37,19 @@ struct AuditRecord {
 
 /// A file with a JSON object a line for each change and each refused call. Each line has the
 /// SHA-256 of the line before as `prev`, so that a line that is changed, left out or put in is
-/// found; see VerifyAudit. Written on a thread of its own. Thread-safe.
+/// found; see VerifyAudit. A file that has grown large becomes FILE.1, FILE.2 and so on, and the
+/// chain goes on in a new one. Written on a thread of its own. Thread-safe.
 class AuditLog {
  public:
   /// Opens the file, of mode 0600 if it is made, and goes on with its chain. What a crash has left
-  /// of a line that was not finished is cut off. Words that say why, if it cannot.
+  /// of a line that was not finished is cut off. Words that say why, if it cannot. A file may have
+  /// `max_bytes`, or one line if that is longer; 0: any number.
   static std::variant<std::unique_ptr<AuditLog>, std::string> Open(
-      const std::filesystem::path& file);
+      const std::filesystem::path& file, std::int64_t max_bytes = 0);
 
-  /// Writes the record, some time later. Of calls whose caller is not known at most 100 a second
-  /// are written; the next record says as `suppressed` how many are left out.
+  /// Writes the record, some time later. Of calls whose caller is not known, and of those past a
+  /// limit, at most 100 a second are written; the next record says as `suppressed` how many are
+  /// left out.
   void Write(AuditRecord record);
   /// Writes the record and synchronises the disk, then calls `done` on the log's thread. False: it
   /// could not be written.
@@ -54,39 +58,35 @@ class AuditLog {
   void Flush();
 
  private:
-  AuditLog(FileDescriptor file, std::string previous)
-      : file_(std::move(file)), previous_(std::move(previous)) {}
+  AuditLog(std::filesystem::path path, std::int64_t max_bytes, FileDescriptor file,
+           std::string previous)
+      : path_(std::move(path)),
+        max_bytes_(max_bytes),
+        file_(std::move(file)),
+        previous_(std::move(previous)) {}
 
   /// Appends the record. On the thread.
   bool Append(const AuditRecord& record);
-  /// True if the record is one too many of unknown callers. On the thread.
+  /// Puts the file away and begins a new one; goes on with the old one if it cannot. On the thread.
+  void Rotate();
+  /// True if the record is one too many of a kind that anybody can cause. On the thread.
   bool IsSuppressed(const AuditRecord& record);
 
   // All of the thread.
-  const FileDescriptor file_;
+  const std::filesystem::path path_;
+  const std::int64_t max_bytes_;
+  FileDescriptor file_;
   /// SHA-256 of the last line.
   std::string previous_;
-  /// The second of the last record of an unknown caller, and how many it had.
+  /// The second of the last record that anybody can cause, and how many it had.
   std::int64_t second_ = 0;
   int of_second_ = 0;
   std::int64_t suppressed_ = 0;
   /// True while nothing can be written, so that the log says it once.
   bool failed_ = false;
+  /// True while no new file can be begun.
+  bool stuck_ = false;
   Executor executor_{"audit"};  // Last: its tasks use the above.
 };
-
-/// What VerifyAudit finds.
-struct AuditFindings {
-  std::int64_t lines = 0;
-  /// SHA-256 of the last line, to be kept elsewhere: it shows whether lines are missing at the end.
-  std::string last;
-  /// The first line that does not fit, from 1; 0: all fit.
-  std::int64_t bad_line = 0;
-  /// What is wrong with it.
-  std::string mistake;
-};
-
-/// Follows the chain of an audit log. Nothing if the file cannot be read.
-std::optional<AuditFindings> VerifyAudit(const std::filesystem::path& file);
 
 }  // namespace contact

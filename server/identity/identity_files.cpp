@@ -29,8 +29,9 @@ std::variant<T, std::string> Load(const fs::path& file, Read read, const More&..
 
 }  // namespace
 
-IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed, const Clock& clock)
-    : changed_(std::move(changed)) {
+IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed,
+                             TokensChanged tokens_changed, const Clock& clock)
+    : changed_(std::move(changed)), tokens_changed_(std::move(tokens_changed)) {
   if (!paths.tokens.empty()) {
     tokens_.emplace(std::vector{paths.tokens},
                     [file = paths.tokens] { return Load<TokenTable>(file, ReadSecretFile); });
@@ -51,9 +52,10 @@ IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed, con
 }
 
 std::variant<std::shared_ptr<IdentityFiles>, std::string> IdentityFiles::Open(
-    const IdentityPaths& paths, TlsChanged changed, const Clock& clock,
-    std::chrono::milliseconds period) {
-  std::shared_ptr<IdentityFiles> files(new IdentityFiles(paths, std::move(changed), clock));
+    const IdentityPaths& paths, TlsChanged changed, TokensChanged tokens_changed,
+    const Clock& clock, std::chrono::milliseconds period) {
+  std::shared_ptr<IdentityFiles> files(
+      new IdentityFiles(paths, std::move(changed), std::move(tokens_changed), clock));
   if (const std::string mistakes = files->Look(); !mistakes.empty()) return mistakes;
   files->thread_ = std::jthread(
       [self = files.get(), period](const std::stop_token& stop) { self->Follow(stop, period); });
@@ -84,6 +86,10 @@ std::string IdentityFiles::Look() {
   look(rules_);
   look(jwt_);
   look(tls_);
+  if (const auto now = tokens(); now && now != told_tokens_) {
+    tokens_changed_(told_tokens_.get(), *now);
+    told_tokens_ = now;
+  }
   const auto tls = tls_ ? tls_->value() : nullptr;
   if (tls && tls != told_) {
     changed_(*tls);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "identity/audit_chain.h"
 #include "testing/temp_directory.h"
 
 namespace contact {
@@ -18,8 +19,8 @@ namespace {
 
 class AuditLogTest : public testing::Test {
  protected:
-  std::unique_ptr<AuditLog> Open() {
-    auto log = AuditLog::Open(file_);
+  std::unique_ptr<AuditLog> Open(std::int64_t max_bytes = 0) {
+    auto log = AuditLog::Open(file_, max_bytes);
     if (const auto* why = std::get_if<std::string>(&log)) ADD_FAILURE() << *why;
     return std::get<std::unique_ptr<AuditLog>>(std::move(log));
   }
@@ -50,8 +51,8 @@ class AuditLogTest : public testing::Test {
     std::ofstream out(file_, std::ios::trunc);
     for (const std::string& line : lines) out << line << '\n';
   }
-  void WriteJobs(int count) {
-    const auto log = Open();
+  void WriteJobs(int count, std::int64_t max_bytes = 0) {
+    const auto log = Open(max_bytes);
     for (int i = 0; i < count; ++i) log->Write(RecordOf("jobs/" + std::to_string(i)));
     log->Flush();
   }
@@ -122,6 +123,70 @@ TEST_F(AuditLogTest, UnknownCallersCannotFillTheDisk) {
   const auto lines = Lines();
   ASSERT_EQ(lines.size(), 101U);
   EXPECT_EQ(nlohmann::json::parse(lines.back()).at("suppressed"), 150);
+}
+
+TEST_F(AuditLogTest, RefusalsPastALimitCannotFillTheDisk) {
+  {
+    const auto log = Open();
+    AuditRecord refused = RecordOf("");
+    refused.code = "RESOURCE_EXHAUSTED";
+    for (int i = 0; i < 250; ++i) log->Write(refused);
+    log->Write(RecordOf("jobs/a"));
+    log->Flush();
+  }
+  EXPECT_EQ(Lines().size(), 101U);
+  EXPECT_EQ(nlohmann::json::parse(Lines().back()).at("suppressed"), 150);
+}
+
+constexpr std::int64_t kThreeLines = 1200;
+
+TEST_F(AuditLogTest, ChainGoesThroughAllFilesAlsoAfterARestart) {
+  WriteJobs(10, kThreeLines);
+  const auto files = AuditFiles(file_);
+  ASSERT_GT(files.size(), 3U);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    EXPECT_LE(std::filesystem::file_size(files[i].path), kThreeLines);
+    EXPECT_EQ(files[i].number, i + 1 < files.size() ? static_cast<int>(i) + 1 : 0);
+  }
+  WriteJobs(10, kThreeLines);
+  auto findings = VerifyAudit(file_);
+  EXPECT_EQ(findings->bad_line, 0) << findings->mistake;
+  EXPECT_EQ(findings->lines, 20);
+  std::filesystem::remove(file_);  // A crash between the two renames leaves this.
+  const std::int64_t left = VerifyAudit(file_)->lines;
+  WriteJobs(1, kThreeLines);
+  findings = VerifyAudit(file_);
+  EXPECT_EQ(findings->bad_line, 0) << findings->mistake;
+  EXPECT_EQ(findings->lines, left + 1);
+}
+
+TEST_F(AuditLogTest, FileThatIsMissingOrOutOfOrderIsFound) {
+  WriteJobs(12, kThreeLines);
+  const auto numbered = [this](int number) {
+    return std::filesystem::path(file_.string() + '.' + std::to_string(number));
+  };
+  const auto aside = folder_.path() / "aside";
+  std::filesystem::rename(numbered(2), aside);
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 1);
+  EXPECT_EQ(VerifyAudit(file_)->bad_file, numbered(3));
+  std::filesystem::rename(numbered(1), numbered(2));
+  EXPECT_EQ(VerifyAudit(file_)->bad_file, numbered(3));
+  std::filesystem::remove(numbered(2));
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 0) << "old files may be kept elsewhere";
+  EXPECT_EQ(VerifyAudit(file_)->missing, 2);
+}
+
+TEST_F(AuditLogTest, LogGoesOnInItsFileWhereNoOtherCanBeBegun) {
+  const auto log = Open(kThreeLines);
+  EXPECT_TRUE(WriteDurably(*log));
+  std::filesystem::create_directories(file_.string() + ".new/x");
+  for (int i = 0; i < 9; ++i) EXPECT_TRUE(WriteDurably(*log));
+  EXPECT_EQ(VerifyAudit(file_)->files, 1);
+  EXPECT_EQ(VerifyAudit(file_)->lines, 10);
+  std::filesystem::remove_all(file_.string() + ".new");
+  EXPECT_TRUE(WriteDurably(*log));
+  EXPECT_EQ(VerifyAudit(file_)->files, 2);
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 0);
 }
 
 TEST_F(AuditLogTest, WhatCannotBeWrittenIsTold) {

@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 from authority import Authority
@@ -102,13 +103,51 @@ class CredentialsTest(unittest.TestCase):
         table = self.run_it("server", "token", "list", "--tokens", self.tokens)[0]
         self.assertIn("revoked", table)
 
+    def test_audit_log_tells_which_tokens_are_made_and_revoked(self):
+        self.make_token("late", "read")
+        listed = json.loads(self.run_it("server", "token", "list", "--tokens", self.tokens,
+                                        "-o", "json")[0])
+        first, late = [row["id"] for row in listed]
+        told = [("VALID", "ci", first), ("CREATED", "late", late)]
+        self.wait_for_audit(told)
+        self.run_it("server", "token", "revoke", late, "--tokens", self.tokens)
+        self.wait_for_audit([*told, ("REVOKED", "late", late)])
+
+    def wait_for_audit(self, expected):
+        end, told = time.monotonic() + PATIENCE_S, None
+        while told != expected and time.monotonic() < end:
+            time.sleep(0.05)
+            lines = map(json.loads, (self.folder / "audit.log").read_text().splitlines())
+            told = [(line["code"], line["principal"], line["token"]) for line in lines
+                    if line["method"] == "token"]
+        self.assertEqual(told, expected)
+
+    def test_audit_log_of_several_files_is_verified_in_their_order(self):
+        self.server.terminate()
+        self.server.flags = (*self.server.flags, "--max-audit-bytes=600")
+        self.server.start()
+        for _ in range(3):
+            self.ask("list", code=9)
+        self.server.terminate()
+        audit = self.folder / "audit.log"
+        said = self.run_it("server", "audit", "verify", audit)[0]
+        self.assertRegex(said, r"\d lines in [3-9] files, unbroken")
+        first = audit.with_name("audit.log.1")
+        text = first.read_text()
+        first.write_text(text.replace("acme", "evil", 1))
+        self.assertIn("audit.log.2:1: does not fit",
+                      self.run_it("server", "audit", "verify", audit, code=1)[1])
+        first.unlink()
+        said = self.run_it("server", "audit", "verify", audit)[1]
+        self.assertIn("audit.log.1 are not here", said)
+
     def test_audit_log_is_verified(self):
         self.ask("--token-file", self.token, "run", CHAIN, "-o", "name")
         self.ask("list", code=9)
         self.server.terminate()
         audit = self.folder / "audit.log"
         said = self.run_it("server", "audit", "verify", audit)[0]
-        self.assertRegex(said, r"2 lines, unbroken; the last is [0-9a-f]{64}")
+        self.assertRegex(said, r"3 lines, unbroken; the last is [0-9a-f]{64}")
         audit.write_text(audit.read_text().replace('"ci"', '"eve"', 1))
         said = self.run_it("server", "audit", "verify", audit, code=1)[1]
         self.assertIn("audit.log:2: does not fit", said)

@@ -18,7 +18,7 @@
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/text/print_job.h"
-#include "identity/audit_log.h"
+#include "identity/audit_chain.h"
 #include "identity/secret_file.h"
 #include "identity/token_table.h"
 
@@ -129,11 +129,16 @@ ExitCode CheckAudit(const std::string& file, const Settings& settings) {
   const auto findings = VerifyAudit(file);
   if (!findings) throw Failure(ExitCode::kLocal, "cannot read " + file);
   if (findings->bad_line > 0) {
-    throw Failure(ExitCode::kRunFailed, fmt::format("{}:{}: does not fit: {}", file,
-                                                    findings->bad_line, findings->mistake));
+    throw Failure(ExitCode::kRunFailed,
+                  fmt::format("{}:{}: does not fit: {}", findings->bad_file.string(),
+                              findings->bad_line, findings->mistake));
   }
-  fmt::print("{}  {}, unbroken; the last is {}\n", file, Count(findings->lines, "line", "lines"),
-             findings->last);
+  if (findings->missing > 0) {
+    fmt::print(stderr, "{}.1 to {}.{} are not here\n", file, file, findings->missing);
+  }
+  const std::string where = findings->files > 1 ? fmt::format(" in {} files", findings->files) : "";
+  fmt::print("{}  {}{}, unbroken; the last is {}\n", file, Count(findings->lines, "line", "lines"),
+             where, findings->last);
   return ExitCode::kOk;
 }
 

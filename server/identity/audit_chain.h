@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace contact {
+
+/// What stands for the line before the first of all.
+std::string FirstPrevious();
+
+/// One file of an audit log.
+struct AuditFile {
+  std::filesystem::path path;
+  /// Counts the files from 1; 0: the one that is written to.
+  int number = 0;
+};
+/// The files of the audit log `file` in their order: FILE.1, FILE.2, …, FILE, as far as they are
+/// there.
+std::vector<AuditFile> AuditFiles(const std::filesystem::path& file);
+
+/// The end of the last whole line of a file, and that line without its end.
+struct LastLine {
+  std::int64_t end = 0;
+  std::string text;
+};
+LastLine FindLastLine(const std::filesystem::path& file);
+/// SHA-256 of the last line in the files, which may be none.
+std::string LastDigest(const std::vector<AuditFile>& files);
+
+/// What VerifyAudit finds.
+struct AuditFindings {
+  std::int64_t files = 0;
+  std::int64_t lines = 0;
+  /// Files that came before the first one that is there: somebody has put them elsewhere.
+  int missing = 0;
+  /// SHA-256 of the last line, to be kept elsewhere: it shows whether lines are missing at the end.
+  std::string last;
+  /// The first line that does not fit, from 1, and its file; 0: all fit.
+  std::int64_t bad_line = 0;
+  std::filesystem::path bad_file;
+  /// What is wrong with it.
+  std::string mistake;
+};
+
+/// Follows the chain of an audit log through all of its files. Nothing if one cannot be read, or
+/// there is none.
+std::optional<AuditFindings> VerifyAudit(const std::filesystem::path& file);
+
+}  // namespace contact

@@ -1,0 +1,57 @@
+#include "identity/token_changes.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace contact {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::chrono::system_clock::time_point kNow(std::chrono::hours(500'000));
+const Principal kAda{"ada", "acme", {Role::kSubmit}, ""};
+
+TokenTable TableOf(const std::vector<TokenRecord>& records) {
+  return std::get<TokenTable>(TokenTable::Parse(TokenTable::Format(records)));
+}
+
+// By id of the token.
+std::map<std::string, std::string> Codes(const std::vector<AuditRecord>& records) {
+  std::map<std::string, std::string> codes;
+  for (const AuditRecord& record : records) codes[record.caller->token_id] += record.code;
+  return codes;
+}
+
+TEST(TokenChanges, EachTokenThatIsMadeRevokedRemovedOrChangedHasItsLine) {
+  std::vector<TokenRecord> records;
+  for (int i = 0; i < 5; ++i) records.push_back(MakeToken(kAda, kNow + 24h).record);
+  records[4].revoked = true;
+  const TokenTable before = TableOf(records);
+  std::vector<TokenRecord> after = {records[0], records[1], records[3]};
+  after[1].revoked = true;
+  after[2].expires += 1h;
+  after.push_back(MakeToken(kAda, kNow + 24h).record);
+  const auto lines = TokenChanges(&before, TableOf(after), "/etc/tokens", kNow);
+  EXPECT_EQ(Codes(lines), (std::map<std::string, std::string>{{records[1].id, "REVOKED"},
+                                                              {records[2].id, "REMOVED"},
+                                                              {records[3].id, "CHANGED"},
+                                                              {after[3].id, "CREATED"}}));
+  EXPECT_EQ(lines.front().caller->name, "ada");
+  EXPECT_EQ(lines.front().peer, "file:/etc/tokens");
+}
+
+TEST(TokenChanges, StartListsTheTokensThatAreValid) {
+  std::vector<TokenRecord> records = {MakeToken(kAda, kNow).record, MakeToken(kAda, kNow).record};
+  records[1].revoked = true;
+  EXPECT_EQ(Codes(TokenChanges(nullptr, TableOf(records), "f", kNow)),
+            (std::map<std::string, std::string>{{records[0].id, "VALID"}}));
+  const TokenTable same = TableOf(records);
+  EXPECT_TRUE(TokenChanges(&same, same, "f", kNow).empty());
+}
+
+}  // namespace
+}  // namespace contact
