@@ -171,7 +171,7 @@ void AddOwnerLimits(CLI::App* app, JobOptions* jobs) {
                   "Bytes of the jobs of one owner at which it may create no more; 0: any number")
       ->transform(CLI::AsSizeValue(true))
       ->type_name("BYTES")
-      ->default_str("half of --max-stored-bytes; any number where nobody is asked who calls");
+      ->default_str("50 % of --max-stored-bytes; any number where nobody is asked who calls");
   AddOwnerLimit(app, "--max-creates-per-second-per-owner", &owner.creates_per_second, "100",
                 "CreateJob calls of one owner, on average; 0: any number");
   AddNumber(app, "--max-create-burst-per-owner", &owner.create_burst, 1, 1'000'000,

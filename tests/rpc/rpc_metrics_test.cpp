@@ -79,6 +79,7 @@ TEST(MetricsPageTest, TellsWhatWasCounted) {
   jobs->Moved(v1::Job::RUNNING, job);
   store->commit_operations.Count(256);
   rpc->Refused("RATE_LIMITED");
+  rpc->Refused("QUOTA_EXCEEDED", "STREAMS");
   streams->slow = 2;
   streams->conflated = 7;
   streams->reaction_seconds.Count(2e-6);
@@ -98,6 +99,8 @@ TEST(MetricsPageTest, TellsWhatWasCounted) {
            "contactd_store_commit_operations_bucket{le=\"250\"} 0\n",
            "contactd_store_commit_operations_sum 256\n",
            "contactd_rpc_refused_total{reason=\"RATE_LIMITED\"} 1\n",
+           "contactd_rpc_refused_total{reason=\"QUOTA_EXCEEDED\"} 1\n",
+           "contactd_quota_refused_total{resource=\"STREAMS\"} 1\n",
            "contactd_streams_slow 2\n",
            "contactd_streams_dropped_total 0\n",
            "contactd_events_conflated_total 7\n",

@@ -29,7 +29,8 @@ def defaults_of_help():
     """{flag: default} of `contactd --help`."""
     text = subprocess.run([os.environ["CONTACTD"], "--help"], check=True, text=True,
                           stdout=subprocess.PIPE).stdout
-    found = re.findall(r"(--[a-z-]+) [^\n]*=([\d.e+]+)(?:s| % of the disk)? \(Env", text)
+    found = re.findall(r"(--[a-z-]+) [^\n]*=([\d.e+]+)(?:s| % of [a-z -]+)?"
+                       r"(?:; any number where nobody is asked who calls)? \(Env", text)
     return {flag: float(value) for flag, value in found}
 
 

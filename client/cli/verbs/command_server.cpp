@@ -60,8 +60,7 @@ ExitCode Status(const Settings& settings) {
       "you       {} of {}, {}\n"
       "workers   {}\n"
       "jobs      {} running, {} queued\n"
-      "limits    {}, {}, {}, {}, {} a request, {}, {}\n"
-      "yours     {}\n",
+      "limits    {}, {}, {}, {}, {} a request, {}, {}\n",
       info.version(), info.revision().empty() ? "" : fmt::format(" ({})", info.revision()),
       client.server(), Instant(info.start_time()), info.instance_id(), info.principal().name(),
       info.principal().tenant(), fmt::join(info.principal().roles(), ","), info.workers(),
@@ -70,7 +69,8 @@ ExitCode Status(const Settings& settings) {
       Count(limits.max_samples(), "sample", "samples"), Count(limits.max_cells(), "cell", "cells"),
       Count(limits.max_message_bytes(), "byte", "bytes"),
       Count(limits.max_queued_jobs(), "queued job", "queued jobs"),
-      Count(limits.max_watchers(), "watcher", "watchers"), TextOf(info));
+      Count(limits.max_watchers(), "watcher", "watchers"));
+  if (info.quotas_size() > 0) fmt::print("yours     {}\n", TextOf(info));
   return ExitCode::kOk;
 }
 
