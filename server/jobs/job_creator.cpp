@@ -36,13 +36,13 @@ std::vector<Violation> Complete(std::vector<Violation> violations, const std::st
            "take fewer bodies and contacts, or keep fewer trajectories"}};
 }
 
-// Why the disk takes no more jobs; nothing if it does. Its last gigabytes are enough on a large
-// one.
+// Why the disk takes no more jobs; nothing if it does. A large disk takes them while much is left,
+// however full it is.
 std::optional<Error> CheckDisk(const JobOptions& options) {
-  constexpr std::int64_t kEnough = 10'000'000'000;
+  constexpr std::int64_t kMuch = 10'000'000'000;
   if (options.max_disk_percent == 0) return std::nullopt;
   const DiskSpace disk = options.disk();
-  if (disk.total == 0 || disk.free >= kEnough) return std::nullopt;
+  if (disk.total == 0 || disk.free >= kMuch) return std::nullopt;
   const auto used = static_cast<int>(100 - 100.0 * static_cast<double>(disk.free) /
                                                static_cast<double>(disk.total));
   if (used <= options.max_disk_percent) return std::nullopt;
