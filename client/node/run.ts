@@ -31,7 +31,7 @@ async function solve(): Promise<void> {
       console.log(
         `${contact}  ${kind}  mu ${mu.toPrecision(10)}  restitution ${restitution_out.toFixed(9)}`);
     } else if (event.frame_chunk) {
-      samples += event.frame_chunk.samples;
+      if (!event.frame_chunk.columns_follow) samples += event.frame_chunk.samples;
       const force = event.frame_chunk.columns.find(({name}) => name === 'B1-B2.contact_force');
       if (force) peak = values(force).reduce((a, b) => Math.max(a, b), peak);
     }

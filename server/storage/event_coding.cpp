@@ -74,6 +74,7 @@ v1::Event WithoutValues(const v1::Event& event) {
   v1::FrameChunk& bare = *rest.mutable_frame_chunk();
   bare.set_first_sample(chunk.first_sample());
   bare.set_samples(chunk.samples());
+  bare.set_columns_follow(chunk.columns_follow());
   for (const v1::FrameChunk::Column& column : chunk.columns()) {
     v1::FrameChunk::Column& head = *bare.add_columns();
     head.set_name(column.name());

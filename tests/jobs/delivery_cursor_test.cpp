@@ -15,14 +15,16 @@ using testing::ElementsAre;
 
 LogRecord Record(std::uint64_t sequence, char kind) {
   v1::Event event;
-  if (kind == 'f') event.mutable_frame_chunk()->set_samples(1);
+  if (kind == 'f' || kind == 'F') event.mutable_frame_chunk()->set_samples(1);
+  if (kind == 'F') event.mutable_frame_chunk()->set_columns_follow(true);
   if (kind == 'c') event.mutable_cycle()->set_number(1);
   if (kind == 'p') event.mutable_progress();
   if (kind == 's') event.mutable_state_changed()->set_state(v1::Job::SUCCEEDED);
   return ToRecord(kind == 'p' ? 0 : sequence, event);
 }
 
-/// A log whose every read is a word: a letter for each event. After the last word it waits.
+/// A log whose every read is a word: a letter for each event, a large F for a chunk whose columns
+/// follow. After the last word it waits.
 class Script final : public LogCursor {
  public:
   explicit Script(std::deque<std::string> words) : words_(std::move(words)) {}
@@ -79,6 +81,22 @@ TEST_F(DeliveryCursorTest, WithoutWishesAllPasses) {
   EXPECT_THAT(Read(), ElementsAre("c1", "f2", "f3", "c4"));
   EXPECT_THAT(Read(), ElementsAre("f5", "p0", "s6"));
   EXPECT_EQ(cursor_->position(), 6U);
+}
+
+TEST_F(DeliveryCursorTest, ColumnsOfAChunkPassOrAreLeftOutTogether) {
+  Open({"FFfFF", "fFfc"}, {.min_frame_interval = 1s});
+  EXPECT_THAT(Read(), ElementsAre("f1", "f2", "f3"));
+  EXPECT_EQ(cursor_->position(), 3U);
+  EXPECT_THAT(Read(), ElementsAre("g4-8x5", "c9"));
+}
+
+TEST_F(DeliveryCursorTest, ColumnsThatFollowAChunkThatWasHeldBackPass) {
+  Open({"f", "F"}, {.min_frame_interval = 1s});
+  EXPECT_THAT(Read(), ElementsAre("f1"));
+  EXPECT_TRUE(Read().empty());
+  clock_.Advance(1s);
+  EXPECT_THAT(Read(), ElementsAre("f2"));
+  EXPECT_EQ(cursor_->position(), 2U);
 }
 
 TEST_F(DeliveryCursorTest, FramesWithinTheIntervalAreLeftOutAndNamed) {

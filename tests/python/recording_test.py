@@ -36,6 +36,22 @@ class RecordingTest(unittest.TestCase):
         np.testing.assert_array_equal(result["time"], self.values[0])
         np.testing.assert_array_equal(result.series["c2 [N]"], self.values[2])
 
+    def test_columns_that_came_in_several_events_are_joined(self):
+        events = []
+        for first in (0, 50):
+            for rows in ((0, 1), (0, 2)):
+                event = chunk_event(first, self.values[:, first:first + 50])
+                columns = [event.frame_chunk.columns[row] for row in rows]
+                del event.frame_chunk.columns[:]
+                event.frame_chunk.columns.extend(columns)
+                event.frame_chunk.columns_follow = rows == (0, 1)
+                event.sequence = len(events) + 1
+                events.append(event)
+        result = result_of(*reversed(events))
+        for row, name in enumerate(("time", "c1", "c2")):
+            np.testing.assert_array_equal(result[name], self.values[row])
+        np.testing.assert_array_equal(result_of(*events[:3])["c1"], self.values[1, :50])
+
     def test_single_chunk_is_not_copied(self):
         result = result_of(chunk_event(0, self.values))
         self.assertIs(type(result["c1"].base), bytes)

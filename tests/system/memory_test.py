@@ -3,8 +3,8 @@
 import time
 import unittest
 
-from contact.v1 import scenario_pb2
-from contactd import Job, ServerTest, endless
+from contact.v1 import job_service_pb2, scenario_pb2
+from contactd import PATIENCE_S, Job, ServerTest, endless
 
 SLACK = 5  # A machine so many times slower must pass too.
 
@@ -48,6 +48,27 @@ class LargeScenarioTest(MemoryTest):
         self.assertEqual(self.server.get(name).state, Job.CANCELLED)
         self.assertLess(self.peak(), 300e6)
         self.assertLess(took, 1 * SLACK)
+
+
+    def test_client_of_grpc_as_it_comes_reads_all_columns_of_the_largest_scenario(self):
+        """Its messages have 4 MiB at most, so an event has about one."""
+        scenario = balls_at_rest(19_999)
+        scenario.output.sample_interval_s = scenario.end_time_s  # Two samples.
+        name = self.server.run(scenario).name
+        chunks = [event.frame_chunk for event in self.server.events(name, kinds=["frame_chunk"])]
+        largest = max(chunk.ByteSize() for chunk in chunks)
+        print(f"{len(chunks)} chunks of {largest / 2**20:.2f} MiB at most")
+        self.assertLessEqual(largest, 1 << 20)
+        for sample in (0, 1):
+            parts = [chunk for chunk in chunks if chunk.first_sample == sample]
+            self.assertEqual([part.columns_follow for part in parts],
+                             [True] * (len(parts) - 1) + [False])
+            columns = parts[0].columns[:1] + [c for part in parts for c in part.columns[1:]]
+            self.assertEqual(len({column.name for column in columns}), 1 + 2 * 19_999 + 4 * 19_998)
+            self.assertEqual({len(column.values) for column in columns}, {8})
+        series = self.server.stub.GetSeries(job_service_pb2.GetSeriesRequest(
+            name=name, columns=["B0.position", "B19998.velocity"]), timeout=PATIENCE_S)
+        self.assertEqual([len(column.values) for column in series.columns], [16] * 3)
 
 
 class LongLedgerTest(MemoryTest):

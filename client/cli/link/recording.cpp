@@ -59,29 +59,36 @@ void Recorder::OnEvent(const v1::Event& event) {
   } else if (event.has_group()) {
     groups_[event.sequence()] = event.group();
   } else if (event.has_frame_chunk()) {
-    chunks_[event.frame_chunk().first_sample()] = event.frame_chunk();
+    chunks_[{event.frame_chunk().first_sample(), event.sequence()}] = event.frame_chunk();
   }
 }
 
 bool Recorder::has_holes() const {
   std::int64_t following = 0;
-  for (const auto& [first, chunk] : chunks_) {
-    if (first != following) return true;
-    following += chunk.samples();
+  std::uint64_t columns = 0;  // Sequence of the event that has the next ones; 0: any.
+  for (const auto& [place, chunk] : chunks_) {
+    if (place.first != following || (columns != 0 && place.second != columns)) return true;
+    columns = chunk.columns_follow() ? place.second + 1 : 0;
+    if (columns == 0) following += chunk.samples();
   }
   return false;
 }
 
 std::vector<SampleColumn> Recorder::Columns() const {
   std::vector<SampleColumn> columns;
-  for (const auto& [first, chunk] : chunks_) {
-    columns.resize(static_cast<std::size_t>(chunk.columns_size()));
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const v1::FrameChunk::Column& column = chunk.columns(static_cast<int>(i));
-      if (first == 0) columns[i] = {column.name(), column.quantity(), column.unit(), {}};
-      AppendDoubles(column.values(), &columns[i].values);
+  std::size_t next = 0;  // Column of a chunk whose columns are split.
+  for (const auto& [place, chunk] : chunks_) {
+    for (int i = next > 0 ? 1 : 0; i < chunk.columns_size(); ++i, ++next) {
+      const v1::FrameChunk::Column& column = chunk.columns(i);
+      if (next == columns.size()) {
+        columns.push_back({column.name(), column.quantity(), column.unit(), {}});
+      }
+      AppendDoubles(column.values(), &columns[next].values);
     }
+    if (!chunk.columns_follow()) next = 0;
   }
+  // The last columns of the last samples may not have come.
+  for (SampleColumn& column : columns) column.values.resize(columns.back().values.size());
   return columns;
 }
 

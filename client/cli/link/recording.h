@@ -55,8 +55,8 @@ class Recorder : public WatchObserver {
   std::vector<v1::Group> Groups() const;
 
  private:
-  /// By the number of the first sample.
-  std::map<std::int64_t, v1::FrameChunk> chunks_;
+  /// By the number of the first sample and the sequence number of the event: columns may be split.
+  std::map<std::pair<std::int64_t, std::uint64_t>, v1::FrameChunk> chunks_;
   /// By episode and pass.
   std::map<std::pair<int, int>, v1::Iteration> iterations_;
   /// By the sequence number of the event.

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "base/spelling.h"
 #include "cli/base/dot_canvas.h"
@@ -95,8 +96,10 @@ void LivePlot::OnEvent(const v1::Event& event) {
   Recorder::OnEvent(event);
   if (!event.has_frame_chunk()) return;
   stale_ = true;
-  std::vector<std::string_view> names;
-  for (const auto& column : event.frame_chunk().columns()) names.push_back(column.name());
+  for (const auto& column : event.frame_chunk().columns()) names_.push_back(column.name());
+  if (event.frame_chunk().columns_follow()) return;
+  const std::vector<std::string> all = std::exchange(names_, {});
+  const std::vector<std::string_view> names(all.begin(), all.end());
   for (const std::string& channel : options_.channels) {
     if (std::ranges::find(names, channel) != names.end()) continue;
     mistake_ = WithHint(fmt::format("{} is no channel of this job", Quoted(channel)),

@@ -65,6 +65,7 @@ class LivePlot : public Recorder {
   std::FILE* const terminal_;
   const Options options_;
   std::vector<SampleColumn> columns_;
+  std::vector<std::string> names_;  // Of the columns so far of a chunk whose columns follow.
   std::optional<std::string> mistake_;
   std::optional<std::chrono::steady_clock::time_point> start_;  // When the replay began.
   bool stale_ = true;  // True if samples have come that columns_ lacks.

@@ -19,7 +19,8 @@ class Recording:
         self.cycles: dict[int, job_pb2.Cycle] = {}  #: By sequence.
         self.groups: dict[int, job_pb2.Group] = {}  #: By sequence.
         self.units: dict[str, str] = {}  #: Unit by name of column, in their order.
-        self._chunks: dict[int, tuple[int, list[bytes]]] = {}  # By first sample.
+        # By first sample and sequence: columns may be split.
+        self._chunks: dict[tuple[int, int], event_pb2.FrameChunk] = {}
         self._columns: dict[str, Array] | None = None
 
     def add(self, event: event_pb2.Event) -> None:
@@ -35,23 +36,23 @@ class Recording:
         elif kind == "group":
             self.groups[event.sequence] = event.group
         elif kind == "frame_chunk":
-            self._add_chunk(event.frame_chunk)
+            self._add_chunk(event.sequence, event.frame_chunk)
 
-    def _add_chunk(self, chunk: event_pb2.FrameChunk) -> None:
-        if not self.units:
-            self.units = {column.name: column.unit for column in chunk.columns}
-        values = [column.values for column in chunk.columns]
-        self._chunks[chunk.first_sample] = (chunk.samples, values)
+    def _add_chunk(self, sequence: int, chunk: event_pb2.FrameChunk) -> None:
+        if chunk.columns and chunk.columns[-1].name not in self.units:
+            self.units |= {column.name: column.unit for column in chunk.columns}
+        self._chunks[chunk.first_sample, sequence] = chunk
         self._columns = None
 
     @property
     def has_holes(self) -> bool:
         """True if chunks are missing between those that came."""
-        following = 0
-        for first, (samples, _) in sorted(self._chunks.items()):
-            if first != following:
+        following = columns = 0  # First sample, and sequence of the event with its next columns.
+        for (first, sequence), chunk in sorted(self._chunks.items(), key=_place):
+            if first != following or columns not in (0, sequence):
                 return True
-            following = first + samples
+            columns = sequence + 1 if chunk.columns_follow else 0
+            following += 0 if columns else chunk.samples
         return False
 
     @property
@@ -61,10 +62,21 @@ class Recording:
         They lie in the bytes of the message where there is one chunk; several are joined once.
         """
         if self._columns is None:
-            chunks = [values for _, (_, values) in sorted(self._chunks.items())]
-            self._columns = {name: _join([chunk[index] for chunk in chunks])
-                             for index, name in enumerate(self.units)}
+            chunks = [chunk for _, chunk in sorted(self._chunks.items(), key=_place)]
+            while chunks and chunks[-1].columns_follow:
+                chunks.pop()  # The last columns of the last samples have not come.
+            parts: dict[str, list[bytes]] = {name: [] for name in self.units}
+            split = False
+            for chunk in chunks:
+                for column in chunk.columns[1 if split else 0:]:
+                    parts[column.name].append(column.values)
+                split = chunk.columns_follow
+            self._columns = {name: _join(values) for name, values in parts.items() if values}
         return self._columns
+
+
+def _place(item: tuple[tuple[int, int], event_pb2.FrameChunk]) -> tuple[int, int]:
+    return item[0]
 
 
 def _join(parts: list[bytes]) -> Array:

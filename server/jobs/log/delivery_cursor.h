@@ -54,8 +54,12 @@ class DeliveryCursor final : public LogCursor {
 
   /// When a chunk was passed on last.
   std::optional<std::chrono::steady_clock::time_point> last_frame_;
-  /// The newest chunk, if it is held back.
-  std::optional<LogRecord> held_;
+  /// The newest chunk, if it is held back: several events if its columns are split.
+  std::vector<LogRecord> held_;
+  /// True if the next event has more columns of the newest chunk.
+  bool columns_follow_ = false;
+  /// True if the newest chunk is passed on.
+  bool passing_ = false;
   /// The chunks left out before it; empty if there are none.
   v1::Gap gap_;
 };

@@ -118,8 +118,10 @@ bool ArtifactMaker::Write(const StoredEvent& stored) {
   if (!stored.Parse(&event)) return false;
   const v1::FrameChunk& chunk = event.frame_chunk();
   if (!IsWhole(chunk)) return false;
-  if (size_ == 0) Emit(CsvHeader(chunk));
-  Emit(CsvRows(chunk));
+  const v1::FrameChunk* const whole = joiner_.Add(chunk);
+  if (whole == nullptr) return true;
+  if (size_ == 0) Emit(CsvHeader(*whole));
+  Emit(CsvRows(*whole));
   return true;
 }
 

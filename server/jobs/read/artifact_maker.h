@@ -16,6 +16,7 @@
 #include "jobs/log/stream_source.h"
 #include "jobs/read/artifact_plan.h"
 #include "storage/store.h"
+#include "wire/chunk_columns.h"
 
 namespace contact {
 
@@ -77,6 +78,7 @@ class ArtifactMaker : public std::enable_shared_from_this<ArtifactMaker> {
   std::uint64_t boundary_ = 0;
   /// The samples of the artifact come after this sequence.
   std::uint64_t begin_ = 0;
+  ColumnJoiner joiner_;
   /// Bytes made, including those before the requested offset.
   std::int64_t size_ = 0;
   /// Digest of the bytes made.

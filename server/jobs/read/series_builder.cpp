@@ -16,12 +16,14 @@ SeriesBuilder::SeriesBuilder(SeriesSelection selection,
 void SeriesBuilder::Restart() {
   decimator_.reset();
   if (!selection_.raw) decimator_.emplace(selection_.columns.size(), selection_.max_rows);
+  joiner_ = {};
   rows_.clear();
   recorded_ = 0;
 }
 
 bool SeriesBuilder::Fits(const v1::FrameChunk& chunk) const {
-  return chunk.columns_size() == static_cast<int>(channels_.size()) && IsWhole(chunk);
+  return chunk.columns_size() > 0 && chunk.columns_size() <= static_cast<int>(channels_.size()) &&
+         IsWhole(chunk);
 }
 
 bool SeriesBuilder::IsBefore(const v1::FrameChunk& chunk) const {
@@ -35,10 +37,13 @@ bool SeriesBuilder::IsPast(const v1::FrameChunk& chunk) const {
 
 bool SeriesBuilder::Add(const v1::FrameChunk& chunk) {
   if (!Fits(chunk)) return false;
-  for (int row = 0; row < chunk.samples(); ++row) {
-    const double time = ValueAt(chunk.columns(0), row);
+  const v1::FrameChunk* const whole = joiner_.Add(chunk);
+  if (whole == nullptr) return true;
+  if (whole->columns_size() != static_cast<int>(channels_.size())) return false;
+  for (int row = 0; row < whole->samples(); ++row) {
+    const double time = ValueAt(whole->columns(0), row);
     if (time < selection_.start_time || time > selection_.end_time) continue;
-    AddRow(chunk, row);
+    AddRow(*whole, row);
   }
   return true;
 }

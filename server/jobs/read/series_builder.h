@@ -8,6 +8,7 @@
 #include "jobs/job/errors.h"
 #include "jobs/read/decimation.h"
 #include "jobs/read/series_rules.h"
+#include "wire/chunk_columns.h"
 
 namespace contact {
 
@@ -19,7 +20,7 @@ class SeriesBuilder {
 
   /// Forgets the chunks so far: another attempt begins.
   void Restart();
-  /// True if the chunk is one of this trajectory.
+  /// True if the chunk may be one of this trajectory.
   bool Fits(const v1::FrameChunk& chunk) const;
   /// Adds the samples of a chunk that lie in the time range. False if the chunk does not fit.
   bool Add(const v1::FrameChunk& chunk);
@@ -36,6 +37,7 @@ class SeriesBuilder {
 
   const SeriesSelection selection_;
   const std::vector<v1::FrameChunk::Column> channels_;
+  ColumnJoiner joiner_;
   /// Nothing for RAW.
   std::optional<MinMaxDecimator> decimator_;
   /// Rows of selected columns, one after the other. Only for RAW; stops growing when it is too

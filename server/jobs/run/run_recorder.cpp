@@ -46,7 +46,9 @@ void RunRecorder::OnGroup(const Group& group) {
 }
 
 void RunRecorder::Keep(v1::Event event) {
-  if (event.has_frame_chunk()) passings_.See(event.frame_chunk());
+  if (event.has_frame_chunk()) {
+    if (const auto* whole = joiner_.Add(event.frame_chunk())) passings_.See(*whole);
+  }
   v1::Job row;
   if (event.has_cycle()) *row.add_cycles() = event.cycle();
   if (event.has_group()) *row.add_groups() = event.group();
@@ -58,9 +60,13 @@ void RunRecorder::Keep(v1::Event event) {
 }
 
 void RunRecorder::OnSamples(const Samples& samples) {
-  v1::Event event = Event();
-  *event.mutable_frame_chunk() = Encode(scenario_, samples);
-  Keep(std::move(event));
+  v1::FrameChunk chunk = Encode(scenario_, samples);
+  passings_.See(chunk);
+  for (v1::FrameChunk& part : SplitColumns(std::move(chunk))) {
+    v1::Event event = Event();
+    *event.mutable_frame_chunk() = std::move(part);
+    if (!writer_.Add(std::move(event))) return;
+  }
 }
 
 void RunRecorder::OnProgress(const Progress& progress) {

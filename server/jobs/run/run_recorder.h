@@ -9,6 +9,7 @@
 #include "jobs/run/assignment.h"
 #include "jobs/run/log_writer.h"
 #include "simulation/run.h"
+#include "wire/chunk_columns.h"
 #include "wire/result_advice.h"
 
 namespace contact {
@@ -60,6 +61,8 @@ class RunRecorder final : public Observer {
   std::chrono::steady_clock::time_point last_checkpoint_;
   std::chrono::steady_clock::time_point last_progress_ = {};
   Passings passings_;
+  /// Of the chunks that Keep takes.
+  ColumnJoiner joiner_;
 };
 
 }  // namespace contact

@@ -39,9 +39,9 @@ class Observer {
 
 /// The most rows of Samples in one call of OnSamples.
 inline constexpr int kSamplesPerChunk = 256;
-/// The most values in one call, unless a single row has more: 1 MiB, so that it fits into a
-/// message.
-inline constexpr int kValuesPerChunk = 128 * 1024;
+/// The most values in one call, unless a single row has more: 512 KiB, so that it fits into a
+/// message with the names of its columns.
+inline constexpr int kValuesPerChunk = 64 * 1024;
 
 /// The most rows of so many columns, at least 1, in one call of OnSamples.
 constexpr int RowsPerChunk(int columns) {

@@ -23,6 +23,20 @@ v1::Event Chunk(std::int64_t first, const std::vector<double>& values) {
   return event;
 }
 
+// The columns of a sample, of which each but the first has an event of its own.
+std::vector<v1::Event> SplitChunk(std::uint64_t sequence, double time, double value) {
+  std::vector<v1::Event> events;
+  for (const char* name : {"a", "b"}) {
+    v1::Event& event = events.emplace_back(Chunk(std::int64_t(time), {time}));
+    event.set_sequence(sequence++);
+    event.mutable_frame_chunk()->set_columns_follow(events.size() == 1);
+    v1::FrameChunk::Column& column = *event.mutable_frame_chunk()->add_columns();
+    column.set_name(name);
+    column.set_values(Chunk(0, {value++}).frame_chunk().columns(0).values());
+  }
+  return events;
+}
+
 v1::Event Pass(int episode, int number) {
   v1::Event event;
   event.mutable_iteration()->set_episode(episode);
@@ -39,6 +53,23 @@ TEST(Recorder, JoinsChunksInOrderAndHearsEachOnce) {
   ASSERT_EQ(recorder.Columns().size(), 1U);
   EXPECT_EQ(recorder.Columns()[0].unit, "s");
   EXPECT_THAT(recorder.Columns()[0].values, ElementsAre(1, 2, 3, 4));
+}
+
+TEST(Recorder, JoinsColumnsThatCameInSeveralEvents) {
+  Recorder recorder;
+  for (const double time : {1, 0, 2}) {
+    const auto sequence = static_cast<std::uint64_t>(2 * time + 1);
+    for (const auto& event : SplitChunk(sequence, time, 10 * time)) recorder.OnEvent(event);
+  }
+  EXPECT_FALSE(recorder.has_holes());
+  recorder.OnEvent(SplitChunk(7, 3, 30)[0]);  // The rest is not there yet.
+  const auto columns = recorder.Columns();
+  ASSERT_EQ(columns.size(), 3U);
+  EXPECT_THAT(columns[0].values, ElementsAre(0, 1, 2));
+  EXPECT_THAT(columns[1].values, ElementsAre(0, 10, 20));
+  EXPECT_THAT(columns[2].values, ElementsAre(1, 11, 21));
+  recorder.OnEvent(SplitChunk(8, 3, 30)[1]);  // Another event than the one that has the rest.
+  EXPECT_TRUE(recorder.has_holes());
 }
 
 TEST(Recorder, NoticesChunksThatDidNotCome) {
