@@ -1,5 +1,6 @@
 #include "jobs/watches.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -7,6 +8,20 @@
 #include "jobs/log/jobs_cursor.h"
 
 namespace contact {
+namespace {
+
+// A message is not worth to be larger, and not to be smaller.
+constexpr std::size_t kMostBytes = std::size_t{256} * 1024;
+constexpr std::size_t kLeastBytes = std::size_t{16} * 1024;
+// Of the messages of all watchers, as long as none is smaller than the least.
+constexpr std::size_t kAllBytes = std::size_t{64} << 20;
+
+}  // namespace
+
+std::size_t MessageBytes(int watchers) {
+  return std::clamp(kAllBytes / static_cast<std::size_t>(std::max(watchers, 1)), kLeastBytes,
+                    kMostBytes);
+}
 
 void Watches::WatchJob(const Principal& caller, const v1::WatchJobRequest& request, Wake wake,
                        Callback<WatchedJob> done) {
@@ -43,7 +58,8 @@ WatchedJob Watches::Open(const v1::WatchJobRequest& request, WatchRules rules, S
   auto cursor = std::make_unique<DeliveryCursor>(std::move(tail), std::move(behind), parts_.clock,
                                                  rules.delivery);
   return {std::move(job), std::move(cursor), rules.bookmark_interval,
-          rules.delivery.min_frame_interval.count() > 0};
+          rules.delivery.min_frame_interval.count() > 0,
+          [watchers = parts_.watchers] { return MessageBytes(watchers.taken()); }};
 }
 
 Result<Watches::Jobs> Watches::WatchJobs(const Principal& caller,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <functional>
 #include <memory>
 
 #include "base/clock.h"
@@ -18,6 +20,10 @@
 
 namespace contact {
 
+/// Bytes of a message, about, while so many watch: a reader that takes nothing keeps one, so all
+/// together have a bounded number.
+std::size_t MessageBytes(int watchers);
+
 /// A job that is watched.
 struct WatchedJob {
   /// The job when the watch began, without ledger.
@@ -28,6 +34,8 @@ struct WatchedJob {
   std::chrono::milliseconds bookmark_interval{0};
   /// True if the cursor may have something new because time has passed.
   bool paced = false;
+  /// Bytes that the next message may have, about: the fewer, the more watchers there are.
+  std::function<std::size_t()> message_bytes = [] { return MessageBytes(1); };
 };
 
 /// Opens watches of one job and of all jobs. Thread-safe; no call waits.

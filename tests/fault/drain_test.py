@@ -114,7 +114,10 @@ class StuckCrowdTest(FaultTest):
             client.sendall(b"".join(http2.headers(stream, WATCH) + http2.message(stream, request)
                                     for stream in range(1, 201, 2)))
         each = (self.settled() - base) / 10_000 * 1000
-        self.assertKept("kilobytes_a_watcher", each, 256, "kB", slack=1)
+        self.assertKept("kilobytes_a_watcher", each, 64, "kB", slack=1)
+        code, elapsed = self.server.terminate()
+        self.assertEqual(code, 0, self.server.log())
+        self.assertKept("exit", elapsed, 5, slack=1)
 
     def settled(self):
         """Memory once it has grown by less than a megabyte in a second, in MB."""

@@ -22,7 +22,8 @@ using namespace std::chrono_literals;
 // A cursor that reads what the test has put in, and waits otherwise.
 class FakeCursor final : public LogCursor {
  public:
-  Next Read(std::size_t /*max_bytes*/, std::vector<LogRecord>* out) override {
+  Next Read(std::size_t bytes, std::vector<LogRecord>* out) override {
+    max_bytes = bytes;
     if (end) return *end;
     if (records.empty()) return Next::kWait;
     for (LogRecord& record : records) {
@@ -37,6 +38,7 @@ class FakeCursor final : public LogCursor {
 
   std::vector<LogRecord> records;
   std::optional<Next> end;
+  std::size_t max_bytes = 0;  // Of the last Read.
 
  private:
   std::uint64_t position_ = 0;
@@ -51,6 +53,7 @@ class WatchSourceTest : public testing::Test {
     watched.snapshot.set_name("jobs/a");
     watched.cursor = std::move(cursor);
     watched.bookmark_interval = 10s;
+    watched.message_bytes = [this] { return message_bytes_; };
     source_ = MakeWatchSource(std::move(watched), clock_, metrics_);
   }
 
@@ -76,6 +79,7 @@ class WatchSourceTest : public testing::Test {
   FakeClock clock_;
   StreamMetrics metrics_;
   FakeCursor* cursor_ = nullptr;
+  std::size_t message_bytes_ = 1000;
   std::unique_ptr<StreamSource<grpc::ByteBuffer>> source_;
   bool ended_ = false;
   std::optional<Error> error_;
@@ -93,6 +97,15 @@ TEST_F(WatchSourceTest, SnapshotComesFirstAndOnce) {
   EXPECT_EQ(second->events(0).sequence(), 1U);
   EXPECT_FALSE(Read());
   EXPECT_FALSE(ended_ || error_);
+}
+
+TEST_F(WatchSourceTest, EachMessageHasTheSizeOfItsTime) {
+  Read();
+  for (const std::size_t bytes : {1000U, 16U}) {
+    message_bytes_ = bytes;
+    Read();
+    EXPECT_EQ(cursor_->max_bytes, bytes);
+  }
 }
 
 TEST_F(WatchSourceTest, BookmarkTellsThePositionOnceAnInterval) {

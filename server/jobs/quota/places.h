@@ -32,6 +32,8 @@ class Places {
 
   /// Number of places that are open to the caller, free and taken.
   int open(const Principal& caller) const { return OpenTo(caller, count_, kept_); }
+  /// Number of places that are taken.
+  int taken() const { return *taken_; }
 
  private:
   const int count_;

@@ -16,10 +16,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::size_t kMaxBatchBytes = std::size_t{256} * 1024;
-// What a reader costs that never takes anything.
-constexpr std::size_t kFirstBatchBytes = std::size_t{64} * 1024;
-
 // Number of events that a gap stands for; 0 for every other record.
 std::int64_t LeftOut(const LogRecord& record) {
   v1::Event event;
@@ -39,7 +35,7 @@ class WatchSource final : public StreamSource<grpc::ByteBuffer> {
   StreamStep Read(grpc::ByteBuffer* out) override {
     if (!std::exchange(snapshot_sent_, true)) return SendSnapshot(out);
     std::vector<LogRecord> records;
-    switch (watched_.cursor->Read(std::exchange(batch_bytes_, kMaxBatchBytes), &records)) {
+    switch (watched_.cursor->Read(watched_.message_bytes(), &records)) {
       case LogCursor::Next::kEvents:
       case LogCursor::Next::kWait:
         return {.has_message = Write(records, out)};
@@ -100,8 +96,7 @@ class WatchSource final : public StreamSource<grpc::ByteBuffer> {
   const Clock& clock_;
   StreamMetrics& metrics_;
   bool snapshot_sent_ = false;
-  std::size_t batch_bytes_ = kFirstBatchBytes;  // Of the next message, about.
-  steady_clock::time_point last_told_;          // When a place to resume from was sent.
+  steady_clock::time_point last_told_;  // When a place to resume from was sent.
 };
 
 }  // namespace

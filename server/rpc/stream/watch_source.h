@@ -12,7 +12,7 @@
 namespace contact {
 
 /// The messages of one WatchJob call, as serialised WatchJobResponses: the snapshot, then the
-/// events that the cursor of `watched` reads, in batches of up to 256 KiB, then a bookmark whenever
+/// events that the cursor of `watched` reads, in batches of MessageBytes, then a bookmark whenever
 /// nothing else has told a sequence to resume from for `watched.bookmark_interval`. An event is
 /// serialised once for all watchers.
 ///
