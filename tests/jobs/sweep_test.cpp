@@ -1,6 +1,7 @@
 #include <atomic>
 #include <future>
 #include <map>
+#include <thread>
 #include <utility>
 
 #include "jobs_fixture.h"
@@ -68,6 +69,32 @@ TEST_F(SweepTest, ManyWorkersFindWhatOneFinds) {
   const std::string together = Create(Study(8, 5)).value().name();
   Ended(together);
   EXPECT_EQ(Cells(together), serial);
+}
+
+// Its cells last until they are let go, and come to a boundary now and then.
+TEST_F(SweepTest, HelperLeavesItsCellToAnotherJobAndTheCellIsComputedLater) {
+  std::atomic<int> begun = 0;
+  std::atomic<bool> let_go = false;
+  JobOptions options{.workers = 2};
+  options.run = [&](const Scenario& scenario, Observer& observer, const std::stop_token& stop) {
+    if (scenario.end_time == 1e-3) return Outcome{};  // The other job.
+    ++begun;
+    while (!let_go && !stop.stop_requested()) {
+      observer.OnBoundary([] { return RunState(); });
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return stop.stop_requested() ? Ending(Outcome::End::kStopped) : Outcome{};
+  };
+  Open(std::move(options));
+  const std::string study = Create(Study(2, 1)).value().name();
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (begun < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  EXPECT_EQ(Ended(Create(BouncingBall(1e-3))).state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(Get(study).value().state(), v1::Job::RUNNING);
+  let_go = true;
+  EXPECT_EQ(Ended(study).state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(Cells(study).size(), 2U);
+  EXPECT_GE(begun, 3);
 }
 
 TEST_F(SweepTest, CellEqualsAJobOfItsScenario) {

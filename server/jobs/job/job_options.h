@@ -7,6 +7,7 @@
 #include <memory>
 #include <stop_token>
 
+#include "base/resident_memory.h"
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job/budget.h"
 #include "jobs/job/job_metrics.h"
@@ -70,8 +71,11 @@ struct JobOptions {
   int max_watchers = 10'000;
   /// What a scenario or sweep may hold.
   ScenarioLimits scenario_limits = {};
-  /// Largest budget of a job; also that of a job that asks for none.
+  /// Largest budget of a job; also that of a job that asks for none. While the process takes more
+  /// memory than all workers may have by it, no run begins beside another.
   RunBudget max_budget = {};
+  /// Memory that the process takes [B]; tests replace it.
+  std::function<std::int64_t()> resident = ResidentMemory;
   /// Attempts of a job that is running whenever the server dies; then it fails.
   int max_attempts = 3;
   /// Time without a step after which a run is stopped, see Watchdog; 0: none.

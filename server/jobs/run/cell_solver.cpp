@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <stop_token>
 #include <string>
 #include <utility>
 
 #include "jobs/job/errors.h"
 #include "jobs/job/lifecycle.h"
+#include "wire/chunk_columns.h"
 #include "wire/ledger_codec.h"
 #include "wire/result_codec.h"
 
@@ -16,20 +19,23 @@ namespace {
 // Keeps of a run what metrics may ask for, and its samples if it records any.
 class CellObserver final : public Observer {
  public:
-  CellObserver(const Scenario& scenario, RunControl& control, const std::function<void()>& write,
+  CellObserver(const Scenario& scenario, RunControl& control, const Meanwhile& meanwhile,
                v1::Job* result, std::vector<v1::FrameChunk>* trajectory)
       : scenario_(scenario),
         control_(control),
-        write_(write),
+        meanwhile_(meanwhile),
         result_(result),
         trajectory_(trajectory) {}
 
   void OnCycle(const Cycle& cycle) override { *result_->add_cycles() = Encode(scenario_, cycle); }
   void OnGroup(const Group& group) override { *result_->add_groups() = Encode(scenario_, group); }
   void OnSamples(const Samples& samples) override {
-    trajectory_->push_back(Encode(scenario_, samples));
+    std::ranges::move(SplitColumns(Encode(scenario_, samples)), std::back_inserter(*trajectory_));
   }
-  void OnProgress(const Progress& /*progress*/) override { write_(); }
+  void OnProgress(const Progress& /*progress*/) override { meanwhile_.write(); }
+  void OnBoundary(const std::function<RunState()>& /*state*/) override {
+    if (meanwhile_.leave()) stop_.request_stop();
+  }
   // In batches: all workers count on the same number.
   void OnStep() override {
     if (++steps_ == kBatch) TellSteps();
@@ -37,14 +43,20 @@ class CellObserver final : public Observer {
 
   void TellSteps() { control_.CountSteps(std::exchange(steps_, 0)); }
 
+  // Of the cell: with the run, or before it.
+  std::stop_token token() const { return stop_.get_token(); }
+
  private:
   static constexpr std::int64_t kBatch = 64;
 
   const Scenario& scenario_;
   RunControl& control_;
-  const std::function<void()>& write_;
+  const Meanwhile& meanwhile_;
   v1::Job* result_;
   std::vector<v1::FrameChunk>* trajectory_;
+  std::stop_source stop_;
+  const std::stop_callback<std::function<void()>> with_run_{control_.token(),
+                                                            [this] { stop_.request_stop(); }};
   std::int64_t steps_ = 0;  // Not told yet.
 };
 
@@ -60,11 +72,11 @@ CellSolver::CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan, const J
     : sweep_(sweep), plan_(plan), options_(options), fields_(sweep, &none_) {}
 
 std::optional<SolvedCell> CellSolver::Solve(std::int32_t index, RunControl& control,
-                                            const std::function<void()>& write) {
+                                            const Meanwhile& meanwhile) {
   SolvedCell solved;
   solved.cell.set_index(index);
   try {
-    if (!Compute(control, write, &solved)) return std::nullopt;
+    if (!Compute(control, meanwhile, &solved)) return std::nullopt;
   } catch (...) {
     const Transition transition = TransitionAfterException();
     Fail(transition.state_reason, transition.message, &solved.cell);
@@ -72,8 +84,7 @@ std::optional<SolvedCell> CellSolver::Solve(std::int32_t index, RunControl& cont
   return solved;
 }
 
-bool CellSolver::Compute(RunControl& control, const std::function<void()>& write,
-                         SolvedCell* solved) {
+bool CellSolver::Compute(RunControl& control, const Meanwhile& meanwhile, SolvedCell* solved) {
   v1::SweepCell* const cell = &solved->cell;
   std::vector<double> values = plan_.axes.Values(cell->index());
   DecodedScenario decoded = DecodeScenario(fields_.Set(values), options_.scenario_limits);
@@ -86,14 +97,14 @@ bool CellSolver::Compute(RunControl& control, const std::function<void()>& write
   }
   const auto& kept = sweep_.keep_trajectories();
   if (std::ranges::find(kept, cell->index()) == kept.end()) decoded.scenario.sample_interval = 0;
-  return Run(decoded.scenario, control, write, solved);
+  return Run(decoded.scenario, control, meanwhile, solved);
 }
 
-bool CellSolver::Run(const Scenario& scenario, RunControl& control,
-                     const std::function<void()>& write, SolvedCell* solved) const {
+bool CellSolver::Run(const Scenario& scenario, RunControl& control, const Meanwhile& meanwhile,
+                     SolvedCell* solved) const {
   v1::Job result;
-  CellObserver observer(scenario, control, write, &result, &solved->trajectory);
-  const Outcome outcome = options_.run(scenario, observer, control.token());
+  CellObserver observer(scenario, control, meanwhile, &result, &solved->trajectory);
+  const Outcome outcome = options_.run(scenario, observer, observer.token());
   observer.TellSteps();
   const Transition transition = TransitionAfter(outcome);
   if (transition.to == v1::Job::CANCELLED) return false;

@@ -21,6 +21,13 @@ struct SolvedCell {
   std::vector<v1::FrameChunk> trajectory;
 };
 
+/// What a thread does now and then while it computes a cell.
+struct Meanwhile {
+  std::function<void()> write;
+  /// Called between two episodes. True: the cell is to be left, somebody else needs the thread.
+  std::function<bool()> leave;
+};
+
 /// Computes cells of a sweep, one at a time. Holds a copy of the base scenario. Not thread-safe:
 /// each thread that computes has a solver of its own.
 class CellSolver {
@@ -29,15 +36,15 @@ class CellSolver {
   CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan, const JobOptions& options);
 
   /// Computes the cell with this number: a pure function of the sweep and the number. Counts its
-  /// steps on `control`, and calls `write` now and then meanwhile. Nothing if the run was stopped.
+  /// steps on `control`. Nothing if the run was stopped or the cell was left.
   std::optional<SolvedCell> Solve(std::int32_t index, RunControl& control,
-                                  const std::function<void()>& write);
+                                  const Meanwhile& meanwhile);
 
  private:
-  /// Fills `solved`, whose index is set. False if the run was stopped.
-  bool Compute(RunControl& control, const std::function<void()>& write, SolvedCell* solved);
-  /// Solves the scenario of a cell and takes over its result. False if the run was stopped.
-  bool Run(const Scenario& scenario, RunControl& control, const std::function<void()>& write,
+  /// Fills `solved`, whose index is set. False if there is no result.
+  bool Compute(RunControl& control, const Meanwhile& meanwhile, SolvedCell* solved);
+  /// Solves the scenario of a cell and takes over its result. False if there is none.
+  bool Run(const Scenario& scenario, RunControl& control, const Meanwhile& meanwhile,
            SolvedCell* solved) const;
 
   const v1::Sweep& sweep_;

@@ -38,19 +38,20 @@ class SweepRun {
   /// The control of the attempt that runs the sweep.
   const std::shared_ptr<RunControl>& control() const { return control_; }
 
-  /// True while there is a cell that nobody has begun.
+  /// True while there is a cell that nobody computes or has computed.
   bool HasWork() const;
-  /// Computes cells until `slice` has passed, at least one. False: there was none left.
-  bool Work(std::chrono::milliseconds slice);
-  /// Waits until no thread computes a cell, at most for `limit` of real time. False: one still
-  /// does.
-  bool AwaitIdle(std::chrono::milliseconds limit);
+  /// Computes cells until `slice` has passed, at least one, unless it has to `leave` that: see
+  /// Meanwhile. False: there was none left.
+  bool Work(std::chrono::milliseconds slice, const std::function<bool()>& leave);
+  /// Waits until all cells are computed, or one is left for the caller to compute, at most for
+  /// `limit` of real time. True: all are.
+  bool AwaitEnd(std::chrono::milliseconds limit);
 
  private:
   /// The cell that the calling thread is to compute; none if there is none left.
   std::optional<std::int32_t> Claim();
-  /// Says that the sink has the claimed cell.
-  void Release();
+  /// Says that the sink has the claimed cell, or that somebody else is to compute it.
+  void Release(std::int32_t cell, bool computed);
   /// Moves next_ past the cells that were computed before.
   void SkipDone() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// As HasWork.
@@ -68,6 +69,8 @@ class SweepRun {
   mutable Mutex mutex_;
   /// Notified when a cell was released.
   std::condition_variable_any released_;
+  /// Cells that were begun and left.
+  std::vector<std::int32_t> left_ ABSL_GUARDED_BY(mutex_);
   /// The next cell to begin, or the number of cells.
   std::int32_t next_ ABSL_GUARDED_BY(mutex_) = 0;
   /// Cells that were begun and that the sink has not taken.

@@ -46,11 +46,17 @@ Transition SweepRunner::Run(const v1::Sweep& sweep) {
   const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), clock_,
                                               options_, assignment_.control, sink);
   if (const RunControl::Hold hold(*assignment_.control); hold) assignment_.offer(run);
-  while (run->Work(kSlice)) {
-    if (assignment_.control->yielding()) assignment_.yield();
-  }
-  while (!run->AwaitIdle(kWriteTime)) WriteIfDue();
+  do {
+    while (run->Work(kSlice, [this] { return Yield(); })) Yield();
+    WriteIfDue();
+    Yield();
+  } while (!run->AwaitEnd(kWriteTime));
   return Conclude(advice);
+}
+
+bool SweepRunner::Yield() {
+  if (assignment_.control->yielding()) assignment_.yield();
+  return false;
 }
 
 bool SweepRunner::ReadDone(std::vector<bool>* done) {

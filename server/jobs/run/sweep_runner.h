@@ -31,6 +31,8 @@ class SweepRunner {
   Transition Run(const v1::Sweep& sweep);
 
  private:
+  /// Lets others compute if the run is asked to. False: the cell under way is not left.
+  bool Yield();
   /// Notes which cells an earlier attempt has stored. A damaged one is computed again. False: the
   /// log cannot be read.
   bool ReadDone(std::vector<bool>* done);

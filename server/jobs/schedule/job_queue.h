@@ -35,6 +35,8 @@ class JobQueue {
   /// attempt. Nothing if there is none. It counts as running from `now` [s] until Ended.
   std::optional<std::string> Pop(bool careful, double now);
 
+  /// True if Pop has one.
+  bool ready(bool careful) const { return First(careful).has_value(); }
   /// As Pop, for this job alone. False: it has not waited.
   bool Take(const Share& share, std::int32_t priority, std::uint64_t number, double now);
 

@@ -17,6 +17,10 @@ namespace {
 
 // After so long a helper looks whether a job has come that needs a worker.
 constexpr std::chrono::milliseconds kHelpTime{10};
+// A helper in a long cell leaves it when a job has waited for so long [s].
+constexpr double kLeaveTime = 0.5;
+// How often it looks for that [s].
+constexpr double kLookTime = 0.01;
 // What the runs have to end in when the server does.
 constexpr std::chrono::seconds kEndTime{2};
 
@@ -171,7 +175,7 @@ void Scheduler::Work(Worker& worker) {
   JobRunner runner(store_, clock_, options_, endings_, shutdown_.get_token());
   for (Task task = Next(worker); task.job || task.sweep; task = Next(worker)) {
     if (task.sweep) {
-      task.sweep->Work(kHelpTime);
+      task.sweep->Work(kHelpTime, [this, look = Look()]() mutable { return IsWanted(&look); });
     } else {
       runner.Run(*std::move(task.job), [this, name = task.name] { Remove(name); });
     }
@@ -185,6 +189,10 @@ Scheduler::Task Scheduler::Next(Worker& worker) {
   const MutexLock lock(mutex_);
   for (;;) {
     if (shutdown_.stop_requested()) return {};
+    if (crowded_ && !turns_.idle()) {
+      changed_.wait(mutex_);
+      continue;
+    }
     if (const auto next = turns_.Take(careful(), Now())) {
       if (next->parked) {  // Its thread goes on.
         changed_.notify_all();
@@ -210,12 +218,43 @@ void Scheduler::EndTask(const Task& task) {
   if (task.sweep || !turns_.End(task.name, Now())) turns_.GiveBack();
 }
 
+bool Scheduler::IsWanted(Look* look) const {
+  const double now = Now();
+  if (now - look->last < kLookTime) return false;
+  look->last = now;
+  const MutexLock lock(mutex_);
+  if (!turns_.ready(careful())) {
+    look->since.reset();
+  } else if (!look->since) {
+    look->since = now;
+  }
+  return look->since && now - *look->since > kLeaveTime;
+}
+
 bool Scheduler::careful() const {
   return std::ranges::any_of(running_, [](const auto& job) { return job.second; });
 }
 
+bool Scheduler::IsCrowded(bool before) const {
+  const std::int64_t most = options_.max_budget.memory_bytes * options_.workers;
+  return most > 0 && options_.resident() > (before ? most / 10 * 9 : most);
+}
+
+void Scheduler::SetCrowded(bool crowded) {
+  if (std::exchange(crowded_, crowded) == crowded) return;
+  if (crowded) {
+    spdlog::warn("more memory is taken than {} workers may have; no run begins beside another",
+                 options_.workers);
+  } else {
+    spdlog::info("there is memory for runs again");
+    changed_.notify_all();
+  }
+}
+
 void Scheduler::Balance() {
   const MutexLock lock(mutex_);
+  SetCrowded(IsCrowded(crowded_));
+  if (crowded_) return;  // Whoever yields keeps his memory.
   const auto name = turns_.ToYield(careful(), Now());
   if (!name) return;
   if (const auto found = active_.find(*name); found != active_.end()) {

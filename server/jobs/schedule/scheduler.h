@@ -119,8 +119,23 @@ class Scheduler {
   Task Next(Worker& worker);
   /// The calling thread has ended its task.
   void EndTask(const Task& task) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  /// Asks a run to yield if others have waited for too long.
+  /// What a helper knows of jobs that need a worker.
+  struct Look {
+    /// When it looked last [s].
+    double last = 0;
+    /// Since when there is one [s].
+    std::optional<double> since = {};
+  };
+  /// Looks. True if one has waited for too long, so that the helper is to leave its cell.
+  bool IsWanted(Look* look) const;
+  /// Looks at the memory of the process, and asks a run to yield if others have waited for too
+  /// long.
   void Balance();
+  /// True if the process takes more memory than all workers may have. A little less than that does
+  /// not end it, or it would come and go.
+  bool IsCrowded(bool before) const;
+  /// Notes that, and tells the log.
+  void SetCrowded(bool crowded) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Has the calling worker wait while it is another's turn.
   void Yield(const std::string& name, RunControl& control);
   /// True if a job runs on its last attempt, see the class comment.
@@ -153,6 +168,8 @@ class Scheduler {
   /// By the names of the jobs.
   std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
   Turns turns_ ABSL_GUARDED_BY(mutex_);
+  /// While it is true no run begins beside another, see IsCrowded.
+  bool crowded_ ABSL_GUARDED_BY(mutex_) = false;
   /// Threads that wait in Next, or will soon.
   int idle_ ABSL_GUARDED_BY(mutex_) = 0;
   /// Specs of jobs in the queue.

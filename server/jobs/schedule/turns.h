@@ -36,6 +36,8 @@ class Turns {
   /// Number of jobs that have not begun.
   int waiting() const { return static_cast<int>(queue_.size()) - parked_; }
 
+  /// True if a job waits that Take would have if a worker were free.
+  bool ready(bool careful) const { return queue_.ready(careful); }
   /// The job that computes from now on; nothing if no worker is free or none waits.
   struct Next {
     std::string name;
@@ -57,6 +59,8 @@ class Turns {
   /// True while it waits.
   bool parked(const std::string& name) const;
 
+  /// True if no worker is busy.
+  bool idle() const { return busy_ <= 0; }
   /// Takes a free worker for something that is no job. False: there is none.
   bool Borrow();
   void GiveBack(int workers = 1) { busy_ -= workers; }
