@@ -46,6 +46,8 @@ void LimitMemory(const GrpcServerOptions& options, grpc::ServerBuilder* builder)
   builder->SetMaxReceiveMessageSize(options.max_message_bytes);
   builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, options.calls.max_metadata_bytes);
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 1000);
+  // Calls are accepted only when all that was read at once is parsed: of a flood, thousands.
+  builder->AddChannelArgument(GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, 64 << 10);
   // A few compressed bytes must not become hundreds of megabytes.
   builder->SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
   builder->SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
@@ -154,11 +156,15 @@ std::optional<int> GrpcServer::Listen(Listener listener, grpc::ServerBuilder& bu
   server_ = builder.BuildAndStart();
   if (!server_) return std::nullopt;
   acceptor_ = std::make_unique<ConnectionAcceptor>(
-      std::move(listener), options_.connections, [grpc](int socket, int fd) {
+      std::move(listener), options_.connections,
+      [grpc](int socket, int fd) {
         grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
         connection.listener_fd = socket;
         connection.fd = fd;
         grpc->HandleNewConnection(&connection);
+      },
+      [this](const std::vector<Traffic>& all) {
+        floods_->Look(all, std::chrono::steady_clock::now());
       });
   floods_->SetCut([this](const std::string& uri) { acceptor_->Cut(uri); });
   return port;

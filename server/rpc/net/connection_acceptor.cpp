@@ -28,6 +28,12 @@ using std::chrono::steady_clock;
 constexpr rlim_t kOtherDescriptors = 100;
 // Time between two searches for closed connections while there are too many.
 constexpr milliseconds kForgetInterval{10};
+// Time between two looks at the traffic in ms, and connections that make it longer by one.
+constexpr int kLeastLookTime = 50;
+constexpr int kConnectionsPerMs = 20;
+// Bytes of a connection that the system keeps until gRPC reads them. A flood that is cut is read up
+// to its end.
+constexpr int kReceiveBuffer = 256 << 10;
 // Time to wait after the process has run out of descriptors.
 constexpr milliseconds kDescriptorWait{50};
 
@@ -54,11 +60,13 @@ std::string UriOf(const sockaddr_storage& address) {
   return fmt::format("ipv6:%5B{}%5D:{}", AddressOf(address), ntohs(v6.sin6_port));
 }
 
-// Sets TCP_NODELAY, as gRPC's own listener does, and a limit on the time that sent bytes may stay
-// unacknowledged: gRPC has none, because it sends no pings while a write is under way.
+// Sets TCP_NODELAY, as gRPC's own listener does, the size of the receive buffer, and a limit on the
+// time that sent bytes may stay unacknowledged: gRPC has none, because it sends no pings while a
+// write is under way.
 void Prepare(int fd, milliseconds stall) {
   const int on = 1;
   setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+  setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof(kReceiveBuffer));
   const auto limit = static_cast<unsigned>(stall.count());
   setsockopt(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, &limit, sizeof(limit));
 }
@@ -94,10 +102,11 @@ ConnectionLimits FitToDescriptors(ConnectionLimits wanted) {
 }
 
 ConnectionAcceptor::ConnectionAcceptor(Listener listener, ConnectionLimits limits,
-                                       HandOver hand_over)
+                                       HandOver hand_over, Look look)
     : listener_(std::move(listener)),
       limits_(limits),
       hand_over_(std::move(hand_over)),
+      look_(std::move(look)),
       stop_(eventfd(0, EFD_CLOEXEC)),
       thread_([this] { Loop(); }) {}
 
@@ -135,6 +144,7 @@ void ConnectionAcceptor::Loop() {
     const int ready = poll(waiting.data(), waiting.size(), PollTime());
     if (waiting.front().revents != 0) return;
     CutStalled();
+    TellTraffic();
     for (std::size_t i = 1; ready > 0 && i < waiting.size(); ++i) {
       if (waiting[i].revents != 0 && !AcceptOrWait(waiting[i].fd)) return;
     }
@@ -150,14 +160,35 @@ bool ConnectionAcceptor::AcceptOrWait(int listener) {
 
 int ConnectionAcceptor::PollTime() const {
   constexpr milliseconds::rep kLooks = 8;  // In the time of a stall.
-  if (listener_.file.empty()) return -1;
-  return static_cast<int>(std::max<milliseconds::rep>(1, limits_.stall.count() / kLooks));
+  if (!listener_.file.empty()) {
+    return static_cast<int>(std::max<milliseconds::rep>(1, limits_.stall.count() / kLooks));
+  }
+  const MutexLock lock(mutex_);
+  if (!look_ || connections_.size() == 0) return -1;
+  // Looking at all of them takes a few percent of the time.
+  return std::max(kLeastLookTime, static_cast<int>(connections_.size()) / kConnectionsPerMs);
+}
+
+void ConnectionAcceptor::TellTraffic() {
+  const auto now = steady_clock::now();
+  const int time = PollTime();
+  std::vector<Traffic> all;
+  {
+    const MutexLock lock(mutex_);
+    if (!listener_.file.empty() || time < 0 || now - looked_ < milliseconds(time)) return;
+    looked_ = now;
+    connections_.ForgetClosed();
+    all = connections_.Traffics();
+  }
+  look_(all);
 }
 
 void ConnectionAcceptor::CutStalled() {
+  if (listener_.file.empty()) return;
   const auto now = steady_clock::now();
+  const int time = PollTime();
   const MutexLock lock(mutex_);
-  if (listener_.file.empty() || now - looked_ < milliseconds(PollTime())) return;
+  if (now - looked_ < milliseconds(time)) return;
   connections_.CutStalled(now, limits_.stall);
   looked_ = now;
 }

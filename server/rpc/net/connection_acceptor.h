@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "base/file_descriptor.h"
 #include "base/mutex.h"
@@ -39,8 +40,13 @@ class ConnectionAcceptor {
   /// thread.
   using HandOver = std::function<void(int listener, int fd)>;
 
+  /// Is told the traffic of all open connections of the network, many times a second. Called on the
+  /// acceptor's thread; may call Cut.
+  using Look = std::function<void(const std::vector<Traffic>& all)>;
+
   /// Starts to accept.
-  ConnectionAcceptor(Listener listener, ConnectionLimits limits, HandOver hand_over);
+  ConnectionAcceptor(Listener listener, ConnectionLimits limits, HandOver hand_over,
+                     Look look = {});
   ~ConnectionAcceptor();
   ConnectionAcceptor(const ConnectionAcceptor&) = delete;
   ConnectionAcceptor& operator=(const ConnectionAcceptor&) = delete;
@@ -62,8 +68,10 @@ class ConnectionAcceptor {
  private:
   /// Body of the thread.
   void Loop();
-  /// Time in ms that poll waits before stalled connections are searched; -1: any time.
+  /// Time in ms that poll waits before connections are looked at; -1: any time.
   int PollTime() const;
+  /// Tells look_ the traffic if it is time.
+  void TellTraffic();
   /// Cuts stalled connections of a socket file. Those of the network are cut by the system.
   void CutStalled();
   /// Accepts a connection; waits a moment if there is no descriptor for it. False: stopped.
@@ -82,6 +90,7 @@ class ConnectionAcceptor {
   const ConnectionLimits limits_;
   /// Gives connections to gRPC.
   const HandOver hand_over_;
+  const Look look_;
   /// An eventfd; readable once Close was called.
   const FileDescriptor stop_;
   /// True while there is no descriptor for a connection. Only for the thread.
@@ -94,7 +103,7 @@ class ConnectionAcceptor {
   mutable OpenConnections connections_ ABSL_GUARDED_BY(mutex_);
   /// Time of the last ForgetClosed.
   std::chrono::steady_clock::time_point forgot_ ABSL_GUARDED_BY(mutex_);
-  /// Time of the last CutStalled.
+  /// Time of the last CutStalled or TellTraffic.
   std::chrono::steady_clock::time_point looked_ ABSL_GUARDED_BY(mutex_);
   std::thread thread_;  // Last: it uses all of the above.
 };

@@ -1,19 +1,23 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/mutex.h"
+#include "rpc/net/open_connections.h"
 
 namespace contact {
 
-/// Cuts connections that flood the server with calls: those that have more open at once than the
+/// Cuts connections that flood the server: those that have more calls open at once than the
 /// server's HTTP/2 settings allow, which gRPC 1.51 does not enforce before a client has confirmed
-/// them, and those that take back hundreds in a second. Clients of a socket file cannot be told
-/// apart, and are not looked at. Thread-safe; owned by shared pointers.
+/// them, those that take back hundreds in a second, and those that send far more bytes than their
+/// calls need, such as headers without end, pings or settings. Clients of a socket file cannot be
+/// told apart, and are not looked at. Thread-safe; owned by shared pointers.
 class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
  public:
   /// Cuts the connection of `ServerContext::peer()`.
@@ -26,19 +30,38 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
   /// How connections are cut from now on; empty: not at all. Waits for one that is being cut.
   void SetCut(Cut cut);
 
-  /// A call of this connection has begun.
+  /// A call of this connection has begun. Its message has not come yet.
   Lease Enter(const std::string& uri);
+  /// The message of a call has come, or it has ended without one. Once for each Enter.
+  void Asked(const std::string& uri);
+  /// A call was answered, well or with an error.
+  void Answered(const std::string& uri);
   /// A call of this connection was taken back before its end.
   void TakenBack(const std::string& uri, Time now);
+
+  /// Looks at all open connections of a listener. To be called several times a second.
+  void Look(const std::vector<Traffic>& all, Time now);
 
  private:
   /// What a connection does.
   struct Calls {
     int open = 0;
+    /// Calls whose message has not come.
+    int unasked = 0;
     /// Calls taken back since `since`.
     int taken_back = 0;
     Time since = {};
+    /// True if a call was answered after the last look.
+    bool answered = false;
+    /// It was seen by the last look.
+    bool there = false;
+    /// At the last look that found a call answered, or the first one.
+    Traffic then = {};
+    Time then_time = {};
   };
+
+  /// True if the connection has sent more than may come between two answers.
+  static bool Floods(const Calls& calls, const Traffic& traffic, Time now);
 
   /// Cuts a connection of the network, and logs it.
   void End(const std::string& uri, const char* why) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
@@ -47,7 +70,7 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
 
   Mutex mutex_;
   Cut cut_ ABSL_GUARDED_BY(mutex_);
-  /// Connections with open calls, and with such as were taken back of late.
+  /// Connections with open calls, and those that were open at the last look.
   std::map<std::string, Calls> calls_ ABSL_GUARDED_BY(mutex_);
 };
 

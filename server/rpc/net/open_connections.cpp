@@ -1,6 +1,8 @@
 #include "rpc/net/open_connections.h"
 
 #include <linux/sockios.h>
+#include <linux/tcp.h>
+#include <netinet/in.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -36,6 +38,18 @@ void OpenConnections::Cut(const std::string& uri) {
   for (const auto& [fd, socket] : sockets_) {
     if (socket.uri == uri && InodeOf(fd) == socket.inode) shutdown(fd, SHUT_RDWR);
   }
+}
+
+std::vector<Traffic> OpenConnections::Traffics() const {
+  std::vector<Traffic> all;
+  for (const auto& [fd, socket] : sockets_) {
+    tcp_info info = {};
+    socklen_t size = sizeof(info);
+    if (InodeOf(fd) != socket.inode) continue;
+    if (getsockopt(fd, IPPROTO_TCP, TCP_INFO, &info, &size) != 0) continue;
+    all.push_back({socket.uri, info.tcpi_bytes_received, info.tcpi_bytes_acked});
+  }
+  return all;
 }
 
 void OpenConnections::CutStalled(Time now, std::chrono::milliseconds stall) {

@@ -4,13 +4,23 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "rpc/net/peer.h"
 
 namespace contact {
+
+/// What the system says of a connection.
+struct Traffic {
+  /// As gRPC calls it.
+  std::string uri = {};
+  /// Bytes that have come, and bytes that its peer has confirmed to have got.
+  std::uint64_t received = 0, sent = 0;
+};
 
 /// The connections that gRPC has, by descriptor, with their peers. gRPC closes connections without
 /// telling, so stale entries are found by comparing each descriptor's inode with the one that it
@@ -34,6 +44,9 @@ class OpenConnections {
   /// Shuts down the connections whose peers have taken none of the bytes that wait for them for
   /// `stall`, as far as earlier calls have seen it. To be called several times within `stall`.
   void CutStalled(Time now, std::chrono::milliseconds stall);
+
+  /// The traffic of each connection of the network that is open.
+  std::vector<Traffic> Traffics() const;
 
   /// Number of entries, with those that gRPC has closed since ForgetClosed.
   std::size_t size() const { return sockets_.size(); }
