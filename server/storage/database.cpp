@@ -6,9 +6,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <stop_token>
 #include <system_error>
+#include <thread>
 #include <utility>
 
+#include "base/mutex.h"
 #include "storage/database_copy.h"
 #include "storage/migration.h"
 #include "storage/schema.h"
@@ -17,6 +22,10 @@ namespace contact {
 namespace {
 
 namespace fs = std::filesystem;
+
+// What is wrong with a database is looked for so long before it is used: SQLite reads every page,
+// half a gigabyte in this time if the system has them in memory.
+constexpr std::chrono::seconds kLookTime{1};
 
 // Decides whether a database may be made where there is none.
 absl::Status CheckPresence(const DataDirectory& directory) {
@@ -92,10 +101,26 @@ absl::Status Database::Check() {
                                                       ", this program knows ", kSchemaVersion,
                                                       "; start the newer program that made it"));
   }
-  const std::string verdict = connection_.execAndGet("PRAGMA quick_check(1)").getString();
+  const std::string verdict = Look();
   if (verdict != "ok") return Damaged(file, verdict);
   if (version_ == 0 && directory_.initialised()) return Damaged(file, "it has no schema");
   return absl::OkStatus();
+}
+
+std::string Database::Look() {
+  Mutex mutex;
+  std::condition_variable_any ended;
+  const std::jthread alarm([&, handle = connection_.getHandle()](const std::stop_token& stop) {
+    const MutexLock lock(mutex);
+    ended.wait_for(mutex, stop, kLookTime, [] { return false; });
+    if (!stop.stop_requested()) sqlite3_interrupt(handle);
+  });
+  try {
+    return connection_.execAndGet("PRAGMA quick_check(1)").getString();
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() != SQLITE_INTERRUPT) throw;
+    return "ok";
+  }
 }
 
 void Database::Configure(std::int64_t max_bytes) {

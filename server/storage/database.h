@@ -50,6 +50,8 @@ class Database {
   explicit Database(DataDirectory directory);
   // Fills `version_`. DATA_LOSS: damaged; FAILED_PRECONDITION: newer than this program.
   absl::Status Check();
+  // What SQLite finds wrong, or "ok". A large database is looked at in part.
+  std::string Look();
   // Puts a copy beside a database that is about to be migrated.
   void KeepOldVersion();
   // Makes the tables, or brings those of an older version up to date, and marks the directory.
