@@ -16,37 +16,36 @@ const Principal kAdmin{"root", "acme", {Role::kAdmin}, "token"};
 TEST(Places, AreGivenUpToTheirNumber) {
   for (const int count : {0, 1, 3}) {
     const Places places(count);
-    EXPECT_EQ(places.open(kUser), count);
     std::vector<Places::Place> taken;
     for (int i = 0; i < count; ++i) {
-      taken.push_back(places.Take(kUser));
+      taken.push_back(places.Take());
       EXPECT_TRUE(taken.back());
     }
-    EXPECT_FALSE(places.Take(kUser));
-    EXPECT_FALSE(places.Take(kUser)) << "a refusal takes none";
+    EXPECT_FALSE(places.Take());
+    EXPECT_FALSE(places.Take()) << "a refusal takes none";
   }
 }
 
 TEST(Places, PlaceIsFreeOnceItsLastCopyIsGone) {
   const Places places(1);
-  auto place = places.Take(kUser);
+  auto place = places.Take();
   auto copy = place;
   place = nullptr;
-  EXPECT_FALSE(places.Take(kUser));
+  EXPECT_FALSE(places.Take());
   copy = nullptr;
-  EXPECT_TRUE(places.Take(kUser));
+  EXPECT_TRUE(places.Take());
 }
 
 TEST(Places, CopiesShareThem) {
   const Places places(1);
-  const auto take = [copy = places] { return copy.Take(kUser); };
+  const auto take = [copy = places] { return copy.Take(); };
   const auto place = take();
-  EXPECT_FALSE(places.Take(kUser));
+  EXPECT_FALSE(places.Take());
 }
 
 TEST(Places, PlaceMayOutliveThem) {
   std::optional<Places> places(1);
-  const auto place = places->Take(kUser);
+  const auto place = places->Take();
   places.reset();
   EXPECT_TRUE(place);
 }
@@ -77,7 +76,7 @@ TEST(Places, ThreadsNeverHaveMoreThanThereAre) {
   for (int thread = 0; thread < 4; ++thread) {
     threads.emplace_back([&] {
       for (int i = 0; i < 10'000; ++i) {
-        if (const auto place = places.Take(kUser)) {
+        if (const auto place = places.Take()) {
           const int now = ++held;
           for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
           }

@@ -24,11 +24,10 @@ class Places {
   /// `count` places, all of them free; `kept`: see OpenTo.
   explicit Places(int count, int kept = 0) : count_(count), kept_(kept) {}
 
-  /// Takes a place. Null if all that are open to the caller are taken.
-  Place Take(const Principal& caller) const {
-    Place place(taken_.get(), [taken = taken_](const void*) { --*taken; });
-    return ++*taken_ <= open(caller) ? place : nullptr;
-  }
+  /// Takes a place, whoever it is for. Null if all are taken.
+  Place Take() const { return TakeOf(count_); }
+  /// Takes a place for the caller. Null if all that are open to it are taken.
+  Place Take(const Principal& caller) const { return TakeOf(open(caller)); }
 
   /// Number of places that are open to the caller, free and taken.
   int open(const Principal& caller) const { return OpenTo(caller, count_, kept_); }
@@ -36,6 +35,11 @@ class Places {
   int taken() const { return *taken_; }
 
  private:
+  Place TakeOf(int most) const {
+    Place place(taken_.get(), [taken = taken_](const void*) { --*taken; });
+    return ++*taken_ <= most ? place : nullptr;
+  }
+
   const int count_;
   const int kept_;
   /// Places that are taken. Shared with them, so that they may outlive this.
