@@ -57,6 +57,7 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options
       feed_(feed),
       quotas_(quotas),
       turns_(options.workers, options.max_running_per_owner),
+      memory_(options.resident, options.max_budget.memory_bytes * options.workers),
       workers_([this](Worker& worker) { Work(worker); }),
       supervisor_(
           clock, options, endings_,
@@ -189,7 +190,7 @@ Scheduler::Task Scheduler::Next(Worker& worker) {
   const MutexLock lock(mutex_);
   for (;;) {
     if (shutdown_.stop_requested()) return {};
-    if (crowded_ && !turns_.idle()) {
+    if (memory_.crowded() && !turns_.idle()) {
       changed_.wait(mutex_);
       continue;
     }
@@ -203,7 +204,7 @@ Scheduler::Task Scheduler::Next(Worker& worker) {
       worker.Begin(task.job->control);
       return task;
     }
-    if (auto sweep = FindSweep(); sweep && turns_.Borrow()) {
+    if (auto sweep = sweeps_.Find(); sweep && turns_.Borrow()) {
       --idle_;
       worker.Begin(sweep->control());
       return {std::nullopt, std::move(sweep)};
@@ -235,26 +236,11 @@ bool Scheduler::careful() const {
   return std::ranges::any_of(running_, [](const auto& job) { return job.second; });
 }
 
-bool Scheduler::IsCrowded(bool before) const {
-  const std::int64_t most = options_.max_budget.memory_bytes * options_.workers;
-  return most > 0 && options_.resident() > (before ? most / 10 * 9 : most);
-}
-
-void Scheduler::SetCrowded(bool crowded) {
-  if (std::exchange(crowded_, crowded) == crowded) return;
-  if (crowded) {
-    spdlog::warn("more memory is taken than {} workers may have; no run begins beside another",
-                 options_.workers);
-  } else {
-    spdlog::info("there is memory for runs again");
-    changed_.notify_all();
-  }
-}
-
 void Scheduler::Balance() {
   const MutexLock lock(mutex_);
-  SetCrowded(IsCrowded(crowded_));
-  if (crowded_) return;  // Whoever yields keeps his memory.
+  const bool was_crowded = memory_.crowded();
+  if (memory_.Look()) return;  // Whoever yields keeps its memory.
+  if (was_crowded) changed_.notify_all();
   const auto name = turns_.ToYield(careful(), Now());
   if (!name) return;
   if (const auto found = active_.find(*name); found != active_.end()) {
@@ -301,16 +287,8 @@ Assignment Scheduler::Assign(Active& active) {
 
 void Scheduler::Offer(const std::shared_ptr<SweepRun>& sweep) {
   const MutexLock lock(mutex_);
-  sweeps_.push_back(sweep);
+  sweeps_.Add(sweep);
   changed_.notify_all();
-}
-
-std::shared_ptr<SweepRun> Scheduler::FindSweep() {
-  std::erase_if(sweeps_, [](const auto& sweep) {
-    const auto run = sweep.lock();
-    return !run || !run->HasWork();
-  });
-  return sweeps_.empty() ? nullptr : sweeps_.front().lock();
 }
 
 void Scheduler::Remove(const std::string& name) {

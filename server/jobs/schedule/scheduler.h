@@ -17,8 +17,10 @@
 #include "jobs/run/ending_runs.h"
 #include "jobs/run/job_runner.h"
 #include "jobs/run/sweep_run.h"
+#include "jobs/schedule/memory_watch.h"
 #include "jobs/schedule/run_supervisor.h"
 #include "jobs/schedule/spec_cache.h"
+#include "jobs/schedule/sweep_offers.h"
 #include "jobs/schedule/turns.h"
 #include "jobs/schedule/worker_pool.h"
 
@@ -131,11 +133,6 @@ class Scheduler {
   /// Looks at the memory of the process, and asks a run to yield if others have waited for too
   /// long.
   void Balance();
-  /// True if the process takes more memory than all workers may have. A little less than that does
-  /// not end it, or it would come and go.
-  bool IsCrowded(bool before) const;
-  /// Notes that, and tells the log.
-  void SetCrowded(bool crowded) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Has the calling worker wait while it is another's turn.
   void Yield(const std::string& name, RunControl& control);
   /// True if a job runs on its last attempt, see the class comment.
@@ -146,8 +143,6 @@ class Scheduler {
   Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Lets idle workers help with a sweep.
   void Offer(const std::shared_ptr<SweepRun>& sweep);
-  /// The oldest sweep that has a cell to compute; null if there is none.
-  std::shared_ptr<SweepRun> FindSweep() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Forgets a job that has ended.
   void Remove(const std::string& name);
   /// Stores the end of a cancelled job that was taken from the queue.
@@ -168,8 +163,8 @@ class Scheduler {
   /// By the names of the jobs.
   std::map<std::string, Active> active_ ABSL_GUARDED_BY(mutex_);
   Turns turns_ ABSL_GUARDED_BY(mutex_);
-  /// While it is true no run begins beside another, see IsCrowded.
-  bool crowded_ ABSL_GUARDED_BY(mutex_) = false;
+  /// While it is crowded no run begins beside another.
+  MemoryWatch memory_ ABSL_GUARDED_BY(mutex_);
   /// Threads that wait in Next, or will soon.
   int idle_ ABSL_GUARDED_BY(mutex_) = 0;
   /// Specs of jobs in the queue.
@@ -178,8 +173,7 @@ class Scheduler {
   std::uint64_t numbers_ ABSL_GUARDED_BY(mutex_) = 0;
   /// Jobs that a worker runs, by name; true: on the last attempt, see the class comment.
   std::map<std::string, bool> running_ ABSL_GUARDED_BY(mutex_);
-  /// Sweeps that were offered, oldest first.
-  std::vector<std::weak_ptr<SweepRun>> sweeps_ ABSL_GUARDED_BY(mutex_);
+  SweepOffers sweeps_ ABSL_GUARDED_BY(mutex_);
   /// Places in the queue that are kept.
   int reserved_ ABSL_GUARDED_BY(mutex_) = 0;
   EndingRuns endings_;
