@@ -12,7 +12,7 @@ namespace {
 
 // A message is not worth to be larger, and not to be smaller.
 constexpr std::size_t kMostBytes = std::size_t{256} * 1024;
-constexpr std::size_t kLeastBytes = std::size_t{16} * 1024;
+constexpr std::size_t kLeastBytes = std::size_t{8} * 1024;
 // Of the messages of all watchers, as long as none is smaller than the least.
 constexpr std::size_t kAllBytes = std::size_t{64} << 20;
 

@@ -46,8 +46,6 @@ void LimitMemory(const GrpcServerOptions& options, grpc::ServerBuilder* builder)
   builder->SetMaxReceiveMessageSize(options.max_message_bytes);
   builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, options.calls.max_metadata_bytes);
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 1000);
-  // Calls are accepted only when all that was read at once is parsed: of a flood, thousands.
-  builder->AddChannelArgument(GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, 64 << 10);
   // A few compressed bytes must not become hundreds of megabytes.
   builder->SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
   builder->SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
@@ -163,9 +161,7 @@ std::optional<int> GrpcServer::Listen(Listener listener, grpc::ServerBuilder& bu
         connection.fd = fd;
         grpc->HandleNewConnection(&connection);
       },
-      [this](const std::vector<Traffic>& all) {
-        floods_->Look(all, std::chrono::steady_clock::now());
-      });
+      [this](const std::vector<Traffic>& all) { floods_->Look(all); });
   floods_->SetCut([this](const std::string& uri) { acceptor_->Cut(uri); });
   return port;
 }

@@ -8,11 +8,11 @@ namespace {
 TEST(MessageBytes, TheMessagesOfAllWatchersHaveABoundedNumber) {
   EXPECT_EQ(MessageBytes(0), 256U << 10);
   EXPECT_EQ(MessageBytes(1), 256U << 10);
-  for (const int watchers : {100, 256, 1000, 4096}) {
+  for (const int watchers : {100, 256, 1000, 8192}) {
     EXPECT_LE(static_cast<std::size_t>(watchers) * MessageBytes(watchers), 64U << 20);
   }
   EXPECT_EQ(MessageBytes(1000), (64U << 20) / 1000);
-  EXPECT_EQ(MessageBytes(10'000), 16U << 10);
+  EXPECT_EQ(MessageBytes(10'000), 8U << 10);
 }
 
 }  // namespace

@@ -30,17 +30,12 @@ class Call final : public grpc::experimental::Interceptor {
   }
   ~Call() override {
     if (!ours_ && code_ == grpc::StatusCode::CANCELLED) TakenBack();
-    if (!asked_) floods_->Asked(uri_);
     if (code_ != grpc::StatusCode::CANCELLED) floods_->Answered(uri_);
     const std::chrono::duration<double> time = steady_clock::now() - begin_;
     metrics_->Ended(method_, code_, time.count());
   }
 
   void Intercept(InterceptorBatchMethods* methods) override {
-    if (!asked_ && methods->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_MESSAGE)) {
-      asked_ = true;
-      floods_->Asked(uri_);
-    }
     if (stream_ && methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_MESSAGE)) {
       const auto* message = methods->GetSerializedSendMessage();
       metrics_->Streamed(method_, static_cast<std::int64_t>(message->Length()));
@@ -67,7 +62,6 @@ class Call final : public grpc::experimental::Interceptor {
   const PeerCounts::Lease stream_;  // Null for a call that is no stream.
   const std::shared_ptr<FloodGuard> floods_;
   const FloodGuard::Lease open_;
-  bool asked_ = false;  // The call's message has come.
   const steady_clock::time_point begin_ = steady_clock::now();
   int code_ = grpc::StatusCode::CANCELLED;  // For calls that end without a status.
 };

@@ -1,5 +1,6 @@
 #include "rpc/net/flood_guard.h"
 
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <utility>
@@ -11,13 +12,13 @@ namespace {
 constexpr int kMostOpen = 2000;
 // In a second.
 constexpr int kMostTakenBack = 1000;
-// Bytes that a connection may send between two answers: frames that belong to no call, as many as
-// windows for what it was sent need, and some for as long as a stream lasts.
-constexpr std::uint64_t kMostSilent = 1 << 20;
+// Bytes that a connection may send between two answers. gRPC tells of a call when its message is
+// there, and reads one that is too large to its end.
+constexpr std::uint64_t kMostUnanswered = 128 << 20;
+// Bytes sent to it for which it may send one more: a stream has windows, but no answer.
 constexpr std::uint64_t kSentPerByte = 64;
-constexpr std::uint64_t kSilentPerSecond = 16 << 10;
-// More while the message of a call comes: also for one that is too large, which is read to its end.
-constexpr std::uint64_t kMostMessage = 128 << 20;
+// Least time between two trims of memory, for each makes others wait.
+constexpr std::chrono::milliseconds kTrimTime{500};
 
 }  // namespace
 
@@ -28,15 +29,8 @@ void FloodGuard::SetCut(Cut cut) {
 
 FloodGuard::Lease FloodGuard::Enter(const std::string& uri) {
   const MutexLock lock(mutex_);
-  Calls& calls = calls_[uri];
-  ++calls.unasked;
-  if (++calls.open == kMostOpen + 1) End(uri, "has too many open calls");
+  if (++calls_[uri].open == kMostOpen + 1) End(uri, "has too many open calls");
   return {this, [self = shared_from_this(), uri](const void*) { self->Leave(uri); }};
-}
-
-void FloodGuard::Asked(const std::string& uri) {
-  const MutexLock lock(mutex_);
-  --calls_[uri].unasked;
 }
 
 void FloodGuard::Answered(const std::string& uri) {
@@ -54,27 +48,25 @@ void FloodGuard::TakenBack(const std::string& uri, Time now) {
   if (++calls.taken_back == kMostTakenBack + 1) End(uri, "takes back its calls");
 }
 
-bool FloodGuard::Floods(const Calls& calls, const Traffic& traffic, Time now) {
-  const std::uint64_t received = traffic.received - calls.then.received;
-  const std::chrono::duration<double> time = now - calls.then_time;
-  const std::uint64_t windows = (traffic.sent - calls.then.sent) / kSentPerByte;
-  const auto steady = static_cast<std::uint64_t>(time.count() * kSilentPerSecond);
-  return received > kMostSilent + windows + steady + (calls.unasked > 0 ? kMostMessage : 0);
+bool FloodGuard::Floods(const Traffic& then, const Traffic& now) {
+  return now.received - then.received > kMostUnanswered + (now.sent - then.sent) / kSentPerByte;
 }
 
-void FloodGuard::Look(const std::vector<Traffic>& all, Time now) {
+void FloodGuard::Look(const std::vector<Traffic>& all) {
+  // What a flood took is free by now, but lies between what others use.
+  if (IsTimeToTrim()) malloc_trim(0);
   const MutexLock lock(mutex_);
   for (const Traffic& traffic : all) {
     Calls& calls = calls_[traffic.uri];
     calls.there = true;
-    // A first look, or one at a new connection from the same port.
-    const bool another = calls.then.uri.empty() || traffic.received < calls.then.received;
-    const bool floods = !another && !calls.answered && Floods(calls, traffic, now);
-    if (floods) End(traffic.uri, "sends far more than its calls need");
-    if (!another && !floods && !calls.answered) continue;
-    calls.answered = false;
-    calls.then = another ? Traffic{.uri = traffic.uri} : traffic;
-    calls.then_time = now;
+    if (std::exchange(calls.answered, false)) {
+      calls.then = traffic;
+    } else if (calls.then.uri.empty() || traffic.received < calls.then.received) {
+      calls.then = {.uri = traffic.uri};  // Another connection than before, if there was one.
+    } else if (Floods(calls.then, traffic)) {
+      End(traffic.uri, "sends far more than its calls need");
+      calls.then = traffic;
+    }
   }
   std::erase_if(calls_,
                 [](const auto& entry) { return !entry.second.there && entry.second.open == 0; });
@@ -85,6 +77,16 @@ void FloodGuard::End(const std::string& uri, const char* why) {
   if (uri.starts_with("unix") || !cut_) return;
   spdlog::warn("{} {}, and is cut", uri, why);
   cut_(uri);
+  some_cut_ = true;
+}
+
+bool FloodGuard::IsTimeToTrim() {
+  const Time now = std::chrono::steady_clock::now();
+  const MutexLock lock(mutex_);
+  if (!some_cut_ || now - trimmed_ < kTrimTime) return false;
+  some_cut_ = false;
+  trimmed_ = now;
+  return true;
 }
 
 void FloodGuard::Leave(const std::string& uri) {

@@ -30,24 +30,21 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
   /// How connections are cut from now on; empty: not at all. Waits for one that is being cut.
   void SetCut(Cut cut);
 
-  /// A call of this connection has begun. Its message has not come yet.
+  /// A call of this connection has begun.
   Lease Enter(const std::string& uri);
-  /// The message of a call has come, or it has ended without one. Once for each Enter.
-  void Asked(const std::string& uri);
   /// A call was answered, well or with an error.
   void Answered(const std::string& uri);
   /// A call of this connection was taken back before its end.
   void TakenBack(const std::string& uri, Time now);
 
-  /// Looks at all open connections of a listener. To be called several times a second.
-  void Look(const std::vector<Traffic>& all, Time now);
+  /// Looks at all open connections of the network. To be called many times a second. Gives memory
+  /// back to the system after a cut.
+  void Look(const std::vector<Traffic>& all);
 
  private:
   /// What a connection does.
   struct Calls {
     int open = 0;
-    /// Calls whose message has not come.
-    int unasked = 0;
     /// Calls taken back since `since`.
     int taken_back = 0;
     Time since = {};
@@ -57,12 +54,13 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
     bool there = false;
     /// At the last look that found a call answered, or the first one.
     Traffic then = {};
-    Time then_time = {};
   };
 
-  /// True if the connection has sent more than may come between two answers.
-  static bool Floods(const Calls& calls, const Traffic& traffic, Time now);
+  /// True if the connection has sent more since `then` than may come between two answers.
+  static bool Floods(const Traffic& then, const Traffic& now);
 
+  /// True if memory is to be given back now.
+  bool IsTimeToTrim();
   /// Cuts a connection of the network, and logs it.
   void End(const std::string& uri, const char* why) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Takes one from the open calls.
@@ -72,6 +70,9 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
   Cut cut_ ABSL_GUARDED_BY(mutex_);
   /// Connections with open calls, and those that were open at the last look.
   std::map<std::string, Calls> calls_ ABSL_GUARDED_BY(mutex_);
+  /// True if a connection was cut after the last trim.
+  bool some_cut_ ABSL_GUARDED_BY(mutex_) = false;
+  Time trimmed_ ABSL_GUARDED_BY(mutex_) = {};
 };
 
 }  // namespace contact
