@@ -161,7 +161,9 @@ std::optional<int> GrpcServer::Listen(Listener listener, grpc::ServerBuilder& bu
         connection.fd = fd;
         grpc->HandleNewConnection(&connection);
       },
-      [this](const std::vector<Traffic>& all) { floods_->Look(all); });
+      [this](const std::vector<Traffic>& all, std::chrono::steady_clock::time_point now) {
+        floods_->Look(all, now);
+      });
   floods_->SetCut([this](const std::string& uri) { acceptor_->Cut(uri); });
   return port;
 }

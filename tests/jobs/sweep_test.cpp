@@ -81,7 +81,7 @@ TEST_F(SweepTest, HelperLeavesItsCellToAnotherJobAndTheCellIsComputedLater) {
     ++begun;
     while (!let_go && !stop.stop_requested()) {
       observer.OnBoundary([] { return RunState(); });
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::yield();
     }
     return stop.stop_requested() ? Ending(Outcome::End::kStopped) : Outcome{};
   };

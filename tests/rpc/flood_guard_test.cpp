@@ -25,7 +25,9 @@ class FloodGuardTest : public testing::Test {
   }
 
   // What has come from and gone to a connection by now.
-  void Look(std::uint64_t received, std::uint64_t sent) { guard_->Look({{kBad, received, sent}}); }
+  void Look(std::uint64_t received, std::uint64_t sent) {
+    guard_->Look({{kBad, received, sent}}, {});
+  }
 
   const std::shared_ptr<FloodGuard> guard_ = std::make_shared<FloodGuard>();
   std::vector<std::string> cut_;
@@ -76,7 +78,7 @@ TEST_F(FloodGuardTest, AnotherConnectionOfTheSameNameBeginsAnew) {
   Look(500 << 20, 500 << 20);
   Look(10, 10);
   Look(120 << 20, 10);
-  guard_->Look({});  // It is closed.
+  guard_->Look({}, {});  // It is closed.
   Look(120 << 20, 0);
   EXPECT_THAT(cut_, IsEmpty());
 }

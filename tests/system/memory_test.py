@@ -68,7 +68,7 @@ class LargeScenarioTest(MemoryTest):
             self.assertEqual(len({column.name for column in columns}), 1 + 2 * 19_999 + 4 * 19_998)
             self.assertEqual({len(column.values) for column in columns}, {8})
         series = self.server.stub.GetSeries(job_service_pb2.GetSeriesRequest(
-            name=name, columns=["B0.position", "B19998.velocity"]), timeout=PATIENCE_S)
+            name=name, channels=["B0.position", "B19998.velocity"]), timeout=PATIENCE_S)
         self.assertEqual([len(column.values) for column in series.columns], [16] * 3)
 
 

@@ -31,8 +31,9 @@ constexpr milliseconds kForgetInterval{10};
 // Time between two looks at the traffic in ms, and connections that make it longer by one.
 constexpr int kLeastLookTime = 50;
 constexpr int kConnectionsPerMs = 20;
-// Bytes of a connection that the system keeps until gRPC reads them. It reads all of them at once and
-// accepts their calls only then: of a flood, thousands. It reads what is there after a cut, too.
+// Bytes of a connection that the system keeps until gRPC reads them. It reads all of them at once
+// and accepts their calls only then: of a flood, thousands. It reads what is there after a cut,
+// too.
 constexpr int kReceiveBuffer = 64 << 10;
 // Time to wait after the process has run out of descriptors.
 constexpr milliseconds kDescriptorWait{50};
@@ -180,7 +181,7 @@ void ConnectionAcceptor::TellTraffic() {
     connections_.ForgetClosed();
     all = connections_.Traffics();
   }
-  look_(all);
+  look_(all, now);
 }
 
 void ConnectionAcceptor::CutStalled() {

@@ -42,7 +42,8 @@ class ConnectionAcceptor {
 
   /// Is told the traffic of all open connections of the network, many times a second. Called on the
   /// acceptor's thread; may call Cut.
-  using Look = std::function<void(const std::vector<Traffic>& all)>;
+  using Look = std::function<void(const std::vector<Traffic>& all,
+                                  std::chrono::steady_clock::time_point now)>;
 
   /// Starts to accept.
   ConnectionAcceptor(Listener listener, ConnectionLimits limits, HandOver hand_over,

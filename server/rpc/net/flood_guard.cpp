@@ -52,9 +52,9 @@ bool FloodGuard::Floods(const Traffic& then, const Traffic& now) {
   return now.received - then.received > kMostUnanswered + (now.sent - then.sent) / kSentPerByte;
 }
 
-void FloodGuard::Look(const std::vector<Traffic>& all) {
+void FloodGuard::Look(const std::vector<Traffic>& all, Time now) {
   // What a flood took is free by now, but lies between what others use.
-  if (IsTimeToTrim()) malloc_trim(0);
+  if (IsTimeToTrim(now)) malloc_trim(0);
   const MutexLock lock(mutex_);
   for (const Traffic& traffic : all) {
     Calls& calls = calls_[traffic.uri];
@@ -80,8 +80,7 @@ void FloodGuard::End(const std::string& uri, const char* why) {
   some_cut_ = true;
 }
 
-bool FloodGuard::IsTimeToTrim() {
-  const Time now = std::chrono::steady_clock::now();
+bool FloodGuard::IsTimeToTrim(Time now) {
   const MutexLock lock(mutex_);
   if (!some_cut_ || now - trimmed_ < kTrimTime) return false;
   some_cut_ = false;

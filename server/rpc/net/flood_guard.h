@@ -39,7 +39,7 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
 
   /// Looks at all open connections of the network. To be called many times a second. Gives memory
   /// back to the system after a cut.
-  void Look(const std::vector<Traffic>& all);
+  void Look(const std::vector<Traffic>& all, Time now);
 
  private:
   /// What a connection does.
@@ -60,7 +60,7 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
   static bool Floods(const Traffic& then, const Traffic& now);
 
   /// True if memory is to be given back now.
-  bool IsTimeToTrim();
+  bool IsTimeToTrim(Time now);
   /// Cuts a connection of the network, and logs it.
   void End(const std::string& uri, const char* why) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Takes one from the open calls.
