@@ -65,7 +65,8 @@ void RunRecorder::OnSamples(const Samples& samples) {
   for (v1::FrameChunk& part : SplitColumns(std::move(chunk))) {
     v1::Event event = Event();
     *event.mutable_frame_chunk() = std::move(part);
-    if (!writer_.Add(std::move(event))) return;
+    // Readers leave out samples without all columns.
+    if (!writer_.Add(std::move(event)) || assignment_.control->stopping()) return;
   }
 }
 
