@@ -179,7 +179,7 @@ TEST_F(OwnerLimitsTest, SomePlacesOfTheQueueAreForAdmins) {
 }
 
 TEST_F(OwnerLimitsTest, SomePlacesOfWatchersAreForAdmins) {
-  Limit({}, {.max_watchers = 2, .admin_slots = 10});
+  Limit({}, {.admin_slots = 10, .max_watchers = 2});
   LogReader reader;
   const auto watch = [&](const Principal& caller) {
     return manager_->watches().WatchJobs(caller, {}, reader.wake());
