@@ -155,11 +155,13 @@ std::optional<int> GrpcServer::Listen(Listener listener, grpc::ServerBuilder& bu
   if (!server_) return std::nullopt;
   acceptor_ = std::make_unique<ConnectionAcceptor>(
       std::move(listener), options_.connections,
-      [grpc](int socket, int fd) {
-        grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
-        connection.listener_fd = socket;
-        connection.fd = fd;
-        grpc->HandleNewConnection(&connection);
+      [this, grpc](int socket, int fd) {
+        hand_over_.Post([grpc, socket, fd] {
+          grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
+          connection.listener_fd = socket;
+          connection.fd = fd;
+          grpc->HandleNewConnection(&connection);
+        });
       },
       [this](const std::vector<Traffic>& all, std::chrono::steady_clock::time_point now) {
         floods_->Look(all, now);
@@ -186,6 +188,7 @@ void GrpcServer::Shutdown(milliseconds grace) {
     };
     const ShutdownTimer timer(grace + 500ms, cut, grace + 2s, give_up);
     server_->Shutdown(std::chrono::system_clock::now() + grace);
+    hand_over_.Stop();
     server_.reset();
     floods_->SetCut(nullptr);
     acceptor_.reset();

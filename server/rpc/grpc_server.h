@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/clock.h"
+#include "base/executor.h"
 #include "jobs/job_manager.h"
 #include "rpc/admin_service.h"
 #include "rpc/call/call_guard.h"
@@ -109,6 +110,9 @@ class GrpcServer {
   /// The services. gRPC uses them until server_ is gone.
   JobService jobs_;
   AdminService admin_;
+  /// Gives connections to gRPC, which reads a new one on the thread that does so, for as long as
+  /// there is something to read.
+  Executor hand_over_{"hand-over"};
   /// Null before Start and after Shutdown.
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<ConnectionAcceptor> acceptor_;  // Hands connections to server_.

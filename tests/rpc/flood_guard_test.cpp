@@ -54,9 +54,9 @@ TEST_F(FloodGuardTest, CutsWhoTakesBackMoreThanAThousandCallsASecond) {
 
 TEST_F(FloodGuardTest, CutsWhoSendsFarMoreThanItsCallsNeed) {
   Look(0, 0);
-  Look(100 << 20, 0);
+  Look(60 << 20, 0);
   EXPECT_THAT(cut_, IsEmpty()) << "a message that is too large, and yet to be refused";
-  Look(130 << 20, 0);
+  Look(65 << 20, 0);
   EXPECT_THAT(cut_, ElementsAre(kBad));
 }
 
@@ -77,9 +77,9 @@ TEST_F(FloodGuardTest, AnotherConnectionOfTheSameNameBeginsAnew) {
   guard_->Answered(kBad);
   Look(500 << 20, 500 << 20);
   Look(10, 10);
-  Look(120 << 20, 10);
+  Look(60 << 20, 10);
   guard_->Look({}, {});  // It is closed.
-  Look(120 << 20, 0);
+  Look(60 << 20, 0);
   EXPECT_THAT(cut_, IsEmpty());
 }
 

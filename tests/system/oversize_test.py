@@ -78,8 +78,8 @@ class OversizeTest(ServerTest):
             self.assertEqual(self.call(self.request(size)), code, size)
         self.assertLivesOn()
 
-    def test_message_of_100_megabytes_is_refused(self):
-        self.assertEqual(self.call(bytes(100 << 20)), grpc.StatusCode.RESOURCE_EXHAUSTED)
+    def test_message_of_60_megabytes_is_refused(self):
+        self.assertEqual(self.call(bytes(60 << 20)), grpc.StatusCode.RESOURCE_EXHAUSTED)
         self.assertLivesOn()
 
     def test_compressed_message_is_refused_unseen(self):

@@ -37,7 +37,7 @@ ConnectionLimits FitToDescriptors(ConnectionLimits wanted);
 class ConnectionAcceptor {
  public:
   /// Takes over the connection `fd`, accepted by the socket `listener`. Called on the acceptor's
-  /// thread.
+  /// thread, which it must not keep: that cuts those who flood.
   using HandOver = std::function<void(int listener, int fd)>;
 
   /// Is told the traffic of all open connections of the network, many times a second. Called on the

@@ -3,7 +3,10 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
+
+#include "base/resident_memory.h"
 
 namespace contact {
 namespace {
@@ -14,11 +17,13 @@ constexpr int kMostOpen = 2000;
 constexpr int kMostTakenBack = 1000;
 // Bytes that a connection may send between two answers. gRPC tells of a call when its message is
 // there, and reads one that is too large to its end.
-constexpr std::uint64_t kMostUnanswered = 128 << 20;
+constexpr std::uint64_t kMostUnanswered = 64 << 20;
 // Bytes sent to it for which it may send one more: a stream has windows, but no answer.
 constexpr std::uint64_t kSentPerByte = 64;
-// Least time between two trims of memory, for each makes others wait.
-constexpr std::chrono::milliseconds kTrimTime{500};
+// Least time between two trims of memory, for each makes others wait; longer without a cut.
+constexpr std::chrono::milliseconds kTrimTime{100};
+// Growth of the process [B] that is a reason to trim: gRPC itself cuts who floods it with pings.
+constexpr std::int64_t kGrowth = 128 << 20;
 
 }  // namespace
 
@@ -81,10 +86,15 @@ void FloodGuard::End(const std::string& uri, const char* why) {
 }
 
 bool FloodGuard::IsTimeToTrim(Time now) {
+  const std::int64_t resident = ResidentMemory();
   const MutexLock lock(mutex_);
-  if (!some_cut_ || now - trimmed_ < kTrimTime) return false;
+  least_ = std::min(least_, resident);
+  const bool grown = resident - least_ > kGrowth && now - trimmed_ > 10 * kTrimTime;
+  const bool cut = some_cut_ && now - trimmed_ > kTrimTime;
+  if (!grown && !cut) return false;
   some_cut_ = false;
   trimmed_ = now;
+  least_ = resident;
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,7 +39,7 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
   void TakenBack(const std::string& uri, Time now);
 
   /// Looks at all open connections of the network. To be called many times a second. Gives memory
-  /// back to the system after a cut.
+  /// back to the system after a cut and when the process has grown.
   void Look(const std::vector<Traffic>& all, Time now);
 
  private:
@@ -73,6 +74,8 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
   /// True if a connection was cut after the last trim.
   bool some_cut_ ABSL_GUARDED_BY(mutex_) = false;
   Time trimmed_ ABSL_GUARDED_BY(mutex_) = {};
+  /// The least memory of the process since then [B].
+  std::int64_t least_ ABSL_GUARDED_BY(mutex_) = std::numeric_limits<std::int64_t>::max();
 };
 
 }  // namespace contact
