@@ -39,6 +39,7 @@ RUN_ELSEWHERE = {
     "for change in client.watch_jobs": "tests/python/client_test.py",
     "contactctl server backup": "tests/cli/verbs/backup_test.py",
     "$ contactd fsck": "tests/system/storage_test.py",
+    "$ contactctl login": "tests/cli/verbs/login_test.py",
     "$ contactctl server token": "tests/cli/link/credentials_test.py",
 }
 
