@@ -93,7 +93,7 @@ void AuditLog::Write(AuditRecord record) {
   });
 }
 
-void AuditLog::WriteDurably(AuditRecord record, std::function<void(bool)> done) {
+void AuditLog::WriteDurably(AuditRecord record, const std::function<void(bool)>& done) {
   const auto write = [this, record = std::move(record), done] {
     done(Append(record) && ::fdatasync(file_.get()) == 0);
   };

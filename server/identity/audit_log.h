@@ -53,7 +53,7 @@ class AuditLog {
   void Write(AuditRecord record);
   /// Writes the record and synchronises the disk, then calls `done` on the log's thread. False: it
   /// could not be written.
-  void WriteDurably(AuditRecord record, std::function<void(bool)> done);
+  void WriteDurably(AuditRecord record, const std::function<void(bool)>& done);
   /// Waits until what was given before is written.
   void Flush();
 
