@@ -410,7 +410,8 @@ TEST_F(LostRunTest, CancelTakesEffectAtOnceWhateverTheRunDoes) {
     const std::string name = created.value().name();
     // Into the run: it has told progress, or recorded more than that it has begun.
     v1::Job job;
-    for (job = Get(name).value(); !job.has_progress() && job.last_sequence() <= 3;
+    for (job = Get(name).value();
+         job.state() == v1::Job::QUEUED || (!job.has_progress() && job.last_sequence() <= 3);
          job = Get(name).value()) {
       std::this_thread::yield();
     }
