@@ -14,8 +14,9 @@ const TokenRecord* Find(const TokenTable& table, const std::string& id) {
 }
 
 // What has become of a token; empty: nothing. `old`, if any, and `now` are its records.
-std::string ChangeOf(const TokenRecord* old, const TokenRecord& now) {
-  if (old == nullptr) return now.revoked ? "" : "CREATED";
+std::string ChangeOf(const TokenRecord* old, const TokenRecord& now,
+                     std::chrono::system_clock::time_point time) {
+  if (old == nullptr) return now.revoked || now.expires <= time ? "" : "CREATED";
   if (now.revoked) return old->revoked ? "" : "REVOKED";
   const bool same = !old->revoked && old->sha256 == now.sha256 && old->expires == now.expires &&
                     old->principal == now.principal;
@@ -41,7 +42,7 @@ std::vector<AuditRecord> TokenChanges(const TokenTable* before, const TokenTable
   };
   for (const TokenRecord& token : now.records()) {
     const std::string change =
-        ChangeOf(before == nullptr ? nullptr : Find(*before, token.id), token);
+        ChangeOf(before == nullptr ? nullptr : Find(*before, token.id), token, time);
     add(token, before == nullptr && !change.empty() ? "VALID" : change);
   }
   if (before == nullptr) return records;

@@ -45,7 +45,8 @@ TEST(TokenChanges, EachTokenThatIsMadeRevokedRemovedOrChangedHasItsLine) {
 }
 
 TEST(TokenChanges, StartListsTheTokensThatAreValid) {
-  std::vector<TokenRecord> records = {MakeToken(kAda, kNow).record, MakeToken(kAda, kNow).record};
+  std::vector<TokenRecord> records;
+  for (const auto left : {24h, 24h, 0h}) records.push_back(MakeToken(kAda, kNow + left).record);
   records[1].revoked = true;
   EXPECT_EQ(Codes(TokenChanges(nullptr, TableOf(records), "f", kNow)),
             (std::map<std::string, std::string>{{records[0].id, "VALID"}}));

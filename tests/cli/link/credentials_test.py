@@ -124,7 +124,7 @@ class CredentialsTest(unittest.TestCase):
 
     def test_audit_log_of_several_files_is_verified_in_their_order(self):
         self.server.terminate()
-        self.server.flags = (*self.server.flags, "--max-audit-bytes=600")
+        self.server.flags = (*self.server.flags, "--max-audit-bytes=400")
         self.server.start()
         for _ in range(3):
             self.ask("list", code=9)
