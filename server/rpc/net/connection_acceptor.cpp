@@ -31,6 +31,8 @@ constexpr milliseconds kForgetInterval{10};
 // Time between two looks at the traffic in ms, and connections that make it longer by one.
 constexpr int kLeastLookTime = 50;
 constexpr int kConnectionsPerMs = 20;
+// There are looks for so long after the last connection was closed.
+constexpr milliseconds kAfterTime{2000};
 // Bytes of a connection that the system keeps until gRPC reads them. It reads all of them at once
 // and accepts their calls only then: of a flood, thousands. It reads what is there after a cut,
 // too.
@@ -165,7 +167,8 @@ int ConnectionAcceptor::PollTime() const {
     return static_cast<int>(std::max<milliseconds::rep>(1, limits_.stall.count() / kLooks));
   }
   const MutexLock lock(mutex_);
-  if (!look_ || connections_.size() == 0) return -1;
+  const bool some = connections_.size() > 0 || steady_clock::now() - seen_ < kAfterTime;
+  if (!look_ || !some) return -1;
   // Looking at all of them takes a few percent of the time.
   return std::max(kLeastLookTime, static_cast<int>(connections_.size()) / kConnectionsPerMs);
 }
@@ -178,6 +181,7 @@ void ConnectionAcceptor::TellTraffic() {
     const MutexLock lock(mutex_);
     if (!listener_.file.empty() || time < 0 || now - looked_ < milliseconds(time)) return;
     looked_ = now;
+    if (connections_.size() > 0) seen_ = now;
     connections_.ForgetClosed();
     all = connections_.Traffics();
   }

@@ -104,6 +104,8 @@ class ConnectionAcceptor {
   mutable OpenConnections connections_ ABSL_GUARDED_BY(mutex_);
   /// Time of the last ForgetClosed.
   std::chrono::steady_clock::time_point forgot_ ABSL_GUARDED_BY(mutex_);
+  /// When TellTraffic last found a connection.
+  std::chrono::steady_clock::time_point seen_ ABSL_GUARDED_BY(mutex_);
   /// Time of the last CutStalled or TellTraffic.
   std::chrono::steady_clock::time_point looked_ ABSL_GUARDED_BY(mutex_);
   std::thread thread_;  // Last: it uses all of the above.

@@ -20,8 +20,10 @@ constexpr int kMostTakenBack = 1000;
 constexpr std::uint64_t kMostUnanswered = 64 << 20;
 // Bytes sent to it for which it may send one more: a stream has windows, but no answer.
 constexpr std::uint64_t kSentPerByte = 64;
-// Least time between two trims of memory, for each makes others wait; longer without a cut.
+// Least time between two trims of memory, for each makes others wait.
 constexpr std::chrono::milliseconds kTrimTime{100};
+// gRPC lets go of a connection that was cut, and of all it kept for it, within this time.
+constexpr std::chrono::milliseconds kCutTime{1000};
 // Growth of the process [B] that is a reason to trim: gRPC itself cuts who floods it with pings.
 constexpr std::int64_t kGrowth = 128 << 20;
 
@@ -89,10 +91,9 @@ bool FloodGuard::IsTimeToTrim(Time now) {
   const std::int64_t resident = ResidentMemory();
   const MutexLock lock(mutex_);
   least_ = std::min(least_, resident);
-  const bool grown = resident - least_ > kGrowth && now - trimmed_ > 10 * kTrimTime;
-  const bool cut = some_cut_ && now - trimmed_ > kTrimTime;
-  if (!grown && !cut) return false;
-  some_cut_ = false;
+  if (std::exchange(some_cut_, false)) cut_ends_ = now + kCutTime;
+  const auto wait = now < cut_ends_ ? kTrimTime : kCutTime;
+  if (now - trimmed_ < wait || (now >= cut_ends_ && resident - least_ < kGrowth)) return false;
   trimmed_ = now;
   least_ = resident;
   return true;

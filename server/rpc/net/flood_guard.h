@@ -71,8 +71,10 @@ class FloodGuard : public std::enable_shared_from_this<FloodGuard> {
   Cut cut_ ABSL_GUARDED_BY(mutex_);
   /// Connections with open calls, and those that were open at the last look.
   std::map<std::string, Calls> calls_ ABSL_GUARDED_BY(mutex_);
-  /// True if a connection was cut after the last trim.
+  /// True if a connection was cut after the last look.
   bool some_cut_ ABSL_GUARDED_BY(mutex_) = false;
+  /// Until then gRPC may let go of memory.
+  Time cut_ends_ ABSL_GUARDED_BY(mutex_) = {};
   Time trimmed_ ABSL_GUARDED_BY(mutex_) = {};
   /// The least memory of the process since then [B].
   std::int64_t least_ ABSL_GUARDED_BY(mutex_) = std::numeric_limits<std::int64_t>::max();
