@@ -29,7 +29,7 @@ constexpr rlim_t kOtherDescriptors = 100;
 // Time between two searches for closed connections while there are too many.
 constexpr milliseconds kForgetInterval{10};
 // Time between two looks at the traffic in ms, and connections that make it longer by one.
-constexpr int kLeastLookTime = 50;
+constexpr int kLeastLookTime = 20;
 constexpr int kConnectionsPerMs = 20;
 // There are looks for so long after the last connection was closed.
 constexpr milliseconds kAfterTime{2000};

@@ -21,7 +21,7 @@ constexpr std::uint64_t kMostUnanswered = 64 << 20;
 // Bytes sent to it for which it may send one more: a stream has windows, but no answer.
 constexpr std::uint64_t kSentPerByte = 64;
 // Least time between two trims of memory, for each makes others wait.
-constexpr std::chrono::milliseconds kTrimTime{100};
+constexpr std::chrono::milliseconds kTrimTime{50};
 // gRPC lets go of a connection that was cut, and of all it kept for it, within this time.
 constexpr std::chrono::milliseconds kCutTime{1000};
 // Growth of the process [B] that is a reason to trim: gRPC itself cuts who floods it with pings.
