@@ -104,6 +104,35 @@ TEST(Groups, OfAnEncounterHaveAllItsCycles) {
   for (const Group& g : r.groups) EXPECT_EQ(g.end == Cycle::End::kNonSeparation, false);
 }
 
+Record RunOfKind(testing::Kind kind, unsigned seed, RestitutionScope scope) {
+  Scenario s = testing::Dice(seed, kind).Roll();
+  s.solver.restitution_scope = scope;
+  return RunAndRecord(s);
+}
+
+// A ball that a load holds to a wall: cycles of ever less work, until round-off makes them.
+TEST(Groups, OfAnEncounterEndWhereItsCyclesBecomeNegligible) {
+  for (const unsigned seed : {42u, 83u, 453u}) {
+    const Record r = RunOfKind(testing::Kind::kBouncing, seed, RestitutionScope::kEncounter);
+    EXPECT_EQ(r.outcome.end, Outcome::End::kFinished) << seed;
+    EXPECT_TRUE(r.outcome.all_converged) << seed;
+    EXPECT_LT(r.outcome.steps, 1'000'000) << seed;
+    ExpectBalanced(r);
+  }
+}
+
+TEST(Groups, AnEncounterThatOutlivesTheRunIsSeenToItsEnd) {
+  EXPECT_TRUE(
+      RunOfKind(testing::Kind::kSupport, 44, RestitutionScope::kEncounter).outcome.all_converged);
+}
+
+// The motion depends on the μ of a group also through the negligible cycles that keep it.
+TEST(Groups, BeforeANegligibleCycleAreSolvedByTrueSlopes) {
+  const Record r = RunOfKind(testing::Kind::kGaps, 436, RestitutionScope::kAuto);
+  EXPECT_TRUE(r.outcome.all_converged);
+  EXPECT_LT(r.outcome.iterations, 100);
+}
+
 // A row that Newton alone did not solve from its coarse passes.
 TEST(Groups, ARowWithASmoothRootIsSolved) {
   Scenario s = testing::Chain({0.5543, 2.8435, 0.1788, 0.046}, {214289443, 1160451.1, 316036687},
@@ -210,6 +239,20 @@ TEST(Groups, RandomScenariosOfEveryKindHaveAnAnswer) {
   }
   EXPECT_GE(full, runs - runs / 10);  // README.md, "Known limits", has the share of thousands.
   EXPECT_LE(jumps, 2);
+}
+
+TEST(Groups, RandomEncountersOfEveryKindHaveAnAnswer) {
+  int full = 0, runs = 0;
+  for (int kind = 0; kind < testing::kSmallKinds; ++kind) {
+    for (unsigned seed = 1000; seed < 1010; ++seed, ++runs) {
+      SCOPED_TRACE(std::string(testing::kKindNames[kind]) + " " + std::to_string(seed));
+      const Record r = RunOfKind(testing::Kind(kind), seed, RestitutionScope::kEncounter);
+      EXPECT_EQ(r.outcome.end, Outcome::End::kFinished);
+      ExpectBalanced(r);
+      full += r.outcome.all_converged;
+    }
+  }
+  EXPECT_GE(full, runs - 1);
 }
 
 }  // namespace

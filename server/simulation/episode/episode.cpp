@@ -23,6 +23,11 @@ constexpr int kRescans = 5;
 // A miss by which a guess is poor, so that the search begins with the earliest part of the front,
 // and one that is good enough for the next part.
 constexpr double kPoor = 0.02, kGood = 1e-3;
+// Parts of the same front that are solved, one undoing the other, before it is taken as a whole.
+constexpr int kVisits = 12;
+// Relative error of passes that only look, and a miss that they can tell.
+constexpr double kCoarse = 1e-6, kNear = 1e-4;
+constexpr double kForever = 1e300;
 // A miss that may be the error of the first, coarse look.
 constexpr double kNoise = 1e-6;
 // A stretch that the paper's process takes as one episode has at most so many cycles.
@@ -97,7 +102,11 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
   const auto running = static_cast<int>(std::ranges::count_if(
       start.contacts, [](const ContactState& c) { return c.phase == Phase::kRestitution; }));
   window_.Begin(start.time, running, static_cast<int>(problem_.groups.known().size()),
-                static_cast<int>(scenario_.contacts.size()), IsPacking(scenario_));
+                static_cast<int>(scenario_.contacts.size()),
+                scenario_.solver.restitution_scope == RestitutionScope::kEncounter
+                    ? scenario_.solver.encounter_cycles
+                    : 1,
+                IsPacking(scenario_));
   return Search();
 }
 
@@ -191,20 +200,28 @@ bool EpisodeSolver::Accepts(Motion::Pause pause) {
 
 Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front,
                                 bool sensitive) {
-  const std::vector<GroupId> part = EarliestPart(front, sight, kPoor);
+  visits_ = front.front() == first_ ? visits_ + 1 : 0;
+  first_ = front.front();
+  const bool stuck = visits_ > kVisits;
+  const std::vector<GroupId> part =
+      stuck ? std::vector<GroupId>{} : EarliestPart(front, sight, kPoor);
   guessing_ = !part.empty();
   const bool whole = part.empty() || part.size() == front.size();
   const std::vector<GroupId>& now = whole ? front : part;
   if (front == solved_) problem_.Distrust();
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;
-  Found found = newton_.Solve(now, goal, most, true, sensitive ? &sight : nullptr);
+  const bool again = now.front() == last_ && sweeps_ > 0;
+  Found found = newton_.Solve(now, goal, most, !again, sensitive ? &sight : nullptr);
   if (found == Found::kSolved && newton_.corrections() == 0) {  // A coarse pass sees what is not.
     found = newton_.Solve(front, problem_.tolerance(), most, false);
     if (found == Found::kSolved && newton_.corrections() == 0) found = Found::kStalled;
   }
   if (found == Found::kSolved && !whole) return Found::kStalled;  // The rest is still to be solved.
-  if (found == Found::kSolved) solved_ = front;
+  if (found == Found::kSolved) {
+    solved_ = front;
+    Freeze(sight, front);
+  }
   if (found == Found::kSolved || found == Found::kAborted) return found;
   if (found == Found::kLimit) {
     GiveUp(sight, now);
@@ -222,21 +239,34 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   return problem_.Aborted() ? Found::kAborted : Found::kStalled;
 }
 
+// What was guessed of groups that overlap a front which is solved stays as it is: to guess anew
+// would undo the solution.
+void EpisodeSolver::Freeze(const Sight& sight, const std::vector<GroupId>& front) {
+  double end = 0;
+  for (const GroupId& id : front) end = std::max(end, sight.Find(id)->end_time);
+  for (auto& [id, unknown] : problem_.groups.known()) {
+    if (unknown.start_time < end) unknown.corrected = true;
+  }
+}
+
 // One unknown at a time, in the order of time. Whether a group has grown or was decided.
 bool EpisodeSolver::Bisect(const Sight& sight, const std::vector<GroupId>& front) {
+  Sight now = problem_.Evaluate(front, false, kForever, kCoarse);
   for (const GroupId& id : front) {
-    const GroupSight* seen = sight.Find(id);
-    const Sight now = problem_.Evaluate({id}, false, 1e300);
     if (problem_.Aborted()) return true;
-    if (const GroupSight* g = now.Find(id); g != nullptr && g->ended) seen = g;
-    if (seen->weak || std::abs(seen->Miss()) <= problem_.tolerance()) continue;
-    const Root root = bisection_.Solve(*seen);
+    const GroupSight* seen = now.Find(id);
+    const GroupSight group = seen != nullptr && seen->ended ? *seen : *sight.Find(id);
+    if (group.weak || std::abs(group.Miss()) <= kNear) continue;
+    const Root root = bisection_.Solve(group);
     if (root == Root::kAborted) return true;
-    if (root == Root::kFound) continue;
-    if (growing_.Answer(*seen, root)) return true;
-    if (bisection_.Scan(*seen)) continue;
-    growing_.Decide(id, root);
-    return true;
+    if (root != Root::kFound) {
+      if (growing_.Answer(group, root)) return true;
+      if (!bisection_.Scan(group)) {
+        growing_.Decide(id, root);
+        return true;
+      }
+    }
+    now = problem_.Evaluate(front, false, kForever, kCoarse);
   }
   return false;
 }

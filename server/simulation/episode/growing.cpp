@@ -112,8 +112,9 @@ bool Growing::Force(const std::vector<GroupId>& front) {
   for (const GroupId& id : missing) {
     if (problem_.Aborted() || Grow(id, Growth::kNoProgress)) return true;
   }
-  for (const GroupId& id : missing) problem_.groups.At(id).given_up = true;
-  return !missing.empty();
+  if (missing.empty()) return false;
+  problem_.groups.At(missing.front()).given_up = true;
+  return true;
 }
 
 // Whether with the μ of one side still too much, by the sign, or too little comes back.
@@ -133,6 +134,13 @@ bool Growing::Reopen(const Sight& scan) {
     Unknown& unknown = problem_.groups.At(g.id);
     const bool without =
         unknown.status == Cycle::Status::kJump || unknown.status == Cycle::Status::kInfeasible;
+    // One that was given up may have its answer now: what overlaps it has been solved since.
+    if (unknown.given_up && unknown.reopened == 0 && g.ended && !g.weak &&
+        !(std::abs(g.Miss()) <= problem_.tolerance())) {
+      ++unknown.reopened;
+      unknown.given_up = false;
+      return true;
+    }
     if (!without || unknown.reopened == kMostReopened || problem_.Aborted()) continue;
     if (Holds(g, unknown.too_much, 1) && Holds(g, unknown.too_little, -1)) continue;
     ++unknown.reopened;

@@ -94,10 +94,11 @@ bool Membership::End(ContactState& state) {
   const bool encounter = scenario_.solver.restitution_scope == RestitutionScope::kEncounter;
   const int least =
       encounter && IsSought(scenario_, cycle.contact) ? scenario_.solver.encounter_cycles : 1;
-  const bool lasts = cycle.end_time - group.start_time < member.lasts || group.cycles < least ||
-                     IsUndamped(scenario_, cycle.contact);
+  const bool weak = IsWeak(state);
+  const bool lasts = cycle.end_time - group.start_time < member.lasts ||
+                     (group.cycles < least && !weak) || IsUndamped(scenario_, cycle.contact);
   member.open = cycle.end == Cycle::End::kNonSeparation && lasts;
-  state.settled = !member.open && IsWeak(state);
+  state.settled = !member.open && weak;
   return !member.open;
 }
 

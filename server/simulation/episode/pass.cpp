@@ -54,7 +54,7 @@ Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& st
     sight_.pause = motion_.Advance(plan.until, *this, nullptr, stop, step_limit);
     if (sight_.pause == Motion::Pause::kQuiet) sight_.quiet.push_back(motion_.time());
   } while (sight_.pause == Motion::Pause::kQuiet && !plan.first_quiet && !IsOpen() && !enough_ &&
-           (motion_.time() < plan.end || !plan.front.empty()));
+           (motion_.time() < plan.end || running_ > 0 || !plan.front.empty()));
   sight_.time = motion_.time();
   sight_.crowded = cycles_ >= plan.most_cycles && sight_.pause == Motion::Pause::kEnough;
   return std::move(sight_);
@@ -91,7 +91,7 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
   idle_steps_ = 0;
   const bool opens = !state.member.open && !state.settled;
   const double mu = membership_.Start(state, effective_mass, external_force);
-  if (state.settled) return {.mu = mu};
+  if (state.settled) return {.mu = mu, .column = state.column};
   const Cycle& cycle = state.cycle;
   cycles_ += Counts(cycle);
   if (cycles_ >= plan_.most_cycles) enough_ = true;
@@ -105,7 +105,11 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
     if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
     made.first_cycle = cycle.number;
     made.start_time = cycle.start_time;
-    if (made.sought && mu > 0 && WantsColumn(made.id)) made.column = columns_++;
+    if (unknown.weak && mu == state.last_mu) {  // It keeps that μ, and so its column.
+      made.column = state.column;
+    } else if (made.sought && mu > 0 && WantsColumn(made.id)) {
+      made.column = columns_++;
+    }
     if (Matters(unknown)) ++running_;
   }
   const GroupSight* seen = Seen(state);

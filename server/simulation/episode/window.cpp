@@ -20,11 +20,11 @@ constexpr double kBefore = 1e-9;
 
 }  // namespace
 
-void Window::Begin(double start, int running, int known, int contacts, bool packing) {
+void Window::Begin(double start, int running, int known, int contacts, int longest, bool packing) {
   packing_ = packing;
   start_ = start;
   most_ = MostWindowCycles(static_cast<std::size_t>(contacts));
-  cycles_ = std::min(std::max({known, kFirst, running + kMore}), most_);
+  cycles_ = std::min(longest * std::max({known, kFirst, running + kMore}), most_);
 }
 
 // Whether the pass saw the ends of all groups that overlap with it in time, and of all that overlap
