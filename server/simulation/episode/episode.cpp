@@ -52,7 +52,7 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       log_(observer),
       newton_(problem_, log_),
       bisection_(problem_),
-      growing_(problem_, log_),
+      growing_(problem_, log_, bisection_),
       paper_(problem_, log_),
       recorder_(scenario, motion, observer, problem_.groups) {}
 
@@ -140,6 +140,7 @@ Motion::Pause EpisodeSolver::Search() {
   sweeps_ = 0;
   guessing_ = true;
   solved_.clear();
+  growing_.Begin();
   for (int round = 0; round < kRounds; ++round) {
     const bool first = round == 0 && !rejected_;
     const Sight sight = Scan(first);
@@ -260,11 +261,8 @@ bool EpisodeSolver::Bisect(const Sight& sight, const std::vector<GroupId>& front
     const Root root = bisection_.Solve(group);
     if (root == Root::kAborted) return true;
     if (root != Root::kFound) {
-      if (growing_.Answer(group, root)) return true;
-      if (!bisection_.Scan(group)) {
-        growing_.Decide(id, root);
-        return true;
-      }
+      if (!growing_.Answer(group, root)) growing_.Decide(id, root);
+      return true;
     }
     now = problem_.Evaluate(front, false, kForever, kCoarse);
   }

@@ -129,6 +129,14 @@ bool Growing::Holds(const GroupSight& group, const Group::Reached& side, double 
   return sign * (ended ? seen->Miss() : -1) > 0;
 }
 
+// Whether a group has a root after all with what is now around it.
+bool Growing::HasRoot(const GroupSight& group, const Sight& scan) {
+  double sum = 0;
+  for (const GroupSight& g : scan.groups) sum += g.start_time < group.end_time ? g.mu : 0;
+  if (!group.ended || std::exchange(scanned_[group.id], sum) == sum) return false;
+  return bisection_.Scan(group);
+}
+
 bool Growing::Reopen(const Sight& scan) {
   for (const GroupSight& g : scan.groups) {
     Unknown& unknown = problem_.groups.At(g.id);
@@ -141,9 +149,11 @@ bool Growing::Reopen(const Sight& scan) {
       unknown.given_up = false;
       return true;
     }
-    if (!without || unknown.reopened == kMostReopened || problem_.Aborted()) continue;
-    if (Holds(g, unknown.too_much, 1) && Holds(g, unknown.too_little, -1)) continue;
-    ++unknown.reopened;
+    if (!without || problem_.Aborted()) continue;
+    const bool found = HasRoot(g, scan);
+    if (!found && Holds(g, unknown.too_much, 1) && Holds(g, unknown.too_little, -1)) continue;
+    unknown.given_up = unknown.reopened == kMostReopened;
+    if (!unknown.given_up) ++unknown.reopened;
     unknown.status = Cycle::Status::kNotConverged;
     return true;
   }

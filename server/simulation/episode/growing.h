@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "simulation/episode/bisection.h"
 #include "simulation/episode/iteration_log.h"
 #include "simulation/episode/problem.h"
@@ -10,7 +12,11 @@ namespace contact {
 /// those that cannot grow.
 class Growing {
  public:
-  Growing(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
+  Growing(Problem& problem, IterationLog& log, Bisection& bisection)
+      : problem_(problem), log_(log), bisection_(bisection) {}
+
+  /// A search begins, of which nothing is known but the groups.
+  void Begin() { scanned_.clear(); }
 
   /// Grows the group for what bisection has found, or finds that the run cuts it. False: it cannot
   /// grow, or may not.
@@ -19,14 +25,15 @@ class Growing {
   void Decide(const GroupId& id, Root root) const;
   /// Grows the earliest group of a front that misses, for lack of progress; false: none can.
   bool Force(const std::vector<GroupId>& front);
-  /// Takes up again a group that was found to have no solution, where that no longer holds: those
-  /// around it have changed. False: there is none.
+  /// Takes up again a group that was found to have no solution, where that does not hold with what
+  /// is now around it. False: there is none.
   bool Reopen(const Sight& scan);
   /// A group that did not end in a scan: its μ is lowered until it does. False: nothing changes.
   bool Close(const Sight& scan);
 
  private:
   bool Holds(const GroupSight& group, const Group::Reached& side, double sign);
+  bool HasRoot(const GroupSight& group, const Sight& scan);
   bool IsCut(const GroupId& id);
   bool Grow(const GroupId& id, Growth why);
   bool TakeNext(const GroupId& id, Growth why);
@@ -35,6 +42,8 @@ class Growing {
 
   Problem& problem_;
   IterationLog& log_;
+  Bisection& bisection_;
+  std::map<GroupId, double> scanned_;  // Σμ of all with which a group was scanned last.
 };
 
 }  // namespace contact
