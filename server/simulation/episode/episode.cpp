@@ -23,8 +23,6 @@ constexpr int kRescans = 5;
 // A miss by which a guess is poor, so that the search begins with the earliest part of the front,
 // and one that is good enough for the next part.
 constexpr double kPoor = 0.02, kGood = 1e-3;
-// Parts of the same front that are solved, one undoing the other, before it is taken as a whole.
-constexpr int kVisits = 12;
 // Relative error of passes that only look, and a miss that they can tell.
 constexpr double kCoarse = 1e-6, kNear = 1e-4;
 constexpr double kForever = 1e300;
@@ -201,11 +199,7 @@ bool EpisodeSolver::Accepts(Motion::Pause pause) {
 
 Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front,
                                 bool sensitive) {
-  visits_ = front.front() == first_ ? visits_ + 1 : 0;
-  first_ = front.front();
-  const bool stuck = visits_ > kVisits;
-  const std::vector<GroupId> part =
-      stuck ? std::vector<GroupId>{} : EarliestPart(front, sight, kPoor);
+  const std::vector<GroupId> part = EarliestPart(front, sight, kPoor);
   guessing_ = !part.empty();
   const bool whole = part.empty() || part.size() == front.size();
   const std::vector<GroupId>& now = whole ? front : part;

@@ -68,8 +68,6 @@ class EpisodeSolver {
   std::vector<GroupId> solved_;  // The last front that was solved.
   GroupId last_;                 // The first of the last front that was not, and
   int sweeps_ = 0;               // how often its groups were bisected one by one.
-  GroupId first_;                // Of the last front, and
-  int visits_ = 0;               // how often it was the first before.
   bool guessing_ = true;         // The μ of neighbours may have changed what is to be guessed.
 };
 
