@@ -61,6 +61,9 @@ void Fill(google::protobuf::Message* message) {
       case Field::CPPTYPE_UINT64:
         reflection->SetUInt64(message, field, 8);
         break;
+      case Field::CPPTYPE_BOOL:
+        reflection->SetBool(message, field, true);
+        break;
       case Field::CPPTYPE_STRING:
         reflection->SetString(message, field, std::string(64, 'x'));
         break;
