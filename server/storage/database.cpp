@@ -2,6 +2,7 @@
 
 #include <absl/strings/str_cat.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sqlite3.h>
 #include <unistd.h>
 
@@ -111,6 +112,7 @@ std::string Database::Look() {
   Mutex mutex;
   std::condition_variable_any ended;
   const std::jthread alarm([&, handle = connection_.getHandle()](const std::stop_token& stop) {
+    pthread_setname_np(pthread_self(), "look");
     const MutexLock lock(mutex);
     ended.wait_for(mutex, stop, kLookTime, [] { return false; });
     if (!stop.stop_requested()) sqlite3_interrupt(handle);

@@ -27,7 +27,8 @@ class FairnessTest(ServerTest):
     @property
     def flags(self):
         return ("--workers=2", f"--max-queued-jobs={2 * FLOOD}", f"--max-create-burst={2 * FLOOD}",
-                "--max-creates-per-second=0",
+                "--max-creates-per-second=0", f"--max-unfinished-per-owner={2 * FLOOD}",
+                "--max-creates-per-second-per-owner=0",
                 *(f"--listen-as=unix:{self.folder / user} user:{user} tenant:{tenant} roles:submit"
                   for user, tenant in self.users.items()))
 

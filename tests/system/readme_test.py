@@ -69,9 +69,18 @@ class ReadmeTest(unittest.TestCase):
         floods = (SERVER / "rpc/net/flood_guard.cpp").read_text("utf-8")
         most_open = re.search(r"kMostOpen = (\d+)", floods).group(1)
         taken_back = re.search(r"kMostTakenBack = (\d+)", floods).group(1)
+        unanswered = re.search(r"kMostUnanswered = (\d+) << 20", floods).group(1)
+        watches = (SERVER / "jobs/watches.cpp").read_text("utf-8")
+        messages = re.search(r"kAllBytes = std::size_t\{(\d+)\} << 20", watches).group(1)
+        columns = (SERVER / "wire/chunk_columns.h").read_text("utf-8")
+        chunk = re.search(r"kMostChunkBytes = std::size_t\{(\d+)\} << 20", columns).group(1)
         self.assertEqual(told, {
             "open calls of a connection": float(most_open),
             "calls that a connection takes back in a second": float(taken_back),
+            "bytes of a connection between two answers, beside those of windows":
+                int(unanswered) * 2**20,
+            "messages to all watchers": int(messages) * 2**20,
+            "bytes of a frame chunk": int(chunk) * 2**20,
             "fields in a CreateJob request": 2.0 ** int(fields),
             "memory of CreateJob requests that are not answered yet": int(requests) * 2**20,
             "time until a connection begins HTTP/2": float(handshake.replace("'", "")) / 1000,
