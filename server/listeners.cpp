@@ -73,8 +73,8 @@ std::string Listeners::Start() {
   return Open(config_.listen_admin, options) ? "" : config_.listen_admin;
 }
 
-std::optional<int> Listeners::Open(const std::string& address, GrpcServerOptions options) {
-  servers_.push_back(std::make_unique<GrpcServer>(jobs_, store_, std::move(options), info_));
+std::optional<int> Listeners::Open(const std::string& address, const GrpcServerOptions& options) {
+  servers_.push_back(std::make_unique<GrpcServer>(jobs_, store_, options, info_));
   return servers_.back()->Start(address);
 }
 

@@ -46,7 +46,7 @@ class Listeners {
   /// Who comes in by `--listen`.
   Door MainDoor() const;
   /// Opens a listener; its port, or nothing if the address cannot be had.
-  std::optional<int> Open(const std::string& address, GrpcServerOptions options);
+  std::optional<int> Open(const std::string& address, const GrpcServerOptions& options);
 
   JobManager& jobs_;
   Store& store_;

@@ -109,7 +109,7 @@ v1::ServerInfo WithLimits(v1::ServerInfo identity, const GrpcServerOptions& opti
 
 }  // namespace
 
-GrpcServer::GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options,
+GrpcServer::GrpcServer(JobManager& jobs, Store& store, const GrpcServerOptions& options,
                        v1::ServerInfo identity, const Clock& clock)
     : options_(Fitted(options)),
       loop_(std::make_shared<StreamLoop>(clock, options.write_stall)),

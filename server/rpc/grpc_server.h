@@ -57,8 +57,8 @@ struct GrpcServerOptions {
 class GrpcServer {
  public:
   /// `identity`: see JobService. The manager, its store and the clock outlive the server.
-  GrpcServer(JobManager& jobs, Store& store, GrpcServerOptions options, v1::ServerInfo identity,
-             const Clock& clock = SystemClock());
+  GrpcServer(JobManager& jobs, Store& store, const GrpcServerOptions& options,
+             v1::ServerInfo identity, const Clock& clock = SystemClock());
 
   /// Shuts down if that has not been done.
   ~GrpcServer();
