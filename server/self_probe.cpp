@@ -1,14 +1,11 @@
 #include "self_probe.h"
 
-#include <absl/synchronization/notification.h>
 #include <fmt/format.h>
-#include <grpcpp/generic/generic_stub.h>
-#include <grpcpp/impl/codegen/proto_utils.h>
 #include <grpcpp/security/tls_certificate_verifier.h>
 #include <grpcpp/security/tls_credentials_options.h>
 
 #include "address.h"
-#include "grpc/health/v1/health.pb.h"
+#include "grpc/health/v1/health.grpc.pb.h"
 
 namespace contact {
 namespace {
@@ -39,21 +36,11 @@ SelfProbe::SelfProbe(const std::string& listen, int port, bool tls)
                                    tls ? Encrypted() : grpc::InsecureChannelCredentials())) {}
 
 bool SelfProbe::Answers(std::chrono::microseconds patience) const {
-  grpc::TemplatedGenericStub<health::HealthCheckRequest, health::HealthCheckResponse> stub(
-      channel_);
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + patience);
   context.set_wait_for_ready(true);
-  const health::HealthCheckRequest whole;
   health::HealthCheckResponse response;
-  grpc::Status status;
-  absl::Notification ended;
-  stub.UnaryCall(&context, "/grpc.health.v1.Health/Check", {}, &whole, &response,
-                 [&](grpc::Status end) {
-                   status = std::move(end);
-                   ended.Notify();
-                 });
-  ended.WaitForNotification();
+  const grpc::Status status = health::Health::NewStub(channel_)->Check(&context, {}, &response);
   return status.ok() && response.status() == health::HealthCheckResponse::SERVING;
 }
 
