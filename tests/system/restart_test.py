@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import grpc
@@ -92,8 +93,9 @@ class DrainTest(ServerTest):
         self.assertLess(elapsed, 5)
 
         self.server.start()
-        self.server.wait_until(name, is_cycle)
-        job = self.server.get(name)
+        deadline = time.monotonic() + PATIENCE_S
+        while (job := self.server.get(name)).state == Job.QUEUED and time.monotonic() < deadline:
+            time.sleep(0.02)
         self.assertEqual(job.state, Job.RUNNING)
         self.assertEqual(job.attempt, 1, "a shutdown burns no attempt")
         self.server.cancel(name)
