@@ -17,6 +17,7 @@
 #include "base/mutex.h"
 #include "storage/database_copy.h"
 #include "storage/migration.h"
+#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {
@@ -134,6 +135,7 @@ void Database::Configure(std::int64_t max_bytes) {
     const std::int64_t pages = max_bytes / Number("PRAGMA page_size");
     connection_.exec(absl::StrCat("PRAGMA max_page_count=", pages));
   }
+  AddRowChecksum(connection_);
   sqlite3* const handle = connection_.getHandle();
   sqlite3_db_config(handle, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
   sqlite3_wal_hook(

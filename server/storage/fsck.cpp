@@ -14,6 +14,7 @@
 #include "storage/checksum.h"
 #include "storage/data_directory.h"
 #include "storage/job_parts.h"
+#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {
@@ -76,11 +77,13 @@ class Checker {
       : connection_(connection), tell_(tell) {}
 
   FsckReport Run() {
+    AddRowChecksum(connection_);
     Check("database", "PRAGMA integrity_check(100)", &Checker::CheckPage);
     Check("database", "PRAGMA foreign_key_check", &Checker::CheckReference);
     Check("jobs",
-          "SELECT number, name, state, last_sequence, bytes, crc32, header, oldest_sequence,"
-          " owner, tenant, end_time FROM jobs ORDER BY number",
+          absl::StrCat("SELECT number, name, state, last_sequence, bytes, crc32, header,"
+                       " oldest_sequence, owner, tenant, end_time, row_crc32=",
+                       kRowChecksum, " FROM jobs ORDER BY number"),
           &Checker::CheckJob);
     Check("labels", "SELECT job, key, value FROM labels", &Checker::KeepLabel);
     Check("specs", "SELECT job, crc32, spec FROM specs", &Checker::CheckSpec);
@@ -116,7 +119,7 @@ class Checker {
 
   // Checks every row of a query. A page that cannot be read ends this part of the check, not all
   // of it.
-  void Check(const char* part, const char* sql, void (Checker::*check)(Row)) {
+  void Check(const char* part, const std::string& sql, void (Checker::*check)(Row)) {
     try {
       SQLite::Statement query(connection_, sql);
       while (query.executeStep()) (this->*check)(Row(query));
@@ -140,7 +143,7 @@ class Checker {
     job.oldest_sequence = row.Integer(7);
     const std::string header = row.Bytes(6);
     v1::Job message;
-    if (Checksum(header) != row.Integer(5)) {
+    if (Checksum(header) != row.Integer(5) || row.Integer(11) == 0) {
       Find(job.name, ": the job fails its checksum");
     } else if (!message.ParseFromString(header) || message.name() != job.name ||
                message.state() != row.Integer(2) || OwnerOf(message) != row.Bytes(8) ||

@@ -8,10 +8,17 @@
 #include "storage/checksum.h"
 #include "storage/database.h"
 #include "storage/job_queries.h"
+#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {
 namespace {
+
+// To be called after a change of a column that kRowChecksum names.
+void Seal(Database& database, std::int64_t job) {
+  Execute(database, absl::StrCat("UPDATE jobs SET row_crc32=", kRowChecksum, " WHERE number=?"),
+          job);
+}
 
 void InsertEvents(Database& database, std::int64_t job, std::uint64_t last,
                   const std::vector<EventRow>& events) {
@@ -70,6 +77,7 @@ void InsertJob(Database& database, const JobInsert& insert) {
   for (const auto& [key, value] : insert.labels) {
     Execute(database, "INSERT INTO labels(key, value, job) VALUES(?,?,?)", key, value, job);
   }
+  Seal(database, job);
   InsertEvents(database, job, 0, insert.events);
 }
 
@@ -129,6 +137,7 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
   }
   Execute(database, "UPDATE jobs SET epoch=epoch+?, last_sequence=?, bytes=bytes+? WHERE number=?",
           change.take, last + change.events.size(), BytesOf(change.events), number);
+  if (change.take) Seal(database, number);
   // First, because it goes with the end of the job.
   if (change.checkpoint) WriteCheckpoint(database, number, last, *change.checkpoint);
   if (!change.parts.header.empty()) WriteParts(database, number, change);
@@ -137,8 +146,11 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
 }
 
 absl::Status MarkCancelRequested(Database& database, const std::string& name) {
-  Query update(database, "UPDATE jobs SET cancel_requested=1 WHERE name=?", name);
-  return update.Run() == 1 ? absl::OkStatus() : NoSuchJob(name);
+  Query job(database, "SELECT number FROM jobs WHERE name=?", name);
+  if (!job.Next()) return NoSuchJob(name);
+  Execute(database, "UPDATE jobs SET cancel_requested=1 WHERE number=?", job.Integer(0));
+  Seal(database, job.Integer(0));
+  return absl::OkStatus();
 }
 
 absl::StatusOr<JobOwner> Remove(Database& database, const std::string& name,
@@ -164,6 +176,7 @@ absl::StatusOr<JobOwner> Compact(Database& database, const std::string& name) {
   const std::int64_t sequence = last.Next() ? last.Integer(0) : 0;
   Execute(database, "UPDATE jobs SET compacted=1, oldest_sequence=? WHERE number=?", sequence + 1,
           job->number);
+  Seal(database, job->number);
   if (sequence == 0) return job->whose;
   Execute(database, "INSERT OR IGNORE INTO compacting(job, position) VALUES(?, 0)", job->number);
   return job->whose;

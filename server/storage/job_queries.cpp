@@ -12,6 +12,7 @@
 #include "storage/checksum.h"
 #include "storage/database.h"
 #include "storage/job_parts.h"
+#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {
@@ -21,9 +22,13 @@ namespace {
 // hold up the commits behind it.
 constexpr std::uint64_t kMaxScan = 4096;
 
-constexpr char kSelectJob[] =
-    "SELECT number, name, state, epoch, cancel_requested, last_sequence, crc32, header,"
-    " oldest_sequence, compacted, owner, tenant FROM jobs ";
+// The first words of a query for RowOf.
+std::string SelectJob() {
+  return absl::StrCat(
+      "SELECT number, name, state, epoch, cancel_requested, last_sequence, crc32, header,"
+      " oldest_sequence, compacted, owner, tenant, row_crc32=",
+      kRowChecksum, " FROM jobs ");
+}
 
 struct JobRow {
   std::int64_t number = 0;
@@ -38,8 +43,9 @@ JobRow RowOf(const Query& query) {
   const std::string header = query.Bytes(7);
   const std::string owner = query.Bytes(10);
   const std::string tenant = query.Bytes(11);
-  row.stored.intact = Checksum(header) == query.Integer(6) && job.ParseFromString(header) &&
-                      job.name() == name && OwnerOf(job) == owner && TenantOf(job) == tenant;
+  row.stored.intact = query.Integer(12) != 0 && Checksum(header) == query.Integer(6) &&
+                      job.ParseFromString(header) && job.name() == name && OwnerOf(job) == owner &&
+                      TenantOf(job) == tenant;
   if (!row.stored.intact) job.Clear();
   job.set_name(name);
   job.set_owner(owner);
@@ -95,7 +101,7 @@ std::string Placeholders(std::size_t count) {
 }
 
 std::string ListSql(const JobQuery& query) {
-  std::string sql = absl::StrCat(kSelectJob, "WHERE number<?");
+  std::string sql = absl::StrCat(SelectJob(), "WHERE number<?");
   if (query.tenant) absl::StrAppend(&sql, " AND tenant=?");
   if (!query.states.empty()) {
     absl::StrAppend(&sql, " AND state IN (", Placeholders(query.states.size()), ")");
@@ -144,13 +150,13 @@ absl::Status OtherJob(const v1::Job& job) {
 }
 
 absl::StatusOr<StoredJob> Read(Database& database, const std::string& name, JobPart part) {
-  Query query(database, absl::StrCat(kSelectJob, "WHERE name=?"), name);
+  Query query(database, absl::StrCat(SelectJob(), "WHERE name=?"), name);
   return ReadFound(database, query, name, part);
 }
 
 absl::StatusOr<StoredJob> ReadOf(Database& database, const std::string& tenant,
                                  const std::string& name, JobPart part) {
-  Query query(database, absl::StrCat(kSelectJob, "WHERE name=? AND tenant=?"), name, tenant);
+  Query query(database, absl::StrCat(SelectJob(), "WHERE name=? AND tenant=?"), name, tenant);
   return ReadFound(database, query, name, part);
 }
 
@@ -196,7 +202,7 @@ JobPage List(Database& database, const JobQuery& query) {
 }
 
 std::vector<StoredJob> ListUnfinished(Database& database) {
-  Query rows(database, absl::StrCat(kSelectJob, "WHERE NOT ", kEnded, " ORDER BY number"));
+  Query rows(database, absl::StrCat(SelectJob(), "WHERE NOT ", kEnded, " ORDER BY number"));
   std::vector<StoredJob> jobs;
   while (rows.Next()) jobs.push_back(RowOf(rows).stored);
   return jobs;

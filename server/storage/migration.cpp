@@ -6,6 +6,7 @@
 #include "contact/v1/job.pb.h"
 #include "storage/checksum.h"
 #include "storage/job_parts.h"
+#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {
@@ -37,6 +38,12 @@ ALTER TABLE jobs ADD COLUMN tenant TEXT NOT NULL DEFAULT 'local';
 CREATE INDEX jobs_by_tenant ON jobs(tenant, number);
 UPDATE jobs SET request_id = 'local/' || request_id WHERE request_id IS NOT NULL;
 )sql";
+
+// From 5: columns that stand nowhere else have a checksum.
+void SealRows(SQLite::Database& connection) {
+  connection.exec("ALTER TABLE jobs ADD COLUMN row_crc32 INTEGER NOT NULL DEFAULT 0");
+  connection.exec(absl::StrCat("UPDATE jobs SET row_crc32=", kRowChecksum));
+}
 
 // SQL function: the end of the job with this header in Unix seconds; 0 if it does not tell.
 void EndTimeOf(sqlite3_context* context, int, sqlite3_value** arguments) {
@@ -87,7 +94,8 @@ void Migrate(SQLite::Database& connection, int version) {
     connection.exec(kSchemaOfVersion3);
   }
   if (version < 4) AddTitles(connection);
-  connection.exec(kToVersion5);
+  if (version < 5) connection.exec(kToVersion5);
+  SealRows(connection);
   connection.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
   transaction.commit();
 }

@@ -7,7 +7,7 @@ namespace contact {
 
 /// Version of the tables below, kept in PRAGMA user_version of the database. A change of the tables
 /// raises it by 1 and adds a step to migration.cpp.
-inline constexpr int kSchemaVersion = 5;
+inline constexpr int kSchemaVersion = 6;
 
 /// SQL condition on a row of jobs: the job has ended, so its state is one of those below.
 inline constexpr char kEnded[] = "state IN (3,4,5)";
@@ -30,7 +30,8 @@ CREATE TABLE jobs(
   oldest_sequence INTEGER NOT NULL DEFAULT 1,
   compacted INTEGER NOT NULL DEFAULT 0,
   owner TEXT NOT NULL DEFAULT 'local',
-  tenant TEXT NOT NULL DEFAULT 'local'
+  tenant TEXT NOT NULL DEFAULT 'local',
+  row_crc32 INTEGER NOT NULL DEFAULT 0
 ) STRICT;
 CREATE INDEX jobs_by_state ON jobs(state, number);
 CREATE INDEX jobs_by_tenant ON jobs(tenant, number);

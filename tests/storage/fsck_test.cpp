@@ -115,6 +115,26 @@ TEST_F(FsckTest, ColumnsThatNoChecksumCoversAreComparedWithTheJob) {
               Contains("jobs/a: its spec is that of another job"));
 }
 
+TEST_F(FsckTest, ColumnsThatStandNowhereElseHaveAChecksum) {
+  Fill();
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .take = true}).ok());
+  Await<absl::StatusOr<bool>> requested;
+  store_->RequestCancel("jobs/b", requested.callback());
+  ASSERT_TRUE(requested.Get().ok());
+  store_.reset();
+  EXPECT_THAT(After("UPDATE jobs SET epoch=epoch"), ElementsAre()) << "they are kept in step";
+  const char* const changes[] = {"epoch=epoch+1", "request_id='local/other'", "cancel_requested=1",
+                                 "compacted=1",   "oldest_sequence=0",        "name='jobs/c'"};
+  for (const std::string change : changes) {
+    const std::filesystem::path kept = path().string() + ".kept";
+    std::filesystem::copy_file(database(), kept);
+    EXPECT_THAT(After("UPDATE jobs SET " + change + " WHERE number=1"),
+                Contains(HasSubstr("the job fails its checksum")))
+        << change;
+    std::filesystem::rename(kept, database());
+  }
+}
+
 TEST_F(FsckTest, RemovedJobsAreNoDamage) {
   Fill();
   store_.reset();

@@ -239,7 +239,8 @@ TEST_P(MigrationTest, JobsAndRequestIdsBelongToEverybody) {
   MakeOldVersion();
   {
     SQLite::Database raw(database(), SQLite::OPEN_READWRITE);
-    raw.exec("UPDATE jobs SET request_id='again' WHERE number=1");
+    raw.exec(absl::StrCat("UPDATE jobs SET request_id='", GetParam() < 5 ? "" : "local/",
+                          "again' WHERE number=1"));
   }
   Open();
   const auto jobs = List({.tenant = kLocal});
@@ -255,7 +256,19 @@ TEST_P(MigrationTest, JobsAndRequestIdsBelongToEverybody) {
   EXPECT_EQ(Create(job, "again")->job.name(), "jobs/new") << "to the tenant that used it";
 }
 
-INSTANTIATE_TEST_SUITE_P(FromVersion, MigrationTest, testing::Values(1, 2, 3, 4),
+// What version 6 has added.
+TEST_P(MigrationTest, RowsAreSealed) {
+  MakeOldVersion();
+  Open();
+  store_.reset();
+  SQLite::Database(database(), SQLite::OPEN_READWRITE).exec("UPDATE jobs SET epoch=epoch+1");
+  Open();
+  const auto jobs = List({});
+  ASSERT_TRUE(jobs.ok());
+  for (const StoredJob& job : jobs->jobs) EXPECT_FALSE(job.intact) << job.job.name();
+}
+
+INSTANTIATE_TEST_SUITE_P(FromVersion, MigrationTest, testing::Values(1, 2, 3, 4, 5),
                          testing::PrintToStringParamName());
 
 }  // namespace
