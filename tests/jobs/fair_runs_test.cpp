@@ -1,6 +1,8 @@
-// Endless runs of several owners on one worker, with the real solver.
+// Endless runs of several owners on one worker, with the real solver if nothing else is said.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <map>
 #include <string>
@@ -65,6 +67,35 @@ TEST_F(FairRunsTest, RunsOfTwoOwnersTakeTurnsOnOneWorker) {
   CancelAs(kEve, eve);
   AwaitState(kAda, ada, v1::Job::CANCELLED);
   AwaitState(kEve, eve, v1::Job::CANCELLED);
+}
+
+// Waits until the count is above `count`.
+void AwaitAbove(const std::atomic<int>& steps, int count) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (steps <= count) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end);
+    std::this_thread::yield();
+  }
+}
+
+TEST_F(FairRunsTest, RunsThatNeverReachABoundaryTakeTurns) {
+  std::array<std::atomic<int>, 2> steps{};
+  std::atomic<std::size_t> begun = 0;
+  JobOptions options{.workers = 1};
+  options.run = [&](const Scenario&, Observer& observer, const std::stop_token& stop) {
+    std::atomic<int>& mine = steps.at(begun++);
+    for (; !stop.stop_requested(); ++mine) observer.OnStep();
+    return Ending(Outcome::End::kStopped);
+  };
+  Open(options);
+  CreateAs(kAda);
+  AwaitAbove(steps[0], 0);
+  CreateAs(kEve);
+  for (int turn = 0; turn < 2; ++turn) {
+    AwaitAbove(steps[1], steps[1]);
+    AwaitAbove(steps[0], steps[0]);
+  }
+  manager_.reset();
 }
 
 TEST_F(FairRunsTest, ServerStopsWhileRunsWaitForTheirTurn) {

@@ -71,7 +71,7 @@ TEST_F(SweepTest, ManyWorkersFindWhatOneFinds) {
   EXPECT_EQ(Cells(together), serial);
 }
 
-// Its cells last until they are let go, and come to a boundary now and then.
+// Its cells last until they are let go, and make steps.
 TEST_F(SweepTest, HelperLeavesItsCellToAnotherJobAndTheCellIsComputedLater) {
   std::atomic<int> begun = 0;
   std::atomic<bool> let_go = false;
@@ -80,7 +80,7 @@ TEST_F(SweepTest, HelperLeavesItsCellToAnotherJobAndTheCellIsComputedLater) {
     if (scenario.end_time == 1e-3) return Outcome{};  // The other job.
     ++begun;
     while (!let_go && !stop.stop_requested()) {
-      observer.OnBoundary([] { return RunState(); });
+      observer.OnStep();
       std::this_thread::yield();
     }
     return stop.stop_requested() ? Ending(Outcome::End::kStopped) : Outcome{};

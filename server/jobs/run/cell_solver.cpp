@@ -33,12 +33,11 @@ class CellObserver final : public Observer {
     std::ranges::move(SplitColumns(Encode(scenario_, samples)), std::back_inserter(*trajectory_));
   }
   void OnProgress(const Progress& /*progress*/) override { meanwhile_.write(); }
-  void OnBoundary(const std::function<RunState()>& /*state*/) override {
-    if (meanwhile_.leave()) stop_.request_stop();
-  }
   // In batches: all workers count on the same number.
   void OnStep() override {
-    if (++steps_ == kBatch) TellSteps();
+    if (++steps_ < kBatch) return;
+    TellSteps();
+    if (meanwhile_.leave()) stop_.request_stop();
   }
 
   void TellSteps() { control_.CountSteps(std::exchange(steps_, 0)); }

@@ -24,7 +24,7 @@ struct SolvedCell {
 /// What a thread does now and then while it computes a cell.
 struct Meanwhile {
   std::function<void()> write;
-  /// Called between two episodes. True: the cell is to be left, somebody else needs the thread.
+  /// Called every few steps. True: the cell is to be left, somebody else needs the thread.
   std::function<bool()> leave;
 };
 

@@ -89,8 +89,14 @@ void RunRecorder::OnWarning(const std::string& warning) {
   Keep(std::move(event));
 }
 
+void RunRecorder::OnStep() {
+  assignment_.control->CountStep();
+  if (!assignment_.control->yielding()) return;
+  writer_.WriteIfDue();
+  assignment_.yield();
+}
+
 void RunRecorder::OnBoundary(const std::function<RunState()>& state) {
-  if (assignment_.control->yielding()) assignment_.yield();
   const auto now = clock_.Elapsed();
   if (checkpoint_interval_.count() == 0 || now - last_checkpoint_ < checkpoint_interval_) return;
   last_checkpoint_ = now;

@@ -44,9 +44,9 @@ class RunRecorder final : public Observer {
   /// Publishes the progress, at most every 100 ms, and writes events that have waited long enough.
   void OnProgress(const Progress& progress) override;
   void OnWarning(const std::string& warning) override;
-  void OnStep() override { assignment_.control->CountStep(); }
-  /// Lets others compute if the run is asked to. Stores a checkpoint if it is time for one and it
-  /// is not too large.
+  /// Writes what is due and lets others compute if the run is asked to.
+  void OnStep() override;
+  /// Stores a checkpoint if it is time for one and it is not too large.
   void OnBoundary(const std::function<RunState()>& state) override;
 
  private:
