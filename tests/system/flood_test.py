@@ -4,18 +4,15 @@ FLOOD_SECONDS says how long a flood of frames lasts.
 """
 
 import contextlib
-import itertools
-import multiprocessing
 import os
 import resource
 import socket
 import statistics
-import struct
 import time
 import unittest
 
+import flooding
 import grpc
-import http2
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
 from contactd import PATIENCE_S, ServerTest, endless_and_slow
 
@@ -23,8 +20,6 @@ DESCRIPTORS = 512  # Of the server.
 SLACK = 5  # A machine so many times slower must pass too.
 FLOOD_S = float(os.environ.get("FLOOD_SECONDS", "3"))
 MOST_GROWTH = 256 << 20  # Of the server's memory [B].
-INFO = "/contact.v1.JobService/GetServerInfo"
-WATCH = "/contact.v1.JobService/WatchJob"
 
 
 def few_descriptors():
@@ -108,9 +103,7 @@ class FloodTest(HonestTest):
 
 
 class FrameFloodTest(HonestTest):
-    """One client that sends frames as fast as it can, and reads no answer.
-
-    gRPC 1.51 reads such frames faster than it acts on them, so what waits takes memory until the
+    """gRPC 1.51 reads frames faster than it acts on them, so what waits takes memory until the
     connection is cut: some 10 KB for a call that was taken back, all bytes of a header.
     """
 
@@ -125,32 +118,18 @@ class FrameFloodTest(HonestTest):
             line = next(line for line in status if line.startswith(kind))
         return int(line.split()[1]) * 1024
 
-    def send(self, frames, until, sent):
-        """Begins anew whenever the server has ended the connection. A process of its own."""
-        while time.monotonic() < until:
-            with contextlib.suppress(OSError), http2.greet(self.server.port) as connection:
-                sent[1] += 1
-                connection.settimeout(0.2)
-                for number in itertools.count():
-                    connection.sendall(frames(number))
-                    sent[0] += 1
-                    if time.monotonic() > until:
-                        break
-
-    def flood(self, what, frames):
-        base, sent, waited = self.memory("VmRSS"), multiprocessing.Array("q", 2), []
-        until = time.monotonic() + FLOOD_S
-        flood = multiprocessing.get_context("fork").Process(
-            target=self.send, args=(frames, until, sent))
-        flood.start()
-        while flood.is_alive():
-            waited.append(self.honest_call())
-        flood.join()
+    def check(self, kind):
+        job = self.server.create(endless_and_slow()).name
+        base, waited = self.memory("VmRSS"), []
+        with flooding.start(self.server.port, FLOOD_S, kind, job) as flood:
+            while flood.poll() is None:
+                waited.append(self.honest_call())
+            batches, connections = flood.stdout.read().split()
         after = self.honest_call()
         growth = self.memory("VmHWM") - base
         waited.sort()
         p99 = waited[int(0.99 * (len(waited) - 1))]
-        print(f"{what}: {sent[0]} batches on {sent[1]} connections; {len(waited)} honest calls "
+        print(f"{kind}: {batches} batches on {connections} connections; {len(waited)} honest calls "
               f"meanwhile, median {1000 * statistics.median(waited):.1f} ms, p99 {1000 * p99:.0f} "
               f"ms; {1000 * after:.1f} ms after it; {growth / 2**20:.1f} MiB more at most")
         self.assertLess(p99, 1.0 * SLACK)
@@ -158,62 +137,9 @@ class FrameFloodTest(HonestTest):
         self.assertLess(growth, MOST_GROWTH)
         self.assertLivesOn()
 
-    def test_pings(self):
-        batch = http2.frame(http2.PING, 0, 0, bytes(8)) * 500
-        self.flood("PING", lambda _: batch)
 
-    def test_settings(self):
-        window = struct.pack(">HI", http2.INITIAL_WINDOW_SIZE, 65535)
-        batch = http2.frame(http2.SETTINGS, 0, 0, window) * 500
-        self.flood("SETTINGS", lambda _: batch)
-
-    def test_windows(self):
-        batch = http2.frame(http2.WINDOW_UPDATE, 0, 0, struct.pack(">I", 1)) * 1000
-        self.flood("WINDOW_UPDATE", lambda _: batch)
-
-    def test_priorities(self):
-        batch = http2.frame(http2.PRIORITY, 0, 1, struct.pack(">IB", 0, 16)) * 1000
-        self.flood("PRIORITY", lambda _: batch)
-
-    def test_headers_without_end(self):
-        """No setting of the server is confirmed, so gRPC bounds no header."""
-        start = http2.frame(http2.HEADERS, 0, 1, http2.header(b":method", b"POST"))
-        batch = http2.frame(http2.CONTINUATION, 0, 1, http2.header(b"n", b"x" * 1000) * 16) * 4
-        self.flood("CONTINUATION", lambda number: batch if number else start)
-
-    def test_empty_headers_without_end(self):
-        start = http2.frame(http2.HEADERS, 0, 1, http2.header(b":method", b"POST"))
-        batch = http2.frame(http2.CONTINUATION, 0, 1) * 1000
-        self.flood("empty CONTINUATION", lambda number: batch if number else start)
-
-    def test_empty_data(self):
-        batch = http2.frame(http2.DATA, 0, 1) * 1000
-        self.flood("empty DATA", lambda number: batch if number else http2.headers(1, INFO))
-
-    def resets(self, method, content):
-        """Calls that are taken back at once, streams of their connection in turn."""
-        def frames(number):
-            first = 100 * number
-            return b"".join(
-                http2.headers(stream, method) + http2.message(stream, content) +
-                http2.frame(http2.RST_STREAM, 0, stream, struct.pack(">I", 8))
-                for stream in range(2 * first + 1, 2 * first + 201, 2))
-        return frames
-
-    def test_calls_reset_at_once(self):
-        self.flood("RST_STREAM", self.resets(INFO, b""))
-
-    def test_watches_reset_at_once(self):
-        name = self.server.create(endless_and_slow()).name
-        request = job_service_pb2.WatchJobRequest(name=name).SerializeToString()
-        self.flood("RST_STREAM of watches", self.resets(WATCH, request))
-
-    def test_calls_whose_answers_are_not_read(self):
-        """No setting of the server is confirmed, so gRPC lets streams be opened without end."""
-        def frames(number):
-            return b"".join(http2.headers(stream, INFO) + http2.message(stream)
-                            for stream in range(200 * number + 1, 200 * number + 201, 2))
-        self.flood("unread calls", frames)
+for kind in flooding.KINDS:
+    setattr(FrameFloodTest, "test_" + kind.replace(" ", "_"), lambda test, kind=kind: test.check(kind))
 
 
 if __name__ == "__main__":
