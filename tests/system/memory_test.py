@@ -1,11 +1,15 @@
 """What a job may take of the server's memory: the largest scenario, the longest ledger."""
 
+import os
 import time
 import unittest
 
+import flooding
+import http2
 from contact.v1 import job_service_pb2, scenario_pb2
-from contactd import PATIENCE_S, Job, ServerTest, endless
+from contactd import PATIENCE_S, Job, ServerTest, endless, spring_wall
 
+FLOOD_S = float(os.environ.get("FLOOD_SECONDS", "5"))
 SLACK = 5  # A machine so many times slower must pass too.
 
 
@@ -82,6 +86,42 @@ class LongLedgerTest(MemoryTest):
         self.assertEqual(job.state_reason, "BUDGET_MEMORY")
         self.assertGreater(len(job.cycles), 5000)
         self.assertLess(self.peak(), 128 << 20)
+
+
+class EverythingAtOnceTest(MemoryTest):
+    """The bounds that server/README.md gives one by one hold together."""
+
+    flags = ("--workers=2", "--max-memory=256MiB", "--max-watchers=3000",
+             "--max-watchers-per-peer=3000")
+    # Runs, a flood, messages to watchers, requests that are not answered yet.
+    most = (2 * 256 + 256 + 64 + 256) << 20
+
+    def stall(self, name, watchers):
+        """Watchers that open their windows wide, and never read."""
+        request = job_service_pb2.WatchJobRequest(name=name).SerializeToString()
+        for _ in range(watchers // 100):
+            client = http2.greet(self.server.port, window=http2.LARGEST_WINDOW)
+            self.addCleanup(client.close)
+            client.sendall(b"".join(
+                http2.headers(stream, flooding.WATCH) + http2.message(stream, request)
+                for stream in range(1, 201, 2)))
+
+    def test_memory_stays_below_the_sum_of_its_bounds(self):
+        recorded = spring_wall(0.4)  # 11 MB of events.
+        recorded.output.sample_interval_s = 2e-6
+        self.stall(self.server.run(recorded).name, 2000)
+        runs = [self.server.create(scenario).name
+                for scenario in (balls_at_rest(19_999), endless()) * 3]
+        floods = [flooding.start(self.server.port, FLOOD_S, kind)
+                  for kind in ("unread calls", "CONTINUATION")]
+        while any(flood.poll() is None for flood in floods):
+            self.server.create(balls_at_rest(5000))
+        for flood in floods:
+            flood.stdout.close()
+        states = [Job.State.Name(self.server.get(name).state) for name in runs]
+        print(f"{self.peak() / 2**20:.0f} of {self.most / 2**20:.0f} MiB at most; {states}")
+        self.assertIn("RUNNING", states)
+        self.assertLess(self.peak(), self.most)
 
 
 if __name__ == "__main__":
