@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/origin.h"
 #include "identity/identity_files.h"
 #include "jobs/job_manager.h"
 #include "log.h"
@@ -39,6 +40,10 @@ inline bool AsksWhoCalls(const IdentityPaths& paths) {
 struct Config {
   std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
   std::string metrics_listen;             ///< HOST:PORT of the metrics; empty: none.
+  std::string http_listen;                ///< HOST:PORT or unix:PATH of the gateway; empty: none.
+  gateway::OriginRules http_rules;        ///< Whom the gateway answers.
+  std::filesystem::path http_port_file;   ///< File to write the gateway's port to; empty: none.
+  std::filesystem::path web_dir;          ///< Files of the dashboard; empty: none.
   std::vector<SocketListener> listen_as;  ///< Socket files, each with one identity.
   std::string trusted_proxy;        ///< unix:PATH of a proxy that says who calls; empty: none.
   std::string listen_admin;         ///< unix:PATH of AdminService; empty: it is at `listen`.

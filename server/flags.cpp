@@ -37,6 +37,26 @@ void AddBasics(CLI::App* app, Config* config) {
                   "HOST:PORT that tells metrics to Prometheus, such as 127.0.0.1:9464");
 }
 
+// The gateway for browsers and curl.
+void AddHttp(CLI::App* app, Config* config) {
+  app->add_option("--http-listen", config->http_listen,
+                  "HOST:PORT or unix:PATH for browsers and curl: the dashboard, and all calls by "
+                  "the protocols Connect and gRPC-Web");
+  app->add_option("--http-port-file", config->http_port_file,
+                  "File to write the port of --http-listen to");
+  app->add_option("--http-host", config->http_rules.hosts,
+                  "Name that browsers may call the gateway by, beside localhost; may be repeated")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--http-allow-origin", config->http_rules.origins,
+                  "Origin whose pages may read answers, such as https://lab.example; may be "
+                  "repeated")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--web-dir", config->web_dir, "Files of the dashboard")
+      ->default_str("those installed with contactd");
+}
+
 void AddLog(CLI::App* app, Config* config) {
   app->add_option("--log-level", config->log_level, "debug, info, warn, error or off")
       ->transform(CLI::CheckedTransformer(kLogLevels))
@@ -254,6 +274,7 @@ void AddRetention(CLI::App* app, RetentionLimits* retention) {
 
 void AddFlags(CLI::App* app, Config* config, Switches* switches) {
   AddBasics(app, config);
+  AddHttp(app, config);
   AddLog(app, config);
   AddExposure(app, switches);
   AddIdentity(app, config, switches);

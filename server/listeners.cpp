@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "identity/token_changes.h"
@@ -78,14 +79,29 @@ std::optional<int> Listeners::Open(const std::string& address, const GrpcServerO
   return servers_.back()->Start(address);
 }
 
+bool Listeners::ServeHttp(std::function<std::string()> metrics) {
+  if (config_.http_listen.empty()) return true;
+  GatewayOptions options{.rules = config_.http_rules,
+                         .web_dir = config_.web_dir,
+                         .max_body_bytes = static_cast<std::size_t>(config_.rpc.max_message_bytes),
+                         .stall = config_.rpc.write_stall};
+  options.connections.per_peer =
+      std::min(options.connections.per_peer, config_.rpc.connections.per_peer);
+  if (!MainDoor().asks() && config_.listen_admin.empty()) options.metrics = std::move(metrics);
+  gateway_ = Gateway::Open(config_.http_listen, servers_.front()->Inside(), std::move(options));
+  return gateway_ != nullptr;
+}
+
 SelfProbe Listeners::Probe() const {
   if (!config_.identity.tls.client_ca.empty()) return SelfProbe(servers_.front()->Inside());
   return {config_.listen, port_, tls_ && port_ != 0};
 }
 
 void Listeners::Shutdown(std::chrono::milliseconds grace) {
+  if (gateway_) gateway_->Close();
   for (const auto& server : servers_) server->Drain();
   for (const auto& server : servers_) server->Shutdown(grace);
+  gateway_.reset();  // After its calls have got their answers.
 }
 
 void Listeners::AddTo(MetricsSources::Now* now) const {
@@ -93,6 +109,10 @@ void Listeners::AddTo(MetricsSources::Now* now) const {
     now->watchers += server->watchers();
     now->connections += server->connections();
     now->refused_connections += server->refused_connections();
+  }
+  if (gateway_) {
+    now->connections += gateway_->connections();
+    now->refused_connections += gateway_->refused_connections();
   }
   if (!files_) return;
   now->tls_failures = files_->tls_failures();

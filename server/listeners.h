@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "config.h"
+#include "gateway/gateway.h"
 #include "identity/identity_files.h"
 #include "rpc/metrics/metrics_page.h"
 #include "rpc/net/tls_credentials.h"
@@ -26,6 +28,13 @@ class Listeners {
 
   /// Opens all listeners. Returns the address that cannot be had; empty: none.
   std::string Start();
+
+  /// Opens `--http-listen`, if it is given; after Start. `metrics`: the text of the metrics page,
+  /// which is served where nobody is asked who calls and AdminService has no listener of its own.
+  /// False: the address cannot be had.
+  bool ServeHttp(std::function<std::string()> metrics);
+  /// The port of `--http-listen`; 0 for a socket file, and for none.
+  int http_port() const { return gateway_ ? gateway_->port() : 0; }
 
   /// The port of `--listen`; 0 for a socket file.
   int port() const { return port_; }
@@ -61,6 +70,8 @@ class Listeners {
   int port_ = 0;
   /// That of `--listen` first.
   std::vector<std::unique_ptr<GrpcServer>> servers_;
+  /// Null without `--http-listen`. Calls the first server.
+  std::unique_ptr<Gateway> gateway_;
 };
 
 }  // namespace contact

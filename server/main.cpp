@@ -99,6 +99,28 @@ v1::ServerInfo Identity(const Config& config) {
   return identity;
 }
 
+// Opens the gateway if --http-listen is given, and tells where. Returns the exit code.
+int ServeHttp(const Config& config, MetricsSources sources, Listeners& listeners) {
+  if (config.http_listen.empty()) return kExitOk;
+  const auto page = std::make_shared<MetricsPage>(std::move(sources));
+  if (!listeners.ServeHttp([page] { return page->Text(); })) {
+    fmt::print(stderr, "contactd: cannot listen on {} for HTTP; does another process?\n",
+               config.http_listen);
+    return kExitHeld;
+  }
+  const int port = listeners.http_port();
+  if (!config.http_port_file.empty() &&
+      ReplaceFile(config.http_port_file, fmt::format("{}\n", port))) {
+    fmt::print(stderr, "contactd: cannot write --http-port-file {}\n",
+               config.http_port_file.string());
+    return kExitUsage;
+  }
+  spdlog::info("HTTP on {}", config.http_listen.starts_with("unix:")
+                                 ? config.http_listen
+                                 : fmt::format("port {}", port));
+  return kExitOk;
+}
+
 bool Announce(const Config& config, int port) {
   if (!config.port_file.empty() && ReplaceFile(config.port_file, fmt::format("{}\n", port))) {
     fmt::print(stderr, "contactd: cannot write --port-file {}\n", config.port_file.string());
@@ -199,6 +221,10 @@ int Serve(const Config& config, const sigset_t& signals) {
     fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", taken);
   } else if (!ServeMetrics(config, Sources(config, options, jobs, listeners), &metrics)) {
     code = kExitHeld;
+  } else if (const int http =
+                 ServeHttp(config, Sources(config, options, jobs, listeners), listeners);
+             http != kExitOk) {
+    code = http;
   } else if (!Announce(config, listeners.port())) {
     code = kExitUsage;
   } else {

@@ -106,6 +106,35 @@ void CheckIdentity(const Config& config) {
   }
 }
 
+// Throws CLI::ValidationError for a gateway that would let in whom the other listeners keep out.
+void CheckHttp(const Config& config, bool asks, bool insecure) {
+  const std::string& http = config.http_listen;
+  if (http.empty() || IsFile(http)) return;
+  CheckAddress("--http-listen", http, "HOST:PORT or unix:PATH", insecure,
+               "it has no encryption; put nginx before it, with deploy/nginx/contactd.conf");
+  const auto refuse = [](const char* why) { throw CLI::ValidationError("--http-listen", why); };
+  if (asks && !insecure) {
+    refuse(
+        "would take tokens unencrypted; give unix:PATH, and put nginx before it, with "
+        "deploy/nginx/contactd.conf");
+  }
+  if (!asks && IsFile(config.listen) && !insecure) {
+    refuse(
+        "would let in everybody of this machine, and --listen unix:PATH does not; give "
+        "unix:PATH");
+  }
+}
+
+// The dashboard that stands with this program: installed, or built.
+std::filesystem::path DefaultWebDir() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (const char* place : {"../share/contactd/web", "../../../client/web/dist"}) {
+    if (std::filesystem::is_directory(program / place, error)) return program / place;
+  }
+  return {};
+}
+
 // Reads `unix:PATH user:NAME tenant:NAME roles:ROLE`. Throws CLI::ValidationError for another text.
 SocketListener ToSocket(const std::string& text) {
   const std::size_t space = std::min(text.find(' '), text.size());
@@ -160,6 +189,8 @@ void Finish(const Switches& switches, Config* config) {
                  "metrics have neither encryption nor password");
   }
   CheckIdentity(*config);
+  CheckHttp(*config, asks, switches.insecure);
+  if (config->web_dir.empty()) config->web_dir = DefaultWebDir();
   for (const std::string& text : switches.listen_as) config->listen_as.push_back(ToSocket(text));
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
   if (config->store.max_bytes == kUnset) config->store.max_bytes = MostOfDisk(config->data_dir);

@@ -12,7 +12,7 @@ MOST_FILES = 35
 
 # The rooms of each folder; a room may include those before it. `.` is the files of the folder.
 ORDER = {
-    "server": ["base", "identity", "simulation", "wire", "storage", "jobs", "rpc", "."],
+    "server": ["base", "identity", "simulation", "wire", "storage", "jobs", "rpc", "gateway", "."],
     "server/wire": ["rules", "scenario", "sweep", "."],
     "server/simulation": ["laws", "model", "motion", "episode", "forecast", "."],
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "."],

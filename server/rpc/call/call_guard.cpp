@@ -105,7 +105,7 @@ Result<Quotas::Place> CallGuard::CheckQuotas(const grpc::ServerContextBase& cont
   if (kind == CallKind::kCreateJob) {
     if (auto refusal = quotas_.TakeCreateCall(whose)) return *refusal;
   }
-  Result<Quotas::Place> connection = quotas_.TakeConnection(whose, context.peer());
+  Result<Quotas::Place> connection = quotas_.TakeConnection(whose, CallerUri(context));
   if (!connection.ok()) return connection;
   Result<Quotas::Place> call =
       quotas_.Take(whose, kind == CallKind::kStream ? v1::Quota::STREAMS : v1::Quota::CALLS);
@@ -122,7 +122,7 @@ Error CallGuard::Deny(const Principal& caller, const MethodRule* rule) const {
 
 std::optional<Error> CallGuard::CheckPeer(const grpc::ServerContextBase& context, CallKind kind) {
   if (kind == CallKind::kUnary) return std::nullopt;
-  const std::string peer = PeerOf(context.peer());
+  const std::string peer = PeerOf(CallerUri(context));
   return kind == CallKind::kStream ? CheckStreams(peer) : CheckRate(peer);
 }
 

@@ -19,7 +19,7 @@ class Call final : public grpc::experimental::Interceptor {
   Call(ServerRpcInfo& info, std::shared_ptr<RpcMetrics> metrics, PeerCounts::Lease stream,
        std::shared_ptr<FloodGuard> floods)
       : info_(info),
-        uri_(info.server_context()->peer()),
+        uri_(CallerUri(*info.server_context())),
         method_(info.method()),
         metrics_(std::move(metrics)),
         ours_(method_.starts_with("/contact.")),
@@ -71,7 +71,7 @@ class Call final : public grpc::experimental::Interceptor {
 grpc::experimental::Interceptor* CallMonitor::CreateServerInterceptor(ServerRpcInfo* info) {
   const bool stream = info->type() == ServerRpcInfo::Type::SERVER_STREAMING;
   return new Call(*info, metrics_,
-                  stream ? streams_->Enter(PeerOf(info->server_context()->peer())) : nullptr,
+                  stream ? streams_->Enter(PeerOf(CallerUri(*info->server_context()))) : nullptr,
                   floods_);
 }
 

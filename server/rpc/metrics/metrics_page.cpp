@@ -1,6 +1,7 @@
 #include "rpc/metrics/metrics_page.h"
 
 #include <absl/status/status.h>
+#include <prometheus/text_serializer.h>
 
 #include <limits>
 #include <string>
@@ -157,5 +158,7 @@ std::vector<MetricFamily> MetricsPage::Collect() const {
   AddStreams(*sources_.streams, &page);
   return page.Take();
 }
+
+std::string MetricsPage::Text() const { return prometheus::TextSerializer().Serialize(Collect()); }
 
 }  // namespace contact

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "jobs/job/job_metrics.h"
@@ -56,6 +57,8 @@ class MetricsPage final : public prometheus::Collectable {
 
   /// All metrics as they are now.
   std::vector<prometheus::MetricFamily> Collect() const override;
+  /// The same as Prometheus's text.
+  std::string Text() const;
 
  private:
   const MetricsSources sources_;

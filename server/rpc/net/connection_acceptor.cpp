@@ -1,6 +1,5 @@
 #include "rpc/net/connection_acceptor.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -39,29 +38,6 @@ constexpr milliseconds kAfterTime{2000};
 constexpr int kReceiveBuffer = 64 << 10;
 // Time to wait after the process has run out of descriptors.
 constexpr milliseconds kDescriptorWait{50};
-
-// The network address of a connection without its port; `unix` for one of a socket file.
-std::string AddressOf(const sockaddr_storage& address) {
-  if (address.ss_family == AF_UNIX) return "unix";
-  std::array<char, INET6_ADDRSTRLEN> text = {};
-  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
-  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
-  const void* number = &v4.sin_addr;
-  if (address.ss_family == AF_INET6) number = &v6.sin6_addr;
-  inet_ntop(address.ss_family, number, text.data(), text.size());
-  return text.data();
-}
-
-// The connection as gRPC calls it: `ipv4:127.0.0.1:5000`, `ipv6:%5B::1%5D:5000`.
-std::string UriOf(const sockaddr_storage& address) {
-  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
-  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
-  if (address.ss_family == AF_INET) {
-    return fmt::format("ipv4:{}:{}", AddressOf(address), ntohs(v4.sin_port));
-  }
-  if (address.ss_family != AF_INET6) return "unix:";
-  return fmt::format("ipv6:%5B{}%5D:{}", AddressOf(address), ntohs(v6.sin6_port));
-}
 
 // Sets TCP_NODELAY, as gRPC's own listener does, the size of the receive buffer, and a limit on the
 // time that sent bytes may stay unacknowledged: gRPC has none, because it sends no pings while a

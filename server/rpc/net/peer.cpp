@@ -1,10 +1,47 @@
 #include "rpc/net/peer.h"
 
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+
+#include <array>
+
 namespace contact {
 
 std::string PeerOf(const std::string& uri) {
   const bool has_port = uri.starts_with("ipv4:") || uri.starts_with("ipv6:");
   return uri.substr(0, has_port ? uri.rfind(':') : uri.find(':'));
+}
+
+std::string AddressOf(const sockaddr_storage& address) {
+  if (address.ss_family == AF_UNIX) return "unix";
+  std::array<char, INET6_ADDRSTRLEN> text = {};
+  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
+  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
+  const void* number = &v4.sin_addr;
+  if (address.ss_family == AF_INET6) number = &v6.sin6_addr;
+  inet_ntop(address.ss_family, number, text.data(), text.size());
+  return text.data();
+}
+
+std::string UriOf(const sockaddr_storage& address) {
+  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
+  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
+  if (address.ss_family == AF_INET) {
+    return fmt::format("ipv4:{}:{}", AddressOf(address), ntohs(v4.sin_port));
+  }
+  if (address.ss_family != AF_INET6) return "unix:";
+  return fmt::format("ipv6:%5B{}%5D:{}", AddressOf(address), ntohs(v6.sin6_port));
+}
+
+std::string CallerUri(const grpc::ServerContextBase& context) {
+  const std::string transport = context.peer();
+  const bool connection = transport.starts_with("ipv4:") || transport.starts_with("ipv6:") ||
+                          transport.starts_with("unix:");
+  if (connection) return transport;
+  const auto named = context.client_metadata().find(kPeerHeader);
+  if (named == context.client_metadata().end()) return transport;
+  return {named->second.data(), named->second.size()};
 }
 
 PeerCounts::Lease PeerCounts::Enter(const std::string& peer) {

@@ -1,0 +1,55 @@
+#include "gateway/codec.h"
+
+#include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/type_resolver.h>
+#include <google/protobuf/util/type_resolver_util.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "rpc/call/status.h"
+
+namespace contact::gateway {
+namespace {
+
+namespace util = google::protobuf::util;
+
+constexpr char kPrefix[] = "type.googleapis.com";
+
+// Knows the messages of the contract.
+util::TypeResolver* Resolver() {
+  static const std::unique_ptr<util::TypeResolver> resolver(util::NewTypeResolverForDescriptorPool(
+      kPrefix, google::protobuf::DescriptorPool::generated_pool()));
+  return resolver.get();
+}
+
+std::string UrlOf(const std::string& type) { return std::string(kPrefix) + "/" + type; }
+
+}  // namespace
+
+const google::protobuf::MethodDescriptor* FindMethod(std::string_view path) {
+  if (path.size() < 2 || path.front() != '/' || std::ranges::count(path, '/') != 2) return nullptr;
+  std::string name(path.substr(1));
+  if (name.find('.') == std::string::npos) return nullptr;
+  std::ranges::replace(name, '/', '.');
+  return google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(name);
+}
+
+bool HasNoSideEffects(const google::protobuf::MethodDescriptor& method) {
+  return method.options().idempotency_level() == google::protobuf::MethodOptions::NO_SIDE_EFFECTS;
+}
+
+std::optional<std::string> ToJson(const std::string& type, const std::string& bytes) {
+  std::string json;
+  const auto status = util::BinaryToJsonString(Resolver(), UrlOf(type), bytes, &json);
+  if (!status.ok()) return std::nullopt;
+  return json;
+}
+
+grpc::Status FromJson(const std::string& type, const std::string& json, std::string* bytes) {
+  const auto status = util::JsonToBinaryString(Resolver(), UrlOf(type), json, bytes);
+  if (status.ok()) return grpc::Status::OK;
+  return ToGrpc(MakeError(Reason::kFieldInvalid, std::string(status.message())));
+}
+
+}  // namespace contact::gateway

@@ -1,0 +1,93 @@
+#include "gateway/gateway.h"
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "gateway/session.h"
+#include "rpc/net/listener.h"
+
+namespace contact {
+namespace {
+
+constexpr unsigned kFewestThreads = 2;
+constexpr unsigned kMostThreads = 8;
+
+Listener Listen(const std::string& address) {
+  constexpr std::string_view kUnix = "unix:";
+  return address.starts_with(kUnix) ? OpenFileListener(address.substr(kUnix.size()))
+                                    : OpenTcpListener(address);
+}
+
+}  // namespace
+
+/// The threads of the gateway and what runs on them.
+class Gateway::Threads {
+ public:
+  Threads(const std::shared_ptr<grpc::Channel>& channel, GatewayOptions options)
+      : service_(channel, std::move(options)) {
+    const unsigned number =
+        std::clamp(std::thread::hardware_concurrency(), kFewestThreads, kMostThreads);
+    for (unsigned i = 0; i < number; ++i) {
+      threads_.emplace_back([this] {
+        pthread_setname_np(pthread_self(), "http");
+        io_.run();
+      });
+    }
+  }
+  /// Waits until all connections have ended.
+  ~Threads() {
+    work_.reset();
+    threads_.clear();
+  }
+
+  void Serve(int fd) {
+    boost::asio::post(io_, [this, fd] { gateway::Serve(io_, service_, fd); });
+  }
+
+ private:
+  gateway::Service service_;
+  boost::asio::io_context io_;
+  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
+      io_.get_executor()};
+  std::vector<std::jthread> threads_;  // Last: they use all of the above.
+};
+
+std::unique_ptr<Gateway> Gateway::Open(const std::string& address,
+                                       const std::shared_ptr<grpc::Channel>& channel,
+                                       GatewayOptions options) {
+  Listener listener = Listen(address);
+  if (listener.sockets.empty()) return nullptr;
+  return std::unique_ptr<Gateway>(new Gateway(std::move(listener), channel, std::move(options)));
+}
+
+Gateway::Gateway(Listener listener, const std::shared_ptr<grpc::Channel>& channel,
+                 GatewayOptions options)
+    : port_(listener.port) {
+  ConnectionLimits limits = FitToDescriptors(options.connections);
+  limits.stall = options.stall;
+  threads_ = std::make_unique<Threads>(channel, std::move(options));
+  acceptor_ = std::make_unique<ConnectionAcceptor>(
+      std::move(listener), limits, [this](int /*listener*/, int fd) { threads_->Serve(fd); });
+}
+
+Gateway::~Gateway() {
+  Close();
+  acceptor_->Cut();
+  threads_.reset();
+}
+
+int Gateway::port() const { return port_; }
+std::size_t Gateway::connections() const { return acceptor_->open(); }
+std::int64_t Gateway::refused_connections() const { return acceptor_->refused(); }
+void Gateway::Close() { acceptor_->Close(); }
+
+}  // namespace contact
