@@ -1,0 +1,64 @@
+// The frame of all pages: navigation, token, and the view of the address.
+
+import type {ComponentType} from 'preact';
+import {useEffect, useState} from 'preact/hooks';
+
+import {followLinks, useRoute, type Route} from './ui/route';
+import {switchTheme, useTheme} from './ui/theme';
+import {TokenDialog} from './ui/token_dialog';
+import {Runs} from './views/runs';
+
+type View = ComponentType<{route: Route}>;
+
+/** Views that are loaded when they are first needed. */
+const LAZY: Record<string, () => Promise<View>> = {
+  runs: async () => (await import('./views/run/run')).Run,
+  compare: async () => (await import('./views/compare')).Compare,
+  new: async () => (await import('./views/new/new')).New,
+  server: async () => (await import('./views/server')).Server,
+};
+const LINKS = [['/runs', 'Runs'], ['/new', 'New run'], ['/compare', 'Compare'], ['/server', 'Server']] as const;
+const loaded = new Map<string, View>();
+
+/** The view of an address; undefined while it is loaded. */
+function useView(path: string): View | undefined {
+  const [, again] = useState(0);
+  const parts = path.split('/').filter(Boolean);
+  const kind = parts[0] === 'runs' && !parts[1] ? '' : parts[0] ?? '';
+  useEffect(() => {
+    if (!LAZY[kind] || loaded.has(kind)) return;
+    void LAZY[kind]().then((view) => { loaded.set(kind, view); again((n) => n + 1); });
+  }, [kind]);
+  return LAZY[kind] ? loaded.get(kind) : Runs;
+}
+
+function Navigation({path}: {path: string}) {
+  const theme = useTheme();
+  return (
+    <header class="bar">
+      <a class="brand" href="/runs">contactd</a>
+      <nav aria-label="Pages">
+        {LINKS.map(([href, name]) => (
+          <a key={href} href={href} aria-current={(path === '/' ? '/runs' : path).startsWith(href) ? 'page' : undefined}>{name}</a>
+        ))}
+      </nav>
+      <button type="button" class="quiet" onClick={switchTheme}>{theme === 'dark' ? '☀ Light' : '☾ Dark'}</button>
+    </header>
+  );
+}
+
+export function App() {
+  const route = useRoute();
+  const View = useView(route.path);
+  const [session, setSession] = useState(0);
+  return (
+    <div onClick={followLinks}>
+      <a class="skip" href="#content">Skip to the content</a>
+      <Navigation path={route.path} />
+      <TokenDialog onToken={() => setSession((n) => n + 1)} />
+      <main id="content" tabIndex={-1} key={`${route.path}-${session}`}>
+        {View ? <View route={route} /> : <p class="nothing">Loading …</p>}
+      </main>
+    </div>
+  );
+}

@@ -1,0 +1,59 @@
+// μ and residual over the passes of an episode, as `contactctl plot iterations` shows them.
+
+import type {Iteration} from '../api/generated/contact/v1/event_pb';
+import type {Curve, Panel} from './panel';
+
+const LEAST_RESIDUAL = 1e-17;
+
+/** The episodes in order, each with the number of its last pass. */
+export function episodesOf(iterations: Iteration[]): Map<number, number> {
+  const episodes = new Map<number, number>();
+  for (const {episode, number} of iterations) {
+    episodes.set(episode, Math.max(episodes.get(episode) ?? 0, number));
+  }
+  return episodes;
+}
+
+/** The episode that needed most passes; undefined if nothing was iterated. */
+export function hardestEpisode(iterations: Iteration[]): number | undefined {
+  let hardest: Iteration | undefined;
+  for (const pass of iterations) if (!hardest || pass.number > hardest.number) hardest = pass;
+  return hardest?.episode;
+}
+
+function haveManySizes(curves: Curve[]): boolean {
+  const values = curves.flatMap(({y}) => Array.from(y));
+  const low = Math.min(...values);
+  return low > 0 && Math.max(...values) > 1000 * low;
+}
+
+function curvesOf(passes: Iteration[], value: (unknown: Iteration['unknowns'][number]) => number): Curve[] {
+  const curves = new Map<string, Curve & {x: number[]; y: number[]}>();
+  for (const pass of passes) {
+    for (const unknown of pass.unknowns) {
+      const label = `${unknown.contact} #${unknown.number}`;
+      let curve = curves.get(label);
+      if (!curve) {
+        curve = {label, colour: curves.size, mark: 'linePoints', x: [], y: []};
+        curves.set(label, curve);
+      }
+      curve.x.push(pass.number);
+      curve.y.push(value(unknown));
+    }
+  }
+  return [...curves.values()];
+}
+
+/** The passes of one episode as two panels. */
+export function iterationPanels(iterations: Iteration[], episode: number): Panel[] {
+  const passes = iterations.filter((pass) => pass.episode === episode);
+  const only = passes.length === iterations.length;
+  const mu = curvesOf(passes, ({mu: value}) => value);
+  const residual = curvesOf(passes, (unknown) => Math.max(Math.abs(unknown.residual), LEAST_RESIDUAL));
+  const xLabel = only ? 'pass' : `pass of episode ${episode}`;
+  const common = {xLabel, overTime: true, countedX: true};
+  return [
+    {...common, id: 'mu', title: 'Damping factor', yLabel: 'μ [N·s/m^(n+1)]', logY: haveManySizes(mu), curves: mu},
+    {...common, id: 'residual', title: 'Residual', yLabel: '|W_r/W_c + ε²| [1]', logY: true, curves: residual},
+  ];
+}

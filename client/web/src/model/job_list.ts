@@ -1,0 +1,76 @@
+// The list of jobs: newest first, kept while changes come in.
+
+import {Job_State, type Job} from '../api/generated/contact/v1/job_pb';
+import type {WatchJobsResponse} from '../api/generated/contact/v1/job_service_pb';
+import {epoch} from '../ui/times';
+
+/** A number of a finished run that tells how good or dear it was. */
+export interface Metric {
+  id: string;
+  label: string;
+  of: (job: Job) => number | undefined;
+}
+
+const summary = (id: string, label: string, of: (s: NonNullable<Job['summary']>) => bigint | number): Metric =>
+  ({id, label, of: (job) => (job.summary ? Number(of(job.summary)) : undefined)});
+
+/** Smaller is better in all of them. */
+export const METRICS: Metric[] = [
+  summary('iterations', 'iterations', (s) => s.iterations),
+  summary('cycles', 'cycles', (s) => s.cycles),
+  summary('not_converged', 'not converged', (s) => s.cyclesNotConverged + s.cyclesInfeasible),
+  summary('energy', 'energy residual', (s) => s.energyResidual),
+  summary('identity', 'cycle identity', (s) => s.worstIdentityResidual),
+  summary('wall', 'wall time [s]', (s) => s.wallTimeS),
+  summary('steps', 'steps', (s) => s.steps),
+];
+
+/** Jobs by name. `stale` holds those of before a new snapshot, until it is complete. */
+export class JobList {
+  private jobs = new Map<string, Job>();
+  private stale = new Set<string>();
+  complete = false;
+
+  /** A snapshot begins: what it does not hold is gone. */
+  begin(): void {
+    this.stale = new Set(this.jobs.keys());
+    this.complete = false;
+  }
+
+  take(change: WatchJobsResponse): void {
+    for (const job of change.jobs) {
+      this.jobs.set(job.name, job);
+      this.stale.delete(job.name);
+    }
+    for (const name of change.gone) this.jobs.delete(name);
+    if (!change.snapshotComplete || this.complete) return;
+    for (const name of this.stale) this.jobs.delete(name);
+    this.complete = true;
+  }
+
+  /** Newest first. */
+  sorted(): Job[] {
+    const born = (job: Job) => (job.createTime ? epoch(job.createTime) : 0);
+    return [...this.jobs.values()].map((job) => ({job, at: born(job)}))
+      .sort((a, b) => b.at - a.at || (a.job.name < b.job.name ? 1 : -1)).map(({job}) => job);
+  }
+}
+
+/** True if all words are in the title, the name or a label of the job. */
+export function matches(job: Job, words: string): boolean {
+  const text = [job.title, job.name, ...Object.entries(job.labels).map(([k, v]) => `${k}=${v}`)]
+    .join(' ').toLowerCase();
+  return words.toLowerCase().split(/\s+/).every((word) => text.includes(word));
+}
+
+/** The states that a choice stands for. */
+export function statesOf(choice: string): Job_State[] {
+  const found = Job_State[choice.toUpperCase() as keyof typeof Job_State];
+  return found ? [found] : [];
+}
+
+/** `key=value` pairs, as far as they are complete. */
+export function labelsOf(text: string): Record<string, string> {
+  return Object.fromEntries(text.split(/[\s,]+/).map((pair) => pair.split('='))
+    .filter((pair): pair is [string, string] => pair.length === 2 && !!pair[0] && !!pair[1]));
+}

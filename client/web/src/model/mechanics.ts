@@ -1,0 +1,108 @@
+// A scenario with what follows from it: masses, contacts one by one, stiffnesses.
+
+import {
+  Contact_Damping, Solver_Tension, Wall_Side, type Material, type Scenario,
+} from '../api/generated/contact/v1/scenario_pb';
+
+export interface BodyModel {
+  name: string;
+  mass: number;
+  radius: number;
+  position: number;
+  fixed: boolean;
+}
+
+/** A contact between two bodies, or a body and a wall; -1 stands for the wall. */
+export interface ContactModel {
+  name: string;
+  left: number;
+  right: number;
+  wallPosition: number;
+  stiffness: number;
+  exponent: number;
+  damping: Contact_Damping;
+  restitution: number;
+}
+
+export interface Mechanics {
+  scenario: Scenario;
+  bodies: BodyModel[];
+  contacts: ContactModel[];
+  clipTension: boolean;
+}
+
+function massOf(mass: number | undefined, density: number | undefined, radius: number): number {
+  return mass ?? (density === undefined ? NaN : (4 / 3) * Math.PI * radius ** 3 * density);
+}
+
+function compliance(material: Material | undefined): number {
+  return material ? (1 - (material.poissonRatio ?? NaN) ** 2) / material.youngsModulusPa : NaN;
+}
+
+/** Hertz: 4/3 E* √R*. */
+function hertz(sides: {material: Material | undefined; curvature: number}[]): number {
+  const modulus = 1 / sides.reduce((sum, side) => sum + compliance(side.material), 0);
+  const radius = 1 / sides.reduce((sum, side) => sum + side.curvature, 0);
+  return (4 / 3) * modulus * Math.sqrt(radius);
+}
+
+function bodiesOf(scenario: Scenario): BodyModel[] {
+  return scenario.bodies.map((body) => ({
+    name: body.name,
+    mass: massOf(body.massKg, body.densityKgPerM3, body.radiusM ?? 0),
+    radius: body.radiusM ?? 0,
+    position: body.positionM,
+    fixed: body.fixed,
+  }));
+}
+
+function pairsOf(between: string[], name: string): {pair: string[]; name: string}[] {
+  if (between.length <= 2) return [{pair: between, name: name || `${between[0]}-${between[1] ?? 'wall'}`}];
+  return between.slice(1).map((right, i) => ({
+    pair: [between[i]!, right],
+    name: name ? `${name}-${i + 1}` : `${between[i]}-${right}`,
+  }));
+}
+
+function contactsOf(scenario: Scenario, bodies: BodyModel[]): ContactModel[] {
+  const index = new Map(bodies.map(({name}, i) => [name, i]));
+  const side = (at: number) => ({
+    material: scenario.bodies[at]?.material, curvature: 1 / (bodies[at]?.radius ?? 0),
+  });
+  return scenario.contacts.flatMap((contact) =>
+    pairsOf(contact.between, contact.name).map(({pair, name}) => {
+      const first = index.get(pair[0]!) ?? -1;
+      const second = pair[1] === undefined ? -1 : index.get(pair[1]) ?? -1;
+      const wallLeft = contact.wall?.side === Wall_Side.LEFT;
+      const other = second >= 0 ? side(second) : {material: contact.wall?.material, curvature: 0};
+      return {
+        name,
+        left: contact.wall && wallLeft ? -1 : first,
+        right: contact.wall ? (wallLeft ? first : -1) : second,
+        wallPosition: contact.wall?.positionM ?? NaN,
+        stiffness: contact.stiffness ?? hertz([side(first), other]),
+        exponent: contact.exponent ?? 1.5,
+        damping: contact.damping,
+        restitution: contact.restitution ?? NaN,
+      };
+    }));
+}
+
+/** Resolves what a scenario leaves to defaults. */
+export function mechanicsOf(scenario: Scenario): Mechanics {
+  const bodies = bodiesOf(scenario);
+  return {
+    scenario, bodies,
+    contacts: contactsOf(scenario, bodies),
+    clipTension: scenario.solver?.tension === Solver_Tension.CLIP,
+  };
+}
+
+/** The force of a contact where δ̇ or δ is 0, as at the ends of a cycle. */
+export function endForce(
+  {clipTension}: Mechanics, contact: ContactModel, mu: number, deformation: number, rate: number,
+): number {
+  const damper = contact.damping === Contact_Damping.KELVIN_VOIGT ? mu * rate : 0;
+  const force = contact.stiffness * Math.max(deformation, 0) ** contact.exponent + damper;
+  return clipTension ? Math.max(force, 0) : force;
+}

@@ -1,0 +1,115 @@
+// What a plot shows: plain values in SI units, as contactctl's figures have them.
+
+/** How the points of a curve are drawn. */
+export type Mark = 'line' | 'dashed' | 'linePoints' | 'points' | 'start' | 'end' | 'faint';
+
+/** Points (x, y) in the order in which they are joined. */
+export interface Curve {
+  label: string;
+  /** Curves of one colour belong together, such as all those of a contact. */
+  colour: number;
+  mark: Mark;
+  x: ArrayLike<number>;
+  y: ArrayLike<number>;
+  /** False if it has no entry in the key. */
+  keyed?: boolean;
+}
+
+/** A stretch of the x axis. */
+export interface Band {
+  start: number;
+  end: number;
+}
+
+/** Stretches of one contact, drawn as a row of bars above the curves. */
+export interface Lane {
+  label: string;
+  colour: number;
+  bars: (Band & {text: string})[];
+}
+
+/** A text above a point. */
+export interface Label {
+  x: number;
+  y: number;
+  text: string;
+}
+
+/** One pair of axes. */
+export interface Panel {
+  /** Names the panel in addresses, files and tests, such as `force`. */
+  id: string;
+  title: string;
+  xLabel: string;
+  yLabel: string;
+  /** True if all curves have x in time, ascending, so that a cursor can read them. */
+  overTime: boolean;
+  countedX?: boolean;
+  logX?: boolean;
+  logY?: boolean;
+  curves: Curve[];
+  bands?: Band[];
+  lanes?: Lane[];
+  labels?: Label[];
+  dottedLines?: number[];
+  /** What marks and shades mean. */
+  note?: string;
+}
+
+/** Bands in order, those that touch or overlap as one. */
+export function joined(bands: Band[]): Band[] {
+  const result: Band[] = [];
+  for (const band of [...bands].sort((a, b) => a.start - b.start)) {
+    const last = result.at(-1);
+    if (last && band.start <= last.end) last.end = Math.max(last.end, band.end);
+    else result.push({...band});
+  }
+  return result;
+}
+
+/** y at x between samples; `xs` ascends. */
+export function interpolate(xs: ArrayLike<number>, ys: ArrayLike<number>, x: number): number {
+  const next = lowerBound(xs, x);
+  if (xs.length === 0) return NaN;
+  if (next === xs.length) return ys[xs.length - 1]!;
+  if (next === 0) return ys[0]!;
+  const part = (x - xs[next - 1]!) / (xs[next]! - xs[next - 1]!);
+  return ys[next - 1]! + part * (ys[next]! - ys[next - 1]!);
+}
+
+/** The first place in ascending values that is not below x. */
+export function lowerBound(xs: ArrayLike<number>, x: number): number {
+  let low = 0;
+  let high = xs.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (xs[middle]! < x) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** Smallest and largest finite value; undefined without any. */
+export function extent(lists: Iterable<ArrayLike<number>>, positive = false): [number, number] | undefined {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const list of lists) {
+    for (let i = 0; i < list.length; ++i) {
+      const value = list[i]!;
+      if (!Number.isFinite(value) || (positive && value <= 0)) continue;
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  return low <= high ? [low, high] : undefined;
+}
+
+/** The points of a panel as CSV, as `contactctl plot -o csv` has them. */
+export function panelCsv(panel: Panel): string {
+  const quote = (text: string) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+  const rows = [['curve', panel.xLabel, panel.yLabel].map(quote).join(',')];
+  for (const {label, x, y} of panel.curves) {
+    for (let i = 0; i < x.length; ++i) rows.push(`${quote(label)},${x[i]},${y[i]}`);
+  }
+  return `${rows.join('\n')}\n`;
+}

@@ -1,0 +1,66 @@
+// Axes of uPlot: ticks in readable units, SI values below.
+
+import uPlot from 'uplot';
+
+import {decimals} from '../model/numbers';
+import {readableUnit, type AxisUnit} from '../model/units';
+import type {Panel} from '../model/panel';
+
+export const FONT = '12px system-ui, sans-serif';
+const BOLD = '600 12px system-ui, sans-serif';
+const SUPERSCRIPT = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+
+export interface Ink {
+  text: string;
+  soft: string;
+  grid: string;
+  band: string;
+  paper: string;
+}
+
+/** The unit of an axis for what it shows now. */
+export function unitOfScale(u: uPlot, scale: 'x' | 'y', label: string): AxisUnit {
+  const {min, max} = u.scales[scale]!;
+  return readableUnit(label, Math.max(Math.abs(min ?? 0), Math.abs(max ?? 0)));
+}
+
+/** `10⁻⁶` for powers of ten, nothing for what lies between. */
+export function powerOfTen(value: number): string {
+  const exponent = Math.log10(value);
+  if (Math.abs(exponent - Math.round(exponent)) > 1e-9) return '';
+  const digits = [...String(Math.abs(Math.round(exponent)))].map((d) => SUPERSCRIPT[Number(d)]);
+  return `10${Math.round(exponent) < 0 ? '⁻' : ''}${digits.join('')}`;
+}
+
+function ticks(label: string, scale: 'x' | 'y', log: boolean): uPlot.Axis.Values {
+  return (u, splits, _axis, _space, step) => {
+    if (log) return splits.map((value) => (value === null ? '' : powerOfTen(value)));
+    const {factor} = unitOfScale(u, scale, label);
+    const digits = decimals(step / factor);
+    return splits.map((value) => (value / factor).toFixed(digits).replace(/^-(0(\.0+)?)$/, '$1').replace('-', '−'));
+  };
+}
+
+function widthOf(u: uPlot, values: string[] | null, axis: number, cycle: number): number {
+  const known = u.axes[axis]! as uPlot.Axis & {_size?: number};
+  if (cycle > 1) return known._size ?? 60;
+  const longest = Math.max(0, ...(values ?? []).map((text) => text.length));
+  return Math.max(34, 14 + 7 * longest);
+}
+
+/** Both axes of a panel. */
+export function axesOf(panel: Panel, ink: Ink): uPlot.Axis[] {
+  const common: uPlot.Axis = {
+    stroke: ink.text, font: FONT, labelFont: BOLD, labelSize: 18, labelGap: 0,
+    grid: {stroke: ink.grid, width: 1}, ticks: {stroke: ink.grid, width: 1, size: 5}, gap: 4,
+  };
+  const label = (scale: 'x' | 'y', text: string) =>
+    ((u: uPlot) => unitOfScale(u, scale, text).label) as unknown as string;
+  const whole = panel.countedX ? {incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]} : {};
+  return [
+    {...common, ...whole, scale: 'x', size: 30, space: 70, label: label('x', panel.xLabel),
+      values: ticks(panel.xLabel, 'x', !!panel.logX)},
+    {...common, scale: 'y', size: widthOf, space: 32, label: label('y', panel.yLabel),
+      values: ticks(panel.yLabel, 'y', !!panel.logY)},
+  ];
+}

@@ -1,0 +1,106 @@
+// Makes a uPlot of a panel.
+
+import uPlot from 'uplot';
+
+import type {Curve, Panel} from '../model/panel';
+import {colourOf, dashOf, type Theme} from '../ui/theme';
+import {axesOf, type Ink} from './axes';
+import {drawBehind, drawOver, LANE_PX} from './layers';
+import {xRange, yRange, type Window} from './range';
+
+/** What a plot shows now; uPlot's functions read it when they draw. */
+export interface Shown {
+  panel: Panel;
+  window: Window | undefined;
+  hidden: Set<string>;
+  theme: Theme;
+  ink: Ink;
+  onZoom: (window: Window | undefined) => void;
+  onCursor: (index: number | null) => void;
+}
+
+const NAMED_FROM_PX = 480;   // Narrower plots have no room for names beside the curves.
+
+/** The curves that uPlot draws. */
+export function lines(panel: Panel): Curve[] {
+  return panel.overTime ? panel.curves.filter(({mark}) => mark !== 'start' && mark !== 'end') : [];
+}
+
+/** Columns on one x axis, as uPlot takes them. */
+export function aligned(panel: Panel): uPlot.AlignedData {
+  const curves = lines(panel);
+  if (curves.length === 0) return [[0, 1], [null, null]];
+  const first = curves[0]!.x;
+  if (curves.every(({x}) => x === first)) {
+    return [first, ...curves.map(({y}) => y)] as unknown as uPlot.AlignedData;
+  }
+  const xs = [...new Set(curves.flatMap(({x}) => Array.from(x)))].sort((a, b) => a - b);
+  const place = new Map(xs.map((x, i) => [x, i]));
+  return [xs, ...curves.map(({x, y}) => {
+    const column: (number | null)[] = new Array<number | null>(xs.length).fill(null);
+    for (let i = 0; i < x.length; ++i) column[place.get(x[i]!)!] = y[i]!;
+    return column;
+  })];
+}
+
+function seriesOf({panel, theme, hidden, ink}: Shown): uPlot.Series[] {
+  const drawn = lines(panel).map((curve): uPlot.Series => ({
+    label: curve.label,
+    show: !hidden.has(curve.label),
+    stroke: colourOf(curve.colour, theme),
+    width: curve.mark === 'dashed' ? 1.2 : 1.6,
+    dash: curve.mark === 'dashed' ? [6, 4] : dashOf(curve.colour),
+    points: {show: curve.mark === 'linePoints', size: 6, fill: ink.paper},
+    spanGaps: true,
+  }));
+  return [{label: 'x'}, ...(drawn.length > 0 ? drawn : [{show: false}])];
+}
+
+function rightPadding(panel: Panel, width: number): number {
+  if (!panel.overTime || width < NAMED_FROM_PX) return 12;
+  const longest = Math.max(0, ...lines(panel).filter(({mark}) => mark !== 'dashed').map(({label}) => label.length));
+  return Math.min(14 + 6.5 * longest, 130);
+}
+
+function cursorOf(shown: Shown): uPlot.Cursor {
+  const timed = shown.panel.overTime && !shown.panel.countedX;
+  return {
+    show: shown.panel.overTime, y: false,
+    drag: {x: timed, y: false, setScale: false, dist: 5},
+    points: {size: 6},
+    ...(timed ? {sync: {key: 'time', setSeries: false}} : {}),
+    bind: {dblclick: () => () => { shown.onZoom(undefined); return null; }},
+  };
+}
+
+function takeSelection(u: uPlot, shown: Shown): void {
+  const {left, width} = u.select;
+  if (width < 5) return;
+  shown.onZoom([u.posToVal(left, 'x'), u.posToVal(left + width, 'x')]);
+  u.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
+}
+
+/** Makes the plot; `shown` may be changed afterwards, followed by `setData`. */
+export function buildPlot(shown: Shown, width: number, height: number, into: HTMLElement): uPlot {
+  const {panel, ink} = shown;
+  const sheet = (u: uPlot) => ({u, panel: shown.panel, theme: shown.theme, ink: shown.ink});
+  const top = 8 + LANE_PX * (panel.lanes?.length ?? 0);
+  return new uPlot({
+    width, height,
+    padding: [top, (u) => rightPadding(shown.panel, u.width ?? width), 0, 0],
+    legend: {show: false},
+    scales: {
+      x: {time: false, distr: panel.logX ? 3 : 1, range: () => xRange(shown.panel, shown.window)},
+      y: {distr: panel.logY ? 3 : 1, range: () => yRange(shown.panel, xRange(shown.panel, shown.window))},
+    },
+    axes: axesOf(panel, ink),
+    series: seriesOf(shown),
+    cursor: cursorOf(shown),
+    hooks: {
+      drawAxes: [(plot) => drawBehind(sheet(plot))],
+      draw: [(plot) => drawOver(sheet(plot), shown.hidden, plot.width >= NAMED_FROM_PX)],
+      setSelect: [(plot) => takeSelection(plot, shown)],
+      setCursor: [(plot) => shown.onCursor(plot.cursor.idx ?? null)],
+    },
+  }, aligned(panel), into);
+}

@@ -1,0 +1,49 @@
+// The key of a plot: names, values at the cursor, and switches.
+
+import type {Curve, Panel} from '../model/panel';
+import {colourOf, dashOf, useTheme} from '../ui/theme';
+import {lines} from './build';
+
+const MOST = 24;
+
+interface Props {
+  panel: Panel;
+  hidden: Set<string>;
+  setHidden: (hidden: Set<string>) => void;
+  values: {current: (HTMLElement | null)[]};
+  unit: string;
+}
+
+function Swatch({curve}: {curve: Curve}) {
+  const theme = useTheme();
+  const dash = curve.mark === 'dashed' ? [4, 3] : dashOf(curve.colour);
+  return (
+    <svg class="swatch" width="22" height="8" aria-hidden="true">
+      <line x1="0" y1="4" x2="22" y2="4" stroke={colourOf(curve.colour, theme)} stroke-width="2"
+        stroke-dasharray={dash.join(' ')} />
+    </svg>
+  );
+}
+
+export function Key({panel, hidden, setHidden, values, unit}: Props) {
+  const curves = panel.overTime ? lines(panel) : panel.curves.filter(({keyed, mark}) => keyed !== false && mark === 'line');
+  const toggle = (label: string) => {
+    const next = new Set(hidden);
+    if (!next.delete(label)) next.add(label);
+    setHidden(next);
+  };
+  return (
+    <div class="key">
+      {curves.slice(0, MOST).map((curve, i) => (
+        <button type="button" key={curve.label} aria-pressed={!hidden.has(curve.label)}
+          onClick={() => toggle(curve.label)} title="show or hide">
+          <Swatch curve={curve} />
+          {curve.label}
+          <output ref={(at) => { values.current[i] = at; }} />
+        </button>
+      ))}
+      {curves.length > MOST && <span class="soft">and {curves.length - MOST} more</span>}
+      {panel.overTime && unit && unit !== '1' && <span class="soft">{unit}</span>}
+    </div>
+  );
+}

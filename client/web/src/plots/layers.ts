@@ -1,0 +1,156 @@
+// What uPlot does not draw: bands, lanes of groups, marks, loops, labels. Positions are pixels of
+// the canvas.
+
+import type uPlot from 'uplot';
+
+import type {Curve, Panel} from '../model/panel';
+import {colourOf, dashOf, type Theme} from '../ui/theme';
+import {FONT, type Ink} from './axes';
+
+export const LANE_PX = 10;
+const MARK_PX = 4.5;
+
+interface Sheet {
+  u: uPlot;
+  panel: Panel;
+  theme: Theme;
+  ink: Ink;
+}
+
+const px = (u: uPlot, x: number) => u.valToPos(x, 'x', true);
+const py = (u: uPlot, y: number) => u.valToPos(y, 'y', true);
+
+function clipped({u}: Sheet, draw: (ctx: CanvasRenderingContext2D) => void): void {
+  const {left, top, width, height} = u.bbox;
+  u.ctx.save();
+  u.ctx.beginPath();
+  u.ctx.rect(left, top, width, height);
+  u.ctx.clip();
+  draw(u.ctx);
+  u.ctx.restore();
+}
+
+/** Shades behind the curves, and a bar for each group above them. */
+export function drawBehind(sheet: Sheet): void {
+  const {u, panel, ink, theme} = sheet;
+  const {top, height, left, width} = u.bbox;
+  clipped(sheet, (ctx) => {
+    ctx.fillStyle = ink.band;
+    for (const {start, end} of panel.bands ?? []) {
+      ctx.fillRect(px(u, start), top, Math.max(px(u, end) - px(u, start), 1), height);
+    }
+  });
+  const ratio = devicePixelRatio;
+  (panel.lanes ?? []).forEach(({bars, colour}, i) => {
+    const y = top - (panel.lanes!.length - i) * LANE_PX * ratio;
+    for (const {start, end, text} of bars) {
+      const from = Math.max(px(u, start), left);
+      const to = Math.min(px(u, end), left + width);
+      if (to <= from) continue;
+      u.ctx.fillStyle = colourOf(colour, theme);
+      u.ctx.fillRect(from, y, Math.max(to - from - ratio, 1), (LANE_PX - 2) * ratio);
+      if (to - from < (8 + 6 * text.length) * ratio) continue;
+      u.ctx.fillStyle = ink.paper;
+      u.ctx.font = `600 ${8 * ratio}px system-ui, sans-serif`;
+      u.ctx.textAlign = 'center';
+      u.ctx.textBaseline = 'middle';
+      u.ctx.fillText(text, (from + to) / 2, y + (LANE_PX - 2) * ratio / 2 + 0.5 * ratio);
+    }
+  });
+}
+
+function drawMarks({u, theme}: Sheet, curve: Curve): void {
+  const {ctx} = u;
+  const r = MARK_PX * devicePixelRatio;
+  ctx.beginPath();
+  for (let i = 0; i < curve.x.length; ++i) {
+    const x = px(u, curve.x[i]!);
+    const y = py(u, curve.y[i]!);
+    if (!Number.isFinite(x) || !Number.isFinite(y)) continue;
+    if (curve.mark === 'start') { ctx.moveTo(x + r, y); ctx.arc(x, y, r, 0, 2 * Math.PI); }
+    else { ctx.moveTo(x - r, y - r); ctx.lineTo(x + r, y + r); ctx.moveTo(x - r, y + r); ctx.lineTo(x + r, y - r); }
+  }
+  ctx.strokeStyle = colourOf(curve.colour, theme);
+  ctx.lineWidth = 1.4 * devicePixelRatio;
+  ctx.stroke();
+}
+
+function drawLoop({u, theme}: Sheet, curve: Curve): void {
+  const {ctx} = u;
+  ctx.beginPath();
+  for (let i = 0; i < curve.x.length; ++i) ctx.lineTo(px(u, curve.x[i]!), py(u, curve.y[i]!));
+  ctx.strokeStyle = colourOf(curve.colour, theme);
+  ctx.lineWidth = 1.6 * devicePixelRatio;
+  ctx.setLineDash(dashOf(curve.colour).map((d) => d * devicePixelRatio));
+  ctx.stroke();
+  ctx.setLineDash([]);
+}
+
+/** Names of curves beside their right ends, so that colour is not needed to tell them. */
+export function endNames(u: uPlot, curves: Curve[], height: number, line: number, toY: (y: number) => number): {curve: Curve; y: number}[] {
+  const {min, max} = u.scales.x!;
+  const names = curves.filter(({keyed, mark}) => keyed !== false && mark !== 'dashed').flatMap((curve) => {
+    let last = curve.x.length - 1;
+    while (last >= 0 && (curve.x[last]! > (max ?? Infinity) || !Number.isFinite(curve.y[last]!))) --last;
+    return last < 0 || curve.x[last]! < (min ?? -Infinity) ? [] : [{curve, y: toY(curve.y[last]!)}];
+  }).sort((a, b) => a.y - b.y);
+  names.forEach((name, i) => { if (i > 0) name.y = Math.max(name.y, names[i - 1]!.y + line); });
+  for (let i = names.length - 1, low = height; i >= 0; --i) {
+    names[i]!.y = Math.min(names[i]!.y, low);
+    low = names[i]!.y - line;
+  }
+  return names;
+}
+
+function drawNames({u, panel, theme}: Sheet, hidden: Set<string>): void {
+  const {ctx, bbox} = u;
+  const ratio = devicePixelRatio;
+  const shown = panel.curves.filter(({label}) => !hidden.has(label));
+  ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+  ctx.textAlign = 'left';
+  ctx.textBaseline = 'middle';
+  for (const {curve, y} of endNames(u, shown, bbox.top + bbox.height, 13 * ratio, (v) => py(u, v))) {
+    ctx.fillStyle = colourOf(curve.colour, theme);
+    ctx.fillText(curve.label, bbox.left + bbox.width + 5 * ratio, y);
+  }
+}
+
+function drawLabels({u, panel, ink}: Sheet): void {
+  const {ctx} = u;
+  ctx.font = FONT.replace('12px', `${11 * devicePixelRatio}px`);
+  ctx.fillStyle = ink.soft;
+  ctx.textBaseline = 'bottom';
+  const {min, max} = u.scales.x!;
+  for (const {x, y, text} of panel.labels ?? []) {
+    if (x < min! || x > max!) continue;
+    const left = px(u, x);
+    const half = ctx.measureText(text).width / 2;
+    const {left: first, width} = u.bbox;
+    ctx.textAlign = left - half < first ? 'left' : left + half > first + width ? 'right' : 'center';
+    ctx.fillText(text, left, py(u, y) - 5 * devicePixelRatio);
+  }
+}
+
+/** Loops, marks and labels over the curves. */
+export function drawOver(sheet: Sheet, hidden: Set<string>, named: boolean): void {
+  const {u, panel, ink} = sheet;
+  clipped(sheet, (ctx) => {
+    ctx.strokeStyle = ink.soft;
+    ctx.setLineDash([2, 4]);
+    for (const y of panel.dottedLines ?? []) {
+      ctx.beginPath();
+      ctx.moveTo(u.bbox.left, py(u, y));
+      ctx.lineTo(u.bbox.left + u.bbox.width, py(u, y));
+      ctx.stroke();
+    }
+    ctx.setLineDash([]);
+    for (const curve of panel.curves) {
+      const owner = curve.label.replace(/ (starts|ends)$/, '').replace(/,.*| #.*$/, '');
+      if (hidden.has(owner) || hidden.has(curve.label)) continue;
+      if (curve.mark === 'start' || curve.mark === 'end') drawMarks(sheet, curve);
+      else if (!panel.overTime) drawLoop(sheet, curve);
+    }
+    drawLabels(sheet);
+  });
+  if (named && panel.overTime) drawNames(sheet, hidden);
+}

@@ -1,0 +1,115 @@
+// A panel with its key and its exports.
+
+import {useEffect, useLayoutEffect, useMemo, useRef, useState} from 'preact/hooks';
+import type uPlot from 'uplot';
+
+import {exact} from '../model/numbers';
+import type {Panel} from '../model/panel';
+import {unitOf} from '../model/units';
+import {onPlayhead, playhead} from '../ui/playhead';
+import {useTheme} from '../ui/theme';
+import type {Ink} from './axes';
+import {aligned, buildPlot, lines, type Shown} from './build';
+import {Exports} from './exports';
+import {Key} from './key';
+import type {Window} from './range';
+
+interface Props {
+  panel: Panel;
+  window?: Window | undefined;
+  onZoom?: (window: Window | undefined) => void;
+  height?: number;
+  /** Where the values come from, for exported files. */
+  source: string;
+  /** What to show where there are no points. */
+  empty?: string;
+}
+
+function inkOf(element: Element): Ink {
+  const style = getComputedStyle(element);
+  const ink = (name: string) => style.getPropertyValue(`--${name}`).trim();
+  return {text: ink('text'), soft: ink('soft'), grid: ink('grid'), band: ink('band'), paper: ink('paper')};
+}
+
+/** What makes another plot necessary, rather than other data. */
+function structure(panel: Panel): string {
+  return JSON.stringify([panel.xLabel, panel.yLabel, panel.logX, panel.logY, panel.overTime,
+    panel.lanes?.length, lines(panel).map(({label, mark, colour}) => [label, mark, colour])]);
+}
+
+/** Moves a line to the moment of the strip. */
+function usePlayhead(plot: {current: uPlot | undefined}, panel: Panel): void {
+  const timed = panel.overTime && !panel.countedX;
+  useEffect(() => {
+    if (!timed) return undefined;
+    const place = (time: number | undefined) => {
+      const over = plot.current?.over;
+      if (!over) return;
+      let mark = over.querySelector<HTMLElement>('.playhead');
+      if (!mark) over.append(mark = Object.assign(document.createElement('div'), {className: 'playhead'}));
+      const left = time === undefined ? -1 : plot.current!.valToPos(time, 'x');
+      mark.hidden = !(left >= 0 && left <= over.clientWidth);
+      if (!mark.hidden) mark.style.transform = `translateX(${left}px)`;
+    };
+    place(playhead());
+    return onPlayhead(place);
+  });
+}
+
+export function Plot({panel, window, onZoom, height = 240, source, empty}: Props) {
+  const theme = useTheme();
+  const box = useRef<HTMLDivElement>(null);
+  const plot = useRef<uPlot>();
+  const shown = useRef<Shown>();
+  const values = useRef<(HTMLElement | null)[]>([]);
+  const [hidden, setHidden] = useState<Set<string>>(new Set());
+  const key = structure(panel);
+  const unit = unitOf(panel.yLabel);
+
+  const told = useMemo(() => ({
+    cursor: (index: number | null) => {
+      values.current.forEach((at, i) => {
+        const value = index === null ? undefined : plot.current?.data[i + 1]?.[index];
+        if (at) at.textContent = value === undefined || value === null ? '' : ` ${exact(value)}`;
+      });
+    },
+  }), []);
+
+  useLayoutEffect(() => {
+    const ink = inkOf(box.current!);
+    shown.current = {panel, window, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: told.cursor};
+    plot.current = buildPlot(shown.current, box.current!.clientWidth || 400, height, box.current!);
+    const observer = new ResizeObserver(() => {
+      const width = box.current?.clientWidth;
+      if (width && plot.current && width !== plot.current.width) plot.current.setSize({width, height});
+    });
+    observer.observe(box.current!);
+    return () => { observer.disconnect(); plot.current?.destroy(); plot.current = undefined; };
+  }, [key, theme, height]);
+
+  useLayoutEffect(() => {
+    if (!plot.current || !shown.current) return;
+    Object.assign(shown.current, {panel, window, hidden, onZoom: onZoom ?? (() => undefined)});
+    lines(panel).forEach(({label}, i) => {
+      const visible = !hidden.has(label);
+      if (plot.current!.series[i + 1]!.show !== visible) plot.current!.setSeries(i + 1, {show: visible});
+    });
+    plot.current.setData(aligned(panel));
+  }, [panel, window?.[0], window?.[1], hidden]);
+
+  usePlayhead(plot, panel);
+  const points = panel.curves.some(({x}) => x.length > 0);
+  return (
+    <figure class="plot" data-plot={panel.id} data-points={lines(panel)[0]?.x.length ?? 0}>
+      <figcaption>
+        <h3>{panel.title}</h3>
+        <Exports panel={panel} plot={plot} source={source} />
+      </figcaption>
+      <div ref={box} class="canvas" role="img"
+        aria-label={`${panel.title}: ${panel.yLabel} over ${panel.xLabel}; ${panel.curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`} />
+      {!points && <p class="nothing">{empty ?? 'Nothing to show yet.'}</p>}
+      <Key panel={panel} hidden={hidden} setHidden={setHidden} values={values} unit={unit} />
+      {panel.note && <p class="note">{panel.note}</p>}
+    </figure>
+  );
+}

@@ -1,0 +1,159 @@
+// Draws the bodies on their line at one moment, with contact forces.
+
+import type {Series} from '../api/series';
+import type {Mechanics} from '../model/mechanics';
+import {extent, interpolate} from '../model/panel';
+import {readableUnit} from '../model/units';
+import {short} from '../model/numbers';
+import {colourOf, type Theme} from '../ui/theme';
+import type {Ink} from './axes';
+
+/** What of the strip is the same at all moments. */
+export interface Stage {
+  mechanics: Mechanics;
+  series: Series;
+  low: number;
+  high: number;
+  /** Displacements are drawn so many times as large. */
+  magnification: number;
+  largestForce: number;
+}
+
+const values = (series: Series, name: string) => series.get(name)?.values ?? new Float64Array(0);
+
+/** A round factor that makes small displacements visible: 1, 2, 5, 10, 20 … */
+export function magnificationFor(displacement: number, room: number): number {
+  if (!(displacement > 0) || displacement > 0.1 * room) return 1;
+  const wanted = 0.25 * room / displacement;
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  return power * [5, 2, 1].find((step) => step * power <= wanted)!;
+}
+
+/** The strip of a series. `magnified` false draws all to scale. */
+export function stageOf(mechanics: Mechanics, series: Series, magnified: boolean): Stage {
+  const {bodies, contacts} = mechanics;
+  const displaced = bodies.map(({name, position}) => values(series, `${name}.position`).map((x) => x - position));
+  const largest = Math.max(0, ...displaced.map((list) => { const e = extent([list]); return e ? Math.max(-e[0], e[1]) : 0; }));
+  const radii = bodies.map(({radius}) => radius);
+  const sorted = bodies.map(({position}) => position).sort((a, b) => a - b);
+  const gaps = sorted.slice(1).map((x, i) => x - sorted[i]!).filter((gap) => gap > 0);
+  const room = Math.min(...gaps, ...(radii.some((r) => r > 0) ? [2 * Math.max(...radii)] : []));
+  const magnification = magnified && Number.isFinite(room) ? magnificationFor(largest, room) : 1;
+  const places = bodies.flatMap(({position, radius}, i) => {
+    const [low, high] = extent([displaced[i]!]) ?? [0, 0];
+    return [position + magnification * low - radius, position + magnification * high + radius];
+  });
+  const walls = contacts.map(({wallPosition}) => wallPosition).filter(Number.isFinite);
+  const [low, high] = extent([[...places, ...walls]]) ?? [0, 1];
+  const forces = extent(contacts.map(({name}) => values(series, `${name}.contact_force`)));
+  const margin = 0.08 * (high - low) || 0.01;
+  return {mechanics, series, magnification, low: low - margin, high: high + margin, largestForce: forces?.[1] ?? 0};
+}
+
+/** One canvas and what to draw with. */
+export interface Sheet {
+  ctx: CanvasRenderingContext2D;
+  width: number;
+  height: number;
+  ink: Ink;
+  theme: Theme;
+}
+
+function placesAt({mechanics, series, magnification}: Stage, time: number): number[] {
+  const times = values(series, 'time');
+  return mechanics.bodies.map(({name, position}) =>
+    position + magnification * (interpolate(times, values(series, `${name}.position`), time) - position));
+}
+
+function spring(ctx: CanvasRenderingContext2D, from: number, to: number, y: number): void {
+  const turns = 9;
+  ctx.beginPath();
+  ctx.moveTo(from, y);
+  for (let i = 1; i < turns; ++i) ctx.lineTo(from + (to - from) * i / turns, y + (i % 2 ? -5 : 5));
+  ctx.lineTo(to, y);
+  ctx.stroke();
+}
+
+function arrow(ctx: CanvasRenderingContext2D, from: number, to: number, y: number): void {
+  const head = Math.sign(to - from) * Math.min(6, Math.abs(to - from));
+  ctx.beginPath();
+  ctx.moveTo(from, y);
+  ctx.lineTo(to, y);
+  ctx.moveTo(to - head, y - 4);
+  ctx.lineTo(to, y);
+  ctx.lineTo(to - head, y + 4);
+  ctx.stroke();
+}
+
+function drawWall({ctx, ink}: Sheet, x: number, right: boolean, middle: number): void {
+  ctx.strokeStyle = ink.soft;
+  ctx.beginPath();
+  ctx.moveTo(x, middle - 34);
+  ctx.lineTo(x, middle + 34);
+  for (let y = middle - 30; y <= middle + 34; y += 8) { ctx.moveTo(x, y - 4); ctx.lineTo(x + (right ? 6 : -6), y + 2); }
+  ctx.stroke();
+}
+
+function drawSupports(stage: Stage, {ctx, ink}: Sheet, toX: (x: number) => number, places: number[], middle: number): void {
+  const index = new Map(stage.mechanics.bodies.map(({name}, i) => [name, i]));
+  ctx.strokeStyle = ink.soft;
+  for (const {body, other} of stage.mechanics.scenario.supports) {
+    const i = index.get(body)!;
+    const from = other ? toX(places[index.get(other)!]!) : 4;
+    spring(ctx, from, toX(places[i]! - stage.mechanics.bodies[i]!.radius), middle);
+  }
+}
+
+function drawForces(stage: Stage, sheet: Sheet, toX: (x: number) => number, places: number[], time: number, middle: number): void {
+  const {mechanics: {bodies, contacts}, series, largestForce} = stage;
+  const {ctx, theme} = sheet;
+  const times = values(series, 'time');
+  contacts.forEach(({name, left, right, wallPosition}, colour) => {
+    const force = interpolate(times, values(series, `${name}.contact_force`), time);
+    if (!(Math.abs(force) > 1e-6 * largestForce)) return;
+    const leftEdge = left < 0 ? wallPosition : places[left]! + bodies[left]!.radius;
+    const rightEdge = right < 0 ? wallPosition : places[right]! - bodies[right]!.radius;
+    const x = toX((leftEdge + rightEdge) / 2);
+    const length = 8 + 40 * Math.abs(force) / largestForce;
+    ctx.strokeStyle = ctx.fillStyle = colourOf(colour, theme);
+    ctx.lineWidth = 2;
+    if (left >= 0) arrow(ctx, x - 2, x - length, middle);
+    if (right >= 0) arrow(ctx, x + 2, x + length, middle);
+    ctx.lineWidth = 1;
+    const {factor, label} = readableUnit('[N]', Math.abs(force));
+    ctx.textAlign = x > sheet.width - 40 ? 'right' : x < 40 ? 'left' : 'center';
+    ctx.fillText(`${short(force / factor, 3)} ${label.replace(/[[\]]/g, '')}`, x, middle - 42 - (colour % 2) * 12);
+  });
+}
+
+/** Draws the moment. */
+export function drawStrip(stage: Stage, sheet: Sheet, time: number): void {
+  const {ctx, width, height, ink, theme} = sheet;
+  const {mechanics: {bodies, contacts}, low, high} = stage;
+  const scale = width / (high - low);
+  const toX = (x: number) => (x - low) * scale;
+  const middle = height / 2 + 6;
+  const places = placesAt(stage, time);
+  ctx.clearRect(0, 0, width, height);
+  ctx.font = '11px system-ui, sans-serif';
+  ctx.strokeStyle = ink.grid;
+  ctx.beginPath();
+  ctx.moveTo(0, middle);
+  ctx.lineTo(width, middle);
+  ctx.stroke();
+  for (const {left, wallPosition} of contacts) if (Number.isFinite(wallPosition)) drawWall(sheet, toX(wallPosition), left >= 0, middle);
+  drawSupports(stage, sheet, toX, places, middle);
+  bodies.forEach(({name, radius, fixed}, i) => {
+    const r = Math.min(Math.max(radius * scale, 4), height / 2 - 26);
+    ctx.beginPath();
+    ctx.ellipse(toX(places[i]!), middle, Math.max(radius * scale, 4), r, 0, 0, 2 * Math.PI);
+    ctx.fillStyle = `${colourOf(i, theme)}${fixed ? '22' : '44'}`;
+    ctx.strokeStyle = colourOf(i, theme);
+    ctx.fill();
+    ctx.stroke();
+    ctx.fillStyle = ink.text;
+    ctx.textAlign = 'center';
+    if (bodies.length <= 24) ctx.fillText(name, toX(places[i]!), middle + Math.max(r, 10) + 13);
+  });
+  drawForces(stage, sheet, toX, places, time, middle);
+}

@@ -1,0 +1,109 @@
+// A plot as SVG: the axes that uPlot chose, the curves of the panel.
+
+import type uPlot from 'uplot';
+
+import type {Curve, Panel} from '../model/panel';
+import {colourOf, dashOf} from '../ui/theme';
+import {unitOfScale} from './axes';
+import {endNames} from './layers';
+
+export interface Svg {
+  width: number;
+  height: number;
+  text: string;
+}
+
+const TITLE_PX = 26;
+const FOOT_PX = 22;
+const escape = (text: string) =>
+  text.replace(/[&<>"]/g, (c) => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]!);
+const r = (value: number) => String(Math.round(value * 100) / 100);
+
+/** Positions in the drawing. */
+interface Frame {
+  u: uPlot;
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+  x: (value: number) => number;
+  y: (value: number) => number;
+}
+
+function frameOf(u: uPlot): Frame {
+  const ratio = devicePixelRatio;
+  const left = u.bbox.left / ratio;
+  const top = u.bbox.top / ratio + TITLE_PX;
+  return {
+    u, left, top, width: u.bbox.width / ratio, height: u.bbox.height / ratio,
+    x: (value) => left + u.valToPos(value, 'x'), y: (value) => top + u.valToPos(value, 'y'),
+  };
+}
+
+type DrawnAxis = uPlot.Axis & {_splits?: number[]; _values?: string[]};
+
+function axis(frame: Frame, place: 0 | 1, label: string): string {
+  const {_splits: splits = [], _values: texts = []} = frame.u.axes[place] as DrawnAxis;
+  const {left, top, width, height} = frame;
+  const bottom = top + height;
+  const parts = splits.flatMap((value, i) => {
+    const at = place === 0 ? frame.x(value) : frame.y(value);
+    const line = place === 0 ? `M${r(at)} ${r(top)}V${r(bottom + 5)}` : `M${r(left - 5)} ${r(at)}H${r(left + width)}`;
+    const text = place === 0 ? `x="${r(at)}" y="${r(bottom + 18)}" text-anchor="middle"` : `x="${r(left - 8)}" y="${r(at + 4)}" text-anchor="end"`;
+    return [`<path d="${line}" stroke="#ddd"/>`, texts[i] ? `<text ${text}>${escape(String(texts[i]))}</text>` : ''];
+  });
+  const name = place === 0
+    ? `<text x="${r(left + width / 2)}" y="${r(bottom + 36)}" text-anchor="middle" font-weight="600">`
+    : `<text transform="translate(13 ${r(top + height / 2)}) rotate(-90)" text-anchor="middle" font-weight="600">`;
+  return `${parts.join('')}${name}${escape(unitOfScale(frame.u, place === 0 ? 'x' : 'y', label).label)}</text>`;
+}
+
+function curve({x, y}: Frame, {mark, colour, x: xs, y: ys}: Curve): string {
+  const ink = colourOf(colour, 'light');
+  let path = '';
+  for (let i = 0; i < xs.length; ++i) {
+    const [a, b] = [x(xs[i]!), y(ys[i]!)];
+    if (!Number.isFinite(a) || !Number.isFinite(b)) continue;
+    if (mark === 'start') path += `M${r(a + 4)} ${r(b)}a4 4 0 1 0 -8 0a4 4 0 1 0 8 0`;
+    else if (mark === 'end') path += `M${r(a - 4)} ${r(b - 4)}l8 8m0 -8l-8 8`;
+    else path += `${path ? 'L' : 'M'}${r(a)} ${r(b)}`;
+    if (mark === 'linePoints') path += `m3 0a3 3 0 1 0 -6 0a3 3 0 1 0 6 0m-3 0`;
+  }
+  const dash = mark === 'dashed' ? [6, 4] : mark === 'line' ? dashOf(colour) : [];
+  return `<path d="${path}" stroke="${ink}" stroke-width="1.5"${dash.length ? ` stroke-dasharray="${dash.join(' ')}"` : ''}/>`;
+}
+
+function behind(frame: Frame, {bands = [], dottedLines = []}: Panel): string {
+  const {left, top, width, height} = frame;
+  return [
+    ...bands.map(({start, end}) => `<rect x="${r(frame.x(start))}" y="${r(top)}" width="${r(Math.max(frame.x(end) - frame.x(start), 0.5))}" height="${r(height)}" fill="#000" fill-opacity=".06" stroke="none"/>`),
+    ...dottedLines.map((y) => `<path d="M${r(left)} ${r(frame.y(y))}h${r(width)}" stroke="#666" stroke-dasharray="2 4"/>`),
+  ].join('');
+}
+
+function names(frame: Frame, {curves, labels = [], overTime}: Panel): string {
+  const {left, top, width, height} = frame;
+  const {min, max} = frame.u.scales.x!;
+  const keyed = overTime ? endNames(frame.u, curves, top + height, 13, frame.y)
+    : curves.filter((c) => c.keyed !== false && c.mark === 'line').map((c, i) => ({curve: c, y: top + 14 + 15 * i}));
+  return [
+    ...keyed.map(({curve: c, y}) => `<text x="${r(left + (overTime ? width + 5 : 10))}" y="${r(y + 4)}" fill="${colourOf(c.colour, 'light')}">${escape(c.label)}</text>`),
+    ...labels.filter(({x}) => x >= min! && x <= max!).map(({x, y, text}) => `<text x="${r(frame.x(x))}" y="${r(frame.y(y) - 5)}" text-anchor="middle" fill="#555">${escape(text)}</text>`),
+  ].join('');
+}
+
+/** The plot as it is shown now. `source` stands below it. */
+export function svgOf(panel: Panel, u: uPlot, source: string): Svg {
+  const frame = frameOf(u);
+  const width = u.width;
+  const height = u.height + TITLE_PX + FOOT_PX;
+  const clip = `<clipPath id="in"><rect x="${r(frame.left)}" y="${r(frame.top)}" width="${r(frame.width)}" height="${r(frame.height)}"/></clipPath>`;
+  const text = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12">
+<desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/><defs>${clip}</defs>
+<text x="${r(frame.left)}" y="18" font-size="14" font-weight="600">${escape(panel.title)}</text>
+<g>${axis(frame, 0, panel.xLabel)}${axis(frame, 1, panel.yLabel)}</g>
+<g fill="none" clip-path="url(#in)" stroke-linejoin="round">${behind(frame, panel)}${panel.curves.map((c) => curve(frame, c)).join('')}</g>
+<g>${names(frame, panel)}</g>
+<text x="${r(frame.left)}" y="${height - 7}" font-size="10" fill="#666">${escape([source, panel.note].filter(Boolean).join(' · '))}</text></svg>`;
+  return {width, height, text};
+}

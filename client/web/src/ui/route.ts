@@ -1,0 +1,56 @@
+// The address holds the whole state of a view: a path and parameters.
+
+import {useEffect, useState} from 'preact/hooks';
+
+const listeners = new Set<() => void>();
+
+export interface Route {
+  path: string;
+  query: URLSearchParams;
+  hash: string;
+}
+
+function current(): Route {
+  return {path: location.pathname, query: new URLSearchParams(location.search), hash: location.hash};
+}
+
+/** Goes to an address of the dashboard. */
+export function go(address: string, replace = false): void {
+  if (address === location.pathname + location.search + location.hash) return;
+  history[replace ? 'replaceState' : 'pushState'](null, '', address);
+  for (const told of listeners) told();
+}
+
+/** Changes parameters of the address; undefined or empty removes one. */
+export function setQuery(changes: Record<string, string | undefined>, replace = true): void {
+  const query = new URLSearchParams(location.search);
+  for (const [key, value] of Object.entries(changes)) {
+    if (value) query.set(key, value);
+    else query.delete(key);
+  }
+  const text = query.toString().replaceAll('%2C', ',').replaceAll('%2F', '/').replaceAll('%3A', ':');
+  go(`${location.pathname}${text ? `?${text}` : ''}${location.hash}`, replace);
+}
+
+/** The address, as it changes. */
+export function useRoute(): Route {
+  const [route, setRoute] = useState(current);
+  useEffect(() => {
+    const told = () => setRoute(current());
+    listeners.add(told);
+    addEventListener('popstate', told);
+    return () => { listeners.delete(told); removeEventListener('popstate', told); };
+  }, []);
+  return route;
+}
+
+/** Follows links inside the dashboard without loading the page again. */
+export function followLinks(event: MouseEvent): void {
+  const link = (event.target as Element).closest?.('a');
+  const plain = event.button === 0 && !event.ctrlKey && !event.metaKey && !event.shiftKey && !event.altKey;
+  if (!link || !plain || link.target || link.hasAttribute('download')) return;
+  if (link.origin !== location.origin || link.hash) return;
+  event.preventDefault();
+  go(link.pathname + link.search);
+  scrollTo(0, 0);
+}

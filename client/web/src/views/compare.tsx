@@ -1,0 +1,137 @@
+// Runs beside each other: parameters that differ, curves over each other, verdicts.
+
+import {useEffect, useMemo, useState} from 'preact/hooks';
+
+import {server} from '../api/client';
+import {explain} from '../api/errors';
+import type {Job} from '../api/generated/contact/v1/job_pb';
+import {readSeries, type Series} from '../api/series';
+import {compareResults, deviation, differingParameters, type Result, type Value} from '../model/comparison';
+import {mechanicsOf} from '../model/mechanics';
+import {exact} from '../model/numbers';
+import type {Panel} from '../model/panel';
+import {Plot} from '../plots/plot';
+import {setQuery, type Route} from '../ui/route';
+import {StateBadge} from '../ui/state_badge';
+import {useAsync} from '../ui/use_async';
+import {setWindow, windowOf} from './run/window';
+
+const MOST_SHOWN = 300;
+const short = (name: string) => name.replace('jobs/', '');
+const text = (value: Value) => (typeof value === 'number' ? exact(value) : value ?? '–');
+
+function Picker({jobs}: {jobs: string[]}) {
+  const known = useAsync(() => server.listJobs({pageSize: 200}), []).value?.jobs ?? [];
+  const add = (event: Event) => {
+    const {value} = event.currentTarget as HTMLSelectElement;
+    if (value) setQuery({jobs: [...jobs, value].join(',')});
+  };
+  return (
+    <label>Add a run <select value="" onChange={add}><option value="">choose …</option>
+      {known.filter(({name}) => !jobs.includes(short(name))).map((job) => <option key={job.name} value={short(job.name)}>{job.title || short(job.name)} · {short(job.name)}</option>)}
+    </select></label>
+  );
+}
+
+function Parameters({jobs}: {jobs: Job[]}) {
+  const rows = useMemo(() => differingParameters(jobs), [jobs]);
+  if (rows.length === 0) return <p class="soft">The scenarios are equal.</p>;
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label="Parameters that differ"><table>
+      <thead><tr><th>parameter (only differences)</th>{jobs.map(({name}) => <th key={name} class="number">{short(name)}</th>)}</tr></thead>
+      <tbody>{rows.map(({name, values}) => <tr key={name}><td class="mono">{name}</td>{values.map((v, i) => <td key={i} class="number">{text(v)}</td>)}</tr>)}</tbody>
+    </table></div>
+  );
+}
+
+function Verdict({row, i}: {row: Result; i: number}) {
+  const ok = row.holds[i];
+  const far = deviation(row.values[i], row.values[0]);
+  return <td class={`number ${ok ? '' : 'differs'}`}>{text(row.values[i])}{i > 0 && <span class={ok ? 'soft' : ''}> {ok ? '✓' : '✗'} {far}</span>}</td>;
+}
+
+function Results({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
+  const relative = Number(query.get('rel') ?? 1e-6);
+  const absolute = Number(query.get('abs') ?? 1e-12);
+  const rows = useMemo(() => compareResults(jobs, {absolute, relative}), [jobs, absolute, relative]);
+  const differing = rows.filter((row) => row.holds.includes(false));
+  const shown = (query.get('rows') === 'all' ? rows : differing).slice(0, MOST_SHOWN);
+  return (
+    <section aria-label="Results">
+      <div class="tools"><h2>Results</h2>
+        <span class={`badge ${differing.length ? 'warn' : 'good'}`}>{differing.length ? `✗ ${differing.length} of ${rows.length} differ` : `✓ all ${rows.length} hold`}</span>
+        <label>relative tolerance <input size={7} value={query.get('rel') ?? '1e-6'} onChange={(e) => setQuery({rel: e.currentTarget.value})} /></label>
+        <label>absolute <input size={7} value={query.get('abs') ?? '1e-12'} onChange={(e) => setQuery({abs: e.currentTarget.value})} /></label>
+        <label><input type="checkbox" checked={query.get('rows') === 'all'} onChange={(e) => setQuery({rows: e.currentTarget.checked ? 'all' : undefined})} /> all results</label>
+      </div>
+      <div class="scroll" tabIndex={0} role="region" aria-label="Results with verdicts"><table>
+        <thead><tr><th>result</th><th>unit</th>{jobs.map(({name}, i) => <th key={name} class="number">{short(name)}{i === 0 ? ' (baseline)' : ''}</th>)}</tr></thead>
+        <tbody>{shown.map((row) => <tr key={row.name}><td>{row.name}</td><td class="soft">{row.unit}</td>{jobs.map((_, i) => <Verdict key={i} row={row} i={i} />)}</tr>)}</tbody>
+      </table></div>
+      {shown.length === MOST_SHOWN && <p class="soft">The first {MOST_SHOWN} are shown.</p>}
+    </section>
+  );
+}
+
+function channelNames(job: Job): string[] {
+  if (job.spec.case !== 'scenario') return [];
+  const {bodies, contacts} = mechanicsOf(job.spec.value);
+  return [...contacts.flatMap(({name}) => ['contact_force', 'deformation', 'deformation_velocity', 'external_force'].map((q) => `${name}.${q}`)),
+    ...bodies.flatMap(({name}) => [`${name}.velocity`, `${name}.position`])];
+}
+
+function overlay(channel: string, jobs: Job[], series: (Series | undefined)[]): Panel {
+  const first = series.map((s) => s?.get(channel)).find(Boolean);
+  const quantity = first?.quantity.replaceAll('_', ' ') ?? channel;
+  return {
+    id: channel, title: channel, xLabel: 'time [s]', yLabel: `${quantity} [${first?.unit ?? '1'}]`, overTime: true,
+    curves: jobs.flatMap((job, i) => {
+      const column = series[i]?.get(channel);
+      return column ? [{label: short(job.name), colour: i, mark: 'line' as const, x: series[i]!.get('time')!.values, y: column.values}] : [];
+    }),
+  };
+}
+
+function Overlay({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
+  const names = useMemo(() => [...new Set(jobs.flatMap(channelNames))], [jobs]);
+  const channels = (query.get('channels') ?? names.slice(0, 2).join(',')).split(',').filter((name) => names.includes(name));
+  const window = windowOf(query, 0);
+  const series = useAsync(() => Promise.all(jobs.map(async (job) => {
+    const own = channels.filter((c) => channelNames(job).includes(c));
+    return own.length ? readSeries({name: job.name, channels: own, from: window?.[0], to: window?.[1], maxPoints: 3000}).catch(() => undefined) : undefined;
+  })), [jobs, channels.join(), window?.[0], window?.[1]]).value;
+  const panels = useMemo(() => channels.map((c) => overlay(c, jobs, series ?? [])), [series, channels.join()]);
+  const set = (list: string[]) => setQuery({channels: list.join(',')});
+  return (
+    <section aria-label="Overlay">
+      <div class="tools"><h2>Overlay</h2>
+        <label>Add a channel <select value="" onChange={(e) => set([...channels, e.currentTarget.value])}><option value="">choose …</option>
+          {names.filter((n) => !channels.includes(n)).map((n) => <option key={n}>{n}</option>)}</select></label>
+        {channels.map((c) => <button key={c} type="button" class="quiet" aria-label={`remove ${c}`} onClick={() => set(channels.filter((o) => o !== c))}>{c} ✕</button>)}
+        {window && <button type="button" onClick={() => setWindow(undefined)}>All the time</button>}
+      </div>
+      <div class="plots">{panels.map((panel) => <Plot key={panel.id} panel={panel} window={window} onZoom={setWindow} source={jobs.map(({name}) => name).join(' ')} height={260} />)}</div>
+    </section>
+  );
+}
+
+export function Compare({route: {query}}: {route: Route}) {
+  const ids = (query.get('jobs') ?? '').split(',').filter(Boolean);
+  const [jobs, setJobs] = useState<Job[]>([]);
+  const {value, error} = useAsync((signal) => Promise.all(ids.map((id) => server.getJob({name: `jobs/${id}`}, {signal}))), [ids.join()]);
+  useEffect(() => { if (value) setJobs(value); }, [value]);
+  return (
+    <>
+      <div class="head"><h1>Compare</h1><Picker jobs={ids} /></div>
+      {error !== undefined && <p class="notice" role="alert">{explain(error)}</p>}
+      {ids.length === 0 && <p class="nothing">Choose runs here, or mark them in the <a href="/runs">list</a>. The first one is the baseline.</p>}
+      <ul class="chips">{jobs.map((job) => (
+        <li key={job.name}><a href={`/runs/${short(job.name)}`}>{job.title || short(job.name)}</a> <span class="mono soft">{short(job.name)}</span> <StateBadge {...job} />
+          <button type="button" class="quiet" aria-label={`remove ${short(job.name)}`} onClick={() => setQuery({jobs: ids.filter((id) => id !== short(job.name)).join(',')})}>✕</button></li>))}
+      </ul>
+      {jobs.length >= 2 && <section aria-label="Parameters"><h2>Parameters</h2><Parameters jobs={jobs} /></section>}
+      {jobs.length >= 1 && <Overlay jobs={jobs} query={query} />}
+      {jobs.length >= 2 && <Results jobs={jobs} query={query} />}
+    </>
+  );
+}

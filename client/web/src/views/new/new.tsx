@@ -1,0 +1,113 @@
+// A new run: from a template, from another run, from nothing.
+
+import {toJson} from '@bufbuild/protobuf';
+import {useEffect, useState} from 'preact/hooks';
+
+import {server} from '../../api/client';
+import {explain} from '../../api/errors';
+import {ScenarioSchema, SweepSchema} from '../../api/generated/contact/v1/scenario_pb';
+import {templates, titleOf} from '../../api/templates';
+import {asCli, asCurl, asPython} from '../../model/copy_as';
+import {labelsOf} from '../../model/job_list';
+import {bytes, count, seconds} from '../../model/numbers';
+import {requestId} from '../../ui/request_id';
+import {go, setQuery, type Route} from '../../ui/route';
+import {Editor} from './editor';
+import {jobOf, useValidation, type Verdict} from './use_validation';
+
+const FIRST = 'three-ball-chain.yaml';
+const KEEP_MS = 400;
+
+/** The text of another job. */
+async function textOf(id: string): Promise<string> {
+  const {stringify} = await import('yaml');
+  const {spec} = await server.getJob({name: `jobs/${id}`});
+  if (spec.case === 'scenario') return stringify(toJson(ScenarioSchema, spec.value, {useProtoFieldName: true}));
+  return spec.case === 'sweep' ? stringify(toJson(SweepSchema, spec.value, {useProtoFieldName: true})) : '';
+}
+
+/** The text, kept in the address as far as it was changed. */
+function useText({query, hash}: Route): [string, (text: string) => void] {
+  const from = query.get('from');
+  const template = `${query.get('template') ?? FIRST.replace('.yaml', '')}.yaml`;
+  const kept = hash.startsWith('#text=') ? decodeURIComponent(hash.slice(6)) : undefined;
+  const [text, setText] = useState(kept ?? (from ? '' : templates[template] ?? ''));
+  const [origin, setOrigin] = useState(from ? '' : templates[template] ?? '');
+  useEffect(() => {
+    if (from) void textOf(from).then((read) => { setOrigin(read); setText((now) => now || read); }, (e: unknown) => setText(`# ${explain(e)}\n`));
+    else if (origin !== templates[template]) { setOrigin(templates[template] ?? ''); setText(templates[template] ?? ''); }
+  }, [from, template]);
+  useEffect(() => {
+    const timer = setTimeout(() => {
+      const next = text === origin || text === '' ? '' : `#text=${encodeURIComponent(text)}`;
+      if (next !== location.hash) go(location.pathname + location.search + next, true);
+    }, KEEP_MS);
+    return () => clearTimeout(timer);
+  }, [text, origin]);
+  return [text, setText];
+}
+
+function Verdicts({problems, warnings, estimate, settled}: Verdict) {
+  return (
+    <div class="verdicts" role="status" data-settled={settled} data-problems={problems.length}>
+      {problems.length > 0 && <ul>{problems.map(({line, path, text}, i) => (
+        <li key={i} class="bad"><span aria-hidden="true">✗</span> {line > 0 && <strong>line {line}</strong>} {path && <code>{path}</code>} {text}</li>))}</ul>}
+      {warnings.map((text) => <p key={text} class="warning"><span aria-hidden="true">⚠</span> {text}</p>)}
+      {problems.length === 0 && settled && <p class="good">✓ The server accepts it.
+        {estimate && <span class="soft"> About {count(estimate.samples)} samples, {bytes(estimate.outputBytes)}
+          {estimate.steps > 0n && `, ${count(estimate.steps)} steps`}{estimate.wallTime && `, ${seconds(Number(estimate.wallTime.seconds) + estimate.wallTime.nanos / 1e9)}`}.</span>}</p>}
+    </div>
+  );
+}
+
+function CopyAs({text, verdict}: {text: string; verdict: Verdict}) {
+  const [shown, setShown] = useState('');
+  const {page} = verdict;
+  const copy = (what: string) => {
+    setShown(what);
+    void navigator.clipboard?.writeText(what).catch(() => undefined);
+  };
+  return (
+    <div><span class="group" role="group" aria-label="Copy as">Copy as
+      <button type="button" onClick={() => copy(asCli(page.kind === 'sweep' ? JSON.stringify(page.json) : text, page.kind))} disabled={!page.json}>CLI</button>
+      <button type="button" onClick={() => copy(asPython(page.json!))} disabled={!page.json || page.kind === 'sweep'}>Python</button>
+      <button type="button" onClick={() => copy(asCurl(page.json!, page.kind, location.origin))} disabled={!page.json}>curl</button></span>
+      {shown && <pre class="copied" tabIndex={0} aria-label="copied text">{shown}</pre>}
+    </div>
+  );
+}
+
+export function New({route}: {route: Route}) {
+  const [text, setText] = useText(route);
+  const verdict = useValidation(text);
+  const [labels, setLabels] = useState('');
+  const [error, setError] = useState('');
+  const [busy, setBusy] = useState(false);
+  const start = () => {
+    setBusy(true);
+    server.createJob({job: jobOf(verdict.page, labelsOf(labels)), requestId: requestId()}).then(
+      ({name}) => go(`/runs/${name.replace('jobs/', '')}`),
+      (e: unknown) => { setBusy(false); setError(explain(e)); });
+  };
+  const from = route.query.get('from');
+  return (
+    <>
+      <div class="head"><h1>{from ? `Run ${from} again with changes` : 'New run'}</h1></div>
+      <div class="new">
+        <nav aria-label="Templates"><h2>Templates</h2><ul>{Object.keys(templates).sort().map((name) => (
+          <li key={name}><button type="button" class="quiet" aria-pressed={!from && (route.query.get('template') ?? FIRST.replace('.yaml', '')) === name.replace('.yaml', '')}
+            onClick={() => { history.replaceState(null, '', '/new'); setQuery({template: name.replace('.yaml', '')}); setText(templates[name]!); }}>{titleOf(name)}</button></li>))}</ul></nav>
+        <div>
+          <Editor text={text} setText={setText} problems={verdict.problems} />
+          <Verdicts {...verdict} />
+          {error && <p class="notice" role="alert">{error}</p>}
+          <div class="tools">
+            <label>Labels <input value={labels} placeholder="key=value, …" onInput={(e) => setLabels(e.currentTarget.value)} /></label>
+            <button type="button" class="primary" disabled={busy || !verdict.settled || verdict.problems.length > 0} onClick={start}>{verdict.page.kind === 'sweep' ? 'Start the sweep' : 'Start the run'}</button>
+            <CopyAs text={text} verdict={verdict} />
+          </div>
+        </div>
+      </div>
+    </>
+  );
+}

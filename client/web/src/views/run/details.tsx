@@ -1,0 +1,77 @@
+// The end of the run, its cost, its files, where it comes from, and its scenario.
+
+import {toJson} from '@bufbuild/protobuf';
+import {useState} from 'preact/hooks';
+
+import {readArtifact} from '../../api/artifact';
+import {ScenarioSchema, SweepSchema} from '../../api/generated/contact/v1/scenario_pb';
+import {LogEntry_Severity} from '../../api/generated/contact/v1/event_pb';
+import type {Job, RunSummary} from '../../api/generated/contact/v1/job_pb';
+import {count, exact} from '../../model/numbers';
+import type {RunState} from '../../model/runState';
+import {useAsync} from '../../ui/use_async';
+import {save} from '../../ui/save';
+import {utc} from '../../ui/times';
+
+function Pairs({pairs}: {pairs: [string, string][]}) {
+  return <dl>{pairs.filter(([, text]) => text).map(([name, text]) => <div key={name}><dt>{name}</dt><dd>{text}</dd></div>)}</dl>;
+}
+
+function costOf(s: RunSummary): [string, string][] {
+  return [
+    ['steps', count(s.steps)], ['evaluations', count(s.evaluations)], ['episodes', count(s.episodes)],
+    ['corrections of μ', count(s.iterations)], ['wall time', `${exact(s.wallTimeS)} s`],
+    ['momentum residual', exact(s.momentumResidual)], ['energy residual', exact(s.energyResidual)],
+    ['worst cycle identity', exact(s.worstIdentityResidual)], ['kinetic energy at the end', `${exact(s.kineticEnergyJ)} J`],
+  ];
+}
+
+function provenanceOf(job: Job): [string, string][] {
+  return [
+    ['job', job.name], ['uid', job.uid], ['owner', job.owner], ['created', utc(job.createTime)],
+    ['started', utc(job.startTime)], ['ended', utc(job.endTime)], ['attempt', exact(job.attempt)],
+    ['SHA-256 of the scenario', job.specSha256], ['contactd', job.serverVersion], ['revision', job.serverRevision],
+  ];
+}
+
+/** The spec as a page of YAML. */
+async function yamlOf(job: Job): Promise<string> {
+  const {stringify} = await import('yaml');
+  const {spec} = job;
+  if (spec.case === 'scenario') return stringify(toJson(ScenarioSchema, spec.value, {useProtoFieldName: true}));
+  return spec.case === 'sweep' ? stringify(toJson(SweepSchema, spec.value, {useProtoFieldName: true})) : '';
+}
+
+function Files({job}: {job: Job}) {
+  const [busy, setBusy] = useState('');
+  if (job.artifacts.length === 0) return null;
+  const read = async (artifact: string) => {
+    setBusy(artifact);
+    save(`${job.name.replace('jobs/', '')}-${artifact.replaceAll('/', '-')}`, await readArtifact(job.name, artifact));
+    setBusy('');
+  };
+  return (
+    <div><h3>Files</h3><ul class="files">{job.artifacts.slice(0, 50).map(({name}) => (
+      <li key={name}><button type="button" class="quiet" disabled={busy === name} onClick={() => void read(name)}>{name} ⤓</button></li>))}
+    </ul></div>
+  );
+}
+
+export function Details({run}: {run: RunState}) {
+  const job = run.job!;
+  const yaml = useAsync(() => yamlOf(job), [job.name, job.spec.case]).value ?? '';
+  return (
+    <section aria-label="Details" class="details">
+      {job.finalBodies.length > 0 && (
+        <div><h3>Bodies at the end</h3>
+          <table><thead><tr><th>body</th><th class="number">position [m]</th><th class="number">velocity [m/s]</th></tr></thead>
+            <tbody>{job.finalBodies.slice(0, 100).map((b) => <tr key={b.name}><td>{b.name}</td><td class="number">{exact(b.positionM)}</td><td class="number">{exact(b.velocityMPerS)}</td></tr>)}</tbody></table></div>)}
+      {job.summary && <div><h3>Cost and balances</h3><Pairs pairs={costOf(job.summary)} /></div>}
+      <div><h3>Provenance</h3><Pairs pairs={provenanceOf(job)} /></div>
+      <Files job={job} />
+      {run.log.length > 0 && <div><h3>Remarks</h3><ul>{run.log.slice(-100).map((entry, i) => (
+        <li key={i}>{entry.severity === LogEntry_Severity.WARNING ? '⚠ ' : ''}{entry.message}</li>))}</ul></div>}
+      <div class="wide"><h3>{job.spec.case === 'sweep' ? 'Sweep' : 'Scenario'}</h3><pre tabIndex={0}>{yaml}</pre></div>
+    </section>
+  );
+}

@@ -1,0 +1,59 @@
+// Title, state and what can be done with a job.
+
+import {useState} from 'preact/hooks';
+
+import {server} from '../../api/client';
+import {explain} from '../../api/errors';
+import {isFinal} from '../../api/watch';
+import type {RunState} from '../../model/runState';
+import {count} from '../../model/numbers';
+import {go} from '../../ui/route';
+import {StateBadge} from '../../ui/state_badge';
+import {elapsed} from '../elapsed';
+
+function progressOf({progress}: RunState): number {
+  if (!progress) return 0;
+  const part = progress.cells > 0 ? progress.cellsDone / progress.cells : progress.timeS / progress.endTimeS;
+  return Number.isFinite(part) ? part : 0;
+}
+
+function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (why: string) => void}) {
+  const [sure, setSure] = useState(false);
+  const name = `jobs/${id}`;
+  const attempt = (call: Promise<unknown>, then: () => void = () => undefined) =>
+    call.then(then, (error: unknown) => onError(explain(error)));
+  return (
+    <span class="actions">
+      <a class="button" href={`/new?from=${id}`}>Run again with changes</a>
+      <a class="button" href={`/compare?jobs=${id}`}>Compare</a>
+      {!ended && <button type="button" onClick={() => void attempt(server.cancelJob({name}))}>Cancel run</button>}
+      {ended && !sure && <button type="button" onClick={() => setSure(true)}>Delete …</button>}
+      {ended && sure && <button type="button" class="danger" onClick={() => void attempt(server.deleteJob({name}), () => go('/runs'))}>Delete for good</button>}
+      {ended && sure && <button type="button" onClick={() => setSure(false)}>Keep</button>}
+    </span>
+  );
+}
+
+export function Header({id, run}: {id: string; run: RunState}) {
+  const [error, setError] = useState('');
+  const {job, progress} = run;
+  const ended = isFinal(run.state);
+  return (
+    <>
+      <div class="head">
+        <h1>{job?.title || id}</h1>
+        <StateBadge state={run.state} convergence={job?.convergence ?? 0} />
+        <Actions id={id} ended={ended} onError={setError} />
+      </div>
+      {error && <p class="notice" role="alert">{error}</p>}
+      {!ended && (
+        <p class="progress"><progress max={1} value={progressOf(run)} aria-label="progress" />
+          {progress && progress.cells === 0 && <span class="soft">{count(progress.steps)} steps, {count(progress.cycles)} cycles, {count(progress.iterations)} corrections</span>}
+        </p>
+      )}
+      {run.message && <p class="notice" role="status">{run.reason}: {run.message}</p>}
+      {job && <p class="facts soft">jobs/{id} · {elapsed(job)}{job.summary ? ` · ${count(job.summary.cycles)} cycles, ${count(job.summary.iterations)} corrections of μ, ${count(job.summary.steps)} steps` : ''}</p>}
+      {(job?.warnings ?? []).map((text) => <p key={text} class="warning"><span aria-hidden="true">⚠</span> {text}</p>)}
+    </>
+  );
+}

@@ -1,0 +1,116 @@
+// The ledger: cycles and groups, with a filter.
+
+import {useMemo, useState} from 'preact/hooks';
+
+import {
+  Cycle_End, Cycle_Kind, Cycle_Status, Group_Growth, type Cycle, type Group,
+} from '../../api/generated/contact/v1/job_pb';
+import type {RunState} from '../../model/runState';
+import {count, exact} from '../../model/numbers';
+import {setQuery} from '../../ui/route';
+import {setWindow} from './window';
+
+const PAGE = 100;
+
+interface Column<T> {
+  name: string;
+  of: (row: T) => string;
+  words?: boolean;
+}
+
+const CYCLES: Column<Cycle>[] = [
+  {name: 'kind', of: (c) => Cycle_Kind[c.kind], words: true},
+  {name: 'end', of: (c) => Cycle_End[c.end], words: true},
+  {name: 'group', of: (c) => exact(c.group)},
+  {name: 'n', of: (c) => exact(c.iterations)},
+  {name: 'ε in', of: (c) => exact(c.restitutionIn)},
+  {name: 'ε out', of: (c) => exact(c.restitutionOut)},
+  {name: 'μ [N·s/m^(n+1)]', of: (c) => exact(c.mu)},
+  {name: 'μ/k [s/m]', of: (c) => exact(c.muOverKSPerM)},
+  {name: 'α', of: (c) => exact(c.alpha)},
+  {name: 'peak force [N]', of: (c) => exact(c.peakForceN)},
+  {name: 'δ max [m]', of: (c) => exact(c.deltaMaxM)},
+  {name: 't start [s]', of: (c) => exact(c.startTimeS)},
+  {name: 't turn [s]', of: (c) => exact(c.turnTimeS)},
+  {name: 't end [s]', of: (c) => exact(c.endTimeS)},
+  {name: 'δ̇ start [m/s]', of: (c) => exact(c.approachVelocityMPerS)},
+  {name: 'δ̇ end [m/s]', of: (c) => exact(c.separationVelocityMPerS)},
+  {name: 'W_c [J]', of: (c) => exact(c.workCompressionJ)},
+  {name: 'W_r [J]', of: (c) => exact(c.workRestitutionJ)},
+  {name: 'residual', of: (c) => exact(c.identityResidual)},
+];
+const GROUPS: Column<Group>[] = [
+  {name: 'cycles', of: (g) => `${g.firstCycle}${g.cycles > 1 ? `–${g.firstCycle + g.cycles - 1}` : ''}`},
+  {name: 'encounter', of: (g) => exact(g.encounter)},
+  {name: 'end', of: (g) => Cycle_End[g.end], words: true},
+  {name: 'grew', of: (g) => (g.growth > 1 ? Group_Growth[g.growth] : ''), words: true},
+  {name: 'ε in', of: (g) => exact(g.restitutionIn)},
+  {name: 'ε out', of: (g) => exact(g.restitutionOut)},
+  {name: 'μ [N·s/m^(n+1)]', of: (g) => exact(g.mu)},
+  {name: 'W_c [J]', of: (g) => exact(g.workCompressionJ)},
+  {name: 'W_r [J]', of: (g) => exact(g.workRestitutionJ)},
+  {name: 't start [s]', of: (g) => exact(g.startTimeS)},
+  {name: 't end [s]', of: (g) => exact(g.endTimeS)},
+  {name: 'residual', of: (g) => exact(g.residual)},
+];
+
+const GOOD = [Cycle_Status.CONVERGED, Cycle_Status.GIVEN_LAW, Cycle_Status.SETTLED];
+const BAD = [Cycle_Status.NOT_CONVERGED, Cycle_Status.INFEASIBLE];
+
+function Status({status}: {status: Cycle_Status}) {
+  const tone = GOOD.includes(status) ? 'good' : BAD.includes(status) ? 'bad' : 'warn';
+  return <span class={`badge ${tone}`}><span aria-hidden="true">{{good: '✓', bad: '✗', warn: '!'}[tone]}</span> {Cycle_Status[status]}</span>;
+}
+
+type Entry = (Cycle | Group) & {contact: string; number: number; status: Cycle_Status; startTimeS: number; endTimeS: number};
+
+function Table<T extends Entry>({rows, columns}: {rows: T[]; columns: Column<T>[]}) {
+  const zoom = ({startTimeS, endTimeS}: T) => {
+    const margin = 0.1 * (endTimeS - startTimeS) || 1e-9;
+    setWindow([startTimeS - margin, endTimeS + margin]);
+  };
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label="Ledger">
+      <table>
+        <thead><tr><th>contact</th><th class="number">#</th><th>status</th>{columns.map(({name, words}) => <th key={name} class={words ? '' : 'number'}>{name}</th>)}</tr></thead>
+        <tbody>{rows.map((row) => (
+          <tr key={`${row.contact}#${row.number}`}>
+            <td><button type="button" class="quiet" title="show this stretch of time" onClick={() => zoom(row)}>{row.contact}</button></td>
+            <td class="number">{row.number}</td><td><Status status={row.status} /></td>
+            {columns.map((column) => <td key={column.name} class={column.words ? '' : 'number'}>{column.of(row)}</td>)}
+          </tr>))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+export function Ledger({run, query}: {run: RunState; query: URLSearchParams}) {
+  const [page, setPage] = useState(0);
+  const groups = query.get('ledger') === 'groups';
+  const contact = query.get('contact') ?? '';
+  const status = query.get('status') ?? '';
+  const all: Entry[] = groups ? run.groups : run.cycles;
+  const contacts = useMemo(() => [...new Set(run.cycles.map((c) => c.contact))], [run.cycles.length]);
+  const rows = all.filter((row) => (!contact || row.contact === contact) && (!status || Cycle_Status[row.status] === status));
+  const statuses = [...new Set(all.map((row) => Cycle_Status[row.status]!))];
+  const shown = rows.slice(page * PAGE, (page + 1) * PAGE);
+  return (
+    <section aria-label="Cycle ledger">
+      <div class="tools"><h2>Ledger</h2>
+        <label>Show <select value={groups ? 'groups' : ''} onChange={(e) => setQuery({ledger: e.currentTarget.value})}>
+          <option value="">cycles</option><option value="groups">groups</option></select></label>
+        <label>Contact <select value={contact} onChange={(e) => setQuery({contact: e.currentTarget.value})}>
+          <option value="">all</option>{contacts.map((c) => <option key={c}>{c}</option>)}</select></label>
+        <label>Status <select value={status} onChange={(e) => setQuery({status: e.currentTarget.value})}>
+          <option value="">all</option>{statuses.map((s) => <option key={s}>{s}</option>)}</select></label>
+        <span class="soft">{count(rows.length)} of {count(all.length)}</span>
+        {rows.length > PAGE && <span class="group">
+          <button type="button" disabled={page === 0} onClick={() => setPage(page - 1)}>‹</button>
+          <button type="button" disabled={(page + 1) * PAGE >= rows.length} onClick={() => setPage(page + 1)}>›</button></span>}
+      </div>
+      {all.length === 0 ? <p class="nothing">No {groups ? 'group' : 'cycle'} has ended yet.</p>
+        : groups ? <Table rows={shown as Group[]} columns={GROUPS} /> : <Table rows={shown as Cycle[]} columns={CYCLES} />}
+    </section>
+  );
+}

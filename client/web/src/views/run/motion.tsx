@@ -1,0 +1,103 @@
+// Plots over time, hysteresis and energy, with one window and one cursor.
+
+import {useEffect, useMemo} from 'preact/hooks';
+
+import {PRESETS, type Preset} from '../../model/presets';
+import type {Mechanics} from '../../model/mechanics';
+import type {RunState} from '../../model/runState';
+import {isFinal} from '../../api/watch';
+import {Plot} from '../../plots/plot';
+import type {Window} from '../../plots/range';
+import {setQuery} from '../../ui/route';
+import {useSeries} from './use_series';
+import {changed, setWindow} from './window';
+
+interface Props {
+  run: RunState;
+  mechanics: Mechanics;
+  query: URLSearchParams;
+  window: Window | undefined;
+  whole: Window;
+  source: string;
+}
+
+const FIRST = 6;   // Plots of the page; the others are shown when asked for.
+const MOST_CONTACTS = 12;
+
+/** The part of a scenario that fits a plot. */
+function crop(mechanics: Mechanics, contact: string | null): Mechanics {
+  const {bodies, contacts} = mechanics;
+  const chosen = contact ? contacts.filter(({name}) => name === contact) : contacts;
+  if (chosen.length <= MOST_CONTACTS && bodies.length <= MOST_CONTACTS + 1 && !contact) return mechanics;
+  const kept = chosen.slice(0, MOST_CONTACTS);
+  const ends = new Set(kept.flatMap(({left, right}) => [left, right]).filter((i) => i >= 0));
+  const order = [...ends].sort((a, b) => a - b);
+  const place = (i: number) => (i < 0 ? -1 : order.indexOf(i));
+  return {
+    ...mechanics, bodies: order.map((i) => bodies[i]!),
+    contacts: kept.map((c) => ({...c, left: place(c.left), right: place(c.right)})),
+  };
+}
+
+function PresetPlot({preset, ...props}: Props & {preset: Preset}) {
+  const {run, window, mechanics: all, query} = props;
+  // The energy is that of all bodies.
+  const mechanics = useMemo(() => (preset.id === 'energy' ? all : crop(all, query.get('contact'))), [all, query.get('contact')]);
+  const channels = useMemo(() => preset.channels(mechanics), [mechanics]);
+  const name = run.job!.name;
+  const series = useSeries(name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
+  const panel = useMemo(() => {
+    const inside = <T extends {startTimeS: number; endTimeS: number}>(list: T[]) =>
+      (window ? list.filter((c) => c.endTimeS >= window[0] && c.startTimeS <= window[1]) : list);
+    return preset.panel({mechanics, cycles: inside(run.cycles), groups: inside(run.groups), series: series ?? new Map()});
+  }, [series, run.cycles.length, run.groups.length, mechanics]);
+  return <Plot panel={panel} window={window} onZoom={setWindow} source={props.source}
+    empty={series ? 'Nothing recorded here.' : 'Waiting for samples …'} />;
+}
+
+/** Zoom by buttons and keys, for those who do not drag. */
+function Zoom({query, window, whole, live}: {query: URLSearchParams; window: Window | undefined; whole: Window; live: boolean}) {
+  const now = window ?? whole;
+  const zoom = (factor: number, move = 0) => setWindow(changed(now, factor, move));
+  useEffect(() => {
+    const keys: Record<string, () => void> = {
+      '+': () => zoom(0.5), '=': () => zoom(0.5), '-': () => zoom(2), '0': () => setWindow(undefined),
+      '[': () => zoom(1, -0.25), ']': () => zoom(1, 0.25),
+    };
+    const press = (event: KeyboardEvent) => {
+      if (event.ctrlKey || event.metaKey || (event.target as Element).closest('input, select, textarea')) return;
+      keys[event.key]?.();
+    };
+    addEventListener('keydown', press);
+    return () => removeEventListener('keydown', press);
+  });
+  return (
+    <span class="group" role="group" aria-label="Zoom of all plots over time">
+      <button type="button" title="key +" onClick={() => zoom(0.5)}>Zoom in</button>
+      <button type="button" title="key −" onClick={() => zoom(2)}>Zoom out</button>
+      <button type="button" title="key [" aria-label="Earlier" onClick={() => zoom(1, -0.25)}>◀</button>
+      <button type="button" title="key ]" aria-label="Later" onClick={() => zoom(1, 0.25)}>▶</button>
+      <button type="button" title="key 0" disabled={!window} onClick={() => setWindow(undefined)}>All</button>
+      {live && <label><input type="checkbox" checked={query.has('follow')}
+        onChange={(e) => setQuery({follow: e.currentTarget.checked ? '1' : undefined})} /> follow</label>}
+    </span>
+  );
+}
+
+export function Motion(props: Props) {
+  const {query, window, whole, run} = props;
+  const all = query.get('plots') === 'all';
+  return (
+    <section aria-label="Motion">
+      <div class="tools"><h2>Motion</h2>
+        <Zoom query={query} window={window} whole={whole} live={!isFinal(run.state)} />
+        {window && <span class="soft mono">{window[0]} … {window[1]} s</span>}
+        <label><input type="checkbox" checked={all} onChange={(e) => setQuery({plots: e.currentTarget.checked ? 'all' : undefined})} /> more plots</label>
+        <span class="soft hint">drag in a plot to zoom, double-click to see all</span>
+      </div>
+      <div class="plots">
+        {PRESETS.slice(0, all ? PRESETS.length : FIRST).map((preset) => <PresetPlot key={preset.id} preset={preset} {...props} />)}
+      </div>
+    </section>
+  );
+}

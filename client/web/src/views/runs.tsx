@@ -1,0 +1,137 @@
+// All jobs, live.
+
+import {useEffect, useMemo, useRef, useState} from 'preact/hooks';
+
+import type {Job} from '../api/generated/contact/v1/job_pb';
+import type {Link} from '../api/stream';
+import {watchJobs} from '../api/watch';
+import {JobList, METRICS, labelsOf, matches, statesOf} from '../model/job_list';
+import {count, exact} from '../model/numbers';
+import {LinkNote} from '../ui/link_note';
+import {setQuery, type Route} from '../ui/route';
+import {StateBadge} from '../ui/state_badge';
+import {clock} from '../ui/times';
+import {elapsed} from './elapsed';
+
+const PAGE = 50;
+const STATES = ['QUEUED', 'RUNNING', 'SUCCEEDED', 'FAILED', 'CANCELLED'];
+
+/** The jobs of a filter, as they change. */
+function useJobs(state: string, labels: string): {jobs: Job[]; link: Link; complete: boolean} {
+  const [shown, setShown] = useState<{jobs: Job[]; complete: boolean}>({jobs: [], complete: false});
+  const [link, setLink] = useState<Link>({state: 'connecting'});
+  useEffect(() => {
+    const control = new AbortController();
+    const list = new JobList();
+    let frame = 0;
+    const show = () => {
+      frame = 0;
+      setShown({jobs: list.sorted(), complete: list.complete});
+    };
+    void watchJobs({states: statesOf(state), labels: labelsOf(labels)}, () => list.begin(), (change) => {
+      list.take(change);
+      frame ||= requestAnimationFrame(show);
+    }, setLink, control.signal);
+    return () => { control.abort(); cancelAnimationFrame(frame); };
+  }, [state, labels]);
+  return {...shown, link};
+}
+
+function Row({job, metric, best, chosen, choose}: {
+  job: Job; metric: number | undefined; best: boolean; chosen: boolean; choose: (on: boolean) => void;
+}) {
+  const id = job.name.replace('jobs/', '');
+  return (
+    <tr>
+      <td><input type="checkbox" aria-label={`choose ${id}`} checked={chosen} onChange={(e) => choose(e.currentTarget.checked)} /></td>
+      <td class="title"><a href={`/runs/${id}`}>{job.title || id}</a></td>
+      <td class="soft mono">{id}</td>
+      <td><StateBadge state={job.state} convergence={job.convergence} /></td>
+      <td class="labels">{Object.entries(job.labels).map(([k, v]) => <span key={k} class="label">{k}={v}</span>)}</td>
+      <td class="number">{metric === undefined ? '' : exact(metric)}{best && <span class="best" title="best of this list"> ★</span>}</td>
+      <td class="number">{elapsed(job)}</td>
+      <td class="number">{clock(job.createTime)}</td>
+    </tr>
+  );
+}
+
+function Filters({query}: {query: URLSearchParams}) {
+  const change = (key: string) => (e: Event) =>
+    setQuery({[key]: (e.currentTarget as HTMLInputElement).value, page: undefined});
+  return (
+    <div class="tools" role="search">
+      <label>Find <input type="search" value={query.get('q') ?? ''} placeholder="title, name, label" onInput={change('q')} /></label>
+      <label>State <select value={query.get('state') ?? ''} onChange={change('state')}>
+        <option value="">all</option>{STATES.map((s) => <option key={s} value={s}>{s.toLowerCase()}</option>)}
+      </select></label>
+      <label>Label <input value={query.get('label') ?? ''} placeholder="key=value" onChange={change('label')} /></label>
+      <label>Metric <select value={query.get('metric') ?? 'iterations'} onChange={change('metric')}>
+        {METRICS.map(({id, label}) => <option key={id} value={id}>{label}</option>)}
+      </select></label>
+      <label>Order <select value={query.get('sort') ?? ''} onChange={change('sort')}>
+        <option value="">newest first</option><option value="metric">by metric</option><option value="title">by title</option>
+      </select></label>
+    </div>
+  );
+}
+
+function Pages({page, pages, total}: {page: number; pages: number; total: number}) {
+  const to = (n: number) => setQuery({page: n > 0 ? String(n + 1) : undefined});
+  return (
+    <div class="tools pages">
+      <button type="button" disabled={page === 0} onClick={() => to(page - 1)}>‹ Newer</button>
+      <span aria-live="polite">page {page + 1} of {pages}, {count(total)} runs</span>
+      <button type="button" disabled={page + 1 >= pages} onClick={() => to(page + 1)}>Older ›</button>
+      <button type="button" disabled={page + 1 >= pages} onClick={() => to(pages - 1)}>Last</button>
+    </div>
+  );
+}
+
+function ordered(jobs: Job[], sort: string | null, metric: (job: Job) => number | undefined): Job[] {
+  if (sort === 'title') return [...jobs].sort((a, b) => a.title.localeCompare(b.title));
+  if (sort !== 'metric') return jobs;
+  return [...jobs].sort((a, b) => (metric(a) ?? Infinity) - (metric(b) ?? Infinity));
+}
+
+export function Runs({route: {query}}: {route: Route}) {
+  const {jobs, link, complete} = useJobs(query.get('state') ?? '', query.get('label') ?? '');
+  const [chosen, setChosen] = useState<Set<string>>(new Set());
+  const table = useRef<HTMLTableElement>(null);
+  const words = query.get('q') ?? '';
+  const metric = METRICS.find(({id}) => id === query.get('metric')) ?? METRICS[0]!;
+  const found = useMemo(() => ordered(words ? jobs.filter((job) => matches(job, words)) : jobs, query.get('sort'), metric.of),
+    [jobs, words, metric, query.get('sort')]);
+  const best = useMemo(() => Math.min(...found.map((job) => metric.of(job) ?? Infinity)), [found, metric]);
+  const pages = Math.max(1, Math.ceil(found.length / PAGE));
+  const page = Math.min(Math.max(Number(query.get('page') ?? 1) - 1, 0), pages - 1);
+  const rows = found.slice(page * PAGE, (page + 1) * PAGE);
+  const ids = [...chosen].map((name) => name.replace('jobs/', '')).join(',');
+  return (
+    <>
+      <div class="head"><h1>Runs</h1>
+        <a class="button primary" href="/new">New run</a>
+        {chosen.size >= 2 && <a class="button" href={`/compare?jobs=${ids}`}>Compare {chosen.size} runs</a>}
+      </div>
+      <LinkNote link={link} />
+      <Filters query={query} />
+      <div class="scroll" tabIndex={0} role="region" aria-label="Runs">
+        <table ref={table} class="runs">
+          <thead><tr><th><span class="hidden">choose</span></th><th>Title</th><th>Name</th><th>State</th><th>Labels</th>
+            <th class="number">{metric.label}</th><th class="number">took</th><th class="number">created</th></tr></thead>
+          <tbody>{rows.map((job) => (
+            <Row key={job.name} job={job} metric={metric.of(job)} best={found.length > 1 && metric.of(job) === best}
+              chosen={chosen.has(job.name)} choose={(on) => {
+                const next = new Set(chosen);
+                if (on) next.add(job.name); else next.delete(job.name);
+                setChosen(next);
+              }} />))}
+          </tbody>
+        </table>
+      </div>
+      {complete && found.length === 0 && (
+        <p class="nothing">{jobs.length === 0 ? <>No runs yet. <a href="/new">Start the first one.</a></> : 'No run matches.'}</p>
+      )}
+      {found.length > 0 && <Pages page={page} pages={pages} total={found.length} />}
+    </>
+  );
+}
