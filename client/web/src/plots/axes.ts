@@ -48,6 +48,14 @@ function widthOf(u: uPlot, values: string[] | null, axis: number, cycle: number)
   return Math.max(34, 14 + 7 * longest);
 }
 
+/** Powers of ten, every nth so that there are few. */
+function powers(_u: uPlot, _axis: number, low: number, high: number): number[] {
+  const first = Math.ceil(Math.log10(low) - 1e-9);
+  const last = Math.floor(Math.log10(high) + 1e-9);
+  const step = Math.max(1, Math.ceil((last - first) / 6));
+  return Array.from({length: Math.floor((last - first) / step) + 1}, (_, i) => 10 ** (last - i * step)).reverse();
+}
+
 /** Both axes of a panel. */
 export function axesOf(panel: Panel, ink: Ink): uPlot.Axis[] {
   const common: uPlot.Axis = {
@@ -60,7 +68,7 @@ export function axesOf(panel: Panel, ink: Ink): uPlot.Axis[] {
   return [
     {...common, ...whole, scale: 'x', size: 30, space: 70, label: label('x', panel.xLabel),
       values: ticks(panel.xLabel, 'x', !!panel.logX)},
-    {...common, scale: 'y', size: widthOf, space: 32, label: label('y', panel.yLabel),
+    {...common, ...(panel.logY ? {splits: powers} : {}), scale: 'y', size: widthOf, space: 32, label: label('y', panel.yLabel),
       values: ticks(panel.yLabel, 'y', !!panel.logY)},
   ];
 }

@@ -115,19 +115,33 @@ function drawNames({u, panel, theme}: Sheet, hidden: Set<string>): void {
   }
 }
 
+/** Labels that lie in the plot and not over another one, with the left ends of their lines. */
+export function placeLabels(
+  u: uPlot, {labels = []}: Panel, toX: (x: number) => number, toY: (y: number) => number,
+  size: (text: string) => number, line: number,
+): {text: string; x: number; y: number}[] {
+  const {min, max} = u.scales.x!;
+  const placed: {text: string; x: number; y: number; end: number}[] = [];
+  for (const {x, y, text} of labels) {
+    if (x < min! || x > max!) continue;
+    const width = size(text);
+    const own = {text, x: toX(x) - width / 2, y: toY(y), end: toX(x) + width / 2};
+    const crowded = placed.some((other) => own.x < other.end + 4 && own.end > other.x - 4 && Math.abs(own.y - other.y) < line);
+    if (!crowded) placed.push(own);
+  }
+  return placed;
+}
+
 function drawLabels({u, panel, ink}: Sheet): void {
   const {ctx} = u;
   ctx.font = FONT.replace('12px', `${11 * devicePixelRatio}px`);
   ctx.fillStyle = ink.soft;
   ctx.textBaseline = 'bottom';
-  const {min, max} = u.scales.x!;
-  for (const {x, y, text} of panel.labels ?? []) {
-    if (x < min! || x > max!) continue;
-    const left = px(u, x);
-    const half = ctx.measureText(text).width / 2;
-    const {left: first, width} = u.bbox;
-    ctx.textAlign = left - half < first ? 'left' : left + half > first + width ? 'right' : 'center';
-    ctx.fillText(text, left, py(u, y) - 5 * devicePixelRatio);
+  const {left, width} = u.bbox;
+  const size = (text: string) => ctx.measureText(text).width;
+  ctx.textAlign = 'left';
+  for (const {text, x, y} of placeLabels(u, panel, (v) => px(u, v), (v) => py(u, v), size, 13 * devicePixelRatio)) {
+    ctx.fillText(text, Math.min(Math.max(x, left), left + width - size(text)), y - 5 * devicePixelRatio);
   }
 }
 

@@ -99,12 +99,15 @@ function drawSupports(stage: Stage, {ctx, ink}: Sheet, toX: (x: number) => numbe
   ctx.strokeStyle = ink.soft;
   for (const {body, other} of stage.mechanics.scenario.supports) {
     const i = index.get(body)!;
-    const from = other ? toX(places[index.get(other)!]!) : 4;
+    const from = other ? toX(places[index.get(other)!]!) : toX(stage.low);
     spring(ctx, from, toX(places[i]! - stage.mechanics.bodies[i]!.radius), middle);
   }
 }
 
+const largestRadius = ({mechanics}: Stage) => Math.max(0, ...mechanics.bodies.map(({radius}) => radius));
+
 function drawForces(stage: Stage, sheet: Sheet, toX: (x: number) => number, places: number[], time: number, middle: number): void {
+  const scale = toX(1) - toX(0);
   const {mechanics: {bodies, contacts}, series, largestForce} = stage;
   const {ctx, theme} = sheet;
   const times = values(series, 'time');
@@ -122,7 +125,7 @@ function drawForces(stage: Stage, sheet: Sheet, toX: (x: number) => number, plac
     ctx.lineWidth = 1;
     const {factor, label} = readableUnit('[N]', Math.abs(force));
     ctx.textAlign = x > sheet.width - 40 ? 'right' : x < 40 ? 'left' : 'center';
-    ctx.fillText(`${short(force / factor, 3)} ${label.replace(/[[\]]/g, '')}`, x, middle - 42 - (colour % 2) * 12);
+    ctx.fillText(`${short(force / factor, 3)} ${label.replace(/[[\]]/g, '')}`, x, middle - Math.min(largestRadius(stage) * scale, 40) - 6 - (colour % 2) * 12);
   });
 }
 
@@ -130,9 +133,10 @@ function drawForces(stage: Stage, sheet: Sheet, toX: (x: number) => number, plac
 export function drawStrip(stage: Stage, sheet: Sheet, time: number): void {
   const {ctx, width, height, ink, theme} = sheet;
   const {mechanics: {bodies, contacts}, low, high} = stage;
-  const scale = width / (high - low);
-  const toX = (x: number) => (x - low) * scale;
-  const middle = height / 2 + 6;
+  const largest = largestRadius(stage);
+  const scale = Math.min(width / (high - low), (height / 2 - 24) / (largest || 1e-300));
+  const toX = (x: number) => width / 2 + (x - (low + high) / 2) * scale;
+  const middle = height / 2 + 4;
   const places = placesAt(stage, time);
   ctx.clearRect(0, 0, width, height);
   ctx.font = '11px system-ui, sans-serif';
@@ -144,16 +148,16 @@ export function drawStrip(stage: Stage, sheet: Sheet, time: number): void {
   for (const {left, wallPosition} of contacts) if (Number.isFinite(wallPosition)) drawWall(sheet, toX(wallPosition), left >= 0, middle);
   drawSupports(stage, sheet, toX, places, middle);
   bodies.forEach(({name, radius, fixed}, i) => {
-    const r = Math.min(Math.max(radius * scale, 4), height / 2 - 26);
+    const r = Math.max(radius * scale, 4);
     ctx.beginPath();
-    ctx.ellipse(toX(places[i]!), middle, Math.max(radius * scale, 4), r, 0, 0, 2 * Math.PI);
+    ctx.arc(toX(places[i]!), middle, r, 0, 2 * Math.PI);
     ctx.fillStyle = `${colourOf(i, theme)}${fixed ? '22' : '44'}`;
     ctx.strokeStyle = colourOf(i, theme);
     ctx.fill();
     ctx.stroke();
     ctx.fillStyle = ink.text;
     ctx.textAlign = 'center';
-    if (bodies.length <= 24) ctx.fillText(name, toX(places[i]!), middle + Math.max(r, 10) + 13);
+    if (bodies.length <= 24) ctx.fillText(name, toX(places[i]!), r > 18 ? middle + 4 : middle + r + 13);
   });
   drawForces(stage, sheet, toX, places, time, middle);
 }

@@ -5,7 +5,7 @@ import type uPlot from 'uplot';
 import type {Curve, Panel} from '../model/panel';
 import {colourOf, dashOf} from '../ui/theme';
 import {unitOfScale} from './axes';
-import {endNames} from './layers';
+import {endNames, placeLabels} from './layers';
 
 export interface Svg {
   width: number;
@@ -81,14 +81,15 @@ function behind(frame: Frame, {bands = [], dottedLines = []}: Panel): string {
   ].join('');
 }
 
-function names(frame: Frame, {curves, labels = [], overTime}: Panel): string {
+function names(frame: Frame, panel: Panel): string {
+  const {curves, overTime} = panel;
   const {left, top, width, height} = frame;
-  const {min, max} = frame.u.scales.x!;
+  const placed = placeLabels(frame.u, panel, frame.x, frame.y, (text) => 6 * text.length, 13);
   const keyed = overTime ? endNames(frame.u, curves, top + height, 13, frame.y)
     : curves.filter((c) => c.keyed !== false && c.mark === 'line').map((c, i) => ({curve: c, y: top + 14 + 15 * i}));
   return [
     ...keyed.map(({curve: c, y}) => `<text x="${r(left + (overTime ? width + 5 : 10))}" y="${r(y + 4)}" fill="${colourOf(c.colour, 'light')}">${escape(c.label)}</text>`),
-    ...labels.filter(({x}) => x >= min! && x <= max!).map(({x, y, text}) => `<text x="${r(frame.x(x))}" y="${r(frame.y(y) - 5)}" text-anchor="middle" fill="#555">${escape(text)}</text>`),
+    ...placed.map(({x, y, text}) => `<text x="${r(Math.max(x, left))}" y="${r(y - 5)}" fill="#555">${escape(text)}</text>`),
   ].join('');
 }
 

@@ -47,7 +47,7 @@ function Row({job, metric, best, chosen, choose}: {
       <td class="title"><a href={`/runs/${id}`}>{job.title || id}</a></td>
       <td class="soft mono">{id}</td>
       <td><StateBadge state={job.state} convergence={job.convergence} /></td>
-      <td class="labels">{Object.entries(job.labels).map(([k, v]) => <span key={k} class="label">{k}={v}</span>)}</td>
+      <td class="labels">{(job.progress?.cells ?? 0) > 0 && <span class="label">sweep of {count(job.progress!.cells)}</span>}{Object.entries(job.labels).map(([k, v]) => <span key={k} class="label">{k}={v}</span>)}</td>
       <td class="number">{metric === undefined ? '' : exact(metric)}{best && <span class="best" title="best of this list"> ★</span>}</td>
       <td class="number">{elapsed(job)}</td>
       <td class="number">{clock(job.createTime)}</td>

@@ -1,0 +1,148 @@
+import {create} from '@bufbuild/protobuf';
+import {describe, expect, it} from 'vitest';
+
+import {CycleSchema, Job_State, JobSchema, type Cycle} from '../src/api/generated/contact/v1/job_pb';
+import {EventSchema, type Event} from '../src/api/generated/contact/v1/event_pb';
+import {WatchJobsResponseSchema} from '../src/api/generated/contact/v1/job_service_pb';
+import {Contact_Damping, ScenarioSchema, Wall_Side} from '../src/api/generated/contact/v1/scenario_pb';
+import {doubles, type Series} from '../src/api/series';
+import {compareResults, differingParameters, holds} from '../src/model/comparison';
+import {mechanicalEnergy} from '../src/model/energy';
+import {flatten, setField} from '../src/model/field_path';
+import {iterationPanels} from '../src/model/iterations';
+import {JobList, labelsOf, matches} from '../src/model/job_list';
+import {endForce, mechanicsOf} from '../src/model/mechanics';
+import {interpolate, joined, panelCsv} from '../src/model/panel';
+import {PRESETS} from '../src/model/presets';
+import {parseMetrics} from '../src/model/prometheus';
+import {emptyRun, takeEvents} from '../src/model/runState';
+import {axisValues, cellIndex, viridis} from '../src/model/sweep';
+
+const series = (columns: Record<string, number[]>): Series => new Map(Object.entries(columns).map(([name, values]) =>
+  [name, {name, quantity: '', unit: '', values: Float64Array.from(values)}]));
+const scenario = create(ScenarioSchema, {
+  bodies: [{name: 'A', massKg: 2, radiusM: 0.1}, {name: 'B', densityKgPerM3: 1000, radiusM: 0.1, positionM: 0.3}],
+  contacts: [{between: ['A', 'B'], stiffness: 1e6, restitution: 0.8}, {between: ['B'], wall: {positionM: 1, side: Wall_Side.RIGHT}, stiffness: 1e6, exponent: 1, damping: Contact_Damping.KELVIN_VOIGT}],
+  loads: [{kind: {case: 'gravity', value: {accelerationMPerS2: -10}}, body: 'A'}],
+});
+const event = (payload: Event['payload'], sequence = 0n) => create(EventSchema, {sequence, payload});
+
+describe('mechanics', () => {
+  const mechanics = mechanicsOf(scenario);
+  it('follow from a scenario as the server resolves it', () => {
+    expect(mechanics.bodies[1]!.mass).toBeCloseTo(4.18879, 4);
+    expect(mechanics.contacts.map(({name, left, right}) => [name, left, right])).toEqual([['A-B', 0, 1], ['B-wall', 1, -1]]);
+  });
+  it('expand a chain of neighbours', () => {
+    const chain = create(ScenarioSchema, {bodies: ['a', 'b', 'c'].map((name) => ({name})), contacts: [{name: 'row', between: ['a', 'b', 'c']}]});
+    expect(mechanicsOf(chain).contacts.map(({name}) => name)).toEqual(['row-1', 'row-2']);
+  });
+  it('give the force at the ends of a cycle', () => {
+    expect(endForce(mechanics, mechanics.contacts[0]!, 5, 0.01, 1)).toBeCloseTo(1e6 * 0.01 ** 1.5);
+    expect(endForce(mechanics, mechanics.contacts[1]!, 5, 0, 2)).toBe(10);
+  });
+  it('give an energy whose parts add up', () => {
+    const parts = mechanicalEnergy(mechanics, series({time: [0], 'A.position': [3], 'A.velocity': [2], 'B.velocity': [0], 'B.position': [0], 'A-B.deformation': [0.01], 'B-wall.deformation': [-1]}));
+    expect(Object.fromEntries(parts.map(({name, values}) => [name, values[0]]))).toEqual(
+      {kinetic: 4, contacts: 1e6 / 2.5 * 0.01 ** 2.5, 'constant loads': 60, sum: 64 + 1e6 / 2.5 * 0.01 ** 2.5});
+  });
+});
+
+describe('panels', () => {
+  it('read between samples, and have no values of their own outside', () => {
+    expect([interpolate([0, 1], [0, 10], 0.25), interpolate([0, 1], [0, 10], 5), interpolate([], [], 1)]).toEqual([2.5, 10, NaN]);
+  });
+  it('join bands that overlap', () => {
+    expect(joined([{start: 2, end: 3}, {start: 0, end: 1}, {start: 1, end: 1.5}])).toEqual([{start: 0, end: 1.5}, {start: 2, end: 3}]);
+  });
+  it('mark cycles at their exact ends, whatever the samples', () => {
+    const cycle = create(CycleSchema, {contact: 'A-B', number: 1, startTimeS: 0.123456789, endTimeS: 0.5, approachVelocityMPerS: 3});
+    const view = {mechanics: mechanicsOf(scenario), cycles: [cycle] as Cycle[], groups: [], series: series({time: [0, 1], 'A-B.contact_force': [0, 0]})};
+    const force = PRESETS.find(({id}) => id === 'force')!.panel(view);
+    expect(force.curves.find(({mark}) => mark === 'start')!.x).toEqual([0.123456789]);
+    expect(panelCsv(force).split('\n')[0]).toBe('curve,time [s],force [N]');
+  });
+  it('name each channel once and know it', () => {
+    const mechanics = mechanicsOf(scenario);
+    for (const {channels} of PRESETS) {
+      const names = channels(mechanics);
+      expect(new Set(names).size).toBe(names.length);
+      expect(names.every((name) => /^(A|B|A-B|B-wall)\.\w+$/.test(name))).toBe(true);
+    }
+  });
+  it('show the passes of one episode', () => {
+    const pass = (episode: number, number: number, residual: number) => ({episode, number, unknowns: [{contact: 'A-B', number: 1, mu: 1, residual}]});
+    const run = emptyRun();
+    takeEvents(run, [pass(1, 0, 0.1), pass(1, 1, -1e-5), pass(2, 0, 1)].map((value) => event({case: 'iteration', value} as Event['payload'])));
+    const [, residual] = iterationPanels(run.iterations, 1);
+    expect([residual!.curves[0]!.y, residual!.xLabel, residual!.logY]).toEqual([[0.1, 1e-5], 'pass of episode 1', true]);
+  });
+});
+
+describe('a run', () => {
+  it('begins anew with an attempt, but keeps cells', () => {
+    const run = emptyRun();
+    takeEvents(run, [event({case: 'cycle', value: create(CycleSchema)}), event({case: 'sweepCell', value: {index: 3}} as Event['payload'])]);
+    takeEvents(run, [event({case: 'attemptStarted', value: {attempt: 2}} as Event['payload'])]);
+    expect([run.cycles.length, run.cells.size, run.attempt]).toEqual([0, 1, 2]);
+  });
+  it('takes doubles from any place in a message', () => {
+    const bytes = new Uint8Array(17);
+    new DataView(bytes.buffer).setFloat64(1, 0.1, true);
+    expect([...doubles(bytes.subarray(1, 9))]).toEqual([0.1]);
+  });
+});
+
+describe('the list of jobs', () => {
+  const job = (name: string, seconds: bigint) => create(JobSchema, {name, title: `T ${name}`, labels: {a: 'b'}, createTime: {seconds}, state: Job_State.QUEUED});
+  it('is newest first, and drops what a new snapshot no longer has', () => {
+    const list = new JobList();
+    const take = (change: object) => list.take(create(WatchJobsResponseSchema, change));
+    list.begin();
+    take({jobs: [job('x', 1n), job('y', 2n)], snapshotComplete: true});
+    expect(list.sorted().map(({name}) => name)).toEqual(['y', 'x']);
+    list.begin();
+    take({jobs: [job('x', 1n)]});
+    expect(list.sorted().length).toBe(2);
+    take({snapshotComplete: true});
+    expect(list.sorted().map(({name}) => name)).toEqual(['x']);
+    take({gone: ['x'], snapshotComplete: true});
+    expect(list.sorted()).toEqual([]);
+  });
+  it('finds words in titles and labels', () => {
+    expect([matches(job('x', 1n), 't a=b'), matches(job('x', 1n), 'q')]).toEqual([true, false]);
+    expect(labelsOf('a=b, c=, d')).toEqual({a: 'b'});
+  });
+});
+
+describe('sweeps and comparisons', () => {
+  it('number cells with the last axis fastest', () => {
+    expect(cellIndex([5, 10], [1, 5])).toBe(15);
+    const {axes} = {axes: [{values: [], linear: {low: 0, high: 1, count: 3}}, {values: [], log: {low: 1, high: 100, count: 3}}]};
+    expect(axes.map((axis) => axisValues(axis as never).map((v) => Math.round(v * 10) / 10))).toEqual([[0, 0.5, 1], [1, 10, 100]]);
+    expect([viridis(0), viridis(1)]).toEqual(['#440154', '#fde725']);
+  });
+  it('set fields by index, name and star', () => {
+    const json = {contacts: [{name: 'A-B'}, {between: ['B', 'C']}]};
+    setField(json, 'contacts[*].restitution', 0.5);
+    setField(json, 'contacts[B-C].restitution', 0.6);
+    setField(json, 'solver.step_s', 1);
+    expect(json).toEqual({contacts: [{name: 'A-B', restitution: 0.5}, {between: ['B', 'C'], restitution: 0.6}], solver: {step_s: 1}});
+    expect([...flatten(json).keys()]).toContain('contacts[1].between[0]');
+  });
+  it('judge by the larger of the tolerances', () => {
+    const tolerance = {absolute: 0.1, relative: 0.01};
+    expect([holds(1.05, 1, tolerance), holds(101, 100, tolerance), holds(102, 100, tolerance), holds('A', 'B', tolerance), holds(undefined, 1, tolerance)])
+      .toEqual([true, true, false, false, false]);
+  });
+  it('show only what differs', () => {
+    const jobs = [0.8, 0.6].map((restitution) => create(JobSchema, {spec: {case: 'scenario', value: create(ScenarioSchema, {title: 'x', contacts: [{restitution}]})},
+      cycles: [{contact: 'A-B', number: 1, mu: restitution}]}));
+    expect(differingParameters(jobs)).toEqual([{name: 'contacts[0].restitution', values: ['0.8', '0.6']}]);
+    expect(compareResults(jobs, {absolute: 0, relative: 1e-6}).filter((row) => row.holds.includes(false)).map(({name}) => name)).toEqual(['A-B #1 μ']);
+  });
+  it('read metrics', () => {
+    const [family] = parseMetrics('# HELP a Things.\n# TYPE a counter\na{x="1"} 2\na 3e9\n');
+    expect([family!.help, family!.samples.map(({value}) => value)]).toEqual(['Things.', [2, 3e9]]);
+  });
+});
