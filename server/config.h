@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/origin.h"
+#include "gateway/protocol/origin.h"
 #include "identity/identity_files.h"
 #include "jobs/job_manager.h"
 #include "log.h"

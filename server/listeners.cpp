@@ -48,6 +48,7 @@ Door Listeners::MainDoor() const {
 }
 
 std::string Listeners::Start() {
+  if (!ListenHttp()) return config_.http_listen;
   GrpcServerOptions options = config_.rpc;
   options.metrics = calls_;
   options.audit = audit_;
@@ -79,8 +80,20 @@ std::optional<int> Listeners::Open(const std::string& address, const GrpcServerO
   return servers_.back()->Start(address);
 }
 
-bool Listeners::ServeHttp(std::function<std::string()> metrics) {
-  if (config_.http_listen.empty()) return true;
+bool Listeners::ListenHttp() {
+  const std::string& address = config_.http_listen;
+  if (address.empty()) return true;
+  http_ = OpenListener(address);
+  http_port_ = http_.port;
+  info_.set_http_address(
+      address.starts_with("unix:")
+          ? address
+          : fmt::format("http://{}:{}", address.substr(0, address.rfind(':')), http_port_));
+  return !http_.sockets.empty();
+}
+
+void Listeners::ServeHttp(std::function<std::string()> metrics) {
+  if (http_.sockets.empty()) return;
   GatewayOptions options{.rules = config_.http_rules,
                          .web_dir = config_.web_dir,
                          .max_body_bytes = static_cast<std::size_t>(config_.rpc.max_message_bytes),
@@ -88,8 +101,8 @@ bool Listeners::ServeHttp(std::function<std::string()> metrics) {
   options.connections.per_peer =
       std::min(options.connections.per_peer, config_.rpc.connections.per_peer);
   if (!MainDoor().asks() && config_.listen_admin.empty()) options.metrics = std::move(metrics);
-  gateway_ = Gateway::Open(config_.http_listen, servers_.front()->Inside(), std::move(options));
-  return gateway_ != nullptr;
+  gateway_ =
+      std::make_unique<Gateway>(std::move(http_), servers_.front()->Inside(), std::move(options));
 }
 
 SelfProbe Listeners::Probe() const {

@@ -29,12 +29,11 @@ class Listeners {
   /// Opens all listeners. Returns the address that cannot be had; empty: none.
   std::string Start();
 
-  /// Opens `--http-listen`, if it is given; after Start. `metrics`: the text of the metrics page,
+  /// Serves `--http-listen`, if it is given; after Start. `metrics`: the text of the metrics page,
   /// which is served where nobody is asked who calls and AdminService has no listener of its own.
-  /// False: the address cannot be had.
-  bool ServeHttp(std::function<std::string()> metrics);
+  void ServeHttp(std::function<std::string()> metrics);
   /// The port of `--http-listen`; 0 for a socket file, and for none.
-  int http_port() const { return gateway_ ? gateway_->port() : 0; }
+  int http_port() const { return http_port_; }
 
   /// The port of `--listen`; 0 for a socket file.
   int port() const { return port_; }
@@ -54,13 +53,15 @@ class Listeners {
  private:
   /// Who comes in by `--listen`.
   Door MainDoor() const;
+  /// Listens on `--http-listen`, if it is given, and tells clients. False: it cannot be had.
+  bool ListenHttp();
   /// Opens a listener; its port, or nothing if the address cannot be had.
   std::optional<int> Open(const std::string& address, const GrpcServerOptions& options);
 
   JobManager& jobs_;
   Store& store_;
   const Config& config_;
-  const v1::ServerInfo info_;
+  v1::ServerInfo info_;
   const std::shared_ptr<RpcMetrics> calls_ = std::make_shared<RpcMetrics>();
   std::shared_ptr<AuditLog> audit_;
   /// Null without TLS.
@@ -70,6 +71,9 @@ class Listeners {
   int port_ = 0;
   /// That of `--listen` first.
   std::vector<std::unique_ptr<GrpcServer>> servers_;
+  /// Of `--http-listen`, until it is served.
+  Listener http_;
+  int http_port_ = 0;
   /// Null without `--http-listen`. Calls the first server.
   std::unique_ptr<Gateway> gateway_;
 };

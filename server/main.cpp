@@ -99,26 +99,20 @@ v1::ServerInfo Identity(const Config& config) {
   return identity;
 }
 
-// Opens the gateway if --http-listen is given, and tells where. Returns the exit code.
-int ServeHttp(const Config& config, MetricsSources sources, Listeners& listeners) {
-  if (config.http_listen.empty()) return kExitOk;
+// Serves --http-listen if it is given, and tells where. False: its port cannot be written down.
+bool ServeHttp(const Config& config, MetricsSources sources, Listeners& listeners) {
+  if (config.http_listen.empty()) return true;
   const auto page = std::make_shared<MetricsPage>(std::move(sources));
-  if (!listeners.ServeHttp([page] { return page->Text(); })) {
-    fmt::print(stderr, "contactd: cannot listen on {} for HTTP; does another process?\n",
-               config.http_listen);
-    return kExitHeld;
-  }
-  const int port = listeners.http_port();
-  if (!config.http_port_file.empty() &&
-      ReplaceFile(config.http_port_file, fmt::format("{}\n", port))) {
+  listeners.ServeHttp([page] { return page->Text(); });
+  const std::string port = std::to_string(listeners.http_port());
+  if (!config.http_port_file.empty() && ReplaceFile(config.http_port_file, port + "\n")) {
     fmt::print(stderr, "contactd: cannot write --http-port-file {}\n",
                config.http_port_file.string());
-    return kExitUsage;
+    return false;
   }
-  spdlog::info("HTTP on {}", config.http_listen.starts_with("unix:")
-                                 ? config.http_listen
-                                 : fmt::format("port {}", port));
-  return kExitOk;
+  const bool file = config.http_listen.starts_with("unix:");
+  spdlog::info("HTTP on {}", file ? config.http_listen : "port " + port);
+  return true;
 }
 
 bool Announce(const Config& config, int port) {
@@ -221,10 +215,8 @@ int Serve(const Config& config, const sigset_t& signals) {
     fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", taken);
   } else if (!ServeMetrics(config, Sources(config, options, jobs, listeners), &metrics)) {
     code = kExitHeld;
-  } else if (const int http =
-                 ServeHttp(config, Sources(config, options, jobs, listeners), listeners);
-             http != kExitOk) {
-    code = http;
+  } else if (!ServeHttp(config, Sources(config, options, jobs, listeners), listeners)) {
+    code = kExitUsage;
   } else if (!Announce(config, listeners.port())) {
     code = kExitUsage;
   } else {

@@ -17,6 +17,7 @@ ORDER = {
     "server/simulation": ["laws", "model", "motion", "episode", "forecast", "."],
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],
+    "server/gateway": ["protocol", "."],
     "client/cli": ["base", "input", "settings", "link", "text", "export", "figures", "paper", "help",
                    "verbs", "."],
     "client/cli/text": [".", "comparison", "sweep"],

@@ -1,31 +1,22 @@
 #include "gateway/gateway.h"
 
 #include <pthread.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
-#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "gateway/session.h"
-#include "rpc/net/listener.h"
 
 namespace contact {
 namespace {
 
 constexpr unsigned kFewestThreads = 2;
 constexpr unsigned kMostThreads = 8;
-
-Listener Listen(const std::string& address) {
-  constexpr std::string_view kUnix = "unix:";
-  return address.starts_with(kUnix) ? OpenFileListener(address.substr(kUnix.size()))
-                                    : OpenTcpListener(address);
-}
 
 }  // namespace
 
@@ -61,17 +52,8 @@ class Gateway::Threads {
   std::vector<std::jthread> threads_;  // Last: they use all of the above.
 };
 
-std::unique_ptr<Gateway> Gateway::Open(const std::string& address,
-                                       const std::shared_ptr<grpc::Channel>& channel,
-                                       GatewayOptions options) {
-  Listener listener = Listen(address);
-  if (listener.sockets.empty()) return nullptr;
-  return std::unique_ptr<Gateway>(new Gateway(std::move(listener), channel, std::move(options)));
-}
-
 Gateway::Gateway(Listener listener, const std::shared_ptr<grpc::Channel>& channel,
-                 GatewayOptions options)
-    : port_(listener.port) {
+                 GatewayOptions options) {
   ConnectionLimits limits = FitToDescriptors(options.connections);
   limits.stall = options.stall;
   threads_ = std::make_unique<Threads>(channel, std::move(options));
@@ -85,7 +67,6 @@ Gateway::~Gateway() {
   threads_.reset();
 }
 
-int Gateway::port() const { return port_; }
 std::size_t Gateway::connections() const { return acceptor_->open(); }
 std::int64_t Gateway::refused_connections() const { return acceptor_->refused(); }
 void Gateway::Close() { acceptor_->Close(); }

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "gateway/rpc_request.h"
+#include "gateway/protocol/rpc_request.h"
 
 namespace contact::gateway {
 

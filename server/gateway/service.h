@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "gateway/gateway.h"
-#include "gateway/static_files.h"
+#include "gateway/options.h"
+#include "gateway/protocol/static_files.h"
 
 namespace contact::gateway {
 

@@ -10,7 +10,6 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdlib>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -81,12 +80,6 @@ void Monitor(std::shared_ptr<RpcMetrics> metrics, std::shared_ptr<PeerCounts> st
   monitors.push_back(
       std::make_unique<CallMonitor>(std::move(metrics), std::move(streams), std::move(floods)));
   builder->experimental().SetInterceptorCreators(std::move(monitors));
-}
-
-Listener OpenListener(const std::string& address) {
-  constexpr std::string_view kUnix = "unix:";
-  return address.starts_with(kUnix) ? OpenFileListener(address.substr(kUnix.size()))
-                                    : OpenTcpListener(address);
 }
 
 GrpcServerOptions Fitted(GrpcServerOptions options) {

@@ -72,6 +72,21 @@ TEST_F(SeriesTest, RawEqualsTheLog) {
   }
 }
 
+TEST_F(SeriesTest, PlainNumbersAreTheSameValues) {
+  Open();
+  const std::string name = Create(BouncingBall(200));
+  Ended(name);
+  v1::GetSeriesRequest request = Raw(name);
+  const v1::Series packed = Series(request).value();
+  request.set_plain_numbers(true);
+  const v1::Series plain = Series(request).value();
+  ASSERT_EQ(plain.columns_size(), packed.columns_size());
+  for (int i = 0; i < plain.columns_size(); ++i) {
+    EXPECT_THAT(plain.columns(i).numbers(), testing::ElementsAreArray(Values(packed.columns(i))));
+    EXPECT_EQ(plain.columns(i).values(), "");
+  }
+}
+
 TEST_F(SeriesTest, ChannelsComeInTheOrderAskedForWithTheirUnits) {
   Open();
   const std::string name = Create(BouncingBall(2));

@@ -192,6 +192,35 @@ TEST_F(ConfigTest, EveryFlagArrives) {
   EXPECT_EQ(config.port_file, "/port");
 }
 
+TEST_F(ConfigTest, TheGatewayHasAnAddressNamesAndOrigins) {
+  const Config config = Good({"--http-listen", "127.0.0.1:0", "--http-port-file", "/http",
+                              "--http-host", "a.example", "--http-host", "b.example",
+                              "--http-allow-origin", "https://c.example", "--web-dir", "/web"});
+  EXPECT_EQ(config.http_listen, "127.0.0.1:0");
+  EXPECT_EQ(config.http_port_file, "/http");
+  EXPECT_EQ(config.http_rules.hosts, (std::vector<std::string>{"a.example", "b.example"}));
+  EXPECT_EQ(config.http_rules.origins, std::vector<std::string>{"https://c.example"});
+  EXPECT_EQ(config.web_dir, "/web");
+  EXPECT_EQ(Good({}).http_listen, "");
+}
+
+TEST_F(ConfigTest, TheGatewayLetsInNobodyWhomListenKeepsOut) {
+  for (const auto& flags : std::vector<std::vector<const char*>>{
+           {"--http-listen", "0.0.0.0:80"},
+           {"--http-listen", "127.0.0.1:80", "--listen", "unix:/s"},
+           {"--http-listen", "127.0.0.1:80", "--listen", "unix:/s", "--tokens", "/t"}}) {
+    auto all = flags;
+    all.insert(all.begin(), {"--data-dir", "/data"});
+    const auto read = Read(all);
+    ASSERT_TRUE(std::holds_alternative<Exit>(read)) << flags[1];
+    EXPECT_THAT(std::get<Exit>(read).text, HasSubstr("--http-listen"));
+    all.push_back("--insecure-i-know");
+    EXPECT_TRUE(std::holds_alternative<Config>(Read(all))) << flags[1];
+  }
+  Good({"--http-listen", "unix:/h", "--listen", "unix:/s"});
+  Good({"--http-listen", "unix:/h", "--listen", "unix:/s", "--tokens", "/t"});
+}
+
 TEST_F(ConfigTest, DurationsTakeEveryUnitAndAreRoundedUp) {
   const Config config = Good({"--retain-for", "30d", "--compact-after", "1.5h", "--step-timeout",
                               "90", "--max-wall-time", "10m", "--checkpoint-interval", "250ms"});

@@ -70,7 +70,11 @@ Result<v1::Series> SeriesBuilder::Finish() const {
   for (std::size_t i = 0; i < width; ++i) {
     v1::FrameChunk::Column& column = *series.add_columns();
     column = channels_[static_cast<std::size_t>(selection_.columns[i])];
-    column.set_values(ColumnBytes(rows, width, i));
+    if (!selection_.plain_numbers) {
+      column.set_values(ColumnBytes(rows, width, i));
+      continue;
+    }
+    for (std::size_t at = i; at < rows.size(); at += width) column.add_numbers(rows[at]);
   }
   return series;
 }

@@ -83,6 +83,7 @@ Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request, const C
     violations.push_back({"decimation", "is neither MINMAX nor RAW", ""});
   }
   selection.raw = request.decimation() == v1::GetSeriesRequest::RAW;
+  selection.plain_numbers = request.plain_numbers();
   const std::size_t least = selection.raw ? 1 : 2 * selection.columns.size();
   const std::size_t most = kMaxSeriesBytes / sizeof(double) / selection.columns.size();
   if (request.max_points() < 0 ||

@@ -20,7 +20,10 @@ struct SeriesSelection {
   std::size_t max_rows = 0;
   /// True for every sample; else the series is thinned so that no peak is lost.
   bool raw = false;
+  /// True for columns of numbers, else of bytes.
+  bool plain_numbers = false;
 };
+
 /// Reads the request for a trajectory with these columns; FIELD_INVALID if it breaks a rule of
 /// job_service.proto, SERIES_TOO_LARGE if not even the fewest points would fit into an answer.
 Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request,

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace contact {
@@ -95,6 +96,12 @@ void RemoveSocket(const std::string& path) {
 }
 
 }  // namespace
+
+Listener OpenListener(const std::string& address) {
+  constexpr std::string_view kUnix = "unix:";
+  return address.starts_with(kUnix) ? OpenFileListener(address.substr(kUnix.size()))
+                                    : OpenTcpListener(address);
+}
 
 Listener OpenTcpListener(const std::string& address) {
   Listener listener;

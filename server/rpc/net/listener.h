@@ -17,6 +17,9 @@ struct Listener {
   std::string file = {};
 };
 
+/// Listens on `HOST:PORT` or `unix:PATH`, see below.
+Listener OpenListener(const std::string& address);
+
 /// Listens on `HOST:PORT`, an IPv6 address in brackets; port 0 is any free one. Returns no sockets
 /// if HOST has no address here or the port is taken at one of its addresses.
 Listener OpenTcpListener(const std::string& address);

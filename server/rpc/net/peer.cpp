@@ -7,6 +7,12 @@
 #include <array>
 
 namespace contact {
+namespace {
+
+// What gRPC says of a call that comes by no connection. Connections have an address.
+constexpr char kWithin[] = "unknown";
+
+}  // namespace
 
 std::string PeerOf(const std::string& uri) {
   const bool has_port = uri.starts_with("ipv4:") || uri.starts_with("ipv6:");
@@ -36,9 +42,7 @@ std::string UriOf(const sockaddr_storage& address) {
 
 std::string CallerUri(const grpc::ServerContextBase& context) {
   const std::string transport = context.peer();
-  const bool connection = transport.starts_with("ipv4:") || transport.starts_with("ipv6:") ||
-                          transport.starts_with("unix:");
-  if (connection) return transport;
+  if (transport != kWithin) return transport;
   const auto named = context.client_metadata().find(kPeerHeader);
   if (named == context.client_metadata().end()) return transport;
   return {named->second.data(), named->second.size()};

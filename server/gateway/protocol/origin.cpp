@@ -1,4 +1,4 @@
-#include "gateway/origin.h"
+#include "gateway/protocol/origin.h"
 
 #include <absl/strings/ascii.h>
 #include <arpa/inet.h>

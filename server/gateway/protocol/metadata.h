@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/http.h"
+#include "gateway/protocol/http.h"
 
 namespace contact::gateway {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/http.h"
+#include "gateway/protocol/http.h"
 
 namespace contact::gateway {
 

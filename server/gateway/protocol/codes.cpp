@@ -1,10 +1,10 @@
-#include "gateway/codes.h"
+#include "gateway/protocol/codes.h"
 
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "gateway/codec.h"
-#include "gateway/frames.h"
+#include "gateway/protocol/codec.h"
+#include "gateway/protocol/frames.h"
 #include "google/rpc/status.pb.h"
 
 namespace contact::gateway {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/http.h"
-#include "gateway/metadata.h"
+#include "gateway/protocol/http.h"
+#include "gateway/protocol/metadata.h"
 
 namespace contact::gateway {
 

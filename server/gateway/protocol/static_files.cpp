@@ -1,4 +1,4 @@
-#include "gateway/static_files.h"
+#include "gateway/protocol/static_files.h"
 
 #include <absl/strings/ascii.h>
 #include <absl/strings/str_split.h>

@@ -1,4 +1,4 @@
-#include "gateway/http.h"
+#include "gateway/protocol/http.h"
 
 #include <absl/strings/ascii.h>
 #include <absl/strings/escaping.h>

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "gateway/http.h"
+#include "gateway/protocol/http.h"
 
 namespace contact::gateway {
 

@@ -1,4 +1,4 @@
-#include "gateway/rpc_request.h"
+#include "gateway/protocol/rpc_request.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
-#include "gateway/codec.h"
-#include "gateway/frames.h"
+#include "gateway/protocol/codec.h"
+#include "gateway/protocol/frames.h"
 
 namespace contact::gateway {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <variant>
 
-#include "gateway/dialect.h"
-#include "gateway/http.h"
-#include "gateway/metadata.h"
+#include "gateway/protocol/dialect.h"
+#include "gateway/protocol/http.h"
+#include "gateway/protocol/metadata.h"
 
 namespace contact::gateway {
 

@@ -1,4 +1,4 @@
-#include "gateway/metadata.h"
+#include "gateway/protocol/metadata.h"
 
 #include <absl/strings/ascii.h>
 #include <absl/strings/numbers.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "gateway/frames.h"
+#include "gateway/protocol/frames.h"
 
 namespace contact::gateway {
 namespace {
@@ -69,10 +69,10 @@ bool AddBytes(const std::string& name, const std::string& value, Metadata* metad
 
 // The number of up to `most` digits, with nothing else.
 std::optional<std::int64_t> Digits(std::string_view text, std::size_t most) {
+  const bool digits = std::ranges::all_of(
+      text, [](char c) { return absl::ascii_isdigit(static_cast<unsigned char>(c)); });
   std::int64_t number = 0;
-  if (text.empty() || text.size() > most ||
-      !absl::ascii_isdigit(static_cast<unsigned char>(text[0])) ||
-      !absl::SimpleAtoi(absl::string_view(text.data(), text.size()), &number)) {
+  if (!digits || text.size() > most || !absl::SimpleAtoi({text.data(), text.size()}, &number)) {
     return std::nullopt;
   }
   return number;

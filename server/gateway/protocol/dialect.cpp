@@ -1,4 +1,4 @@
-#include "gateway/dialect.h"
+#include "gateway/protocol/dialect.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "gateway/codes.h"
-#include "gateway/frames.h"
+#include "gateway/protocol/codes.h"
+#include "gateway/protocol/frames.h"
 
 namespace contact::gateway {
 namespace {

@@ -1,4 +1,4 @@
-#include "gateway/frames.h"
+#include "gateway/protocol/frames.h"
 
 #include <absl/strings/escaping.h>
 

@@ -1,4 +1,4 @@
-#include "gateway/codec.h"
+#include "gateway/protocol/codec.h"
 
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/type_resolver.h>
@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "rpc/call/status.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
 
 namespace contact::gateway {
 namespace {
@@ -24,6 +25,18 @@ util::TypeResolver* Resolver() {
 }
 
 std::string UrlOf(const std::string& type) { return std::string(kPrefix) + "/" + type; }
+
+// The error of a request that breaks rules of the contract, as of native calls.
+grpc::Status FieldInvalid(const std::string& words) {
+  google::rpc::ErrorInfo info;
+  info.set_domain("contact");
+  info.set_reason("FIELD_INVALID");
+  google::rpc::Status status;
+  status.set_code(grpc::StatusCode::INVALID_ARGUMENT);
+  status.set_message(words);
+  status.add_details()->PackFrom(info);
+  return {grpc::StatusCode::INVALID_ARGUMENT, words, status.SerializeAsString()};
+}
 
 }  // namespace
 
@@ -49,7 +62,11 @@ std::optional<std::string> ToJson(const std::string& type, const std::string& by
 grpc::Status FromJson(const std::string& type, const std::string& json, std::string* bytes) {
   const auto status = util::JsonToBinaryString(Resolver(), UrlOf(type), json, bytes);
   if (status.ok()) return grpc::Status::OK;
-  return ToGrpc(MakeError(Reason::kFieldInvalid, std::string(status.message())));
+  std::string words(status.message());
+  // It may quote what is not UTF-8.
+  std::ranges::replace_if(
+      words, [](char c) { return static_cast<unsigned char>(c) > '~'; }, '?');
+  return FieldInvalid(words);
 }
 
 }  // namespace contact::gateway

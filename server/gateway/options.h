@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "gateway/protocol/origin.h"
+#include "rpc/net/connection_acceptor.h"
+
+namespace contact {
+
+/// Settings of the gateway.
+struct GatewayOptions {
+  gateway::OriginRules rules = {};
+  /// Files of the dashboard; empty: none.
+  std::filesystem::path web_dir = {};
+  /// Largest body of a request [B].
+  std::size_t max_body_bytes = 2 << 20;
+  ConnectionLimits connections = {.in_all = 1024, .per_peer = 1024};
+  /// A client that takes nothing for this time is dropped.
+  std::chrono::milliseconds stall{30'000};
+  /// The text of `/metrics`. Empty: it is not served.
+  std::function<std::string()> metrics = {};
+};
+
+}  // namespace contact
