@@ -24,7 +24,7 @@ from contactd import PATIENCE_S, ServerTest
 
 matplotlib.use("agg")
 ROOT = pathlib.Path(__file__).parents[2]
-TOOLS = ("jq", "gnuplot")  # A command that needs one that is not here is left out.
+TOOLS = ("jq", "gnuplot", "curl")  # A command that needs one that is not here is left out.
 JOB = re.compile(r"jobs/([0-9a-z]{10})\b")
 
 # What is not run here, since it installs, builds or never ends: how it begins, and what runs it.
@@ -32,6 +32,7 @@ RUN_ELSEWHERE = {
     "./deploy/run": "deploy/test",
     "./deploy/package": "tests/package/package_test",
     "$ contactctl dev\n": "tests/cli/verbs/dev_test.py",
+    "$ contactctl open": "tests/cli/verbs/open_test.py",
     "source <(contactctl completion bash)": "tests/cli/help/completion_test.py",
     "$ cd client/node": "tests/node/example_test.py",
     "$ npm install": "tests/node/example_test.py",
@@ -71,8 +72,13 @@ def examples(content):
 
 class CommandsTest(ServerTest):
 
+    @property
+    def flags(self):
+        return ("--http-listen=127.0.0.1:0", f"--http-port-file={self.folder / 'http'}")
+
     def setUp(self):
         super().setUp()
+        self.http = (self.folder / "http").read_text().strip()
         (self.folder / "session").mkdir()
         (self.folder / "session" / "client").symlink_to(ROOT / "client")
 
@@ -81,7 +87,8 @@ class CommandsTest(ServerTest):
         folder = self.folder / "session"
         tools = pathlib.Path(os.environ["CONTACTCTL"]).parent
         env = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
-               "HOME": str(folder), "CONTACT_SERVER": f"127.0.0.1:{self.server.port}"}
+               "HOME": str(folder), "CONTACT_SERVER": f"127.0.0.1:{self.server.port}",
+               "CONTACT_HTTP": f"http://127.0.0.1:{self.http}"}
         ids, count = {}, 0
         found = [block for block in blocks(path.read_text("utf-8"))
                  if block[0] in ("sh", "console")]
@@ -155,6 +162,9 @@ class CommandsTest(ServerTest):
         self.assertAlmostEqual(float(lost) / float(ledger), 1, delta=0.01)
         self.assertIn("B3 leaves at 0.155004951 m/s\n", printed)
         self.assertRegex(printed, r"jobs/\w{10} FULL: 2 cycles\n")
+
+    def test_curl_page(self):
+        self.assertEqual(self.shell(ROOT / "client" / "curl.md"), 7)
 
     def test_julia_page(self):
         self.assertEqual(self.shell(ROOT / "client" / "julia.md"), 4)
