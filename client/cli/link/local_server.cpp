@@ -22,6 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+// The file with the port of the gateway. It is there before that with the other port.
+constexpr char kHttpPort[] = "http-port";
+
 bool HasEnded(pid_t process) {
   siginfo_t ended = {};
   waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
@@ -38,9 +41,10 @@ bool HasEnded(pid_t process) {
 pid_t Start(const std::string& program, const fs::path& folder, const std::string& port_file) {
   const FileDescriptor null(open("/dev/null", O_WRONLY | O_CLOEXEC));
   try {
-    return StartProcess({program, "--listen=127.0.0.1:0", "--data-dir", folder / "data",
-                         "--port-file", port_file, "--log-level=warn"},
-                        {.ends_with_us = true, .own_group = true, .output = null.get()});
+    return StartProcess(
+        {program, "--listen=127.0.0.1:0", "--data-dir", folder / "data", "--port-file", port_file,
+         "--http-listen=127.0.0.1:0", "--http-port-file", folder / kHttpPort, "--log-level=warn"},
+        {.ends_with_us = true, .own_group = true, .output = null.get()});
   } catch (const std::system_error& error) {
     FailToStart(program, ": " + error.code().message());
   }
@@ -62,6 +66,12 @@ LocalServer::LocalServer(const std::string& program) {
     FailToStart(program, ", and what it said stands above");
   }
   address_ = "127.0.0.1:" + port;
+}
+
+std::string LocalServer::http_address() const {
+  std::string port;
+  std::ifstream(folder_.path() / kHttpPort) >> port;
+  return "http://127.0.0.1:" + port;
 }
 
 LocalServer::~LocalServer() { End(process_); }

@@ -21,6 +21,8 @@ class LocalServer {
 
   /// HOST:PORT.
   const std::string& address() const { return address_; }
+  /// Where a browser finds it: http://HOST:PORT.
+  std::string http_address() const;
   /// For signals and waitid with WNOWAIT: only this object may wait for its end.
   pid_t process() const { return process_; }
 

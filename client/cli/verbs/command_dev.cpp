@@ -86,8 +86,9 @@ ExitCode Dev(const DevArguments& arguments, const Settings& settings) {
     fmt::print(
         "contactd at {0}, ready in {1:.2f} s; its jobs are gone when it ends\n"
         "  use it   export CONTACT_SERVER={0}\n"
+        "  see it   {2}\n"
         "  stop it  Ctrl-C\n",
-        server.address(), passed.count());
+        server.address(), passed.count(), server.http_address());
   }
   std::fflush(stdout);
   return WaitForEnd(server, signals);
