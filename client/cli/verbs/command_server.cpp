@@ -2,24 +2,19 @@
 
 #include <cctype>
 #include <chrono>
-#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <system_error>
 
 #include "base/spelling.h"
 #include "cli/base/failure.h"
 #include "cli/base/number.h"
-#include "cli/base/process.h"
 #include "cli/link/backup_file.h"
 #include "cli/link/connect.h"
-#include "cli/link/find_job.h"
 #include "cli/link/http_get.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/identity/identity_commands.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 #include "version.h"
 
@@ -104,43 +99,6 @@ ExitCode Metrics(const std::string& address, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-// The address of the page; Failure if the server has none.
-std::string PageOf(Client& client, const std::string& job) {
-  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
-  const std::string& page = info.http_address();
-  if (!page.starts_with("http")) {
-    throw Failure(ExitCode::kLocal,
-                  "the server has no page for browsers; it needs --http-listen HOST:PORT");
-  }
-  if (job.empty()) return page + "/";
-  constexpr std::string_view kJobs = "jobs/";
-  return page + "/runs/" + FindJob(client, job).substr(kJobs.size());
-}
-
-// Shows the page in a browser, if there is one and a screen to show it on.
-void Show(const std::string& page) {
-  const bool screen =
-      std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  const char* browser = std::getenv("BROWSER");
-  if (!screen && browser == nullptr) return;
-  try {
-    WaitForProcess(StartProcess({browser != nullptr ? browser : "xdg-open", page},
-                                {.silent_errors = true, .output = 2}));
-  } catch (const std::system_error&) {
-    return;  // The address is printed.
-  }
-}
-
-ExitCode Open(const std::string& job, const Settings& settings) {
-  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
-  Client client = Connect(settings);
-  const std::string page = PageOf(client, job);
-  fmt::print("{}\n", page);
-  std::fflush(stdout);
-  Show(page);
-  return ExitCode::kOk;
-}
-
 }  // namespace
 
 void AddVersion(CommandLine& line, CLI::App& command) { line.SetAction(command, Version); }
@@ -170,12 +128,6 @@ void AddServer(CommandLine& line, CLI::App& server) {
   line.SetAction(*metrics, address, Metrics);
   AddToken(line, server);
   AddAudit(line, server);
-}
-
-void AddOpen(CommandLine& line, CLI::App& command) {
-  auto job = std::make_shared<std::string>();
-  AddOption(line, command, "JOB", job.get(), ValueKind::kJob, "The job. Default: the page of all");
-  line.SetAction(command, job, Open);
 }
 
 }  // namespace contact::cli

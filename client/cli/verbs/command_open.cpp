@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "cli/base/failure.h"
+#include "cli/base/process.h"
+#include "cli/link/connect.h"
+#include "cli/link/find_job.h"
+#include "cli/verbs/job/options.h"
+#include "cli/verbs/verbs.h"
+
+namespace contact::cli {
+namespace {
+
+struct OpenArguments {
+  std::string job;
+};
+
+// The page of a job, or of all jobs without one.
+std::string PageOf(Client& client, const std::string& job) {
+  const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
+  const std::string& address = info.http_address();
+  if (!address.starts_with("http")) {
+    throw Failure(ExitCode::kLocal,
+                  "the server has no page for browsers; it needs --http-listen HOST:PORT");
+  }
+  if (job.empty()) return address + "/";
+  const std::string name = FindJob(client, job);
+  return fmt::format("{}/runs/{}", address, name.substr(name.find('/') + 1));
+}
+
+std::string Variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+// Starts $BROWSER, else the desktop's browser. Nothing happens where there is none.
+void Show(const std::string& page) {
+  std::string browser = Variable("BROWSER");
+  if (browser.empty() && !Variable("DISPLAY").empty()) browser = "xdg-open";
+  if (browser.empty() && !Variable("WAYLAND_DISPLAY").empty()) browser = "xdg-open";
+  if (browser.empty()) return;
+  try {
+    WaitForProcess(StartProcess({browser, page}, {.silent_errors = true, .output = STDERR_FILENO}));
+  } catch (const std::system_error&) {
+    return;  // The address is printed.
+  }
+}
+
+ExitCode Open(const OpenArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
+  Client client = Connect(settings);
+  const std::string page = PageOf(client, arguments.job);
+  fmt::print("{}\n", page);
+  std::fflush(stdout);
+  if (settings.output == OutputFormat::kTable) Show(page);
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddOpen(CommandLine& line, CLI::App& command) {
+  auto arguments = std::make_shared<OpenArguments>();
+  AddOption(line, command, "JOB", &arguments->job, ValueKind::kJob,
+            "Its page. Default: the list of all jobs");
+  line.SetAction(command, arguments, Open);
+}
+
+}  // namespace contact::cli
