@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "base/mutex.h"
+#include "storage/checksum.h"
 #include "storage/database_copy.h"
 #include "storage/migration.h"
-#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {

@@ -14,7 +14,6 @@
 #include "storage/checksum.h"
 #include "storage/data_directory.h"
 #include "storage/job_parts.h"
-#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {

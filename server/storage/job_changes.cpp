@@ -8,7 +8,6 @@
 #include "storage/checksum.h"
 #include "storage/database.h"
 #include "storage/job_queries.h"
-#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {

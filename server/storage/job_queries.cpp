@@ -12,7 +12,6 @@
 #include "storage/checksum.h"
 #include "storage/database.h"
 #include "storage/job_parts.h"
-#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {

@@ -6,7 +6,6 @@
 #include "contact/v1/job.pb.h"
 #include "storage/checksum.h"
 #include "storage/job_parts.h"
-#include "storage/row_checksum.h"
 #include "storage/schema.h"
 
 namespace contact {

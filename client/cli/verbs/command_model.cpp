@@ -7,7 +7,7 @@
 #include "cli/settings/column_choice.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/options.h"
-#include "cli/verbs/law_plot.h"
+#include "cli/verbs/laws/law_plot.h"
 #include "cli/verbs/laws/law_table.h"
 #include "cli/verbs/verbs.h"
 
