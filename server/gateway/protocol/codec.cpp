@@ -1,27 +1,77 @@
 #include "gateway/protocol/codec.h"
 
+#include <google/protobuf/type.pb.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/type_resolver.h>
 #include <google/protobuf/util/type_resolver_util.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <utility>
 
+#include "base/mutex.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
 namespace contact::gateway {
 namespace {
 
+namespace pb = google::protobuf;
 namespace util = google::protobuf::util;
 
 constexpr char kPrefix[] = "type.googleapis.com";
 
-// Knows the messages of the contract.
+// Knows the messages of the contract. protobuf asks for each type in each conversion, and makes it
+// of its descriptor anew, which takes most of the time; this one keeps them. Thread-safe.
+class Types final : public util::TypeResolver {
+ public:
+  util::Status ResolveMessageType(const std::string& url, pb::Type* type) override {
+    return Resolve(url, type, messages_, &util::TypeResolver::ResolveMessageType);
+  }
+  util::Status ResolveEnumType(const std::string& url, pb::Enum* type) override {
+    return Resolve(url, type, enums_, &util::TypeResolver::ResolveEnumType);
+  }
+
+ private:
+  template <class Type>
+  struct Known {
+    Mutex mutex;
+    std::map<std::string, Type> types ABSL_GUARDED_BY(mutex);
+  };
+
+  template <class Type>
+  util::Status Resolve(const std::string& url, Type* type, Known<Type>& known,
+                       util::Status (util::TypeResolver::*make)(const std::string&, Type*)) {
+    const MutexLock lock(known.mutex);
+    auto found = known.types.find(url);
+    if (found == known.types.end()) {
+      Type made;
+      if (auto status = (descriptors_.get()->*make)(url, &made); !status.ok()) return status;
+      DropOptions(&made);
+      found = known.types.emplace(url, std::move(made)).first;
+    }
+    *type = found->second;
+    return {};
+  }
+
+  // The rules of fields, for which JSON has no use.
+  static void DropOptions(pb::Type* type) {
+    for (pb::Field& field : *type->mutable_fields()) field.clear_options();
+  }
+  static void DropOptions(pb::Enum* type) {
+    for (pb::EnumValue& value : *type->mutable_enumvalue()) value.clear_options();
+  }
+
+  const std::unique_ptr<util::TypeResolver> descriptors_{
+      util::NewTypeResolverForDescriptorPool(kPrefix, pb::DescriptorPool::generated_pool())};
+  Known<pb::Type> messages_;
+  Known<pb::Enum> enums_;
+};
+
 util::TypeResolver* Resolver() {
-  static const std::unique_ptr<util::TypeResolver> resolver(util::NewTypeResolverForDescriptorPool(
-      kPrefix, google::protobuf::DescriptorPool::generated_pool()));
-  return resolver.get();
+  static Types types;
+  return &types;
 }
 
 std::string UrlOf(const std::string& type) { return std::string(kPrefix) + "/" + type; }
