@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{256} * 1024;
 constexpr std::size_t kLeastBytes = std::size_t{8} * 1024;
 // Of the messages of all watchers, as long as none is smaller than the least.
-constexpr std::size_t kAllBytes = std::size_t{64} << 20;
+constexpr std::size_t kAllBytes = std::size_t{24} << 20;
 
 }  // namespace
 
