@@ -111,12 +111,12 @@ void CheckHttp(const Config& config, bool asks, bool insecure) {
   const std::string& http = config.http_listen;
   if (http.empty() || IsFile(http)) return;
   CheckAddress("--http-listen", http, "HOST:PORT or unix:PATH", insecure,
-               "it has no encryption; put nginx before it, with deploy/nginx/contactd.conf");
+               "it has no encryption; put nginx before it, with deploy/nginx/contactd-web.conf");
   const auto refuse = [](const char* why) { throw CLI::ValidationError("--http-listen", why); };
   if (asks && !insecure) {
     refuse(
         "would take tokens unencrypted; give unix:PATH, and put nginx before it, with "
-        "deploy/nginx/contactd.conf");
+        "deploy/nginx/contactd-web.conf");
   }
   if (!asks && IsFile(config.listen) && !insecure) {
     refuse(
