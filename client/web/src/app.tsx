@@ -1,7 +1,7 @@
 // The frame of all pages: navigation, token, and the view of the address.
 
 import type {ComponentType} from 'preact';
-import {useEffect, useState} from 'preact/hooks';
+import {useEffect, useRef, useState} from 'preact/hooks';
 
 import {followLinks, useRoute, type Route} from './ui/route';
 import {switchTheme, useTheme} from './ui/theme';
@@ -51,12 +51,18 @@ export function App() {
   const route = useRoute();
   const View = useView(route.path);
   const [session, setSession] = useState(0);
+  const content = useRef<HTMLElement>(null);
+  const last = useRef(route.path);
+  useEffect(() => {   // The next Tab goes on in the new page.
+    if (last.current !== route.path) content.current?.focus({preventScroll: true});
+    last.current = route.path;
+  }, [route.path]);
   return (
     <div onClick={followLinks}>
       <a class="skip" href="#content">Skip to the content</a>
       <Navigation path={route.path} />
       <TokenDialog onToken={() => setSession((n) => n + 1)} />
-      <main id="content" tabIndex={-1} key={`${route.path}-${session}`}>
+      <main ref={content} id="content" tabIndex={-1} key={`${route.path}-${session}`}>
         {View ? <View route={route} /> : <p class="nothing">Loading …</p>}
       </main>
     </div>

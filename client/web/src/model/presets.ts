@@ -139,15 +139,29 @@ function deformation(view: RunView, rate: boolean): Panel {
   return rate ? panel : {...panel, note: `${NOTE}; below 0: the gap`};
 }
 
-function loop(view: RunView, cycle: Cycle, contact: ContactModel): {x: number[]; y: number[]} {
+interface Loop {
+  x: number[];
+  y: number[];
+  /** Whether its ends are in the part that is shown. */
+  starts: boolean;
+  ends: boolean;
+}
+
+/** The loop of a cycle, or the part of it that is shown. */
+function loop(view: RunView, cycle: Cycle, contact: ContactModel): Loop {
   const time = values(view.series, 'time');
   const [start, end] = endForces(view, contact);
   const first = lowerBound(time, cycle.startTimeS);
   const last = lowerBound(time, cycle.endTimeS);
   const part = (name: string) => Array.from(values(view.series, `${contact.name}.${name}`).subarray(first, last));
+  const starts = cycle.startTimeS >= time[0]!;
+  const ends = cycle.endTimeS <= time.at(-1)!;
+  const whole = (first: number, middle: number[], last: number) =>
+    [...(starts ? [first] : []), ...middle, ...(ends ? [last] : [])];
   return {
-    x: [cycle.deltaStartM, ...part('deformation'), cycle.deltaEndM],
-    y: [start(cycle), ...part('contact_force'), end(cycle)],
+    starts, ends,
+    x: whole(cycle.deltaStartM, part('deformation'), cycle.deltaEndM),
+    y: whole(start(cycle), part('contact_force'), end(cycle)),
   };
 }
 
@@ -158,12 +172,14 @@ function hysteresis(view: RunView): Panel {
   view.mechanics.contacts.forEach((contact, colour) => {
     let keyed = true;
     for (const cycle of view.cycles.filter(({contact: name}) => name === contact.name).slice(0, MOST_MARKED)) {
-      const {x, y} = loop(view, cycle, contact);
+      const {x, y, starts, ends} = loop(view, cycle, contact);
       if (x.length <= 2) continue;
       const label = keyed ? contact.name : `${contact.name} #${cycle.number}`;
       const mark = (name: string, kind: 'start' | 'end', i: number): Curve =>
         ({label: `${label} ${name}`, colour, mark: kind, keyed: false, x: [x.at(i)!], y: [y.at(i)!]});
-      panel.curves.push({label, colour, mark: 'line', keyed, x, y}, mark('starts', 'start', 0), mark('ends', 'end', -1));
+      panel.curves.push({label, colour, mark: 'line', keyed, x, y});
+      if (starts) panel.curves.push(mark('starts', 'start', 0));
+      if (ends) panel.curves.push(mark('ends', 'end', -1));
       keyed = false;
     }
   });

@@ -68,7 +68,7 @@ export function axesOf(panel: Panel, ink: Ink): uPlot.Axis[] {
   return [
     {...common, ...whole, scale: 'x', size: 30, space: 70, label: label('x', panel.xLabel),
       values: ticks(panel.xLabel, 'x', !!panel.logX)},
-    {...common, ...(panel.logY ? {splits: powers} : {}), scale: 'y', size: widthOf, space: 32, label: label('y', panel.yLabel),
+    {...common, ...(panel.logY ? {splits: powers, filter: (_u: uPlot, splits: number[]) => splits} : {}), scale: 'y', size: widthOf, space: 32, label: label('y', panel.yLabel),
       values: ticks(panel.yLabel, 'y', !!panel.logY)},
   ];
 }

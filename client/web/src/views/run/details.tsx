@@ -64,8 +64,8 @@ export function Details({run}: {run: RunState}) {
     <section aria-label="Details" class="details">
       {job.finalBodies.length > 0 && (
         <div><h3>Bodies at the end</h3>
-          <table><thead><tr><th>body</th><th class="number">position [m]</th><th class="number">velocity [m/s]</th></tr></thead>
-            <tbody>{job.finalBodies.slice(0, 100).map((b) => <tr key={b.name}><td>{b.name}</td><td class="number">{exact(b.positionM)}</td><td class="number">{exact(b.velocityMPerS)}</td></tr>)}</tbody></table></div>)}
+          <div class="scroll" tabIndex={0} role="region" aria-label="Bodies at the end"><table><thead><tr><th>body</th><th class="number">position [m]</th><th class="number">velocity [m/s]</th></tr></thead>
+            <tbody>{job.finalBodies.slice(0, 100).map((b) => <tr key={b.name}><td>{b.name}</td><td class="number">{exact(b.positionM)}</td><td class="number">{exact(b.velocityMPerS)}</td></tr>)}</tbody></table></div></div>)}
       {job.summary && <div><h3>Cost and balances</h3><Pairs pairs={costOf(job.summary)} /></div>}
       <div><h3>Provenance</h3><Pairs pairs={provenanceOf(job)} /></div>
       <Files job={job} />

@@ -4,6 +4,7 @@ import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
 import {extent} from '../../model/panel';
 import {short} from '../../model/numbers';
 import {outcomeOf, viridis} from '../../model/sweep';
+import {useTheme} from '../../ui/theme';
 
 const WIDTH = 900;
 const HEIGHT = 300;
@@ -20,7 +21,10 @@ interface Props {
   chosen: number | undefined;
 }
 
+const anchor = (i: number, n: number) => (i === 0 ? 'start' : i === n - 1 ? 'end' : 'middle');
+
 export function Parallel({names, axes, cells, metric, choose, chosen}: Props) {
+  const dark = useTheme() === 'dark';
   const shown = cells.slice(0, MOST);
   const valuesOf = (cell: SweepCell) => [...cell.values, ...cell.metrics];
   const ranges = names.map((_, i): [number, number] => extent([shown.map((cell) => valuesOf(cell)[i]!)]) ?? [0, 1]);
@@ -33,7 +37,7 @@ export function Parallel({names, axes, cells, metric, choose, chosen}: Props) {
     (Number.isFinite(value) ? `${i === 0 || !Number.isFinite(valuesOf(cell)[i - 1]) ? 'M' : 'L'}${x(i)} ${y(i, value)}` : '')).join('');
   const colour = (cell: SweepCell) => {
     const [low, high] = ranges[axes + metric] ?? [0, 1];
-    return viridis(0.9 * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
+    return viridis((dark ? 0.25 : 0) + (dark ? 0.75 : 0.9) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
   };
   return (
     <svg class="map parallel" viewBox={`0 0 ${WIDTH} ${HEIGHT + TOP + 30}`} role="img"
@@ -45,7 +49,7 @@ export function Parallel({names, axes, cells, metric, choose, chosen}: Props) {
       {names.map((name, i) => (
         <g key={name}>
           <line x1={x(i)} x2={x(i)} y1={TOP} y2={TOP + HEIGHT} class="rule" />
-          <text class="ink name" x={x(i)} y={i % 2 ? 14 : 28} text-anchor="middle">{name}</text>
+          <text class="ink name" x={anchor(i, names.length) === 'start' ? 4 : anchor(i, names.length) === 'end' ? WIDTH - 4 : x(i)} y={i % 2 ? 14 : 28} text-anchor={anchor(i, names.length)}>{name}</text>
           <text class="ink" x={x(i) + 4} y={TOP + 12}>{short(ranges[i]![1])}</text>
           <text class="ink" x={x(i) + 4} y={TOP + HEIGHT}>{short(ranges[i]![0])}</text>
         </g>))}

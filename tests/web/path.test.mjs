@@ -1,0 +1,276 @@
+// The way of a user through the dashboard, in a real browser against a real contactd.
+
+import assert from 'node:assert/strict';
+import {after, afterEach, before, beforeEach, test} from 'node:test';
+
+import {CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
+
+const LONG = swinging(2, {method: 'RK4', stepS: 1e-7});   // Ten seconds or so.
+let server;
+let browser;
+let page;
+before(async () => { [server, browser] = await Promise.all([new Server('--workers=2').start(), openBrowser()]); });
+after(async () => { await browser?.close(); await server?.close(); });
+beforeEach(async () => { page = await openPage(browser, server); });
+afterEach(async () => {
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+});
+
+const open = (path) => page.goto(server.origin + path);
+const idOf = () => new URL(page.url()).pathname.split('/')[2];
+const state = () => page.locator('.head .badge').innerText();
+const points = (plot) => page.locator(`[data-plot="${plot}"]`).getAttribute('data-points').then(Number);
+const ofAddress = (name) => new URL(page.url()).searchParams.get(name);
+const hold = (what) => until(what, what.toString());
+const stop = async (id) => { await server.call('CancelJob', {name: `jobs/${id}`}); await server.ended(id); };
+
+test('an empty server leads to a first run from a template', async () => {
+  await open('/');
+  await page.getByText('No runs yet.').waitFor();
+  await page.getByRole('link', {name: 'New run'}).first().click();
+  await page.getByRole('button', {name: "Newton's cradle"}).click();
+  assert.equal(ofAddress('template'), 'newton-cradle');
+  await page.getByText('The server accepts it.').waitFor();
+  await page.getByRole('button', {name: 'Start the run'}).click();
+  await page.getByText('SUCCEEDED').first().waitFor();
+  await hold(async () => await points('force') > 100);
+  assert.equal(await page.locator('h1').innerText(), "Newton's cradle");
+  assert.ok(await points('residual') >= 3);
+});
+
+test('numbers of the ledger equal those of the API, digit for digit', async () => {
+  const id = await server.submit(CHAIN);
+  const job = await server.ended(id);
+  await open(`/runs/${id}`);
+  const rows = page.getByLabel('Cycle ledger').locator('tbody tr');
+  await rows.nth(1).waitFor();
+  for (const [i, cycle] of job.cycles.entries()) {
+    const cells = await rows.nth(i).locator('td').allInnerTexts();
+    for (const field of ['mu', 'restitutionOut', 'peakForceN', 'turnTimeS', 'workRestitutionJ', 'identityResidual']) {
+      assert.ok(cells.includes(String(cycle[field])), `${field} ${cycle[field]} in ${cells}`);
+    }
+  }
+  assert.match(await page.getByLabel('Details').innerText(), new RegExp(String(job.finalBodies[2].velocityMPerS)));
+});
+
+test('a run is watched while it converges, and is cancelled', async () => {
+  const id = await server.submit(LONG);
+  await open(`/runs/${id}`);
+  await hold(async () => await points('mu') > 0 && await points('force') > 10);
+  assert.match(await state(), /RUNNING/);
+  const text = () => page.getByLabel('Cycle ledger').locator('.tools').innerText();
+  const [before, end] = [await text(), await page.locator('progress').getAttribute('value')];
+  await hold(async () => await text() !== before && await page.locator('progress').getAttribute('value') > end);
+  await page.getByRole('button', {name: 'Cancel run'}).click();
+  await hold(async () => /CANCELLED/.test(await state()));
+  assert.equal((await server.ended(id)).state, 'CANCELLED');
+});
+
+test('a window follows the newest samples of a run', async () => {
+  const id = await server.submit(LONG);
+  await open(`/runs/${id}?from=0&to=0.01&follow=1`);
+  const shown = () => page.getByLabel('Motion', {exact: true}).locator('.tools .mono').innerText().then((t) => Number(t.split(' ')[0]));
+  await hold(async () => await shown() > 0.005);
+  const first = await shown();
+  await hold(async () => await shown() > first && await points('force') > 5);
+  await stop(id);
+});
+
+test('a zoom asks the server again, and no peak is lost', async () => {
+  const id = await server.submit({...swinging(3.5), output: {sampleIntervalS: 1e-5}});
+  const job = await server.ended(id);
+  await open(`/runs/${id}`);
+  await hold(async () => await points('force') > 1000);
+  const peak = async () => {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Contact force as CSV').click()]);
+    const chunks = [];
+    for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+    const rows = Buffer.concat(chunks).toString().split('\n').filter((row) => row.startsWith('ball-wall,'));
+    return Math.max(...rows.map((row) => Number(row.split(',')[2])));
+  };
+  const {columns} = await server.call('GetSeries', {name: `jobs/${id}`, channels: ['ball-wall.contact_force'], decimation: 'RAW', endTimeS: 0.1});
+  const recorded = Buffer.from(columns[1].values, 'base64');
+  let largest = 0;
+  for (let i = 0; i < recorded.length; i += 8) largest = Math.max(largest, recorded.readDoubleLE(i));
+  assert.equal(await peak(), largest);
+  const canvas = page.locator('[data-plot="force"] .u-over');
+  const box = await canvas.boundingBox();
+  await page.mouse.move(box.x + 2, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 40, box.y + 60, {steps: 4});
+  await page.mouse.up();
+  await hold(() => ofAddress('from') !== null);
+  assert.ok(Number(ofAddress('to')) < 0.5 * job.summary.timeReachedS);
+  await hold(async () => await peak() === largest);
+  await page.getByRole('button', {name: 'All', exact: true}).click();
+  assert.equal(ofAddress('from'), null);
+});
+
+test('one cursor reads all plots', async () => {
+  const id = await server.submit(CHAIN);
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  await hold(async () => await points('force') > 100 && await points('velocity') > 100);
+  const box = await page.locator('[data-plot="force"] .u-over').boundingBox();
+  await page.mouse.move(box.x + box.width / 4, box.y + 50);
+  for (const plot of ['force', 'velocity', 'deformation', 'displacement', 'energy']) {
+    await hold(async () => /\d/.test(await page.locator(`[data-plot="${plot}"] output`).first().innerText()));
+  }
+});
+
+test('every plot is saved as SVG, PNG and CSV', async () => {
+  const id = await server.submit(CHAIN);
+  await server.ended(id);
+  await open(`/runs/${id}?plots=all`);
+  await hold(async () => await points('force') > 100);
+  const plots = await page.locator('.plot').count();
+  assert.ok(plots >= 10);
+  for (const [kind, begins] of [['SVG', '<svg'], ['PNG', '\x89PNG'], ['CSV', 'curve,']]) {
+    const buttons = page.locator('.exports').getByText(kind, {exact: true});
+    assert.equal(await buttons.count(), plots);
+    for (const at of [2, 6]) {
+      const [download] = await Promise.all([page.waitForEvent('download'), buttons.nth(at).click()]);
+      const chunks = [];
+      for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+      assert.ok(Buffer.concat(chunks).toString('latin1').startsWith(begins), kind);
+    }
+  }
+});
+
+test('the strip plays, pauses and is scrubbed', async () => {
+  const id = await server.submit(CHAIN);
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  await hold(async () => await points('force') > 100);
+  const moment = () => page.getByLabel('Bodies in motion').locator('output').innerText();
+  await page.getByRole('button', {name: 'Play'}).click();
+  await hold(async () => Number.parseFloat(await moment()) > 0.1);
+  await page.getByRole('button', {name: 'Pause'}).click();
+  await hold(() => ofAddress('t') !== null);
+  await page.getByLabel('moment').fill('0.5');
+  assert.equal(await moment(), '2 ms');
+  assert.equal(await page.locator('[data-plot="force"] .playhead').isVisible(), true);
+});
+
+test('a run is run again with another ε and compared', async () => {
+  const id = await server.submit(CHAIN);
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  await page.getByRole('link', {name: 'Run again with changes'}).click();
+  const editor = page.getByRole('textbox', {name: /Scenario/});
+  await hold(async () => (await editor.inputValue()).includes('restitution: 0.8'));
+  await editor.fill((await editor.inputValue()).replace('restitution: 0.8', 'restitution: 0.6'));
+  await page.getByText('The server accepts it.').waitFor();
+  await page.getByRole('button', {name: 'Start the run'}).click();
+  await hold(() => page.url().includes('/runs/') && idOf() !== id);
+  const other = idOf();
+  await server.ended(other);
+  await open('/runs');
+  for (const one of [id, other]) await page.getByLabel(`choose ${one}`).check();
+  await page.getByRole('link', {name: 'Compare 2 runs'}).click();
+  const row = page.getByLabel('Parameters that differ').locator('tbody tr');
+  await row.first().waitFor();
+  assert.equal(await row.count(), 1);
+  assert.deepEqual((await row.locator('td').allInnerTexts()).slice().sort(), ['0.6', '0.8', 'contacts[0].restitution']);
+  await page.getByText(/of \d+ differ/).waitFor();
+  await hold(async () => await points('B1-B2.contact_force') > 100);
+});
+
+test('errors of the page and of the server stand at their lines', async () => {
+  await open('/new');
+  const editor = page.getByRole('textbox', {name: /Scenario/});
+  await page.getByText('The server accepts it.').waitFor();
+  const text = await editor.inputValue();
+  await editor.fill(text.replace('restitution: 0.8', 'restituton: 0.8'));
+  await page.getByText("did you mean 'restitution'?").waitFor();
+  assert.equal(await page.locator('.lines .wrong').innerText(), '✗ 11');
+  await editor.fill(text.replace('restitution: 0.7', 'restitution: 1.7'));
+  await page.getByText('is 1.7; must be in (0, 1]').waitFor();
+  assert.equal(await page.locator('.lines .wrong').innerText(), '✗ 12');
+  assert.equal(await page.getByRole('button', {name: 'Start the run'}).isDisabled(), true);
+  await editor.fill(`${text}solv`);
+  await page.getByRole('option', {name: /^solver/}).waitFor();
+  await page.keyboard.press('Enter');
+  await hold(async () => (await editor.inputValue()).endsWith('solver: '));
+  await hold(() => page.url().endsWith('solver%3A%20'));   // The address holds the text.
+  await page.reload();
+  await hold(async () => (await editor.inputValue()).endsWith('solver: '));
+});
+
+test('what is copied for curl makes the same job', async () => {
+  await open('/new?template=two-balls');
+  await page.getByText('The server accepts it.').waitFor();
+  await page.getByRole('button', {name: 'curl'}).click();
+  const [, address, body] = /CreateJob|@- (\S+) <<'END'\n([\s\S]*)\nEND/.exec(await page.getByLabel('copied text').innerText().then((t) => t.slice(t.indexOf('@-'))));
+  const answer = await fetch(address, {method: 'POST', headers: {'content-type': 'application/json'}, body});
+  assert.equal(answer.status, 200);
+  assert.equal((await answer.json()).title, 'Two balls, one collision');
+});
+
+test('a sweep fills cell by cell, and a cell becomes a run', async () => {
+  const base = {...CHAIN, solver: {method: 'RK4', stepS: 4e-8}};
+  const {name} = await server.call('CreateJob', {job: {sweep: {base, metrics: ['iterations', 'final_bodies[B3].velocity_m_per_s'],
+    axes: [{field: 'bodies[0].velocity_m_per_s', linear: {low: 0.1, high: 0.5, count: 5}}, {field: 'contacts[*].restitution', values: [0.9, 0.8, 0.7, 0.6]}]}}});
+  const id = name.replace('jobs/', '');
+  await open(`/runs/${id}`);
+  const seen = new Set();
+  await hold(async () => {
+    seen.add(await page.locator('[data-cells]').getAttribute('data-cells'));
+    return await page.locator('[data-cell]:not([data-outcome="waiting"])').count() === 20;
+  });
+  assert.ok(seen.size > 2, `filled in ${[...seen]}`);
+  await page.getByLabel(/^Map of iterations/).focus();
+  for (const cell of ['0', '1']) {
+    await page.keyboard.press('ArrowRight');
+    await hold(() => ofAddress('cell') === cell);
+  }
+  await page.getByRole('button', {name: 'Run this cell'}).click();
+  await hold(() => idOf() !== id);
+  const job = await server.ended(idOf());
+  assert.deepEqual(job.labels, {sweep: id, cell: '1'});
+  assert.deepEqual([job.scenario.contacts[0].restitution, job.scenario.bodies[0].velocityMPerS], [0.8, 0.1]);
+});
+
+test('a page goes on by itself when the server was killed and is back', async () => {
+  const id = await server.submit(LONG);
+  await open(`/runs/${id}`);
+  await page.evaluate(() => { window.sameDocument = true; });
+  await hold(async () => await points('force') > 10);
+  await server.end('SIGKILL');
+  await page.locator('[data-link="waiting"]').waitFor();
+  await server.start();
+  await page.locator('[data-link="waiting"]').waitFor({state: 'detached'});
+  const progress = () => page.locator('progress').getAttribute('value').then(Number);
+  const before = await progress();
+  await hold(async () => await progress() > before);
+  assert.equal(await page.evaluate(() => window.sameDocument), true);
+  await stop(id);
+  await hold(async () => /CANCELLED/.test(await state()));
+});
+
+test('the list of runs is live, filtered and paged', async () => {
+  await open('/runs?q=needle');
+  await page.getByText('No run matches.').waitFor();
+  const id = await server.submit({...CHAIN, title: 'A needle'}, {labels: {place: 'haystack'}});
+  await page.getByRole('link', {name: 'A needle'}).waitFor();
+  await page.getByText('place=haystack').waitFor();
+  await server.ended(id);
+  await server.call('DeleteJob', {name: `jobs/${id}`});
+  await page.getByText('No run matches.').waitFor();
+});
+
+test('a server that wants a token is given one, which no address shows', async () => {
+  const asked = [];
+  await page.route('**/contact.v1.JobService/*', (route) => {
+    asked.push(route.request().headers().authorization);
+    if (route.request().headers().authorization === 'Bearer secret') return route.continue();
+    return route.fulfill({status: 401, contentType: 'application/json', body: '{"code":"unauthenticated","message":"who?"}'});
+  });
+  await open('/new');
+  await page.getByLabel(/Token/).fill('secret');
+  await page.getByRole('button', {name: 'Use it'}).click();
+  await page.getByText('The server accepts it.').waitFor();
+  assert.ok(!page.url().includes('secret'));
+  assert.equal(asked.at(-1), 'Bearer secret');
+});
