@@ -52,7 +52,11 @@ export function colourOf(place: number, shown: Theme): string {
   return palette[place % palette.length]!;
 }
 
-/** The dashes of a curve: other ones for each turn of the palette. */
+// There is no room for names beside the curves of a narrow page.
+const narrow = matchMedia('(max-width: 560px)');
+
+/** The dashes of a curve: other ones for each turn of the palette, on narrow pages for each curve. */
 export function dashOf(place: number): number[] {
+  if (narrow.matches) return DASHES[place % DASHES.length]!;
   return DASHES[Math.floor(place / LIGHT.length) % DASHES.length]!;
 }

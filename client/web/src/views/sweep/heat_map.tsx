@@ -44,7 +44,7 @@ function Cell({props, i, j, width, height, part}: {props: Props; i: number; j: n
       <title>{`${props.x.name} = ${exact(props.x.values[i]!)}, ${props.y.name} = ${exact(props.y.values[j]!)}: ${exact(value)}, ${outcome}`}</title>
       <rect {...at} width={width} height={height} fill={known ? viridis(part(value)) : 'transparent'} class="cell" />
       {outcome === 'not converged' && <rect {...at} width={width} height={height} fill="url(#hatch)" />}
-      {width > 30 && height > 13 && <text x={at.x + width / 2} y={at.y + height / 2 + 4} text-anchor="middle" class={known ? '' : 'ink'} fill={known ? inkOn(part(value)) : undefined}>{text}</text>}
+      {width > 30 && height > 13 && <text x={at.x + width / 2} y={at.y + height / 2 + 4} text-anchor="middle" class={`${known ? '' : 'ink'} ${outcome === 'not converged' ? `halo ${inkOn(part(value)) === '#000000' ? 'bright' : 'dark'}` : ''}`} fill={known ? inkOn(part(value)) : undefined}>{text}</text>}
       {props.chosen === index && <rect x={at.x + 1} y={at.y + 1} width={width - 2} height={height - 2} class="chosen" />}
     </g>
   );
