@@ -118,7 +118,7 @@ test('an address brings back the whole view', async () => {
   const path = `${pages.wall.split('?')[0]}?from=0.002&to=0.008&episode=2&contact=ball-wall&status=CONVERGED&ledger=groups&plots=all`;
   await page.goto(server.origin + path);
   await settled(page, 'wall');
-  const chosen = (label) => page.locator('label', {hasText: new RegExp(`^${label}`)}).locator('select').inputValue();
+  const chosen = (label) => page.locator('label', {hasText: new RegExp(`^${label}`)}).locator('select, input').inputValue();
   assert.equal(await chosen('Contact'), 'ball-wall');
   assert.equal(await chosen('Episode'), '2');
   assert.equal(await chosen('Show'), 'groups');

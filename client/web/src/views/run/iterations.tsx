@@ -5,6 +5,7 @@ import {useMemo} from 'preact/hooks';
 import {episodesOf, hardestEpisode, iterationPanels} from '../../model/iterations';
 import type {RunState} from '../../model/runState';
 import {isFinal} from '../../api/watch';
+import {count} from '../../model/numbers';
 import {Plot} from '../../plots/plot';
 import {setQuery} from '../../ui/route';
 
@@ -13,8 +14,6 @@ interface Props {
   query: URLSearchParams;
   source: string;
 }
-
-const MOST_LISTED = 1000;
 
 /** The episode to show: the one chosen, else the newest while the job runs, else the hardest. */
 function episodeOf(run: RunState, query: URLSearchParams): number {
@@ -26,16 +25,18 @@ function episodeOf(run: RunState, query: URLSearchParams): number {
 
 export function Iterations({run, query, source}: Props) {
   const episode = episodeOf(run, query);
-  const panels = useMemo(() => iterationPanels(run.iterations, episode), [run.version, episode]);
-  const episodes = useMemo(() => [...episodesOf(run.iterations)].slice(-MOST_LISTED), [run.version]);
+  const panels = useMemo(() => iterationPanels(run.iterations, episode), [run.iterations.length, episode]);
+  const episodes = useMemo(() => [...episodesOf(run.iterations).keys()], [run.iterations.length]);
   return (
     <section aria-label="Iterations">
       <div class="tools"><h2>Iteration of μ</h2>
         {episodes.length > 1 && (
-          <label>Episode <select value={query.get('episode') ?? ''} onChange={(e) => setQuery({episode: e.currentTarget.value})}>
-            <option value="">{isFinal(run.state) ? 'the one with most passes' : 'the newest'} ({episode})</option>
-            {episodes.map(([number, last]) => <option key={number} value={number}>{number}: {last} corrections</option>)}
-          </select></label>
+          <>
+            <label>Episode <input type="number" size={6} min={1} max={episodes.at(-1)} value={episode}
+              onChange={(e) => setQuery({episode: e.currentTarget.value})} /> of {count(episodes.at(-1)!)}</label>
+            {query.has('episode') && <button type="button" onClick={() => setQuery({episode: undefined})}>
+              {isFinal(run.state) ? 'The one with most passes' : 'Follow the newest'}</button>}
+          </>
         )}
       </div>
       <div class="plots">

@@ -64,22 +64,27 @@ function Status({status}: {status: Cycle_Status}) {
 
 type Entry = (Cycle | Group) & {contact: string; number: number; status: Cycle_Status; startTimeS: number; endTimeS: number};
 
+function zoom({startTimeS, endTimeS}: Entry): void {
+  const margin = 0.1 * (endTimeS - startTimeS) || 1e-9;
+  setWindow([startTimeS - margin, endTimeS + margin]);
+}
+
+/** A row; it is made once, for entries do not change. */
+function Line<T extends Entry>({row, columns}: {row: T; columns: Column<T>[]}) {
+  return useMemo(() => (
+    <tr>
+      <td><button type="button" class="quiet" title="show this stretch of time" onClick={() => zoom(row)}>{row.contact}</button></td>
+      <td class="number">{row.number}</td><td><Status status={row.status} /></td>
+      {columns.map((column) => <td key={column.name} class={column.words ? '' : 'number'}>{column.of(row)}</td>)}
+    </tr>), [row, columns]);
+}
+
 function Table<T extends Entry>({rows, columns}: {rows: T[]; columns: Column<T>[]}) {
-  const zoom = ({startTimeS, endTimeS}: T) => {
-    const margin = 0.1 * (endTimeS - startTimeS) || 1e-9;
-    setWindow([startTimeS - margin, endTimeS + margin]);
-  };
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label="Ledger">
       <table>
         <thead><tr><th>contact</th><th class="number">#</th><th>status</th>{columns.map(({name, words}) => <th key={name} class={words ? '' : 'number'}>{name}</th>)}</tr></thead>
-        <tbody>{rows.map((row) => (
-          <tr key={`${row.contact}#${row.number}`}>
-            <td><button type="button" class="quiet" title="show this stretch of time" onClick={() => zoom(row)}>{row.contact}</button></td>
-            <td class="number">{row.number}</td><td><Status status={row.status} /></td>
-            {columns.map((column) => <td key={column.name} class={column.words ? '' : 'number'}>{column.of(row)}</td>)}
-          </tr>))}
-        </tbody>
+        <tbody>{rows.map((row) => <Line key={`${row.contact}#${row.number}`} row={row} columns={columns} />)}</tbody>
       </table>
     </div>
   );

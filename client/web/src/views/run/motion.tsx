@@ -4,17 +4,18 @@ import {useEffect, useMemo} from 'preact/hooks';
 
 import {PRESETS, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
+import type {Series} from '../../api/series';
 import type {RunState} from '../../model/runState';
 import {isFinal} from '../../api/watch';
 import {Plot} from '../../plots/plot';
 import type {Window} from '../../plots/range';
 import {setQuery} from '../../ui/route';
-import {useSeries} from './use_series';
 import {changed, setWindow} from './window';
 
 interface Props {
   run: RunState;
   mechanics: Mechanics;
+  series: Series | undefined;
   query: URLSearchParams;
   window: Window | undefined;
   whole: Window;
@@ -23,8 +24,18 @@ interface Props {
 
 const FIRST = 6;   // Plots of the page; the others are shown when asked for.
 const MOST_CONTACTS = 12;
+const MOST_BODIES = 200;   // Of whose energy a plot is made.
 
-/** The part of a scenario that fits a plot. */
+/** The part of a scenario that fits a plot. The energy is that of all bodies. */
+export function partFor(preset: Preset, mechanics: Mechanics, contact: string | null): Mechanics {
+  return preset.id === 'energy' ? mechanics : crop(mechanics, contact);
+}
+
+/** The plots that can be made of a scenario. */
+export function presetsFor({bodies}: Mechanics): Preset[] {
+  return PRESETS.filter(({id}) => id !== 'energy' || bodies.length <= MOST_BODIES);
+}
+
 function crop(mechanics: Mechanics, contact: string | null): Mechanics {
   const {bodies, contacts} = mechanics;
   const chosen = contact ? contacts.filter(({name}) => name === contact) : contacts;
@@ -40,17 +51,13 @@ function crop(mechanics: Mechanics, contact: string | null): Mechanics {
 }
 
 function PresetPlot({preset, ...props}: Props & {preset: Preset}) {
-  const {run, window, mechanics: all, query} = props;
-  // The energy is that of all bodies.
-  const mechanics = useMemo(() => (preset.id === 'energy' ? all : crop(all, query.get('contact'))), [all, query.get('contact')]);
-  const channels = useMemo(() => preset.channels(mechanics), [mechanics]);
-  const name = run.job!.name;
-  const series = useSeries(name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
+  const {run, window, mechanics: all, query, series} = props;
+  const mechanics = useMemo(() => partFor(preset, all, query.get('contact')), [all, query.get('contact')]);
   const panel = useMemo(() => {
     const inside = <T extends {startTimeS: number; endTimeS: number}>(list: T[]) =>
       (window ? list.filter((c) => c.endTimeS >= window[0] && c.startTimeS <= window[1]) : list);
     return preset.panel({mechanics, cycles: inside(run.cycles), groups: inside(run.groups), series: series ?? new Map()});
-  }, [series, run.cycles.length, run.groups.length, mechanics]);
+  }, [series, isFinal(run.state) && run.cycles.length, mechanics]);   // While it runs: with the samples.
   return <Plot panel={panel} window={window} onZoom={setWindow} source={props.source}
     empty={series ? 'Nothing recorded here.' : 'Waiting for samples …'} />;
 }
@@ -96,7 +103,7 @@ export function Motion(props: Props) {
         <span class="soft hint">drag in a plot to zoom, double-click to see all</span>
       </div>
       <div class="plots">
-        {PRESETS.slice(0, all ? PRESETS.length : FIRST).map((preset) => <PresetPlot key={preset.id} preset={preset} {...props} />)}
+        {presetsFor(props.mechanics).slice(0, all ? PRESETS.length : FIRST).map((preset) => <PresetPlot key={preset.id} preset={preset} {...props} />)}
       </div>
     </section>
   );

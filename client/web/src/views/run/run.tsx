@@ -2,8 +2,10 @@
 
 import {useEffect, useMemo} from 'preact/hooks';
 
+import {isFinal} from '../../api/watch';
+import {mechanicsOf, type Mechanics} from '../../model/mechanics';
 import type {RunState} from '../../model/runState';
-import {mechanicsOf} from '../../model/mechanics';
+import type {Scenario as ScenarioMessage} from '../../api/generated/contact/v1/scenario_pb';
 import {setPlayhead} from '../../ui/playhead';
 import {LinkNote} from '../../ui/link_note';
 import type {Route} from '../../ui/route';
@@ -12,25 +14,34 @@ import {Details} from './details';
 import {Header} from './header';
 import {Iterations} from './iterations';
 import {Ledger} from './ledger';
-import {Motion} from './motion';
-import {StripView} from './strip_view';
+import {Motion, partFor, presetsFor} from './motion';
+import {StripView, stripChannels} from './strip_view';
 import {useRun} from './use_run';
+import {useSeries} from './use_series';
 import {windowOf} from './window';
 
-function Scenario({id, run, query}: {id: string; run: RunState; query: URLSearchParams}) {
+/** The columns of all plots and the strip, each once. */
+function channelsOf(mechanics: Mechanics, contact: string | null): string[] {
+  if (mechanics.scenario.output?.ledgerOnly) return [];
+  const ofPlots = presetsFor(mechanics).flatMap((preset) => preset.channels(partFor(preset, mechanics, contact)));
+  return [...new Set([...ofPlots, ...stripChannels(mechanics)])];
+}
+
+function Recording({id, run, query}: {id: string; run: RunState; query: URLSearchParams}) {
   const spec = run.job!.spec;
-  const mechanics = useMemo(() => (spec.case === 'scenario' ? mechanicsOf(spec.value) : undefined), [run.job!.name]);
-  if (!mechanics) return null;
+  const mechanics = useMemo(() => mechanicsOf(spec.value as ScenarioMessage), [run.job!.name]);
   const {scenario} = mechanics;
   const newest = run.job?.summary?.timeReachedS ?? run.progress?.timeS ?? 0;
   const window = windowOf(query, newest);
   const source = [run.job!.title, `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
+  const channels = useMemo(() => channelsOf(mechanics, query.get('contact')), [mechanics, query.get('contact')]);
+  const series = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
   const recorded = !scenario.output?.ledgerOnly;
   return (
     <>
-      {recorded && <StripView run={run} mechanics={mechanics} window={window} query={query} />}
+      {recorded && <StripView mechanics={mechanics} series={series} query={query} />}
       <Iterations run={run} query={query} source={source} />
-      {recorded ? <Motion run={run} mechanics={mechanics} query={query} window={window} whole={[0, newest || scenario.endTimeS]} source={source} />
+      {recorded ? <Motion run={run} mechanics={mechanics} series={series} query={query} window={window} whole={[0, newest || scenario.endTimeS]} source={source} />
         : <p class="nothing">This run records no trajectory, only its ledger.</p>}
       <Ledger run={run} query={query} />
     </>
@@ -46,7 +57,7 @@ export function Run({route}: {route: Route}) {
     <>
       <LinkNote link={link} />
       {run.job && <Header id={id} run={run} />}
-      {run.job?.spec.case === 'scenario' && <Scenario id={id} run={run} query={route.query} />}
+      {run.job?.spec.case === 'scenario' && <Recording id={id} run={run} query={route.query} />}
       {run.job?.spec.case === 'sweep' && <Sweep id={id} run={run} query={route.query} />}
       {run.job?.spec.case && <Details run={run} />}
     </>

@@ -2,29 +2,27 @@
 
 import {useEffect, useLayoutEffect, useMemo, useRef, useState} from 'preact/hooks';
 
-import {isFinal} from '../../api/watch';
+import type {Series} from '../../api/series';
 import type {Mechanics} from '../../model/mechanics';
-import type {RunState} from '../../model/runState';
 import {short} from '../../model/numbers';
 import type {Window} from '../../plots/range';
 import {drawStrip, stageOf} from '../../plots/strip';
 import {onPlayhead, playhead, setPlayhead} from '../../ui/playhead';
 import {setQuery} from '../../ui/route';
 import {useTheme} from '../../ui/theme';
-import {useSeries} from './use_series';
 
 const SECONDS = [2, 5, 10, 30, 60];   // In which the whole stretch is played.
 const HEIGHT = 132;
 const MOST_BODIES = 60;
 
 interface Props {
-  run: RunState;
   mechanics: Mechanics;
-  window: Window | undefined;
+  series: Series | undefined;
   query: URLSearchParams;
 }
 
-function channelsOf({bodies, contacts}: Mechanics): string[] {
+/** Columns that the strip needs. */
+export function stripChannels({bodies, contacts}: Mechanics): string[] {
   return [...bodies.slice(0, MOST_BODIES).map(({name}) => `${name}.position`),
     ...contacts.slice(0, MOST_BODIES).map(({name}) => `${name}.contact_force`)];
 }
@@ -47,7 +45,7 @@ function usePlayer([from, to]: Window, seconds: number, playing: boolean, stop: 
   }, [playing, from, to, seconds]);
 }
 
-export function StripView({run, mechanics, window, query}: Props) {
+export function StripView({mechanics, series, query}: Props) {
   const theme = useTheme();
   const canvas = useRef<HTMLCanvasElement>(null);
   const slider = useRef<HTMLInputElement>(null);
@@ -58,7 +56,6 @@ export function StripView({run, mechanics, window, query}: Props) {
   const magnified = query.get('scale') !== 'true';
   const part = useMemo(() => ({...mechanics, bodies: mechanics.bodies.slice(0, MOST_BODIES), contacts: mechanics.contacts.slice(0, MOST_BODIES)
     .filter(({left, right}) => left < MOST_BODIES && right < MOST_BODIES)}), [mechanics]);
-  const series = useSeries(run.job!.name, useMemo(() => channelsOf(part), [part]), window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
   const times = series?.get('time')?.values;
   const range: Window = useMemo(() => [times?.[0] ?? 0, times?.at(-1) ?? 1], [times]);
   const stage = useMemo(() => (series ? stageOf(part, series, magnified) : undefined), [series, part, magnified]);

@@ -8,7 +8,9 @@ import type {Link} from '../../api/stream';
 import {isFinal, watchJob} from '../../api/watch';
 import {emptyRun, takeEvents, takeSnapshot, type RunState} from '../../model/runState';
 
-/** Watches a job. The answer is a new object whenever something came in, at most once a frame. */
+const SHOW_EVERY_MS = 60;
+
+/** Watches a job. The answer is a new object whenever something came in, but not too often. */
 export function useRun(id: string): {run: RunState; link: Link} {
   const [run, setRun] = useState<RunState>(emptyRun);
   const [link, setLink] = useState<Link>({state: 'connecting'});
@@ -18,14 +20,21 @@ export function useRun(id: string): {run: RunState; link: Link} {
     const control = new AbortController();
     const state = latest.current = emptyRun();
     let frame = 0;
+    let shownAt = 0;
     let fetched = false;
     const show = () => {
       frame = 0;
+      shownAt = performance.now();
       if (isFinal(state.state)) fetchJob(true);
       else if (!fetched) fetchJob(false);
       setRun({...state});
     };
-    const plan = () => { frame ||= requestAnimationFrame(show); };
+    // The first change is shown at once, more of them so often that the page stays quick.
+    const plan = () => {
+      if (frame) return;
+      const wait = shownAt + SHOW_EVERY_MS - performance.now();
+      frame = wait > 0 ? window.setTimeout(show, wait) : requestAnimationFrame(show);
+    };
     // The stream leaves out what is long; the job has its spec, and its summary once it has ended.
     let done = false;
     const fetchJob = (final: boolean) => {
@@ -46,7 +55,7 @@ export function useRun(id: string): {run: RunState; link: Link} {
     void watchJob(name, (job) => { takeSnapshot(state, state.job?.spec.case ? {...job, spec: state.job.spec} : job); plan(); },
       (events) => { takeEvents(state, events); if (events.length > 0) plan(); },
       setLink, control.signal);
-    return () => { control.abort(); cancelAnimationFrame(frame); };
+    return () => { control.abort(); clearTimeout(frame); cancelAnimationFrame(frame); };
   }, [id]);
   return {run, link};
 }

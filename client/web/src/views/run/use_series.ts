@@ -1,37 +1,48 @@
-// Recorded columns for a plot: asked for again when the window changes or the run goes on.
+// The recorded columns of all plots of a run, in one call: the server reads the same part of its log
+// whatever the number of columns. Asked for again when the window changes or the run goes on.
 
 import {useEffect, useRef, useState} from 'preact/hooks';
 
 import {readSeries, type Series} from '../../api/series';
 import type {Window} from '../../plots/range';
 
-const POINTS_PER_CHANNEL = 1000;
-const MOST_POINTS = 4000;
+const POINTS = 4000;
+const POINTS_PER_CHANNEL = 500;
+const MOST_BYTES = 3.5e6;        // The server answers with 4 MB at most.
+const LIVE_PAUSE_MS = 200;       // Between two calls while a run goes on.
+
+/** Samples to ask for, so that each column has enough and the answer is not too large. */
+export function pointsFor(channels: number): number {
+  const wanted = Math.max(POINTS, POINTS_PER_CHANNEL * channels);
+  return Math.floor(Math.min(wanted, MOST_BYTES / (8 * (channels + 1))));
+}
 
 /** The columns; the last ones stay until the next are there. `tick` grows as the run goes on. */
 export function useSeries(name: string, channels: string[], window: Window | undefined, tick: number): Series | undefined {
   const [series, setSeries] = useState<Series>();
   const state = useRef({busy: false, again: false, alive: true, asked: ''});
-  const latest = useRef<() => void>(() => undefined);
-  const key = `${name} ${channels.join(' ')} ${window?.[0]} ${window?.[1]} ${tick}`;
+  const ask = useRef<() => void>(() => undefined);
+  const view = `${name} ${channels.join(' ')} ${window?.[0]} ${window?.[1]}`;
   useEffect(() => { state.current.alive = true; return () => { state.current.alive = false; }; }, []);
-  latest.current = () => {
+  ask.current = () => {
     const now = state.current;
-    if (channels.length === 0) return;
+    if (channels.length === 0 || !now.alive) return;
     if (now.busy) { now.again = true; return; }
-    now.busy = true;
-    const started = performance.now();
-    readSeries({name, channels, from: window?.[0], to: window?.[1],
-      maxPoints: Math.min(MOST_POINTS, POINTS_PER_CHANNEL * channels.length)})
+    Object.assign(now, {busy: true, again: false, asked: view});
+    const start = performance.now();
+    readSeries({name, channels, from: window?.[0], to: window?.[1], maxPoints: pointsFor(channels.length)})
       .then((read) => {
         if (now.alive) setSeries(read);
-        performance.measure('series', {start: started, end: performance.now()});
+        performance.measure('series', {start, end: performance.now()});
       }, () => undefined)
       .finally(() => {
         now.busy = false;
-        if (now.again && now.alive) { now.again = false; latest.current(); }
+        if (now.again) setTimeout(() => ask.current(), LIVE_PAUSE_MS);
       });
   };
-  useEffect(() => latest.current(), [key]);
+  useEffect(() => {
+    if (tick >= 0 && state.current.asked === view && state.current.busy) state.current.again = true;
+    else ask.current();
+  }, [view, tick]);
   return series;
 }
