@@ -145,6 +145,7 @@ class CommandsTest(ServerTest):
         script.write_text("".join(re.findall(r"^```octave run\n(.*?)^```$", text, re.S | re.M)),
                           "utf-8")
         run = subprocess.run(["octave-cli", "--quiet", "--norc", script.name], cwd=script.parent,
+                             env={**os.environ, "CONTACT_HTTP": f"http://127.0.0.1:{self.http}"},
                              capture_output=True, encoding="utf-8", timeout=5 * PATIENCE_S)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         return run.stdout
@@ -162,6 +163,7 @@ class CommandsTest(ServerTest):
         self.assertAlmostEqual(float(lost) / float(ledger), 1, delta=0.01)
         self.assertIn("B3 leaves at 0.155004951 m/s\n", printed)
         self.assertRegex(printed, r"jobs/\w{10} FULL: 2 cycles\n")
+        self.assertRegex(printed, r"over HTTP: \d+ of 1001 samples\n")
 
     def test_curl_page(self):
         self.assertEqual(self.shell(ROOT / "client" / "curl.md"), 7)
