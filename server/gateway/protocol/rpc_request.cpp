@@ -37,8 +37,8 @@ constexpr std::chrono::milliseconds kLongest = std::chrono::hours(24 * 365);
 
 bool IsIdentity(std::string_view encoding) { return encoding.empty() || encoding == "identity"; }
 
-Status Unimplemented(std::string words) { return {StatusCode::UNIMPLEMENTED, std::move(words)}; }
-Status Invalid(std::string words) { return {StatusCode::INVALID_ARGUMENT, std::move(words)}; }
+Status Unimplemented(const std::string& words) { return {StatusCode::UNIMPLEMENTED, words}; }
+Status Invalid(const std::string& words) { return {StatusCode::INVALID_ARGUMENT, words}; }
 
 // The one message in the frames of a request.
 Status OneMessage(const std::string& body, std::string* message) {
