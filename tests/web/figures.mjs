@@ -51,6 +51,7 @@ async function eventToPixel() {
   const page = await openPage(browser, server);
   await page.goto(`${server.origin}/runs/${id}`);
   await page.locator('section[aria-label="Cycle ledger"] tbody tr').first().waitFor();
+  await page.locator('section[aria-label="Cycle ledger"]').scrollIntoViewIfNeeded();
   await page.evaluate(() => {
     window.seen = [];
     const ledger = document.querySelector('section[aria-label="Cycle ledger"]');
@@ -99,11 +100,13 @@ async function jobToRow(times = 20) {
   for (let i = 0; i < times; ++i) {
     const title = `row ${i} ${Date.now()}`;
     const shown = page.evaluate((text) => new Promise((resolve) => {
-      const observer = new MutationObserver(() => {
-        if (!document.querySelector('tbody').innerText.includes(text)) return;
+      const look = () => {
+        if (!document.querySelector('tbody').textContent.includes(text)) return;
         observer.disconnect();
         requestAnimationFrame(() => setTimeout(() => resolve(Date.now())));
-      });
+      };
+      const observer = new MutationObserver(look);
+      look();
       observer.observe(document.querySelector('main'), {subtree: true, childList: true, characterData: true});
     }), title);
     const {createTime} = await server.call('CreateJob', {job: {scenario: {...CHAIN, title}}});

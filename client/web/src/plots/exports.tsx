@@ -10,6 +10,8 @@ interface Props {
   panel: Panel;
   plot: {current: uPlot | undefined};
   source: string;
+  /** Draws what waits to be drawn. */
+  flush: () => void;
 }
 
 const PNG_SCALE = 2;
@@ -25,9 +27,12 @@ export async function pngOf(svg: string, width: number, height: number): Promise
   return new Promise((resolve) => canvas.toBlob((blob) => resolve(blob!), 'image/png'));
 }
 
-export function Exports({panel, plot, source}: Props) {
+export function Exports({panel, plot, source, flush}: Props) {
   const name = `${source.replace(/[^\w.-]+/g, '-')}-${panel.id}`;
-  const svg = () => svgOf(panel, plot.current!, source);
+  const svg = () => {
+    flush();
+    return svgOf(panel, plot.current!, source);
+  };
   const png = async () => {
     const {width, height, text} = svg();
     save(`${name}.png`, await pngOf(text, width, height));

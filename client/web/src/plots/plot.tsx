@@ -37,6 +37,21 @@ function structure(panel: Panel): string {
     panel.lanes?.length, lines(panel).map(({label, mark, colour}) => [label, mark, colour])]);
 }
 
+/** Calls `draw` at once where the plot can be seen, else when it is scrolled there. */
+function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => void) => void; flush: () => void} {
+  const state = useRef({seen: true, waiting: undefined as (() => void) | undefined});
+  const flush = () => { state.current.waiting?.(); state.current.waiting = undefined; };
+  useEffect(() => {
+    const observer = new IntersectionObserver((entries) => {
+      state.current.seen = entries.at(-1)!.isIntersecting;
+      if (state.current.seen) flush();
+    }, {rootMargin: '200px'});
+    observer.observe(box.current!);
+    return () => observer.disconnect();
+  }, []);
+  return {flush, draw: (draw) => { state.current.waiting = draw; if (state.current.seen) flush(); }};
+}
+
 /** Moves a line to the moment of the strip. */
 function usePlayhead(plot: {current: uPlot | undefined}, panel: Panel): void {
   const timed = panel.overTime && !panel.countedX;
@@ -65,6 +80,7 @@ export function Plot({panel, window, onZoom, height = 240, source, empty}: Props
   const [hidden, setHidden] = useState<Set<string>>(new Set());
   const key = structure(panel);
   const unit = unitOf(panel.yLabel);
+  const seen = useSeen(box);
 
   const told = useMemo(() => ({
     cursor: (index: number | null) => {
@@ -90,11 +106,13 @@ export function Plot({panel, window, onZoom, height = 240, source, empty}: Props
   useLayoutEffect(() => {
     if (!plot.current || !shown.current) return;
     Object.assign(shown.current, {panel, window, hidden, onZoom: onZoom ?? (() => undefined)});
-    lines(panel).forEach(({label}, i) => {
-      const visible = !hidden.has(label);
-      if (plot.current!.series[i + 1]!.show !== visible) plot.current!.setSeries(i + 1, {show: visible});
+    seen.draw(() => {
+      lines(panel).forEach(({label}, i) => {
+        const visible = !hidden.has(label);
+        if (plot.current!.series[i + 1]!.show !== visible) plot.current!.setSeries(i + 1, {show: visible});
+      });
+      plot.current!.setData(aligned(panel));
     });
-    plot.current.setData(aligned(panel));
   }, [panel, window?.[0], window?.[1], hidden]);
 
   usePlayhead(plot, panel);
@@ -103,7 +121,7 @@ export function Plot({panel, window, onZoom, height = 240, source, empty}: Props
     <figure class="plot" data-plot={panel.id} data-points={lines(panel)[0]?.x.length ?? 0}>
       <figcaption>
         <h3>{panel.title}</h3>
-        <Exports panel={panel} plot={plot} source={source} />
+        <Exports panel={panel} plot={plot} source={source} flush={seen.flush} />
       </figcaption>
       <div ref={box} class="canvas" role="img"
         aria-label={`${panel.title}: ${panel.yLabel} over ${panel.xLabel}; ${panel.curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`} />

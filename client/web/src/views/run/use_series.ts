@@ -9,7 +9,7 @@ import type {Window} from '../../plots/range';
 const POINTS = 4000;
 const POINTS_PER_CHANNEL = 500;
 const MOST_BYTES = 3.5e6;        // The server answers with 4 MB at most.
-const LIVE_PAUSE_MS = 200;       // Between two calls while a run goes on.
+const LIVE_PAUSE_MS = 400;       // Between two calls while a run goes on.
 
 /** Samples to ask for, so that each column has enough and the answer is not too large. */
 export function pointsFor(channels: number): number {
