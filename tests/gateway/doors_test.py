@@ -6,7 +6,6 @@ import http.client
 import json
 import pathlib
 import re
-import resource
 import socket
 import subprocess
 import sys
@@ -14,8 +13,8 @@ import time
 import unittest
 
 import grpc
-from contact.v1 import job_service_pb2, job_service_pb2_grpc
-from contactd import BINARY, PATIENCE_S, Server, ServerTest, endless, spring_wall, three_ball_chain
+from contact.v1 import job_service_pb2
+from contactd import BINARY, PATIENCE_S, Server, ServerTest, endless, spring_wall
 from gateway import SERVICE, Answer, GatewayTest, frame
 
 sys.path.append(str(pathlib.Path(__file__).parents[1] / "system"))
@@ -147,7 +146,8 @@ class StalledTest(GatewayTest):
         return int(re.search(r"VmRSS:\s+(\d+) kB", status)[1]) << 10
 
     def watchers(self):
-        return int(re.search(r"\ncontactd_watchers (\d+)", self.ask("GET", "/metrics").body.decode())[1])
+        metrics = self.ask("GET", "/metrics").body.decode()
+        return int(re.search(r"\ncontactd_watchers (\d+)", metrics)[1])
 
     def test_clients_that_take_nothing_cost_little_and_are_ended(self):
         scenario = spring_wall(end_time_s=2.0)
@@ -186,12 +186,12 @@ class SettingsTest(unittest.TestCase):
 
     def test_what_would_let_in_others_is_refused_with_what_to_do(self):
         self.assertIn("deploy/nginx", self.refusal("--http-listen=0.0.0.0:0"))
-        self.assertIn("unix:PATH", self.refusal("--listen=unix:/tmp/x", "--http-listen=127.0.0.1:0"))
+        self.assertIn("unix:PATH",
+                      self.refusal("--listen=unix:/tmp/x", "--http-listen=127.0.0.1:0"))
         self.assertIn("deploy/nginx", self.refusal(
             "--listen=unix:/tmp/x", "--tokens=/x", "--http-listen=127.0.0.1:0"))
         self.assertIn("not HOST:PORT", self.refusal("--http-listen=8080"))
 
 
 if __name__ == "__main__":
-    resource.setrlimit(resource.RLIMIT_NOFILE, (4096, 4096))
     unittest.main()

@@ -1,4 +1,5 @@
-"""The gateway behind nginx with the configuration of deploy/nginx: TLS, tokens, streams as they come."""
+"""The gateway behind nginx with the configuration of deploy/nginx: TLS, tokens, streams as they
+come."""
 
 import datetime
 import http.client
@@ -93,7 +94,8 @@ class NginxTest(ServerTest):
                             content_type="application/connect+json")
         head = response.read(5)
         self.assertEqual(head[0], 0)
-        self.assertTrue(json.loads(response.read(int.from_bytes(head[1:], "big")))["snapshotComplete"])
+        message = json.loads(response.read(int.from_bytes(head[1:], "big")))
+        self.assertTrue(message["snapshotComplete"])
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import base64
 import json
 import shutil
 import socket
+import struct
 import subprocess
 import time
 import unittest
@@ -22,7 +23,8 @@ class HttpTest(GatewayTest):
         for _ in range(3):
             raw.sendall(self.request("POST"))
             status, body = read_answer(raw)
-            self.assertEqual((status, json.loads(body)["version"]), (200, json.loads(body)["version"]))
+            self.assertEqual(status, 200)
+            self.assertIn("version", json.loads(body))
 
     def test_requests_sent_at_once_are_answered_in_their_order(self):
         raw = self.connect()
@@ -254,8 +256,9 @@ class ConnectTest(GatewayTest):
         plain = self.call("GetSeries", ask | {"plainNumbers": True}).json()
         for left, right in zip(packed["columns"], plain["columns"]):
             self.assertNotIn("values", right)
-            self.assertEqual(base64.b64decode(left["values"]), b"".join(
-                __import__("struct").pack("<d", number) for number in right["numbers"]))
+            numbers = right["numbers"]
+            self.assertEqual(base64.b64decode(left["values"]),
+                             struct.pack(f"<{len(numbers)}d", *numbers))
 
     def test_the_server_tells_where_its_gateway_is(self):
         self.assertEqual(self.call("GetServerInfo", {}).json()["httpAddress"],
