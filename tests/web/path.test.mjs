@@ -73,7 +73,7 @@ test('a window follows the newest samples of a run', async () => {
   const shown = () => page.getByLabel('Motion', {exact: true}).locator('.tools .mono').innerText().then((t) => Number(t.split(' ')[0]));
   await hold(async () => await shown() > 0.005);
   const first = await shown();
-  await hold(async () => await shown() > first && await points('force') > 5);
+  await hold(async () => await shown() > first && await points('force') > 2);
   await stop(id);
 });
 
@@ -96,13 +96,14 @@ test('a zoom asks the server again, and no peak is lost', async () => {
   assert.equal(await peak(), largest);
   const canvas = page.locator('[data-plot="force"] .u-over');
   const box = await canvas.boundingBox();
-  await page.mouse.move(box.x + 2, box.y + 60);
+  await page.mouse.move(box.x + 40, box.y + 60);   // Back to time 0: the first peak is the largest.
   await page.mouse.down();
-  await page.mouse.move(box.x + 40, box.y + 60, {steps: 4});
+  await page.mouse.move(box.x, box.y + 60, {steps: 4});
   await page.mouse.up();
   await hold(() => ofAddress('from') !== null);
   assert.ok(Number(ofAddress('to')) < 0.5 * job.summary.timeReachedS);
-  await hold(async () => await peak() === largest);
+  await page.waitForTimeout(500);
+  assert.equal(await peak(), largest);
   await page.getByRole('button', {name: 'All', exact: true}).click();
   assert.equal(ofAddress('from'), null);
 });
@@ -112,6 +113,7 @@ test('one cursor reads all plots', async () => {
   await server.ended(id);
   await open(`/runs/${id}`);
   await hold(async () => await points('force') > 100 && await points('velocity') > 100);
+  await page.setViewportSize({width: 1280, height: 2600});   // Plots are drawn where they can be seen.
   const box = await page.locator('[data-plot="force"] .u-over').boundingBox();
   await page.mouse.move(box.x + box.width / 4, box.y + 50);
   for (const plot of ['force', 'velocity', 'deformation', 'displacement', 'energy']) {
@@ -209,7 +211,7 @@ test('what is copied for curl makes the same job', async () => {
 });
 
 test('a sweep fills cell by cell, and a cell becomes a run', async () => {
-  const base = {...CHAIN, solver: {method: 'RK4', stepS: 4e-8}};
+  const base = {...CHAIN, solver: {method: 'RK4', stepS: 4e-8, maxIterations: 6}};
   const {name} = await server.call('CreateJob', {job: {sweep: {base, metrics: ['iterations', 'final_bodies[B3].velocity_m_per_s'],
     axes: [{field: 'bodies[0].velocity_m_per_s', linear: {low: 0.1, high: 0.5, count: 5}}, {field: 'contacts[*].restitution', values: [0.9, 0.8, 0.7, 0.6]}]}}});
   const id = name.replace('jobs/', '');

@@ -50,7 +50,7 @@ function Cell({props, i, j, width, height, part}: {props: Props; i: number; j: n
   );
 }
 
-function useKeys({x, y, indexAt, chosen, choose, open}: Props) {
+function keysOf({x, y, indexAt, chosen, choose, open}: Props) {
   return (event: KeyboardEvent) => {
     const moves: Record<string, [number, number]> = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
     if (event.key === 'Enter' && chosen !== undefined) { open(chosen); return; }
@@ -80,8 +80,9 @@ export function HeatMap(props: Props) {
   const every = [sparse(x.values.length, 14), sparse(y.values.length, bottom / 16)] as const;
   return (
     <>
-      <svg class="map" viewBox={`0 0 ${WIDTH} ${bottom + BOTTOM}`} tabIndex={0} role="application" onKeyDown={useKeys(props)}
+      <div class="keys" tabIndex={0} role="application" onKeyDown={keysOf(props)}
         aria-label={`Map of ${props.metricName} over ${y.name} and ${x.name}; arrow keys choose a cell, Enter runs it`}>
+      <svg class="map" viewBox={`0 0 ${WIDTH} ${bottom + BOTTOM}`}>
         <defs><pattern id="hatch" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
           <rect width="7" height="7" fill="none" /><line x1="0" y1="0" x2="0" y2="7" stroke="#fff" stroke-width="2" /><line x1="2" y1="0" x2="2" y2="7" stroke="#000" stroke-width="1.4" /></pattern></defs>
         {y.values.flatMap((_, j) => x.values.map((__, i) => <Cell key={`${i},${j}`} props={props} i={i} j={j} width={width} height={height} part={part} />))}
@@ -90,6 +91,7 @@ export function HeatMap(props: Props) {
         <text class="ink name" x={LEFT + (WIDTH - LEFT) / 2} y={bottom + 42} text-anchor="middle">{x.name}</text>
         <text class="ink name" transform={`translate(16 ${bottom / 2}) rotate(-90)`} text-anchor="middle">{y.name}</text>
       </svg>
+      </div>
       <p class="scale soft"><span class="mono">{exact(found[0])}</span>
         <svg width="180" height="12" aria-hidden="true">{Array.from({length: 60}, (_, i) => <rect key={i} x={i * 3} y="0" width="3" height="12" fill={viridis(i / 59)} />)}</svg>
         <span class="mono">{exact(found[1])}</span> hatched: not converged · ×: failed · –: no value</p>
