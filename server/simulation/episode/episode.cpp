@@ -151,7 +151,7 @@ Motion::Pause EpisodeSolver::Search() {
       }
       const bool may_be_all = !rejected_ && !sight.crowded && IsApart(sight);
       if (first && may_be_all && Within(front, sight, kNoise)) return Tentatively();
-      const Found found = SolveFront(sight, front, first);
+      const Found found = SolveFront(sight, front);
       if (found == Found::kAborted) return problem_.pause();
       if (found == Found::kSolved && may_be_all) return Tentatively();
       continue;
@@ -197,8 +197,7 @@ bool EpisodeSolver::Accepts(Motion::Pause pause) {
   return false;
 }
 
-Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front,
-                                bool sensitive) {
+Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front) {
   const std::vector<GroupId> part = EarliestPart(front, sight, kPoor);
   guessing_ = !part.empty();
   const bool whole = part.empty() || part.size() == front.size();
@@ -207,9 +206,9 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;
   const bool again = now.front() == last_ && sweeps_ > 0;
-  Found found = newton_.Solve(now, goal, most, !again, sensitive ? &sight : nullptr);
+  Found found = newton_.Solve(now, goal, most, !again, sight);
   if (found == Found::kSolved && newton_.corrections() == 0) {  // A coarse pass sees what is not.
-    found = newton_.Solve(front, problem_.tolerance(), most, false);
+    found = newton_.Solve(front, problem_.tolerance(), most, false, sight);
     if (found == Found::kSolved && newton_.corrections() == 0) found = Found::kStalled;
   }
   if (found == Found::kSolved && !whole) return Found::kStalled;  // The rest is still to be solved.

@@ -46,7 +46,7 @@ class EpisodeSolver {
   Sight Scan(bool coarse);
   Motion::Pause Record(const Sight& sight, double until);
   Motion::Pause Tentatively();
-  Found SolveFront(const Sight& sight, const std::vector<GroupId>& front, bool sensitive);
+  Found SolveFront(const Sight& sight, const std::vector<GroupId>& front);
   bool Bisect(const Sight& sight, const std::vector<GroupId>& front);
   void Freeze(const Sight& sight, const std::vector<GroupId>& front);
   void GiveUp(const Sight& sight, const std::vector<GroupId>& front);

@@ -75,14 +75,28 @@ double Newton::Worst(const std::vector<GroupId>& front, const Sight& sight) cons
   return worst;
 }
 
+// Whether what a scan has seen of a front counts as negligible in a coarse pass.
+bool Newton::Overlooks(const std::vector<GroupId>& front, const Sight& sight) const {
+  return std::ranges::any_of(front, [&](const GroupId& id) {
+    const GroupSight* g = sight.Find(id);
+    return g != nullptr && g->weak && !problem_.groups.At(id).weak;
+  });
+}
+
 // A pass as exact as the miss that is expected of it demands.
 Sight Newton::Look(const std::vector<GroupId>& front, bool sensitive, double expected,
                    double horizon) {
   // The last correction rests on the pass before it, which must be as exact as the goal.
   const bool last = curvature_ * expected * expected <= kSure * goal_;
-  const double tolerance = coarse_ && !last ? kNoise * std::max(expected, goal_) : 0;
+  const bool exact = goal_ <= problem_.tolerance() && last;
+  bool coarse = !exact && (coarse_ || expected > kBlurred);
+  const double tolerance = coarse ? kNoise * (last ? goal_ : std::max(expected, goal_)) : 0;
   Sight sight = problem_.Evaluate(front, sensitive, horizon, tolerance);
-  sight.exact = tolerance == 0;
+  if (coarse && Overlooks(front, sight)) {
+    coarse = false;
+    sight = problem_.Evaluate(front, sensitive, horizon);
+  }
+  sight.exact = last || !coarse;
   return sight;
 }
 
@@ -162,11 +176,11 @@ double Newton::Expected(double worst) const {
 }
 
 Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_corrections,
-                    bool coarse, const Sight* seen) {
+                    bool coarse, const Sight& seen) {
   goal_ = goal;
   coarse_ = coarse;
   curvature_ = kCurved;
-  Sight now = seen != nullptr ? *seen : Look(front, true, 1, kForever);
+  Sight now = seen.exact ? Look(front, true, Worst(front, seen), kForever) : seen;
   Take(front, now);
   double merit = kForever;
   for (corrections_ = 0;; ++corrections_) {

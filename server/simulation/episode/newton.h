@@ -25,10 +25,10 @@ class Newton {
 
   /// Solves the front until no group of it misses its restitution by more than `goal`, relative.
   /// `coarse`: passes may be as inexact as what they are to show allows; the last correction is
-  /// taken without a look where it is sure to do. `seen`: a pass with slopes to begin with, if it
-  /// has seen the front.
+  /// taken without a look where it is sure to do. `seen`: the scan that has seen the front; if it
+  /// has slopes the search begins with it.
   Found Solve(const std::vector<GroupId>& front, double goal, int most_corrections, bool coarse,
-              const Sight* seen = nullptr);
+              const Sight& seen);
   /// Corrections made by the last Solve.
   int corrections() const { return corrections_; }
 
@@ -43,6 +43,7 @@ class Newton {
   void Count(const std::vector<GroupId>& front, Sight& sight, int corrections, bool damped);
   double Expected(double worst) const;
   double Worst(const std::vector<GroupId>& front, const Sight& sight) const;
+  bool Overlooks(const std::vector<GroupId>& front, const Sight& sight) const;
   Sight Look(const std::vector<GroupId>& front, bool sensitive, double expected, double horizon);
   double Horizon(const std::vector<GroupId>& front, const Sight& sight) const;
 
