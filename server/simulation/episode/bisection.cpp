@@ -17,8 +17,11 @@ constexpr int kMostScanned = 120;
 constexpr int kHalvings = 60;
 // A bracket so narrow, relative, in which ε² still differs so much holds a jump,
 constexpr double kNarrow = 1e-6, kApart = 3e-3;
-// one whose other side does not end holds none if it is so narrow,
-constexpr double kCreeps = 1e-4;
+// one whose other side does not end holds none if it is so narrow, and if what is left would have
+// to fall so many times as fast as it did,
+constexpr double kCreeps = 0.05, kSteeper = 4;
+// coarse passes tell no more of a jump than this,
+constexpr double kBlurred = 1e-3;
 // and one so narrow has no root whatever is in it.
 constexpr double kNarrowest = 1e-11;
 // How much longer than before a trial may last, in durations of the group.
@@ -58,11 +61,17 @@ Root Bisection::Finish(Root root) {
 Root Bisection::Solve(const GroupSight& group) {
   group_ = group;
   coarse_ = true;
-  Root root = Look();
+  const Root root = Exactly(Look());
+  return root == Root::kFound || root == Root::kAborted ? root : Finish(root);
+}
+
+// What coarse passes have found, if exact ones confirm it; else they go on from there, or look anew.
+Root Bisection::Exactly(Root root) {
   coarse_ = false;
-  if (root != Root::kAborted && !Confirmed(root) && !problem_.Aborted()) root = Look();
-  if (problem_.Aborted()) return Root::kAborted;
-  return root == Root::kFound ? root : Finish(root);
+  if (!problem_.Aborted() && !Confirmed(root)) {
+    root = more_.there && less_.there && Holds() ? Narrow() : Look();
+  }
+  return problem_.Aborted() ? Root::kAborted : root;
 }
 
 bool Bisection::Scan(const GroupSight& group) {
@@ -75,9 +84,8 @@ bool Bisection::Scan(const GroupSight& group) {
     const Point point = At(mu);
     if (!point.there || (point.ended && mu > point.most)) break;
     if ((point.excess > 0) != (last.excess > 0)) {
-      coarse_ = true;
       Keep(last), Keep(point);
-      if (Narrow() == Root::kFound && (coarse_ = false, Confirmed(Root::kFound))) return true;
+      if (Exactly(Narrow()) == Root::kFound) return true;
       coarse_ = true;
     }
     last = point;
@@ -96,23 +104,45 @@ Root Bisection::Look() {
   return bracket == Root::kFound && more_.there && less_.there ? Narrow() : bracket;
 }
 
-// Whether exact passes see what the coarse ones saw: at the root, or at both sides of the bracket.
+// Whether exact passes see what the coarse ones saw: the root, or that there is none. A jump is to
+// be narrowed further in any case.
 bool Bisection::Confirmed(Root root) {
   const double mu = problem_.groups.At(group_.id).mu;
   if (root == Root::kFound) return std::abs(At(mu).excess) < kRoot;
-  bool confirmed = true;
-  for (Point* side : {&more_, &less_}) {
-    if (!side->there || !confirmed) continue;
-    const Point exact = At(side->mu);
-    confirmed = exact.there && exact.ended == side->ended &&
-                (exact.excess > 0) == (side == &more_) && std::abs(exact.excess) > kRoot;
-    *side = exact;
-  }
+  if (root == Root::kJump) return false;
+  const bool confirmed = Holds();
   problem_.groups.At(group_.id).mu = mu;
   return confirmed;
 }
 
-void Bisection::Keep(const Point& point) { (point.excess > 0 ? more_ : less_) = point; }
+// Whether both sides of the bracket are what they were; takes them as they are now.
+bool Bisection::Holds() {
+  for (Point* side : {&more_, &less_}) {
+    if (!side->there) continue;
+    const Point now = At(side->mu);
+    const bool holds = now.there && now.ended == side->ended &&
+                       (now.excess > 0) == (side == &more_) && std::abs(now.excess) > kRoot;
+    *side = now;
+    if (!holds) return false;
+  }
+  return true;
+}
+
+void Bisection::Keep(const Point& point) {
+  if (point.excess > 0 && more_.there) {
+    fall_ = (more_.excess - point.excess) / std::abs(point.mu - more_.mu);
+  }
+  (point.excess > 0 ? more_ : less_) = point;
+}
+
+// Whether the bracket is so narrow that no root can be in it.
+bool Bisection::HasNone() const {
+  const double width = std::abs(less_.mu - more_.mu);
+  if (!less_.ended && width <= kCreeps * less_.mu) return more_.excess > kSteeper * fall_ * width;
+  if (coarse_ && width <= kBlurred * less_.mu) return true;
+  const bool apart = more_.excess > kApart && less_.excess < -kApart;
+  return width <= (apart ? kNarrow : kNarrowest) * less_.mu;
+}
 
 // Looks for what the first point lacks: more at μ = 0, less at ever larger μ.
 Root Bisection::Bracket() {
@@ -137,15 +167,13 @@ Root Bisection::Bracket() {
 
 // Regula falsi and halving in turn.
 Root Bisection::Narrow() {
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kHalvings && !HasNone(); ++i) {
     const double width = less_.mu - more_.mu;
-    const bool apart = more_.excess > kApart && less_.excess < -kApart;
-    const double narrow = !apart ? kNarrowest : less_.ended ? kNarrow : kCreeps;
-    if (std::abs(width) <= narrow * less_.mu) break;
     const double weight = more_.excess / (more_.excess - less_.excess);
     const bool far = more_.mu > 0 && less_.mu > 10 * more_.mu;
     const double half = far ? std::sqrt(more_.mu * less_.mu) : more_.mu + 0.5 * width;
-    const Point point = At(i % 2 == 0 && !far ? more_.mu + weight * width : half);
+    const bool linear = i % 2 == 0 && !far && less_.ended;
+    const Point point = At(linear ? more_.mu + weight * width : half);
     if (problem_.Aborted()) return Root::kAborted;
     if (std::abs(point.excess) < kRoot) return Root::kFound;
     Keep(point);

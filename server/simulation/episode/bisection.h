@@ -35,7 +35,10 @@ class Bisection {
   };
   Point At(double mu);
   Root Look();
+  Root Exactly(Root root);
   bool Confirmed(Root root);
+  bool Holds();
+  bool HasNone() const;
   Root Bracket();
   Root Narrow();
   void Keep(const Point& point);
@@ -45,6 +48,7 @@ class Bisection {
   GroupSight group_;
   bool coarse_ = true;  // As first seen.
   Point more_, less_;   // Nearest μ with too much, too little.
+  double fall_ = 0;     // Of what is too much, over the last change of its μ.
 };
 
 }  // namespace contact
