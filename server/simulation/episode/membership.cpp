@@ -94,9 +94,9 @@ bool Membership::End(ContactState& state) {
   const bool encounter = scenario_.solver.restitution_scope == RestitutionScope::kEncounter;
   const int least =
       encounter && IsSought(scenario_, cycle.contact) ? scenario_.solver.encounter_cycles : 1;
-  const bool weak = IsWeak(state);
+  const bool weak = IsWeak(state), one = weak || groups_.At(IdOf(state)).weak;
   const bool lasts = cycle.end_time - group.start_time < member.lasts ||
-                     (group.cycles < least && !weak) || IsUndamped(scenario_, cycle.contact);
+                     (group.cycles < least && !one) || IsUndamped(scenario_, cycle.contact);
   member.open = cycle.end == Cycle::End::kNonSeparation && lasts;
   state.settled = !member.open && weak;
   return !member.open;
