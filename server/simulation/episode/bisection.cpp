@@ -1,5 +1,6 @@
 #include "simulation/episode/bisection.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace contact {
@@ -14,6 +15,8 @@ constexpr int kMostGrows = 12;
 // A scan begins at this part of the first guess, goes on by this factor, so often at most.
 constexpr double kLowest = 1e-3, kFine = 1.25;
 constexpr int kMostScanned = 120;
+// After so many μ with which the group does not end there is none with which it does: 9 times more.
+constexpr int kMostOpen = 10;
 constexpr int kHalvings = 60;
 // A bracket so narrow, relative, in which ε² still differs so much holds a jump,
 constexpr double kNarrow = 1e-6, kApart = 3e-3;
@@ -65,7 +68,7 @@ Root Bisection::Solve(const GroupSight& group) {
   return root == Root::kFound || root == Root::kAborted ? root : Finish(root);
 }
 
-// What coarse passes have found, if exact ones confirm it; else they go on from there, or look anew.
+// What coarse passes have found, if exact ones confirm it; else they go on, or look anew.
 Root Bisection::Exactly(Root root) {
   coarse_ = false;
   if (!problem_.Aborted() && !Confirmed(root)) {
@@ -80,8 +83,10 @@ bool Bisection::Scan(const GroupSight& group) {
   coarse_ = true;
   Point last = At(0);
   double mu = kLowest * (kept.first_mu > 0 ? kept.first_mu : group.mu);
-  for (int i = 0; i < kMostScanned && !problem_.Aborted(); ++i, mu *= kFine) {
+  int open = 0;
+  for (int i = 0; i < kMostScanned && open < kMostOpen && !problem_.Aborted(); ++i, mu *= kFine) {
     const Point point = At(mu);
+    open = point.ended ? 0 : open + 1;
     if (!point.there || (point.ended && mu > point.most)) break;
     if ((point.excess > 0) != (last.excess > 0)) {
       Keep(last), Keep(point);
@@ -137,18 +142,22 @@ void Bisection::Keep(const Point& point) {
 
 // Whether the bracket is so narrow that no root can be in it.
 bool Bisection::HasNone() const {
-  const double width = std::abs(less_.mu - more_.mu);
-  if (!less_.ended && width <= kCreeps * less_.mu) return more_.excess > kSteeper * fall_ * width;
-  if (coarse_ && width <= kBlurred * less_.mu) return true;
+  const double width = std::abs(less_.mu - more_.mu), mu = std::max(less_.mu, more_.mu);
+  if (!less_.ended && width <= kCreeps * mu) return more_.excess > kSteeper * fall_ * width;
+  if (coarse_ && width <= kBlurred * mu) return true;
   const bool apart = more_.excess > kApart && less_.excess < -kApart;
-  return width <= (apart ? kNarrow : kNarrowest) * less_.mu;
+  return width <= (apart ? kNarrow : kNarrowest) * mu;
 }
 
-// Looks for what the first point lacks: more at μ = 0, less at ever larger μ.
+// Looks for what the first point lacks: more at μ = 0, less at ever larger μ. What gives back too
+// much wherever it ends may give too little at μ = 0, for ε may rise with μ.
 Root Bisection::Bracket() {
   if (less_.there) {
     if (less_.mu == 0) return Root::kTooLittle;
+    const Point first = less_;
     Keep(At(0));
+    double mu = first.mu;
+    for (int i = 0; i < kMostGrows && !first.ended && !more_.there; ++i) Keep(At(mu /= kGrow));
     if (problem_.Aborted()) return Root::kAborted;
     return more_.there ? Root::kFound : Root::kTooLittle;
   }
@@ -161,6 +170,10 @@ Root Bisection::Bracket() {
     if (problem_.Aborted()) return Root::kAborted;
     if (!point.there) break;
     Keep(point);
+  }
+  if (!less_.there || !less_.ended) {
+    const Point undamped = At(0);
+    if (undamped.ended && undamped.excess < 0) less_ = undamped;
   }
   return less_.there ? Root::kFound : Root::kTooMuch;
 }

@@ -202,20 +202,19 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   guessing_ = !part.empty();
   const bool whole = part.empty() || part.size() == front.size();
   const std::vector<GroupId>& now = whole ? front : part;
-  if (front == solved_) problem_.Distrust();
+  const bool unsolved = now == solved_;  // As a scan has seen it after all.
+  if (unsolved) problem_.Distrust();
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;
-  const bool again = now.front() == last_ && sweeps_ > 0;
+  const bool again = unsolved || (now.front() == last_ && sweeps_ > 0);
   Found found = newton_.Solve(now, goal, most, !again, sight);
   if (found == Found::kSolved && newton_.corrections() == 0) {  // A coarse pass sees what is not.
     found = newton_.Solve(front, problem_.tolerance(), most, false, sight);
     if (found == Found::kSolved && newton_.corrections() == 0) found = Found::kStalled;
   }
+  if (found == Found::kSolved) solved_ = now;
   if (found == Found::kSolved && !whole) return Found::kStalled;  // The rest is still to be solved.
-  if (found == Found::kSolved) {
-    solved_ = front;
-    Freeze(sight, front);
-  }
+  if (found == Found::kSolved) Freeze(sight, front);
   if (found == Found::kSolved || found == Found::kAborted) return found;
   if (found == Found::kLimit) {
     GiveUp(sight, now);
@@ -227,8 +226,7 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
     sweeps_ = 0;
     growing_.Force(now);
   } else {
-    ++sweeps_;
-    Bisect(sight, now);
+    sweeps_ = Bisect(sight, now) ? 0 : sweeps_ + 1;
   }
   return problem_.Aborted() ? Found::kAborted : Found::kStalled;
 }

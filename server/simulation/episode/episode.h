@@ -65,7 +65,7 @@ class EpisodeSolver {
   double record_until_ = 0;
   bool tentative_ = false;
   bool rejected_ = false;        // A recording has shown that the episode is not solved.
-  std::vector<GroupId> solved_;  // The last front that was solved.
+  std::vector<GroupId> solved_;  // The last front, or part of one, that was solved.
   GroupId last_;                 // The first of the last front that was not, and
   int sweeps_ = 0;               // how often its groups were bisected one by one.
   bool guessing_ = true;         // The μ of neighbours may have changed what is to be guessed.

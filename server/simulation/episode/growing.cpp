@@ -82,7 +82,9 @@ bool Growing::Answer(const GroupSight& group, Root root) {
   const Growth why = root == Root::kTooLittle ? Growth::kTooLittle
                      : root == Root::kTooMuch ? Growth::kTooMuch
                                               : Growth::kJump;
-  if (!IsCut(group.id)) return Grow(group.id, why) || problem_.Aborted();
+  const bool ends = root == Root::kTooLittle && group.ended && group.end_time <= problem_.end();
+  if ((ends || !IsCut(group.id)) && Grow(group.id, why)) return true;
+  if (problem_.Aborted() || !IsCut(group.id)) return problem_.Aborted();
   problem_.groups.At(group.id).status = Cycle::Status::kUnfinished;
   return true;
 }

@@ -219,12 +219,14 @@ Found Newton::Correct(const std::vector<GroupId>& front, Sight& now) {
     Sight trial = Look(front, !near, part < 1 ? worst : Expected(worst), horizon);
     if (problem_.Aborted()) return Found::kAborted;
     const bool falls = Merit(front, trial) < (1 - kFall * part) * merit;
+    if (part == 1 && (falls ? true_ : now.exact)) {
+      curvature_ = std::max(1.0, Worst(front, trial) / (worst * worst));
+    }
     if (trial.pause == Motion::Pause::kNumeric || !falls) continue;
     Count(front, now, corrections_ + 1, part < 1);
     if (near) {
       Learn(front, trial, part * step);
     } else {
-      if (true_ && part == 1) curvature_ = std::max(1.0, Worst(front, trial) / (worst * worst));
       Take(front, trial);
     }
     now = std::move(trial);
