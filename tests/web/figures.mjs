@@ -11,7 +11,7 @@ const JOBS = Number(process.env.JOBS ?? 10_000);
 const rows = [];
 const report = (name, value, limit, unit, note = '') => {
   rows.push(value <= limit);
-  console.log(`${name.padEnd(44)} ${value.toFixed(1).padStart(8)} ${unit.padEnd(3)} limit ${limit}  ${value <= limit ? 'ok' : 'PASSED'}  ${note}`);
+  console.log(`${name.padEnd(44)} ${value.toFixed(1).padStart(8)} ${unit.padEnd(3)} limit ${limit}  ${value <= limit ? 'ok' : 'OVER'}  ${note}`);
 };
 const quantile = (values, q) => [...values].sort((a, b) => a - b)[Math.min(Math.floor(q * values.length), values.length - 1)];
 const p95 = (values) => quantile(values, 0.95);
