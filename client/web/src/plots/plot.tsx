@@ -37,19 +37,31 @@ function structure(panel: Panel): string {
     panel.lanes?.length, lines(panel).map(({label, mark, colour}) => [label, mark, colour])]);
 }
 
-/** Calls `draw` at once where the plot can be seen, else when it is scrolled there. */
+const UNSEEN_MS = 600;
+
+/** Calls `draw` at once where the plot can be seen, else when it is, or when nothing new has come for a while. */
 function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => void) => void; flush: () => void} {
-  const state = useRef({seen: true, waiting: undefined as (() => void) | undefined});
-  const flush = () => { state.current.waiting?.(); state.current.waiting = undefined; };
+  const state = useRef({seen: true, timer: 0, waiting: undefined as (() => void) | undefined});
+  const flush = () => {
+    clearTimeout(state.current.timer);
+    state.current.waiting?.();
+    state.current.waiting = undefined;
+  };
   useEffect(() => {
     const observer = new IntersectionObserver((entries) => {
       state.current.seen = entries.at(-1)!.isIntersecting;
       if (state.current.seen) flush();
     }, {rootMargin: '200px'});
     observer.observe(box.current!);
-    return () => observer.disconnect();
+    return () => { observer.disconnect(); clearTimeout(state.current.timer); };
   }, []);
-  return {flush, draw: (draw) => { state.current.waiting = draw; if (state.current.seen) flush(); }};
+  const draw = (drawing: () => void) => {
+    clearTimeout(state.current.timer);
+    state.current.waiting = drawing;
+    if (state.current.seen) flush();
+    else state.current.timer = window.setTimeout(flush, UNSEEN_MS);
+  };
+  return {flush, draw};
 }
 
 /** Moves a line to the moment of the strip. */
@@ -71,7 +83,7 @@ function usePlayhead(plot: {current: uPlot | undefined}, panel: Panel): void {
   });
 }
 
-export function Plot({panel, window, onZoom, height = 240, source, empty}: Props) {
+export function Plot({panel, window: span, onZoom, height = 240, source, empty}: Props) {
   const theme = useTheme();
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot>();
@@ -93,7 +105,7 @@ export function Plot({panel, window, onZoom, height = 240, source, empty}: Props
 
   useLayoutEffect(() => {
     const ink = inkOf(box.current!);
-    shown.current = {panel, window, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: told.cursor};
+    shown.current = {panel, window: span, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: told.cursor};
     plot.current = buildPlot(shown.current, box.current!.clientWidth || 400, height, box.current!);
     const observer = new ResizeObserver(() => {
       const width = box.current?.clientWidth;
@@ -105,15 +117,16 @@ export function Plot({panel, window, onZoom, height = 240, source, empty}: Props
 
   useLayoutEffect(() => {
     if (!plot.current || !shown.current) return;
-    Object.assign(shown.current, {panel, window, hidden, onZoom: onZoom ?? (() => undefined)});
+    Object.assign(shown.current, {panel, window: span, hidden, onZoom: onZoom ?? (() => undefined)});
     seen.draw(() => {
+      if (!plot.current) return;
       lines(panel).forEach(({label}, i) => {
         const visible = !hidden.has(label);
         if (plot.current!.series[i + 1]!.show !== visible) plot.current!.setSeries(i + 1, {show: visible});
       });
       plot.current!.setData(aligned(panel));
     });
-  }, [panel, window?.[0], window?.[1], hidden]);
+  }, [panel, span?.[0], span?.[1], hidden]);
 
   usePlayhead(plot, panel);
   const points = panel.curves.some(({x}) => x.length > 0);
