@@ -30,11 +30,11 @@ Audit::Audit(std::shared_ptr<AuditLog> log, const Clock& clock,
              .reason = {}};
 }
 
-void Audit::Begin(std::function<void(bool)> begin) const {
+void Audit::Begin(const std::function<void(bool)>& begin) const {
   if (!log_) return begin(true);
   AuditRecord record = record_;
   record.code = "STARTED";
-  log_->WriteDurably(std::move(record), std::move(begin));
+  log_->WriteDurably(std::move(record), begin);
 }
 
 void Audit::Write(const Error* error, const std::string& job) const {

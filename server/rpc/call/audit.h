@@ -40,7 +40,7 @@ class Audit {
   }
 
   /// Writes that the call begins, and calls `begin`. False: that could not be written.
-  void Begin(std::function<void(bool)> begin) const;
+  void Begin(const std::function<void(bool)>& begin) const;
 
  private:
   static std::string NameOf(const v1::Job& job) { return job.name(); }

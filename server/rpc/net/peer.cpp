@@ -41,7 +41,7 @@ std::string UriOf(const sockaddr_storage& address) {
 }
 
 std::string CallerUri(const grpc::ServerContextBase& context) {
-  const std::string transport = context.peer();
+  std::string transport = context.peer();
   if (transport != kWithin) return transport;
   const auto named = context.client_metadata().find(kPeerHeader);
   if (named == context.client_metadata().end()) return transport;
