@@ -198,7 +198,7 @@ asio::awaitable<bool> Connection::SendEnd() {
 asio::awaitable<bool> Connection::Write(Parts parts) {
   Buffers buffers;
   for (const std::string_view part : parts) buffers.emplace_back(part.data(), part.size());
-  beast::buffers_suffix<Buffers> rest(std::move(buffers));
+  beast::buffers_suffix<Buffers> rest(buffers);
   ErrorCode error;
   while (!error && asio::buffer_size(rest) > 0) {
     stream_.expires_after(service_.options().stall);
