@@ -36,6 +36,7 @@ RUN_ELSEWHERE = {
     "source <(contactctl completion bash)": "tests/cli/help/completion_test.py",
     "$ cd client/node": "tests/node/example_test.py",
     "$ npm install": "tests/node/example_test.py",
+    "client/web/build": "tests/web/run",
     "deploy/wheel": "tests/python/package_test.py",
     "for change in client.watch_jobs": "tests/python/client_test.py",
     "contactctl server backup": "tests/cli/verbs/backup_test.py",
