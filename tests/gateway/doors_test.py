@@ -4,6 +4,7 @@ client that takes nothing costs little and is ended."""
 import datetime
 import http.client
 import json
+import os
 import pathlib
 import re
 import socket
@@ -168,7 +169,8 @@ class StalledTest(GatewayTest):
             start = time.monotonic()
             self.assertEqual(self.call("ListJobs", {}).status, 200)
             times.append(time.monotonic() - start)
-        self.assertLess(self.rss() - before, self.CLIENTS * (1 << 20))
+        if not os.environ.get("CONTACT_SANITIZE"):  # Its allocator keeps what was freed.
+            self.assertLess(self.rss() - before, self.CLIENTS * (1 << 20))
         self.assertLess(sorted(times)[len(times) // 2], 1.0)
         end = time.monotonic() + PATIENCE_S
         while self.watchers() > 0:

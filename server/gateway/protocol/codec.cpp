@@ -13,6 +13,7 @@
 #include "base/mutex.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "jobs/job/errors.h"
 
 namespace contact::gateway {
 namespace {
@@ -80,7 +81,7 @@ std::string UrlOf(const std::string& type) { return std::string(kPrefix) + "/" +
 grpc::Status FieldInvalid(const std::string& words) {
   google::rpc::ErrorInfo info;
   info.set_domain("contact");
-  info.set_reason("FIELD_INVALID");
+  info.set_reason(InfoOf(Reason::kFieldInvalid).name);
   google::rpc::Status status;
   status.set_code(grpc::StatusCode::INVALID_ARGUMENT);
   status.set_message(words);
