@@ -150,13 +150,15 @@ awaitable<bool> Session::Unary(const HttpRequest& request, const RpcRequest& ask
   HttpAnswer answer;
   {
     const Running call(*this, asked);
-    std::string message;
+    std::optional<std::string> message;
     for (;;) {
       const std::optional<grpc::ByteBuffer> next = co_await Next(*call);
       if (!next) break;
       message = Flat(*next);
     }
-    answer = AnswerOf(asked, message, *call->status(), call->head(), call->trailers());
+    grpc::Status status = *call->status();
+    if (status.ok() && !message) status = {grpc::StatusCode::INTERNAL, "the call gave no answer"};
+    answer = AnswerOf(asked, message.value_or(""), status, call->head(), call->trailers());
   }
   co_return co_await connection_.Send(request, std::move(answer));
 }

@@ -182,7 +182,9 @@ HttpAnswer AnswerOf(const RpcRequest& call, const std::string& message, const St
   HttpAnswer answer{200, HeadersOf(dialect), message};
   std::ranges::move(ToHeaders(head, ""), std::back_inserter(answer.headers));
   if (dialect.json) {
-    answer.body = ToJson(call.method->output_type()->full_name(), message).value_or("{}");
+    auto json = ToJson(call.method->output_type()->full_name(), message);
+    if (!json) return Failure(dialect, {StatusCode::INTERNAL, "the answer has no JSON"}, trailers);
+    answer.body = *std::move(json);
   }
   if (!dialect.framed()) {
     std::ranges::move(ToHeaders(trailers, "trailer-"), std::back_inserter(answer.headers));
