@@ -14,6 +14,9 @@ std::shared_ptr<RpcCall> RpcCall::Start(grpc::GenericStub& stub, RpcRequest requ
   stub.PrepareBidiStreamingCall(&call->context_, request.path, grpc::StubOptions(), call.get());
   call->AddHold();  // Reads start outside of gRPC's reactions.
   call->StartWriteLast(&call->request_, grpc::WriteOptions());
+  // Before the call: the in-process transport of gRPC 1.51 drops a message that comes together with
+  // the status while nobody reads, as the answer of a unary call does.
+  call->Read();
   call->StartCall();
   return call;
 }
