@@ -215,9 +215,8 @@ int Serve(const Config& config, const sigset_t& signals) {
     fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", taken);
   } else if (!ServeMetrics(config, Sources(config, options, jobs, listeners), &metrics)) {
     code = kExitHeld;
-  } else if (!ServeHttp(config, Sources(config, options, jobs, listeners), listeners)) {
-    code = kExitUsage;
-  } else if (!Announce(config, listeners.port())) {
+  } else if (!ServeHttp(config, Sources(config, options, jobs, listeners), listeners) ||
+             !Announce(config, listeners.port())) {
     code = kExitUsage;
   } else {
     spdlog::info("{}: shutting down", strsignal(WaitFor(signals, listeners.Probe())));

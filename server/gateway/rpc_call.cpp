@@ -6,7 +6,7 @@
 
 namespace contact::gateway {
 
-std::shared_ptr<RpcCall> RpcCall::Start(grpc::GenericStub& stub, RpcRequest request,
+std::shared_ptr<RpcCall> RpcCall::Start(grpc::GenericStub& stub, const RpcRequest& request,
                                         const std::string& peer, Post post,
                                         std::function<void()> changed) {
   std::shared_ptr<RpcCall> call(new RpcCall(request, peer, std::move(post), std::move(changed)));

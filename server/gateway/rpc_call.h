@@ -22,7 +22,7 @@ class RpcCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
 
   /// Starts the call of `peer`. After each change of what is below, `changed` is called on the
   /// strand, until Leave. `post` lives as long as the call.
-  static std::shared_ptr<RpcCall> Start(grpc::GenericStub& stub, RpcRequest request,
+  static std::shared_ptr<RpcCall> Start(grpc::GenericStub& stub, const RpcRequest& request,
                                         const std::string& peer, Post post,
                                         std::function<void()> changed);
 

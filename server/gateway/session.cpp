@@ -47,8 +47,8 @@ class Session : public std::enable_shared_from_this<Session> {
   // A call whose user is this session, until the end of the scope.
   class Running {
    public:
-    Running(Session& session, RpcRequest request) : session_(session) {
-      call_ = session.StartCall(std::move(request));
+    Running(Session& session, const RpcRequest& request) : session_(session) {
+      call_ = session.StartCall(request);
       session.connection_.Watch(
           [self = session.shared_from_this(), call = call_] { call->Cancel(); });
     }
@@ -75,7 +75,7 @@ class Session : public std::enable_shared_from_this<Session> {
   awaitable<bool> Streaming(const HttpRequest& request, const RpcRequest& asked);
   awaitable<bool> Readiness(const HttpRequest& request);
 
-  std::shared_ptr<RpcCall> StartCall(RpcRequest request);
+  std::shared_ptr<RpcCall> StartCall(const RpcRequest& request);
   // Waits until something of a call has changed.
   awaitable<void> Changed();
   // The next message of a call; nothing once it has ended.
@@ -121,12 +121,12 @@ awaitable<bool> Session::Call(const HttpRequest& request) {
   co_return co_await Unary(request, asked);
 }
 
-std::shared_ptr<RpcCall> Session::StartCall(RpcRequest request) {
+std::shared_ptr<RpcCall> Session::StartCall(const RpcRequest& request) {
   // The guard keeps the threads until gRPC is done with the call.
   auto post = [work = asio::make_work_guard(connection_.strand())](std::function<void()> run) {
     asio::post(work.get_executor(), std::move(run));
   };
-  return RpcCall::Start(service_.stub(), std::move(request), connection_.peer(), std::move(post),
+  return RpcCall::Start(service_.stub(), request, connection_.peer(), std::move(post),
                         [self = weak_from_this()] {
                           if (const auto session = self.lock()) session->wake_.cancel();
                         });
@@ -174,8 +174,7 @@ awaitable<bool> Session::Streaming(const HttpRequest& request, const RpcRequest&
   while (sent) {
     std::optional<grpc::ByteBuffer> message = co_await Next(*call);
     if (!message) break;
-    const Outgoing outgoing(asked, *std::move(message));
-    message.reset();
+    const Outgoing outgoing(asked, *std::exchange(message, std::nullopt));
     sent = co_await connection_.SendParts(outgoing.parts());
   }
   if (!sent) co_return false;

@@ -84,7 +84,7 @@ bool Takes(std::string_view list, std::string_view coding) {
 
 }  // namespace
 
-StaticFiles::StaticFiles(std::filesystem::path directory) {
+StaticFiles::StaticFiles(const std::filesystem::path& directory) {
   std::error_code error;
   if (!directory.empty()) directory_ = std::filesystem::canonical(directory, error);
   if (error) directory_.clear();

@@ -13,7 +13,7 @@ namespace contact::gateway {
 class StaticFiles {
  public:
   /// `directory` may be empty or missing: then there are none.
-  explicit StaticFiles(std::filesystem::path directory);
+  explicit StaticFiles(const std::filesystem::path& directory);
 
   /// The answer to a GET or HEAD. A path with no point in its last part is the page `index.html`,
   /// which shows what the path says. Files of `/assets/`, whose names change with what is in them,
