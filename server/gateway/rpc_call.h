@@ -20,13 +20,14 @@ class RpcCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   /// Runs a function on the strand of the call's user, also after that one has left.
   using Post = std::function<void(std::function<void()>)>;
 
-  /// Starts the call of `peer`. After each change of what is below, `changed` is called on the
-  /// strand, until Leave. `post` lives as long as the call.
+  /// Starts the call of `peer`, and asks for its first message. After each change of what is below,
+  /// `changed` is called on the strand, until Leave. `post` lives as long as the call.
   static std::shared_ptr<RpcCall> Start(grpc::GenericStub& stub, const RpcRequest& request,
                                         const std::string& peer, Post post,
                                         std::function<void()> changed);
 
-  /// Asks for the next message. To be called once the one before was taken, or at first.
+  /// Asks for the next message, unless one is asked for. To be followed by TakeMessage at once: the
+  /// one before may still be there.
   void Read();
   /// Takes the message that was asked for, once it is there.
   std::optional<grpc::ByteBuffer> TakeMessage();

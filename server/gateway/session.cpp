@@ -165,7 +165,6 @@ awaitable<bool> Session::Unary(const HttpRequest& request, const RpcRequest& ask
 
 awaitable<bool> Session::Streaming(const HttpRequest& request, const RpcRequest& asked) {
   const Running call(*this, asked);
-  call->Read();
   while (!call->has_head()) co_await Changed();
   HttpAnswer head;
   head.headers = HeadersOf(asked.dialect);

@@ -94,7 +94,7 @@ class EverythingAtOnceTest(MemoryTest):
     flags = ("--workers=2", "--max-memory=256MiB", "--max-watchers=3000",
              "--max-watchers-per-peer=3000")
     # Runs, a flood, messages to watchers, requests that are not answered yet.
-    most = (2 * 256 + 256 + 64 + 256) << 20
+    most = (2 * 256 + 256 + 24 + 256) << 20
 
     def stall(self, name, watchers):
         """Watchers that open their windows wide, and never read."""
