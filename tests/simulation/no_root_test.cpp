@@ -120,9 +120,12 @@ int ExpectNoRoot(const Scenario& scenario) {
     if (std::isnan(g.restitution_out)) continue;
     ++found;
     Replay replay(scenario, run, g);
-    const double square = g.restitution_out * g.restitution_out;
-    EXPECT_NEAR(replay.Excess(g.mu) + g.restitution_in * g.restitution_in, square,
-                1e-6 * square + 1e-9);
+    const double square = g.restitution_out * g.restitution_out, kept = replay.Excess(g.mu);
+    // Where a larger μ does not end, the one next to it may take more steps than a pass has.
+    const bool creeps = kept == -1 && g.too_little.restitution == 0;
+    if (!creeps) {
+      EXPECT_NEAR(kept + g.restitution_in * g.restitution_in, square, 1e-6 * square + 1e-9);
+    }
     const double stiffness = scenario.contacts[static_cast<std::size_t>(g.contact)].stiffness;
     double before = kNaN, last = 0;
     for (const double mu : Grid(g.mu, stiffness)) {
@@ -141,21 +144,31 @@ int ExpectNoRoot(const Scenario& scenario) {
 
 using testing::Kind;
 
-// Seeds from `first` on, before `end`.
+// Seeds from `first` on, before `end`. `exchanged`: the body that is held is shaken, and the other
+// way round.
 struct Sample {
   Kind kind;
   unsigned first, end;
+  bool exchanged = false;
 };
+
+Scenario Roll(const Sample& sample, unsigned seed) {
+  Scenario scenario = testing::Dice(seed, sample.kind).Roll();
+  scenario.solver.restitution_scope = RestitutionScope::kCycle;
+  if (!sample.exchanged) return scenario;
+  Support& support = scenario.supports.front();
+  std::swap(support.body, scenario.loads.front().body);
+  support.rest_position = scenario.bodies[static_cast<std::size_t>(support.body)].position;
+  return scenario;
+}
 
 class Alone : public ::testing::TestWithParam<Sample> {};
 
 TEST_P(Alone, NoInfeasibleCycleHasARoot) {
   int found = 0;
   for (unsigned seed = GetParam().first; seed < GetParam().end; ++seed) {
-    Scenario scenario = testing::Dice(seed, GetParam().kind).Roll();
-    scenario.solver.restitution_scope = RestitutionScope::kCycle;
     SCOPED_TRACE(seed);
-    found += ExpectNoRoot(scenario);
+    found += ExpectNoRoot(Roll(GetParam(), seed));
   }
   EXPECT_GT(found, 0);
 }
@@ -164,10 +177,13 @@ INSTANTIATE_TEST_SUITE_P(NoRoot, Alone,
                          ::testing::Values(Sample{Kind::kRow, 11, 21}, Sample{Kind::kGaps, 6, 11},
                                            Sample{Kind::kWall, 12, 15},
                                            Sample{Kind::kSupport, 12, 14},
+                                           Sample{Kind::kSupport, testing::kOptimized ? 0U : 11U,
+                                                  testing::kOptimized ? 24U : 12U, true},
                                            Sample{Kind::kPressed, 0, 4}),
                          [](const auto& made) {
-                           return std::string(
-                               testing::kKindNames[static_cast<int>(made.param.kind)]);
+                           const auto kind = static_cast<int>(made.param.kind);
+                           return std::string(testing::kKindNames[kind]) +
+                                  (made.param.exchanged ? "_exchanged" : "");
                          });
 
 }  // namespace

@@ -15,6 +15,8 @@ constexpr int kMostGrows = 12;
 // A scan begins at this part of the first guess, goes on by this factor, so often at most.
 constexpr double kLowest = 1e-3, kFine = 1.25;
 constexpr int kMostScanned = 120;
+// How often an interval of a scan is divided where a tangent leads to a root in it.
+constexpr int kDepth = 3;
 // After so many μ with which the group does not end there is none with which it does: 9 times more.
 constexpr int kMostOpen = 10;
 constexpr int kHalvings = 60;
@@ -29,19 +31,21 @@ constexpr double kBlurred = 1e-3;
 constexpr double kNarrowest = 1e-11;
 // How much longer than before a trial may last, in durations of the group.
 constexpr double kLonger = 10;
+constexpr double kForever = 1e300;
 
 }  // namespace
 
-Bisection::Point Bisection::At(double mu) {
+Bisection::Point Bisection::At(double mu, bool slope) {
   Unknown& unknown = problem_.groups.At(group_.id);
   unknown.mu = mu;
   unknown.corrected = true;
-  const double until = group_.end_time + kLonger * (group_.end_time - group_.start_time);
-  const Sight sight = problem_.Evaluate({group_.id}, false, until, coarse_ ? kCoarse : 0);
+  const Sight sight = problem_.Evaluate({group_.id}, slope, until_, coarse_ ? kCoarse : 0);
   const GroupSight* seen = sight.Find(group_.id);
   Point point{.mu = mu, .excess = -1, .there = seen != nullptr};
   if (seen != nullptr && seen->ended && std::isfinite(seen->squared)) {
-    point.excess = seen->squared / (group_.restitution_in * group_.restitution_in) - 1;
+    const double square = group_.restitution_in * group_.restitution_in;
+    point.excess = seen->squared / square - 1;
+    if (seen->column != kNone) point.slope = seen->SlopeOfSquare() / square;
     point.most = problem_.MostMu(*seen);
   } else {
     point.ended = false;
@@ -63,6 +67,7 @@ Root Bisection::Finish(Root root) {
 
 Root Bisection::Solve(const GroupSight& group) {
   group_ = group;
+  until_ = group.end_time + kLonger * (group.end_time - group.start_time);
   coarse_ = true;
   const Root root = Exactly(Look());
   return root == Root::kFound || root == Root::kAborted ? root : Finish(root);
@@ -79,23 +84,39 @@ Root Bisection::Exactly(Root root) {
 
 bool Bisection::Scan(const GroupSight& group) {
   group_ = group;
-  const Unknown kept = problem_.groups.At(group.id);
+  until_ = kForever;
   coarse_ = true;
+  const Unknown kept = problem_.groups.At(group.id);
   Point last = At(0);
   double mu = kLowest * (kept.first_mu > 0 ? kept.first_mu : group.mu);
   int open = 0;
   for (int i = 0; i < kMostScanned && open < kMostOpen && !problem_.Aborted(); ++i, mu *= kFine) {
-    const Point point = At(mu);
+    const Point point = At(mu, true);
     open = point.ended ? 0 : open + 1;
     if (!point.there || (point.ended && mu > point.most)) break;
-    if ((point.excess > 0) != (last.excess > 0)) {
-      Keep(last), Keep(point);
-      if (Exactly(Narrow()) == Root::kFound) return true;
-      coarse_ = true;
-    }
+    if (HasRoot(last, point, kDepth)) return true;
     last = point;
   }
   problem_.groups.At(group.id) = kept;
+  return false;
+}
+
+// Whether there is a root between two points of a scan. Where both are on the same side there may
+// be two, or one and a jump, if one of the tangents leads to the other side before the other point.
+bool Bisection::HasRoot(const Point& from, const Point& to, int depth) {
+  if ((from.excess > 0) != (to.excess > 0)) {
+    Keep(from), Keep(to);
+    const bool found = Exactly(Narrow()) == Root::kFound;
+    coarse_ = true;
+    return found;
+  }
+  if (depth == 0 || problem_.Aborted()) return false;
+  for (const Point& end : {from, to}) {
+    const double mu = end.mu - end.excess / end.slope;
+    if (!end.ended || !(mu > from.mu && mu < to.mu)) continue;
+    const Point between = At(mu, true);
+    return between.there && (HasRoot(from, between, depth - 1) || HasRoot(between, to, depth - 1));
+  }
   return false;
 }
 

@@ -29,11 +29,13 @@ class Bisection {
   struct Point {
     double mu = 0;
     double excess = 0;  // ε_out²/ε_in² − 1; of what does not end −1.
+    double slope = 0;   // Of the excess, by μ; 0: unknown.
     double most = 0;    // See Problem::MostMu.
     bool there = true;
     bool ended = true;
   };
-  Point At(double mu);
+  Point At(double mu, bool slope = false);
+  bool HasRoot(const Point& from, const Point& to, int depth);
   Root Look();
   Root Exactly(Root root);
   bool Confirmed(Root root);
@@ -45,8 +47,9 @@ class Bisection {
   Root Finish(Root root);
 
   Problem& problem_;
-  GroupSight group_;
-  bool coarse_ = true;  // As first seen.
+  GroupSight group_;    // As first seen.
+  double until_ = 0;    // What has not ended then is open [s].
+  bool coarse_ = true;  // Passes only look.
   Point more_, less_;   // Nearest μ with too much, too little.
   double fall_ = 0;     // Of what is too much, over the last change of its μ.
 };

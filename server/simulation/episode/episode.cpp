@@ -147,6 +147,7 @@ Motion::Pause EpisodeSolver::Search() {
         Front(sight, problem_.groups, problem_.tolerance(), problem_.end());
     if (!front.empty()) {
       if (const double final = first ? 0 : LastFinal(sight, front); final > problem_.start_time()) {
+        if (growing_.Reopen(sight, final)) continue;
         return Record(sight, final);
       }
       const bool may_be_all = !rejected_ && !sight.crowded && IsApart(sight);

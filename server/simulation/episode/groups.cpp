@@ -8,6 +8,13 @@ namespace contact {
 
 double GroupSight::Miss() const { return std::sqrt(std::max(squared, 0.0)) / restitution_in - 1; }
 
+double GroupSight::SlopeOfSquare() const {
+  const auto of = [&](const Eigen::ArrayXd& of_work) {
+    return column < of_work.size() ? of_work[column] : 0;
+  };
+  return -(of(gradient_restitution) + squared * of(gradient_compression)) / work_compression;
+}
+
 const GroupSight* Sight::Find(const GroupId& id) const {
   for (const GroupSight& group : groups) {
     if (group.id == id) return &group;

@@ -135,12 +135,14 @@ bool Growing::Holds(const GroupSight& group, const Group::Reached& side, double 
 bool Growing::HasRoot(const GroupSight& group, const Sight& scan) {
   double sum = 0;
   for (const GroupSight& g : scan.groups) sum += g.start_time < group.end_time ? g.mu : 0;
-  if (!group.ended || std::exchange(scanned_[group.id], sum) == sum) return false;
+  const auto known = scanned_.try_emplace(group.id, kNaN).first;
+  if (!group.ended || std::exchange(known->second, sum) == sum) return false;
   return bisection_.Scan(group);
 }
 
-bool Growing::Reopen(const Sight& scan) {
+bool Growing::Reopen(const Sight& scan, double before) {
   for (const GroupSight& g : scan.groups) {
+    if (g.start_time >= before) break;
     Unknown& unknown = problem_.groups.At(g.id);
     const bool without =
         unknown.status == Cycle::Status::kJump || unknown.status == Cycle::Status::kInfeasible;

@@ -25,9 +25,9 @@ class Growing {
   void Decide(const GroupId& id, Root root) const;
   /// Grows the earliest group of a front that misses, for lack of progress; false: none can.
   bool Force(const std::vector<GroupId>& front);
-  /// Takes up again a group that was found to have no solution, where that does not hold with what
-  /// is now around it. False: there is none.
-  bool Reopen(const Sight& scan);
+  /// Takes up again a group that begins `before` [s] and was found to have no solution, where that
+  /// does not hold with what is now around it. False: there is none.
+  bool Reopen(const Sight& scan, double before = 1e300);
   /// A group that did not end in a scan: its μ is lowered until it does. False: nothing changes.
   bool Close(const Sight& scan);
 

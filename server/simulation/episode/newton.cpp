@@ -180,6 +180,7 @@ Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_cor
   goal_ = goal;
   coarse_ = coarse;
   curvature_ = kCurved;
+  sinks_ = Mask::Constant(static_cast<Eigen::Index>(front.size()), false);
   Sight now = seen.exact ? Look(front, true, Worst(front, seen), kForever) : seen;
   Take(front, now);
   double merit = kForever;
@@ -208,15 +209,25 @@ Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_cor
   }
 }
 
-// One correction, shortened until the merit falls enough.
+// Whether tangents lead to μ < 0 of a group twice in a row.
+bool Newton::Sinks(const Eigen::VectorXd& step) {
+  const Mask before = std::exchange(sinks_, step.array() <= -1);
+  return (before && sinks_).any();
+}
+
+// One correction, shortened until the merit falls enough. Slopes are for steps that are taken: most
+// that are shortened are not, and of many unknowns a pass with slopes costs many passes without.
 Found Newton::Correct(const std::vector<GroupId>& front, Sight& now) {
   const Eigen::VectorXd step = Step();
+  if (Sinks(step)) return Found::kStalled;
   const double worst = Worst(front, now), merit = Merit(front, now), horizon = Horizon(front, now);
-  const bool near = worst < kNear && front.size() > kFew;
+  const bool few = front.size() <= kFew, near = worst < kNear && !few;
   double part = 1;
   for (int i = 0; i < (true_ ? kShortenings : 1); ++i, part *= kShorter) {
     Move(front, now, part * step);
-    Sight trial = Look(front, !near, part < 1 ? worst : Expected(worst), horizon);
+    const double expected = part < 1 ? worst : Expected(worst);
+    const bool slopes = few && part == 1;
+    Sight trial = Look(front, slopes, expected, horizon);
     if (problem_.Aborted()) return Found::kAborted;
     const bool falls = Merit(front, trial) < (1 - kFall * part) * merit;
     if (part == 1 && (falls ? true_ : now.exact)) {
@@ -227,6 +238,7 @@ Found Newton::Correct(const std::vector<GroupId>& front, Sight& now) {
     if (near) {
       Learn(front, trial, part * step);
     } else {
+      if (!slopes) trial = Look(front, true, expected, horizon);
       Take(front, trial);
     }
     now = std::move(trial);

@@ -33,6 +33,8 @@ class Newton {
   int corrections() const { return corrections_; }
 
  private:
+  using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+  bool Sinks(const Eigen::VectorXd& step);
   Found Correct(const std::vector<GroupId>& front, Sight& now);
   void Take(const std::vector<GroupId>& front, const Sight& sight);
   void Learn(const std::vector<GroupId>& front, const Sight& sight, const Eigen::VectorXd& step);
@@ -53,6 +55,7 @@ class Newton {
   bool coarse_ = true;
   int corrections_ = 0;
   bool true_ = false;     // The Jacobian is that of a pass with sensitivities.
+  Mask sinks_;            // Groups of which the last step led to μ < 0.
   double curvature_ = 0;  // Largest miss after a whole true step over the square of that before.
   Eigen::MatrixXd jacobian_;  // ∂residual/∂ln μ.
   Eigen::VectorXd residual_;  // Of the last pass.

@@ -77,6 +77,8 @@ struct GroupSight {
 
   /// ε_out/ε_in − 1.
   double Miss() const;
+  /// ∂(ε_out²)/∂μ by its own μ, of a pass with slopes.
+  double SlopeOfSquare() const;
 };
 
 /// What one pass has shown.
