@@ -110,13 +110,17 @@ bool SweepRunner::SomeFinished() {
   return !finished_.empty();
 }
 
+// One after the other, so that never more than kMaxFinished wait for the log.
 void SweepRunner::StoreFinished() {
-  std::vector<SolvedCell> cells;
-  {
-    const MutexLock lock(mutex_);
-    cells.swap(finished_);
-  }
-  for (SolvedCell& solved : cells) StoreCell(std::move(solved));
+  while (std::optional<SolvedCell> solved = NextFinished()) StoreCell(*std::move(solved));
+}
+
+std::optional<SolvedCell> SweepRunner::NextFinished() {
+  const MutexLock lock(mutex_);
+  if (finished_.empty()) return std::nullopt;
+  SolvedCell solved = std::move(finished_.front());
+  finished_.pop_front();
+  return solved;
 }
 
 // What was kept of the cell stands before it in the log, and nothing between.
@@ -138,8 +142,10 @@ void SweepRunner::StoreCell(SolvedCell solved) {
   Publish();
 }
 
+// Also a cell that was finished while another worker was here.
 void SweepRunner::WriteIfDue() {
   if (!log_mutex_.try_lock()) return;
+  if (std::optional<SolvedCell> solved = NextFinished()) StoreCell(*std::move(solved));
   writer_.WriteIfDue();
   log_mutex_.unlock();
 }

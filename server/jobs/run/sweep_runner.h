@@ -1,8 +1,10 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/clock.h"
@@ -46,6 +48,8 @@ class SweepRunner {
   bool PutFinished(SolvedCell solved);
   /// True if finished_ is not empty.
   bool SomeFinished();
+  /// Takes the oldest of finished_; nothing: it is empty.
+  std::optional<SolvedCell> NextFinished();
   /// Empties finished_ into the log.
   void StoreFinished() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
   /// Adds a cell to the log, directly after the chunks of its trajectory.
@@ -73,7 +77,7 @@ class SweepRunner {
   /// Guards what is finished. Held for an instant.
   Mutex mutex_ ABSL_ACQUIRED_AFTER(log_mutex_);
   /// Computed cells that are not in the log yet.
-  std::vector<SolvedCell> finished_ ABSL_GUARDED_BY(mutex_);
+  std::deque<SolvedCell> finished_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace contact
