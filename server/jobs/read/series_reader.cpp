@@ -32,18 +32,18 @@ void SeriesReader::Start() {
 }
 
 void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
-  if (!stored.ok()) return done_(ToError(stored.status(), request_.name()));
+  if (!stored.ok()) return Answer(ToError(stored.status(), request_.name()));
   const v1::Job& job = stored->job;
   if (job.oldest_sequence() > 1) {
-    return done_(EventsCompacted(job.name(), job.oldest_sequence()));
+    return Answer(EventsCompacted(job.name(), job.oldest_sequence()));
   }
   const DecodedScenario decoded = DecodeScenario(job.scenario(), limits_);
   if (!job.has_scenario() || !decoded.violations.empty() || decoded.scenario.sample_interval == 0) {
-    return done_(JobError(Reason::kNoTrajectory, job.name(), "records no trajectory"));
+    return Answer(JobError(Reason::kNoTrajectory, job.name(), "records no trajectory"));
   }
   std::vector<v1::FrameChunk::Column> channels = Channels(decoded.scenario);
   Result<SeriesSelection> selection = ToSelection(request_, channels);
-  if (!selection.ok()) return done_(selection.error());
+  if (!selection.ok()) return Answer(selection.error());
   builder_.emplace(std::move(selection.value()), std::move(channels));
   last_ = job.last_sequence();
   if (request_.has_start_time_s() || request_.has_end_time_s()) return FindAttempt();
@@ -59,7 +59,7 @@ void SeriesReader::ReadEvents(std::uint32_t kinds, std::size_t max_bytes,
 }
 
 void SeriesReader::Post(std::function<void()> work) {
-  if (!executor_.Post(std::move(work))) done_(MakeError(Reason::kServerDraining));
+  if (!executor_.Post(std::move(work))) Answer(MakeError(Reason::kServerDraining));
 }
 
 void SeriesReader::FindAttempt() {
@@ -67,7 +67,7 @@ void SeriesReader::FindAttempt() {
 }
 
 void SeriesReader::TakeAttempts(const Page& page) {
-  if (!page.ok()) return done_(ToError(page.status(), request_.name()));
+  if (!page.ok()) return Answer(ToError(page.status(), request_.name()));
   if (!page->events.empty()) low_ = page->events.back().sequence;
   position_ = page->position;
   if (position_ < last_) return FindAttempt();
@@ -89,7 +89,7 @@ void SeriesReader::Probe() {
 }
 
 void SeriesReader::TakeProbe(const Page& page) {
-  if (!page.ok()) return done_(ToError(page.status(), request_.name()));
+  if (!page.ok()) return Answer(ToError(page.status(), request_.name()));
   position_ = page->position;
   if (page->events.empty() && position_ < high_) return Probe();
   if (page->events.empty() || page->events.front().sequence > high_) {
@@ -99,7 +99,7 @@ void SeriesReader::TakeProbe(const Page& page) {
   const StoredEvent& stored = page->events.front();
   v1::Event event;
   if (!stored.Parse(&event) || !builder_->Fits(event.frame_chunk())) {
-    return done_(Damaged(request_.name()));
+    return Answer(Damaged(request_.name()));
   }
   if (builder_->IsBefore(event.frame_chunk())) {
     low_ = stored.sequence;
@@ -115,18 +115,25 @@ void SeriesReader::ReadPage() {
 }
 
 void SeriesReader::Take(const Page& page) {
-  if (abandoned_ && abandoned_()) return done_(MakeError(Reason::kDeadlineExceeded));
-  if (!page.ok()) return done_(ToError(page.status(), request_.name()));
-  if (page->oldest > 1) return done_(EventsCompacted(request_.name(), page->oldest));
+  if (answered_) return;
+  if (abandoned_ && abandoned_()) return Answer(MakeError(Reason::kDeadlineExceeded));
+  if (!page.ok()) return Answer(ToError(page.status(), request_.name()));
+  if (page->oldest > 1) return Answer(EventsCompacted(request_.name(), page->oldest));
+  position_ = page->position;
+  const bool more = position_ < last_;
+  if (more) ReadPage();  // The store reads it while this one is decoded.
   for (const StoredEvent& event : page->events) {
-    if (!Take(event)) return done_(Damaged(request_.name()));
+    if (!Take(event)) return Answer(Damaged(request_.name()));
     if (past_end_) break;
   }
-  position_ = page->position;
-  if (position_ < last_ && !past_end_) return ReadPage();
+  if (more && !past_end_) return;
   Result<v1::Series> series = builder_->Finish();
   if (series.ok()) series.value().set_name(request_.name());
-  done_(std::move(series));
+  Answer(std::move(series));
+}
+
+void SeriesReader::Answer(Result<v1::Series> series) {
+  if (!answered_.exchange(true)) done_(std::move(series));
 }
 
 bool SeriesReader::Take(const StoredEvent& stored) {

@@ -2,6 +2,7 @@
 
 #include <absl/status/statusor.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -44,7 +45,10 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
                   void (SeriesReader::*take)(const Page&));
   /// Reads the next page of the trajectory.
   void ReadPage();
+  /// Adds a page of the trajectory, while the store reads the one after it.
   void Take(const Page& page);
+  /// Answers, unless that was done: a page that is read ahead may come after the answer.
+  void Answer(Result<v1::Series> series);
   /// Adds one event of the trajectory. False if it is damaged.
   bool Take(const StoredEvent& stored);
 
@@ -64,6 +68,7 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
   const v1::GetSeriesRequest request_;
   const Callback<v1::Series> done_;
   const Abandoned abandoned_;
+  std::atomic<bool> answered_ = false;
 
   // Owned by the executor task that is running.
 
