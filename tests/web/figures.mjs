@@ -153,7 +153,7 @@ async function zooming() {
   await page.goto(`${server.origin}/runs/${id}`);
   await until(async () => Number(await page.locator('[data-plot="force"]').getAttribute('data-points')) > 1000, 'the plot');
   await page.waitForTimeout(1500);
-  // From the call to the columns, as the page has noted it.
+  // From the call to the frame that shows its columns, as the page has noted it.
   const all = [];
   for (let i = 0; i < 8; ++i) {
     await page.evaluate(() => performance.clearMeasures('series'));
@@ -166,6 +166,41 @@ async function zooming() {
   return {all, samples: 1 + Math.round(job.summary.timeReachedS / 5e-6)};
 }
 
+/** A map of 10,000 cells: its first drawing, and the longest that the page is busy while cells come. */
+async function largeMap() {
+  const base = {bodies: [{name: 'a', massKg: 1}], endTimeS: 1e-3, output: {ledgerOnly: true}};
+  const axis = (field) => ({field: `bodies[0].${field}`, linear: {low: 0.1, high: 1, count: 100}});
+  const {name} = await server.call('CreateJob', {job: {sweep: {base, metrics: ['final_bodies[a].position_m'], axes: [axis('velocity_m_per_s'), axis('position_m')]}}});
+  const id = name.replace('jobs/', '');
+  const page = await openPage(browser, server);
+  await page.addInitScript(() => {
+    window.busy = [];
+    new PerformanceObserver((list) => window.busy.push(...list.getEntries().map(({duration}) => duration))).observe({type: 'longtask', buffered: true});
+  });
+  await page.goto(`${server.origin}/runs/${id}`);
+  await page.waitForFunction(() => document.querySelector('[data-filled="10000"]'));
+  await page.waitForTimeout(300);
+  const busy = await page.evaluate(() => window.busy);
+  const draws = [];
+  for (let i = 0; i < 8; ++i) {
+    await page.getByLabel('Show').selectOption('parallel');
+    await page.locator('[data-plot="parallel"]').waitFor();
+    await page.waitForTimeout(300);
+    draws.push(await page.evaluate(async () => {
+      const choice = [...document.querySelectorAll('label')].find((l) => l.textContent.startsWith('Show')).querySelector('select');
+      const start = performance.now();
+      choice.value = 'map';
+      choice.dispatchEvent(new Event('change', {bubbles: true}));
+      for (;;) {
+        await new Promise((resolve) => { requestAnimationFrame(() => setTimeout(resolve)); });
+        if (document.querySelector('[data-plot="map"] .map')) return performance.now() - start;
+      }
+    }));
+  }
+  await page.context().close();
+  return {busy: Math.max(0, ...busy), draws};
+}
+
 report('first load of the list, gzip', await loaded('/runs'), 120, 'kB');
 report('first load of a run, gzip', await loaded(`/runs/${await server.submit(CHAIN)}`), 200, 'kB', 'no limit of the issue');
 const paints = await firstPaints('/runs');
@@ -176,6 +211,9 @@ const rowDelays = await jobToRow();
 report('new job to its row, p95', p95(rowDelays), 150, 'ms', `median ${quantile(rowDelays, 0.5).toFixed(0)}`);
 const zoom = await zooming();
 report('zoom into a long run, p95', p95(zoom.all), 100, 'ms', `median ${quantile(zoom.all, 0.5).toFixed(0)}, ${zoom.samples} samples`);
+const map = await largeMap();
+report('first drawing of 10,000 cells, p95', p95(map.draws), 200, 'ms', `no limit of the issue, median ${quantile(map.draws, 0.5).toFixed(0)}`);
+report('longest task while 10,000 cells come', map.busy, 400, 'ms', 'no limit of the issue');
 const pages = await paging();
 report('page of 10,000 runs, p95', p95(pages), 100, 'ms', `median ${quantile(pages, 0.5).toFixed(0)}`);
 

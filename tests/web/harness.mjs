@@ -1,7 +1,9 @@
 // A contactd with its dashboard, and a browser that looks at it.
 
 import {spawn} from 'node:child_process';
-import {existsSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {createHash} from 'node:crypto';
+import {existsSync, mkdtempSync, openSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {connect, createServer} from 'node:net';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {setTimeout as pause} from 'node:timers/promises';
@@ -10,6 +12,8 @@ import {fileURLToPath} from 'node:url';
 import {chromium} from 'playwright-core';
 
 const ROOT = fileURLToPath(new URL('../../', import.meta.url));
+const BINARY = process.env.CONTACTD ?? join(ROOT, 'build/release/server/contactd');
+const WEB = `${ROOT}client/web/dist`;
 export const PATIENCE_MS = 20_000;
 const ARGUMENTS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync'];
@@ -37,9 +41,9 @@ export class Server {
   async start() {
     const file = join(this.folder, 'http-port');
     rmSync(file, {force: true});
-    this.process = spawn(process.env.CONTACTD ?? join(ROOT, 'build/release/server/contactd'),
+    this.process = spawn(BINARY,
       ['--listen=127.0.0.1:0', `--data-dir=${this.folder}/data`, `--http-listen=127.0.0.1:${this.port}`,
-        `--http-port-file=${file}`, `--web-dir=${ROOT}client/web/dist`, ...this.flags], {stdio: 'ignore'});
+        `--http-port-file=${file}`, `--web-dir=${WEB}`, ...this.flags], {stdio: 'ignore'});
     await until(() => existsSync(file) && readFileSync(file, 'utf8').trim(), 'the port of the gateway');
     this.port = Number(readFileSync(file, 'utf8'));
     return this;
@@ -78,6 +82,39 @@ export class Server {
       const job = await this.call('GetJob', {name: `jobs/${id}`});
       return ['SUCCEEDED', 'FAILED', 'CANCELLED'].includes(job.state) && job;
     }, `the end of ${id}`);
+  }
+}
+
+/**
+ * A contactd that asks for a token, on socket files as such a server wants it, and a port before it
+ * that passes bytes on, as nginx would.
+ */
+export class AskingServer extends Server {
+  token = 'ctk_aaaaaaaa_'.padEnd(56, 'a');
+
+  /** What the server has written about itself and about its callers. */
+  written() { return ['log', 'audit'].map((name) => readFileSync(join(this.folder, name), 'utf8')).join(''); }
+
+  async start() {
+    const path = (name) => join(this.folder, name);
+    const digest = createHash('sha256').update(this.token).digest('hex');
+    writeFileSync(path('tokens'), `aaaaaaaa ${digest} 2099-01-01T00:00:00Z valid user:ada tenant:acme roles:admin\n`, {mode: 0o600});
+    this.process = spawn(BINARY, [`--listen=unix:${path('grpc')}`, `--http-listen=unix:${path('http')}`, `--tokens=${path('tokens')}`,
+      `--data-dir=${path('data')}`, `--audit-log=${path('audit')}`, '--log-level=debug', `--web-dir=${WEB}`],
+    {stdio: ['ignore', 'ignore', openSync(path('log'), 'w')]});
+    await until(() => existsSync(path('http')), 'the socket of the gateway');
+    this.proxy = createServer((outer) => {
+      const inner = connect(path('http'));
+      for (const [one, other] of [[outer, inner], [inner, outer]]) one.pipe(other).on('error', () => one.destroy());
+    });
+    await new Promise((resolve) => { this.proxy.listen(0, '127.0.0.1', resolve); });
+    this.port = this.proxy.address().port;
+    return this;
+  }
+
+  async end(signal) {
+    this.proxy?.close();
+    await super.end(signal);
   }
 }
 

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {after, afterEach, before, beforeEach, test} from 'node:test';
 
-import {CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
+import {AskingServer, CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
 
 const LONG = swinging(2, {method: 'RK4', stepS: 1e-7});   // Ten seconds or so.
 let server;
@@ -121,6 +121,17 @@ test('one cursor reads all plots', async () => {
   }
 });
 
+/** Saves a figure in each of its forms; what comes must be of that form. */
+async function saved(title) {
+  for (const [kind, begins] of [['SVG', '<svg'], ['PNG', '\x89PNG'], ['CSV', '']]) {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', {name: `${title} as ${kind}`}).click()]);
+    const chunks = [];
+    for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+    const text = Buffer.concat(chunks).toString('latin1');
+    assert.ok(text.startsWith(begins) && text.length > 100, `${title} as ${kind}`);
+  }
+}
+
 test('every plot is saved as SVG, PNG and CSV', async () => {
   const id = await server.submit(CHAIN);
   await server.ended(id);
@@ -128,16 +139,8 @@ test('every plot is saved as SVG, PNG and CSV', async () => {
   await hold(async () => await points('force') > 100);
   const plots = await page.locator('.plot').count();
   assert.ok(plots >= 10);
-  for (const [kind, begins] of [['SVG', '<svg'], ['PNG', '\x89PNG'], ['CSV', 'curve,']]) {
-    const buttons = page.locator('.exports').getByText(kind, {exact: true});
-    assert.equal(await buttons.count(), plots);
-    for (const at of [2, 6]) {
-      const [download] = await Promise.all([page.waitForEvent('download'), buttons.nth(at).click()]);
-      const chunks = [];
-      for await (const chunk of await download.createReadStream()) chunks.push(chunk);
-      assert.ok(Buffer.concat(chunks).toString('latin1').startsWith(begins), kind);
-    }
-  }
+  for (const kind of ['SVG', 'PNG', 'CSV']) assert.equal(await page.locator('.exports').getByText(kind, {exact: true}).count(), plots);
+  for (const at of [2, 6]) await saved(await page.locator('.plot h3').nth(at).innerText());
 });
 
 test('the strip plays, pauses and is scrubbed', async () => {
@@ -170,6 +173,8 @@ test('a run is run again with another ε and compared', async () => {
   await server.ended(other);
   await open('/runs');
   for (const one of [id, other]) await page.getByLabel(`choose ${one}`).check();
+  assert.equal(ofAddress('chosen'), `${id},${other}`);
+  await page.reload();
   await page.getByRole('link', {name: 'Compare 2 runs'}).click();
   const row = page.getByLabel('Parameters that differ').locator('tbody tr');
   await row.first().waitFor();
@@ -177,6 +182,11 @@ test('a run is run again with another ε and compared', async () => {
   assert.deepEqual((await row.locator('td').allInnerTexts()).slice().sort(), ['0.6', '0.8', 'contacts[0].restitution']);
   await page.getByText(/of \d+ differ/).waitFor();
   await hold(async () => await points('B1-B2.contact_force') > 100);
+  const curve = () => page.locator('[data-plot="B1-B2.contact_force"] .key').getByRole('button', {name: other});
+  await curve().click();
+  await hold(() => ofAddress('hide') === `B1-B2.contact_force:${other}`);
+  await page.reload();
+  await hold(async () => await curve().getAttribute('aria-pressed') === 'false');
 });
 
 test('errors of the page and of the server stand at their lines', async () => {
@@ -200,6 +210,15 @@ test('errors of the page and of the server stand at their lines', async () => {
   await hold(async () => (await editor.inputValue()).endsWith('solver: '));
 });
 
+test('a sweep is copied for each client', async () => {
+  await open('/new?template=table-3-sweep');
+  await page.getByText('The server accepts it.').waitFor();
+  for (const [client, words] of [['CLI', 'contactctl sweep run -'], ['Python', 'Client().sweep(scenario, grid, metrics=["iterations"'], ['curl', '"sweep":']]) {
+    await page.getByRole('button', {name: client, exact: true}).click();
+    assert.ok((await page.getByLabel('copied text').innerText()).includes(words), client);
+  }
+});
+
 test('what is copied for curl makes the same job', async () => {
   await open('/new?template=two-balls');
   await page.getByText('The server accepts it.').waitFor();
@@ -211,22 +230,32 @@ test('what is copied for curl makes the same job', async () => {
 });
 
 test('a sweep fills cell by cell, and a cell becomes a run', async () => {
-  const base = {...CHAIN, solver: {method: 'RK4', stepS: 4e-8, maxIterations: 6}};
+  const base = {...CHAIN, solver: {method: 'RK4', stepS: 2e-8, maxIterations: 6}};
   const {name} = await server.call('CreateJob', {job: {sweep: {base, metrics: ['iterations', 'final_bodies[B3].velocity_m_per_s'],
     axes: [{field: 'bodies[0].velocity_m_per_s', linear: {low: 0.1, high: 0.5, count: 5}}, {field: 'contacts[*].restitution', values: [0.9, 0.8, 0.7, 0.6]}]}}});
   const id = name.replace('jobs/', '');
-  await open(`/runs/${id}`);
-  const seen = new Set();
-  await hold(async () => {
-    seen.add(await page.locator('[data-cells]').getAttribute('data-cells'));
-    return await page.locator('[data-cell]:not([data-outcome="waiting"])').count() === 20;
+  await page.addInitScript(() => {
+    window.fillings = new Set();
+    new MutationObserver(() => window.fillings.add(document.querySelector('[data-cells]')?.dataset.cells))
+      .observe(document, {subtree: true, childList: true, attributeFilter: ['data-cells']});
   });
-  assert.ok(seen.size > 2, `filled in ${[...seen]}`);
+  await open(`/runs/${id}`);
+  await hold(async () => await page.locator('[data-plot="map"]').getAttribute('data-filled') === '20');
+  const seen = await page.evaluate(() => [...window.fillings].filter(Boolean));
+  assert.ok(seen.length > 2, `filled in ${seen}`);
   await page.getByLabel(/^Map of iterations/).focus();
   for (const cell of ['0', '1']) {
     await page.keyboard.press('ArrowRight');
     await hold(() => ofAddress('cell') === cell);
   }
+  await page.getByText(/restitution = 0.8, .*velocity_m_per_s = 0.1: iterations \d+/).waitFor();
+  await saved('map of iterations');
+  await page.getByLabel('Show').selectOption('parallel');
+  await saved('parallel coordinates');
+  await page.getByLabel(/cells as lines/).press('ArrowLeft');
+  await hold(() => ofAddress('cell') === '0');
+  await page.getByLabel(/cells as lines/).press('ArrowRight');
+  await hold(() => ofAddress('cell') === '1');
   await page.getByRole('button', {name: 'Run this cell'}).click();
   await hold(() => idOf() !== id);
   const job = await server.ended(idOf());
@@ -262,17 +291,33 @@ test('the list of runs is live, filtered and paged', async () => {
   await page.getByText('No run matches.').waitFor();
 });
 
-test('a server that wants a token is given one, which no address shows', async () => {
-  const asked = [];
-  await page.route('**/contact.v1.JobService/*', (route) => {
-    asked.push(route.request().headers().authorization);
-    if (route.request().headers().authorization === 'Bearer secret') return route.continue();
-    return route.fulfill({status: 401, contentType: 'application/json', body: '{"code":"unauthenticated","message":"who?"}'});
-  });
-  await open('/new');
-  await page.getByLabel(/Token/).fill('secret');
-  await page.getByRole('button', {name: 'Use it'}).click();
-  await page.getByText('The server accepts it.').waitFor();
-  assert.ok(!page.url().includes('secret'));
-  assert.equal(asked.at(-1), 'Bearer secret');
+test('a server that wants a token is given one, which nothing shows', async () => {
+  const asking = await new AskingServer().start();
+  const own = await openPage(browser, asking);
+  const {token} = asking;
+  try {
+    await own.goto(`${asking.origin}/runs`);
+    const field = own.getByLabel(/Token/i);
+    const use = own.getByRole('button', {name: 'Use it'});
+    await own.getByText('This server asks who calls').waitFor();
+    await field.fill(`${token.slice(0, -1)}b`);
+    await use.click();
+    await own.getByText('does not take this token').waitFor();
+    await field.fill(token);
+    await use.click();
+    await own.getByText('No runs yet.').waitFor();
+    await own.getByRole('link', {name: 'New run'}).first().click();
+    await own.getByText('The server accepts it.').waitFor();
+    await own.getByRole('button', {name: 'Start the run'}).click();
+    await own.getByText('SUCCEEDED').first().waitFor();
+    await own.getByText('ada').waitFor();   // The owner of the run.
+    assert.ok(!own.url().includes('ctk_'));
+    assert.ok(!await own.evaluate(() => JSON.stringify(localStorage) + document.cookie).then((kept) => kept.includes('ctk_')));
+    assert.ok(!asking.written().includes(token), 'in no log');
+    assert.match(asking.written(), /CreateJob/);
+  } finally {
+    await own.context().close();
+    await asking.close();
+  }
+  assert.deepEqual(own.faults, []);
 });

@@ -1,12 +1,14 @@
 import {create} from '@bufbuild/protobuf';
 import {describe, expect, it} from 'vitest';
 
-import {CycleSchema, Job_State, JobSchema, type Cycle} from '../src/api/generated/contact/v1/job_pb';
-import {EventSchema, type Event} from '../src/api/generated/contact/v1/event_pb';
+import {CycleSchema, Job_Convergence, Job_State, JobSchema, type Cycle} from '../src/api/generated/contact/v1/job_pb';
+import {EventSchema, SweepCellSchema, type Event} from '../src/api/generated/contact/v1/event_pb';
 import {WatchJobsResponseSchema} from '../src/api/generated/contact/v1/job_service_pb';
-import {Contact_Damping, ScenarioSchema, Wall_Side} from '../src/api/generated/contact/v1/scenario_pb';
+import {Contact_Damping, ScenarioSchema, SweepSchema, Wall_Side} from '../src/api/generated/contact/v1/scenario_pb';
 import {doubles, type Series} from '../src/api/series';
+import {cellAt, levelOf, mapShapes, nearestLine} from '../src/model/cell_shapes';
 import {compareResults, differingParameters, holds} from '../src/model/comparison';
+import {sweepAsPython} from '../src/model/copy_as';
 import {mechanicalEnergy} from '../src/model/energy';
 import {flatten, setField} from '../src/model/field_path';
 import {iterationPanels} from '../src/model/iterations';
@@ -121,6 +123,34 @@ describe('sweeps and comparisons', () => {
     const {axes} = {axes: [{values: [], linear: {low: 0, high: 1, count: 3}}, {values: [], log: {low: 1, high: 100, count: 3}}]};
     expect(axes.map((axis) => axisValues(axis as never).map((v) => Math.round(v * 10) / 10))).toEqual([[0, 0.5, 1], [1, 10, 100]]);
     expect([viridis(0), viridis(1)]).toEqual(['#440154', '#fde725']);
+  });
+  it('draw ten thousand cells as a path for each of few colours', () => {
+    const place = {left: 0, width: 8, height: 4, columns: 100, rows: 100};
+    const cells = Array.from({length: 10_000}, (_, index) => create(SweepCellSchema, {index, state: Job_State.SUCCEEDED, metrics: [index]}));
+    const {fills, hatched, words} = mapShapes(place, (i, j) => cells[100 * j + i], 0, (value) => value / 9999);
+    expect(fills.length).toBe(64);
+    expect(fills.map(([, path]) => path.split('z').length - 1).reduce((a, b) => a + b)).toBe(10_000);
+    expect([hatched, words.length]).toEqual(['', 0]);
+  });
+  it('tell in a map what failed, what did not converge and what has no value', () => {
+    const place = {left: 10, width: 50, height: 20, columns: 4, rows: 1};
+    const cells = [{state: Job_State.FAILED}, {state: Job_State.SUCCEEDED, convergence: Job_Convergence.PARTIAL, metrics: [0.5]}, {state: Job_State.SUCCEEDED, metrics: [NaN]}]
+      .map((cell) => create(SweepCellSchema, cell));
+    const {fills, hatched, words} = mapShapes(place, (i) => cells[i], 0, (value) => value);
+    expect(fills).toEqual([[levelOf(0.5), 'M60 0h50v20h-50z']]);
+    expect(hatched).toBe('M60 0h50v20h-50z');
+    expect(words.map(({text, rim}) => [text, rim])).toEqual([['×', false], ['0.5', true], ['–', false]]);
+  });
+  it('find the cell and the line at a point', () => {
+    const place = {left: 10, width: 5, height: 4, columns: 3, rows: 2};
+    expect([cellAt(place, 12, 1), cellAt(place, 24, 7), cellAt(place, 9, 1), cellAt(place, 12, 8)]).toEqual([[0, 1], [2, 0], undefined, undefined]);
+    expect([nearestLine([0, 10], [[0, 10], [10, 0]], 9, 2), nearestLine([0, 10], [[NaN, NaN]], 1, 1)]).toEqual([1, -1]);
+  });
+  it('become Python, if contactsim can make them', () => {
+    const axis = {field: 'contacts[*].restitution', linear: {low: 0.5, high: 1, count: 2}};
+    const sweep = (axes: object[]) => create(SweepSchema, {base: {title: 'x'}, metrics: ['iterations'], axes});
+    expect(sweepAsPython(sweep([axis]))).toContain('grid = {\n    "contacts[*].restitution": [0.5, 1],\n}');
+    expect(sweepAsPython(sweep([{...axis, also: ['solver.step_s']}]))).toBeUndefined();
   });
   it('set fields by index, name and star', () => {
     const json = {contacts: [{name: 'A-B'}, {between: ['B', 'C']}]};

@@ -6,14 +6,25 @@ import {createConnectTransport} from '@connectrpc/connect-web';
 import {JobService} from './generated/contact/v1/job_service_pb';
 import {token, wantToken} from './token';
 
+/** Passes an error on, and asks for a token if that is what is wanting. */
+function refused(error: unknown): never {
+  if (ConnectError.from(error).code === Code.Unauthenticated) wantToken();
+  throw error;
+}
+
+/** The messages of a stream, whose refusal comes at its end. */
+async function* heard<T>(messages: AsyncIterable<T>): AsyncGenerator<T> {
+  try {
+    yield* messages;
+  } catch (error) {
+    refused(error);
+  }
+}
+
 const identity: Interceptor = (next) => async (request) => {
   if (token()) request.header.set('authorization', `Bearer ${token()}`);
-  try {
-    return await next(request);
-  } catch (error) {
-    if (ConnectError.from(error).code === Code.Unauthenticated) wantToken();
-    throw error;
-  }
+  const answer = await next(request).catch(refused);
+  return answer.stream ? {...answer, message: heard(answer.message)} : answer;
 };
 
 /** Calls of the server that served this page. */

@@ -1,6 +1,9 @@
 // The same job from a shell, from Python, and by curl.
 
-import type {JsonValue} from '@bufbuild/protobuf';
+import {toJson, type JsonValue} from '@bufbuild/protobuf';
+
+import {ScenarioSchema, type Sweep} from '../api/generated/contact/v1/scenario_pb';
+import {axisValues, isGrid} from './sweep';
 
 /** For contactctl; needs no file. */
 export function asCli(text: string, kind: 'scenario' | 'sweep'): string {
@@ -24,6 +27,17 @@ export function pythonLiteral(value: JsonValue, indent = ''): string {
 export function asPython(json: JsonValue): string {
   return `import contactsim\n\nresult = contactsim.Client().run(${pythonLiteral(json)})\n`
     + 'print(result.cycles)\n';
+}
+
+/** For the package contactsim; undefined for sweeps that it cannot make: it makes grids of single fields. */
+export function sweepAsPython(sweep: Sweep): string | undefined {
+  const {base, axes, metrics} = sweep;
+  if (!base || !isGrid(sweep) || axes.some((axis) => axis.also.length > 0 || axisValues(axis).length === 0)) return undefined;
+  const scenario = toJson(ScenarioSchema, base, {useProtoFieldName: true});
+  const grid = Object.fromEntries(axes.map((axis) => [axis.field, axisValues(axis)]));
+  return `import contactsim\n\nscenario = ${pythonLiteral(scenario)}\ngrid = ${pythonLiteral(grid)}\n`
+    + `result = contactsim.Client().sweep(scenario, grid${metrics.length ? `, metrics=${pythonLiteral(metrics)}` : ''})\n`
+    + 'print(result.frame)\n';
 }
 
 /** For curl. */

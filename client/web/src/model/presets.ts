@@ -1,19 +1,12 @@
 // The plots of a run: the same channels, axes, words and units as `contactctl plot`.
 
-import type {Series} from '../api/series';
-import {Cycle_End, type Cycle, type Group} from '../api/generated/contact/v1/job_pb';
+import {Cycle_End, type Cycle} from '../api/generated/contact/v1/job_pb';
+import {at, endForces, line, marks, NOTE, overTime, values, type RunView} from './curves';
 import {energyChannels, mechanicalEnergy} from './energy';
-import {endForce, type ContactModel, type Mechanics} from './mechanics';
-import {interpolate, joined, lowerBound, type Curve, type Label, type Lane, type Panel} from './panel';
+import {hysteresis} from './hysteresis';
+import type {Mechanics} from './mechanics';
 import {short} from './numbers';
-
-/** A run, or the part of it that a plot shows. */
-export interface RunView {
-  mechanics: Mechanics;
-  cycles: Cycle[];
-  groups: Group[];
-  series: Series;
-}
+import type {Label, Lane, Panel} from './panel';
 
 export interface Preset {
   id: string;
@@ -21,17 +14,7 @@ export interface Preset {
   panel: (view: RunView) => Panel;
 }
 
-const NOTE = 'o start, × end of a contact cycle; shaded: in contact';
-const MOST_MARKED = 400;    // Cycles; more marks would hide the curves.
 const MOST_LABELS = 12;
-
-function values(series: Series, name: string): Float64Array {
-  return series.get(name)?.values ?? new Float64Array(0);
-}
-
-function at(series: Series, name: string, time: number): number {
-  return interpolate(values(series, 'time'), values(series, name), time);
-}
 
 function lanesOf({mechanics, groups, cycles}: RunView): Lane[] {
   return mechanics.contacts.slice(0, 12).map(({name}, colour) => {
@@ -42,45 +25,6 @@ function lanesOf({mechanics, groups, cycles}: RunView): Lane[] {
         .map(({startTimeS, endTimeS, number}) => ({start: startTimeS, end: endTimeS, text: `${number}`}));
     return {label: name, colour, bars};
   });
-}
-
-function overTime(view: RunView, id: string, title: string, yLabel: string): Panel {
-  const bands = joined(view.cycles.map(({startTimeS, endTimeS}) => ({start: startTimeS, end: endTimeS})));
-  return {id, title, xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, note: NOTE};
-}
-
-function line(view: RunView, channel: string, label: string, colour: number, offset = 0): Curve {
-  const column = values(view.series, channel);
-  const y = offset === 0 ? column : column.map((value) => value + offset);
-  return {label, colour, mark: 'line', x: values(view.series, 'time'), y};
-}
-
-/** Circles where cycles start and crosses where they end. */
-function marks(
-  cycles: Cycle[], label: string, colour: number,
-  atStart: (cycle: Cycle) => number, atEnd: (cycle: Cycle) => number,
-): Curve[] {
-  const shown = cycles.slice(0, MOST_MARKED);
-  return [
-    {label: `${label} starts`, colour, mark: 'start', keyed: false, x: shown.map((c) => c.startTimeS), y: shown.map(atStart)},
-    {label: `${label} ends`, colour, mark: 'end', keyed: false, x: shown.map((c) => c.endTimeS), y: shown.map(atEnd)},
-  ];
-}
-
-function bodies(view: RunView, quantity: string, panel: Panel, origin: (position: number) => number): Panel {
-  view.mechanics.bodies.forEach((body, index) => {
-    const channel = `${body.name}.${quantity}`;
-    const offset = -origin(body.position);
-    panel.curves.push(line(view, channel, body.name, index, offset));
-    for (const contact of view.mechanics.contacts) {
-      if (contact.left !== index && contact.right !== index) continue;
-      const own = view.cycles.filter((cycle) => cycle.contact === contact.name);
-      panel.curves.push(...marks(own, `${body.name}, ${contact.name}`, index,
-        (cycle) => at(view.series, channel, cycle.startTimeS) + offset,
-        (cycle) => at(view.series, channel, cycle.endTimeS) + offset));
-    }
-  });
-  return panel;
 }
 
 /** μ/k at the highest peaks that are apart. */
@@ -98,13 +42,20 @@ function peakLabels({cycles, series}: RunView): Label[] {
   }));
 }
 
-function endForces(view: RunView, contact: ContactModel): [(c: Cycle) => number, (c: Cycle) => number] {
-  const {mechanics, series} = view;
-  return [
-    (c) => endForce(mechanics, contact, c.mu, c.deltaStartM, c.approachVelocityMPerS),
-    (c) => (c.end === Cycle_End.RUN_END ? at(series, `${contact.name}.contact_force`, c.endTimeS)
-      : endForce(mechanics, contact, c.mu, c.deltaEndM, c.separationVelocityMPerS)),
-  ];
+function bodies(view: RunView, quantity: string, panel: Panel, origin: (position: number) => number): Panel {
+  view.mechanics.bodies.forEach((body, index) => {
+    const channel = `${body.name}.${quantity}`;
+    const offset = -origin(body.position);
+    panel.curves.push(line(view, channel, body.name, index, offset));
+    for (const contact of view.mechanics.contacts) {
+      if (contact.left !== index && contact.right !== index) continue;
+      const own = view.cycles.filter((cycle) => cycle.contact === contact.name);
+      panel.curves.push(...marks(own, `${body.name}, ${contact.name}`, index,
+        (cycle) => at(view.series, channel, cycle.startTimeS) + offset,
+        (cycle) => at(view.series, channel, cycle.endTimeS) + offset));
+    }
+  });
+  return panel;
 }
 
 function force(view: RunView): Panel {
@@ -137,53 +88,6 @@ function deformation(view: RunView, rate: boolean): Panel {
       (c) => cut(c, rate ? c.separationVelocityMPerS : c.deltaEndM)));
   });
   return rate ? panel : {...panel, note: `${NOTE}; below 0: the gap`};
-}
-
-interface Loop {
-  x: number[];
-  y: number[];
-  /** Whether its ends are in the part that is shown. */
-  starts: boolean;
-  ends: boolean;
-}
-
-/** The loop of a cycle, or the part of it that is shown. */
-function loop(view: RunView, cycle: Cycle, contact: ContactModel): Loop {
-  const time = values(view.series, 'time');
-  const [start, end] = endForces(view, contact);
-  const first = lowerBound(time, cycle.startTimeS);
-  const last = lowerBound(time, cycle.endTimeS);
-  const part = (name: string) => Array.from(values(view.series, `${contact.name}.${name}`).subarray(first, last));
-  const starts = cycle.startTimeS >= time[0]!;
-  const ends = cycle.endTimeS <= time.at(-1)!;
-  const whole = (first: number, middle: number[], last: number) =>
-    [...(starts ? [first] : []), ...middle, ...(ends ? [last] : [])];
-  return {
-    starts, ends,
-    x: whole(cycle.deltaStartM, part('deformation'), cycle.deltaEndM),
-    y: whole(start(cycle), part('contact_force'), end(cycle)),
-  };
-}
-
-function hysteresis(view: RunView): Panel {
-  const panel: Panel = {id: 'hysteresis', title: 'Hysteresis', xLabel: 'deformation [m]',
-    yLabel: 'contact force [N]', overTime: false, curves: [],
-    note: 'o start, × end of a contact cycle; the area of a loop is the energy lost'};
-  view.mechanics.contacts.forEach((contact, colour) => {
-    let keyed = true;
-    for (const cycle of view.cycles.filter(({contact: name}) => name === contact.name).slice(0, MOST_MARKED)) {
-      const {x, y, starts, ends} = loop(view, cycle, contact);
-      if (x.length <= 2) continue;
-      const label = keyed ? contact.name : `${contact.name} #${cycle.number}`;
-      const mark = (name: string, kind: 'start' | 'end', i: number): Curve =>
-        ({label: `${label} ${name}`, colour, mark: kind, keyed: false, x: [x.at(i)!], y: [y.at(i)!]});
-      panel.curves.push({label, colour, mark: 'line', keyed, x, y});
-      if (starts) panel.curves.push(mark('starts', 'start', 0));
-      if (ends) panel.curves.push(mark('ends', 'end', -1));
-      keyed = false;
-    }
-  });
-  return panel;
 }
 
 function energy(view: RunView): Panel {

@@ -32,10 +32,10 @@ export function powerOfTen(value: number): string {
   return `10${Math.round(exponent) < 0 ? '⁻' : ''}${digits.join('')}`;
 }
 
-function ticks(label: string, scale: 'x' | 'y', log: boolean): uPlot.Axis.Values {
+function ticks(label: () => string, scale: 'x' | 'y', log: boolean): uPlot.Axis.Values {
   return (u, splits, _axis, _space, step) => {
     if (log) return splits.map((value) => (value === null ? '' : powerOfTen(value)));
-    const {factor} = unitOfScale(u, scale, label);
+    const {factor} = unitOfScale(u, scale, label());
     const digits = decimals(step / factor);
     return splits.map((value) => (value / factor).toFixed(digits).replace(/^-(0(\.0+)?)$/, '$1').replace('-', '−'));
   };
@@ -56,19 +56,22 @@ function powers(_u: uPlot, _axis: number, low: number, high: number): number[] {
   return Array.from({length: Math.floor((last - first) / step) + 1}, (_, i) => 10 ** (last - i * step)).reverse();
 }
 
-/** Both axes of a panel. */
-export function axesOf(panel: Panel, ink: Ink): uPlot.Axis[] {
+/** Both axes of a panel. Their names are those of what `shown` is when they are drawn. */
+export function axesOf(shown: () => Panel, ink: Ink): uPlot.Axis[] {
+  const panel = shown();
+  const xName = () => shown().xLabel;
+  const yName = () => shown().yLabel;
   const common: uPlot.Axis = {
     stroke: ink.text, font: FONT, labelFont: BOLD, labelSize: 18, labelGap: 0,
     grid: {stroke: ink.grid, width: 1}, ticks: {stroke: ink.grid, width: 1, size: 5}, gap: 4,
   };
-  const label = (scale: 'x' | 'y', text: string) =>
-    ((u: uPlot) => unitOfScale(u, scale, text).label) as unknown as string;
+  const label = (scale: 'x' | 'y', name: () => string) =>
+    ((u: uPlot) => unitOfScale(u, scale, name()).label) as unknown as string;
   const whole = panel.countedX ? {incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]} : {};
   return [
-    {...common, ...whole, scale: 'x', size: 30, space: 70, label: label('x', panel.xLabel),
-      values: ticks(panel.xLabel, 'x', !!panel.logX)},
-    {...common, ...(panel.logY ? {splits: powers, filter: (_u: uPlot, splits: number[]) => splits} : {}), scale: 'y', size: widthOf, space: 32, label: label('y', panel.yLabel),
-      values: ticks(panel.yLabel, 'y', !!panel.logY)},
+    {...common, ...whole, scale: 'x', size: 30, space: 70, label: label('x', xName),
+      values: ticks(xName, 'x', !!panel.logX)},
+    {...common, ...(panel.logY ? {splits: powers, filter: (_u: uPlot, splits: number[]) => splits} : {}), scale: 'y', size: widthOf, space: 32, label: label('y', yName),
+      values: ticks(yName, 'y', !!panel.logY)},
   ];
 }

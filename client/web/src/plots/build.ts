@@ -93,7 +93,7 @@ export function buildPlot(shown: Shown, width: number, height: number, into: HTM
       x: {time: false, distr: panel.logX ? 3 : 1, range: () => xRange(shown.panel, shown.window)},
       y: {distr: panel.logY ? 3 : 1, range: () => yRange(shown.panel, xRange(shown.panel, shown.window))},
     },
-    axes: axesOf(panel, ink),
+    axes: axesOf(() => shown.panel, ink),
     series: seriesOf(shown),
     cursor: cursorOf(shown),
     hooks: {

@@ -4,7 +4,7 @@ import type uPlot from 'uplot';
 
 import {panelCsv, type Panel} from '../model/panel';
 import {save} from '../ui/save';
-import {svgOf} from './svg';
+import {svgOf, type Svg} from './svg';
 
 interface Props {
   panel: Panel;
@@ -27,23 +27,28 @@ export async function pngOf(svg: string, width: number, height: number): Promise
   return new Promise((resolve) => canvas.toBlob((blob) => resolve(blob!), 'image/png'));
 }
 
+/** The three buttons of a figure. `title` tells them from those of other figures. */
+export function ExportButtons({title, name, svg, csv}: {title: string; name: string; svg: () => Svg; csv: () => string}) {
+  const file = name.replace(/[^\w.-]+/g, '-');
+  const png = async () => {
+    const {width, height, text} = svg();
+    save(`${file}.png`, await pngOf(text, width, height));
+  };
+  return (
+    <span class="exports">
+      <button type="button" aria-label={`${title} as SVG`}
+        onClick={() => save(`${file}.svg`, new Blob([svg().text], {type: 'image/svg+xml'}))}>SVG</button>
+      <button type="button" aria-label={`${title} as PNG`} onClick={() => void png()}>PNG</button>
+      <button type="button" aria-label={`${title} as CSV`}
+        onClick={() => save(`${file}.csv`, new Blob([csv()], {type: 'text/csv'}))}>CSV</button>
+    </span>
+  );
+}
+
 export function Exports({panel, plot, source, flush}: Props) {
-  const name = `${source.replace(/[^\w.-]+/g, '-')}-${panel.id}`;
   const svg = () => {
     flush();
     return svgOf(panel, plot.current!, source);
   };
-  const png = async () => {
-    const {width, height, text} = svg();
-    save(`${name}.png`, await pngOf(text, width, height));
-  };
-  return (
-    <span class="exports">
-      <button type="button" aria-label={`${panel.title} as SVG`}
-        onClick={() => save(`${name}.svg`, new Blob([svg().text], {type: 'image/svg+xml'}))}>SVG</button>
-      <button type="button" aria-label={`${panel.title} as PNG`} onClick={() => void png()}>PNG</button>
-      <button type="button" aria-label={`${panel.title} as CSV`}
-        onClick={() => save(`${name}.csv`, new Blob([panelCsv(panel)], {type: 'text/csv'}))}>CSV</button>
-    </span>
-  );
+  return <ExportButtons title={panel.title} name={`${source}-${panel.id}`} svg={svg} csv={() => panelCsv(panel)} />;
 }

@@ -6,6 +6,7 @@ import type uPlot from 'uplot';
 import type {Curve, Panel} from '../model/panel';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
 import {FONT, type Ink} from './axes';
+import {crowded, endNames, placeLabels} from './words';
 
 export const LANE_PX = 10;
 const MARK_PX = 4.5;
@@ -60,6 +61,7 @@ export function drawBehind(sheet: Sheet): void {
 }
 
 function drawMarks({u, theme}: Sheet, curve: Curve): void {
+  if (crowded(u, curve)) return;
   const {ctx} = u;
   const r = MARK_PX * devicePixelRatio;
   ctx.beginPath();
@@ -86,22 +88,6 @@ function drawLoop({u, theme}: Sheet, curve: Curve): void {
   ctx.setLineDash([]);
 }
 
-/** Names of curves beside their right ends, so that colour is not needed to tell them. */
-export function endNames(u: uPlot, curves: Curve[], height: number, line: number, toY: (y: number) => number): {curve: Curve; y: number}[] {
-  const {min, max} = u.scales.x!;
-  const names = curves.filter(({keyed, mark}) => keyed !== false && mark !== 'dashed').flatMap((curve) => {
-    let last = curve.x.length - 1;
-    while (last >= 0 && (curve.x[last]! > (max ?? Infinity) || !Number.isFinite(curve.y[last]!))) --last;
-    return last < 0 || curve.x[last]! < (min ?? -Infinity) ? [] : [{curve, y: toY(curve.y[last]!)}];
-  }).sort((a, b) => a.y - b.y);
-  names.forEach((name, i) => { if (i > 0) name.y = Math.max(name.y, names[i - 1]!.y + line); });
-  for (let i = names.length - 1, low = height; i >= 0; --i) {
-    names[i]!.y = Math.min(names[i]!.y, low);
-    low = names[i]!.y - line;
-  }
-  return names;
-}
-
 function drawNames({u, panel, theme}: Sheet, hidden: Set<string>): void {
   const {ctx, bbox} = u;
   const ratio = devicePixelRatio;
@@ -113,23 +99,6 @@ function drawNames({u, panel, theme}: Sheet, hidden: Set<string>): void {
     ctx.fillStyle = colourOf(curve.colour, theme);
     ctx.fillText(curve.label, bbox.left + bbox.width + 5 * ratio, y);
   }
-}
-
-/** Labels that lie in the plot and not over another one, with the left ends of their lines. */
-export function placeLabels(
-  u: uPlot, {labels = []}: Panel, toX: (x: number) => number, toY: (y: number) => number,
-  size: (text: string) => number, line: number,
-): {text: string; x: number; y: number}[] {
-  const {min, max} = u.scales.x!;
-  const placed: {text: string; x: number; y: number; end: number}[] = [];
-  for (const {x, y, text} of labels) {
-    if (x < min! || x > max!) continue;
-    const width = size(text);
-    const own = {text, x: toX(x) - width / 2, y: toY(y), end: toX(x) + width / 2};
-    const crowded = placed.some((other) => own.x < other.end + 4 && own.end > other.x - 4 && Math.abs(own.y - other.y) < line);
-    if (!crowded) placed.push(own);
-  }
-  return placed;
 }
 
 function drawLabels({u, panel, ink}: Sheet): void {

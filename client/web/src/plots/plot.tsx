@@ -1,11 +1,12 @@
 // A panel with its key and its exports.
 
-import {useEffect, useLayoutEffect, useMemo, useRef, useState} from 'preact/hooks';
+import {useEffect, useLayoutEffect, useMemo, useRef} from 'preact/hooks';
 import type uPlot from 'uplot';
 
 import {exact} from '../model/numbers';
 import type {Panel} from '../model/panel';
 import {unitOf} from '../model/units';
+import {useHidden} from '../ui/hidden';
 import {onPlayhead, playhead} from '../ui/playhead';
 import {useTheme} from '../ui/theme';
 import type {Ink} from './axes';
@@ -33,8 +34,8 @@ function inkOf(element: Element): Ink {
 
 /** What makes another plot necessary, rather than other data. */
 function structure(panel: Panel): string {
-  return JSON.stringify([panel.xLabel, panel.yLabel, panel.logX, panel.logY, panel.overTime,
-    panel.lanes?.length, lines(panel).map(({label, mark, colour}) => [label, mark, colour])]);
+  return JSON.stringify([panel.logX, panel.logY, panel.overTime, panel.countedX, panel.lanes?.length,
+    lines(panel).map(({mark, colour}) => [mark, colour])]);
 }
 
 const UNSEEN_MS = 600;
@@ -89,7 +90,7 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty}:
   const plot = useRef<uPlot>();
   const shown = useRef<Shown>();
   const values = useRef<(HTMLElement | null)[]>([]);
-  const [hidden, setHidden] = useState<Set<string>>(new Set());
+  const [hidden, setHidden] = useHidden(panel.id);
   const key = structure(panel);
   const unit = unitOf(panel.yLabel);
   const seen = useSeen(box);

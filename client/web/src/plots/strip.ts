@@ -1,54 +1,12 @@
 // Draws the bodies on their line at one moment, with contact forces.
 
-import type {Series} from '../api/series';
-import type {Mechanics} from '../model/mechanics';
-import {extent, interpolate} from '../model/panel';
-import {readableUnit} from '../model/units';
+import {values} from '../model/curves';
+import {interpolate} from '../model/panel';
 import {short} from '../model/numbers';
+import type {Stage} from '../model/stage';
+import {readableUnit} from '../model/units';
 import {colourOf, type Theme} from '../ui/theme';
 import type {Ink} from './axes';
-
-/** What of the strip is the same at all moments. */
-export interface Stage {
-  mechanics: Mechanics;
-  series: Series;
-  low: number;
-  high: number;
-  /** Displacements are drawn so many times as large. */
-  magnification: number;
-  largestForce: number;
-}
-
-const values = (series: Series, name: string) => series.get(name)?.values ?? new Float64Array(0);
-
-/** A round factor that makes small displacements visible: 1, 2, 5, 10, 20 … */
-export function magnificationFor(displacement: number, room: number): number {
-  if (!(displacement > 0) || displacement > 0.1 * room) return 1;
-  const wanted = 0.25 * room / displacement;
-  const power = 10 ** Math.floor(Math.log10(wanted));
-  return power * [5, 2, 1].find((step) => step * power <= wanted)!;
-}
-
-/** The strip of a series. `magnified` false draws all to scale. */
-export function stageOf(mechanics: Mechanics, series: Series, magnified: boolean): Stage {
-  const {bodies, contacts} = mechanics;
-  const displaced = bodies.map(({name, position}) => values(series, `${name}.position`).map((x) => x - position));
-  const largest = Math.max(0, ...displaced.map((list) => { const e = extent([list]); return e ? Math.max(-e[0], e[1]) : 0; }));
-  const radii = bodies.map(({radius}) => radius);
-  const sorted = bodies.map(({position}) => position).sort((a, b) => a - b);
-  const gaps = sorted.slice(1).map((x, i) => x - sorted[i]!).filter((gap) => gap > 0);
-  const room = Math.min(...gaps, ...(radii.some((r) => r > 0) ? [2 * Math.max(...radii)] : []));
-  const magnification = magnified && Number.isFinite(room) ? magnificationFor(largest, room) : 1;
-  const places = bodies.flatMap(({position, radius}, i) => {
-    const [low, high] = extent([displaced[i]!]) ?? [0, 0];
-    return [position + magnification * low - radius, position + magnification * high + radius];
-  });
-  const walls = contacts.map(({wallPosition}) => wallPosition).filter(Number.isFinite);
-  const [low, high] = extent([[...places, ...walls]]) ?? [0, 1];
-  const forces = extent(contacts.map(({name}) => values(series, `${name}.contact_force`)));
-  const margin = 0.08 * (high - low) || 0.01;
-  return {mechanics, series, magnification, low: low - margin, high: high + margin, largestForce: forces?.[1] ?? 0};
-}
 
 /** One canvas and what to draw with. */
 export interface Sheet {
@@ -157,7 +115,7 @@ export function drawStrip(stage: Stage, sheet: Sheet, time: number): void {
     ctx.stroke();
     ctx.fillStyle = ink.text;
     ctx.textAlign = 'center';
-    if (bodies.length <= 24) ctx.fillText(name, toX(places[i]!), r > 18 ? middle + 4 : middle + r + 13);
+    if (bodies.length <= 24) ctx.fillText(name, toX(places[i]!), r > 30 ? middle + r / 2 + 4 : middle + r + 13);
   });
   drawForces(stage, sheet, toX, places, time, middle);
 }

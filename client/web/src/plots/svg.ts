@@ -5,7 +5,7 @@ import type uPlot from 'uplot';
 import type {Curve, Panel} from '../model/panel';
 import {colourOf, dashOf} from '../ui/theme';
 import {unitOfScale} from './axes';
-import {endNames, placeLabels} from './layers';
+import {crowded, endNames, placeLabels} from './words';
 
 export interface Svg {
   width: number;
@@ -58,7 +58,9 @@ function axis(frame: Frame, place: 0 | 1, label: string): string {
   return `${parts.join('')}${name}${escape(unitOfScale(frame.u, place === 0 ? 'x' : 'y', label).label)}</text>`;
 }
 
-function curve({x, y}: Frame, {mark, colour, x: xs, y: ys}: Curve): string {
+function curve({u, x, y}: Frame, drawn: Curve): string {
+  const {mark, colour, x: xs, y: ys} = drawn;
+  if ((mark === 'start' || mark === 'end') && crowded(u, drawn)) return '';
   const ink = colourOf(colour, 'light');
   let path = '';
   for (let i = 0; i < xs.length; ++i) {

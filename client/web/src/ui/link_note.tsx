@@ -2,11 +2,12 @@
 
 import type {Link} from '../api/stream';
 
+/** It stands in the page always, so that screen readers hear what changes in it. */
 export function LinkNote({link}: {link: Link}) {
-  if (!('why' in link)) return <span class="link" data-link={link.state} />;
+  const why = 'why' in link ? link.why : '';
   return (
-    <p class="notice" role="status" data-link={link.state}>
-      {link.why} {link.state === 'waiting' && 'Trying again; the page goes on from where it was.'}
+    <p class={why && 'notice'} role="status" data-link={link.state}>
+      {why} {link.state === 'waiting' && 'Trying again; the page goes on from where it was.'}
     </p>
   );
 }

@@ -21,12 +21,12 @@ export function go(address: string, replace = false): void {
   for (const told of listeners) told();
 }
 
-/** Changes parameters of the address; undefined or empty removes one. */
-export function setQuery(changes: Record<string, string | undefined>, replace = true): void {
+/** Changes parameters of the address; undefined or empty removes one. A list stands there once for each entry. */
+export function setQuery(changes: Record<string, string | string[] | undefined>, replace = true): void {
   const query = new URLSearchParams(location.search);
   for (const [key, value] of Object.entries(changes)) {
-    if (value) query.set(key, value);
-    else query.delete(key);
+    query.delete(key);
+    for (const entry of [value ?? []].flat()) if (entry) query.append(key, entry);
   }
   const text = query.toString().replaceAll('%2C', ',').replaceAll('%2F', '/').replaceAll('%3A', ':');
   go(`${location.pathname}${text ? `?${text}` : ''}${location.hash}`, replace);

@@ -2,7 +2,7 @@
 
 import {useEffect, useRef, useState} from 'preact/hooks';
 
-import {onTokenWanted, setToken} from '../api/token';
+import {onTokenWanted, setToken, token} from '../api/token';
 
 export function TokenDialog({onToken}: {onToken: () => void}) {
   const [wanted, setWanted] = useState(false);
@@ -17,9 +17,9 @@ export function TokenDialog({onToken}: {onToken: () => void}) {
     onToken();
   };
   return (
-    <form class="notice" onSubmit={submit} role="alert">
+    <form class="notice asks" onSubmit={submit} role="alert">
       <label>
-        This server asks who calls. Token
+        {token() ? 'The server does not take this token. Another token' : 'This server asks who calls. Token'}
         <input ref={field} type="password" autocomplete="off" required />
       </label>
       <button type="submit">Use it</button>

@@ -14,6 +14,7 @@ import {clock} from '../ui/times';
 import {elapsed} from './elapsed';
 
 const PAGE = 50;
+const idOf = ({name}: Job) => name.replace('jobs/', '');
 const STATES = ['QUEUED', 'RUNNING', 'SUCCEEDED', 'FAILED', 'CANCELLED'];
 
 /** The jobs of a filter, as they change. */
@@ -40,7 +41,7 @@ function useJobs(state: string, labels: string): {jobs: Job[]; link: Link; compl
 function Row({job, metric, best, chosen, choose}: {
   job: Job; metric: number | undefined; best: boolean; chosen: boolean; choose: (on: boolean) => void;
 }) {
-  const id = job.name.replace('jobs/', '');
+  const id = idOf(job);
   return (
     <tr>
       <td><input type="checkbox" aria-label={`choose ${id}`} checked={chosen} onChange={(e) => choose(e.currentTarget.checked)} /></td>
@@ -95,7 +96,7 @@ function ordered(jobs: Job[], sort: string | null, metric: (job: Job) => number 
 
 export function Runs({route: {query}}: {route: Route}) {
   const {jobs, link, complete} = useJobs(query.get('state') ?? '', query.get('label') ?? '');
-  const [chosen, setChosen] = useState<Set<string>>(new Set());
+  const chosen = (query.get('chosen') ?? '').split(',').filter(Boolean);
   const table = useRef<HTMLTableElement>(null);
   const words = query.get('q') ?? '';
   const metric = METRICS.find(({id}) => id === query.get('metric')) ?? METRICS[0]!;
@@ -105,12 +106,13 @@ export function Runs({route: {query}}: {route: Route}) {
   const pages = Math.max(1, Math.ceil(found.length / PAGE));
   const page = Math.min(Math.max(Number(query.get('page') ?? 1) - 1, 0), pages - 1);
   const rows = found.slice(page * PAGE, (page + 1) * PAGE);
-  const ids = [...chosen].map((name) => name.replace('jobs/', '')).join(',');
+  const choose = (id: string, on: boolean) => setQuery({chosen: [...chosen.filter((other) => other !== id), ...(on ? [id] : [])].join(',')});
   return (
     <>
       <div class="head"><h1>Runs</h1>
         <a class="button primary" href="/new">New run</a>
-        {chosen.size >= 2 && <a class="button" href={`/compare?jobs=${ids}`}>Compare {chosen.size} runs</a>}
+        {chosen.length >= 2 && <a class="button" href={`/compare?jobs=${chosen.join(',')}`}>Compare {chosen.length} runs</a>}
+        {chosen.length > 0 && <button type="button" onClick={() => setQuery({chosen: undefined})}>Choose none</button>}
       </div>
       <LinkNote link={link} />
       <Filters query={query} />
@@ -120,11 +122,7 @@ export function Runs({route: {query}}: {route: Route}) {
             <th class="number">{metric.label}</th><th class="number">took</th><th class="number">created</th></tr></thead>
           <tbody>{rows.map((job) => (
             <Row key={job.name} job={job} metric={metric.of(job)} best={found.length > 1 && metric.of(job) === best}
-              chosen={chosen.has(job.name)} choose={(on) => {
-                const next = new Set(chosen);
-                if (on) next.add(job.name); else next.delete(job.name);
-                setChosen(next);
-              }} />))}
+              chosen={chosen.includes(idOf(job))} choose={(on) => choose(idOf(job), on)} />))}
           </tbody>
         </table>
       </div>

@@ -8,6 +8,7 @@ import {Quota_Resource, type ServerInfo} from '../api/generated/contact/v1/job_s
 import {token} from '../api/token';
 import {bytes, count, exact, seconds} from '../model/numbers';
 import {parseMetrics, type Family} from '../model/prometheus';
+import {setQuery, type Route} from '../ui/route';
 import {epoch, utc} from '../ui/times';
 
 const EVERY_MS = 2000;
@@ -86,12 +87,11 @@ function Pairs({pairs}: {pairs: [string, string][]}) {
   return <dl>{pairs.map(([name, text]) => <div key={name}><dt>{name}</dt><dd>{text}</dd></div>)}</dl>;
 }
 
-function Metrics({families, why}: {families: Family[]; why: string}) {
-  const [words, setWords] = useState('');
+function Metrics({families, why, words}: {families: Family[]; why: string; words: string}) {
   const shown = families.filter(({name, help}) => `${name} ${help}`.includes(words));
   return (
     <section aria-label="Metrics"><div class="tools"><h2>Metrics</h2>
-      <label>Find <input type="search" value={words} onInput={(e) => setWords(e.currentTarget.value)} /></label>
+      <label>Find <input type="search" value={words} onInput={(e) => setQuery({find: e.currentTarget.value})} /></label>
       <a href="/metrics" target="_blank">as Prometheus reads them</a></div>
       {why && <p class="soft">{why}</p>}
       <div class="scroll tall" tabIndex={0} role="region" aria-label="Metrics"><table><tbody>{shown.flatMap(({help, samples}) =>
@@ -101,7 +101,7 @@ function Metrics({families, why}: {families: Family[]; why: string}) {
   );
 }
 
-export function Server() {
+export function Server({route: {query}}: {route: Route}) {
   const {info, metrics, queued, running, why, metricsWhy} = useServer();
   return (
     <>
@@ -122,7 +122,7 @@ export function Server() {
           </section>
         </>
       )}
-      <Metrics families={metrics} why={metricsWhy} />
+      <Metrics families={metrics} why={metricsWhy} words={query.get('find') ?? ''} />
     </>
   );
 }

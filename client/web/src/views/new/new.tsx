@@ -1,13 +1,13 @@
 // A new run: from a template, from another run, from nothing.
 
 import {toJson} from '@bufbuild/protobuf';
-import {useEffect, useState} from 'preact/hooks';
+import {useEffect, useMemo, useState} from 'preact/hooks';
 
 import {server} from '../../api/client';
 import {explain} from '../../api/errors';
 import {ScenarioSchema, SweepSchema} from '../../api/generated/contact/v1/scenario_pb';
 import {templates, titleOf} from '../../api/templates';
-import {asCli, asCurl, asPython} from '../../model/copy_as';
+import {asCli, asCurl, asPython, sweepAsPython} from '../../model/copy_as';
 import {labelsOf} from '../../model/job_list';
 import {bytes, count, seconds} from '../../model/numbers';
 import {requestId} from '../../ui/request_id';
@@ -60,9 +60,19 @@ function Verdicts({problems, warnings, estimate, settled}: Verdict) {
   );
 }
 
+/** The page for Python; undefined while it is wrong, or where contactsim cannot make it. */
+function pythonOf({page, problems, settled}: Verdict): string | undefined {
+  if (!page.json) return undefined;
+  if (page.kind === 'scenario') return asPython(page.json);
+  if (!settled || problems.length > 0) return undefined;
+  const {spec} = jobOf(page);
+  return spec.case === 'sweep' ? sweepAsPython(spec.value) : undefined;
+}
+
 function CopyAs({text, verdict}: {text: string; verdict: Verdict}) {
   const [shown, setShown] = useState('');
   const {page} = verdict;
+  const python = useMemo(() => pythonOf(verdict), [page, verdict.settled]);
   const copy = (what: string) => {
     setShown(what);
     void navigator.clipboard?.writeText(what).catch(() => undefined);
@@ -70,7 +80,7 @@ function CopyAs({text, verdict}: {text: string; verdict: Verdict}) {
   return (
     <div><span class="group" role="group" aria-label="Copy as">Copy as
       <button type="button" onClick={() => copy(asCli(page.kind === 'sweep' ? JSON.stringify(page.json) : text, page.kind))} disabled={!page.json}>CLI</button>
-      <button type="button" onClick={() => copy(asPython(page.json!))} disabled={!page.json || page.kind === 'sweep'}>Python</button>
+      <button type="button" onClick={() => copy(python!)} disabled={!python} title={page.kind === 'sweep' && !python ? 'contactsim makes grids of single fields; use the CLI' : ''}>Python</button>
       <button type="button" onClick={() => copy(asCurl(page.json!, page.kind, location.origin))} disabled={!page.json}>curl</button></span>
       {shown && <pre class="copied" tabIndex={0} aria-label="copied text">{shown}</pre>}
     </div>
@@ -80,7 +90,7 @@ function CopyAs({text, verdict}: {text: string; verdict: Verdict}) {
 export function New({route}: {route: Route}) {
   const [text, setText] = useText(route);
   const verdict = useValidation(text);
-  const [labels, setLabels] = useState('');
+  const labels = route.query.get('labels') ?? '';
   const [error, setError] = useState('');
   const [busy, setBusy] = useState(false);
   const start = () => {
@@ -102,7 +112,7 @@ export function New({route}: {route: Route}) {
           <Verdicts {...verdict} />
           {error && <p class="notice" role="alert">{error}</p>}
           <div class="tools">
-            <label>Labels <input value={labels} placeholder="key=value, …" onInput={(e) => setLabels(e.currentTarget.value)} /></label>
+            <label>Labels <input value={labels} placeholder="key=value, …" onInput={(e) => setQuery({labels: e.currentTarget.value})} /></label>
             <button type="button" class="primary" disabled={busy || !verdict.settled || verdict.problems.length > 0} onClick={start}>{verdict.page.kind === 'sweep' ? 'Start the sweep' : 'Start the run'}</button>
             <CopyAs text={text} verdict={verdict} />
           </div>

@@ -1,6 +1,6 @@
 // The ledger: cycles and groups, with a filter.
 
-import {useMemo, useState} from 'preact/hooks';
+import {useMemo} from 'preact/hooks';
 
 import {
   Cycle_End, Cycle_Kind, Cycle_Status, Group_Growth, type Cycle, type Group,
@@ -91,7 +91,8 @@ function Table<T extends Entry>({rows, columns}: {rows: T[]; columns: Column<T>[
 }
 
 export function Ledger({run, query}: {run: RunState; query: URLSearchParams}) {
-  const [page, setPage] = useState(0);
+  const page = Math.max(Number(query.get('leaf') ?? 1) - 1, 0) || 0;
+  const setPage = (n: number) => setQuery({leaf: n > 0 ? String(n + 1) : undefined});
   const groups = query.get('ledger') === 'groups';
   const contact = query.get('contact') ?? '';
   const status = query.get('status') ?? '';
@@ -103,11 +104,11 @@ export function Ledger({run, query}: {run: RunState; query: URLSearchParams}) {
   return (
     <section aria-label="Cycle ledger">
       <div class="tools"><h2>Ledger</h2>
-        <label>Show <select value={groups ? 'groups' : ''} onChange={(e) => setQuery({ledger: e.currentTarget.value})}>
+        <label>Show <select value={groups ? 'groups' : ''} onChange={(e) => setQuery({ledger: e.currentTarget.value, leaf: undefined})}>
           <option value="">cycles</option><option value="groups">groups</option></select></label>
-        <label>Contact <select value={contact} onChange={(e) => setQuery({contact: e.currentTarget.value})}>
+        <label>Contact <select value={contact} onChange={(e) => setQuery({contact: e.currentTarget.value, leaf: undefined})}>
           <option value="">all</option>{contacts.map((c) => <option key={c}>{c}</option>)}</select></label>
-        <label>Status <select value={status} onChange={(e) => setQuery({status: e.currentTarget.value})}>
+        <label>Status <select value={status} onChange={(e) => setQuery({status: e.currentTarget.value, leaf: undefined})}>
           <option value="">all</option>{statuses.map((s) => <option key={s}>{s}</option>)}</select></label>
         <span class="soft">{count(rows.length)} of {count(all.length)}</span>
         {rows.length > PAGE && <span class="group">

@@ -56,7 +56,8 @@ export function Run({route}: {route: Route}) {
   return (
     <>
       <LinkNote link={link} />
-      {run.job && <Header id={id} run={run} />}
+      {run.job ? <Header id={id} run={run} /> : <div class="head"><h1>Run {id}</h1></div>}
+      {!run.job && (link.state === 'lost' ? <p class="nothing"><a href="/runs">All runs</a></p> : <p class="nothing" role="status">Loading …</p>)}
       {run.job?.spec.case === 'scenario' && <Recording id={id} run={run} query={route.query} />}
       {run.job?.spec.case === 'sweep' && <Sweep id={id} run={run} query={route.query} />}
       {run.job?.spec.case && <Details run={run} />}

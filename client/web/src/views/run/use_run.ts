@@ -3,7 +3,7 @@
 import {useEffect, useRef, useState} from 'preact/hooks';
 
 import {server} from '../../api/client';
-import {explain} from '../../api/errors';
+import {explain, passes} from '../../api/errors';
 import type {Link} from '../../api/stream';
 import {isFinal, watchJob} from '../../api/watch';
 import {emptyRun, takeEvents, takeSnapshot, type RunState} from '../../model/runState';
@@ -48,7 +48,7 @@ export function useRun(id: string): {run: RunState; link: Link} {
         plan();
       }, (error: unknown) => {
         done = fetched = false;
-        if (!control.signal.aborted) setLink({state: 'waiting', why: explain(error)});
+        if (!control.signal.aborted) setLink({state: passes(error) ? 'waiting' : 'lost', why: explain(error)});
       });
     };
     fetchJob(false);

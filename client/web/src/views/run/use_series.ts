@@ -21,6 +21,7 @@ export function pointsFor(channels: number): number {
 export function useSeries(name: string, channels: string[], window: Window | undefined, tick: number): Series | undefined {
   const [series, setSeries] = useState<Series>();
   const state = useRef({busy: false, again: false, alive: true, asked: ''});
+  const told = useRef<number>();
   const ask = useRef<() => void>(() => undefined);
   const view = `${name} ${channels.join(' ')} ${window?.[0]} ${window?.[1]}`;
   useEffect(() => { state.current.alive = true; return () => { state.current.alive = false; }; }, []);
@@ -32,14 +33,19 @@ export function useSeries(name: string, channels: string[], window: Window | und
     const start = performance.now();
     readSeries({name, channels, from: window?.[0], to: window?.[1], maxPoints: pointsFor(channels.length)})
       .then((read) => {
+        told.current = start;
         if (now.alive) setSeries(read);
-        performance.measure('series', {start, end: performance.now()});
       }, () => undefined)
       .finally(() => {
         now.busy = false;
         if (now.again) setTimeout(() => ask.current(), LIVE_PAUSE_MS);
       });
   };
+  useEffect(() => {   // From the call to the frame that shows its answer.
+    const start = told.current;
+    told.current = undefined;
+    if (start !== undefined) requestAnimationFrame(() => setTimeout(() => performance.measure('series', {start, end: performance.now()})));
+  }, [series]);
   useEffect(() => {
     if (tick >= 0 && state.current.asked === view && state.current.busy) state.current.again = true;
     else ask.current();

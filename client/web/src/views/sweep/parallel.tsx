@@ -1,15 +1,20 @@
 // All axes and metrics of a sweep side by side, a line for each cell.
 
+import {useMemo, useRef} from 'preact/hooks';
+
 import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
+import {byColour, levelOf, nearestLine} from '../../model/cell_shapes';
 import {extent} from '../../model/panel';
 import {short} from '../../model/numbers';
-import {outcomeOf, viridis} from '../../model/sweep';
+import {outcomeOf} from '../../model/sweep';
+import {drawingOf, pointIn} from '../../plots/drawing';
+import {ExportButtons} from '../../plots/exports';
 import {useTheme} from '../../ui/theme';
+import {useWidth} from '../../ui/use_width';
 
-const WIDTH = 900;
+const NARROW_PX = 560;
 const HEIGHT = 300;
-const TOP = 40;
-const MOST = 2000;
+const LINE_PX = 14;   // Of the names above.
 
 interface Props {
   names: string[];
@@ -18,41 +23,95 @@ interface Props {
   cells: SweepCell[];
   metric: number;
   choose: (cell: number) => void;
+  open: (cell: number) => void;
   chosen: number | undefined;
+  csv: () => string;
+  source: string;
+}
+
+/** The lines of the cells: heights at each name, and where each name stands. */
+interface Lines {
+  ranges: [number, number][];
+  /** Where the lines begin. */
+  top: number;
+  /** Rows in which the names stand above. */
+  rows: number;
+  xs: number[];
+  heights: number[][];
 }
 
 const anchor = (i: number, n: number) => (i === 0 ? 'start' : i === n - 1 ? 'end' : 'middle');
+const valuesOf = (cell: SweepCell) => [...cell.values, ...cell.metrics];
+const round = (value: number) => Math.round(value * 10) / 10;
 
-export function Parallel({names, axes, cells, metric, choose, chosen}: Props) {
+function linesOf(names: string[], cells: SweepCell[], width: number): Lines {
+  const staggered = width < NARROW_PX ? names.length : 2;
+  const top = LINE_PX * staggered + 12;
+  const side = width < NARROW_PX ? 12 : 60;
+  const rows = cells.map(valuesOf);
+  const ranges = names.map((_, i): [number, number] => extent([rows.map((row) => row[i]!)]) ?? [0, 1]);
+  const xs = names.map((_, i) => side + i * (width - 2 * side - 40) / Math.max(names.length - 1, 1));
+  const height = (value: number, [low, high]: [number, number]) => top + HEIGHT * (low === high ? 0.5 : 1 - (value - low) / (high - low));
+  return {ranges, top, rows: staggered, xs, heights: rows.map((row) => names.map((_, i) => height(row[i]!, ranges[i]!)))};
+}
+
+function pathOf(xs: number[], heights: number[]): string {
+  return heights.map((y, i) => (Number.isFinite(y) ? `${i > 0 && Number.isFinite(heights[i - 1]) ? 'L' : 'M'}${round(xs[i]!)} ${round(y)}` : '')).join('');
+}
+
+/** A path for each colour, of the cells that converged or of the others. */
+function pathsOf({xs, heights}: Lines, cells: SweepCell[], colour: (cell: SweepCell) => string, converged: boolean): [string, string][] {
+  return byColour(cells.flatMap((cell, i): [string, string][] =>
+    ((outcomeOf(cell) === 'converged') === converged ? [[colour(cell), pathOf(xs, heights[i]!)]] : [])));
+}
+
+function Axes({names, ranges, xs, top, rows, width}: Lines & {names: string[]; width: number}) {
+  return (
+    <>{names.map((name, i) => (
+      <g key={name}>
+        <line x1={xs[i]} x2={xs[i]} y1={top} y2={top + HEIGHT} class="rule" />
+        <text class="ink name" x={anchor(i, names.length) === 'start' ? 4 : anchor(i, names.length) === 'end' ? width - 4 : xs[i]} y={LINE_PX * (rows - i % rows)} text-anchor={anchor(i, names.length)}>{name}</text>
+        <text class="ink" x={xs[i]! + 4} y={top + 12}>{short(ranges[i]![1])}</text>
+        <text class="ink" x={xs[i]! + 4} y={top + HEIGHT}>{short(ranges[i]![0])}</text>
+      </g>))}</>
+  );
+}
+
+export function Parallel({names, axes, cells, metric, choose, open, chosen, csv, source}: Props) {
   const dark = useTheme() === 'dark';
-  const shown = cells.slice(0, MOST);
-  const valuesOf = (cell: SweepCell) => [...cell.values, ...cell.metrics];
-  const ranges = names.map((_, i): [number, number] => extent([shown.map((cell) => valuesOf(cell)[i]!)]) ?? [0, 1]);
-  const x = (i: number) => 60 + i * (WIDTH - 120) / Math.max(names.length - 1, 1);
-  const y = (i: number, value: number) => {
-    const [low, high] = ranges[i]!;
-    return TOP + HEIGHT * (low === high ? 0.5 : 1 - (value - low) / (high - low));
+  const drawn = useRef<SVGSVGElement>(null);
+  const [box, width] = useWidth(900);
+  const lines = useMemo(() => linesOf(names, cells, width), [cells, names.join(), width]);
+  const [low, high] = lines.ranges[axes + metric] ?? [0, 1];
+  const colour = (cell: SweepCell) =>
+    levelOf((dark ? 0.25 : 0) + (dark ? 0.75 : 0.9) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
+  const paths = useMemo(() => [true, false].map((converged) => pathsOf(lines, cells, colour, converged)), [lines, metric, dark]);
+  const place = cells.findIndex(({index}) => index === chosen);
+  const press = (event: KeyboardEvent) => {
+    if (event.key === 'Enter' && chosen !== undefined) open(chosen);
+    const step = {ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1}[event.key];
+    if (!step || cells.length === 0) return;
+    event.preventDefault();
+    choose(cells[Math.min(Math.max(place + step, 0), cells.length - 1)]!.index);
   };
-  const path = (cell: SweepCell) => valuesOf(cell).map((value, i) =>
-    (Number.isFinite(value) ? `${i === 0 || !Number.isFinite(valuesOf(cell)[i - 1]) ? 'M' : 'L'}${x(i)} ${y(i, value)}` : '')).join('');
-  const colour = (cell: SweepCell) => {
-    const [low, high] = ranges[axes + metric] ?? [0, 1];
-    return viridis((dark ? 0.25 : 0) + (dark ? 0.75 : 0.9) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
+  const click = (event: MouseEvent) => {
+    const near = cells[nearestLine(lines.xs, lines.heights, ...pointIn(drawn.current!, event))];
+    if (near) choose(near.index);
   };
   return (
-    <svg class="map parallel" viewBox={`0 0 ${WIDTH} ${HEIGHT + TOP + 30}`} role="img"
-      aria-label={`${shown.length} cells as lines over ${names.join(', ')}`}>
-      {shown.map((cell) => (
-        <path key={cell.index} d={path(cell)} fill="none" stroke={colour(cell)} stroke-width={cell.index === chosen ? 4 : 1.3}
-          stroke-opacity={chosen === undefined || cell.index === chosen ? 0.9 : 0.45}
-          stroke-dasharray={outcomeOf(cell) === 'converged' ? undefined : '4 3'} onClick={() => choose(cell.index)} />))}
-      {names.map((name, i) => (
-        <g key={name}>
-          <line x1={x(i)} x2={x(i)} y1={TOP} y2={TOP + HEIGHT} class="rule" />
-          <text class="ink name" x={anchor(i, names.length) === 'start' ? 4 : anchor(i, names.length) === 'end' ? WIDTH - 4 : x(i)} y={i % 2 ? 14 : 28} text-anchor={anchor(i, names.length)}>{name}</text>
-          <text class="ink" x={x(i) + 4} y={TOP + 12}>{short(ranges[i]![1])}</text>
-          <text class="ink" x={x(i) + 4} y={TOP + HEIGHT}>{short(ranges[i]![0])}</text>
-        </g>))}
-    </svg>
+    <figure class="plot" data-plot="parallel" data-lines={cells.length}>
+      <figcaption><h3>Parallel coordinates</h3>
+        <ExportButtons title="parallel coordinates" name={`${source}-parallel`} csv={csv} svg={() => drawingOf(drawn.current!, names.join(', '), source)} /></figcaption>
+      <div ref={box} class="keys" tabIndex={0} role="application" onKeyDown={press}
+        aria-label={`${cells.length} cells as lines over ${names.join(', ')}; arrow keys choose a cell, Enter runs it`}>
+        <svg ref={drawn} class="map parallel" viewBox={`0 0 ${width} ${HEIGHT + lines.top + 12}`} onClick={click}>
+          {paths.flatMap((list, i) => list.map(([ink, path]) => (
+            <path key={`${i}${ink}`} d={path} fill="none" stroke={ink} stroke-width="1.3" stroke-opacity={chosen === undefined ? 0.9 : 0.45} stroke-dasharray={i ? '4 3' : undefined} />)))}
+          {place >= 0 && <path d={pathOf(lines.xs, lines.heights[place]!)} fill="none" stroke={colour(cells[place]!)} stroke-width="4" />}
+          <Axes names={names} width={width} {...lines} />
+        </svg>
+      </div>
+      <p class="note">dashed: not converged or failed</p>
+    </figure>
   );
 }

@@ -4,6 +4,7 @@ import {useMemo} from 'preact/hooks';
 
 import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
 import type {Sweep as SweepSpec} from '../../api/generated/contact/v1/scenario_pb';
+import {sliceIndex} from '../../model/map_data';
 import type {Panel} from '../../model/panel';
 import type {RunState} from '../../model/runState';
 import {count, exact} from '../../model/numbers';
@@ -12,7 +13,7 @@ import {Plot} from '../../plots/plot';
 import {save} from '../../ui/save';
 import {setQuery} from '../../ui/route';
 import {CellDetails, runCell} from './cell';
-import {HeatMap, sliceIndex} from './heat_map';
+import {HeatMap} from './heat_map';
 import {Parallel} from './parallel';
 
 interface Props {
@@ -49,7 +50,7 @@ function Choice({name, query, keyName, options}: {name: string; query: URLSearch
 export function Sweep({id, run, query}: Props) {
   const spec = run.job!.spec;
   const sweep = spec.case === 'sweep' ? spec.value : undefined;
-  const cells = useMemo(() => [...run.cells.values()].sort((a, b) => a.index - b.index), [run.version]);
+  const cells = useMemo(() => [...run.cells.values()].sort((a, b) => a.index - b.index), [run.cells.size]);
   if (!sweep) return null;
   const axes = sweep.axes.map((axis) => ({name: axisName(axis), values: axisValues(axis)}));
   const sizes = axes.map(({values}) => values.length);
@@ -76,13 +77,13 @@ export function Sweep({id, run, query}: Props) {
         {kind === 'map' && axes.map(({name, values}, i) => i !== xAxis && i !== yAxis && (
           <Choice key={name} name={name} query={query} keyName={`at${i}`} options={values.map((v, j) => [String(j), exact(v)])} />))}
         {kind === 'map' && <label><input type="checkbox" checked={query.has('log')} onChange={(e) => setQuery({log: e.currentTarget.checked ? '1' : undefined})} /> log colours</label>}
-        <button type="button" onClick={() => save(`${id}-cells.csv`, new Blob([csvOf(sweep, cells)], {type: 'text/csv'}))}>CSV</button>
+        <button type="button" onClick={() => save(`${id}-cells.csv`, new Blob([csvOf(sweep, cells)], {type: 'text/csv'}))}>All cells as CSV</button>
       </div>
       {sweep.metrics.length === 0 && <p class="soft">This sweep keeps no metrics; cells show only whether they converged.</p>}
       {kind === 'map' && grid && xAxis !== yAxis && <HeatMap x={axes[xAxis]!} y={axes[yAxis]!} indexAt={sliceIndex(sizes, slice, xAxis, yAxis)}
-        cells={run.cells} metric={metric} metricName={sweep.metrics[metric] ?? 'convergence'} log={query.has('log')} chosen={chosen} choose={choose} open={open} />}
+        cells={run.cells} version={cells.length} metric={metric} metricName={sweep.metrics[metric] ?? 'convergence'} log={query.has('log')} chosen={chosen} choose={choose} open={open} source={`jobs/${id}`} />}
       {kind === 'line' && sweep.metrics.length > 0 && <Plot panel={linePanel(sweep, cells, metric)} source={`jobs/${id}`} height={320} />}
-      {kind === 'parallel' && <Parallel names={[...axes.map(({name}) => name), ...sweep.metrics]} axes={axes.length} cells={cells} metric={metric} choose={choose} chosen={chosen} />}
+      {kind === 'parallel' && <Parallel names={[...axes.map(({name}) => name), ...sweep.metrics]} axes={axes.length} cells={cells} metric={metric} choose={choose} open={open} chosen={chosen} csv={() => csvOf(sweep, cells)} source={`jobs/${id}`} />}
       {chosen !== undefined && <CellDetails id={id} sweep={sweep} cell={run.cells.get(chosen)} index={chosen} />}
     </section>
   );

@@ -1,0 +1,62 @@
+// What the plots of a run are made of: columns as curves, marks at the exact ends of cycles.
+
+import type {Series} from '../api/series';
+import {Cycle_End, type Cycle, type Group} from '../api/generated/contact/v1/job_pb';
+import {endForce, type ContactModel, type Mechanics} from './mechanics';
+import {interpolate, joined, type Curve, type Panel} from './panel';
+
+/** A run, or the part of it that a plot shows. */
+export interface RunView {
+  mechanics: Mechanics;
+  cycles: Cycle[];
+  groups: Group[];
+  series: Series;
+}
+
+export const NOTE = 'o start, × end of a contact cycle; shaded: in contact';
+export const MOST_MARKED = 400;    // Cycles; more marks would hide the curves.
+
+/** The values of a column; none if it is not there. */
+export function values(series: Series, name: string): Float64Array {
+  return series.get(name)?.values ?? new Float64Array(0);
+}
+
+/** The value of a column at a time, between samples. */
+export function at(series: Series, name: string, time: number): number {
+  return interpolate(values(series, 'time'), values(series, name), time);
+}
+
+/** A panel over time, with contact shaded. */
+export function overTime(view: RunView, id: string, title: string, yLabel: string): Panel {
+  const bands = joined(view.cycles.map(({startTimeS, endTimeS}) => ({start: startTimeS, end: endTimeS})));
+  return {id, title, xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, note: NOTE};
+}
+
+/** A column as a curve. */
+export function line(view: RunView, channel: string, label: string, colour: number, offset = 0): Curve {
+  const column = values(view.series, channel);
+  const y = offset === 0 ? column : column.map((value) => value + offset);
+  return {label, colour, mark: 'line', x: values(view.series, 'time'), y};
+}
+
+/** Circles where cycles start and crosses where they end. */
+export function marks(
+  cycles: Cycle[], label: string, colour: number,
+  atStart: (cycle: Cycle) => number, atEnd: (cycle: Cycle) => number,
+): Curve[] {
+  const shown = cycles.slice(0, MOST_MARKED);
+  return [
+    {label: `${label} starts`, colour, mark: 'start', keyed: false, x: shown.map((c) => c.startTimeS), y: shown.map(atStart)},
+    {label: `${label} ends`, colour, mark: 'end', keyed: false, x: shown.map((c) => c.endTimeS), y: shown.map(atEnd)},
+  ];
+}
+
+/** The forces at the start and at the end of a cycle of the contact. */
+export function endForces(view: RunView, contact: ContactModel): [(c: Cycle) => number, (c: Cycle) => number] {
+  const {mechanics, series} = view;
+  return [
+    (c) => endForce(mechanics, contact, c.mu, c.deltaStartM, c.approachVelocityMPerS),
+    (c) => (c.end === Cycle_End.RUN_END ? at(series, `${contact.name}.contact_force`, c.endTimeS)
+      : endForce(mechanics, contact, c.mu, c.deltaEndM, c.separationVelocityMPerS)),
+  ];
+}
