@@ -27,10 +27,6 @@ using asio::generic::stream_protocol;
 using ErrorCode = beast::error_code;
 using Buffers = std::vector<asio::const_buffer>;
 
-// Times that a client has: between two requests, for a head, for a body.
-constexpr auto kIdle = 60s;
-constexpr auto kHeadTime = 10s;
-constexpr auto kBodyTime = 30s;
 // For what a client still sends when it is refused, so that it reads the answer.
 constexpr auto kLingerTime = 2s;
 constexpr std::size_t kMostHeadBytes = 16 << 10;
@@ -65,7 +61,7 @@ std::string_view ReasonOf(int status) {
 Connection::Connection(asio::io_context& io, Service& service, int fd)
     : service_(service),
       peer_(UriOf(fd)),
-      stream_(Stream::socket_type(asio::make_strand(io), stream_protocol(FamilyOf(fd), 0), fd)) {}
+      stream_(Stream::socket_type(io.get_executor(), stream_protocol(FamilyOf(fd), 0), fd)) {}
 
 // g++ 12 destroys temporaries wrongly, or takes both ways, where a co_await stands in a condition
 // or beside && and ||: it stands alone here.
@@ -73,7 +69,7 @@ Connection::Connection(asio::io_context& io, Service& service, int fd)
 asio::awaitable<bool> Connection::Begin() {
   if (buffer_.size() > 0) co_return true;
   ErrorCode error;
-  stream_.expires_after(kIdle);
+  stream_.expires_after(service_.options().idle);
   constexpr std::size_t kFirst = 4096;
   const std::size_t size = co_await stream_.async_read_some(buffer_.prepare(kFirst), Into(&error));
   buffer_.commit(size);
@@ -89,7 +85,7 @@ asio::awaitable<std::optional<HttpRequest>> Connection::Read() {
   parser.header_limit(kMostHeadBytes);
   parser.body_limit(service_.options().max_body_bytes);
   ErrorCode error;
-  stream_.expires_after(kHeadTime);
+  stream_.expires_after(service_.options().head);
   co_await http::async_read_header(stream_, buffer_, parser, Into(&error));
   keep_alive_ = !error && parser.get().keep_alive();
   http11_ = parser.get().version() >= 11;
@@ -121,7 +117,7 @@ asio::awaitable<bool> Connection::ReadBody(Parser& parser, const HttpRequest& he
     if (!sent) co_return false;
   }
   ErrorCode error;
-  stream_.expires_after(kBodyTime);
+  stream_.expires_after(service_.options().body);
   co_await http::async_read(stream_, buffer_, parser, Into(&error));
   if (error) co_await Reject(parser, error);
   co_return !error;
@@ -207,6 +203,11 @@ asio::awaitable<bool> Connection::Write(Parts parts) {
   }
   stream_.expires_never();
   co_return !error;
+}
+
+asio::awaitable<void> Connection::Writable() {
+  ErrorCode ignored;
+  co_await stream_.socket().async_wait(stream_protocol::socket::wait_write, Into(&ignored));
 }
 
 void Connection::Watch(std::function<void()> left) {

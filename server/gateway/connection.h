@@ -3,7 +3,6 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/generic/stream_protocol.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/strand.hpp>
 #include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -17,13 +16,13 @@
 
 namespace contact::gateway {
 
-/// One HTTP/1.1 connection: requests in, answers out, in time. Used on its strand. The coroutines
-/// are those of one user, who awaits each before the next.
+/// One HTTP/1.1 connection: requests in, answers out, in time. Used on the one thread of its
+/// io_context. The coroutines are those of one user, who awaits each before the next.
 class Connection {
  public:
   template <class T>
   using Awaitable = boost::asio::awaitable<T>;
-  using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+  using Executor = boost::asio::io_context::executor_type;
 
   /// Takes over `fd`. The service outlives it.
   Connection(boost::asio::io_context& io, Service& service, int fd);
@@ -31,7 +30,7 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  Strand strand() { return stream_.get_executor(); }
+  Executor executor() { return stream_.get_executor(); }
   /// The client, as gRPC calls it.
   const std::string& peer() const { return peer_; }
 
@@ -47,6 +46,9 @@ class Connection {
   Awaitable<bool> SendParts(Parts parts);
   Awaitable<bool> SendEnd();
 
+  /// Waits until the client's system takes bytes, or the connection is cut.
+  Awaitable<void> Writable();
+
   /// Calls `left` once if the client leaves before Unwatch. It has left when it closes the
   /// connection or its half of it. `left` keeps this alive.
   void Watch(std::function<void()> left);
@@ -56,7 +58,7 @@ class Connection {
   void Close();
 
  private:
-  using Stream = boost::beast::basic_stream<boost::asio::generic::stream_protocol, Strand>;
+  using Stream = boost::beast::basic_stream<boost::asio::generic::stream_protocol, Executor>;
   using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
 
   /// Waits until something of the next request is there. False: nothing comes.

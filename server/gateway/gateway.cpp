@@ -20,36 +20,43 @@ constexpr unsigned kMostThreads = 8;
 
 }  // namespace
 
-/// The threads of the gateway and what runs on them.
+/// The threads of the gateway and what runs on them. Each connection stays on one thread: threads
+/// that share an io_context wake each other at each step of a call.
 class Gateway::Threads {
  public:
   Threads(const std::shared_ptr<grpc::Channel>& channel, GatewayOptions options)
       : service_(channel, std::move(options)) {
     const unsigned number =
         std::clamp(std::thread::hardware_concurrency(), kFewestThreads, kMostThreads);
-    for (unsigned i = 0; i < number; ++i) {
-      threads_.emplace_back([this] {
-        pthread_setname_np(pthread_self(), "http");
-        io_.run();
-      });
-    }
+    for (unsigned i = 0; i < number; ++i) threads_.push_back(std::make_unique<Thread>());
   }
   /// Waits until all connections have ended.
-  ~Threads() {
-    work_.reset();
-    threads_.clear();
-  }
+  ~Threads() { threads_.clear(); }
 
+  /// Called by one thread.
   void Serve(int fd) {
-    boost::asio::post(io_, [this, fd] { gateway::Serve(io_, service_, fd); });
+    boost::asio::io_context& io = threads_[next_++ % threads_.size()]->io;
+    boost::asio::post(io, [this, &io, fd] { gateway::Serve(io, service_, fd); });
   }
 
  private:
+  struct Thread {
+    Thread()
+        : thread([this] {
+            pthread_setname_np(pthread_self(), "http");
+            io.run();
+          }) {}
+    ~Thread() { work.reset(); }
+
+    boost::asio::io_context io{1};
+    boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work{
+        io.get_executor()};
+    std::jthread thread;  // Last: it uses both.
+  };
+
   gateway::Service service_;
-  boost::asio::io_context io_;
-  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
-      io_.get_executor()};
-  std::vector<std::jthread> threads_;  // Last: they use all of the above.
+  std::vector<std::unique_ptr<Thread>> threads_;
+  std::size_t next_ = 0;
 };
 
 Gateway::Gateway(Listener listener, const std::shared_ptr<grpc::Channel>& channel,

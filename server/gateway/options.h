@@ -21,6 +21,10 @@ struct GatewayOptions {
   ConnectionLimits connections = {.in_all = 1024, .per_peer = 1024};
   /// A client that takes nothing for this time is dropped.
   std::chrono::milliseconds stall{30'000};
+  /// Times that a client has, however it spends them: between two requests, for a head, for a body.
+  std::chrono::milliseconds idle{60'000};
+  std::chrono::milliseconds head{10'000};
+  std::chrono::milliseconds body{30'000};
   /// The text of `/metrics`. Empty: it is not served.
   std::function<std::string()> metrics = {};
 };

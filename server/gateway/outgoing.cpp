@@ -1,5 +1,7 @@
 #include "gateway/outgoing.h"
 
+#include <utility>
+
 #include "gateway/protocol/codec.h"
 #include "gateway/protocol/frames.h"
 
@@ -31,7 +33,7 @@ Outgoing::Outgoing(const RpcRequest& call, grpc::ByteBuffer message) {
   std::string bytes = Flat(message);
   message.Clear();
   if (call.dialect.json) {
-    bytes = ToJson(call.method->output_type()->full_name(), bytes).value_or("{}");
+    status_ = ToJson(*call.method->output_type(), std::exchange(bytes, {}), &bytes);
   }
   text_ = MessagePrefix(bytes.size()) + bytes;
   if (text) text_ = ToPaddedBase64(text_);

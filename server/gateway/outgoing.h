@@ -22,10 +22,13 @@ class Outgoing {
  public:
   Outgoing(const RpcRequest& call, grpc::ByteBuffer message);
 
+  /// INTERNAL if the message has no JSON. Then there is no frame.
+  const grpc::Status& status() const { return status_; }
   /// Its frame. Valid while this lives.
   Parts parts() const;
 
  private:
+  grpc::Status status_;
   std::string prefix_;
   std::vector<grpc::Slice> slices_;
   /// In the place of both for JSON and base64.

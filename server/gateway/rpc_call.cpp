@@ -6,31 +6,31 @@
 
 namespace contact::gateway {
 
+void Prepare(const RpcRequest& request, const std::string& peer, grpc::ClientContext* context,
+             grpc::ByteBuffer* message) {
+  if (request.timeout) {
+    context->set_deadline(std::chrono::system_clock::now() + *request.timeout);
+  }
+  for (const auto& [name, value] : request.metadata) context->AddMetadata(name, value);
+  context->AddMetadata(kPeerHeader, peer);
+  const grpc::Slice slice(request.message);
+  *message = grpc::ByteBuffer(&slice, 1);
+}
+
 std::shared_ptr<RpcCall> RpcCall::Start(grpc::GenericStub& stub, const RpcRequest& request,
                                         const std::string& peer, Post post,
                                         std::function<void()> changed) {
-  std::shared_ptr<RpcCall> call(new RpcCall(request, peer, std::move(post), std::move(changed)));
+  std::shared_ptr<RpcCall> call(new RpcCall(std::move(post), std::move(changed)));
   call->self_ = call;
+  Prepare(request, peer, &call->context_, &call->request_);
   stub.PrepareBidiStreamingCall(&call->context_, request.path, grpc::StubOptions(), call.get());
   call->AddHold();  // Reads start outside of gRPC's reactions.
   call->StartWriteLast(&call->request_, grpc::WriteOptions());
   // Before the call: the in-process transport of gRPC 1.51 drops a message that comes together with
-  // the status while nobody reads, as the answer of a unary call does.
+  // the status while nobody reads.
   call->Read();
   call->StartCall();
   return call;
-}
-
-RpcCall::RpcCall(const RpcRequest& request, const std::string& peer, Post post,
-                 std::function<void()> changed)
-    : post_(std::move(post)), changed_(std::move(changed)) {
-  if (request.timeout) {
-    context_.set_deadline(std::chrono::system_clock::now() + *request.timeout);
-  }
-  for (const auto& [name, value] : request.metadata) context_.AddMetadata(name, value);
-  context_.AddMetadata(kPeerHeader, peer);
-  const grpc::Slice slice(request.message);
-  request_ = grpc::ByteBuffer(&slice, 1);
 }
 
 const Trailers& RpcCall::head() const {

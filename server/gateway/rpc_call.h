@@ -7,21 +7,26 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "gateway/protocol/rpc_request.h"
 
 namespace contact::gateway {
 
-/// A call on its way through the server. One message at a time is read, and only when it is asked
+/// Runs a function on the thread of a call's user, also after that one has left.
+using Post = std::function<void(std::function<void()>)>;
+
+/// Writes deadline, metadata and message of the call of `peer` where gRPC takes them from.
+void Prepare(const RpcRequest& request, const std::string& peer, grpc::ClientContext* context,
+             grpc::ByteBuffer* message);
+
+/// A stream on its way through the server. One message at a time is read, and only when it is asked
 /// for, so that a client that takes nothing holds up the stream and not the memory. Used on one
-/// strand, but for what gRPC calls.
+/// thread, but for what gRPC calls.
 class RpcCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
-  /// Runs a function on the strand of the call's user, also after that one has left.
-  using Post = std::function<void(std::function<void()>)>;
-
   /// Starts the call of `peer`, and asks for its first message. After each change of what is below,
-  /// `changed` is called on the strand, until Leave. `post` lives as long as the call.
+  /// `changed` is called on the thread, until Leave. `post` lives as long as the call.
   static std::shared_ptr<RpcCall> Start(grpc::GenericStub& stub, const RpcRequest& request,
                                         const std::string& peer, Post post,
                                         std::function<void()> changed);
@@ -46,8 +51,8 @@ class RpcCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   void Leave();
 
  private:
-  RpcCall(const RpcRequest& request, const std::string& peer, Post post,
-          std::function<void()> changed);
+  RpcCall(Post post, std::function<void()> changed)
+      : post_(std::move(post)), changed_(std::move(changed)) {}
   void OnReadInitialMetadataDone(bool ok) override;
   void OnReadDone(bool ok) override;
   void OnDone(const grpc::Status& status) override;
@@ -65,7 +70,7 @@ class RpcCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   /// Keeps this until gRPC is done.
   std::shared_ptr<RpcCall> self_;
 
-  // Of the strand.
+  // Of the user's thread.
   std::function<void()> changed_;
   bool head_ = false;
   bool reading_ = false;

@@ -16,6 +16,7 @@
 
 #include "gateway/connection.h"
 #include "gateway/rpc_call.h"
+#include "gateway/unary_call.h"
 #include "grpc/health/v1/health.pb.h"
 
 namespace contact::gateway {
@@ -34,21 +35,24 @@ RpcRequest HealthCheck() { return {.path = "/grpc.health.v1.Health/Check", .time
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(asio::io_context& io, Service& service, int fd)
-      : service_(service), connection_(io, service, fd), wake_(connection_.strand()) {
+      : service_(service), connection_(io, service, fd), wake_(connection_.executor()) {
     wake_.expires_at(std::chrono::steady_clock::time_point::max());
   }
 
   void Start() {
     asio::co_spawn(
-        connection_.strand(), [self = shared_from_this()] { return self->Run(); }, asio::detached);
+        connection_.executor(), [self = shared_from_this()] { return self->Run(); },
+        asio::detached);
   }
 
  private:
   // A call whose user is this session, until the end of the scope.
+  template <class Call>
   class Running {
    public:
     Running(Session& session, const RpcRequest& request) : session_(session) {
-      call_ = session.StartCall(request);
+      call_ = Call::Start(session.service_.stub(), request, session.connection_.peer(),
+                          session.Poster(), session.Waker());
       session.connection_.Watch(
           [self = session.shared_from_this(), call = call_] { call->Cancel(); });
     }
@@ -59,12 +63,12 @@ class Session : public std::enable_shared_from_this<Session> {
     Running(const Running&) = delete;
     Running& operator=(const Running&) = delete;
 
-    RpcCall& operator*() const { return *call_; }
-    RpcCall* operator->() const { return call_.get(); }
+    Call& operator*() const { return *call_; }
+    Call* operator->() const { return call_.get(); }
 
    private:
     Session& session_;
-    std::shared_ptr<RpcCall> call_;
+    std::shared_ptr<Call> call_;
   };
 
   awaitable<void> Run();
@@ -75,7 +79,9 @@ class Session : public std::enable_shared_from_this<Session> {
   awaitable<bool> Streaming(const HttpRequest& request, const RpcRequest& asked);
   awaitable<bool> Readiness(const HttpRequest& request);
 
-  std::shared_ptr<RpcCall> StartCall(const RpcRequest& request);
+  // What a call needs to run on the thread of this session, and to tell it that something changed.
+  Post Poster();
+  std::function<void()> Waker();
   // Waits until something of a call has changed.
   awaitable<void> Changed();
   // The next message of a call; nothing once it has ended.
@@ -121,15 +127,17 @@ awaitable<bool> Session::Call(const HttpRequest& request) {
   co_return co_await Unary(request, asked);
 }
 
-std::shared_ptr<RpcCall> Session::StartCall(const RpcRequest& request) {
-  // The guard keeps the threads until gRPC is done with the call.
-  auto post = [work = asio::make_work_guard(connection_.strand())](std::function<void()> run) {
+Post Session::Poster() {
+  // The guard keeps the thread until gRPC is done with the call.
+  return [work = asio::make_work_guard(connection_.executor())](std::function<void()> run) {
     asio::post(work.get_executor(), std::move(run));
   };
-  return RpcCall::Start(service_.stub(), request, connection_.peer(), std::move(post),
-                        [self = weak_from_this()] {
-                          if (const auto session = self.lock()) session->wake_.cancel();
-                        });
+}
+
+std::function<void()> Session::Waker() {
+  return [self = weak_from_this()] {
+    if (const auto session = self.lock()) session->wake_.cancel();
+  };
 }
 
 awaitable<void> Session::Changed() {
@@ -149,35 +157,34 @@ awaitable<std::optional<grpc::ByteBuffer>> Session::Next(RpcCall& call) {
 awaitable<bool> Session::Unary(const HttpRequest& request, const RpcRequest& asked) {
   HttpAnswer answer;
   {
-    const Running call(*this, asked);
-    std::optional<std::string> message;
-    for (;;) {
-      const std::optional<grpc::ByteBuffer> next = co_await Next(*call);
-      if (!next) break;
-      message = Flat(*next);
-    }
-    grpc::Status status = *call->status();
-    if (status.ok() && !message) status = {grpc::StatusCode::INTERNAL, "the call gave no answer"};
-    answer = AnswerOf(asked, message.value_or(""), status, call->head(), call->trailers());
+    const Running<UnaryCall> call(*this, asked);
+    while (!call->status()) co_await Changed();
+    const std::string message = call->status()->ok() ? Flat(call->message()) : "";
+    answer = AnswerOf(asked, message, *call->status(), call->head(), call->trailers());
   }
   co_return co_await connection_.Send(request, std::move(answer));
 }
 
 awaitable<bool> Session::Streaming(const HttpRequest& request, const RpcRequest& asked) {
-  const Running call(*this, asked);
+  const Running<RpcCall> call(*this, asked);
   while (!call->has_head()) co_await Changed();
   HttpAnswer head;
   head.headers = HeadersOf(asked.dialect);
   for (auto& header : ToHeaders(call->head(), "")) head.headers.push_back(std::move(header));
   bool sent = co_await connection_.SendHead(request, std::move(head));
+  grpc::Status printed;
   while (sent) {
+    co_await connection_.Writable();  // So that a stalled client holds one message, that of gRPC.
     std::optional<grpc::ByteBuffer> message = co_await Next(*call);
     if (!message) break;
     const Outgoing outgoing(asked, *std::exchange(message, std::nullopt));
+    printed = outgoing.status();
+    if (!printed.ok()) break;
     sent = co_await connection_.SendParts(outgoing.parts());
   }
   if (!sent) co_return false;
-  const std::string end = EndOf(asked.dialect, *call->status(), call->trailers());
+  const std::string end = printed.ok() ? EndOf(asked.dialect, *call->status(), call->trailers())
+                                       : EndOf(asked.dialect, printed, {});
   sent = co_await connection_.SendParts(Parts(1, end));
   if (!sent) co_return false;
   co_return co_await connection_.SendEnd();
@@ -187,12 +194,9 @@ awaitable<bool> Session::Readiness(const HttpRequest& request) {
   using grpc::health::v1::HealthCheckResponse;
   HealthCheckResponse health;
   {
-    const Running call(*this, HealthCheck());
-    for (;;) {
-      const std::optional<grpc::ByteBuffer> next = co_await Next(*call);
-      if (!next) break;
-      health.ParseFromString(Flat(*next));
-    }
+    const Running<UnaryCall> call(*this, HealthCheck());
+    while (!call->status()) co_await Changed();
+    if (call->status()->ok()) health.ParseFromString(Flat(call->message()));
   }
   HttpAnswer answer = PlainAnswer(503, "not ready");
   if (health.status() == HealthCheckResponse::SERVING) answer = PlainAnswer(200, "ready");

@@ -30,10 +30,12 @@ void TryCall(const HttpRequest& request) {
   }
   const auto& call = std::get<RpcRequest>(read);
   if (!call.dialect.json) return;
-  const std::string& type = call.method->input_type()->full_name();
-  const auto json = contact::gateway::ToJson(type, call.message);
-  std::string again;
-  if (!json || !contact::gateway::FromJson(type, *json, &again).ok()) std::abort();
+  const google::protobuf::Descriptor& type = *call.method->input_type();
+  std::string json, again;
+  if (!contact::gateway::ToJson(type, call.message, &json).ok() ||
+      !contact::gateway::FromJson(type, json, &again).ok()) {
+    std::abort();
+  }
 }
 
 void Try(const HttpRequest& request) {

@@ -2,6 +2,8 @@
 
 import base64
 import json
+import pathlib
+import re
 import shutil
 import socket
 import struct
@@ -329,6 +331,17 @@ class CurlTest(GatewayTest):
              f"http://localhost:{self.http}{SERVICE}GetJob"],
             capture_output=True, text=True, timeout=PATIENCE_S, check=True)
         self.assertIn("nam: Cannot find field.", json.loads(run.stdout)["message"])
+
+
+class RulesTest(unittest.TestCase):
+
+    def test_each_rule_of_the_table_names_tests_that_there_are(self):
+        here = pathlib.Path(__file__).parent
+        named = re.findall(r"`(test_\w+|[A-Z][A-Za-z0-9]*[a-z][A-Z]\w+)`", (here / "README.md").read_text())
+        named.remove("RulesTest")
+        there = "".join(file.read_text() for file in here.glob("*_test.*"))
+        self.assertGreater(len(named), 50)
+        self.assertEqual([name for name in named if not re.search(rf"\b{name}\b[()]", there)], [])
 
 
 if __name__ == "__main__":

@@ -1,5 +1,8 @@
 #include "gateway/protocol/codec.h"
 
+#include <google/protobuf/arena.h>
+#include <google/protobuf/descriptor.pb.h>
+#include <google/protobuf/message.h>
 #include <google/protobuf/type.pb.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/type_resolver.h>
@@ -11,6 +14,7 @@
 #include <utility>
 
 #include "base/mutex.h"
+#include "gateway/protocol/json_print.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 #include "jobs/job/errors.h"
@@ -75,7 +79,9 @@ util::TypeResolver* Resolver() {
   return &types;
 }
 
-std::string UrlOf(const std::string& type) { return std::string(kPrefix) + "/" + type; }
+std::string UrlOf(const pb::Descriptor& type) {
+  return std::string(kPrefix) + "/" + type.full_name();
+}
 
 // The error of a request that breaks rules of the contract, as of native calls.
 grpc::Status FieldInvalid(const std::string& words) {
@@ -103,14 +109,16 @@ bool HasNoSideEffects(const google::protobuf::MethodDescriptor& method) {
   return method.options().idempotency_level() == google::protobuf::MethodOptions::NO_SIDE_EFFECTS;
 }
 
-std::optional<std::string> ToJson(const std::string& type, const std::string& bytes) {
-  std::string json;
-  const auto status = util::BinaryToJsonString(Resolver(), UrlOf(type), bytes, &json);
-  if (!status.ok()) return std::nullopt;
-  return json;
+grpc::Status ToJson(const pb::Descriptor& type, const std::string& bytes, std::string* json) {
+  pb::Arena arena;
+  pb::Message* message = pb::MessageFactory::generated_factory()->GetPrototype(&type)->New(&arena);
+  auto printed = message->ParseFromString(bytes) ? PrintJson(*message) : std::nullopt;
+  if (!printed) return {grpc::StatusCode::INTERNAL, "the answer has no JSON"};
+  *json = *std::move(printed);
+  return grpc::Status::OK;
 }
 
-grpc::Status FromJson(const std::string& type, const std::string& json, std::string* bytes) {
+grpc::Status FromJson(const pb::Descriptor& type, const std::string& json, std::string* bytes) {
   const auto status = util::JsonToBinaryString(Resolver(), UrlOf(type), json, bytes);
   if (status.ok()) return grpc::Status::OK;
   std::string words(status.message());

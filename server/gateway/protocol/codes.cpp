@@ -47,9 +47,12 @@ json Detail(const google::protobuf::Any& any) {
   const std::string& url = any.type_url();
   const std::string type = url.substr(url.rfind('/') + 1);
   json detail = {{"type", type}, {"value", ToBase64(any.value())}};
-  const auto text = ToJson(type, any.value());
-  json debug = text ? json::parse(*text, nullptr, false) : json();
-  if (!debug.is_discarded() && !debug.is_null()) detail["debug"] = std::move(debug);
+  const auto* known =
+      google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(type);
+  std::string text;
+  if (known == nullptr || !ToJson(*known, any.value(), &text).ok()) return detail;
+  json debug = json::parse(text, nullptr, false);
+  if (!debug.is_discarded()) detail["debug"] = std::move(debug);
   return detail;
 }
 

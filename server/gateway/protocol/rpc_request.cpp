@@ -102,7 +102,7 @@ Status ToWire(const RpcRequest& call, std::string* message) {
   std::string bytes;
   // Nothing is an empty message, for a client that posts no body.
   const std::string& json = message->empty() ? "{}" : *message;
-  Status status = FromJson(call.method->input_type()->full_name(), json, &bytes);
+  Status status = FromJson(*call.method->input_type(), json, &bytes);
   *message = std::move(bytes);
   return status;
 }
@@ -182,9 +182,8 @@ HttpAnswer AnswerOf(const RpcRequest& call, const std::string& message, const St
   HttpAnswer answer{200, HeadersOf(dialect), message};
   std::ranges::move(ToHeaders(head, ""), std::back_inserter(answer.headers));
   if (dialect.json) {
-    auto json = ToJson(call.method->output_type()->full_name(), message);
-    if (!json) return Failure(dialect, {StatusCode::INTERNAL, "the answer has no JSON"}, trailers);
-    answer.body = *std::move(json);
+    const Status printed = ToJson(*call.method->output_type(), message, &answer.body);
+    if (!printed.ok()) return Failure(dialect, printed, trailers);
   }
   if (!dialect.framed()) {
     std::ranges::move(ToHeaders(trailers, "trailer-"), std::back_inserter(answer.headers));

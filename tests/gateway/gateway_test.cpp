@@ -1,0 +1,187 @@
+// The gateway on real sockets, before a server that answers what a test wants.
+#include "gateway/gateway.h"
+
+#include <arpa/inet.h>
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/file_descriptor.h"
+#include "contact/v1/job_service.grpc.pb.h"
+#include "gateway/protocol/frames.h"
+#include "rpc/net/listener.h"
+#include "testing/await.h"
+
+namespace contact {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+// Past the last year that JSON has.
+constexpr std::int64_t kNoTime = 253'402'300'800;
+
+// Answers with a time that JSON does not have.
+class TimelessService final : public v1::JobService::Service {
+  grpc::Status GetJob(grpc::ServerContext* /*context*/, const v1::GetJobRequest* /*request*/,
+                      v1::Job* job) override {
+    job->mutable_create_time()->set_seconds(kNoTime);
+    return grpc::Status::OK;
+  }
+  grpc::Status WatchJob(grpc::ServerContext* /*context*/, const v1::WatchJobRequest* /*request*/,
+                        grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
+    v1::WatchJobResponse response;
+    response.mutable_snapshot()->set_name("jobs/a");
+    writer->Write(response);
+    response.mutable_snapshot()->mutable_create_time()->set_seconds(kNoTime);
+    writer->Write(response);
+    return grpc::Status::OK;
+  }
+};
+
+// A client that says what it likes.
+class Client {
+ public:
+  explicit Client(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address = {};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<in_port_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket_.get(), reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+  }
+
+  // False: the other side has closed.
+  bool Send(const std::string& text) const {
+    return send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(text.size());
+  }
+  // True once something comes, or the other side has closed.
+  bool Wait(std::chrono::milliseconds most) const {
+    pollfd readable = {socket_.get(), POLLIN, 0};
+    return poll(&readable, 1, static_cast<int>(most.count())) > 0;
+  }
+  // What comes until the other side closes.
+  std::string ReadAll() const {
+    std::string all;
+    std::array<char, 4096> part;
+    while (Wait(kPatience)) {
+      const ssize_t size = recv(socket_.get(), part.data(), part.size(), 0);
+      if (size <= 0) return all;
+      all.append(part.data(), static_cast<std::size_t>(size));
+    }
+    ADD_FAILURE() << "the connection does not end";
+    return all;
+  }
+
+ private:
+  FileDescriptor socket_;
+};
+
+std::string Post(const std::string& method, const std::string& type, const std::string& body) {
+  return "POST /contact.v1.JobService/" + method +
+         " HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\ncontent-type: " + type +
+         "\r\ncontent-length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+std::string BodyOf(const std::string& answer) { return answer.substr(answer.find("\r\n\r\n") + 4); }
+
+// The bytes of a chunked body.
+std::string Unchunked(const std::string& body) {
+  std::string whole;
+  for (std::size_t at = 0, size = 0; at < body.size(); at += size + 2) {
+    size = std::stoul(body.substr(at), nullptr, 16);
+    at = body.find("\r\n", at) + 2;
+    whole += body.substr(at, size);
+  }
+  return whole;
+}
+
+class GatewayTest : public testing::Test {
+ protected:
+  GatewayTest() {
+    grpc::ServerBuilder builder;
+    builder.RegisterService(&service_);
+    server_ = builder.BuildAndStart();
+  }
+
+  // A client of a gateway with these options, the first of its connections.
+  Client Connect(GatewayOptions options) {
+    Listener listener = OpenTcpListener("127.0.0.1:0");
+    port_ = listener.port;
+    gateway_ = std::make_unique<Gateway>(std::move(listener), server_->InProcessChannel({}),
+                                         std::move(options));
+    return Client(port_);
+  }
+  // Whether others are answered.
+  bool Answers() const {
+    const Client other(port_);
+    other.Send("GET /healthz HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n\r\n");
+    return other.ReadAll().ends_with("\r\n\r\nok\n");
+  }
+
+ private:
+  TimelessService service_;
+  std::unique_ptr<grpc::Server> server_;
+  std::unique_ptr<Gateway> gateway_;
+  int port_ = 0;
+};
+
+TEST_F(GatewayTest, AnAnswerWithoutJsonIsAnError) {
+  const Client client = Connect({});
+  client.Send(Post("GetJob", "application/json", "{}"));
+  const std::string answer = client.ReadAll();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 500 ")) << answer;
+  EXPECT_EQ(json::parse(BodyOf(answer))["code"], "internal");
+}
+
+TEST_F(GatewayTest, AStreamedMessageWithoutJsonEndsTheStreamWithAnError) {
+  const Client client = Connect({});
+  client.Send(Post("WatchJob", "application/connect+json", gateway::ToBytes({0, "{}"})));
+  const auto frames = gateway::ToFrames(Unchunked(BodyOf(client.ReadAll())));
+  ASSERT_TRUE(frames);
+  ASSERT_EQ(frames->size(), 2U) << "the message before it, and the end";
+  EXPECT_EQ(json::parse(frames->front().payload)["snapshot"]["name"], "jobs/a");
+  EXPECT_EQ(frames->back().flags, gateway::kEndOfStream);
+  EXPECT_EQ(json::parse(frames->back().payload)["error"]["code"], "internal");
+}
+
+TEST_F(GatewayTest, AConnectionWithoutARequestIsClosed) {
+  EXPECT_EQ(Connect({.idle = 20ms}).ReadAll(), "");
+}
+
+TEST_F(GatewayTest, AConnectionThatIsIdleAfterARequestIsClosed) {
+  const Client client = Connect({.idle = 20ms});
+  client.Send("GET /healthz HTTP/1.1\r\nhost: localhost\r\n\r\n");
+  EXPECT_TRUE(client.ReadAll().ends_with("\r\n\r\nok\n"));
+}
+
+TEST_F(GatewayTest, AHeadThatComesDropByDropIsCut) {
+  const Client client = Connect({.head = 100ms});
+  client.Send("GET /healthz HTTP/1.1\r\nhost: localhost\r\n");
+  EXPECT_TRUE(Answers());
+  int drops = 0;
+  while (!client.Wait(5ms) && client.Send("x: y\r\n")) ++drops;
+  EXPECT_GT(drops, 1);
+  EXPECT_LT(drops, 1000) << "each drop gives it more time";
+}
+
+TEST_F(GatewayTest, ABodyThatComesDropByDropIsCut) {
+  const Client client = Connect({.body = 100ms});
+  const std::string whole = Post("GetJob", "application/json", std::string(10'000, ' '));
+  client.Send(whole.substr(0, whole.find("\r\n\r\n") + 4));
+  EXPECT_TRUE(Answers());
+  int drops = 0;
+  while (!client.Wait(5ms) && client.Send(" ")) ++drops;
+  EXPECT_GT(drops, 1);
+  EXPECT_LT(drops, 1000) << "each drop gives it more time";
+}
+
+}  // namespace
+}  // namespace contact
