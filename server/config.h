@@ -21,8 +21,8 @@ enum ExitCode : int {
   kExitOk = 0,
   kExitInternal = 1,
   kExitDamaged = 1,  ///< Of `fsck`: it found damage.
-  kExitUsage = 2,    ///< Bad flag, or a data directory that cannot be used.
-  kExitHeld = 3,     ///< Another process holds the data directory or the address.
+  kExitUsage = 2,    ///< Bad flag, or a store that cannot be used.
+  kExitHeld = 3,     ///< Another process holds the store or the address, or no database answers.
 };
 
 /// A socket file whose users are all one principal.
@@ -52,9 +52,14 @@ struct Config {
   std::filesystem::path audit_log;  ///< File of changes and refused calls; empty: none.
   std::int64_t max_audit_bytes = 100'000'000;  ///< See AuditLog::Open.
   std::filesystem::path data_dir;              ///< Directory of jobs and results; made if missing.
-  std::filesystem::path port_file;             ///< File to write the port to; empty: none.
+  std::string store_address;        ///< PostgreSQL database of jobs and results; empty: `data_dir`.
+  std::filesystem::path port_file;  ///< File to write the port to; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;
-  bool fsck = false;  ///< Check the data directory and end.
+  bool fsck = false;        ///< Check the data directory and end.
+  bool copy_store = false;  ///< Copy the jobs from one store to the other and end.
+  std::string copy_from;    ///< With `copy_store`: a directory, or the address of a database.
+  std::string copy_to;      ///< As `copy_from`; a store without jobs.
+  bool migrate = false;     ///< Bring the tables of `store_address` up to date and end.
   LogFormat log_format = LogFormat::kText;
   StoreOptions store;
   JobOptions jobs;

@@ -29,6 +29,10 @@ void AddBasics(CLI::App* app, Config* config) {
       ->capture_default_str();
   app->add_option("--data-dir", config->data_dir, "Directory of jobs and results; made if missing")
       ->capture_default_str();
+  app->add_option(
+      "--store", config->store_address,
+      "postgresql://… of the database that holds jobs and results; --data-dir holds them "
+      "without it");
   app->add_option("--workers", config->jobs.workers, "Simulations that run at once")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

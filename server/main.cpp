@@ -27,8 +27,10 @@
 #include "rpc/grpc_log.h"
 #include "rpc/metrics/metrics_server.h"
 #include "self_probe.h"
-#include "storage/fsck.h"
-#include "storage/store.h"
+#include "storage/postgres/postgres_store.h"
+#include "storage/sqlite/fsck.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "storage/store_copy.h"
 #include "version.h"
 
 namespace contact {
@@ -115,6 +117,12 @@ bool ServeHttp(const Config& config, MetricsSources sources, Listeners& listener
   return true;
 }
 
+// What holds jobs and results, for people.
+std::string StoreName(const Config& config) {
+  return config.store_address.empty() ? config.data_dir.string()
+                                      : PostgresName(config.store_address);
+}
+
 bool Announce(const Config& config, int port) {
   if (!config.port_file.empty() && ReplaceFile(config.port_file, fmt::format("{}\n", port))) {
     fmt::print(stderr, "contactd: cannot write --port-file {}\n", config.port_file.string());
@@ -123,7 +131,7 @@ bool Announce(const Config& config, int port) {
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));
   const std::string address = port == 0 ? config.listen : fmt::format("{}:{}", host, port);
   Greet(config.log_format, fmt::format("contactd {} listening on {}, data in {}", kVersion, address,
-                                       config.data_dir.string()));
+                                       StoreName(config)));
   sd_notify(0, "READY=1");
   return true;
 }
@@ -132,6 +140,41 @@ bool Announce(const Config& config, int port) {
 int Refuse(const absl::Status& status) {
   fmt::print(stderr, "contactd: {}\n", std::string(status.message()));
   return absl::IsUnavailable(status) ? kExitHeld : kExitUsage;
+}
+
+absl::StatusOr<std::unique_ptr<Store>> OpenStore(const Config& config, StoreOptions options) {
+  if (config.store_address.empty()) return OpenSqlite(config.data_dir, std::move(options));
+  std::error_code error;
+  std::filesystem::create_directories(config.data_dir, error);
+  if (error) {
+    return absl::FailedPreconditionError(
+        fmt::format("cannot make {}: {}", config.data_dir.string(), error.message()));
+  }
+  return OpenPostgres(config.store_address, std::move(options));
+}
+
+absl::StatusOr<std::unique_ptr<Store>> OpenEither(const std::string& place) {
+  if (IsPostgresAddress(place)) return OpenPostgres(place);
+  return OpenSqlite(place, {.reserve_bytes = kReserve});
+}
+
+int CopyStores(const Config& config) {
+  const auto from = OpenEither(config.copy_from);
+  if (!from.ok()) return Refuse(from.status());
+  const auto to = OpenEither(config.copy_to);
+  if (!to.ok()) return Refuse(to.status());
+  const auto report = CopyStore(**from, **to);
+  if (!report.ok()) return Refuse(report.status());
+  fmt::print("copied {}, {}\n", Count(report->jobs, "job", "jobs"),
+             Count(report->events, "event", "events"));
+  return kExitOk;
+}
+
+int MigrateStore(const Config& config) {
+  const absl::Status status = MigratePostgres(config.store_address);
+  if (!status.ok()) return Refuse(status);
+  fmt::print("{} is up to date\n", StoreName(config));
+  return kExitOk;
 }
 
 int CheckData(const std::filesystem::path& directory) {
@@ -172,7 +215,8 @@ MetricsSources Sources(const Config& config, const StoreOptions& store, const Jo
     MetricsSources::Now now{.workers = info.workers(),
                             .queued_jobs = info.queued_jobs(),
                             .running_jobs = info.running_jobs(),
-                            .stored_bytes = StoredBytes(config.data_dir)};
+                            .stored_bytes = {}};
+    if (config.store_address.empty()) now.stored_bytes = StoredBytes(config.data_dir);
     listeners.AddTo(&now);
     return now;
   };
@@ -199,10 +243,12 @@ int Serve(const Config& config, const sigset_t& signals) {
   StoreOptions options = config.store;
   options.on_failure = EndAfterDiskFailure;
   options.reserve_bytes = kReserve;
-  const auto store = Store::Open(config.data_dir, options);
+  const auto store = OpenStore(config, options);
   if (!store.ok()) return Refuse(store.status());
   JobOptions job_options = config.jobs;
-  job_options.disk = [directory = config.data_dir] { return SpaceOf(directory); };
+  if (config.store_address.empty()) {
+    job_options.disk = [directory = config.data_dir] { return SpaceOf(directory); };
+  }
   job_options.retention.clock_file = config.data_dir / "clock";
   JobManager jobs(**store, SystemClock(), RandomIds(), job_options);
   Listeners listeners(jobs, **store, config, Identity(config));
@@ -244,6 +290,8 @@ int main(int argc, char** argv) {
   }
   const auto& config = std::get<contact::Config>(read);
   if (config.fsck) return contact::CheckData(config.data_dir);
+  if (config.copy_store) return contact::CopyStores(config);
+  if (config.migrate) return contact::MigrateStore(config);
   contact::SetUpLog(config.log_level, config.log_format);
   contact::RouteGrpcLog();
   return contact::Serve(config, signals);

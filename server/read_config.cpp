@@ -19,6 +19,7 @@
 
 #include "address.h"
 #include "flags.h"
+#include "storage/postgres/postgres_store.h"
 #include "version.h"
 
 namespace contact {
@@ -174,6 +175,24 @@ void SettleOwnerLimits(const Config& config, OwnerLimits* limits) {
   settle(&limits->connections, 100);
 }
 
+// Throws CLI::ValidationError for settings of a database that do not belong together.
+void CheckStore(const Config& config) {
+  const auto refuse = [](const char* flag, const char* why) {
+    throw CLI::ValidationError(flag, why);
+  };
+  if (config.store_address.empty()) {
+    if (config.migrate) refuse("migrate", "needs --store; contactd brings a directory up to date");
+    return;
+  }
+  if (!IsPostgresAddress(config.store_address)) {
+    refuse("--store", "must be postgresql://USER@HOST/DATABASE, as libpq takes it");
+  }
+  if (config.fsck) refuse("fsck", "looks at directories; use pg_amcheck for a database");
+  if (config.store.max_bytes > 0) {
+    refuse("--max-stored-bytes", "is of --data-dir; the database of --store has its own limits");
+  }
+}
+
 // Sets what follows from several flags. Throws CLI::ValidationError for values that one flag's own
 // check cannot refuse.
 void Finish(const Switches& switches, Config* config) {
@@ -193,6 +212,8 @@ void Finish(const Switches& switches, Config* config) {
   if (config->web_dir.empty()) config->web_dir = DefaultWebDir();
   for (const std::string& text : switches.listen_as) config->listen_as.push_back(ToSocket(text));
   if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
+  CheckStore(*config);
+  if (!config->store_address.empty()) config->store.max_bytes = 0;
   if (config->store.max_bytes == kUnset) config->store.max_bytes = MostOfDisk(config->data_dir);
   SettleOwnerLimits(*config, &config->jobs.owner_limits);
   // Where callers are asked who they are, only --listen-admin tells of services and calls: gRPC's
@@ -261,9 +282,21 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
   const CLI::App* fsck =
       app.add_subcommand("fsck", "Check what is in --data-dir, without a change to it, and end")
           ->fallthrough();
+  const CLI::App* migrate =
+      app.add_subcommand("migrate", "Make the tables of --store, or bring them up to date, and end")
+          ->fallthrough();
+  CLI::App* copy = app.add_subcommand(
+      "copy-store", "Copy all jobs into an empty store while no contactd uses the two, and end");
+  copy->add_option("--from", config.copy_from, "Directory, or postgresql://… of a database")
+      ->required();
+  copy->add_option("--to", config.copy_to, "Directory, or postgresql://… of a database")
+      ->required();
   AddSources(&app);
   try {
     app.parse(Arguments(app, argc, argv));
+    config.fsck = fsck->parsed();
+    config.migrate = migrate->parsed();
+    config.copy_store = copy->parsed();
     Finish(switches, &config);
   } catch (const CLI::CallForHelp&) {
     return Exit{kExitOk, app.help()};
@@ -273,7 +306,6 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
     return Exit{kExitUsage,
                 fmt::format("contactd: {}\nRun contactd --help for the settings.\n", error.what())};
   }
-  config.fsck = fsck->parsed();
   return config;
 }
 

@@ -15,6 +15,7 @@ ORDER = {
     "server": ["base", "identity", "simulation", "wire", "storage", "jobs", "rpc", "gateway", "."],
     "server/wire": ["rules", "scenario", "sweep", "."],
     "server/simulation": ["laws", "model", "motion", "episode", "forecast", "."],
+    "server/storage": [".", "sqlite", "postgres"],
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],
     "server/gateway": ["protocol", "."],

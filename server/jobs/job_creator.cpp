@@ -14,6 +14,7 @@
 #include "jobs/quota/places.h"
 #include "jobs/read/create_rules.h"
 #include "storage/job_parts.h"
+#include "storage/refusals.h"
 #include "wire/estimate.h"
 #include "wire/scenario/scenario_codec.h"
 #include "wire/sweep/sweep_codec.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include <cstdint>
 #include <string>
 
@@ -16,15 +14,5 @@ std::int64_t Checksum(const std::string& bytes, std::uint64_t place = 0);
 /// Checksum of an event with this sequence. Its coding counts as well, since that says how the
 /// bytes are read.
 std::int64_t Checksum(const CodedEvent& event, std::uint64_t sequence);
-
-/// SQL expression on a row of jobs: the checksum of its columns that stand nowhere else, which
-/// row_crc32 holds. Of the others state, owner, tenant and end_time repeat the header;
-/// last_sequence and bytes follow from the log, and change with every commit.
-inline constexpr char kRowChecksum[] =
-    "row_checksum(number, name, request_id, epoch, cancel_requested, oldest_sequence, compacted)";
-
-/// Gives a connection the function of kRowChecksum: CRC-32 of its arguments, of any number and
-/// type.
-void AddRowChecksum(SQLite::Database& connection);
 
 }  // namespace contact

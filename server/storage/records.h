@@ -53,12 +53,6 @@ struct JobUpdate {
   const Checkpoint* checkpoint = nullptr;
 };
 
-/// Payload of a status: the uid of the job that was found in place of the one expected.
-inline constexpr char kUidPayload[] = "contact/uid";
-
-/// Payload of a RESOURCE_EXHAUSTED status: the bytes that the jobs of the owner take.
-inline constexpr char kOwnerBytesPayload[] = "contact/owner_bytes";
-
 /// What of a job to read.
 enum class JobPart {
   /// All but spec, cycles, groups and final bodies.
@@ -80,6 +74,8 @@ struct StoredJob {
   bool cancel_requested = false;
   /// See Store::Compact.
   bool compacted = false;
+  /// NewJob::request_id; empty without one.
+  std::string request_id = {};
   /// True if this call of Store::Create made the job.
   bool created = false;
   /// False if the job fails its checksum: then only name, state and sequences of `job` are right.
@@ -136,6 +132,10 @@ struct JobSize {
   /// Bytes stored of its events, spec and result.
   std::int64_t bytes = 0;
 };
+
+/// Events that one page steps over at most, so that a filter that lets little through does not hold
+/// up the commits behind it.
+inline constexpr std::uint64_t kMostScanned = 4096;
 
 /// Which events of a job to read.
 struct EventQuery {

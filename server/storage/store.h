@@ -4,7 +4,6 @@
 #include <absl/status/statusor.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stop_token>
@@ -12,15 +11,12 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "storage/backup.h"
-#include "storage/commit_thread.h"
+#include "storage/backup_file.h"
+#include "storage/changes.h"
 #include "storage/records.h"
 #include "storage/store_metrics.h"
 
 namespace contact {
-
-class Database;
-struct JobChange;
 
 /// How a store is opened.
 struct StoreOptions {
@@ -37,27 +33,26 @@ struct StoreOptions {
   const Clock* clock = &SystemClock();
 };
 
-/// What survives a restart: jobs and their event logs, in one SQLite database.
+/// What survives a restart: jobs and their event logs. An engine keeps them: one SQLite database of
+/// this process, or a PostgreSQL database of many (openers: sqlite/sqlite_store.h,
+/// postgres/postgres_store.h). Its destructor finishes what was asked for.
 ///
 /// Calls are thread-safe and return at once. They take effect in the order of the calls; each
 /// runs its callback once, on the store's one thread, in that order, after its change is on disk.
 /// Callbacks must not block. Errors of every call, beside its own:
 ///   RESOURCE_EXHAUSTED  no space; nothing was changed; later calls may succeed
 ///   DATA_LOSS           what it needs is damaged
-///   UNAVAILABLE         the disk failed
+///   UNAVAILABLE         the disk failed, or the database does not answer
 class Store {
  public:
   /// What a call runs once with its answer.
   template <class T>
   using Callback = std::function<void(absl::StatusOr<T>)>;
 
-  /// Opens or makes the store in a directory, and locks it for this process.
-  /// UNAVAILABLE: another process holds it. DATA_LOSS: the database is damaged, or gone though it
-  /// was there. FAILED_PRECONDITION: it is newer than this program, or cannot be written.
-  static absl::StatusOr<std::unique_ptr<Store>> Open(const std::filesystem::path& directory,
-                                                     StoreOptions options = {});
-  /// Finishes what was asked for.
-  ~Store();
+  Store() = default;
+  virtual ~Store() = default;
+  Store(const Store&) = delete;
+  Store& operator=(const Store&) = delete;
 
   /// Stores a job with the first events of its log and answers its header; or, if `request_id` was
   /// used before to ask for the same, answers all of that job. ALREADY_EXISTS: it was used to ask
@@ -74,56 +69,52 @@ class Store {
   static Encoded Encode(const JobUpdate& update);
   /// The second step. Costs little, also on the store's thread, and may be done again after a
   /// failure. `epoch`: see JobUpdate.
-  void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done);
+  virtual void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done) = 0;
 
   /// Remembers that a user wants a job cancelled, whoever runs it. NOT_FOUND.
-  void RequestCancel(std::string name, Callback<bool> done);
+  virtual void RequestCancel(std::string name, Callback<bool> done) = 0;
 
   /// Reads a job, or the parts of it that `part` names, for the server itself. NOT_FOUND.
-  void Read(std::string name, JobPart part, Callback<StoredJob> done);
+  virtual void Read(std::string name, JobPart part, Callback<StoredJob> done) = 0;
   /// As Read, for a caller of this tenant. NOT_FOUND, also for the job of another tenant.
-  void ReadOf(std::string tenant, std::string name, JobPart part, Callback<StoredJob> done);
+  virtual void ReadOf(std::string tenant, std::string name, JobPart part,
+                      Callback<StoredJob> done) = 0;
   /// Whose the job is, also of a damaged one. NOT_FOUND, also for the job of another tenant.
-  void Owner(std::string tenant, std::string name, Callback<JobOwner> done);
+  virtual void Owner(std::string tenant, std::string name, Callback<JobOwner> done) = 0;
   /// Bytes of events, specs and results of all jobs of the owner.
-  void OwnerBytes(JobOwner whose, Callback<std::int64_t> done);
+  virtual void OwnerBytes(JobOwner whose, Callback<std::int64_t> done) = 0;
   /// A page of the jobs that `query` asks for, newest first.
-  void List(JobQuery query, Callback<JobPage> done);
+  virtual void List(JobQuery query, Callback<JobPage> done) = 0;
   /// Headers of the jobs that are QUEUED or RUNNING, oldest first.
-  void ListUnfinished(Callback<std::vector<StoredJob>> done);
+  virtual void ListUnfinished(Callback<std::vector<StoredJob>> done) = 0;
   /// Sizes of the jobs that have ended, the oldest end first.
-  void Sizes(Callback<std::vector<JobSize>> done);
+  virtual void Sizes(Callback<std::vector<JobSize>> done) = 0;
   /// A page of a job's log. A page may be empty though more follows; go on from its position. Who
   /// asks for a caller has read the job with ReadOf before: names are never used again. NOT_FOUND.
-  void ReadEvents(EventQuery query, Callback<EventPage> done);
+  virtual void ReadEvents(EventQuery query, Callback<EventPage> done) = 0;
 
   /// Removes a job and its log, and answers whose it was. NOT_FOUND; FAILED_PRECONDITION: it has
   /// not ended. ABORTED, with the payload kUidPayload: its uid is not `expected_uid`, if that is
   /// not empty.
-  void Delete(std::string name, std::string expected_uid, Callback<JobOwner> done);
+  virtual void Delete(std::string name, std::string expected_uid, Callback<JobOwner> done) = 0;
 
   /// Drops the frame chunks of a job's log, for ever; see EventPage::oldest. Answers whose the job
   /// is. NOT_FOUND;
   /// FAILED_PRECONDITION: it has not ended.
-  void Compact(std::string name, Callback<JobOwner> done);
+  virtual void Compact(std::string name, Callback<JobOwner> done) = 0;
 
   /// Copies the store bit by bit, with other work between, into a file of its own. Everything
   /// that was asked for before is in it, and what is changed meanwhile may be. One backup is made
   /// at a time; others wait. RESOURCE_EXHAUSTED: no space for the copy. CANCELLED: `stop` was
-  /// requested, or the store is being closed.
-  void Backup(std::stop_token stop, Callback<std::unique_ptr<BackupFile>> done);
+  /// requested, or the store is being closed. FAILED_PRECONDITION: the engine has tools of its own.
+  virtual void Backup(std::stop_token stop, Callback<std::unique_ptr<BackupFile>> done) = 0;
 
   /// Runs `done` after the callbacks of all calls before.
-  void Flush(std::function<void()> done);
+  virtual void Flush(std::function<void()> done) = 0;
 
  private:
-  Store(std::unique_ptr<Database> database, StoreOptions options);
-
-  // Runs `run` in a transaction, and gives `done` what it returned once that is committed.
-  template <class T, class Run>
-  void Post(Run run, Callback<T> done, bool frees = false);
-
-  CommitThread thread_;
+  /// Create, serialised and compressed.
+  virtual void Insert(JobInsert job, Callback<StoredJob> done) = 0;
 };
 
 }  // namespace contact

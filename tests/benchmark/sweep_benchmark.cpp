@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "base/ids.h"
 #include "jobs/job_manager.h"
-#include "storage/store.h"
+#include "storage/sqlite/sqlite_store.h"
 #include "testing/await.h"
 #include "testing/cases.h"
 #include "testing/temp_directory.h"
@@ -92,7 +92,7 @@ void AwaitEnd(JobManager& jobs, const std::string& name) {
 void SweepJob(benchmark::State& state) {
   spdlog::set_level(spdlog::level::warn);
   const TempDirectory folder;
-  const auto store = *Store::Open(folder.path());
+  const auto store = *OpenSqlite(folder.path());
   JobManager jobs(*store, SystemClock(), RandomIds(),
                   {.workers = static_cast<int>(state.range(0))});
   while (state.KeepRunning()) {

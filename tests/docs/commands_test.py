@@ -41,6 +41,8 @@ RUN_ELSEWHERE = {
     "for change in client.watch_jobs": "tests/python/client_test.py",
     "contactctl server backup": "tests/cli/verbs/backup_test.py",
     "$ contactd fsck": "tests/system/storage_test.py",
+    "$ createdb contactd": "tests/system/stores_test.py",
+    "$ pg_dump": "tests/system/stores_test.py",
     "$ contactctl login": "tests/cli/verbs/login_test.py",
     "$ contactctl server token": "tests/cli/link/credentials_test.py",
 }

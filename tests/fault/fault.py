@@ -37,8 +37,8 @@ class FaultTest(ServerTest):
         print(f"\n{self.id().split('.', 1)[1]}: seed={self.seed} {figures}", file=sys.stderr)
 
     def golden(self, *scenarios):
-        """Result digests by spec digest, from a server that nobody disturbs."""
-        server = Server(self.folder / "undisturbed")
+        """Result digests by spec digest, from a server with a directory that nobody disturbs."""
+        server = Server(self.folder / "undisturbed", store="")
         self.addCleanup(server.kill)
         server.start()
         return {spec_digest(one): result_digest(server.run(one)) for one in scenarios}

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "jobs/run/log_writer.h"
-#include "storage/store.h"
+#include "storage/sqlite/sqlite_store.h"
 #include "testing/fake_sources.h"
 #include "testing/temp_directory.h"
 
@@ -20,7 +20,7 @@ class EndingRunsTest : public testing::Test {
   }
 
   TempDirectory directory_;
-  std::unique_ptr<Store> store_ = *Store::Open(directory_.path());
+  std::unique_ptr<Store> store_ = *OpenSqlite(directory_.path());
   FakeClock clock_;
   EndingRuns endings_;
 };

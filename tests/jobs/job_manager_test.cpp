@@ -40,7 +40,7 @@ TEST_F(JobsTest, CreateIsDurableBeforeItIsAnswered) {
   EXPECT_EQ(job.state_reason(), "WAITING_FOR_WORKER");
   EXPECT_EQ(job.last_sequence(), 1U);
   EXPECT_TRUE(job.has_scenario());
-  const auto store = *Store::Open(image);
+  const auto store = *OpenSqlite(image);
   Await<absl::StatusOr<StoredJob>> stored;
   store->Read(job.name(), JobPart::kAll, stored.callback());
   const auto survived = stored.Get();

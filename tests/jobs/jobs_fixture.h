@@ -12,7 +12,7 @@
 
 #include "base/clock.h"
 #include "jobs/job_manager.h"
-#include "storage/store.h"
+#include "storage/sqlite/sqlite_store.h"
 #include "testing/await.h"
 #include "testing/fake_run.h"
 #include "testing/fake_sources.h"
@@ -139,7 +139,7 @@ class JobsTest : public testing::Test {
   void Open(JobOptions options = {}, StoreOptions store_options = {}) {
     manager_.reset();
     store_.reset();
-    auto opened = Store::Open(directory_.path(), std::move(store_options));
+    auto opened = OpenSqlite(directory_.path(), std::move(store_options));
     ASSERT_TRUE(opened.ok()) << opened.status();
     store_ = *std::move(opened);
     manager_ = std::make_unique<JobManager>(*store_, clock_, ids_, std::move(options));

@@ -10,7 +10,7 @@ namespace {
 class LogWriterTest : public testing::Test {
  protected:
   void Open(std::int64_t max_bytes = 0) {
-    store_ = *Store::Open(directory_.path(), {.max_bytes = max_bytes});
+    store_ = *OpenSqlite(directory_.path(), {.max_bytes = max_bytes});
     Make("jobs/old", v1::Job::SUCCEEDED);
     Make("jobs/a", v1::Job::QUEUED);
   }

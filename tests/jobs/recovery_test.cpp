@@ -96,7 +96,7 @@ TEST_F(RecoveryTest, WishToCancelSurvivesACrash) {
   release.set_value();
   EXPECT_EQ(Ended(name).state(), v1::Job::CANCELLED);
 
-  const auto store = *Store::Open(image.path());
+  const auto store = *OpenSqlite(image.path());
   JobManager manager(*store, clock_, ids_, WithFakeRun());
   Await<Result<v1::Job>> job;
   manager.reader().Get(LocalPrincipal(), name, job.callback());

@@ -39,7 +39,7 @@ v1::Event Changed(v1::Job::State state) {
 class TailCursorTest : public testing::Test {
  protected:
   void SetUp() override {
-    store_ = *Store::Open(directory_.path());
+    store_ = *OpenSqlite(directory_.path());
     job_.set_name(name_);
     job_.set_state(v1::Job::QUEUED);
     const std::vector<v1::Event> events = {Changed(v1::Job::QUEUED)};
@@ -222,7 +222,7 @@ TEST_F(TailCursorTest, DamagedEventIsReportedInItsPlace) {
   store_.reset();
   SQLite::Database(directory_.path() / "contactd.db", SQLite::OPEN_READWRITE)
       .exec("UPDATE events SET payload=zeroblob(9) WHERE sequence=4");
-  store_ = *Store::Open(directory_.path());
+  store_ = *OpenSqlite(directory_.path());
   log_ = std::make_shared<JobLog>(5, true);
   LogReader reader;
   const auto events = reader.ToEnd(*Cursor(reader));

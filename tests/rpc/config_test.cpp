@@ -66,6 +66,20 @@ TEST_F(ConfigTest, FsckIsAskedForByItsNameAndTakesTheSameFlags) {
   EXPECT_EQ(Bad({"fsk"}).code, 2);
 }
 
+TEST_F(ConfigTest, StoreIsADirectoryOrADatabase) {
+  EXPECT_EQ(Good({}).store_address, "");
+  const Config config = Good({"--store", "postgresql://ada@db/contact"});
+  EXPECT_EQ(config.store_address, "postgresql://ada@db/contact");
+  EXPECT_EQ(config.store.max_bytes, 0) << "the disk of the directory is not the database's";
+  EXPECT_TRUE(Good({"migrate", "--store", "postgres://db/contact"}).migrate);
+  EXPECT_EQ(Good({"copy-store", "--from", "/a", "--to", "postgres://db/b"}).copy_from, "/a");
+  EXPECT_THAT(Bad({"--store", "mysql://db"}).text, HasSubstr("must be postgresql://"));
+  EXPECT_THAT(Bad({"migrate"}).text, HasSubstr("needs --store"));
+  EXPECT_THAT(Bad({"fsck", "--store", "postgres://db/contact"}).text, HasSubstr("pg_amcheck"));
+  EXPECT_THAT(Bad({"--store", "postgres://db/contact", "--max-stored-bytes", "1000"}).text,
+              HasSubstr("its own limits"));
+}
+
 TEST_F(ConfigTest, DefaultsServeThisMachineOnly) {
   const Config config = Good({});
   EXPECT_EQ(config.listen, "127.0.0.1:7070");

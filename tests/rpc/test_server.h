@@ -15,7 +15,7 @@
 #include "google/rpc/status.pb.h"
 #include "jobs/job_manager.h"
 #include "rpc/grpc_server.h"
-#include "storage/store.h"
+#include "storage/sqlite/sqlite_store.h"
 #include "testing/await.h"
 #include "testing/temp_directory.h"
 
@@ -25,7 +25,7 @@ namespace contact {
 class TestServer {
  public:
   explicit TestServer(GrpcServerOptions options = {}, JobOptions jobs = {.workers = 2})
-      : store_(Store::Open(folder_.path()).value()),
+      : store_(OpenSqlite(folder_.path()).value()),
         jobs_(*store_, SystemClock(), RandomIds(), std::move(jobs)),
         server_(jobs_, *store_, options, {}),
         port_(server_.Start("127.0.0.1:0").value()),

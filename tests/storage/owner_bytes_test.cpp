@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "storage/store_fixture.h"
+#include "storage/every_store.h"
 
 namespace contact {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 const JobOwner kAda{"ada", "acme"};
 const JobOwner kBob{"bob", "acme"};
 
-class OwnerBytesTest : public StoreTest {
+class OwnerBytesTest : public EveryStoreTest {
  protected:
   static v1::Job Of(const JobOwner& whose, const std::string& name) {
     v1::Job job = MakeJob(name);
@@ -40,7 +40,9 @@ class OwnerBytesTest : public StoreTest {
   }
 };
 
-TEST_F(OwnerBytesTest, SumIsThatOfTheRowsThroughTheLifeOfJobs) {
+INSTANTIATE_FOR_EVERY_STORE(OwnerBytesTest);
+
+TEST_P(OwnerBytesTest, SumIsThatOfTheRowsThroughTheLifeOfJobs) {
   Open();
   EXPECT_EQ(BytesOf(kAda), 0);
   const std::vector<std::string> names = {"jobs/a", "jobs/b"};
@@ -61,20 +63,24 @@ TEST_F(OwnerBytesTest, SumIsThatOfTheRowsThroughTheLifeOfJobs) {
   EXPECT_EQ(BytesOf(kBob), Stored({"jobs/c"}));
 }
 
-TEST_F(OwnerBytesTest, RefusedChangeCountsNothing) {
+TEST_P(OwnerBytesTest, RefusedChangeCountsNothing) {
   Open();
   ASSERT_TRUE(Create(Of(kAda, "jobs/a")).ok());
   const std::int64_t bytes = BytesOf(kAda);
-  EXPECT_FALSE(Create(Of(kAda, "jobs/a")).ok()) << "the name is taken: the transaction is undone";
+  v1::Job other = Of(kAda, "jobs/a");
+  other.set_uid("other");
+  EXPECT_FALSE(Create(other).ok()) << "the name is taken: the transaction is undone";
   EXPECT_FALSE(Update({.name = "jobs/a", .epoch = 9, .events = {}}).ok());
   EXPECT_EQ(BytesOf(kAda), bytes);
 }
 
-TEST_F(OwnerBytesTest, NewJobOfAnOwnerWithTooMuchIsRefusedAndARepeatedOneAnswered) {
+TEST_P(OwnerBytesTest, NewJobOfAnOwnerWithTooMuchIsRefusedAndARepeatedOneAnswered) {
   Open();
   const std::vector<v1::Event> events = {StateEvent(v1::Job::QUEUED)};
   const auto create = [&](const JobOwner& whose, const std::string& name, const std::string& id) {
-    const v1::Job job = Of(whose, name);
+    v1::Job job = Of(whose, name);
+    job.clear_title();
+    job.mutable_scenario()->clear_title();
     Await<absl::StatusOr<StoredJob>> result;
     store_->Create({job, id, events, true, 1}, result.callback());
     return result.Get();
@@ -83,7 +89,7 @@ TEST_F(OwnerBytesTest, NewJobOfAnOwnerWithTooMuchIsRefusedAndARepeatedOneAnswere
   const absl::Status refused = create(kAda, "jobs/b", "second").status();
   EXPECT_TRUE(absl::IsResourceExhausted(refused));
   EXPECT_EQ(refused.GetPayload(kOwnerBytesPayload), absl::Cord(std::to_string(BytesOf(kAda))));
-  EXPECT_FALSE(create(kAda, "jobs/a", "first")->created);
+  EXPECT_FALSE(create(kAda, "jobs/z", "first")->created);
   EXPECT_TRUE(create(kBob, "jobs/c", "").ok());
 }
 

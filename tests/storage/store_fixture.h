@@ -1,6 +1,7 @@
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +11,8 @@
 #include <vector>
 
 #include "identity/principal.h"
-#include "storage/store.h"
+#include "storage/refusals.h"
+#include "storage/sqlite/sqlite_store.h"
 #include "testing/await.h"
 #include "testing/temp_directory.h"
 
@@ -61,9 +63,17 @@ class StoreTest : public testing::Test {
  protected:
   void Open(StoreOptions options = {}) {
     store_.reset();
-    auto opened = Store::Open(path(), std::move(options));
+    auto opened = OpenStore(std::move(options));
     ASSERT_TRUE(opened.ok()) << opened.status();
     store_ = *std::move(opened);
+  }
+
+  virtual absl::StatusOr<std::unique_ptr<Store>> OpenStore(StoreOptions options) {
+    return OpenSqlite(path(), std::move(options));
+  }
+  // The one number that a query of the tables answers, while the store is closed.
+  virtual std::int64_t Number(const std::string& sql) {
+    return SQLite::Database(database()).execAndGet(sql).getInt64();
   }
 
   std::filesystem::path path() const { return directory_.path() / "data"; }
@@ -125,16 +135,10 @@ class StoreTest : public testing::Test {
   std::int64_t StoredBytes(const std::string& name) {
     store_.reset();
     std::int64_t bytes = 0;
-    {
-      SQLite::Database raw(database());
-      for (const std::string part :
-           {"payload)) FROM events", "spec)) FROM specs", "result)) FROM results"}) {
-        SQLite::Statement query(raw, std::string("SELECT TOTAL(LENGTH(") + part +
-                                         " WHERE job=(SELECT number FROM jobs WHERE name=?)");
-        query.bind(1, name);
-        query.executeStep();
-        bytes += query.getColumn(0).getInt64();
-      }
+    for (const std::string part :
+         {"payload)), 0) FROM events", "spec)), 0) FROM specs", "result)), 0) FROM results"}) {
+      bytes += Number(absl::StrCat("SELECT COALESCE(SUM(LENGTH(", part,
+                                   " WHERE job=(SELECT number FROM jobs WHERE name='", name, "')"));
     }
     Open();
     return bytes;

@@ -1,9 +1,8 @@
 #include "storage/store.h"
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
-#include "storage/store_fixture.h"
+#include "storage/every_store.h"
 
 namespace contact {
 namespace {
@@ -23,7 +22,10 @@ std::vector<std::uint64_t> Sequences(const EventPage& page) {
   return sequences;
 }
 
-TEST_F(StoreTest, JobSurvivesReopening) {
+using StoreCallsTest = EveryStoreTest;
+INSTANTIATE_FOR_EVERY_STORE(StoreCallsTest);
+
+TEST_P(StoreCallsTest, JobSurvivesReopening) {
   Open();
   const v1::Job job = MakeJob("jobs/a");
   ASSERT_TRUE(Create(job).ok());
@@ -36,7 +38,7 @@ TEST_F(StoreTest, JobSurvivesReopening) {
   EXPECT_EQ(stored->job.last_sequence(), 1U);
 }
 
-TEST_F(StoreTest, MissingJobIsNotFound) {
+TEST_P(StoreCallsTest, MissingJobIsNotFound) {
   Open();
   EXPECT_TRUE(absl::IsNotFound(Read("jobs/none").status()));
   EXPECT_TRUE(absl::IsNotFound(Delete("jobs/none")));
@@ -44,7 +46,7 @@ TEST_F(StoreTest, MissingJobIsNotFound) {
   EXPECT_TRUE(absl::IsNotFound(ReadEvents({.name = "jobs/none"}).status()));
 }
 
-TEST_F(StoreTest, RepeatedRequestAnswersTheSameJob) {
+TEST_P(StoreCallsTest, RepeatedRequestAnswersTheSameJob) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a"), "request").ok());
   v1::Job again = MakeJob("jobs/a");
@@ -56,7 +58,7 @@ TEST_F(StoreTest, RepeatedRequestAnswersTheSameJob) {
   EXPECT_TRUE(absl::IsNotFound(Read("jobs/b").status()));
 }
 
-TEST_F(StoreTest, ResultIsReadAsBytesAndParsedByWhoeverAsked) {
+TEST_P(StoreCallsTest, ResultIsReadAsBytesAndParsedByWhoeverAsked) {
   Open();
   v1::Job job = MakeJob("jobs/a");
   ASSERT_TRUE(Create(job).ok());
@@ -75,7 +77,7 @@ TEST_F(StoreTest, ResultIsReadAsBytesAndParsedByWhoeverAsked) {
   EXPECT_EQ(stored->job.cycles(0).number(), 7);
 }
 
-TEST_F(StoreTest, RequestIdNamesOneJobOnly) {
+TEST_P(StoreCallsTest, RequestIdNamesOneJobOnly) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a"), "request").ok());
   EXPECT_TRUE(absl::IsAlreadyExists(Create(MakeJob("jobs/b"), "request").status()));
@@ -84,7 +86,7 @@ TEST_F(StoreTest, RequestIdNamesOneJobOnly) {
   EXPECT_TRUE(Create(MakeJob("jobs/d"), "").ok());
 }
 
-TEST_F(StoreTest, JobThatMayNotBeCreatedIsOnlyFound) {
+TEST_P(StoreCallsTest, JobThatMayNotBeCreatedIsOnlyFound) {
   Open();
   const v1::Job job = MakeJob("jobs/a");
   Await<absl::StatusOr<StoredJob>> refused;
@@ -96,7 +98,7 @@ TEST_F(StoreTest, JobThatMayNotBeCreatedIsOnlyFound) {
   EXPECT_TRUE(found.Get().ok());
 }
 
-TEST_F(StoreTest, SequencesAreDensePerJob) {
+TEST_P(StoreCallsTest, SequencesAreDensePerJob) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
@@ -112,7 +114,7 @@ TEST_F(StoreTest, SequencesAreDensePerJob) {
   EXPECT_EQ(event.log_entry().message(), "4");
 }
 
-TEST_F(StoreTest, StaleOwnerIsFencedOff) {
+TEST_P(StoreCallsTest, StaleOwnerIsFencedOff) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .take = true}).ok());
@@ -125,7 +127,7 @@ TEST_F(StoreTest, StaleOwnerIsFencedOff) {
   EXPECT_TRUE(Update({.name = "jobs/a", .epoch = 1, .events = events}).ok());
 }
 
-TEST_F(StoreTest, ChangeOfJobKeepsItsSpecAndAddsItsResult) {
+TEST_P(StoreCallsTest, ChangeOfJobKeepsItsSpecAndAddsItsResult) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   v1::Job ended;
@@ -146,7 +148,7 @@ TEST_F(StoreTest, ChangeOfJobKeepsItsSpecAndAddsItsResult) {
   EXPECT_EQ(header.cycles_size() + header.final_bodies_size(), 0);
 }
 
-TEST_F(StoreTest, WishToCancelIsRemembered) {
+TEST_P(StoreCallsTest, WishToCancelIsRemembered) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   Await<absl::StatusOr<bool>> requested;
@@ -157,7 +159,7 @@ TEST_F(StoreTest, WishToCancelIsRemembered) {
   EXPECT_TRUE(Read("jobs/a")->cancel_requested);
 }
 
-TEST_F(StoreTest, EventsArePagedBySize) {
+TEST_P(StoreCallsTest, EventsArePagedBySize) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   const std::vector<v1::Event> events(10, LogEvent(std::string(1000, 'x')));
@@ -175,7 +177,7 @@ TEST_F(StoreTest, EventsArePagedBySize) {
   EXPECT_THAT(all, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
 }
 
-TEST_F(StoreTest, PageHoldsAtLeastOneEventHoweverLarge) {
+TEST_P(StoreCallsTest, PageHoldsAtLeastOneEventHoweverLarge) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   ASSERT_TRUE(Append("jobs/a", {LogEvent(std::string(100'000, 'x'))}).ok());
@@ -184,7 +186,7 @@ TEST_F(StoreTest, PageHoldsAtLeastOneEventHoweverLarge) {
   EXPECT_THAT(Sequences(*page), ElementsAre(2));
 }
 
-TEST_F(StoreTest, KindsAreFilteredAndPositionPassesOverTheOthers) {
+TEST_P(StoreCallsTest, KindsAreFilteredAndPositionPassesOverTheOthers) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   ASSERT_TRUE(
@@ -196,7 +198,7 @@ TEST_F(StoreTest, KindsAreFilteredAndPositionPassesOverTheOthers) {
   EXPECT_EQ(page->position, 5U);
 }
 
-TEST_F(StoreTest, PositionNeverGoesBack) {
+TEST_P(StoreCallsTest, PositionNeverGoesBack) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   for (const std::uint64_t after : {std::uint64_t{99}, UINT64_MAX}) {
@@ -207,7 +209,7 @@ TEST_F(StoreTest, PositionNeverGoesBack) {
   }
 }
 
-TEST_F(StoreTest, ListIsPagedNewestFirst) {
+TEST_P(StoreCallsTest, ListIsPagedNewestFirst) {
   Open();
   for (const char* name : {"jobs/a", "jobs/b", "jobs/c", "jobs/d", "jobs/e"}) {
     ASSERT_TRUE(Create(MakeJob(name)).ok());
@@ -222,7 +224,7 @@ TEST_F(StoreTest, ListIsPagedNewestFirst) {
   EXPECT_FALSE(page->jobs[0].job.has_scenario());
 }
 
-TEST_F(StoreTest, ListIsFilteredByStateAndByEveryLabel) {
+TEST_P(StoreCallsTest, ListIsFilteredByStateAndByEveryLabel) {
   Open();
   v1::Job job = MakeJob("jobs/a");
   ASSERT_TRUE(Create(job).ok());
@@ -240,7 +242,7 @@ TEST_F(StoreTest, ListIsFilteredByStateAndByEveryLabel) {
   EXPECT_THAT(Names(*List({.labels = {{"user", "bob"}}})), ElementsAre());
 }
 
-TEST_F(StoreTest, ListIsFilteredByTheBeginningOfTheName) {
+TEST_P(StoreCallsTest, ListIsFilteredByTheBeginningOfTheName) {
   Open();
   for (const char* name : {"jobs/ab1", "jobs/b", "jobs/abz", "jobs/ac", "jobs/a"}) {
     ASSERT_TRUE(Create(MakeJob(name)).ok());
@@ -253,7 +255,7 @@ TEST_F(StoreTest, ListIsFilteredByTheBeginningOfTheName) {
   EXPECT_THAT(Names(*List({.name_prefix = "jobs/abcd"})), ElementsAre());
 }
 
-TEST_F(StoreTest, UnfinishedJobsComeInTheOrderOfTheirCreation) {
+TEST_P(StoreCallsTest, UnfinishedJobsComeInTheOrderOfTheirCreation) {
   Open();
   v1::Job job = MakeJob("jobs/z");
   ASSERT_TRUE(Create(job).ok());
@@ -268,7 +270,7 @@ TEST_F(StoreTest, UnfinishedJobsComeInTheOrderOfTheirCreation) {
   EXPECT_THAT(Names({*unfinished.Get()}), ElementsAre("jobs/z", "jobs/a"));
 }
 
-TEST_F(StoreTest, FramesAreStoredCompressedAndReadAsTheyWere) {
+TEST_P(StoreCallsTest, FramesAreStoredCompressedAndReadAsTheyWere) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   const v1::Event frames = FrameEvent(0, 1000);
@@ -284,7 +286,7 @@ TEST_F(StoreTest, FramesAreStoredCompressedAndReadAsTheyWere) {
   EXPECT_EQ(read.log_entry().message(), "3");
 }
 
-TEST_F(StoreTest, PageIsMeasuredAsItsReadersSeeIt) {
+TEST_P(StoreCallsTest, PageIsMeasuredAsItsReadersSeeIt) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   ASSERT_TRUE(Append("jobs/a", std::vector<v1::Event>(20, FrameEvent(0, 1000))).ok());
@@ -292,7 +294,7 @@ TEST_F(StoreTest, PageIsMeasuredAsItsReadersSeeIt) {
   EXPECT_EQ(page->events.size(), 4U) << "of 16 kB each";
 }
 
-TEST_F(StoreTest, SizesAreThoseOfEndedJobsOldestEndFirst) {
+TEST_P(StoreCallsTest, SizesAreThoseOfEndedJobsOldestEndFirst) {
   Open();
   v1::Job job = MakeJob("jobs/a");
   ASSERT_TRUE(Create(job).ok());
@@ -320,7 +322,7 @@ TEST_F(StoreTest, SizesAreThoseOfEndedJobsOldestEndFirst) {
   for (const JobSize& size : *sizes) EXPECT_EQ(size.bytes, StoredBytes(size.name)) << size.name;
 }
 
-TEST_F(StoreTest, DeleteTakesEverythingOfAnEndedJob) {
+TEST_P(StoreCallsTest, DeleteTakesEverythingOfAnEndedJob) {
   Open();
   v1::Job job = MakeJob("jobs/a");
   ASSERT_TRUE(Create(job).ok());
@@ -332,23 +334,20 @@ TEST_F(StoreTest, DeleteTakesEverythingOfAnEndedJob) {
   EXPECT_TRUE(Delete("jobs/a").ok());
   EXPECT_TRUE(absl::IsNotFound(Read("jobs/a").status()));
   // Its events go while there is nothing else to do, also after a restart.
-  int left = -1;
+  std::int64_t left = -1;
   for (int i = 0; i < 100 && left != 0; ++i) {
     for (int calls = 0; calls < 50; ++calls) (void)Read("jobs/a");
     store_.reset();
     left = 0;
-    {
-      SQLite::Database raw(database());
-      for (const char* table : {"jobs", "labels", "specs", "results", "events", "removed"}) {
-        left += raw.execAndGet(std::string("SELECT COUNT(*) FROM ") + table).getInt();
-      }
+    for (const char* table : {"jobs", "labels", "specs", "results", "events", "removed"}) {
+      left += Number(std::string("SELECT COUNT(*) FROM ") + table);
     }
     Open();
   }
   EXPECT_EQ(left, 0);
 }
 
-TEST_F(StoreTest, OnlyTheJobExpectedIsDeleted) {
+TEST_P(StoreCallsTest, OnlyTheJobExpectedIsDeleted) {
   Open();
   v1::Job job = MakeJob("jobs/a");
   job.set_uid("this");
@@ -360,7 +359,7 @@ TEST_F(StoreTest, OnlyTheJobExpectedIsDeleted) {
   EXPECT_TRUE(Delete("jobs/a", "this").ok());
 }
 
-TEST_F(StoreTest, CompactionDropsFrameChunksOfAnEndedJobOnly) {
+TEST_P(StoreCallsTest, CompactionDropsFrameChunksOfAnEndedJobOnly) {
   Open();
   v1::Job job = MakeJob("jobs/a");
   ASSERT_TRUE(Create(job).ok());
@@ -391,7 +390,7 @@ TEST_F(StoreTest, CompactionDropsFrameChunksOfAnEndedJobOnly) {
   EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 201U) << "sequences stay";
 }
 
-TEST_F(StoreTest, CheckpointIsReplacedAndGoesWithTheEnd) {
+TEST_P(StoreCallsTest, CheckpointIsReplacedAndGoesWithTheEnd) {
   Open();
   v1::Job job = MakeJob("jobs/a");
   ASSERT_TRUE(Create(job).ok());
@@ -411,7 +410,7 @@ TEST_F(StoreTest, CheckpointIsReplacedAndGoesWithTheEnd) {
   EXPECT_TRUE(Read("jobs/a", JobPart::kRun)->checkpoint.empty());
 }
 
-TEST_F(StoreTest, CallbacksRunInTheOrderOfTheCalls) {
+TEST_P(StoreCallsTest, CallbacksRunInTheOrderOfTheCalls) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
   std::vector<int> order;  // Of the store's thread until flushed.

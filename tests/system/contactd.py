@@ -1,6 +1,8 @@
 """Starts contactd for a test and talks to it as any client would."""
 
+import atexit
 import collections.abc
+import functools
 import os
 import pathlib
 import re
@@ -8,9 +10,11 @@ import select
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
+import uuid
 
 import grpc
 from contact.v1 import job_pb2, job_service_pb2, job_service_pb2_grpc, scenario_pb2
@@ -18,10 +22,28 @@ from google.protobuf import duration_pb2
 from google.rpc import error_details_pb2, status_pb2
 
 BINARY = os.environ["CONTACTD"]
+# With `postgres` every data directory has its jobs in a PostgreSQL database instead.
+STORE = os.environ.get("CONTACT_STORE", "")
 PATIENCE_S = 60  # More than anything here takes, also with sanitizers on a busy machine.
 
 Job = job_pb2.Job
 ENDED = (Job.SUCCEEDED, Job.FAILED, Job.CANCELLED)
+
+
+@functools.cache
+def cluster():
+    """The PostgreSQL server of this test program."""
+    sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "testing"))
+    import postgres
+    started = postgres.Cluster()
+    atexit.register(started.stop)
+    return started
+
+
+@functools.cache
+def database_of(data_dir):
+    """The address of the database that stands for the directory."""
+    return cluster().create(f"data_{uuid.uuid4().hex}")
 
 
 class Server:
@@ -29,9 +51,11 @@ class Server:
 
     Listens on a free port of this host, unless a flag says where."""
 
-    def __init__(self, data_dir, *flags, environment=None):
+    def __init__(self, data_dir, *flags, environment=None, store=STORE):
         self.data_dir = pathlib.Path(data_dir)
         self.flags = flags
+        if store == "postgres":
+            self.flags += (f"--store={database_of(self.data_dir)}",)
         self.environment = environment  # None: that of the test.
         self.log_path = self.data_dir.parent / "contactd.log"
         self.process = None

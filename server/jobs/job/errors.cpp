@@ -9,6 +9,7 @@
 
 #include "base/spelling.h"
 #include "storage/records.h"
+#include "storage/refusals.h"
 
 namespace contact {
 namespace {
@@ -39,7 +40,7 @@ constexpr std::array kReasons = std::to_array<ReasonInfo>({
     {Reason::kBackupRunning, "BACKUP_RUNNING", kResourceExhausted, kSoon,
      "another backup is being made"},
     {Reason::kStoreFull, "STORE_FULL", kResourceExhausted, kSoon, ""},
-    {Reason::kStoreFailed, "STORE_FAILED", kUnavailable, kNever, ""},
+    {Reason::kStoreFailed, "STORE_FAILED", kUnavailable, kSoon, ""},
     {Reason::kDataLoss, "DATA_LOSS", kDataLoss, kNever, ""},
     {Reason::kServerDraining, "SERVER_DRAINING", kUnavailable, kSoon,
      "the server is shutting down"},
@@ -127,10 +128,7 @@ Error SlowWatcher(const std::string& what) {
 }
 
 Error Unreadable(const std::string& what) {
-  Error error =
-      MakeError(Reason::kStoreFailed, what + " could not be read from the store; watch again");
-  error.retry_after = kSoon;
-  return error;
+  return MakeError(Reason::kStoreFailed, what + " could not be read from the store; watch again");
 }
 
 Error UidMismatch(const std::string& name, const std::string& uid) {

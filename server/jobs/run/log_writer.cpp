@@ -164,7 +164,8 @@ void LogWriter::Failed(const absl::Status& status) {
   if (!std::exchange(batch_.failed, true)) {
     spdlog::error("job={} cannot store events: {}", name_, status.ToString());
   }
-  if (absl::IsResourceExhausted(status)) {
+  // No space, or a database that is away for a while: both may end.
+  if (absl::IsResourceExhausted(status) || absl::IsUnavailable(status)) {
     SetDisk(Disk::kFull);
     return;
   }

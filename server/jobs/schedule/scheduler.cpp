@@ -9,7 +9,7 @@
 #include "base/future.h"
 #include "jobs/job/lifecycle.h"
 #include "storage/job_parts.h"
-#include "storage/job_queries.h"
+#include "storage/refusals.h"
 #include "version.h"
 
 namespace contact {

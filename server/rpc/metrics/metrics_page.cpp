@@ -78,7 +78,9 @@ void AddNow(const MetricsSources::Now& now, Page* page) {
   page->Gauge("contactd_connections", "Connections that are open").Add(now.connections);
   page->Counter("contactd_connections_refused_total", "Connections past a limit")
       .Add(now.refused_connections);
-  page->Gauge("contactd_store_bytes", "Size of the database files").Add(now.stored_bytes);
+  if (now.stored_bytes) {
+    page->Gauge("contactd_store_bytes", "Size of the database files").Add(*now.stored_bytes);
+  }
   page->Counter("contactd_identity_reload_failed_total",
                 "Changes of tokens and rules that could not be used")
       .Add(now.identity_failures);

@@ -35,7 +35,7 @@ struct MetricsSources {
     /// Connections past a limit, since the start.
     std::int64_t refused_connections = 0;
     /// Size of the database files.
-    std::int64_t stored_bytes = 0;
+    std::optional<std::int64_t> stored_bytes = 0;
     /// Time until the server's certificate ends; nothing without TLS.
     std::optional<double> tls_seconds_left = {};
     /// Changes of the files of TLS, and of tokens and rules, that could not be used.

@@ -13,7 +13,7 @@
 #include "contact/v1/admin_service.pb.h"
 #include "jobs/job/callback.h"
 #include "jobs/log/stream_source.h"
-#include "storage/backup.h"
+#include "storage/backup_file.h"
 
 namespace contact {
 

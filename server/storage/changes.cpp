@@ -1,0 +1,60 @@
+#include "storage/changes.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <atomic>
+#include <random>
+
+namespace contact {
+namespace {
+
+// Begins anywhere, so that two processes hardly ever give the same number.
+std::uint64_t NextId() {
+  static std::atomic<std::uint64_t> next =
+      std::uint64_t{std::random_device{}()} << 32 | std::random_device{}();
+  return ++next;
+}
+
+}  // namespace
+
+JobInsert ToInsert(const NewJob& job) {
+  JobInsert insert{.name = job.job.name(),
+                   .request_key = {},
+                   .whose = {OwnerOf(job.job), TenantOf(job.job)},
+                   .state = job.job.state(),
+                   .uid = job.job.uid(),
+                   .labels = {},
+                   .parts = Split(job.job),
+                   .events = ToRows(job.events),
+                   .may_create = job.may_create,
+                   .max_owner_bytes = job.max_owner_bytes};
+  insert.labels.assign(job.job.labels().begin(), job.job.labels().end());
+  // The id belongs to its tenant, whose name has no slash.
+  if (!job.request_id.empty()) {
+    insert.request_key = absl::StrCat(insert.whose.tenant, "/", job.request_id);
+  }
+  return insert;
+}
+
+std::string RequestIdOf(const std::string& request_key, const std::string& tenant) {
+  const std::string prefix = tenant + "/";
+  return request_key.starts_with(prefix) ? request_key.substr(prefix.size()) : "";
+}
+
+JobChange ToChange(const JobUpdate& update) {
+  JobChange change{update.name, NextId(), update.take, 0, {}, ToRows(update.events), {}};
+  if (update.checkpoint != nullptr) change.checkpoint = *update.checkpoint;
+  if (update.job != nullptr) {
+    change.state = update.job->state();
+    change.parts = Split(*update.job);
+  }
+  return change;
+}
+
+std::size_t BytesOf(const std::vector<EventRow>& events) {
+  std::size_t bytes = 0;
+  for (const EventRow& row : events) bytes += row.event.bytes.size();
+  return bytes;
+}
+
+}  // namespace contact

@@ -1,0 +1,358 @@
+#include "storage/postgres/schema.h"
+
+namespace contact::postgres {
+
+const char kTables[] = R"sql(
+CREATE SCHEMA contactd;
+
+CREATE TABLE contactd.version(version integer NOT NULL);
+
+CREATE TABLE contactd.jobs(
+  number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+  name text COLLATE "C" NOT NULL UNIQUE,
+  uid text NOT NULL,
+  request_id text COLLATE "C" UNIQUE,
+  state smallint NOT NULL,
+  epoch bigint NOT NULL DEFAULT 0,
+  cancel_requested boolean NOT NULL DEFAULT false,
+  last_sequence bigint NOT NULL,
+  end_time bigint NOT NULL DEFAULT 0,
+  bytes bigint NOT NULL DEFAULT 0,
+  crc32 bigint NOT NULL,
+  header bytea NOT NULL,
+  oldest_sequence bigint NOT NULL DEFAULT 1,
+  compacted boolean NOT NULL DEFAULT false,
+  owner text COLLATE "C" NOT NULL,
+  tenant text COLLATE "C" NOT NULL,
+  last_change bigint,
+  first_of_change bigint
+) WITH (fillfactor=70, autovacuum_vacuum_scale_factor=0.02, autovacuum_vacuum_threshold=200);
+CREATE INDEX jobs_unfinished ON contactd.jobs(number) WHERE state NOT IN (3,4,5);
+CREATE INDEX jobs_by_tenant ON contactd.jobs(tenant, number);
+CREATE INDEX jobs_by_owner ON contactd.jobs(tenant, owner);
+
+CREATE TABLE contactd.labels(
+  key text COLLATE "C" NOT NULL,
+  value text COLLATE "C" NOT NULL,
+  job bigint NOT NULL REFERENCES contactd.jobs ON DELETE CASCADE,
+  PRIMARY KEY(key, value, job)
+);
+CREATE INDEX labels_by_job ON contactd.labels(job);
+
+CREATE TABLE contactd.specs(
+  job bigint PRIMARY KEY REFERENCES contactd.jobs ON DELETE CASCADE,
+  crc32 bigint NOT NULL,
+  spec bytea NOT NULL
+);
+
+CREATE TABLE contactd.results(
+  job bigint PRIMARY KEY REFERENCES contactd.jobs ON DELETE CASCADE,
+  crc32 bigint NOT NULL,
+  result bytea NOT NULL
+);
+
+CREATE TABLE contactd.events(
+  job bigint NOT NULL,
+  sequence bigint NOT NULL,
+  kind smallint NOT NULL,
+  coding smallint NOT NULL,
+  size integer NOT NULL,
+  crc32 bigint NOT NULL,
+  payload bytea NOT NULL,
+  PRIMARY KEY(job, sequence)
+);
+
+CREATE TABLE contactd.removed(job bigint PRIMARY KEY);
+
+CREATE TABLE contactd.compacting(
+  job bigint PRIMARY KEY REFERENCES contactd.jobs ON DELETE CASCADE,
+  position bigint NOT NULL
+);
+
+CREATE TABLE contactd.checkpoints(
+  job bigint PRIMARY KEY REFERENCES contactd.jobs ON DELETE CASCADE,
+  sequence bigint NOT NULL,
+  crc32 bigint NOT NULL,
+  state bytea NOT NULL
+);
+
+-- They are compressed already, or do not become smaller.
+ALTER TABLE contactd.results ALTER COLUMN result SET STORAGE EXTERNAL;
+ALTER TABLE contactd.events ALTER COLUMN payload SET STORAGE EXTERNAL;
+ALTER TABLE contactd.checkpoints ALTER COLUMN state SET STORAGE EXTERNAL;
+)sql";
+
+const char kFunctions[] = R"sql(
+-- The job with this name, with the parts that are asked for. a_tenant: NULL for any.
+CREATE OR REPLACE FUNCTION contactd.read_job(
+  a_name text, a_tenant text, a_spec boolean, a_checkpoint boolean, a_result boolean)
+RETURNS TABLE(
+  number bigint, name text, state smallint, epoch bigint, cancel_requested boolean,
+  last_sequence bigint, crc32 bigint, header bytea, oldest_sequence bigint, compacted boolean,
+  owner text, tenant text, request_id text, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint,
+  checkpoint bytea, checkpoint_sequence bigint, result_crc32 bigint, result bytea)
+LANGUAGE sql AS $$
+  SELECT j.number, j.name, j.state, j.epoch, j.cancel_requested, j.last_sequence, j.crc32,
+    j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id, s.crc32, s.spec, c.crc32, c.state,
+    c.sequence, r.crc32, r.result
+  FROM contactd.jobs j
+    LEFT JOIN contactd.specs s ON a_spec AND s.job = j.number
+    LEFT JOIN contactd.checkpoints c ON a_checkpoint AND c.job = j.number
+    LEFT JOIN contactd.results r ON a_result AND r.job = j.number
+  WHERE j.name = a_name AND (a_tenant IS NULL OR j.tenant = a_tenant)
+$$;
+
+-- Appends to the log of a job whose last event is a_last.
+CREATE OR REPLACE FUNCTION contactd.append(
+  a_job bigint, a_last bigint, a_kinds bigint[], a_codings bigint[], a_sizes bigint[],
+  a_crc32s bigint[], a_payloads bytea[])
+RETURNS void LANGUAGE sql AS $$
+  INSERT INTO contactd.events(job, sequence, kind, coding, size, crc32, payload)
+  SELECT a_job, a_last + e.place, e.kind, e.coding, e.size, e.crc32, e.payload
+  FROM unnest(a_kinds, a_codings, a_sizes, a_crc32s, a_payloads) WITH ORDINALITY
+    AS e(kind, coding, size, crc32, payload, place)
+$$;
+
+-- Stores a job, or finds the one that the same request has made. Outcomes: C made now; F made before
+-- by the same request; U the request id was used for another job, `existing`; N it may not be new;
+-- O the owner's jobs take too much, `owner_bytes`.
+CREATE OR REPLACE FUNCTION contactd.create_job(
+  a_name text, a_uid text, a_request_id text, a_owner text, a_tenant text, a_state bigint,
+  a_end_time bigint, a_crc32 bigint, a_header bytea, a_spec_crc32 bigint, a_spec bytea,
+  a_label_keys text[], a_label_values text[], a_kinds bigint[], a_codings bigint[],
+  a_sizes bigint[], a_crc32s bigint[], a_payloads bytea[], a_event_bytes bigint,
+  a_may_create boolean, a_max_owner_bytes bigint,
+  OUT outcome text, OUT existing text, OUT owner_bytes bigint)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_job bigint;
+  v_uid text;
+  v_spec bytea;
+BEGIN
+  -- Twice: another session may make the same job meanwhile.
+  FOR attempt IN 1..2 LOOP
+    SELECT j.name, j.uid, s.spec INTO existing, v_uid, v_spec
+      FROM contactd.jobs j LEFT JOIN contactd.specs s ON s.job = j.number
+      WHERE j.request_id = a_request_id OR j.name = a_name LIMIT 1;
+    IF FOUND THEN
+      IF existing = a_name AND v_uid <> a_uid THEN
+        RAISE unique_violation USING MESSAGE = 'there is a job ' || a_name;
+      END IF;
+      -- The same name: this very call, sent again because its answer was lost.
+      outcome := CASE WHEN existing = a_name THEN 'C' WHEN v_spec = a_spec THEN 'F' ELSE 'U' END;
+      RETURN;
+    END IF;
+    IF NOT a_may_create THEN
+      outcome := 'N';
+      RETURN;
+    END IF;
+    IF a_max_owner_bytes > 0 THEN
+      SELECT coalesce(sum(j.bytes), 0) INTO owner_bytes FROM contactd.jobs j
+        WHERE j.tenant = a_tenant AND j.owner = a_owner;
+      IF owner_bytes >= a_max_owner_bytes THEN
+        outcome := 'O';
+        RETURN;
+      END IF;
+    END IF;
+    INSERT INTO contactd.jobs(name, uid, request_id, owner, tenant, state, last_sequence, end_time,
+        bytes, crc32, header)
+      VALUES(a_name, a_uid, a_request_id, a_owner, a_tenant, a_state, cardinality(a_kinds),
+        a_end_time, octet_length(a_spec) + a_event_bytes, a_crc32, a_header)
+      ON CONFLICT DO NOTHING RETURNING jobs.number INTO v_job;
+    EXIT WHEN v_job IS NOT NULL;
+  END LOOP;
+  INSERT INTO contactd.specs(job, crc32, spec) VALUES(v_job, a_spec_crc32, a_spec);
+  INSERT INTO contactd.labels(key, value, job)
+    SELECT l.key, l.value, v_job FROM unnest(a_label_keys, a_label_values) AS l(key, value);
+  PERFORM contactd.append(v_job, 0, a_kinds, a_codings, a_sizes, a_crc32s, a_payloads);
+  outcome := 'C';
+  existing := a_name;
+END $$;
+
+-- Changes a job and appends to its log. Outcomes: D done, the first event appended is a_first; N no
+-- such job; O the job has another epoch. A change that is sent again because its answer was lost is
+-- done once.
+CREATE OR REPLACE FUNCTION contactd.change_job(
+  a_name text, a_epoch bigint, a_change bigint, a_take boolean, a_state bigint, a_end_time bigint,
+  a_crc32 bigint, a_header bytea, a_result_crc32 bigint, a_result bytea, a_checkpoint_events bigint,
+  a_checkpoint_crc32 bigint, a_checkpoint bytea, a_kinds bigint[], a_codings bigint[],
+  a_sizes bigint[], a_crc32s bigint[], a_payloads bytea[], a_event_bytes bigint,
+  OUT outcome text, OUT first bigint)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_job contactd.jobs;
+  v_replaced bigint;
+BEGIN
+  SELECT * INTO v_job FROM contactd.jobs j WHERE j.name = a_name FOR UPDATE;
+  IF NOT FOUND THEN
+    outcome := 'N';
+    RETURN;
+  ELSIF v_job.last_change = a_change THEN
+    outcome := 'D';
+    first := v_job.first_of_change;
+    RETURN;
+  ELSIF v_job.epoch <> a_epoch THEN
+    outcome := 'O';
+    RETURN;
+  END IF;
+  outcome := 'D';
+  first := v_job.last_sequence + 1;
+  IF a_result IS NOT NULL THEN
+    SELECT octet_length(r.result) INTO v_replaced
+      FROM contactd.results r WHERE r.job = v_job.number;
+    INSERT INTO contactd.results(job, crc32, result)
+      VALUES(v_job.number, a_result_crc32, a_result)
+      ON CONFLICT (job) DO UPDATE SET crc32 = excluded.crc32, result = excluded.result;
+  END IF;
+  UPDATE contactd.jobs j SET
+      epoch = j.epoch + a_take::int,
+      last_sequence = j.last_sequence + cardinality(a_kinds),
+      bytes = j.bytes + a_event_bytes + coalesce(octet_length(a_result), 0)
+        - coalesce(v_replaced, 0),
+      state = coalesce(a_state, j.state),
+      end_time = coalesce(a_end_time, j.end_time),
+      crc32 = coalesce(a_crc32, j.crc32),
+      header = coalesce(a_header, j.header),
+      last_change = a_change,
+      first_of_change = j.last_sequence + 1
+    WHERE j.number = v_job.number;
+  IF a_end_time > 0 THEN
+    DELETE FROM contactd.checkpoints c WHERE c.job = v_job.number;
+  ELSIF a_checkpoint IS NOT NULL THEN
+    INSERT INTO contactd.checkpoints(job, sequence, crc32, state)
+      VALUES(v_job.number, v_job.last_sequence + a_checkpoint_events, a_checkpoint_crc32,
+        a_checkpoint)
+      ON CONFLICT (job) DO UPDATE SET sequence = excluded.sequence, crc32 = excluded.crc32,
+        state = excluded.state;
+  END IF;
+  PERFORM contactd.append(v_job.number, v_job.last_sequence, a_kinds, a_codings, a_sizes, a_crc32s,
+    a_payloads);
+END $$;
+
+-- Outcomes: D done; N no such job.
+CREATE OR REPLACE FUNCTION contactd.request_cancel(a_name text) RETURNS text
+LANGUAGE plpgsql AS $$
+BEGIN
+  UPDATE contactd.jobs j SET cancel_requested = true WHERE j.name = a_name;
+  RETURN CASE WHEN FOUND THEN 'D' ELSE 'N' END;
+END $$;
+
+-- Removes an ended job; its events only vanish from sight, `purge` removes them. Outcomes: D done;
+-- N no such job; R it has not ended; U its uid is another, `job_uid`.
+CREATE OR REPLACE FUNCTION contactd.remove_job(
+  a_name text, a_uid text, OUT outcome text, OUT job_owner text, OUT job_tenant text,
+  OUT job_uid text)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_job contactd.jobs;
+BEGIN
+  SELECT * INTO v_job FROM contactd.jobs j WHERE j.name = a_name FOR UPDATE;
+  outcome := CASE
+    WHEN NOT FOUND THEN 'N'
+    WHEN a_uid <> '' AND v_job.uid <> a_uid THEN 'U'
+    WHEN v_job.state NOT IN (3,4,5) THEN 'R'
+    ELSE 'D' END;
+  job_owner := v_job.owner;
+  job_tenant := v_job.tenant;
+  job_uid := v_job.uid;
+  IF outcome = 'D' THEN
+    INSERT INTO contactd.removed(job) VALUES(v_job.number);
+    DELETE FROM contactd.jobs j WHERE j.number = v_job.number;
+  END IF;
+END $$;
+
+-- Gives up the frame chunks, of the kind a_kind, of an ended job; they only vanish from sight.
+-- Outcomes: as of remove_job.
+CREATE OR REPLACE FUNCTION contactd.compact_job(
+  a_name text, a_kind bigint, OUT outcome text, OUT job_owner text, OUT job_tenant text)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_job contactd.jobs;
+  v_last bigint;
+BEGIN
+  SELECT * INTO v_job FROM contactd.jobs j WHERE j.name = a_name FOR UPDATE;
+  outcome := CASE
+    WHEN NOT FOUND THEN 'N' WHEN v_job.state NOT IN (3,4,5) THEN 'R' ELSE 'D' END;
+  job_owner := v_job.owner;
+  job_tenant := v_job.tenant;
+  IF outcome <> 'D' THEN RETURN; END IF;
+  SELECT coalesce(max(e.sequence), 0) INTO v_last FROM contactd.events e
+    WHERE e.job = v_job.number AND e.kind = a_kind;
+  UPDATE contactd.jobs j SET compacted = true, oldest_sequence = greatest(v_last + 1,
+    j.oldest_sequence) WHERE j.number = v_job.number;
+  IF v_last > 0 THEN
+    INSERT INTO contactd.compacting(job, position) VALUES(v_job.number, 0) ON CONFLICT DO NOTHING;
+  END IF;
+END $$;
+
+-- Removes some events of a job that was removed or is being compacted. False: there are none.
+CREATE OR REPLACE FUNCTION contactd.purge(a_kind bigint) RETURNS boolean LANGUAGE plpgsql AS $$
+DECLARE
+  c_events CONSTANT bigint := 256;
+  c_scanned CONSTANT bigint := 4096;
+  v_job bigint;
+  v_position bigint;
+  v_oldest bigint;
+  v_next bigint;
+BEGIN
+  SELECT r.job INTO v_job FROM contactd.removed r LIMIT 1 FOR UPDATE SKIP LOCKED;
+  IF FOUND THEN
+    DELETE FROM contactd.events e WHERE e.job = v_job AND e.sequence <
+      (SELECT min(m.sequence) FROM contactd.events m WHERE m.job = v_job) + c_events;
+    IF NOT FOUND THEN DELETE FROM contactd.removed r WHERE r.job = v_job; END IF;
+    RETURN true;
+  END IF;
+  SELECT c.job, c.position, j.oldest_sequence INTO v_job, v_position, v_oldest
+    FROM contactd.compacting c JOIN contactd.jobs j ON j.number = c.job
+    LIMIT 1 FOR UPDATE OF c SKIP LOCKED;
+  IF NOT FOUND THEN RETURN false; END IF;
+  v_next := least(v_position + c_scanned, v_oldest);
+  SELECT coalesce(max(o.sequence), v_next) INTO v_next FROM (
+    SELECT e.sequence FROM contactd.events e
+    WHERE e.job = v_job AND e.sequence > v_position AND e.sequence <= v_next AND e.kind = a_kind
+    ORDER BY e.sequence OFFSET c_events - 1 LIMIT 1) o;
+  WITH gone AS (
+    DELETE FROM contactd.events e
+    WHERE e.job = v_job AND e.sequence > v_position AND e.sequence <= v_next AND e.kind = a_kind
+    RETURNING octet_length(e.payload) AS bytes)
+  UPDATE contactd.jobs j SET bytes = j.bytes - (SELECT coalesce(sum(g.bytes), 0) FROM gone g)
+    WHERE j.number = v_job;
+  IF v_next >= v_oldest THEN
+    DELETE FROM contactd.compacting c WHERE c.job = v_job;
+  ELSE
+    UPDATE contactd.compacting c SET position = v_next WHERE c.job = v_job;
+  END IF;
+  RETURN true;
+END $$;
+
+-- A page of the log of a job: one row an event, or one row without an event. Stops after the event
+-- with which the page has a_bytes, or after a_scanned sequences.
+CREATE OR REPLACE FUNCTION contactd.read_events(
+  a_name text, a_after bigint, a_kinds bigint, a_bytes bigint, a_scanned bigint)
+RETURNS TABLE(
+  last_sequence bigint, oldest_sequence bigint, sequence bigint, kind smallint, coding smallint,
+  size integer, crc32 bigint, payload bytea)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_job bigint;
+  v_bytes bigint := 0;
+BEGIN
+  SELECT j.number, j.last_sequence, j.oldest_sequence
+    INTO v_job, last_sequence, oldest_sequence FROM contactd.jobs j WHERE j.name = a_name;
+  IF NOT FOUND THEN RETURN; END IF;
+  RETURN NEXT;
+  FOR sequence, kind, coding, size, crc32, payload IN
+    SELECT e.sequence, e.kind, e.coding, e.size, e.crc32, e.payload FROM contactd.events e
+    WHERE e.job = v_job AND e.sequence > a_after
+      AND e.sequence <= least(last_sequence, a_after + a_scanned)
+      AND ((1::bigint << e.kind::int) & a_kinds) <> 0
+    ORDER BY e.sequence
+  LOOP
+    RETURN NEXT;
+    v_bytes := v_bytes + size + 1;
+    EXIT WHEN v_bytes >= a_bytes;
+  END LOOP;
+END $$;
+)sql";
+
+}  // namespace contact::postgres

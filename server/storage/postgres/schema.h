@@ -1,0 +1,16 @@
+#pragma once
+
+namespace contact::postgres {
+
+/// Version of the tables and functions of kSchema, kept in the table `version`. A change raises it
+/// by 1 and adds a step to migration.cpp.
+inline constexpr int kSchemaVersion = 1;
+
+/// Makes the tables in the schema `contactd`. Meaning of each: ../README.md.
+extern const char kTables[];
+
+/// Makes or replaces the functions by which the tables are changed and read. Each is one
+/// transaction's worth of work that needs no answer in between, so many go to the server together.
+extern const char kFunctions[];
+
+}  // namespace contact::postgres

@@ -1,0 +1,339 @@
+#include "storage/postgres/statements.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "contact/v1/event.pb.h"
+#include "storage/checksum.h"
+#include "storage/refusals.h"
+#include "storage/rows.h"
+
+namespace contact::postgres {
+namespace {
+
+// Sequences from here on are not stored; the sum of one and a page stays a bigint.
+constexpr std::uint64_t kMostSequence = std::uint64_t{1} << 62;
+
+// Of the row of a job, in the order of read_job.
+constexpr char kHeader[] =
+    "number, name, state, epoch, cancel_requested, last_sequence, crc32, header, oldest_sequence,"
+    " compacted, owner, tenant, request_id";
+
+// The arrays of a log's new events. A row's place is its primary key, so its checksum has none.
+void AddEvents(const std::vector<EventRow>& events, Parameters* parameters) {
+  std::vector<std::int64_t> kinds, codings, sizes, checksums;
+  std::vector<const std::string*> payloads;
+  for (const auto& [kind, event] : events) {
+    kinds.push_back(kind);
+    codings.push_back(static_cast<std::int64_t>(event.coding));
+    sizes.push_back(static_cast<std::int64_t>(DecodedSize(event.coding, event.bytes)));
+    checksums.push_back(Checksum(event, 0));
+    payloads.push_back(&event.bytes);
+  }
+  parameters->Integers(kinds).Integers(codings).Integers(sizes).Integers(checksums);
+  parameters->Blobs(payloads).Integer(static_cast<std::int64_t>(BytesOf(events)));
+}
+
+// The job of a row whose columns from `first` on are kHeader.
+StoredJob HeaderOf(const Rows& rows, int row, int first = 0) {
+  const auto column = [first](int place) { return first + place; };
+  return ToStored({.name = rows.Bytes(row, column(1)),
+                   .state = static_cast<int>(rows.Integer(row, column(2))),
+                   .epoch = static_cast<std::uint64_t>(rows.Integer(row, column(3))),
+                   .cancel_requested = rows.Integer(row, column(4)) != 0,
+                   .last_sequence = static_cast<std::uint64_t>(rows.Integer(row, column(5))),
+                   .crc32 = rows.Integer(row, column(6)),
+                   .header = rows.Bytes(row, column(7)),
+                   .oldest_sequence = static_cast<std::uint64_t>(rows.Integer(row, column(8))),
+                   .compacted = rows.Integer(row, column(9)) != 0,
+                   .owner = rows.Bytes(row, column(10)),
+                   .tenant = rows.Bytes(row, column(11)),
+                   .request_key = rows.Bytes(row, column(12))});
+}
+
+// The job of a row whose columns from `first` on are those of read_job.
+absl::StatusOr<StoredJob> WholeOf(const Rows& rows, int first) {
+  StoredJob stored = HeaderOf(rows, 0, first);
+  const int spec = first + 13;
+  const int checkpoint = spec + 2;
+  const int result = checkpoint + 3;
+  if (!rows.IsNull(0, spec)) {
+    MergePart(rows.Bytes(0, spec + 1), rows.Integer(0, spec), &stored);
+  }
+  if (!rows.IsNull(0, checkpoint)) {
+    AddCheckpoint(rows.Bytes(0, checkpoint + 1), rows.Integer(0, checkpoint),
+                  static_cast<std::uint64_t>(rows.Integer(0, checkpoint + 2)), &stored);
+  }
+  if (!rows.IsNull(0, result)) {
+    stored.result_crc32 = rows.Integer(0, result);
+    stored.result = rows.Bytes(0, result + 1);
+  }
+  return IfIntact(std::move(stored));
+}
+
+char OutcomeOf(const Rows& rows) { return rows.Bytes(0, 0).front(); }
+
+// The owner of a row with outcome, owner and tenant, if it is D.
+absl::StatusOr<JobOwner> IfDone(const Rows& rows, const std::string& name) {
+  switch (OutcomeOf(rows)) {
+    case 'D':
+      return JobOwner{rows.Bytes(0, 1), rows.Bytes(0, 2)};
+    case 'R':
+      return HasNotEnded(name);
+    default:
+      return NoSuchJob(name);
+  }
+}
+
+}  // namespace
+
+Statement CreateJob(const JobInsert& job) {
+  std::vector<std::string> keys, values;
+  for (const auto& [key, value] : job.labels) {
+    keys.push_back(key);
+    values.push_back(value);
+  }
+  const JobParts& parts = job.parts;
+  Parameters parameters;
+  parameters.Bytes(job.name).Bytes(job.uid);
+  if (job.request_key.empty()) {
+    parameters.Null();
+  } else {
+    parameters.Bytes(job.request_key);
+  }
+  parameters.Bytes(job.whose.owner).Bytes(job.whose.tenant).Integer(job.state);
+  parameters.Integer(parts.end_time).Integer(Checksum(parts.header)).Bytes(parts.header);
+  parameters.Integer(Checksum(parts.spec)).Bytes(parts.spec).Texts(keys).Texts(values);
+  AddEvents(job.events, &parameters);
+  parameters.Boolean(job.may_create).Integer(job.max_owner_bytes);
+  return {
+      "SELECT c.*, j.* FROM contactd.create_job($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13,$14,$15,"
+      "$16,$17,$18,$19,$20,$21) c LEFT JOIN LATERAL contactd.read_job(c.existing, NULL,"
+      " c.outcome = 'F', false, c.outcome = 'F') j ON c.outcome IN ('C', 'F')",
+      std::move(parameters)};
+}
+
+absl::StatusOr<StoredJob> Created(const Rows& rows, const std::string& name) {
+  switch (const char outcome = OutcomeOf(rows)) {
+    case 'U':
+      return RequestIdWasUsed(rows.Bytes(0, 1));
+    case 'N':
+      return MayNotBeNew();
+    case 'O':
+      return OwnerTakesTooMuch(rows.Integer(0, 2));
+    default: {
+      if (rows.IsNull(0, 3)) return NoSuchJob(name);
+      absl::StatusOr<StoredJob> stored = WholeOf(rows, 3);
+      if (stored.ok()) stored->created = outcome == 'C';
+      return stored;
+    }
+  }
+}
+
+Statement ChangeJob(const JobChange& change, std::uint64_t epoch) {
+  const JobParts& parts = change.parts;
+  Parameters parameters;
+  parameters.Bytes(change.name).Integer(static_cast<std::int64_t>(epoch));
+  parameters.Integer(static_cast<std::int64_t>(change.id)).Boolean(change.take);
+  if (parts.header.empty()) {
+    parameters.Null().Null().Null().Null();
+  } else {
+    parameters.Integer(change.state).Integer(parts.end_time);
+    parameters.Integer(Checksum(parts.header)).Bytes(parts.header);
+  }
+  if (parts.result.empty()) {
+    parameters.Null().Null();
+  } else {
+    parameters.Integer(Checksum(parts.result)).Bytes(parts.result);
+  }
+  if (change.checkpoint) {
+    parameters.Integer(static_cast<std::int64_t>(change.checkpoint->events));
+    parameters.Integer(Checksum(change.checkpoint->state)).Bytes(change.checkpoint->state);
+  } else {
+    parameters.Null().Null().Null();
+  }
+  AddEvents(change.events, &parameters);
+  return {
+      "SELECT * FROM "
+      "contactd.change_job($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13,$14,$15,$16,$17,"
+      "$18,$19)",
+      std::move(parameters)};
+}
+
+absl::StatusOr<std::uint64_t> Changed(const Rows& rows, const std::string& name) {
+  switch (OutcomeOf(rows)) {
+    case 'D':
+      return static_cast<std::uint64_t>(rows.Integer(0, 1));
+    case 'O':
+      return HasOtherOwner(name);
+    default:
+      return NoSuchJob(name);
+  }
+}
+
+Statement RequestCancel(const std::string& name) {
+  return {"SELECT contactd.request_cancel($1)", Parameters().Bytes(name)};
+}
+
+absl::StatusOr<bool> Done(const Rows& rows, const std::string& name) {
+  if (OutcomeOf(rows) != 'D') return NoSuchJob(name);
+  return true;
+}
+
+Statement ReadJob(const std::string& name, std::optional<std::string> tenant, JobPart part) {
+  Parameters parameters;
+  parameters.Bytes(name);
+  if (tenant) {
+    parameters.Bytes(*std::move(tenant));
+  } else {
+    parameters.Null();
+  }
+  parameters.Boolean(part != JobPart::kHeader).Boolean(part == JobPart::kRun);
+  parameters.Boolean(part == JobPart::kAll);
+  return {"SELECT * FROM contactd.read_job($1,$2,$3,$4,$5)", std::move(parameters)};
+}
+
+absl::StatusOr<StoredJob> JobOf(const Rows& rows, const std::string& name) {
+  if (rows.size() == 0) return NoSuchJob(name);
+  return WholeOf(rows, 0);
+}
+
+Statement FindOwner(const std::string& tenant, const std::string& name) {
+  return {"SELECT owner FROM contactd.jobs WHERE name=$1 AND tenant=$2",
+          Parameters().Bytes(name).Bytes(tenant)};
+}
+
+absl::StatusOr<JobOwner> OwnerOf(const Rows& rows, const std::string& name,
+                                 const std::string& tenant) {
+  if (rows.size() == 0) return NoSuchJob(name);
+  return JobOwner{rows.Bytes(0, 0), tenant};
+}
+
+Statement SumBytes(const JobOwner& whose) {
+  return {"SELECT coalesce(sum(bytes), 0)::bigint FROM contactd.jobs WHERE tenant=$1 AND owner=$2",
+          Parameters().Bytes(whose.tenant).Bytes(whose.owner)};
+}
+
+Statement ListJobs(const JobQuery& query) {
+  int number = 0;
+  const auto next = [&number] { return absl::StrCat("$", ++number); };
+  std::string sql = absl::StrCat("SELECT ", kHeader, " FROM contactd.jobs WHERE number<", next());
+  Parameters parameters;
+  parameters.Integer(query.before > 0 ? query.before : INT64_MAX);
+  if (query.tenant) {
+    absl::StrAppend(&sql, " AND tenant=", next());
+    parameters.Bytes(*query.tenant);
+  }
+  if (!query.states.empty()) {
+    absl::StrAppend(&sql, " AND state = ANY(", next(), "::bigint[])");
+    parameters.Integers({query.states.begin(), query.states.end()});
+  }
+  for (const auto& [key, value] : query.labels) {
+    const std::string at_key = next();
+    absl::StrAppend(&sql,
+                    " AND EXISTS(SELECT FROM contactd.labels WHERE job=number AND key=", at_key,
+                    " AND value=", next(), ")");
+    parameters.Bytes(key).Bytes(value);
+  }
+  if (!query.name_prefix.empty()) {
+    absl::StrAppend(&sql, " AND starts_with(name, ", next(), ")");
+    parameters.Bytes(query.name_prefix);
+  }
+  absl::StrAppend(&sql, " ORDER BY number DESC LIMIT ", next());
+  parameters.Integer(query.limit + 1);
+  return {std::move(sql), std::move(parameters)};
+}
+
+absl::StatusOr<JobPage> PageOf(const Rows& rows, int limit) {
+  JobPage page;
+  const int shown = std::min(rows.size(), limit);
+  for (int row = 0; row < shown; ++row) page.jobs.push_back(HeaderOf(rows, row));
+  if (rows.size() > limit) page.next = rows.Integer(limit - 1, 0);
+  return page;
+}
+
+Statement ListUnfinished() {
+  return {absl::StrCat("SELECT ", kHeader,
+                       " FROM contactd.jobs WHERE state NOT IN (3,4,5) ORDER BY number")};
+}
+
+absl::StatusOr<std::vector<StoredJob>> JobsOf(const Rows& rows) {
+  std::vector<StoredJob> jobs;
+  for (int row = 0; row < rows.size(); ++row) jobs.push_back(HeaderOf(rows, row));
+  return jobs;
+}
+
+Statement ListSizes() {
+  return {
+      "SELECT name, end_time, bytes FROM contactd.jobs WHERE state IN (3,4,5)"
+      " ORDER BY end_time, number"};
+}
+
+absl::StatusOr<std::vector<JobSize>> SizesOf(const Rows& rows) {
+  std::vector<JobSize> sizes;
+  for (int row = 0; row < rows.size(); ++row) {
+    sizes.push_back({rows.Bytes(row, 0), rows.Integer(row, 1), rows.Integer(row, 2)});
+  }
+  return sizes;
+}
+
+Statement ReadEvents(const EventQuery& query) {
+  Parameters parameters;
+  parameters.Bytes(query.name);
+  parameters.Integer(static_cast<std::int64_t>(std::min(query.after, kMostSequence)));
+  parameters.Integer(query.kinds).Integer(static_cast<std::int64_t>(query.max_bytes));
+  parameters.Integer(kMostScanned);
+  return {
+      "SELECT last_sequence, oldest_sequence, sequence, kind, coding, crc32, payload, size"
+      " FROM contactd.read_events($1,$2,$3,$4,$5)",
+      std::move(parameters)};
+}
+
+absl::StatusOr<EventPage> EventsOf(const Rows& rows, const EventQuery& query) {
+  if (rows.size() == 0) return NoSuchJob(query.name);
+  const auto last = static_cast<std::uint64_t>(rows.Integer(0, 0));
+  EventPage page;
+  page.oldest = static_cast<std::uint64_t>(rows.Integer(0, 1));
+  page.position = query.after;
+  if (query.after >= last) return page;
+  page.position = query.after + std::min(kMostScanned, last - query.after);
+  std::size_t bytes = 0;
+  for (int row = 1; row < rows.size(); ++row) {  // The first row has no event.
+    page.events.push_back(ToStored(
+        static_cast<std::uint64_t>(rows.Integer(row, 2)), static_cast<int>(rows.Integer(row, 3)),
+        {static_cast<Coding>(rows.Integer(row, 4)), rows.Bytes(row, 6)}, rows.Integer(row, 5), 0));
+    bytes += static_cast<std::size_t>(rows.Integer(row, 7)) + 1;
+  }
+  // The page may have ended before all that it could step over.
+  if (bytes >= query.max_bytes) page.position = page.events.back().sequence;
+  return page;
+}
+
+Statement RemoveJob(const std::string& name, const std::string& expected_uid) {
+  return {"SELECT * FROM contactd.remove_job($1,$2)", Parameters().Bytes(name).Bytes(expected_uid)};
+}
+
+absl::StatusOr<JobOwner> Removed(const Rows& rows, const std::string& name) {
+  if (OutcomeOf(rows) != 'U') return IfDone(rows, name);
+  v1::Job other;
+  other.set_name(name);
+  other.set_uid(rows.Bytes(0, 3));
+  return OtherJob(other);
+}
+
+Statement CompactJob(const std::string& name) {
+  return {"SELECT * FROM contactd.compact_job($1,$2)",
+          Parameters().Bytes(name).Integer(v1::Event::kFrameChunk)};
+}
+
+absl::StatusOr<JobOwner> Compacted(const Rows& rows, const std::string& name) {
+  return IfDone(rows, name);
+}
+
+Statement Purge() {
+  return {"SELECT contactd.purge($1)", Parameters().Integer(v1::Event::kFrameChunk)};
+}
+
+}  // namespace contact::postgres

@@ -1,0 +1,102 @@
+"""The database of --store dies, loses its connections, and comes back: nobody notices but by waiting."""
+
+import os
+import threading
+import time
+import unittest
+
+os.environ["CONTACT_STORE"] = "postgres"
+from contactd import cluster, database_of, spring_wall, three_ball_chain
+from fault import *
+
+ROUNDS = 6
+
+
+class OutageTest(FaultTest):
+    """F17, with one contactd."""
+
+    flags = ("--workers=5", f"--max-attempts={10 * ROUNDS}")
+
+    def test_what_was_acknowledged_outlives_the_database_and_the_server(self):
+        end_time = self.end_time(0.6)
+        chain, long = three_ball_chain(), [spring_wall(end_time + 0.1 * i) for i in range(4)]
+        golden = self.golden(chain, *long)
+        running = [submit(self.server, self.history, scenario, f"long-{i}").name
+                   for i, scenario in enumerate(long)]
+        done = threading.Event()
+
+        def keep_submitting(client):
+            for i in range(1000):
+                if done.is_set():
+                    return
+                patient(lambda i=i: submit(self.server, self.history, chain, f"{client}-{i}"))
+                time.sleep(0.1)
+
+        faults = [self.kill_database, self.cut_connections, self.kill_server] * (ROUNDS // 3)
+        self.random.shuffle(faults)
+        answered = {}
+        with clients() as start:
+            for client in range(6):
+                start(keep_submitting, client)
+            for name in running:
+                start(follow, self.server, self.history.watch(name))
+            for fault in faults:
+                time.sleep(self.random.uniform(0.1, 0.5))
+                fault()
+                began = time.monotonic()
+                patient(lambda: get(self.server, self.history, running[0]))
+                answered.setdefault(fault.__name__, []).append(time.monotonic() - began)
+            done.set()
+        final = self.assertPromises(self.server, golden=golden, max_attempts=ROUNDS + 1)
+        self.figures |= dict(jobs=len(final), attempts=[final[name].attempt for name in running])
+        for what, times in answered.items():
+            self.assertKept(what + "_answers_again", max(times), 2)
+
+    def kill_database(self):
+        """As kill -9 does, and half a second without it."""
+        cluster().kill()
+        time.sleep(0.5)
+        cluster().start()
+
+    def cut_connections(self):
+        cluster().run("SELECT pg_terminate_backend(pid) FROM pg_stat_activity"
+                      " WHERE application_name = 'contactd'")
+
+    def kill_server(self):
+        self.server.kill()
+        self.server.start()
+
+
+class AwayTest(FaultTest):
+    """A database that does not come back soon."""
+
+    def test_calls_are_refused_soon_and_runs_wait(self):
+        name = self.server.create(spring_wall(self.end_time(1.5))).name
+        wait_for(lambda: self.server.get(name).state == Job.RUNNING)
+        cluster().kill()
+        began = time.monotonic()
+        with self.assertRaises(grpc.RpcError) as caught:
+            self.server.get(name)
+        self.assertKept("refused_after", time.monotonic() - began, 3)
+        self.assertEqual(caught.exception.code(), grpc.StatusCode.UNAVAILABLE)
+        self.assertEqual(details_of(caught.exception)["ErrorInfo"].reason, "STORE_FAILED")
+        self.assertNotIn("/tmp", caught.exception.details(), "clients learn no paths")
+        time.sleep(2)
+        cluster().start()
+        patient(lambda: self.server.get(name))
+        follow(self.server, self.history.watch(name))
+        job = self.server.get(name)
+        self.assertEqual((job.state, job.attempt), (Job.SUCCEEDED, 1), "the run went on")
+
+    def test_secrets_of_the_address_are_not_told(self):
+        server = Server(self.folder / "secret", store="")
+        server.flags = (database_of(self.server.data_dir).replace(
+            "contactd@/", "contactd:hunter2@/").join(("--store=", "")),)
+        with self.assertRaises(RuntimeError) as caught:
+            server.start()
+        self.assertIn("is used by another contactd", server.log())
+        self.assertNotIn("hunter2", str(caught.exception) + server.log())
+
+
+if __name__ == "__main__":
+    unittest.main()

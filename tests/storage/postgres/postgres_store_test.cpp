@@ -1,0 +1,180 @@
+// What the PostgreSQL engine promises beyond the calls that every engine has.
+#include "storage/postgres/postgres_store.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "storage/every_store.h"
+#include "storage/postgres/schema.h"
+
+namespace contact {
+namespace {
+
+using testing::HasSubstr;
+
+class PostgresStoreTest : public StoreTest {
+ protected:
+  absl::StatusOr<std::unique_ptr<Store>> OpenStore(StoreOptions options) override {
+    return OpenPostgres(database_.address(), std::move(options));
+  }
+  ~PostgresStoreTest() override { store_.reset(); }
+
+  // Ends the store's connection, as an administrator can.
+  void CutConnections() {
+    database_.Run(
+        "SELECT count(pg_terminate_backend(pid)) FROM pg_stat_activity"
+        " WHERE datname = current_database() AND pid <> pg_backend_pid()");
+  }
+  std::int64_t Count(const std::string& table) {
+    return database_.Run("SELECT count(*) FROM contactd." + table).Integer(0, 0);
+  }
+
+  PostgresDatabase database_;
+};
+
+TEST_F(PostgresStoreTest, LostConnectionIsReplacedUnseen) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  for (int i = 0; i < 5; ++i) {
+    CutConnections();
+    ASSERT_TRUE(Append("jobs/a", {LogEvent("x")}).ok());
+  }
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 6U);
+  EXPECT_EQ(Count("events"), 6);
+}
+
+TEST_F(PostgresStoreTest, ConnectionThatIsCutWhileMuchIsAskedLosesAndRepeatsNothing) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  constexpr int kUpdates = 2000;
+  const std::vector<v1::Event> events = {LogEvent("x"), LogEvent("y")};
+  std::vector<std::uint64_t> firsts;  // Of the store's thread until flushed.
+  const std::string name = "jobs/a";
+  for (int i = 0; i < kUpdates; ++i) {
+    store_->Update({.name = name, .events = events},
+                   [&firsts](const absl::StatusOr<std::uint64_t>& first) {
+                     firsts.push_back(first.value_or(0));
+                   });
+    if (i % 400 == 0) CutConnections();
+  }
+  Await<bool> flushed;
+  store_->Flush([done = flushed.callback()] { done(true); });
+  flushed.Get();
+  ASSERT_EQ(firsts.size(), static_cast<std::size_t>(kUpdates));
+  for (std::size_t i = 0; i < firsts.size(); ++i) EXPECT_EQ(firsts[i], 2 + 2 * i);
+  EXPECT_EQ(Count("events"), 1 + 2 * kUpdates);
+}
+
+TEST_F(PostgresStoreTest, ChangeThatIsSentAgainIsDoneOnce) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  const std::vector<v1::Event> events = {LogEvent("2"), LogEvent("3")};
+  const std::string name = "jobs/a";
+  const auto change = Store::Encode({.name = name, .take = true, .events = events});
+  for (int i = 0; i < 3; ++i) {
+    Await<absl::StatusOr<std::uint64_t>> first;
+    store_->Update(change, 0, first.callback());
+    EXPECT_EQ(first.Get().value(), 2U);
+  }
+  EXPECT_EQ(Read("jobs/a")->epoch, 1U);
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 3U);
+}
+
+TEST_F(PostgresStoreTest, JobThatIsSentAgainIsMadeOnce) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a"))->created);
+  EXPECT_TRUE(Create(MakeJob("jobs/a"))->created);
+  EXPECT_EQ(Count("jobs"), 1);
+  EXPECT_EQ(Count("events"), 1);
+}
+
+TEST_F(PostgresStoreTest, OperationThatFailsDoesNotHarmThoseBesideIt) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  v1::Job other = MakeJob("jobs/a");
+  other.set_uid("other");  // Its name is taken.
+  const std::string name = "jobs/a";
+  const std::vector<v1::Event> events = {LogEvent("x")};
+  int done = 0;  // Of the store's thread until flushed.
+  int failed = 0;
+  for (int i = 0; i < 50; ++i) {
+    store_->Update({.name = name, .events = events},
+                   [&done](const auto& first) { done += first.ok(); });
+    store_->Create({other, "", events}, [&failed](const auto& made) { failed += !made.ok(); });
+  }
+  Await<bool> flushed;
+  store_->Flush([told = flushed.callback()] { told(true); });
+  flushed.Get();
+  EXPECT_EQ(done, 50);
+  EXPECT_EQ(failed, 50);
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 51U);
+}
+
+TEST_F(PostgresStoreTest, SecondProgramIsRefused) {
+  Open();
+  const auto second = OpenStore({});
+  EXPECT_TRUE(absl::IsUnavailable(second.status()));
+  EXPECT_THAT(second.status().ToString(), HasSubstr("another contactd"));
+  store_.reset();
+  EXPECT_TRUE(OpenStore({}).ok());
+}
+
+TEST_F(PostgresStoreTest, ProgramsThatBeginAtOnceMakeTheTablesOnce) {
+  std::vector<std::thread> programs;
+  for (int i = 0; i < 8; ++i) {
+    programs.emplace_back([this] { EXPECT_TRUE(MigratePostgres(database_.address()).ok()); });
+  }
+  for (std::thread& program : programs) program.join();
+  EXPECT_EQ(Count("version"), 1);
+}
+
+TEST_F(PostgresStoreTest, NewerTablesAreRefused) {
+  Open();
+  store_.reset();
+  database_.Run("UPDATE contactd.version SET version = version + 1");
+  const auto opened = OpenStore({});
+  EXPECT_TRUE(absl::IsFailedPrecondition(opened.status()));
+  EXPECT_THAT(opened.status().ToString(), HasSubstr("start the newer program"));
+}
+
+TEST_F(PostgresStoreTest, AddressThatNobodyAnswersIsToldAtOnce) {
+  const auto opened = OpenPostgres("postgresql://contactd@127.0.0.1:1/none");
+  EXPECT_TRUE(absl::IsUnavailable(opened.status())) << opened.status();
+  EXPECT_TRUE(absl::IsFailedPrecondition(
+      OpenPostgres(database_.address() + "&dbname=none_of_these").status()));
+}
+
+TEST_F(PostgresStoreTest, DamageCostsThatObjectOnly) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
+  ASSERT_TRUE(Append("jobs/a", {LogEvent("2")}).ok());
+  database_.Run("UPDATE contactd.events SET payload = payload || '\\x00' WHERE sequence = 2");
+  const auto page = ReadEvents({.name = "jobs/a"});
+  EXPECT_TRUE(page->events[0].intact);
+  EXPECT_FALSE(page->events[1].intact);
+  EXPECT_TRUE(Read("jobs/a").ok());
+  database_.Run("UPDATE contactd.specs SET spec = spec || '\\x00' WHERE job = 1");
+  EXPECT_TRUE(absl::IsDataLoss(Read("jobs/a").status()));
+  EXPECT_TRUE(Read("jobs/a", JobPart::kHeader).ok());
+  database_.Run("UPDATE contactd.jobs SET tenant = 'umbra' WHERE number = 1");
+  EXPECT_TRUE(absl::IsDataLoss(Read("jobs/a", JobPart::kHeader).status()));
+  EXPECT_TRUE(Read("jobs/b").ok());
+}
+
+// The server's default must not weaken the promise that what is answered is on disk.
+TEST_F(PostgresStoreTest, CommitsAreOnDiskWhateverTheDefaultIs) {
+  Open();
+  database_.Run("ALTER ROLE contactd SET synchronous_commit = off");
+  const auto connection = postgres::Connection::Open(database_.address());
+  ASSERT_TRUE(connection.ok()) << connection.status();
+  EXPECT_EQ((*connection)->Run({"SHOW synchronous_commit"})->Bytes(0, 0), "on");
+  database_.Run("ALTER ROLE contactd RESET synchronous_commit");
+}
+
+}  // namespace
+}  // namespace contact
