@@ -2,6 +2,7 @@
 
 #include <spdlog/common.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "gateway/protocol/origin.h"
 #include "identity/identity_files.h"
+#include "jobs/cluster/shared_options.h"
 #include "jobs/job_manager.h"
 #include "log.h"
 #include "rpc/grpc_server.h"
@@ -36,6 +38,14 @@ inline bool AsksWhoCalls(const IdentityPaths& paths) {
   return !paths.tokens.empty() || !paths.jwt_keys.empty() || !paths.tls.client_ca.empty();
 }
 
+/// What a process does for the jobs of a database that others share.
+enum class ProcessRole {
+  kAll,       ///< It answers calls and runs jobs.
+  kFront,     ///< It answers calls.
+  kWorker,    ///< It runs jobs.
+  kLauncher,  ///< It has a batch system start workers.
+};
+
 /// The settings of contactd, checked.
 struct Config {
   std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
@@ -52,8 +62,11 @@ struct Config {
   std::filesystem::path audit_log;  ///< File of changes and refused calls; empty: none.
   std::int64_t max_audit_bytes = 100'000'000;  ///< See AuditLog::Open.
   std::filesystem::path data_dir;              ///< Directory of jobs and results; made if missing.
-  std::string store_address;        ///< PostgreSQL database of jobs and results; empty: `data_dir`.
-  std::filesystem::path port_file;  ///< File to write the port to; empty: none.
+  std::string store_address;  ///< PostgreSQL database of jobs and results; empty: `data_dir`.
+  ProcessRole role = ProcessRole::kAll;     ///< With `store_address`.
+  SharedOptions shared;                     ///< With `store_address`.
+  std::chrono::milliseconds stop_after{0};  ///< A worker ends after this time; 0: never.
+  std::filesystem::path port_file;          ///< File to write the port to; empty: none.
   spdlog::level::level_enum log_level = spdlog::level::info;
   bool fsck = false;        ///< Check the data directory and end.
   bool copy_store = false;  ///< Copy the jobs from one store to the other and end.

@@ -19,6 +19,11 @@ const std::map<std::string, spdlog::level::level_enum> kLogLevels{
     {"error", spdlog::level::err},   {"off", spdlog::level::off},
 };
 
+const std::map<std::string, ProcessRole> kRoles{{"all", ProcessRole::kAll},
+                                                {"front", ProcessRole::kFront},
+                                                {"worker", ProcessRole::kWorker},
+                                                {"launcher", ProcessRole::kLauncher}};
+
 const std::map<std::string, LogFormat> kLogFormats{{"text", LogFormat::kText},
                                                    {"json", LogFormat::kJson}};
 
@@ -39,6 +44,37 @@ void AddBasics(CLI::App* app, Config* config) {
   app->add_option("--port-file", config->port_file, "File to write the port to");
   app->add_option("--metrics-listen", config->metrics_listen,
                   "HOST:PORT that tells metrics to Prometheus, such as 127.0.0.1:9464");
+}
+
+// A duration such as `10s`, `5m`, `12h`, `30d`; its default is the value that is there. Rounded up
+// to the unit of `value`.
+template <class Duration>
+void AddTime(CLI::App* app, const std::string& name, Duration* value,
+             const std::string& description) {
+  const auto set = [name, value](const std::string& text) {
+    const auto time = ParseDuration(text);
+    if (!time) throw CLI::ValidationError(name, NotADuration(text));
+    *value = std::chrono::ceil<Duration>(*time);
+  };
+  const std::chrono::duration<double> seconds = *value;
+  app->add_option_function<std::string>(name, set, description)
+      ->type_name("TIME")
+      ->default_str(fmt::format("{:g}s", seconds.count()));
+}
+
+// What the process does for jobs that others share.
+void AddSharing(CLI::App* app, Config* config) {
+  app->add_option("--role", config->role,
+                  "With --store: all; front, which answers calls; worker, which runs jobs; or "
+                  "launcher, which has a batch system start workers")
+      ->transform(CLI::CheckedTransformer(kRoles))
+      ->default_str("all");
+  AddTime(app, "--lease", &config->shared.process.lease,
+          "With --store: a worker that was not heard of for this time has lost its jobs");
+  AddTime(app, "--exit-when-idle", &config->shared.exit_when_idle,
+          "A worker that has had no job for this time ends; 0 is never");
+  AddTime(app, "--stop-after", &config->stop_after,
+          "A worker ends after this time, and hands its jobs back; 0 is never");
 }
 
 // The gateway for browsers and curl.
@@ -224,22 +260,6 @@ void AddSpaceLimits(CLI::App* app, Config* config) {
             "left; 0: however full it is");
 }
 
-// A duration such as `10s`, `5m`, `12h`, `30d`; its default is the value that is there. Rounded up
-// to the unit of `value`.
-template <class Duration>
-void AddTime(CLI::App* app, const std::string& name, Duration* value,
-             const std::string& description) {
-  const auto set = [name, value](const std::string& text) {
-    const auto time = ParseDuration(text);
-    if (!time) throw CLI::ValidationError(name, NotADuration(text));
-    *value = std::chrono::ceil<Duration>(*time);
-  };
-  const std::chrono::duration<double> seconds = *value;
-  app->add_option_function<std::string>(name, set, description)
-      ->type_name("TIME")
-      ->default_str(fmt::format("{:g}s", seconds.count()));
-}
-
 // What one job may use.
 void AddBudgets(CLI::App* app, JobOptions* jobs) {
   AddTime(app, "--max-wall-time", &jobs->max_budget.wall_time,
@@ -278,6 +298,7 @@ void AddRetention(CLI::App* app, RetentionLimits* retention) {
 
 void AddFlags(CLI::App* app, Config* config, Switches* switches) {
   AddBasics(app, config);
+  AddSharing(app, config);
   AddHttp(app, config);
   AddLog(app, config);
   AddExposure(app, switches);

@@ -20,6 +20,7 @@
 #include "base/ids.h"
 #include "base/replace_file.h"
 #include "base/spelling.h"
+#include "jobs/cluster/shared_jobs.h"
 #include "jobs/job_manager.h"
 #include "listeners.h"
 #include "log.h"
@@ -85,6 +86,18 @@ int WaitFor(const sigset_t& signals, const SelfProbe& probe) {
   }
 }
 
+// Waits until a worker is to end. Returns why.
+const char* AwaitEnd(const Config& config, const sigset_t& signals) {
+  const auto time = std::chrono::duration_cast<std::chrono::nanoseconds>(config.stop_after);
+  const timespec timeout{.tv_sec = time / 1s, .tv_nsec = (time % 1s).count()};
+  for (;;) {
+    const int signal =
+        time > 0s ? sigtimedwait(&signals, nullptr, &timeout) : sigwaitinfo(&signals, nullptr);
+    if (signal > 0) return strsignal(signal);
+    if (errno == EAGAIN) return "the time of --stop-after is over";
+  }
+}
+
 // Ends the process: after a failed write the store can no longer acknowledge anything.
 void EndAfterDiskFailure(const absl::Status& status) {
   spdlog::critical("the store failed: {}", std::string(status.message()));
@@ -142,26 +155,53 @@ int Refuse(const absl::Status& status) {
   return absl::IsUnavailable(status) ? kExitHeld : kExitUsage;
 }
 
-absl::StatusOr<std::unique_ptr<Store>> OpenStore(const Config& config, StoreOptions options) {
-  if (config.store_address.empty()) return OpenSqlite(config.data_dir, std::move(options));
+// The disk of the directory as df tells it; nothing known if it cannot be asked.
+DiskSpace SpaceOf(const std::filesystem::path& directory) {
   std::error_code error;
-  std::filesystem::create_directories(config.data_dir, error);
-  if (error) {
-    return absl::FailedPreconditionError(
-        fmt::format("cannot make {}: {}", config.data_dir.string(), error.message()));
-  }
-  return OpenPostgres(config.store_address, std::move(options));
+  const auto space = std::filesystem::space(directory, error);
+  if (error) return {};
+  const std::uintmax_t used = space.capacity - space.free;
+  return {static_cast<std::int64_t>(used + space.available),
+          static_cast<std::int64_t>(space.available)};
 }
 
-absl::StatusOr<std::unique_ptr<Store>> OpenEither(const std::string& place) {
-  if (IsPostgresAddress(place)) return OpenPostgres(place);
+// A store with what runs its jobs.
+struct Served {
+  std::unique_ptr<Store> store;
+  std::unique_ptr<JobManager> jobs;
+};
+
+// A directory that this process has alone, or a database that it shares with others.
+absl::StatusOr<Served> OpenServed(const Config& config, StoreOptions options) {
+  Served served;
+  JobOptions jobs = config.jobs;
+  if (!config.store_address.empty()) {
+    auto shared = OpenPostgres(config.store_address, std::move(options));
+    if (!shared.ok()) return shared.status();
+    served.jobs = std::make_unique<JobManager>(**shared, SystemClock(), RandomIds(),
+                                               std::move(jobs), config.shared);
+    served.store = *std::move(shared);
+    return served;
+  }
+  auto store = OpenSqlite(config.data_dir, std::move(options));
+  if (!store.ok()) return store.status();
+  served.store = *std::move(store);
+  jobs.disk = [directory = config.data_dir] { return SpaceOf(directory); };
+  jobs.retention.clock_file = config.data_dir / "clock";
+  served.jobs =
+      std::make_unique<JobManager>(*served.store, SystemClock(), RandomIds(), std::move(jobs));
+  return served;
+}
+
+absl::StatusOr<std::unique_ptr<Store>> OpenAlone(const std::string& place) {
+  if (IsPostgresAddress(place)) return OpenPostgresAlone(place);
   return OpenSqlite(place, {.reserve_bytes = kReserve});
 }
 
 int CopyStores(const Config& config) {
-  const auto from = OpenEither(config.copy_from);
+  const auto from = OpenAlone(config.copy_from);
   if (!from.ok()) return Refuse(from.status());
-  const auto to = OpenEither(config.copy_to);
+  const auto to = OpenAlone(config.copy_to);
   if (!to.ok()) return Refuse(to.status());
   const auto report = CopyStore(**from, **to);
   if (!report.ok()) return Refuse(report.status());
@@ -198,16 +238,6 @@ std::int64_t StoredBytes(const std::filesystem::path& data_dir) {
   return bytes;
 }
 
-// The disk of the directory as df tells it; nothing known if it cannot be asked.
-DiskSpace SpaceOf(const std::filesystem::path& directory) {
-  std::error_code error;
-  const auto space = std::filesystem::space(directory, error);
-  if (error) return {};
-  const std::uintmax_t used = space.capacity - space.free;
-  return {static_cast<std::int64_t>(used + space.available),
-          static_cast<std::int64_t>(space.available)};
-}
-
 MetricsSources Sources(const Config& config, const StoreOptions& store, const JobManager& jobs,
                        const Listeners& listeners) {
   const auto take = [&config, &jobs, &listeners] {
@@ -238,20 +268,49 @@ bool ServeMetrics(const Config& config, MetricsSources sources,
   return true;
 }
 
+// Runs jobs of a shared store until a signal comes or it is time to leave, then hands back what it
+// has. Returns the exit code.
+int Work(const Config& config, const sigset_t& signals) {
+  StoreOptions options = config.store;
+  options.on_failure = EndAfterDiskFailure;
+  const auto store = OpenPostgres(config.store_address, options);
+  if (!store.ok()) return Refuse(store.status());
+  JobFeed feed;
+  SharedJobs jobs(**store, SystemClock(), config.jobs, config.shared, feed);
+  const auto take = [&jobs] {
+    const Demand demand = jobs.demand();
+    return MetricsSources::Now{.workers = static_cast<int>(demand.threads),
+                               .queued_jobs = static_cast<int>(demand.queued),
+                               .running_jobs = static_cast<int>(demand.running),
+                               .stored_bytes = {}};
+  };
+  std::unique_ptr<MetricsServer> metrics;
+  if (!ServeMetrics(config,
+                    {take, config.jobs.metrics, options.metrics, std::make_shared<RpcMetrics>(),
+                     std::make_shared<StreamMetrics>()},
+                    &metrics)) {
+    return kExitHeld;
+  }
+  Greet(config.log_format,
+        fmt::format("contactd {} works with {} for {}", kVersion,
+                    Count(config.jobs.workers, "thread", "threads"), StoreName(config)));
+  sd_notify(0, "READY=1");
+  spdlog::info("{}: handing the jobs back", AwaitEnd(config, signals));
+  sd_notify(0, "STOPPING=1");
+  metrics.reset();
+  jobs.Stop();
+  return kExitOk;
+}
+
 // Serves until a signal comes, then shuts down. Returns the exit code.
 int Serve(const Config& config, const sigset_t& signals) {
   StoreOptions options = config.store;
   options.on_failure = EndAfterDiskFailure;
   options.reserve_bytes = kReserve;
-  const auto store = OpenStore(config, options);
-  if (!store.ok()) return Refuse(store.status());
-  JobOptions job_options = config.jobs;
-  if (config.store_address.empty()) {
-    job_options.disk = [directory = config.data_dir] { return SpaceOf(directory); };
-  }
-  job_options.retention.clock_file = config.data_dir / "clock";
-  JobManager jobs(**store, SystemClock(), RandomIds(), job_options);
-  Listeners listeners(jobs, **store, config, Identity(config));
+  const auto served = OpenServed(config, options);
+  if (!served.ok()) return Refuse(served.status());
+  JobManager& jobs = *served->jobs;
+  Listeners listeners(jobs, *served->store, config, Identity(config));
   std::unique_ptr<MetricsServer> metrics;
   int code = kExitHeld;
   if (const std::string wrong = listeners.Prepare(); !wrong.empty()) {
@@ -294,5 +353,6 @@ int main(int argc, char** argv) {
   if (config.migrate) return contact::MigrateStore(config);
   contact::SetUpLog(config.log_level, config.log_format);
   contact::RouteGrpcLog();
+  if (config.role == contact::ProcessRole::kWorker) return contact::Work(config, signals);
   return contact::Serve(config, signals);
 }

@@ -1,12 +1,15 @@
 #include "read_config.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <climits>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
@@ -18,6 +21,7 @@
 #include <vector>
 
 #include "address.h"
+#include "base/ids.h"
 #include "flags.h"
 #include "storage/postgres/postgres_store.h"
 #include "version.h"
@@ -175,17 +179,38 @@ void SettleOwnerLimits(const Config& config, OwnerLimits* limits) {
   settle(&limits->connections, 100);
 }
 
+// Who this process is among those that share a store.
+void SettleShared(Config* config) {
+  char host[HOST_NAME_MAX + 1] = {};
+  gethostname(host, HOST_NAME_MAX);
+  WorkerProcess& process = config->shared.process;
+  process.host = host;
+  process.name = fmt::format("{}/{}", process.host, RandomIds().NextId());
+  if (const char* job = std::getenv("SLURM_JOB_ID")) process.batch_id = job;
+  config->shared.works = config->role != ProcessRole::kFront;
+  config->shared.leave = [] { kill(getpid(), SIGTERM); };
+}
+
 // Throws CLI::ValidationError for settings of a database that do not belong together.
 void CheckStore(const Config& config) {
   const auto refuse = [](const char* flag, const char* why) {
     throw CLI::ValidationError(flag, why);
   };
   if (config.store_address.empty()) {
+    if (config.role != ProcessRole::kAll) refuse("--role", "needs --store");
     if (config.migrate) refuse("migrate", "needs --store; contactd brings a directory up to date");
     return;
   }
   if (!IsPostgresAddress(config.store_address)) {
     refuse("--store", "must be postgresql://USER@HOST/DATABASE, as libpq takes it");
+  }
+  if (config.shared.process.lease < std::chrono::seconds(1)) {
+    refuse("--lease", "must be at least 1s");
+  }
+  const bool ends = config.stop_after.count() > 0 || config.shared.exit_when_idle.count() > 0;
+  if (ends && config.role != ProcessRole::kWorker) {
+    refuse(config.stop_after.count() > 0 ? "--stop-after" : "--exit-when-idle",
+           "is for --role worker");
   }
   if (config.fsck) refuse("fsck", "looks at directories; use pg_amcheck for a database");
   if (config.store.max_bytes > 0) {
@@ -211,8 +236,11 @@ void Finish(const Switches& switches, Config* config) {
   CheckHttp(*config, asks, switches.insecure);
   if (config->web_dir.empty()) config->web_dir = DefaultWebDir();
   for (const std::string& text : switches.listen_as) config->listen_as.push_back(ToSocket(text));
-  if (config->data_dir.empty()) throw CLI::RequiredError("--data-dir");
+  if (config->data_dir.empty() && config->store_address.empty()) {
+    throw CLI::RequiredError("--data-dir");
+  }
   CheckStore(*config);
+  SettleShared(config);
   if (!config->store_address.empty()) config->store.max_bytes = 0;
   if (config->store.max_bytes == kUnset) config->store.max_bytes = MostOfDisk(config->data_dir);
   SettleOwnerLimits(*config, &config->jobs.owner_limits);

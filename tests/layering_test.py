@@ -16,7 +16,7 @@ ORDER = {
     "server/wire": ["rules", "scenario", "sweep", "."],
     "server/simulation": ["laws", "model", "motion", "episode", "forecast", "."],
     "server/storage": [".", "sqlite", "postgres"],
-    "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "."],
+    "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "cluster", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],
     "server/gateway": ["protocol", "."],
     "client/cli": ["base", "input", "settings", "link", "text", "export", "figures", "paper", "help",

@@ -110,6 +110,8 @@ struct JobCreator::Creation {
   Quotas::Place held = {};
   // Why a limit forbids the job. A request that was accepted before is answered nevertheless.
   std::optional<Error> refusal = {};
+  // What the store is to look at, where it counts for all processes.
+  UnfinishedLimits limits = {};
   // The first events of its log.
   std::vector<v1::Event> events = {};
 };
@@ -129,10 +131,15 @@ void JobCreator::Create(const Principal& caller, v1::CreateJobRequest request,
 }
 
 std::optional<Error> JobCreator::Reserve(const Principal& caller, Creation* creation) const {
+  const int places = OpenTo(caller, parts_.options.max_queued_jobs, parts_.options.admin_slots);
+  if (parts_.unfinished.counts_in_store()) {
+    const OwnerLimits& owner = parts_.options.owner_limits;
+    creation->limits = {places, owner.unfinished_jobs, owner.cells};
+    return std::nullopt;
+  }
   Result<Quotas::Place> held = parts_.quotas.Take(creation->whose, v1::Quota::UNFINISHED_JOBS);
   if (!held.ok()) return held.error();
-  const int places = OpenTo(caller, parts_.options.max_queued_jobs, parts_.options.admin_slots);
-  if (!parts_.scheduler.Reserve(places)) return QueueFull(places);
+  if (!parts_.unfinished.Reserve(places)) return QueueFull(places);
   creation->reserved = true;
   creation->held = std::move(held.value());
   return std::nullopt;
@@ -140,7 +147,7 @@ std::optional<Error> JobCreator::Reserve(const Principal& caller, Creation* crea
 
 std::optional<Error> JobCreator::Admit(Creation* creation, std::int64_t cells) const {
   if (auto full = CheckDisk(parts_.options)) return full;
-  if (cells == 0) return std::nullopt;
+  if (cells == 0 || parts_.unfinished.counts_in_store()) return std::nullopt;
   Result<Quotas::Place> held = parts_.quotas.Take(creation->whose, v1::Quota::CELLS, cells);
   if (!held.ok()) return held.error();
   creation->held = Quotas::Both(std::move(creation->held), std::move(held.value()));
@@ -153,7 +160,7 @@ void JobCreator::Refuse(Creation& creation, Error error) const {
 }
 
 void JobCreator::GiveBack(Creation* creation) const {
-  if (std::exchange(creation->reserved, false)) parts_.scheduler.Release();
+  if (std::exchange(creation->reserved, false)) parts_.unfinished.Release();
   creation->held = nullptr;
 }
 
@@ -190,7 +197,7 @@ void JobCreator::Commit(const std::shared_ptr<Creation>& creation) const {
   creation->events = {
       Apply({v1::Job::QUEUED, reason::kWaitingForWorker}, parts_.clock.Now(), &job)};
   parts_.store.Create({job, creation->request.request_id(), creation->events, !creation->refusal,
-                       parts_.quotas.max_stored_bytes()},
+                       parts_.quotas.max_stored_bytes(), creation->limits},
                       [this, creation](absl::StatusOr<StoredJob> stored) {
                         if (stored.ok()) return Accept(*creation, *std::move(stored));
                         Refuse(*creation, ErrorOf(stored.status(), *creation));
@@ -199,9 +206,24 @@ void JobCreator::Commit(const std::shared_ptr<Creation>& creation) const {
 
 Error JobCreator::ErrorOf(const absl::Status& status, const Creation& creation) const {
   if (creation.refusal && absl::IsResourceExhausted(status)) return *creation.refusal;
-  const auto bytes = status.GetPayload(kOwnerBytesPayload);
-  if (!bytes) return ToError(status, "");
-  return parts_.quotas.TooManyBytes(creation.whose, std::stoll(std::string(*bytes)));
+  const auto has = [&status](const char* payload) -> std::optional<std::int64_t> {
+    const auto told = status.GetPayload(payload);
+    return told ? std::optional(std::stoll(std::string(*told))) : std::nullopt;
+  };
+  const auto exceeded = [&](v1::Quota::Resource resource, std::int64_t used, std::int64_t amount) {
+    return parts_.quotas.Exceeded(creation.whose, resource, used, amount);
+  };
+  if (has(kWaitingPayload)) return QueueFull(static_cast<int>(creation.limits.waiting));
+  if (const auto bytes = has(kOwnerBytesPayload)) {
+    return exceeded(v1::Quota::STORED_BYTES, *bytes, 0);
+  }
+  if (const auto jobs = has(kOwnerJobsPayload)) {
+    return exceeded(v1::Quota::UNFINISHED_JOBS, *jobs, 1);
+  }
+  if (const auto cells = has(kOwnerCellsPayload)) {
+    return exceeded(v1::Quota::CELLS, *cells, creation.request.job().progress().cells());
+  }
+  return ToError(status, "");
 }
 
 void JobCreator::Accept(Creation& creation, StoredJob stored) const {
@@ -212,7 +234,7 @@ void JobCreator::Accept(Creation& creation, StoredJob stored) const {
   v1::Job& job = stored.job;
   parts_.options.metrics->Moved(v1::Job::STATE_UNSPECIFIED, job);
   MoveSpec(creation.request.mutable_job(), &job);
-  parts_.scheduler.Enqueue(job, creation.events, std::move(creation.held));
+  parts_.unfinished.Enqueue(job, creation.events, std::move(creation.held));
   creation.done(std::move(job));
 }
 

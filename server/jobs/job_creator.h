@@ -14,13 +14,13 @@
 #include "jobs/job/job_options.h"
 #include "jobs/job_reader.h"
 #include "jobs/quota/quotas.h"
-#include "jobs/schedule/scheduler.h"
+#include "jobs/schedule/unfinished.h"
 #include "storage/store.h"
 
 namespace contact {
 
-/// Takes jobs in: checks them, stores them, and hands them to the scheduler. Thread-safe; no call
-/// waits.
+/// Takes jobs in: checks them, stores them, and hands them to those who run them. Thread-safe; no
+/// call waits.
 class JobCreator {
  public:
   /// What a creator needs. All of it outlives the creator.
@@ -29,7 +29,7 @@ class JobCreator {
     const Clock& clock;
     IdSource& ids;
     const JobOptions& options;
-    Scheduler& scheduler;
+    Unfinished& unfinished;
     Quotas& quotas;
     /// Answers requests that were accepted before.
     const JobReader& reader;

@@ -4,19 +4,35 @@
 #include <utility>
 
 #include "base/future.h"
+#include "jobs/schedule/scheduler.h"
 
 namespace contact {
 
 JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptions options)
+    : JobManager(store, clock, ids, std::move(options), [&](JobManager& manager) {
+        auto scheduler = std::make_unique<Scheduler>(store, clock, manager.options_, manager.feed_,
+                                                     manager.quotas_);
+        scheduler->Recover();
+        return scheduler;
+      }) {}
+
+JobManager::JobManager(SharedStore& store, const Clock& clock, IdSource& ids, JobOptions options,
+                       const SharedOptions& shared)
+    : JobManager(store, clock, ids, std::move(options), [&](JobManager& manager) {
+        return std::make_unique<SharedJobs>(store, clock, manager.options_, shared, manager.feed_);
+      }) {}
+
+JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptions options,
+                       const MakeUnfinished& make)
     : store_(store),
       options_(std::move(options)),
       quotas_(options_.owner_limits, clock),
-      scheduler_(store, clock, options_, feed_, quotas_),
+      unfinished_(make(*this)),
       retention_(store, clock, options_.retention, feed_),
       watchers_(options_.max_watchers, options_.admin_slots),
-      reader_(store, options_, scheduler_, executor_),
-      creator_({store, clock, ids, options_, scheduler_, quotas_, reader_, executor_}),
-      watches_({{store, decoder_}, clock, scheduler_, reader_, feed_, watchers_}),
+      reader_(store, options_, *unfinished_, executor_),
+      creator_({store, clock, ids, options_, *unfinished_, quotas_, reader_, executor_}),
+      watches_({{store, decoder_}, clock, *unfinished_, reader_, feed_, watchers_}),
       recordings_(store, executor_, options_.scenario_limits, watchers_) {
   retention_.Start();
 }
@@ -44,7 +60,7 @@ void JobManager::Cancel(const Principal& caller, const v1::CancelJobRequest& req
     done(other ? UidMismatch(job.value().name(), job.value().uid()) : std::move(job));
   };
   const auto cancel = [this, caller, name = request.name(), uid, checked = std::move(checked)] {
-    scheduler_.Cancel(name, uid, [this, caller, name, checked](const absl::Status& status) {
+    unfinished_->Cancel(name, uid, [this, caller, name, checked](const absl::Status& status) {
       if (!status.ok()) return checked(ToError(status, name));
       reader_.Get(caller, name, checked);
     });
@@ -67,31 +83,41 @@ void JobManager::Delete(const Principal& caller, const v1::DeleteJobRequest& req
 
 v1::ServerInfo JobManager::Info() const {
   v1::ServerInfo info;
-  info.set_workers(options_.workers);
-  info.set_queued_jobs(scheduler_.queued());
-  info.set_running_jobs(scheduler_.running());
+  const Demand demand = unfinished_->demand();
+  info.set_workers(static_cast<int>(demand.threads));
+  info.set_queued_jobs(static_cast<int>(demand.queued));
+  info.set_running_jobs(static_cast<int>(demand.running));
   *info.mutable_limits() = LimitsOf(options_);
   return info;
 }
 
 void JobManager::InfoFor(const Principal& caller, Callback<v1::ServerInfo> done) const {
   const JobOwner whose{caller.name, caller.tenant};
-  store_.OwnerBytes(whose,
-                    [this, whose, done = std::move(done)](absl::StatusOr<std::int64_t> bytes) {
-                      if (!bytes.ok()) return done(ToError(bytes.status(), ""));
-                      v1::ServerInfo info = Info();
-                      for (v1::Quota& quota : quotas_.Of(whose))
-                        *info.add_quotas() = std::move(quota);
-                      v1::Quota& running = *info.add_quotas();
-                      running.set_resource(v1::Quota::RUNNING_JOBS);
-                      running.set_limit(options_.max_running_per_owner);
-                      running.set_used(scheduler_.RunningOf(whose));
-                      v1::Quota& stored = *info.add_quotas();
-                      stored.set_resource(v1::Quota::STORED_BYTES);
-                      stored.set_limit(quotas_.max_stored_bytes());
-                      stored.set_used(*bytes);
-                      done(std::move(info));
-                    });
+  store_.OwnerBytes(
+      whose, [this, whose, done = std::move(done)](const absl::StatusOr<std::int64_t>& bytes) {
+        if (!bytes.ok()) return done(ToError(bytes.status(), ""));
+        unfinished_->CountOf(
+            whose, [this, whose, bytes = *bytes, done](const absl::StatusOr<OwnerCounts>& counts) {
+              if (!counts.ok()) return done(ToError(counts.status(), ""));
+              done(WithQuotas(Info(), whose, *counts, bytes));
+            });
+      });
+}
+
+v1::ServerInfo JobManager::WithQuotas(v1::ServerInfo info, const JobOwner& whose,
+                                      const OwnerCounts& counts, std::int64_t bytes) const {
+  const auto add = [&info](v1::Quota::Resource resource, std::int64_t limit, std::int64_t used) {
+    v1::Quota& quota = *info.add_quotas();
+    quota.set_resource(resource);
+    quota.set_limit(limit);
+    quota.set_used(used);
+  };
+  add(v1::Quota::UNFINISHED_JOBS, options_.owner_limits.unfinished_jobs, counts.jobs);
+  add(v1::Quota::CELLS, options_.owner_limits.cells, counts.cells);
+  for (v1::Quota& quota : quotas_.Of(whose)) *info.add_quotas() = std::move(quota);
+  add(v1::Quota::RUNNING_JOBS, options_.max_running_per_owner, counts.running);
+  add(v1::Quota::STORED_BYTES, options_.owner_limits.stored_bytes, bytes);
+  return info;
 }
 
 void JobManager::Stop() {
@@ -99,7 +125,7 @@ void JobManager::Stop() {
   executor_.Stop();
   decoder_.Stop();
   retention_.Stop();
-  scheduler_.Stop();
+  unfinished_->Stop();
   // Cancel asks the store three times, each time once the answer before has come.
   for (int i = 0; i < 3; ++i) {
     Await<bool>([this](const auto& done) { store_.Flush([done] { done(true); }); });

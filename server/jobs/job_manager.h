@@ -1,10 +1,15 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
+
 #include "base/clock.h"
 #include "base/executor.h"
 #include "base/ids.h"
 #include "contact/v1/job_service.pb.h"
 #include "identity/principal.h"
+#include "jobs/cluster/shared_jobs.h"
 #include "jobs/job/callback.h"
 #include "jobs/job/job_options.h"
 #include "jobs/job_creator.h"
@@ -14,7 +19,7 @@
 #include "jobs/quota/quotas.h"
 #include "jobs/read/recordings.h"
 #include "jobs/schedule/retention.h"
-#include "jobs/schedule/scheduler.h"
+#include "jobs/schedule/unfinished.h"
 #include "jobs/watches.h"
 #include "storage/store.h"
 
@@ -27,10 +32,13 @@ namespace contact {
 /// before destruction; all callbacks run before `Stop` returns.
 class JobManager {
  public:
-  /// Takes over what the store holds: jobs that were running when the process ended are queued
-  /// again with reason SERVER_RESTARTED. Starts the workers. Store, clock and ids outlive the
-  /// manager.
+  /// For a store that this process has alone. Takes over what it holds: jobs that were running when
+  /// the process ended are queued again with reason SERVER_RESTARTED. Starts the workers. Store,
+  /// clock and ids outlive the manager.
   JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptions options);
+  /// For a store that others share.
+  JobManager(SharedStore& store, const Clock& clock, IdSource& ids, JobOptions options,
+             const SharedOptions& shared);
   ~JobManager();
   JobManager(const JobManager&) = delete;
   JobManager& operator=(const JobManager&) = delete;
@@ -63,15 +71,23 @@ class JobManager {
   void Stop();
 
  private:
+  /// Adds what the owner may have and has.
+  v1::ServerInfo WithQuotas(v1::ServerInfo info, const JobOwner& whose, const OwnerCounts& counts,
+                            std::int64_t bytes) const;
   /// Calls `change` if the caller may change the job, else `refuse` with the reason.
   void IfAllowed(const Principal& caller, const std::string& name, std::function<void()> change,
                  std::function<void(Error)> refuse);
+
+  /// Makes what knows the jobs that have not ended.
+  using MakeUnfinished = std::function<std::unique_ptr<Unfinished>(JobManager&)>;
+  JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptions options,
+             const MakeUnfinished& make);
 
   Store& store_;
   const JobOptions options_;
   JobFeed feed_;
   Quotas quotas_;
-  Scheduler scheduler_;
+  const std::unique_ptr<Unfinished> unfinished_;
   Retention retention_;
   /// Checks scenarios and reads series: too long for the callers' threads.
   Executor executor_{"checker"};

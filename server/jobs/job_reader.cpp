@@ -69,14 +69,14 @@ void JobReader::Complete(StoredJob* stored) const {
     job.mutable_error()->set_code(static_cast<int>(absl::StatusCode::kDataLoss));
     job.mutable_error()->set_message("the stored job fails its checksum");
   }
-  if (const auto record = scheduler_.Record(job)) job.MergeFrom(record->Get(false));
+  if (const auto record = unfinished_.Record(job)) job.MergeFrom(record->Get(false));
   SetExpireTime(options_.retention, &job);
 }
 
 void JobReader::Answer(StoredJob stored, Callback<v1::Job> done) const {
   // Asked for here, because on the store's thread the record exists exactly while the job has not
   // ended.
-  const auto record = scheduler_.Record(stored.job);
+  const auto record = unfinished_.Record(stored.job);
   const auto whole = std::make_shared<StoredJob>(std::move(stored));
   const auto answer = [this, record, whole, done = std::move(done)] {
     v1::Job& job = whole->job;

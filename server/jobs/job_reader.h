@@ -7,19 +7,20 @@
 #include "identity/principal.h"
 #include "jobs/job/callback.h"
 #include "jobs/job/job_options.h"
-#include "jobs/schedule/scheduler.h"
+#include "jobs/schedule/unfinished.h"
 #include "storage/store.h"
 
 namespace contact {
 
-/// Answers what jobs are: reads them from the store, and adds what only the scheduler and the
-/// settings know. Jobs of other tenants than the caller's are not there. Thread-safe; no call
+/// Answers what jobs are: reads them from the store, and adds what only those who run them and
+/// the settings know. Jobs of other tenants than the caller's are not there. Thread-safe; no call
 /// waits.
 class JobReader {
  public:
   /// All outlive it. Results are parsed on the executor, because a ledger may be long.
-  JobReader(Store& store, const JobOptions& options, const Scheduler& scheduler, Executor& executor)
-      : store_(store), options_(options), scheduler_(scheduler), executor_(executor) {}
+  JobReader(Store& store, const JobOptions& options, const Unfinished& unfinished,
+            Executor& executor)
+      : store_(store), options_(options), unfinished_(unfinished), executor_(executor) {}
 
   /// The job with ledger and artifacts; of a running job, what its run has brought so far.
   void Get(const Principal& caller, const std::string& name, Callback<v1::Job> done) const;
@@ -35,7 +36,7 @@ class JobReader {
  private:
   Store& store_;
   const JobOptions& options_;
-  const Scheduler& scheduler_;
+  const Unfinished& unfinished_;
   Executor& executor_;
 };
 

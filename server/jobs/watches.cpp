@@ -46,8 +46,7 @@ void Watches::WatchJob(const Principal& caller, const v1::WatchJobRequest& reque
 WatchedJob Watches::Open(const v1::WatchJobRequest& request, WatchRules rules, StoredJob stored,
                          Wake wake, Places::Place place) {
   v1::Job& job = stored.job;
-  auto log = parts_.scheduler.Log(job.name());
-  if (!log) log = std::make_shared<JobLog>(job.last_sequence(), true);
+  auto log = parts_.unfinished.Log(job);
   parts_.reader.Complete(&stored);
   if (job.has_sweep() && request.kinds().empty()) rules.kinds &= ~KindBit(v1::Event::kFrameChunk);
   auto tail = std::make_unique<TailCursor>(

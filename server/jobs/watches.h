@@ -16,7 +16,7 @@
 #include "jobs/log/tail_cursor.h"
 #include "jobs/quota/places.h"
 #include "jobs/read/watch_rules.h"
-#include "jobs/schedule/scheduler.h"
+#include "jobs/schedule/unfinished.h"
 
 namespace contact {
 
@@ -46,7 +46,7 @@ class Watches {
     /// The store, and who decodes what watchers read from it.
     EventSource source;
     const Clock& clock;
-    const Scheduler& scheduler;
+    Unfinished& unfinished;
     const JobReader& reader;
     JobFeed& feed;
     /// The places of watchers.

@@ -27,7 +27,10 @@ JobInsert ToInsert(const NewJob& job) {
                    .parts = Split(job.job),
                    .events = ToRows(job.events),
                    .may_create = job.may_create,
-                   .max_owner_bytes = job.max_owner_bytes};
+                   .max_owner_bytes = job.max_owner_bytes,
+                   .limits = job.limits,
+                   .priority = job.job.priority(),
+                   .cells = job.job.progress().cells()};
   insert.labels.assign(job.job.labels().begin(), job.job.labels().end());
   // The id belongs to its tenant, whose name has no slash.
   if (!job.request_id.empty()) {

@@ -32,6 +32,12 @@ struct JobInsert {
   bool may_create = true;
   /// See NewJob::max_owner_bytes.
   std::int64_t max_owner_bytes = 0;
+  /// See NewJob::limits.
+  UnfinishedLimits limits;
+  /// See v1::Job.
+  std::int64_t priority = 0;
+  /// Of a sweep.
+  std::int64_t cells = 0;
 };
 JobInsert ToInsert(const NewJob& job);
 /// NewJob::request_id, of a job of this tenant; empty if the key is that of another.

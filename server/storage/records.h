@@ -15,6 +15,17 @@
 
 namespace contact {
 
+/// What there may be of jobs that have not ended, for one more to be created; 0: any number. An
+/// engine that many processes share counts them; where one process owns the store, it does.
+struct UnfinishedLimits {
+  /// Jobs that wait for a worker.
+  std::int64_t waiting = 0;
+  /// Jobs of the owner.
+  std::int64_t owner_jobs = 0;
+  /// Cells of the owner's sweeps.
+  std::int64_t owner_cells = 0;
+};
+
 /// A job to be created. Only looked at during the call.
 struct NewJob {
   /// Its `name` is new. Its output fields are stored as they are.
@@ -28,6 +39,8 @@ struct NewJob {
   /// A new job is refused with kOwnerBytesPayload if the jobs of its owner take so many bytes
   /// already; 0: never.
   std::int64_t max_owner_bytes = 0;
+  /// A new job that would exceed them is refused with the payload of what there is too much of.
+  UnfinishedLimits limits = {};
 };
 
 /// Where the run of a job may go on after a crash. Removed when the job ends.

@@ -36,9 +36,9 @@ absl::Status RequestIdWasUsed(const std::string& name) {
 
 absl::Status MayNotBeNew() { return absl::ResourceExhaustedError("the job is new"); }
 
-absl::Status OwnerTakesTooMuch(std::int64_t bytes) {
-  absl::Status status = absl::ResourceExhaustedError("the owner's jobs take too much");
-  status.SetPayload(kOwnerBytesPayload, absl::Cord(absl::StrCat(bytes)));
+absl::Status TooMuch(const char* payload, std::int64_t has) {
+  absl::Status status = absl::ResourceExhaustedError("there is too much for one job more");
+  status.SetPayload(payload, absl::Cord(absl::StrCat(has)));
   return status;
 }
 

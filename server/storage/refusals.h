@@ -14,8 +14,11 @@ namespace contact {
 /// Payload of a status: the uid of the job that was found in place of the one expected.
 inline constexpr char kUidPayload[] = "contact/uid";
 
-/// Payload of a RESOURCE_EXHAUSTED status: the bytes that the jobs of the owner take.
-inline constexpr char kOwnerBytesPayload[] = "contact/owner_bytes";
+/// Payloads of a RESOURCE_EXHAUSTED status of Store::Create: what there is of something limited.
+inline constexpr char kOwnerBytesPayload[] = "contact/owner_bytes";  ///< Bytes of the owner's jobs.
+inline constexpr char kOwnerJobsPayload[] = "contact/owner_jobs";    ///< His unfinished jobs.
+inline constexpr char kOwnerCellsPayload[] = "contact/owner_cells";  ///< Their cells.
+inline constexpr char kWaitingPayload[] = "contact/waiting";         ///< Jobs that wait.
 
 /// NOT_FOUND, for a job with this name.
 absl::Status NoSuchJob(const std::string& name);
@@ -31,7 +34,7 @@ absl::Status HasNotEnded(const std::string& name);
 absl::Status RequestIdWasUsed(const std::string& name);
 /// RESOURCE_EXHAUSTED, see NewJob::may_create.
 absl::Status MayNotBeNew();
-/// RESOURCE_EXHAUSTED, with the bytes that the owner's jobs take as the payload kOwnerBytesPayload.
-absl::Status OwnerTakesTooMuch(std::int64_t bytes);
+/// RESOURCE_EXHAUSTED: there is so much of something limited; `payload` names it.
+absl::Status TooMuch(const char* payload, std::int64_t has);
 
 }  // namespace contact

@@ -24,7 +24,8 @@ const JobOwner kOtherAda{"ada", "umbra"};
 
 std::int64_t Used(const Quotas& quotas, const JobOwner& whose, v1::Quota::Resource resource) {
   const auto all = quotas.Of(whose);
-  return std::ranges::find(all, resource, &v1::Quota::resource)->used();
+  const auto found = std::ranges::find(all, resource, &v1::Quota::resource);
+  return found == all.end() ? quotas.used(whose, resource) : found->used();
 }
 
 TEST(Quotas, OwnerHasUpToItsLimitAndOthersHaveTheirs) {

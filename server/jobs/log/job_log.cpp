@@ -1,5 +1,7 @@
 #include "jobs/log/job_log.h"
 
+#include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "jobs/job/lifecycle.h"
@@ -67,6 +69,19 @@ void JobLog::Push(LogRecord record, bool ended) {
     ring_bytes_ -= ring_.front().event->size();
     ring_.pop_front();
   }
+}
+
+void JobLog::Advance(std::uint64_t last, bool ended) {
+  {
+    const MutexLock lock(mutex_);
+    assert(ring_.empty());
+    if (last <= last_ && ended <= ended_) return;
+  }
+  Tell([&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    last_ = std::max(last_, last);
+    ended_ |= ended;
+    return false;
+  });
 }
 
 void JobLog::SetProgress(v1::Event progress) {

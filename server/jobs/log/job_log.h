@@ -31,6 +31,10 @@ class JobLog {
     Append(first, ToRecords(std::move(events)));
   }
 
+  /// Of a log that holds no events: the newest stored one is `last`, or a newer one that is known
+  /// already; `ended`: as in the constructor.
+  void Advance(std::uint64_t last, bool ended);
+
   /// Replaces the progress that watchers have not seen yet.
   void SetProgress(v1::Event progress);
 

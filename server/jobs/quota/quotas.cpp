@@ -64,8 +64,8 @@ Result<Quotas::Place> Quotas::Take(const JobOwner& whose, Resource resource, std
   const std::int64_t limit = LimitOf(resource);
   const MutexLock lock(book_->mutex);
   const auto found = book_->used.find(key);
-  const std::int64_t used = found == book_->used.end() ? 0 : found->second;
-  if (limit > 0 && used + amount > limit) return Exceeded(whose, resource, used, amount);
+  const std::int64_t has = found == book_->used.end() ? 0 : found->second;
+  if (limit > 0 && has + amount > limit) return Exceeded(whose, resource, has, amount);
   return Write(book_, key, amount);
 }
 
@@ -110,8 +110,10 @@ std::optional<Error> Quotas::TakeCreateCall(const JobOwner& whose) {
   return error;
 }
 
-Error Quotas::TooManyBytes(const JobOwner& whose, std::int64_t bytes) const {
-  return Exceeded(whose, Q::STORED_BYTES, bytes, 0);
+std::int64_t Quotas::used(const JobOwner& whose, Resource resource) const {
+  const MutexLock lock(book_->mutex);
+  const auto found = book_->used.find({NameOf(whose), resource});
+  return found == book_->used.end() ? 0 : found->second;
 }
 
 Error Quotas::Exceeded(const JobOwner& whose, Resource resource, std::int64_t used,
@@ -156,7 +158,10 @@ std::vector<v1::Quota> Quotas::Of(const JobOwner& whose) const {
   const std::string name = NameOf(whose);
   std::vector<v1::Quota> quotas;
   for (const Words& words : kWords) {
-    if (words.resource == Q::STORED_BYTES) continue;
+    if (words.resource == Q::UNFINISHED_JOBS || words.resource == Q::CELLS ||
+        words.resource == Q::STORED_BYTES) {
+      continue;
+    }
     v1::Quota& quota = quotas.emplace_back();
     quota.set_resource(words.resource);
     quota.set_limit(LimitOf(words.resource));

@@ -41,13 +41,15 @@ class Quotas {
   /// Counts a CreateJob call. QUOTA_EXCEEDED, with the time to wait: there were too many of late.
   std::optional<Error> TakeCreateCall(const JobOwner& whose);
 
-  /// The error of a principal whose jobs take so many bytes.
-  Error TooManyBytes(const JobOwner& whose, std::int64_t bytes) const;
+  /// The error of one who has `used` and asks for `amount` more.
+  Error Exceeded(const JobOwner& whose, Resource resource, std::int64_t used,
+                 std::int64_t amount) const;
+  /// What the principal has of a resource.
+  std::int64_t used(const JobOwner& whose, Resource resource) const;
   /// What the jobs of one owner may take; 0: any number of bytes.
   std::int64_t max_stored_bytes() const { return limits_.stored_bytes; }
 
-  /// The limits of the principal and what it has, of each resource but RUNNING_JOBS and
-  /// STORED_BYTES, which are not counted here.
+  /// The limits of the principal and what it has, of each resource that no job takes.
   std::vector<v1::Quota> Of(const JobOwner& whose) const;
 
   /// A place that is both.
@@ -70,9 +72,6 @@ class Quotas {
   static Place Write(const std::shared_ptr<Book>& book, const Key& key, std::int64_t amount)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(book->mutex);
   std::int64_t LimitOf(Resource resource) const;
-  /// The error of one who has `used` and asks for `amount` more.
-  Error Exceeded(const JobOwner& whose, Resource resource, std::int64_t used,
-                 std::int64_t amount) const;
 
   const OwnerLimits limits_;
   const Clock& clock_;

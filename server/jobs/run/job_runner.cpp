@@ -75,7 +75,7 @@ Transition BackToQueue(const Assignment& assignment, v1::Job* job) {
 
 }  // namespace
 
-void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
+void JobRunner::Run(Assignment assignment, Ended ended) {
   v1::Job& job = assignment.job;
   RunControl& control = *assignment.control;
   // Read before the job is taken: it tells where the attempt begins, and does not wait for a
@@ -94,7 +94,6 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
   const bool stopped = Stopped(transition, control.cause());
   if (stopped && control.cause() == StopCause::kServer) {
     transition = BackToQueue(assignment, &job);
-    ended = nullptr;
   } else {
     if (stopped) transition = TransitionAfterStop(control.cause(), control.budget());
     assignment.record->Do([&job](const v1::Job& record) { job.MergeFrom(record); });
@@ -107,15 +106,13 @@ void JobRunner::Run(Assignment assignment, std::function<void()> ended) {
 }
 
 // Hands the end of the job over to the store, and waits only while it is far behind.
-void JobRunner::End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer,
-                    std::function<void()> ended) {
+void JobRunner::End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer, Ended ended) {
   LogWriter* const key = writer.get();
   const auto stored = [&endings = endings_, metrics = options_.metrics, key,
                        ended = std::move(ended)](const v1::Job* final_job) {
     endings.Remove(key);
-    if (final_job == nullptr) return;
-    metrics->Moved(v1::Job::RUNNING, *final_job);
-    if (ended) ended();
+    if (final_job != nullptr) metrics->Moved(v1::Job::RUNNING, *final_job);
+    ended(final_job != nullptr);
   };
   endings_.Add(std::move(writer), key->pending_bytes() + job.ByteSizeLong());
   if (!key->Finish(std::move(job), std::move(last), stored)) endings_.Remove(key);

@@ -35,15 +35,16 @@ class JobRunner {
         endings_(endings),
         shutdown_(std::move(shutdown)) {}
 
-  /// `ended` is called on the store's thread once the final state is committed, for which this does
-  /// not wait. It is not called if the job goes back into the queue because the server stops, or
-  /// cannot be stored, or if the run was given up.
-  void Run(Assignment assignment, std::function<void()> ended);
+  /// Called on the store's thread once the last state of the attempt is committed, or, with false,
+  /// once it is found that it cannot be stored.
+  using Ended = std::function<void(bool stored)>;
+  /// Runs the attempt; does not wait for its end to be stored. `ended` is not called if the run was
+  /// given up. The job goes back into the queue if the server stops.
+  void Run(Assignment assignment, Ended ended);
 
  private:
   /// Hands the end of the job over to the store, and waits only while that is far behind.
-  void End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer,
-           std::function<void()> ended);
+  void End(v1::Job job, v1::Event last, std::shared_ptr<LogWriter> writer, Ended ended);
   /// Runs the scenario or sweep. A scenario goes on at `from`, if that is a state. An exception
   /// becomes a failure of the job.
   Transition Solve(const StoredJob& spec, const std::optional<RunState>& from,

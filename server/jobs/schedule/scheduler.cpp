@@ -24,12 +24,12 @@ constexpr double kLookTime = 0.01;
 // What the runs have to end in when the server does.
 constexpr std::chrono::seconds kEndTime{2};
 
-Transition TransitionAfterCrash(const StoredJob& stored, int max_attempts) {
-  if (stored.cancel_requested) return {v1::Job::CANCELLED, reason::kUserRequest};
-  if (stored.job.attempt() < max_attempts) return {v1::Job::QUEUED, reason::kServerRestarted};
+Transition TransitionAfterCrash(const v1::Job& job, bool cancel_requested, int max_attempts) {
+  if (cancel_requested) return {v1::Job::CANCELLED, reason::kUserRequest};
+  if (job.attempt() < max_attempts) return {v1::Job::QUEUED, reason::kServerRestarted};
   return {v1::Job::FAILED, reason::kCrashed,
           fmt::format("the server died during attempt {} of {}; the job is set aside",
-                      stored.job.attempt(), max_attempts),
+                      job.attempt(), max_attempts),
           absl::StatusCode::kAborted};
 }
 
@@ -50,12 +50,13 @@ bool IsLastAttempt(const v1::Job& job, int max_attempts) {
 }  // namespace
 
 Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed,
-                     Quotas& quotas)
+                     Quotas& quotas, std::function<void()> left)
     : store_(store),
       clock_(clock),
       options_(options),
       feed_(feed),
       quotas_(quotas),
+      left_(std::move(left)),
       turns_(options.workers, options.max_running_per_owner),
       memory_(options.resident, options.max_budget.memory_bytes * options.workers),
       workers_([this](Worker& worker) { Work(worker); }),
@@ -63,7 +64,6 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options
           clock, options, endings_,
           [this](const std::string& job, const RunControl& run) { FailLostRun(job, run); },
           [this] { Balance(); }) {
-  Recover();
   {
     const MutexLock lock(mutex_);
     idle_ = options_.workers;
@@ -89,24 +89,62 @@ void Scheduler::Recover() {
   if (!jobs.ok()) {
     return spdlog::error("cannot find the unfinished jobs: {}", jobs.status().ToString());
   }
-  for (StoredJob& job : *jobs) Recover(std::move(job));
+  for (StoredJob& stored : *jobs) {
+    const bool cancel_requested = stored.cancel_requested;
+    Active active = ToActive(std::move(stored));
+    if (active.job.state() == v1::Job::RUNNING) active.job = Settle(active, cancel_requested);
+    if (IsFinal(active.job.state())) continue;
+    active.held = Hold(&quotas_, active.job);
+    const MutexLock lock(mutex_);
+    Add(std::move(active));
+  }
   Await<bool>([this](const auto& done) { store_.Flush([done] { done(true); }); });
 }
 
-void Scheduler::Recover(StoredJob stored) {
+Scheduler::Active Scheduler::ToActive(StoredJob stored) {
   if (!stored.intact) spdlog::error("job={} fails its checksum in the store", stored.job.name());
-  const Transition transition = TransitionAfterCrash(stored, options_.max_attempts);
   Active active;
   active.log = NewLog(stored.job, stored.job.last_sequence());
   active.epoch = stored.epoch;
   active.job = std::move(stored.job);
-  if (active.job.state() == v1::Job::RUNNING) {
-    active.job = Commit(active, transition, false, [](const absl::Status& /*stored*/) {});
-  }
-  if (IsFinal(active.job.state())) return;
-  active.held = Hold(&quotas_, active.job);
+  return active;
+}
+
+v1::Job Scheduler::Settle(const Active& active, bool cancel_requested) {
+  return Commit(active, TransitionAfterCrash(active.job, cancel_requested, options_.max_attempts),
+                false, [](const absl::Status& /*stored*/) {});
+}
+
+void Scheduler::Settle(StoredJob stored) {
+  const bool cancel_requested = stored.cancel_requested;
+  Settle(ToActive(std::move(stored)), cancel_requested);
+}
+
+void Scheduler::Take(StoredJob stored) {
   const MutexLock lock(mutex_);
-  Add(std::move(active));
+  if (!active_.contains(stored.job.name())) Add(ToActive(std::move(stored)));
+}
+
+void Scheduler::Lose(const std::string& name) {
+  {
+    const MutexLock lock(mutex_);
+    const auto found = active_.find(name);
+    if (found == active_.end()) return;
+    spdlog::warn("job={} has another worker", name);
+    Active& active = found->second;
+    active.lost = true;
+    if (active.control) active.control->Stop();
+    if (active.control ? !active.unstored : !turns_.Remove(TurnOf(active))) return;
+  }
+  Remove(name);
+}
+
+bool Scheduler::IsToEnd(const std::string& name) {
+  const MutexLock lock(mutex_);
+  const auto found = active_.find(name);
+  if (found == active_.end()) return false;
+  found->second.unstored = true;
+  return !found->second.lost;
 }
 
 v1::Job Scheduler::Commit(Active active, const Transition& transition, bool take, Done stored) {
@@ -178,7 +216,9 @@ void Scheduler::Work(Worker& worker) {
     if (task.sweep) {
       task.sweep->Work(kHelpTime, [this, look = Look()]() mutable { return IsWanted(&look); });
     } else {
-      runner.Run(*std::move(task.job), [this, name = task.name] { Remove(name); });
+      runner.Run(*std::move(task.job), [this, name = task.name](bool stored) {
+        if (stored || !IsToEnd(name)) Remove(name);
+      });
     }
     if (!worker.End()) return;  // This may not exist any more.
     const MutexLock lock(mutex_);
@@ -299,6 +339,7 @@ void Scheduler::Remove(const std::string& name) {
   active_.erase(name);
   running_.erase(name);
   changed_.notify_all();  // A last attempt may have waited for this.
+  left_();
 }
 
 void Scheduler::Cancel(const std::string& name, const std::string& expected_uid, Done done) {
@@ -343,10 +384,11 @@ void Scheduler::Withdraw(const Active& active, Done done) {
          });
 }
 
-std::shared_ptr<JobLog> Scheduler::Log(const std::string& name) const {
+std::shared_ptr<JobLog> Scheduler::Log(const v1::Job& job) {
   const MutexLock lock(mutex_);
-  const auto found = active_.find(name);
-  return found == active_.end() ? nullptr : found->second.log;
+  const auto found = active_.find(job.name());
+  if (found != active_.end()) return found->second.log;
+  return std::make_shared<JobLog>(job.last_sequence(), true);
 }
 
 std::shared_ptr<const RunRecord> Scheduler::Record(const v1::Job& job) const {
@@ -356,24 +398,40 @@ std::shared_ptr<const RunRecord> Scheduler::Record(const v1::Job& job) const {
   return found == active_.end() ? nullptr : found->second.record;
 }
 
-int Scheduler::queued() const {
+Demand Scheduler::demand() const {
   const MutexLock lock(mutex_);
-  return turns_.waiting();
+  return {.queued = turns_.waiting(),
+          .running = static_cast<std::int64_t>(running_.size()),
+          .workers = 1,
+          .threads = options_.workers};
 }
 
-int Scheduler::RunningOf(const JobOwner& whose) const {
+std::vector<Scheduler::Here> Scheduler::jobs() const {
   const MutexLock lock(mutex_);
-  return static_cast<int>(
-      std::ranges::count_if(running_, [&](const auto& run) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-        const auto found = active_.find(run.first);
-        return found != active_.end() && OwnerOf(found->second.job) == whose.owner &&
-               TenantOf(found->second.job) == whose.tenant;
-      }));
+  std::vector<Here> jobs;
+  for (const auto& [name, active] : active_) {
+    jobs.push_back({.name = name,
+                    .whose = {OwnerOf(active.job), TenantOf(active.job)},
+                    .running = running_.contains(name),
+                    .progress = active.record->Get(false).progress()});
+  }
+  return jobs;
 }
 
-int Scheduler::running() const {
-  const MutexLock lock(mutex_);
-  return static_cast<int>(running_.size());
+void Scheduler::CountOf(const JobOwner& whose,
+                        std::function<void(absl::StatusOr<OwnerCounts>)> done) {
+  OwnerCounts counts{.jobs = quotas_.used(whose, v1::Quota::UNFINISHED_JOBS),
+                     .cells = quotas_.used(whose, v1::Quota::CELLS)};
+  {
+    const MutexLock lock(mutex_);
+    for (const auto& [name, last_attempt] : running_) {
+      const auto found = active_.find(name);
+      if (found == active_.end()) continue;
+      const v1::Job& job = found->second.job;
+      counts.running += OwnerOf(job) == whose.owner && TenantOf(job) == whose.tenant ? 1 : 0;
+    }
+  }
+  done(counts);
 }
 
 void Scheduler::FailLostRun(const std::string& name, const RunControl& run) {

@@ -22,6 +22,7 @@
 #include "jobs/schedule/spec_cache.h"
 #include "jobs/schedule/sweep_offers.h"
 #include "jobs/schedule/turns.h"
+#include "jobs/schedule/unfinished.h"
 #include "jobs/schedule/worker_pool.h"
 
 namespace contact {
@@ -38,42 +39,49 @@ namespace contact {
 ///
 /// Jobs enter and leave it on the store's thread, in the order of their commits; so in a callback
 /// of the store a job is known here just if the store says that it has not ended.
-class Scheduler {
+class Scheduler final : public Unfinished {
  public:
-  /// Queues the jobs that an earlier process left unfinished, and starts the workers. Every change
-  /// of a job's state is told to `feed`. Jobs that are there already count in `quotas`.
-  Scheduler(Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed,
-            Quotas& quotas);
-  ~Scheduler();
+  /// Starts the workers. Every change of a job's state is told to `feed`. `left` is called each
+  /// time a job has left the scheduler.
+  Scheduler(
+      Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed, Quotas& quotas,
+      std::function<void()> left = [] {});
+  ~Scheduler() override;
 
-  /// Keeps a place for a job that is being stored. False: there are `most` jobs in the queue.
-  bool Reserve(int most);
-  /// Gives it back, if the job does not come.
-  void Release();
-  /// Fills it with a job that is stored now, all of it, with the first events of its log. `held`
-  /// goes when the job ends.
-  void Enqueue(v1::Job job, std::vector<v1::Event> events, std::shared_ptr<const void> held);
+  /// Queues the jobs that an earlier process left unfinished, or ends them; waits until that is
+  /// done. They count in the quotas. For a process that alone has the store.
+  void Recover();
+  /// Queues a job of the store. On the store's thread.
+  void Take(StoredJob stored);
+  /// Moves a job that was running when its worker died into its next state, in the store; it does
+  /// not come here. On the store's thread.
+  void Settle(StoredJob stored);
+  /// Another worker has the job now: its run is stopped, and nothing more is stored of it.
+  void Lose(const std::string& name);
 
-  /// Takes a job from the queue, or asks its worker to stop. `done` is called on the store's
-  /// thread when that is stored, or at once if there is nothing to do. ABORTED, with the payload
-  /// kUidPayload: the job's uid is not `expected_uid`, if that is not empty.
-  void Cancel(const std::string& name, const std::string& expected_uid,
-              std::function<void(const absl::Status&)> done);
+  bool counts_in_store() const override { return false; }
+  bool Reserve(int most) override;
+  void Release() override;
+  void Enqueue(v1::Job job, std::vector<v1::Event> events,
+               std::shared_ptr<const void> held) override;
+  void Cancel(const std::string& name, const std::string& expected_uid, Done done) override;
+  std::shared_ptr<JobLog> Log(const v1::Job& job) override;
+  std::shared_ptr<const RunRecord> Record(const v1::Job& job) const override;
+  /// `running`: those that a worker runs, or whose end is being stored.
+  Demand demand() const override;
+  void CountOf(const JobOwner& whose,
+               std::function<void(absl::StatusOr<OwnerCounts>)> done) override;
+  /// Puts running jobs back into the queue, in the store, and joins the workers.
+  void Stop() override;
 
-  /// The log of a job that has not ended; else null.
-  std::shared_ptr<JobLog> Log(const std::string& name) const;
-  /// What the run of the job has brought so far, if it is running; else null.
-  std::shared_ptr<const RunRecord> Record(const v1::Job& job) const;
-
-  /// Number of jobs that wait for a worker.
-  int queued() const;
-  /// Number of jobs that a worker runs, or whose end is being stored.
-  int running() const;
-  /// As running(), of this owner alone.
-  int RunningOf(const JobOwner& whose) const;
-
-  /// Puts running jobs back into the queue, in the store, and joins the workers. Idempotent.
-  void Stop();
+  /// A job that is here.
+  struct Here {
+    std::string name;
+    JobOwner whose;
+    bool running = false;
+    v1::Progress progress = {};
+  };
+  std::vector<Here> jobs() const;
 
  private:
   /// A job that has not ended.
@@ -90,13 +98,15 @@ class Scheduler {
     std::shared_ptr<const void> held;
     /// Null until a worker has the job.
     std::shared_ptr<RunControl> control;
+    /// Another worker has the job, in another process.
+    bool lost = false;
+    /// The run has ended, and its end could not be stored.
+    bool unstored = false;
   };
-  using Done = std::function<void(const absl::Status&)>;
-
-  /// Queues the unfinished jobs of the store, or ends them; waits until that is done.
-  void Recover();
-  /// Decides about one of them: a job that was running has lost its worker.
-  void Recover(StoredJob stored);
+  /// An unfinished job of the store.
+  Active ToActive(StoredJob stored);
+  /// As Settle. The job in its next state.
+  v1::Job Settle(const Active& active, bool cancel_requested);
   /// A log in memory whose changes of state are told to feed_.
   std::shared_ptr<JobLog> NewLog(const v1::Job& job, std::uint64_t last);
   /// Takes in a job that waits for a worker.
@@ -145,6 +155,8 @@ class Scheduler {
   void Offer(const std::shared_ptr<SweepRun>& sweep);
   /// Forgets a job that has ended.
   void Remove(const std::string& name);
+  /// True if a job whose end could not be stored is still ours to end.
+  bool IsToEnd(const std::string& name);
   /// Stores the end of a cancelled job that was taken from the queue.
   void Withdraw(const Active& active, Done done);
   /// Replaces the workers of a run that was given up, and ends its job.
@@ -155,6 +167,7 @@ class Scheduler {
   const JobOptions& options_;
   JobFeed& feed_;
   Quotas& quotas_;
+  const std::function<void()> left_;
   std::stop_source shutdown_;
 
   mutable Mutex mutex_;

@@ -156,6 +156,16 @@ PGresult* Connection::Next() {
   }
 }
 
+std::vector<std::string> Connection::TakeNotifications() {
+  std::vector<std::string> texts;
+  PQconsumeInput(connection_.get());
+  while (const auto notification = std::unique_ptr<PGnotify, decltype(&PQfreemem)>(
+             PQnotifies(connection_.get()), PQfreemem)) {
+    texts.emplace_back(notification->extra);
+  }
+  return texts;
+}
+
 void Connection::Abandon() { ::shutdown(PQsocket(connection_.get()), SHUT_RDWR); }
 
 absl::Status Connection::Failure(const PGresult* result) const {

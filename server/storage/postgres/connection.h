@@ -41,6 +41,11 @@ class Connection {
   /// Runs a text of several statements, without parameters, as one transaction.
   absl::Status RunScript(const std::string& sql);
 
+  /// What other sessions have notified of, if this one listens; and what has come meanwhile.
+  std::vector<std::string> TakeNotifications();
+  /// Is readable when something has come.
+  int socket() const { return PQsocket(connection_.get()); }
+
   /// False: the connection is lost.
   bool good() const { return PQstatus(connection_.get()) == CONNECTION_OK; }
   /// Database and server, without secrets, for messages.

@@ -33,8 +33,9 @@ absl::Status Migrate(Connection& connection) {
   if (!version.ok()) return version.status();
   if (*version > kSchemaVersion) return IsNewer(connection, *version);
   if (*version == kSchemaVersion) return absl::OkStatus();
-  const absl::Status made = connection.RunScript(absl::StrCat(
-      kLock, kTables, kFunctions, "INSERT INTO contactd.version VALUES(", kSchemaVersion, ")"));
+  const absl::Status made = connection.RunScript(
+      absl::StrCat(kLock, kTables, kFunctions, kWorkerFunctions,
+                   "INSERT INTO contactd.version VALUES(", kSchemaVersion, ")"));
   // Another program may have done it meanwhile.
   return CheckVersion(connection).ok() ? absl::OkStatus() : made;
 }

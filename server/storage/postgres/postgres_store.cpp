@@ -8,9 +8,12 @@
 #include <string_view>
 #include <utility>
 
+#include "base/mutex.h"
+#include "storage/postgres/bulletin.h"
 #include "storage/postgres/migration.h"
 #include "storage/postgres/query_thread.h"
 #include "storage/postgres/statements.h"
+#include "storage/postgres/worker_statements.h"
 
 namespace contact {
 namespace {
@@ -19,31 +22,42 @@ using postgres::Connection;
 using postgres::Rows;
 using postgres::Statement;
 
-// Opens a connection that keeps other programs from the store.
-absl::StatusOr<std::unique_ptr<Connection>> OpenAlone(const std::string& address) {
+// Opens a connection that takes part in the use of the store as `lock` says.
+absl::StatusOr<std::unique_ptr<Connection>> OpenLocked(const std::string& address,
+                                                       const char* lock) {
   auto connection = Connection::Open(address);
   if (!connection.ok()) return connection;
-  const absl::Status alone = (*connection)->RunScript(postgres::kTakeStore);
-  if (absl::IsAborted(alone)) {
+  const absl::Status taken = (*connection)->RunScript(lock);
+  if (absl::IsAborted(taken)) {
     return absl::UnavailableError((*connection)->Name() + " is used by another contactd");
   }
-  if (!alone.ok()) return alone;
+  if (!taken.ok()) return taken;
   return connection;
 }
 
-// The calls of Store, each a statement of the one thread.
-class PostgresStore : public Store {
+// The calls of SharedStore, each a statement of the one thread.
+class PostgresStore : public SharedStore {
  public:
-  PostgresStore(const std::string& address, std::unique_ptr<Connection> connection,
-                StoreOptions options)
-      : queries_([address] { return OpenAlone(address); }, std::move(connection), postgres::Purge(),
-                 std::move(options.metrics), *options.clock) {}
+  PostgresStore(const std::string& address, const char* lock,
+                std::unique_ptr<Connection> connection, StoreOptions options)
+      : address_(address),
+        queries_([address, lock] { return OpenLocked(address, lock); }, std::move(connection),
+                 postgres::Purge(), std::move(options.metrics), *options.clock) {}
 
   using Store::Update;
   void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done) override {
     Post<std::uint64_t>(
         postgres::ChangeJob(*change, epoch),
-        [change](const Rows& rows) { return postgres::Changed(rows, change->name); },
+        [this, change](const Rows& rows) {
+          auto first = postgres::Changed(rows, change->name);
+          if (first.ok()) {
+            Tell({.name = change->name,
+                  .tenant = rows.Bytes(0, 2),
+                  .last_sequence = *first + change->events.size() - 1,
+                  .state = change->state});
+          }
+          return first;
+        },
         std::move(done));
   }
 
@@ -51,7 +65,11 @@ class PostgresStore : public Store {
     Statement statement = postgres::RequestCancel(name);
     Post<bool>(
         std::move(statement),
-        [name = std::move(name)](const Rows& rows) { return postgres::Done(rows, name); },
+        [this, name = std::move(name)](const Rows& rows) {
+          auto asked = postgres::Done(rows, name);
+          if (asked.ok()) Tell({.kind = Note::Kind::kCancel, .name = name});
+          return asked;
+        },
         std::move(done));
   }
 
@@ -110,7 +128,12 @@ class PostgresStore : public Store {
     Statement statement = postgres::RemoveJob(name, expected_uid);
     Post<JobOwner>(
         std::move(statement),
-        [name = std::move(name)](const Rows& rows) { return postgres::Removed(rows, name); },
+        [this, name = std::move(name)](const Rows& rows) {
+          auto whose = postgres::Removed(rows, name);
+          if (whose.ok())
+            Tell({.name = name, .tenant = whose->tenant, .state = v1::Job::SUCCEEDED});
+          return whose;
+        },
         std::move(done));
   }
 
@@ -133,12 +156,75 @@ class PostgresStore : public Store {
     queries_.Post({{}, [done = std::move(done)](const absl::StatusOr<Rows>& /*told*/) { done(); }});
   }
 
+  void Beat(const WorkerProcess& worker, Callback<std::vector<HeldJob>> done) override {
+    Post<std::vector<HeldJob>>(postgres::Beat(worker), postgres::HeldJobsOf, std::move(done));
+  }
+
+  void Claim(const JobClaim& claim, Callback<std::vector<StoredJob>> done) override {
+    Post<std::vector<StoredJob>>(postgres::Claim(claim), postgres::JobsOf, std::move(done));
+  }
+
+  void Leave(const std::string& worker, Callback<bool> done) override {
+    Post<bool>(
+        postgres::Leave(worker), [](const Rows&) -> absl::StatusOr<bool> { return true; },
+        std::move(done));
+  }
+
+  void Count(Callback<Demand> done) override {
+    Post<Demand>(postgres::Count(), postgres::DemandOf, std::move(done));
+  }
+
+  void CountOf(const JobOwner& whose, Callback<OwnerCounts> done) override {
+    Post<OwnerCounts>(postgres::CountOf(whose), postgres::OwnerCountsOf, std::move(done));
+  }
+
+  void Positions(const std::vector<std::string>& names,
+                 Callback<std::vector<LogPosition>> done) override {
+    Post<std::vector<LogPosition>>(postgres::FindPositions(names), postgres::PositionsOf,
+                                   std::move(done));
+  }
+
+  void Moved(std::uint64_t since, Callback<MovedJobs> done) override {
+    Post<MovedJobs>(postgres::FindMoved(since), postgres::MovedJobsOf, std::move(done));
+  }
+
+  void Listen(std::function<void(const Note&)> heard, std::function<void()> missed) override {
+    auto bulletin =
+        std::make_shared<postgres::Bulletin>(address_, std::move(heard), std::move(missed));
+    const MutexLock lock(mutex_);
+    bulletin_ = std::move(bulletin);
+  }
+
+  void Unlisten() override {
+    std::shared_ptr<postgres::Bulletin> bulletin;  // Goes after the lock.
+    const MutexLock lock(mutex_);
+    bulletin.swap(bulletin_);
+  }
+
+  void Tell(const Note& note) override {
+    std::shared_ptr<postgres::Bulletin> bulletin;
+    {
+      const MutexLock lock(mutex_);
+      bulletin = bulletin_;
+    }
+    if (bulletin) bulletin->Tell(note);
+  }
+
  private:
   void Insert(JobInsert job, Callback<StoredJob> done) override {
     Statement statement = postgres::CreateJob(job);
     Post<StoredJob>(
         std::move(statement),
-        [name = std::move(job.name)](const Rows& rows) { return postgres::Created(rows, name); },
+        [this, name = std::move(job.name)](const Rows& rows) {
+          auto stored = postgres::Created(rows, name);
+          if (stored.ok() && stored->created) {
+            Tell({.name = name,
+                  .tenant = TenantOf(stored->job),
+                  .last_sequence = stored->job.last_sequence(),
+                  .state = stored->job.state()});
+          }
+          return stored;
+        },
         std::move(done));
   }
 
@@ -162,8 +248,20 @@ class PostgresStore : public Store {
                    }});
   }
 
-  postgres::QueryThread queries_;
+  const std::string address_;
+  Mutex mutex_;
+  // Null unless somebody listens.
+  std::shared_ptr<postgres::Bulletin> bulletin_ ABSL_GUARDED_BY(mutex_);
+  postgres::QueryThread queries_;  // Last: its callbacks use all of the above.
 };
+
+absl::StatusOr<std::unique_ptr<SharedStore>> Open(const std::string& address, const char* lock,
+                                                  StoreOptions options) {
+  if (absl::Status made = MigratePostgres(address); !made.ok()) return made;
+  auto connection = OpenLocked(address, lock);
+  if (!connection.ok()) return connection.status();
+  return std::make_unique<PostgresStore>(address, lock, *std::move(connection), std::move(options));
+}
 
 }  // namespace
 
@@ -188,12 +286,13 @@ absl::Status MigratePostgres(const std::string& address) {
   return connection.ok() ? postgres::Migrate(**connection) : connection.status();
 }
 
-absl::StatusOr<std::unique_ptr<Store>> OpenPostgres(const std::string& address,
-                                                    StoreOptions options) {
-  if (absl::Status made = MigratePostgres(address); !made.ok()) return made;
-  auto connection = OpenAlone(address);
-  if (!connection.ok()) return connection.status();
-  return std::make_unique<PostgresStore>(address, *std::move(connection), std::move(options));
+absl::StatusOr<std::unique_ptr<SharedStore>> OpenPostgres(const std::string& address,
+                                                          StoreOptions options) {
+  return Open(address, postgres::kUseStore, std::move(options));
+}
+
+absl::StatusOr<std::unique_ptr<Store>> OpenPostgresAlone(const std::string& address) {
+  return Open(address, postgres::kTakeStore, {});
 }
 
 }  // namespace contact

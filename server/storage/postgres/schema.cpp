@@ -25,11 +25,21 @@ CREATE TABLE contactd.jobs(
   owner text COLLATE "C" NOT NULL,
   tenant text COLLATE "C" NOT NULL,
   last_change bigint,
-  first_of_change bigint
+  first_of_change bigint,
+  priority bigint NOT NULL DEFAULT 0,
+  cells bigint NOT NULL DEFAULT 0,
+  worker text COLLATE "C",
+  moved xid8 NOT NULL DEFAULT pg_current_xact_id()
 ) WITH (fillfactor=70, autovacuum_vacuum_scale_factor=0.02, autovacuum_vacuum_threshold=200);
 CREATE INDEX jobs_unfinished ON contactd.jobs(number) WHERE state NOT IN (3,4,5);
 CREATE INDEX jobs_by_tenant ON contactd.jobs(tenant, number);
 CREATE INDEX jobs_by_owner ON contactd.jobs(tenant, owner);
+CREATE INDEX jobs_of_owner_unfinished ON contactd.jobs(tenant, owner) WHERE state NOT IN (3,4,5);
+CREATE INDEX jobs_waiting ON contactd.jobs(tenant, owner, priority DESC, number)
+  WHERE state = 1 AND worker IS NULL;
+CREATE INDEX jobs_taken ON contactd.jobs(number)
+  WHERE state = 2 OR (state = 1 AND worker IS NOT NULL);
+CREATE INDEX jobs_moved ON contactd.jobs(moved);
 
 CREATE TABLE contactd.labels(
   key text COLLATE "C" NOT NULL,
@@ -76,6 +86,25 @@ CREATE TABLE contactd.checkpoints(
   state bytea NOT NULL
 );
 
+-- Processes that run jobs. One whose time has passed has lost its jobs.
+CREATE TABLE contactd.workers(
+  name text COLLATE "C" PRIMARY KEY,
+  host text NOT NULL,
+  threads bigint NOT NULL,
+  batch_id text NOT NULL,
+  until timestamptz NOT NULL
+);
+
+-- Worker time of each owner [s], as of a moment; it counts half each minute later.
+CREATE TABLE contactd.used(
+  worker text COLLATE "C" NOT NULL,
+  tenant text COLLATE "C" NOT NULL,
+  owner text COLLATE "C" NOT NULL,
+  seconds double precision NOT NULL,
+  at timestamptz NOT NULL,
+  PRIMARY KEY(worker, tenant, owner)
+);
+
 -- They are compressed already, or do not become smaller.
 ALTER TABLE contactd.results ALTER COLUMN result SET STORAGE EXTERNAL;
 ALTER TABLE contactd.events ALTER COLUMN payload SET STORAGE EXTERNAL;
@@ -102,6 +131,16 @@ LANGUAGE sql AS $$
   WHERE j.name = a_name AND (a_tenant IS NULL OR j.tenant = a_tenant)
 $$;
 
+-- What of its limits the owner has: unfinished jobs, their cells, and jobs that a worker has.
+CREATE OR REPLACE FUNCTION contactd.count_of(
+  a_tenant text, a_owner text, OUT jobs bigint, OUT cells bigint, OUT running bigint)
+LANGUAGE sql STABLE AS $$
+  SELECT count(*), coalesce(sum(j.cells), 0)::bigint,
+    count(*) FILTER (WHERE j.state = 2 OR j.worker IS NOT NULL)
+  FROM contactd.jobs j
+  WHERE j.tenant = a_tenant AND j.owner = a_owner AND j.state NOT IN (3,4,5)
+$$;
+
 -- Appends to the log of a job whose last event is a_last.
 CREATE OR REPLACE FUNCTION contactd.append(
   a_job bigint, a_last bigint, a_kinds bigint[], a_codings bigint[], a_sizes bigint[],
@@ -113,16 +152,60 @@ RETURNS void LANGUAGE sql AS $$
     AS e(kind, coding, size, crc32, payload, place)
 $$;
 
+-- Which limit a new job of the owner would exceed, see create_job; 0 is any number. Counts that come
+-- near a limit are made once more while nobody else creates jobs.
+CREATE OR REPLACE FUNCTION contactd.exceeded(
+  a_tenant text, a_owner text, a_cells bigint, a_max_owner_bytes bigint, a_max_waiting bigint,
+  a_max_owner_jobs bigint, a_max_owner_cells bigint, OUT outcome text, OUT has bigint)
+LANGUAGE plpgsql AS $$
+DECLARE
+  c_near CONSTANT bigint := 1024;  -- More jobs than are created at a time.
+  v_waiting bigint := 0;
+  v_jobs bigint := 0;
+  v_cells bigint := 0;
+BEGIN
+  FOR attempt IN 1..2 LOOP
+    IF a_max_waiting > 0 THEN
+      SELECT count(*) INTO v_waiting FROM (SELECT FROM contactd.jobs j
+        WHERE j.state = 1 AND j.worker IS NULL LIMIT a_max_waiting) w;
+    END IF;
+    IF a_max_owner_jobs > 0 OR a_max_owner_cells > 0 THEN
+      SELECT o.jobs, o.cells INTO v_jobs, v_cells FROM contactd.count_of(a_tenant, a_owner) o;
+    END IF;
+    EXIT WHEN attempt = 2 OR NOT (
+      (a_max_waiting > 0 AND v_waiting + c_near > a_max_waiting) OR
+      (a_max_owner_jobs > 0 AND v_jobs + c_near > a_max_owner_jobs) OR
+      (a_max_owner_cells > 0 AND a_cells > 0 AND v_cells + c_near * a_cells > a_max_owner_cells));
+    PERFORM pg_advisory_xact_lock(1668247157);
+  END LOOP;
+  IF a_max_waiting > 0 AND v_waiting >= a_max_waiting THEN
+    outcome := 'W';
+    has := v_waiting;
+  ELSIF a_max_owner_jobs > 0 AND v_jobs >= a_max_owner_jobs THEN
+    outcome := 'J';
+    has := v_jobs;
+  ELSIF a_max_owner_cells > 0 AND a_cells > 0 AND v_cells + a_cells > a_max_owner_cells THEN
+    outcome := 'K';
+    has := v_cells;
+  ELSIF a_max_owner_bytes > 0 THEN
+    SELECT coalesce(sum(j.bytes), 0) INTO has FROM contactd.jobs j
+      WHERE j.tenant = a_tenant AND j.owner = a_owner;
+    IF has >= a_max_owner_bytes THEN outcome := 'O'; END IF;
+  END IF;
+END $$;
+
 -- Stores a job, or finds the one that the same request has made. Outcomes: C made now; F made before
 -- by the same request; U the request id was used for another job, `existing`; N it may not be new;
--- O the owner's jobs take too much, `owner_bytes`.
+-- O the owner's jobs take too many bytes, W too many jobs wait, J the owner has too many unfinished
+-- jobs, K too many cells: so many are there now, `has`.
 CREATE OR REPLACE FUNCTION contactd.create_job(
   a_name text, a_uid text, a_request_id text, a_owner text, a_tenant text, a_state bigint,
   a_end_time bigint, a_crc32 bigint, a_header bytea, a_spec_crc32 bigint, a_spec bytea,
   a_label_keys text[], a_label_values text[], a_kinds bigint[], a_codings bigint[],
   a_sizes bigint[], a_crc32s bigint[], a_payloads bytea[], a_event_bytes bigint,
-  a_may_create boolean, a_max_owner_bytes bigint,
-  OUT outcome text, OUT existing text, OUT owner_bytes bigint)
+  a_may_create boolean, a_max_owner_bytes bigint, a_priority bigint, a_cells bigint,
+  a_max_waiting bigint, a_max_owner_jobs bigint, a_max_owner_cells bigint,
+  OUT outcome text, OUT existing text, OUT has bigint)
 LANGUAGE plpgsql AS $$
 DECLARE
   v_job bigint;
@@ -146,18 +229,13 @@ BEGIN
       outcome := 'N';
       RETURN;
     END IF;
-    IF a_max_owner_bytes > 0 THEN
-      SELECT coalesce(sum(j.bytes), 0) INTO owner_bytes FROM contactd.jobs j
-        WHERE j.tenant = a_tenant AND j.owner = a_owner;
-      IF owner_bytes >= a_max_owner_bytes THEN
-        outcome := 'O';
-        RETURN;
-      END IF;
-    END IF;
+    SELECT e.outcome, e.has INTO outcome, has FROM contactd.exceeded(a_tenant, a_owner, a_cells,
+      a_max_owner_bytes, a_max_waiting, a_max_owner_jobs, a_max_owner_cells) e;
+    IF outcome IS NOT NULL THEN RETURN; END IF;
     INSERT INTO contactd.jobs(name, uid, request_id, owner, tenant, state, last_sequence, end_time,
-        bytes, crc32, header)
+        bytes, crc32, header, priority, cells)
       VALUES(a_name, a_uid, a_request_id, a_owner, a_tenant, a_state, cardinality(a_kinds),
-        a_end_time, octet_length(a_spec) + a_event_bytes, a_crc32, a_header)
+        a_end_time, octet_length(a_spec) + a_event_bytes, a_crc32, a_header, a_priority, a_cells)
       ON CONFLICT DO NOTHING RETURNING jobs.number INTO v_job;
     EXIT WHEN v_job IS NOT NULL;
   END LOOP;
@@ -177,13 +255,14 @@ CREATE OR REPLACE FUNCTION contactd.change_job(
   a_crc32 bigint, a_header bytea, a_result_crc32 bigint, a_result bytea, a_checkpoint_events bigint,
   a_checkpoint_crc32 bigint, a_checkpoint bytea, a_kinds bigint[], a_codings bigint[],
   a_sizes bigint[], a_crc32s bigint[], a_payloads bytea[], a_event_bytes bigint,
-  OUT outcome text, OUT first bigint)
+  OUT outcome text, OUT first bigint, OUT job_tenant text)
 LANGUAGE plpgsql AS $$
 DECLARE
   v_job contactd.jobs;
   v_replaced bigint;
 BEGIN
   SELECT * INTO v_job FROM contactd.jobs j WHERE j.name = a_name FOR UPDATE;
+  job_tenant := v_job.tenant;
   IF NOT FOUND THEN
     outcome := 'N';
     RETURN;
@@ -210,6 +289,8 @@ BEGIN
       bytes = j.bytes + a_event_bytes + coalesce(octet_length(a_result), 0)
         - coalesce(v_replaced, 0),
       state = coalesce(a_state, j.state),
+      worker = CASE WHEN a_state <> 2 THEN NULL ELSE j.worker END,
+      moved = CASE WHEN a_state <> j.state THEN pg_current_xact_id() ELSE j.moved END,
       end_time = coalesce(a_end_time, j.end_time),
       crc32 = coalesce(a_crc32, j.crc32),
       header = coalesce(a_header, j.header),

@@ -16,11 +16,6 @@ namespace {
 // Sequences from here on are not stored; the sum of one and a page stays a bigint.
 constexpr std::uint64_t kMostSequence = std::uint64_t{1} << 62;
 
-// Of the row of a job, in the order of read_job.
-constexpr char kHeader[] =
-    "number, name, state, epoch, cancel_requested, last_sequence, crc32, header, oldest_sequence,"
-    " compacted, owner, tenant, request_id";
-
 // The arrays of a log's new events. A row's place is its primary key, so its checksum has none.
 void AddEvents(const std::vector<EventRow>& events, Parameters* parameters) {
   std::vector<std::int64_t> kinds, codings, sizes, checksums;
@@ -89,6 +84,11 @@ absl::StatusOr<JobOwner> IfDone(const Rows& rows, const std::string& name) {
 
 }  // namespace
 
+// In the order of read_job.
+const char kHeader[] =
+    "number, name, state, epoch, cancel_requested, last_sequence, crc32, header, oldest_sequence,"
+    " compacted, owner, tenant, request_id";
+
 Statement CreateJob(const JobInsert& job) {
   std::vector<std::string> keys, values;
   for (const auto& [key, value] : job.labels) {
@@ -108,9 +108,12 @@ Statement CreateJob(const JobInsert& job) {
   parameters.Integer(Checksum(parts.spec)).Bytes(parts.spec).Texts(keys).Texts(values);
   AddEvents(job.events, &parameters);
   parameters.Boolean(job.may_create).Integer(job.max_owner_bytes);
+  parameters.Integer(job.priority).Integer(job.cells).Integer(job.limits.waiting);
+  parameters.Integer(job.limits.owner_jobs).Integer(job.limits.owner_cells);
   return {
       "SELECT c.*, j.* FROM contactd.create_job($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13,$14,$15,"
-      "$16,$17,$18,$19,$20,$21) c LEFT JOIN LATERAL contactd.read_job(c.existing, NULL,"
+      "$16,$17,$18,$19,$20,$21,$22,$23,$24,$25,$26) c LEFT JOIN LATERAL "
+      "contactd.read_job(c.existing, NULL,"
       " c.outcome = 'F', false, c.outcome = 'F') j ON c.outcome IN ('C', 'F')",
       std::move(parameters)};
 }
@@ -122,7 +125,13 @@ absl::StatusOr<StoredJob> Created(const Rows& rows, const std::string& name) {
     case 'N':
       return MayNotBeNew();
     case 'O':
-      return OwnerTakesTooMuch(rows.Integer(0, 2));
+      return TooMuch(kOwnerBytesPayload, rows.Integer(0, 2));
+    case 'W':
+      return TooMuch(kWaitingPayload, rows.Integer(0, 2));
+    case 'J':
+      return TooMuch(kOwnerJobsPayload, rows.Integer(0, 2));
+    case 'K':
+      return TooMuch(kOwnerCellsPayload, rows.Integer(0, 2));
     default: {
       if (rows.IsNull(0, 3)) return NoSuchJob(name);
       absl::StatusOr<StoredJob> stored = WholeOf(rows, 3);

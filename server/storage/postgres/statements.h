@@ -16,11 +16,15 @@ namespace contact::postgres {
 /// The statements of the calls of Store, and what their answers mean. The functions they call are
 /// in schema.cpp. Each may be sent again when its answer was lost: it is done once.
 
+/// The columns of a job's row that HeaderOf and JobsOf read.
+extern const char kHeader[];
+
 /// See Store::Create.
 Statement CreateJob(const JobInsert& job);
 absl::StatusOr<StoredJob> Created(const Rows& rows, const std::string& name);
 
-/// See Store::Update.
+/// See Store::Update. After a change the second column is the first event appended, and the third
+/// the tenant of the job.
 Statement ChangeJob(const JobChange& change, std::uint64_t epoch);
 absl::StatusOr<std::uint64_t> Changed(const Rows& rows, const std::string& name);
 
@@ -67,8 +71,12 @@ absl::StatusOr<JobOwner> Compacted(const Rows& rows, const std::string& name);
 /// Removes some of the events that were given up; answers whether there is more.
 Statement Purge();
 
-/// Keeps other programs from the store while the connection stands. ABORTED: another has it, and
-/// has not left within a second; the server notices within that time that a program is dead.
+/// Says that the store is used, together with others, while the connection stands. ABORTED: a
+/// program wants it for itself, and has not left within a second; the server notices within that
+/// time that a program is dead.
+inline constexpr char kUseStore[] =
+    "SET lock_timeout = '1s'; SELECT pg_advisory_lock_shared(1668247155); RESET lock_timeout";
+/// As kUseStore, for one that wants the store for itself.
 inline constexpr char kTakeStore[] =
     "SET lock_timeout = '1s'; SELECT pg_advisory_lock(1668247155); RESET lock_timeout";
 

@@ -75,7 +75,7 @@ absl::Status CheckOwnerBytes(Database& database, const JobInsert& insert) {
   if (insert.max_owner_bytes == 0) return absl::OkStatus();
   const std::int64_t bytes = OwnerBytes(database, insert.whose);
   if (bytes < insert.max_owner_bytes) return absl::OkStatus();
-  return OwnerTakesTooMuch(bytes);
+  return TooMuch(kOwnerBytesPayload, bytes);
 }
 
 // A job that has ended.

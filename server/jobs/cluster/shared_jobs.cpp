@@ -1,0 +1,181 @@
+#include "jobs/cluster/shared_jobs.h"
+
+#include <pthread.h>
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "base/future.h"
+#include "jobs/job/lifecycle.h"
+#include "storage/refusals.h"
+
+namespace contact {
+namespace {
+
+using namespace std::chrono_literals;
+
+// How often the store is asked for what notes should have told.
+constexpr auto kAskTime = 1s;
+// Workers tell how far their runs are every few seconds, also if nothing has changed.
+constexpr auto kForgetTime = 15s;
+
+}  // namespace
+
+SharedJobs::SharedJobs(SharedStore& store, const Clock& clock, const JobOptions& options,
+                       const SharedOptions& shared, JobFeed& feed)
+    : store_(store), clock_(clock), options_(options), feed_(feed) {
+  if (shared.works) {
+    claimer_ = std::make_unique<JobClaimer>(store, clock, options, shared, feed);
+  }
+  store_.Listen([this](const Note& note) { Hear(note); },
+                [this] {
+                  const MutexLock lock(mutex_);
+                  to_ask_ = true;
+                  missed_.notify_all();
+                });
+  thread_ = std::jthread([this](const std::stop_token& stop) { Follow(stop); });
+}
+
+SharedJobs::~SharedJobs() { Stop(); }
+
+void SharedJobs::Hear(const Note& note) {
+  switch (note.kind) {
+    case Note::Kind::kChanged: {
+      const auto state = static_cast<v1::Job::State>(note.state);
+      logs_.Advance({note.name, note.last_sequence, IsFinal(state)});
+      if (note.state == 0) return;
+      feed_.Changed(note.tenant, note.name);
+      if (claimer_ && state == v1::Job::QUEUED) claimer_->JobsWait();
+      return;
+    }
+    case Note::Kind::kCancel:
+      if (claimer_) claimer_->Cancel(note.name);
+      return;
+    case Note::Kind::kProgress:
+      return HearProgress(note);
+  }
+}
+
+void SharedJobs::HearProgress(const Note& note) {
+  v1::Event event = EventAt(clock_.Now());
+  if (!event.mutable_progress()->ParseFromString(note.progress)) return;
+  logs_.SetProgress(note.name, event);
+  const MutexLock lock(mutex_);
+  Told& told = told_[note.name];
+  told.time = clock_.Elapsed();
+  told.record->Do([&event](v1::Job& job) { *job.mutable_progress() = event.progress(); });
+}
+
+void SharedJobs::Follow(const std::stop_token& stop) {
+  pthread_setname_np(pthread_self(), "follower");
+  while (!stop.stop_requested()) {
+    Ask();
+    const MutexLock lock(mutex_);
+    missed_.wait_for(mutex_, stop, kAskTime,
+                     [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return to_ask_; });
+    to_ask_ = false;
+  }
+}
+
+void SharedJobs::Ask() {
+  const auto moved = Await<absl::StatusOr<MovedJobs>>(
+      [this](auto done) { store_.Moved(moved_, std::move(done)); });
+  if (!moved.ok()) return;  // The next time tells.
+  for (const MovedJobs::Job& job : moved->jobs) feed_.Changed(job.tenant, job.name);
+  moved_ = moved->next;
+  AskPositions(logs_.names());
+  const auto demand =
+      Await<absl::StatusOr<Demand>>([this](auto done) { store_.Count(std::move(done)); });
+  if (demand.ok()) {
+    const MutexLock lock(mutex_);
+    demand_ = *demand;
+  }
+  if (claimer_ && demand.ok() && demand->queued > 0) claimer_->JobsWait();
+  ForgetOld();
+}
+
+void SharedJobs::AskPositions(const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  const auto positions = Await<absl::StatusOr<std::vector<LogPosition>>>(
+      [&](auto done) { store_.Positions(names, std::move(done)); });
+  if (!positions.ok()) return;
+  for (const LogPosition& position : *positions) logs_.Advance(position);
+}
+
+void SharedJobs::ForgetOld() {
+  const auto now = clock_.Elapsed();
+  const MutexLock lock(mutex_);
+  std::erase_if(told_, [now](const auto& entry) { return now - entry.second.time > kForgetTime; });
+}
+
+std::shared_ptr<JobLog> SharedJobs::Log(const v1::Job& job) {
+  if (IsFinal(job.state())) return std::make_shared<JobLog>(job.last_sequence(), true);
+  auto log = logs_.Follow(job);
+  // What has happened between the reading of the job and here.
+  store_.Positions({job.name()}, [this](const absl::StatusOr<std::vector<LogPosition>>& now) {
+    if (now.ok() && !now->empty()) logs_.Advance(now->front());
+  });
+  return log;
+}
+
+std::shared_ptr<const RunRecord> SharedJobs::Record(const v1::Job& job) const {
+  if (job.state() != v1::Job::RUNNING) return nullptr;
+  if (claimer_) {
+    if (auto record = claimer_->scheduler().Record(job)) return record;
+  }
+  const MutexLock lock(mutex_);
+  const auto found = told_.find(job.name());
+  return found == told_.end() ? nullptr : found->second.record;
+}
+
+Demand SharedJobs::demand() const {
+  const MutexLock lock(mutex_);
+  return demand_;
+}
+
+void SharedJobs::CountOf(const JobOwner& whose,
+                         std::function<void(absl::StatusOr<OwnerCounts>)> done) {
+  store_.CountOf(whose, std::move(done));
+}
+
+void SharedJobs::Cancel(const std::string& name, const std::string& expected_uid, Done done) {
+  store_.Read(
+      name, JobPart::kHeader,
+      [this, name, expected_uid, done = std::move(done)](absl::StatusOr<StoredJob> stored) mutable {
+        if (!stored.ok()) return done(stored.status());
+        if (!expected_uid.empty() && stored->job.uid() != expected_uid) {
+          return done(OtherJob(stored->job));
+        }
+        if (IsFinal(stored->job.state())) return done(absl::OkStatus());
+        store_.RequestCancel(name, [this, stored = *std::move(stored), done = std::move(done)](
+                                       const absl::StatusOr<bool>& asked) mutable {
+          if (!asked.ok() || stored.job.state() == v1::Job::RUNNING) return done(asked.status());
+          Withdraw(std::move(stored), done);
+        });
+      });
+}
+
+void SharedJobs::Withdraw(StoredJob stored, const Done& done) {
+  v1::Job job = std::move(stored.job);
+  const std::string name = job.name();
+  const std::vector<v1::Event> events = {
+      Apply({v1::Job::CANCELLED, reason::kUserRequest}, clock_.Now(), &job)};
+  store_.Update({.name = name, .epoch = stored.epoch, .take = true, .job = &job, .events = events},
+                [this, job, done](const absl::StatusOr<std::uint64_t>& first) {
+                  if (first.ok()) options_.metrics->Moved(v1::Job::QUEUED, job);
+                  // A worker has the job now: it finds that it is to be cancelled.
+                  done(absl::IsAborted(first.status()) ? absl::OkStatus() : first.status());
+                });
+}
+
+void SharedJobs::Stop() {
+  if (thread_.joinable()) {
+    thread_.request_stop();
+    thread_.join();
+  }
+  if (claimer_) claimer_->Stop();
+  store_.Unlisten();
+  Await<bool>([this](const auto& done) { store_.Flush([done] { done(true); }); });
+}
+
+}  // namespace contact

@@ -1,0 +1,149 @@
+#include "storage/postgres/schema.h"
+
+namespace contact::postgres {
+
+const char kWorkerFunctions[] = R"sql(
+-- A worker lives for so many milliseconds more. Answers the jobs that it has.
+CREATE OR REPLACE FUNCTION contactd.beat(
+  a_worker text, a_host text, a_threads bigint, a_batch_id text, a_lease bigint)
+RETURNS TABLE(name text, epoch bigint, cancel_requested boolean)
+LANGUAGE plpgsql AS $$
+BEGIN
+  INSERT INTO contactd.workers AS w(name, host, threads, batch_id, until)
+    VALUES(a_worker, a_host, a_threads, a_batch_id,
+      clock_timestamp() + a_lease * interval '1 ms')
+    ON CONFLICT ON CONSTRAINT workers_pkey DO UPDATE SET until = excluded.until;
+  DELETE FROM contactd.workers w WHERE w.until < clock_timestamp() - interval '1 day';
+  RETURN QUERY SELECT j.name, j.epoch, j.cancel_requested FROM contactd.jobs j
+    WHERE (j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL)) AND j.worker = a_worker;
+END $$;
+
+-- A worker goes: what it has not begun may be claimed, and what it has begun is lost.
+CREATE OR REPLACE FUNCTION contactd.leave(a_worker text) RETURNS void LANGUAGE sql AS $$
+  UPDATE contactd.jobs j SET worker = NULL, epoch = j.epoch + 1
+    WHERE j.state = 1 AND j.worker = a_worker;
+  DELETE FROM contactd.workers w WHERE w.name = a_worker;
+$$;
+
+-- The tenants and owners whose jobs wait, each once. One look at the index for each.
+CREATE OR REPLACE FUNCTION contactd.waiting_owners()
+RETURNS TABLE(tenant text, owner text) LANGUAGE sql AS $$
+  WITH RECURSIVE o(tenant, owner) AS (
+    (SELECT j.tenant, j.owner FROM contactd.jobs j WHERE j.state = 1 AND j.worker IS NULL
+      ORDER BY j.tenant, j.owner LIMIT 1)
+    UNION ALL
+    SELECT n.tenant, n.owner FROM o, LATERAL (
+      SELECT j.tenant, j.owner FROM contactd.jobs j
+      WHERE j.state = 1 AND j.worker IS NULL AND (j.tenant, j.owner) > (o.tenant, o.owner)
+      ORDER BY j.tenant, j.owner LIMIT 1) n)
+  SELECT o.tenant, o.owner FROM o
+$$;
+
+-- Who is to have the next worker: tenants get the same worker time, and so do the owners of one
+-- tenant. A job that a worker has counts for a second that it will use. Not those of a_not_tenants and
+-- a_not_owners. `alone`: nobody else waits.
+CREATE OR REPLACE FUNCTION contactd.next_owner(
+  a_most_running bigint, a_not_tenants text[], a_not_owners text[], OUT tenant text, OUT owner text, OUT running bigint, OUT alone boolean)
+LANGUAGE sql AS $$
+  WITH shares AS (
+    SELECT s.tenant, s.owner, sum(s.seconds) AS seconds, sum(s.running)::bigint AS running FROM (
+      SELECT u.tenant, u.owner, u.seconds
+          * power(0.5, extract(epoch FROM clock_timestamp() - u.at) / 60) AS seconds, 0 AS running
+        FROM contactd.used u
+      UNION ALL
+      SELECT j.tenant, j.owner, 1, 1 FROM contactd.jobs j
+        WHERE j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL)) s
+    GROUP BY s.tenant, s.owner),
+  tenants AS (SELECT s.tenant, sum(s.seconds) AS seconds FROM shares s GROUP BY s.tenant),
+  waiting AS MATERIALIZED (SELECT w.tenant, w.owner FROM contactd.waiting_owners() w)
+  SELECT w.tenant, w.owner, coalesce(s.running, 0), (SELECT count(*) = 1 FROM waiting)
+  FROM waiting w
+    LEFT JOIN shares s ON s.tenant = w.tenant AND s.owner = w.owner
+    LEFT JOIN tenants t ON t.tenant = w.tenant
+  WHERE (a_most_running = 0 OR coalesce(s.running, 0) < a_most_running) AND NOT EXISTS(
+    SELECT FROM unnest(a_not_tenants, a_not_owners) AS n(tenant, owner)
+    WHERE n.tenant = w.tenant AND n.owner = w.owner)
+  ORDER BY coalesce(t.seconds, 0), coalesce(s.seconds, 0), w.tenant, w.owner LIMIT 1
+$$;
+
+-- Gives a living worker the jobs whose worker is dead, and then a_most of those that wait; at most
+-- a_most_running of one owner run at a time. Whoever had them can change them no more. Takes in what
+-- the worker has used, by owner. After a start of the database the workers have a while to come back.
+CREATE OR REPLACE FUNCTION contactd.claim(
+  a_worker text, a_most bigint, a_most_running bigint, a_grace bigint, a_tenants text[],
+  a_owners text[], a_milliseconds bigint[], a_not_tenants text[], a_not_owners text[])
+RETURNS SETOF contactd.jobs LANGUAGE plpgsql AS $$
+DECLARE
+  c_lost CONSTANT bigint := 64;
+  v_now timestamptz := clock_timestamp();
+  v_left bigint := a_most;
+  v_next record;
+  v_number bigint;
+  v_job contactd.jobs;
+  v_found boolean;
+BEGIN
+  INSERT INTO contactd.used AS u(worker, tenant, owner, seconds, at)
+    SELECT a_worker, n.tenant, n.owner, n.milliseconds / 1000.0, v_now
+    FROM unnest(a_tenants, a_owners, a_milliseconds) AS n(tenant, owner, milliseconds)
+    ON CONFLICT ON CONSTRAINT used_pkey DO UPDATE SET at = v_now, seconds = excluded.seconds
+      + u.seconds * power(0.5, extract(epoch FROM v_now - u.at) / 60);
+  PERFORM FROM contactd.workers w WHERE w.name = a_worker AND w.until > v_now;
+  IF NOT FOUND THEN RETURN; END IF;
+  IF v_now > pg_postmaster_start_time() + a_grace * interval '1 ms' THEN
+    FOR v_number IN
+      SELECT j.number FROM contactd.jobs j
+      WHERE (j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL)) AND NOT EXISTS(
+        SELECT FROM contactd.workers w WHERE w.name = j.worker AND w.until > v_now)
+      ORDER BY j.number LIMIT c_lost FOR UPDATE SKIP LOCKED
+    LOOP
+      UPDATE contactd.jobs j SET worker = a_worker, epoch = j.epoch + 1
+        WHERE j.number = v_number RETURNING j.* INTO v_job;
+      RETURN NEXT v_job;
+    END LOOP;
+  END IF;
+  WHILE v_left > 0 LOOP
+    SELECT * INTO v_next FROM contactd.next_owner(a_most_running, a_not_tenants, a_not_owners);
+    EXIT WHEN v_next.tenant IS NULL;
+    v_found := false;
+    FOR v_number IN
+      SELECT j.number FROM contactd.jobs j
+      WHERE j.state = 1 AND j.worker IS NULL AND j.tenant = v_next.tenant
+        AND j.owner = v_next.owner
+      ORDER BY j.priority DESC, j.number
+      LIMIT CASE WHEN NOT v_next.alone THEN 1 WHEN a_most_running = 0 THEN v_left
+        ELSE least(v_left, a_most_running - v_next.running) END
+      FOR UPDATE SKIP LOCKED
+    LOOP
+      UPDATE contactd.jobs j SET worker = a_worker, epoch = j.epoch + 1
+        WHERE j.number = v_number RETURNING j.* INTO v_job;
+      v_found := true;
+      v_left := v_left - 1;
+      RETURN NEXT v_job;
+    END LOOP;
+    EXIT WHEN NOT v_found OR v_next.alone;
+  END LOOP;
+END $$;
+
+-- How much there is to do, and who does it; what launchers and scalers ask.
+CREATE OR REPLACE FUNCTION contactd.demand(
+  OUT queued bigint, OUT running bigint, OUT workers bigint, OUT threads bigint)
+LANGUAGE sql STABLE AS $$
+  SELECT
+    (SELECT count(*) FROM contactd.jobs j WHERE j.state = 1 AND j.worker IS NULL),
+    (SELECT count(*) FROM contactd.jobs j
+      WHERE j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL)),
+    count(*), coalesce(sum(w.threads), 0)::bigint
+  FROM contactd.workers w WHERE w.until > clock_timestamp()
+$$;
+
+-- Jobs that have changed their state in transactions that a_since had not seen the end of, and what
+-- to ask with next; in the first row, and in all.
+CREATE OR REPLACE FUNCTION contactd.moved_since(a_since bigint)
+RETURNS TABLE(next bigint, name text, tenant text) LANGUAGE sql STABLE AS $$
+  SELECT pg_snapshot_xmin(pg_current_snapshot())::text::bigint, j.name, j.tenant
+  FROM (VALUES(1)) AS one(row) LEFT JOIN contactd.jobs j
+    ON a_since > 0 AND j.moved >= a_since::text::xid8
+$$;
+)sql";
+
+}  // namespace contact::postgres

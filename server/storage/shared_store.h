@@ -1,0 +1,144 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "storage/store.h"
+
+namespace contact {
+
+/// A process that runs jobs of a shared store.
+struct WorkerProcess {
+  /// Nobody else's, ever.
+  std::string name;
+  /// Where it runs, for people.
+  std::string host;
+  /// Simulations that it runs at once.
+  int threads = 1;
+  /// What a batch system calls it; empty: nothing.
+  std::string batch_id = {};
+  /// It loses its jobs when it was not heard of for so long.
+  std::chrono::milliseconds lease{10'000};
+};
+
+/// What a worker asks for.
+struct JobClaim {
+  /// WorkerProcess::name.
+  std::string worker;
+  /// Waiting jobs that it can take.
+  int most = 0;
+  /// Jobs of one owner that may run at a time, in all processes; 0: any number.
+  int most_running = 0;
+  /// After a start of the database workers have so long to come back before they lose their jobs.
+  std::chrono::milliseconds grace{0};
+  /// Whose jobs it does not want.
+  std::vector<JobOwner> none_of = {};
+  /// Worker time used since the last claim, by owner.
+  struct Used {
+    JobOwner whose;
+    std::chrono::milliseconds time;
+  };
+  std::vector<Used> used = {};
+};
+
+/// A job that a worker has.
+struct HeldJob {
+  std::string name;
+  std::uint64_t epoch = 0;
+  /// See Store::RequestCancel.
+  bool cancel_requested = false;
+};
+
+/// How much there is to do, and who does it.
+struct Demand {
+  /// Jobs that no worker has.
+  std::int64_t queued = 0;
+  /// Jobs that a worker has.
+  std::int64_t running = 0;
+  /// Processes that live, and their threads.
+  std::int64_t workers = 0;
+  std::int64_t threads = 0;
+};
+
+/// What of its limits an owner has.
+struct OwnerCounts {
+  std::int64_t jobs = 0;
+  std::int64_t cells = 0;
+  std::int64_t running = 0;
+};
+
+/// How far the log of a job is.
+struct LogPosition {
+  std::string name;
+  std::uint64_t last_sequence = 0;
+  /// The log ends there.
+  bool ended = false;
+};
+
+/// Jobs that have changed their states.
+struct MovedJobs {
+  struct Job {
+    std::string name;
+    std::string tenant;
+  };
+  std::vector<Job> jobs;
+  /// To ask with next.
+  std::uint64_t next = 0;
+};
+
+/// What one process tells all others. It may be lost.
+struct Note {
+  enum class Kind {
+    /// The job was created, changed or deleted: `tenant`, `last_sequence`, `state`.
+    kChanged = 1,
+    /// Somebody wants the job cancelled.
+    kCancel = 2,
+    /// How far the run of the job is: `progress`.
+    kProgress = 3,
+  };
+  Kind kind = Kind::kChanged;
+  std::string name;
+  std::string tenant = {};
+  std::uint64_t last_sequence = 0;
+  /// The v1::Job::State that it has entered; 0: as before.
+  int state = 0;
+  /// A serialised v1::Progress.
+  std::string progress = {};
+};
+
+/// A store that many processes use at a time: who has which job, and what changes elsewhere. Calls
+/// are as those of Store.
+class SharedStore : public Store {
+ public:
+  /// Says that the worker lives, and answers the jobs that it has. The first call makes it known.
+  virtual void Beat(const WorkerProcess& worker, Callback<std::vector<HeldJob>> done) = 0;
+  /// Gives the worker jobs, with a new epoch: those whose worker is dead, in the state in which
+  /// that has left them; and QUEUED ones, by priority and fair among owners. No job if the worker
+  /// is not known or was not heard of for its lease.
+  virtual void Claim(const JobClaim& claim, Callback<std::vector<StoredJob>> done) = 0;
+  /// The worker ends: what it has and has not begun waits for another.
+  virtual void Leave(const std::string& worker, Callback<bool> done) = 0;
+
+  virtual void Count(Callback<Demand> done) = 0;
+  virtual void CountOf(const JobOwner& whose, Callback<OwnerCounts> done) = 0;
+  /// Positions of those of the jobs that are there.
+  virtual void Positions(const std::vector<std::string>& names,
+                         Callback<std::vector<LogPosition>> done) = 0;
+  /// Jobs that have moved since the answer with this `next`; some of them were in that answer, too.
+  /// 0: none, only where to begin.
+  virtual void Moved(std::uint64_t since, Callback<MovedJobs> done) = 0;
+
+  /// Hears the notes of all processes, also of this one; on a thread of the store. `missed`: notes
+  /// may have been lost before now; called at the start, too.
+  virtual void Listen(std::function<void(const Note&)> heard, std::function<void()> missed) = 0;
+  /// Ends that. Neither of the two is called any more.
+  virtual void Unlisten() = 0;
+  /// Tells all processes, soon; what is told of the same job meanwhile becomes one note. What the
+  /// other calls change is told by itself.
+  virtual void Tell(const Note& note) = 0;
+};
+
+}  // namespace contact
