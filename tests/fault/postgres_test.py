@@ -90,11 +90,11 @@ class AwayTest(FaultTest):
 
     def test_secrets_of_the_address_are_not_told(self):
         server = Server(self.folder / "secret", store="")
-        server.flags = (database_of(self.server.data_dir).replace(
-            "contactd@/", "contactd:hunter2@/").join(("--store=", "")),)
+        server.flags = ("--store=" + database_of(self.server.data_dir).replace(
+            "contactd@/", "contactd:hunter2@/no_such_"),)
         with self.assertRaises(RuntimeError) as caught:
             server.start()
-        self.assertIn("is used by another contactd", server.log())
+        self.assertIn("does not exist", server.log())
         self.assertNotIn("hunter2", str(caught.exception) + server.log())
 
 

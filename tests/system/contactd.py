@@ -82,6 +82,11 @@ class Server:
     def log(self):
         return self.log_path.read_text()
 
+    @property
+    def address(self):
+        """HOST:PORT of a running server."""
+        return f"127.0.0.1:{self.port}"
+
     def kill(self):
         """As a power cut does, as far as a process can see."""
         self._end(signal.SIGKILL)

@@ -113,13 +113,16 @@ TEST_F(PostgresStoreTest, OperationThatFailsDoesNotHarmThoseBesideIt) {
   EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 51U);
 }
 
-TEST_F(PostgresStoreTest, SecondProgramIsRefused) {
+TEST_F(PostgresStoreTest, ProgramThatWantsItAloneIsRefusedWhileOthersUseIt) {
   Open();
-  const auto second = OpenStore({});
-  EXPECT_TRUE(absl::IsUnavailable(second.status()));
-  EXPECT_THAT(second.status().ToString(), HasSubstr("another contactd"));
-  store_.reset();
   EXPECT_TRUE(OpenStore({}).ok());
+  const auto alone = OpenPostgresAlone(database_.address());
+  EXPECT_TRUE(absl::IsUnavailable(alone.status()));
+  EXPECT_THAT(alone.status().ToString(), HasSubstr("another contactd"));
+  store_.reset();
+  const auto later = OpenPostgresAlone(database_.address());
+  EXPECT_TRUE(later.ok());
+  EXPECT_TRUE(absl::IsUnavailable(OpenStore({}).status()));
 }
 
 TEST_F(PostgresStoreTest, ProgramsThatBeginAtOnceMakeTheTablesOnce) {
