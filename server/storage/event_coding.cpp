@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -175,19 +176,51 @@ std::string Compose(Parts parts, std::string_view planes) {
   return out;
 }
 
-bool Restore(std::string_view bytes, std::string* payload) {
+// What Rearrange has made, taken apart.
+struct Rearranged {
+  std::string_view rest;
+  std::string_view planes;
+};
+
+// Nothing if `bytes` are too short.
+std::optional<Rearranged> AsRearranged(std::string_view bytes) {
   std::uint32_t length = 0;
-  if (bytes.size() < sizeof length) return false;
+  if (bytes.size() < sizeof length) return std::nullopt;
   std::memcpy(&length, bytes.data(), sizeof length);
   bytes.remove_prefix(sizeof length);
+  if (bytes.size() < length) return std::nullopt;
+  return Rearranged{bytes.substr(0, length), bytes.substr(length)};
+}
+
+bool Restore(std::string_view bytes, std::string* payload) {
+  const std::optional<Rearranged> from = AsRearranged(bytes);
   Parts parts;
-  if (bytes.size() < length || !TakeApart(bytes.substr(0, length), &parts)) return false;
-  bytes.remove_prefix(length);
-  if (bytes.size() % kDouble != 0 || parts.samples > kMaxDecoded ||
-      bytes.size() / kDouble != parts.samples * parts.columns.size()) {
+  if (!from || !TakeApart(from->rest, &parts)) return false;
+  if (from->planes.size() % kDouble != 0 || parts.samples > kMaxDecoded ||
+      from->planes.size() / kDouble != parts.samples * parts.columns.size()) {
     return false;
   }
-  *payload = Compose(std::move(parts), bytes);
+  *payload = Compose(std::move(parts), from->planes);
+  return true;
+}
+
+// As Restore, but without a detour over the serialised message.
+bool Restore(std::string_view bytes, v1::Event* event) {
+  const std::optional<Rearranged> from = AsRearranged(bytes);
+  if (!from || !event->ParseFromArray(from->rest.data(), static_cast<int>(from->rest.size())) ||
+      !event->has_frame_chunk() || event->frame_chunk().samples() < 0) {
+    return false;
+  }
+  v1::FrameChunk& chunk = *event->mutable_frame_chunk();
+  const auto samples = static_cast<std::size_t>(chunk.samples());
+  const std::size_t stride = samples * static_cast<std::size_t>(chunk.columns_size());
+  if (from->planes.size() != stride * kDouble) return false;
+  const char* plane = from->planes.data();
+  for (v1::FrameChunk::Column& column : *chunk.mutable_columns()) {
+    column.mutable_values()->resize(samples * kDouble);
+    JoinColumn(plane, stride, samples, column.mutable_values()->data());
+    plane += samples;
+  }
   return true;
 }
 
@@ -213,8 +246,9 @@ bool DecodePayload(Coding coding, std::string bytes, std::string* payload) {
 
 bool DecodeEvent(Coding coding, const std::string& bytes, v1::Event* event) {
   if (coding == Coding::kPlain) return event->ParseFromString(bytes);
-  std::string payload;
-  return DecodePayload(coding, bytes, &payload) && event->ParseFromString(payload);
+  if (coding != Coding::kFrames) return false;
+  const Buffer rearranged = Decompress(bytes);
+  return Restore({rearranged.data.get(), rearranged.size}, event);
 }
 
 std::size_t DecodedSize(Coding coding, const std::string& bytes) {

@@ -42,6 +42,9 @@ void ExpectSame(const v1::Event& event) {
   std::string payload;
   ASSERT_TRUE(DecodePayload(coded.coding, coded.bytes, &payload));
   EXPECT_EQ(payload.size(), event.ByteSizeLong());
+  v1::Event parsed;
+  ASSERT_TRUE(parsed.ParseFromString(payload));
+  EXPECT_EQ(parsed.SerializeAsString(), event.SerializeAsString());
 }
 
 // Gives every field of one number or text a value that is not its default.
@@ -157,15 +160,20 @@ TEST(EventCodingTest, ChunkCutOrBentAnywhereIsRefusedOrAnEvent) {
   ZSTD_decompress(inside.data(), inside.size(), good.data(), good.size());
   std::string payload;
   ASSERT_TRUE(DecodePayload(Coding::kFrames, Squeezed(inside), &payload));
+  v1::Event event;
   for (std::size_t size = 0; size < inside.size(); ++size) {
-    EXPECT_FALSE(DecodePayload(Coding::kFrames, Squeezed(inside.substr(0, size)), &payload))
-        << size;
+    const std::string cut = Squeezed(inside.substr(0, size));
+    EXPECT_FALSE(DecodePayload(Coding::kFrames, cut, &payload)) << size;
+    EXPECT_FALSE(DecodeEvent(Coding::kFrames, cut, &event)) << size;
   }
   for (std::size_t i = 0; i < inside.size(); ++i) {
     std::string bent = inside;
     bent[i] = static_cast<char>(bent[i] ^ 0x7f);
-    v1::Event event;
-    if (DecodePayload(Coding::kFrames, Squeezed(bent), &payload)) event.ParseFromString(payload);
+    v1::Event parsed;
+    const bool whole = DecodePayload(Coding::kFrames, Squeezed(bent), &payload);
+    if (!DecodeEvent(Coding::kFrames, Squeezed(bent), &event) || !whole) continue;
+    ASSERT_TRUE(parsed.ParseFromString(payload)) << i;
+    EXPECT_EQ(parsed.SerializeAsString(), event.SerializeAsString()) << i;
   }
 }
 
