@@ -2,8 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "wire/column_bytes.h"
 
 namespace contact {
 namespace {
@@ -13,16 +19,55 @@ using testing::ElementsAre;
 
 using Row = std::vector<double>;
 
-std::vector<Row> Decimate(const std::vector<Row>& rows, std::size_t max_rows) {
+// What is kept of rows that come so many at a time.
+std::vector<Row> Decimate(const std::vector<Row>& rows, std::size_t max_rows,
+                          std::size_t at_a_time = 256) {
   const std::size_t columns = rows.front().size();
+  std::vector<double> flat;
+  for (const Row& row : rows) flat.insert(flat.end(), row.begin(), row.end());
+  std::vector<std::string> bytes;
+  for (std::size_t i = 0; i < columns; ++i) bytes.push_back(ColumnBytes(flat, columns, i));
+  const std::vector<std::string_view> table(bytes.begin(), bytes.end());
   MinMaxDecimator decimator(columns, max_rows);
-  for (const Row& row : rows) decimator.Add(row);
+  for (std::size_t first = 0; first < rows.size(); first += at_a_time) {
+    decimator.Add(table, first, std::min(at_a_time, rows.size() - first));
+  }
   const std::vector<double> values = decimator.Rows();
   std::vector<Row> kept;
   for (auto at = values.begin(); at != values.end(); at += static_cast<std::ptrdiff_t>(columns)) {
     kept.emplace_back(at, at + static_cast<std::ptrdiff_t>(columns));
   }
   return kept;
+}
+
+// The same the plain way: of each stretch the first rows with an extreme, and both ends of all.
+std::vector<Row> Extremes(const std::vector<Row>& rows, std::size_t width, std::size_t* closed) {
+  std::vector<Row> kept;
+  for (std::size_t begin = 0; begin < rows.size(); begin += width) {
+    *closed = kept.size();
+    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto end = first + static_cast<std::ptrdiff_t>(std::min(width, rows.size() - begin));
+    std::set<std::ptrdiff_t> keep;
+    for (std::size_t column = 1; column < first->size(); ++column) {
+      const auto value = [column](const Row& row) { return row[column]; };
+      keep.insert(std::ranges::min_element(first, end, {}, value) - rows.begin());
+      keep.insert(std::ranges::max_element(first, end, {}, value) - rows.begin());
+    }
+    if (begin == 0) keep.insert(0);
+    if (end == rows.end()) keep.insert(end - rows.begin() - 1);
+    for (const auto row : keep) kept.push_back(rows[static_cast<std::size_t>(row)]);
+  }
+  return kept;
+}
+
+// With the narrowest stretches, of a power of two rows, that leave room for one more.
+std::vector<Row> DecimatePlainly(const std::vector<Row>& rows, std::size_t max_rows) {
+  const std::size_t most = 2 * (rows.front().size() - 1);
+  for (std::size_t width = 1;; width *= 2) {
+    std::size_t closed = 0;
+    std::vector<Row> kept = Extremes(rows, width, &closed);
+    if (closed + std::min(most, width) <= max_rows - 2) return kept;
+  }
 }
 
 // Time and two channels of noise.
@@ -56,6 +101,21 @@ TEST(Decimation, NeverReturnsMoreThanAskedForNorFarLess) {
       EXPECT_LE(kept, most) << count;
       if (most >= 100 && static_cast<std::size_t>(count) > most) {
         EXPECT_GE(kept, most / 3) << count;
+      }
+    }
+  }
+}
+
+// Rows come as chunks have them, and a time range begins anywhere in a chunk.
+TEST(Decimation, EqualsThePlainWayHoweverManyRowsComeAtATime) {
+  for (const std::size_t count : {1U, 5U, 63U, 300U, 4097U, 20'000U}) {
+    std::vector<Row> rows = Noise(static_cast<int>(count));
+    for (Row& row : rows) row.push_back(std::floor(3 * row[1]));  // Many rows share an extreme.
+    for (Row& row : rows) row.push_back(std::sin(0.01 * row[0]));
+    for (const std::size_t most : {10U, 100U, 1001U}) {
+      const std::vector<Row> expected = DecimatePlainly(rows, most);
+      for (const std::size_t at_a_time : {1U, 3U, 100U, 256U, 20'000U}) {
+        EXPECT_EQ(Decimate(rows, most, at_a_time), expected) << count << " " << at_a_time;
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace contact {
@@ -14,12 +15,15 @@ namespace contact {
 /// length of the series before.
 class MinMaxDecimator {
  public:
+  /// The columns of a table, each with the values that FrameChunk::Column::values has.
+  using Table = std::span<const std::string_view>;
+
   /// For rows of `columns` ≥ 1 values, the first of which is the time and has no peaks. Keeps at
   /// most `max_rows` ≥ 2 · columns.
   MinMaxDecimator(std::size_t columns, std::size_t max_rows);
 
-  /// Adds a row of finite values.
-  void Add(std::span<const double> row);
+  /// Adds rows of finite values: `count` rows of the table from row `first` on.
+  void Add(Table table, std::size_t first, std::size_t count);
 
   /// The rows kept, one after the other, in the order in which they came.
   std::vector<double> Rows() const;
@@ -28,6 +32,8 @@ class MinMaxDecimator {
   /// Whole rows, one after the other.
   using Values = std::vector<double>;
 
+  /// Adds rows to the stretch that is being filled, of which it has room for all.
+  void Fill(Table table, std::size_t first, std::size_t count);
   /// Ends the stretch that is being filled.
   void Close();
   /// Makes one stretch of every two. The last one without a partner is open again.
@@ -47,7 +53,8 @@ class MinMaxDecimator {
   Values closed_;
   /// Where the rows of each full stretch end in closed_.
   std::vector<std::size_t> ends_;
-  /// Rows of the stretch that is being filled; the last one is the newest of all.
+  /// Rows of the stretch that is being filled, at least those to keep; the last one is the newest
+  /// of all.
   Values open_;
   /// Rows that came into the stretch that is being filled.
   std::size_t filled_ = 0;

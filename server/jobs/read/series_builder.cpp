@@ -1,5 +1,6 @@
 #include "jobs/read/series_builder.h"
 
+#include <string_view>
 #include <utility>
 
 #include "jobs/read/frame_values.h"
@@ -14,10 +15,11 @@ SeriesBuilder::SeriesBuilder(SeriesSelection selection,
 }
 
 void SeriesBuilder::Restart() {
+  const std::size_t width = selection_.columns.size();
   decimator_.reset();
-  if (!selection_.raw) decimator_.emplace(selection_.columns.size(), selection_.max_rows);
+  if (!selection_.raw) decimator_.emplace(width, selection_.max_rows);
   joiner_ = {};
-  rows_.clear();
+  raw_.assign(width, "");
   recorded_ = 0;
 }
 
@@ -40,41 +42,45 @@ bool SeriesBuilder::Add(const v1::FrameChunk& chunk) {
   const v1::FrameChunk* const whole = joiner_.Add(chunk);
   if (whole == nullptr) return true;
   if (whole->columns_size() != static_cast<int>(channels_.size())) return false;
-  for (int row = 0; row < whole->samples(); ++row) {
-    const double time = ValueAt(whole->columns(0), row);
-    if (time < selection_.start_time || time > selection_.end_time) continue;
-    AddRow(*whole, row);
-  }
+  const v1::FrameChunk::Column& times = whole->columns(0);
+  int first = 0;
+  while (first < whole->samples() && ValueAt(times, first) < selection_.start_time) ++first;
+  int end = first;
+  while (end < whole->samples() && ValueAt(times, end) <= selection_.end_time) ++end;
+  AddRows(*whole, static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
   return true;
 }
 
-void SeriesBuilder::AddRow(const v1::FrameChunk& chunk, int row) {
-  ++recorded_;
-  if (selection_.raw && recorded_ > static_cast<std::int64_t>(selection_.max_rows)) return;
-  const std::size_t begin = rows_.size();
-  for (const int column : selection_.columns) rows_.push_back(ValueAt(chunk.columns(column), row));
-  if (!decimator_) return;
-  decimator_->Add(std::span(rows_).subspan(begin));
-  rows_.clear();
+void SeriesBuilder::AddRows(const v1::FrameChunk& chunk, std::size_t first, std::size_t count) {
+  std::vector<std::string_view> table;
+  for (const int column : selection_.columns) table.emplace_back(chunk.columns(column).values());
+  recorded_ += count;
+  if (decimator_) return decimator_->Add(table, first, count);
+  if (TooLarge()) return;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    raw_[i] += table[i].substr(first * sizeof(double), count * sizeof(double));
+  }
 }
 
+bool SeriesBuilder::TooLarge() const { return selection_.raw && recorded_ > selection_.max_rows; }
+
 Result<v1::Series> SeriesBuilder::Finish() const {
-  if (selection_.raw && recorded_ > static_cast<std::int64_t>(selection_.max_rows)) {
-    return SeriesTooLarge(selection_.max_rows);
-  }
-  const std::vector<double> rows = decimator_ ? decimator_->Rows() : rows_;
+  if (TooLarge()) return SeriesTooLarge(selection_.max_rows);
   const std::size_t width = selection_.columns.size();
+  const std::vector<double> rows = decimator_ ? decimator_->Rows() : std::vector<double>();
   v1::Series series;
-  series.set_samples(static_cast<std::int32_t>(rows.size() / width));
-  series.set_recorded_samples(recorded_);
+  series.set_samples(static_cast<std::int32_t>(decimator_ ? rows.size() / width : recorded_));
+  series.set_recorded_samples(static_cast<std::int64_t>(recorded_));
   for (std::size_t i = 0; i < width; ++i) {
     v1::FrameChunk::Column& column = *series.add_columns();
     column = channels_[static_cast<std::size_t>(selection_.columns[i])];
-    if (!selection_.plain_numbers) {
-      column.set_values(ColumnBytes(rows, width, i));
-      continue;
+    std::string values = decimator_ ? ColumnBytes(rows, width, i) : raw_[i];
+    if (selection_.plain_numbers) {
+      const std::vector<double> numbers = Doubles(values);
+      column.mutable_numbers()->Add(numbers.begin(), numbers.end());
+    } else {
+      column.set_values(std::move(values));
     }
-    for (std::size_t at = i; at < rows.size(); at += width) column.add_numbers(rows[at]);
   }
   return series;
 }

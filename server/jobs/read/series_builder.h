@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "contact/v1/job_service.pb.h"
@@ -32,19 +33,20 @@ class SeriesBuilder {
   Result<v1::Series> Finish() const;
 
  private:
-  /// Adds one sample.
-  void AddRow(const v1::FrameChunk& chunk, int row);
+  /// Adds samples of a chunk with all columns: `count` from `first` on.
+  void AddRows(const v1::FrameChunk& chunk, std::size_t first, std::size_t count);
+  /// True if there are more samples than may be answered.
+  bool TooLarge() const;
 
   const SeriesSelection selection_;
   const std::vector<v1::FrameChunk::Column> channels_;
   ColumnJoiner joiner_;
   /// Nothing for RAW.
   std::optional<MinMaxDecimator> decimator_;
-  /// Rows of selected columns, one after the other. Only for RAW; stops growing when it is too
-  /// large.
-  std::vector<double> rows_;
+  /// The values of each selected column. Only for RAW; stops growing when it is too large.
+  std::vector<std::string> raw_;
   /// Samples in the time range.
-  std::int64_t recorded_ = 0;
+  std::size_t recorded_ = 0;
 };
 
 }  // namespace contact
