@@ -230,6 +230,13 @@ TEST_F(SeriesTest, EarlierAttemptsAreLeftOut) {
   Ended(name);
   EXPECT_EQ(Logged(name, "time"), (std::vector<double>{1, 1, 1, 1, 2, 2}));
   EXPECT_THAT(Values(Series(Raw(name)).value().columns(0)), ElementsAre(2, 2));
+  for (const auto& [start, end] : {std::pair{0, 1}, {1, 2}, {2, 3}, {3, 4}}) {
+    v1::GetSeriesRequest request = Raw(name);
+    request.set_start_time_s(start);
+    EXPECT_EQ(Series(request).value().samples(), start <= 2 ? 2 : 0) << start;
+    request.set_end_time_s(end);
+    EXPECT_EQ(Series(request).value().samples(), start <= 2 && end >= 2 ? 2 : 0) << start;
+  }
 }
 
 TEST_F(SeriesTest, UnknownChannelsAreAllNamedWithWhatThereIs) {

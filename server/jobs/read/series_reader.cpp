@@ -46,8 +46,10 @@ void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
   if (!selection.ok()) return Answer(selection.error());
   builder_.emplace(std::move(selection.value()), std::move(channels));
   last_ = job.last_sequence();
-  if (request_.has_start_time_s() || request_.has_end_time_s()) return FindAttempt();
-  ReadPage();
+  if (!request_.has_start_time_s() && !request_.has_end_time_s()) return ReadPage();
+  // A job that was taken once has one attempt: no need to look through its log.
+  if (stored->epoch <= 1) return FindStart();
+  FindAttempt();
 }
 
 void SeriesReader::ReadEvents(std::uint32_t kinds, std::size_t max_bytes,
@@ -71,6 +73,10 @@ void SeriesReader::TakeAttempts(const Page& page) {
   if (!page->events.empty()) low_ = page->events.back().sequence;
   position_ = page->position;
   if (position_ < last_) return FindAttempt();
+  FindStart();
+}
+
+void SeriesReader::FindStart() {
   high_ = request_.has_start_time_s() ? last_ : low_;
   Halve();
 }
@@ -142,8 +148,7 @@ bool SeriesReader::Take(const StoredEvent& stored) {
   if (event.has_attempt_started()) builder_->Restart();
   if (!event.has_frame_chunk()) return true;
   if (!builder_->Add(event.frame_chunk())) return false;
-  // Without a time range a later attempt may follow, whose times begin anew.
-  past_end_ = low_ > 0 && builder_->IsPast(event.frame_chunk());
+  past_end_ = builder_->IsPast(event.frame_chunk());
   return true;
 }
 

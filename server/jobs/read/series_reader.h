@@ -55,6 +55,8 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
   /// Looks for the last attempt, which begins the log that counts.
   void FindAttempt();
   void TakeAttempts(const Page& page);
+  /// Looks for the place in the last attempt where the time range begins.
+  void FindStart();
   /// Probes the middle between low_ and high_, or begins to read if there is none.
   void Halve();
   /// Reads the first chunk after position_.
