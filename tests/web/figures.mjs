@@ -153,14 +153,15 @@ async function zooming() {
   await page.goto(`${server.origin}/runs/${id}`);
   await until(async () => Number(await page.locator('[data-plot="force"]').getAttribute('data-points')) > 1000, 'the plot');
   await page.waitForTimeout(1500);
-  // From the call to the frame that shows its columns, as the page has noted it.
+  // From the key to the frame that shows the columns of its window, as the page has noted it.
+  await page.evaluate(() => addEventListener('keydown', ({timeStamp}) => { window.pressed = timeStamp; }, true));
   const all = [];
   for (let i = 0; i < 8; ++i) {
     await page.evaluate(() => performance.clearMeasures('series'));
     await page.keyboard.press('+');
     await until(() => page.evaluate(() => performance.getEntriesByName('series').length >= 1), 'answers');
     await page.waitForTimeout(100);
-    all.push(...await page.evaluate(() => performance.getEntriesByName('series').map(({duration}) => duration)));
+    all.push(...await page.evaluate(() => performance.getEntriesByName('series').map(({startTime, duration}) => startTime + duration - window.pressed)));
   }
   await page.context().close();
   return {all, samples: 1 + Math.round(job.summary.timeReachedS / 5e-6)};

@@ -19,6 +19,7 @@ import {PRESETS} from '../src/model/presets';
 import {parseMetrics} from '../src/model/prometheus';
 import {emptyRun, takeEvents} from '../src/model/runState';
 import {axisValues, cellIndex, viridis} from '../src/model/sweep';
+import {travel, yRange} from '../src/plots/range';
 
 const series = (columns: Record<string, number[]>): Series => new Map(Object.entries(columns).map(([name, values]) =>
   [name, {name, quantity: '', unit: '', values: Float64Array.from(values)}]));
@@ -53,6 +54,17 @@ describe('mechanics', () => {
 describe('panels', () => {
   it('read between samples, and have no values of their own outside', () => {
     expect([interpolate([0, 1], [0, 10], 0.25), interpolate([0, 1], [0, 10], 5), interpolate([], [], 1)]).toEqual([2.5, 10, NaN]);
+  });
+  it('know how far a curve swings, past what is no number', () => {
+    expect([travel([0, 2, -1, 5], 0, 2), travel([9, null, 9, NaN, 4, 6], 0, 5), travel([], 0, -1)]).toEqual([5, 7, 0]);
+  });
+  it('take their y axis from what lies in the window, and one sample more on each side', () => {
+    const x = Float64Array.from([0, 1, 2, 3, 4, 5]);
+    const y = Float64Array.from([90, 0, 1, 2, -80, -90]);
+    const panel = {id: 'p', title: '', xLabel: '', yLabel: '', overTime: true, curves: [{label: 'c', colour: 0, mark: 'line' as const, x, y}]};
+    const [low, high] = yRange(panel, [1.5, 2.5]);
+    expect([low < 0, low > -1, high > 2, high < 3]).toEqual([true, true, true, true]);
+    expect(yRange({...panel, curves: [{...panel.curves[0]!, x: [...x], y: [...y]}]}, [1.5, 2.5])).toEqual([low, high]);
   });
   it('join bands that overlap', () => {
     expect(joined([{start: 2, end: 3}, {start: 0, end: 1}, {start: 1, end: 1.5}])).toEqual([{start: 0, end: 1.5}, {start: 2, end: 3}]);

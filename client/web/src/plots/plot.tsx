@@ -40,7 +40,10 @@ function structure(panel: Panel): string {
 
 const UNSEEN_MS = 600;
 
-/** Calls `draw` at once where the plot can be seen, else when it is, or when nothing new has come for a while. */
+/**
+ * Calls `draw` soon where the plot can be seen, after what else is to be done for the same event, such as asking the
+ * server; elsewhere when it is seen, or when nothing new has come for a while.
+ */
 function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => void) => void; flush: () => void} {
   const state = useRef({seen: true, timer: 0, waiting: undefined as (() => void) | undefined});
   const flush = () => {
@@ -59,8 +62,7 @@ function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => voi
   const draw = (drawing: () => void) => {
     clearTimeout(state.current.timer);
     state.current.waiting = drawing;
-    if (state.current.seen) flush();
-    else state.current.timer = window.setTimeout(flush, UNSEEN_MS);
+    state.current.timer = window.setTimeout(flush, state.current.seen ? 0 : UNSEEN_MS);
   };
   return {flush, draw};
 }

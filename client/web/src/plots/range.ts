@@ -20,15 +20,31 @@ function padded([low, high]: Window, log: boolean): Window {
   return [low - 0.04 * span, high + 0.04 * span];
 }
 
+const between = (values: ArrayLike<number>, first: number, end: number): ArrayLike<number> =>
+  (values instanceof Float64Array ? values.subarray(first, end) : Array.from(values).slice(first, end));
+
 /** The y axis: all values inside the x range, and room for labels. */
 export function yRange(panel: Panel, [from, to]: Window): Window {
   const inside = drawn(panel).map(({x, y}) => {
     if (!panel.overTime) return y;
     const first = Math.max(lowerBound(x, from) - 1, 0);
-    return Array.prototype.slice.call(y, first, lowerBound(x, to) + 1) as number[];
+    return between(y, first, lowerBound(x, to) + 1);
   });
   const found = extent(inside, panel.logY);
   if (!found) return panel.logY ? [1e-3, 1] : [0, 1];
   const [low, high] = padded(found, !!panel.logY);
   return panel.labels?.length ? [low, high + 0.1 * (high - low)] : [low, high];
+}
+
+/** How far values go up and down in all between two places; what is no number is passed over. */
+export function travel(values: ArrayLike<number | null | undefined>, first: number, last: number): number {
+  let sum = 0;
+  let before: number | undefined;
+  for (let i = first; i <= last; ++i) {
+    const value = values[i];
+    if (!Number.isFinite(value)) continue;
+    sum += Math.abs(value! - (before ?? value!));
+    before = value!;
+  }
+  return sum;
 }

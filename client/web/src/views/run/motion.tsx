@@ -18,6 +18,8 @@ interface Props {
   series: Series | undefined;
   query: URLSearchParams;
   window: Window | undefined;
+  /** The window that the plots show, that of the series. */
+  drawn: Window | undefined;
   whole: Window;
   source: string;
 }
@@ -51,14 +53,14 @@ function crop(mechanics: Mechanics, contact: string | null): Mechanics {
 }
 
 function PresetPlot({preset, ...props}: Props & {preset: Preset}) {
-  const {run, window, mechanics: all, query, series} = props;
+  const {run, drawn, mechanics: all, query, series} = props;
   const mechanics = useMemo(() => partFor(preset, all, query.get('contact')), [all, query.get('contact')]);
   const panel = useMemo(() => {
     const inside = <T extends {startTimeS: number; endTimeS: number}>(list: T[]) =>
-      (window ? list.filter((c) => c.endTimeS >= window[0] && c.startTimeS <= window[1]) : list);
+      (drawn ? list.filter((c) => c.endTimeS >= drawn[0] && c.startTimeS <= drawn[1]) : list);
     return preset.panel({mechanics, cycles: inside(run.cycles), groups: inside(run.groups), series: series ?? new Map()});
   }, [series, isFinal(run.state) && run.cycles.length, mechanics]);   // While it runs: with the samples.
-  return <Plot panel={panel} window={window} onZoom={setWindow} source={props.source}
+  return <Plot panel={panel} window={drawn} onZoom={setWindow} source={props.source}
     empty={series ? 'Nothing recorded here.' : 'Waiting for samples …'} />;
 }
 

@@ -35,13 +35,13 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const window = windowOf(query, newest);
   const source = [run.job!.title, `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
   const channels = useMemo(() => channelsOf(mechanics, query.get('contact')), [mechanics, query.get('contact')]);
-  const series = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
+  const {series, window: drawn} = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
   const recorded = !scenario.output?.ledgerOnly;
   return (
     <>
       {recorded && <StripView mechanics={mechanics} series={series} query={query} />}
       <Iterations run={run} query={query} source={source} />
-      {recorded ? <Motion run={run} mechanics={mechanics} series={series} query={query} window={window} whole={[0, newest || scenario.endTimeS]} source={source} />
+      {recorded ? <Motion run={run} mechanics={mechanics} series={series} query={query} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
         : <p class="nothing">This run records no trajectory, only its ledger.</p>}
       <Ledger run={run} query={query} />
     </>
