@@ -23,7 +23,7 @@ struct EventSource {
   Executor& decoder;
   /// Readers that read large pages, and the next while they hand out one. What stalled readers keep
   /// is bounded by their number; reading a page costs several threads a turn, whatever its size.
-  Places ahead{16};
+  Places ahead{8};
 };
 
 /// Reads a log: the newest events from memory, older ones from the store. A reader that falls
