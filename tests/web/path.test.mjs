@@ -24,6 +24,14 @@ const points = (plot) => page.locator(`[data-plot="${plot}"]`).getAttribute('dat
 const ofAddress = (name) => new URL(page.url()).searchParams.get(name);
 const hold = (what) => until(what, what.toString());
 const stop = async (id) => { await server.call('CancelJob', {name: `jobs/${id}`}); await server.ended(id); };
+/** Times and forces of a curve of the force plot. */
+async function forcePoints(curve) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Contact force as CSV').click()]);
+  const chunks = [];
+  for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+  const rows = Buffer.concat(chunks).toString().split('\n').filter((row) => row.startsWith(`${curve},`));
+  return rows.map((row) => row.split(',').slice(1).map(Number));
+}
 
 test('an empty server leads to a first run from a template', async () => {
   await open('/');
@@ -82,13 +90,7 @@ test('a zoom asks the server again, and no peak is lost', async () => {
   const job = await server.ended(id);
   await open(`/runs/${id}`);
   await hold(async () => await points('force') > 1000);
-  const peak = async () => {
-    const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Contact force as CSV').click()]);
-    const chunks = [];
-    for await (const chunk of await download.createReadStream()) chunks.push(chunk);
-    const rows = Buffer.concat(chunks).toString().split('\n').filter((row) => row.startsWith('ball-wall,'));
-    return Math.max(...rows.map((row) => Number(row.split(',')[2])));
-  };
+  const peak = async () => Math.max(...(await forcePoints('ball-wall')).map(([, force]) => force));
   const {columns} = await server.call('GetSeries', {name: `jobs/${id}`, channels: ['ball-wall.contact_force'], decimation: 'RAW', endTimeS: 0.1});
   const recorded = Buffer.from(columns[1].values, 'base64');
   let largest = 0;
@@ -106,6 +108,26 @@ test('a zoom asks the server again, and no peak is lost', async () => {
   assert.equal(await peak(), largest);
   await page.getByRole('button', {name: 'All', exact: true}).click();
   assert.equal(ofAddress('from'), null);
+});
+
+test('zooms faster than the server answers end with the last window', async () => {
+  const id = await server.submit(CHAIN);
+  const job = await server.ended(id);
+  await open(`/runs/${id}`);
+  await hold(async () => await points('force') > 100);
+  let asked = 0;
+  await page.route('**/GetSeries', async (route) => {
+    ++asked;
+    await page.waitForTimeout(400);
+    await route.continue();
+  });
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('+');
+  const [from, to] = [Number(ofAddress('from')), Number(ofAddress('to'))];
+  assert.ok(to - from < 0.13 * job.summary.timeReachedS);
+  const inside = async () => (await forcePoints('B1-B2')).every(([time]) => time >= from && time <= to);
+  assert.equal(await inside(), false);
+  await hold(inside);
+  assert.equal(asked, 2);
 });
 
 test('one cursor reads all plots', async () => {
