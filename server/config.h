@@ -12,6 +12,7 @@
 #include "identity/identity_files.h"
 #include "jobs/cluster/shared_options.h"
 #include "jobs/job_manager.h"
+#include "launcher/launcher_options.h"
 #include "log.h"
 #include "rpc/grpc_server.h"
 #include "storage/store.h"
@@ -43,7 +44,7 @@ enum class ProcessRole {
   kAll,       ///< It answers calls and runs jobs.
   kFront,     ///< It answers calls.
   kWorker,    ///< It runs jobs.
-  kLauncher,  ///< It has a batch system start workers.
+  kLauncher,  ///< It starts workers.
 };
 
 /// The settings of contactd, checked.
@@ -77,6 +78,7 @@ struct Config {
   StoreOptions store;
   JobOptions jobs;
   GrpcServerOptions rpc;
+  launcher::LauncherOptions launcher;  ///< Of the role `launcher`.
 };
 
 }  // namespace contact

@@ -27,6 +27,9 @@ const std::map<std::string, ProcessRole> kRoles{{"all", ProcessRole::kAll},
 const std::map<std::string, LogFormat> kLogFormats{{"text", LogFormat::kText},
                                                    {"json", LogFormat::kJson}};
 
+const std::map<std::string, launcher::Engine> kEngines{{"exec", launcher::Engine::kExec},
+                                                       {"slurm", launcher::Engine::kSlurm}};
+
 // What the server is, apart from limits.
 void AddBasics(CLI::App* app, Config* config) {
   app->add_option("--listen", config->listen,
@@ -66,13 +69,14 @@ void AddTime(CLI::App* app, const std::string& name, Duration* value,
 void AddSharing(CLI::App* app, Config* config) {
   app->add_option("--role", config->role,
                   "With --store: all; front, which answers calls; worker, which runs jobs; or "
-                  "launcher, which has a batch system start workers")
+                  "launcher, which starts workers when jobs wait")
       ->transform(CLI::CheckedTransformer(kRoles))
       ->default_str("all");
   AddTime(app, "--lease", &config->shared.process.lease,
           "With --store: a worker that was not heard of for this time has lost its jobs");
   AddTime(app, "--exit-when-idle", &config->shared.exit_when_idle,
-          "A worker that has had no job for this time ends; 0 is never");
+          "A worker that has had no job for this time ends; 0 is never, and 5m for those that a "
+          "launcher starts");
   AddTime(app, "--stop-after", &config->stop_after,
           "A worker ends after this time, and hands its jobs back; 0 is never");
 }
@@ -260,6 +264,56 @@ void AddSpaceLimits(CLI::App* app, Config* config) {
             "left; 0: however full it is");
 }
 
+// Words that are passed on to another program.
+void AddWords(CLI::App* app, const char* name, std::vector<std::string>* words,
+              const char* description) {
+  app->add_option(name, *words, description)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+// What the role `launcher` starts, and how many.
+void AddLauncher(CLI::App* app, launcher::LauncherOptions* options) {
+  app->add_option("--launcher", options->engine,
+                  "What runs the workers that --role launcher starts: exec, this machine; or slurm")
+      ->transform(CLI::CheckedTransformer(kEngines))
+      ->default_str("exec");
+  AddNumber(app, "--min-workers", &options->limits.min_workers, 0, 1000,
+            "Worker processes that there are even if nothing waits");
+  AddNumber(app, "--max-workers", &options->limits.max_workers, 1, 1000,
+            "Worker processes at most");
+  AddNumber(app, "--worker-threads", &options->limits.threads, 1, 1024,
+            "Simulations that a worker process runs at once");
+  AddTime(app, "--launch-interval", &options->interval, "Time between two looks at what waits");
+  app->add_option("--worker-command", options->worker.command, "Program of a worker process")
+      ->default_str("this contactd");
+  AddWords(app, "--worker-option", &options->worker.options,
+           "Flag for worker processes, such as --max-memory=4GB; may be repeated");
+}
+
+// Why a text cannot be the job name of workers; empty if it can. To squeue a comma begins another.
+std::string CheckJobName(const std::string& name) {
+  const bool good = !name.empty() && name.find_first_of(", \t\n") == std::string::npos;
+  return good ? "" : "must be a word without commas";
+}
+
+// How the role `launcher` asks Slurm.
+void AddSlurm(CLI::App* app, launcher::SlurmOptions* slurm) {
+  app->add_option("--slurm-partition", slurm->partition, "Partition of the workers");
+  app->add_option("--slurm-account", slurm->account, "Account that pays for the workers");
+  AddTime(app, "--slurm-time", &slurm->time,
+          "Time limit of a worker, such as 4h, in whole minutes; 0 is that of the partition");
+  app->add_option("--slurm-job-name", slurm->job_name,
+                  "Job name of the workers; no other jobs of this user may have it")
+      ->check(CheckJobName)
+      ->capture_default_str();
+  app->add_option("--slurm-output", slurm->output,
+                  "File of a worker's log, where the compute nodes see it")
+      ->capture_default_str();
+  AddWords(app, "--slurm-option", &slurm->options,
+           "Word for sbatch, such as --mem=4G; may be repeated");
+}
+
 // What one job may use.
 void AddBudgets(CLI::App* app, JobOptions* jobs) {
   AddTime(app, "--max-wall-time", &jobs->max_budget.wall_time,
@@ -309,6 +363,8 @@ void AddFlags(CLI::App* app, Config* config, Switches* switches) {
   AddSpaceLimits(app, config);
   AddBudgets(app, &config->jobs);
   AddRetention(app, &config->jobs.retention);
+  AddLauncher(app, &config->launcher);
+  AddSlurm(app, &config->launcher.slurm);
 }
 
 }  // namespace contact

@@ -27,6 +27,7 @@
 #include "read_config.h"
 #include "rpc/grpc_log.h"
 #include "rpc/metrics/metrics_server.h"
+#include "run_launcher.h"
 #include "self_probe.h"
 #include "storage/postgres/postgres_store.h"
 #include "storage/sqlite/fsck.h"
@@ -352,6 +353,7 @@ int main(int argc, char** argv) {
   if (config.copy_store) return contact::CopyStores(config);
   if (config.migrate) return contact::MigrateStore(config);
   contact::SetUpLog(config.log_level, config.log_format);
+  if (config.role == contact::ProcessRole::kLauncher) return contact::RunLauncher(config, signals);
   contact::RouteGrpcLog();
   if (config.role == contact::ProcessRole::kWorker) return contact::Work(config, signals);
   return contact::Serve(config, signals);

@@ -207,14 +207,31 @@ void CheckStore(const Config& config) {
   if (config.shared.process.lease < std::chrono::seconds(1)) {
     refuse("--lease", "must be at least 1s");
   }
-  const bool ends = config.stop_after.count() > 0 || config.shared.exit_when_idle.count() > 0;
-  if (ends && config.role != ProcessRole::kWorker) {
-    refuse(config.stop_after.count() > 0 ? "--stop-after" : "--exit-when-idle",
-           "is for --role worker");
+  const bool worker = config.role == ProcessRole::kWorker;
+  if (config.stop_after.count() > 0 && !worker) refuse("--stop-after", "is for --role worker");
+  if (config.shared.exit_when_idle.count() > 0 && !worker &&
+      config.role != ProcessRole::kLauncher) {
+    refuse("--exit-when-idle", "is for --role worker and --role launcher");
   }
   if (config.fsck) refuse("fsck", "looks at directories; use pg_amcheck for a database");
   if (config.store.max_bytes > 0) {
     refuse("--max-stored-bytes", "is of --data-dir; the database of --store has its own limits");
+  }
+}
+
+// What the workers of a launcher are told. Throws CLI::ValidationError for settings that do not
+// belong together.
+void SettleLauncher(Config* config) {
+  launcher::LauncherOptions& options = config->launcher;
+  if (config->shared.exit_when_idle.count() > 0) {
+    options.worker.exit_when_idle =
+        std::chrono::ceil<std::chrono::seconds>(config->shared.exit_when_idle);
+  }
+  if (options.interval < std::chrono::milliseconds(100)) {
+    throw CLI::ValidationError("--launch-interval", "must be at least 100ms");
+  }
+  if (options.limits.min_workers > options.limits.max_workers) {
+    throw CLI::ValidationError("--min-workers", "is more than --max-workers");
   }
 }
 
@@ -241,6 +258,7 @@ void Finish(const Switches& switches, Config* config) {
   }
   CheckStore(*config);
   SettleShared(config);
+  SettleLauncher(config);
   if (!config->store_address.empty()) config->store.max_bytes = 0;
   if (config->store.max_bytes == kUnset) config->store.max_bytes = MostOfDisk(config->data_dir);
   SettleOwnerLimits(*config, &config->jobs.owner_limits);

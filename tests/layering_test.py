@@ -12,7 +12,8 @@ MOST_FILES = 35
 
 # The rooms of each folder; a room may include those before it. `.` is the files of the folder.
 ORDER = {
-    "server": ["base", "identity", "simulation", "wire", "storage", "jobs", "rpc", "gateway", "."],
+    "server": ["base", "identity", "simulation", "wire", "storage", "launcher", "jobs", "rpc",
+               "gateway", "."],
     "server/wire": ["rules", "scenario", "sweep", "."],
     "server/simulation": ["laws", "model", "motion", "episode", "forecast", "."],
     "server/storage": [".", "sqlite", "postgres"],

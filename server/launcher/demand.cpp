@@ -1,0 +1,27 @@
+#include "launcher/demand.h"
+
+#include <utility>
+
+namespace contact::launcher {
+
+absl::StatusOr<Demand> DemandReader::Read() {
+  if (absl::Status status = Connect(); !status.ok()) return status;
+  const auto rows =
+      connection_->Run(postgres::Statement{"SELECT queued, running FROM contactd.demand()"});
+  if (!rows.ok()) {
+    // Also one that stands: it may be half-way in an answer, or that of a standby.
+    if (absl::IsUnavailable(rows.status())) connection_.reset();
+    return rows.status();
+  }
+  if (rows->size() != 1) return absl::InternalError("contactd.demand() does not answer one row");
+  return Demand{.queued = rows->Integer(0, 0), .running = rows->Integer(0, 1)};
+}
+
+absl::Status DemandReader::Connect() {
+  if (connection_ && connection_->good()) return absl::OkStatus();
+  auto opened = postgres::Connection::Open(address_);
+  if (opened.ok()) connection_ = *std::move(opened);
+  return opened.status();
+}
+
+}  // namespace contact::launcher
