@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <utility>
 
@@ -23,12 +22,6 @@ std::string ShellWord(std::string_view word) {
   return quoted + "'";
 }
 
-// Whether it is the number of a job, such as 17, or 17_3 of an array.
-bool IsJob(std::string_view text) {
-  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0 &&
-         text.find_first_not_of("0123456789_") == std::string_view::npos;
-}
-
 // How long before the time limit Slurm sends SIGTERM; it may do so a minute earlier.
 std::chrono::seconds NoticeOf(const SlurmOptions& options) {
   constexpr std::chrono::seconds kNotice{60};
@@ -39,7 +32,7 @@ std::chrono::seconds NoticeOf(const SlurmOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> SbatchWords(const SlurmOptions& options, int threads, int count) {
+std::vector<std::string> SbatchWords(const SlurmOptions& options, int threads) {
   // B: without it Slurm sends the signal to job steps only. Requeued jobs would come back beside
   // those that replace them.
   std::vector<std::string> words = {"sbatch",
@@ -58,7 +51,6 @@ std::vector<std::string> SbatchWords(const SlurmOptions& options, int threads, i
   add("partition", options.partition);
   add("account", options.account);
   if (options.time.count() > 0) add("time", std::to_string(options.time.count()));
-  if (count > 1) add("array", fmt::format("1-{}", count));
   words.insert(words.end(), options.options.begin(), options.options.end());
   return words;
 }
@@ -67,7 +59,6 @@ std::vector<std::string> SqueueWords(const SlurmOptions& options) {
   return {"squeue",
           "--me",
           "--noheader",
-          "--array",
           "--name=" + options.job_name,
           "--states=PENDING,RUNNING,CONFIGURING",
           "--format=%i"};
@@ -86,7 +77,9 @@ absl::StatusOr<int> CountJobs(std::string_view answer) {
     answer.remove_prefix(std::min(line.size() + 1, answer.size()));
     line = line.substr(0, line.find_last_not_of(' ') + 1);
     if (line.empty()) continue;
-    if (!IsJob(line)) return absl::InternalError(fmt::format("squeue answers '{}'", line));
+    if (line.find_first_not_of("0123456789") != std::string_view::npos) {
+      return absl::InternalError(fmt::format("squeue answers '{}'", line));
+    }
     ++jobs;
   }
   return jobs;
@@ -96,8 +89,13 @@ SlurmFleet::SlurmFleet(Program worker, SlurmOptions options, int threads)
     : worker_(std::move(worker)), options_(std::move(options)), threads_(threads) {}
 
 absl::Status SlurmFleet::Start(int count) {
-  const Program sbatch{SbatchWords(options_, threads_, count), worker_.environment};
-  return OutputOf(sbatch, BatchScript(worker_.words)).status();
+  const Program sbatch{SbatchWords(options_, threads_), worker_.environment};
+  // No array: scancel takes the number of one of its jobs for all of them, or for none.
+  for (int i = 0; i < count; ++i) {
+    const auto output = OutputOf(sbatch, BatchScript(worker_.words));
+    if (!output.ok()) return output.status();
+  }
+  return absl::OkStatus();
 }
 
 absl::StatusOr<int> SlurmFleet::Count() {

@@ -26,9 +26,9 @@ class SlurmFleet final : public WorkerFleet {
   const int threads_;
 };
 
-/// The words of the sbatch that submits `count` workers; it reads its script from its input. Slurm
-/// sends SIGTERM a minute or two before the time limit.
-std::vector<std::string> SbatchWords(const SlurmOptions& options, int threads, int count);
+/// The words of the sbatch that submits a worker; it reads its script from its input. Slurm sends
+/// SIGTERM a minute or two before the time limit.
+std::vector<std::string> SbatchWords(const SlurmOptions& options, int threads);
 
 /// The words of the squeue that lists the workers, one a line.
 std::vector<std::string> SqueueWords(const SlurmOptions& options);

@@ -43,6 +43,8 @@ RUN_ELSEWHERE = {
     "$ contactd fsck": "tests/system/storage_test.py",
     "$ createdb contactd": "tests/system/stores_test.py",
     "$ pg_dump": "tests/system/stores_test.py",
+    "$ contactd --role launcher": "tests/launcher/slurm_test.py",
+    "$ squeue": "tests/launcher/slurm_test.py",
     "$ contactctl login": "tests/cli/verbs/login_test.py",
     "$ contactctl server token": "tests/cli/link/credentials_test.py",
 }

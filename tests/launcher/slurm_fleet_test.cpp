@@ -25,7 +25,7 @@ TEST(SbatchTest, AsksForWhatTheOptionsSay) {
   options.job_name = "mine";
   options.output = "/logs/%j";
   options.options = {"--mem=4G", "--output=/other"};
-  EXPECT_THAT(SbatchWords(options, 8, 1),
+  EXPECT_THAT(SbatchWords(options, 8),
               ElementsAre("sbatch", "--parsable", "--job-name=mine", "--nodes=1", "--ntasks=1",
                           "--cpus-per-task=8", "--signal=B:TERM@60", "--export=ALL", "--no-requeue",
                           "--output=/logs/%j", "--partition=all", "--account=lab", "--time=240",
@@ -33,20 +33,16 @@ TEST(SbatchTest, AsksForWhatTheOptionsSay) {
 }
 
 TEST(SbatchTest, LeavesToSlurmWhatNobodySaid) {
-  for (const char* flag : {"--partition", "--account", "--time", "--array"}) {
-    EXPECT_THAT(SbatchWords({}, 1, 1), Not(Contains(StartsWith(flag)))) << flag;
+  for (const char* flag : {"--partition", "--account", "--time"}) {
+    EXPECT_THAT(SbatchWords({}, 1), Not(Contains(StartsWith(flag)))) << flag;
   }
 }
 
 TEST(SbatchTest, NoticeComesWithinTheTimeLimit) {
   SlurmOptions options;
-  EXPECT_THAT(SbatchWords(options, 1, 1), Contains("--signal=B:TERM@60"));
+  EXPECT_THAT(SbatchWords(options, 1), Contains("--signal=B:TERM@60"));
   options.time = 1min;
-  EXPECT_THAT(SbatchWords(options, 1, 1), Contains("--signal=B:TERM@15"));
-}
-
-TEST(SbatchTest, SeveralWorkersAreOneSubmission) {
-  EXPECT_THAT(SbatchWords({}, 1, 3), Contains("--array=1-3"));
+  EXPECT_THAT(SbatchWords(options, 1), Contains("--signal=B:TERM@15"));
 }
 
 TEST(SbatchTest, ScriptBecomesTheWorkerWhateverItsWordsHold) {
@@ -59,15 +55,14 @@ TEST(SqueueTest, AsksForOwnJobsOfTheNameThatAreNotEnding) {
   SlurmOptions options;
   options.job_name = "mine";
   EXPECT_THAT(SqueueWords(options),
-              ElementsAre("squeue", "--me", "--noheader", "--array", "--name=mine",
+              ElementsAre("squeue", "--me", "--noheader", "--name=mine",
                           "--states=PENDING,RUNNING,CONFIGURING", "--format=%i"));
 }
 
 TEST(SqueueTest, CountsALineAJob) {
   EXPECT_EQ(CountJobs("").value(), 0);
   EXPECT_EQ(CountJobs("17\n").value(), 1);
-  EXPECT_EQ(CountJobs("17_1\n17_2  \n\n  18").status().code(), absl::StatusCode::kInternal);
-  EXPECT_EQ(CountJobs("17_1\n17_2  \n\n18").value(), 3);
+  EXPECT_EQ(CountJobs("17\n18  \n\n19").value(), 3);
 }
 
 TEST(SqueueTest, AnswerThatIsNoListIsRefused) {
