@@ -12,15 +12,15 @@ NAMES = ["base", *(f"overlays/{path.name}" for path in sorted((FOLDER / "overlay
 
 
 @functools.cache
-def _text(name):
-    return subprocess.run([tool("kubectl"), "kustomize", FOLDER / name], check=True, timeout=60,
+def _built(name):
+    text = subprocess.run([tool("kubectl"), "kustomize", FOLDER / name], check=True, timeout=60,
                           capture_output=True, text=True).stdout
+    return list(yaml.safe_load_all(text))
 
 
 def objects(name, *kinds):
     """The objects of base or an overlay, of these kinds or all."""
-    return [thing for thing in yaml.safe_load_all(_text(name))
-            if not kinds or thing["kind"] in kinds]
+    return [thing for thing in _built(name) if not kinds or thing["kind"] in kinds]
 
 
 def workloads(name):

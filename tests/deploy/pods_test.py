@@ -65,6 +65,8 @@ class PodTest(ServerTest):
         environ = environment(self.folder)
         subprocess.run([BINARY, *arguments("migrate", self.folder)], env=environ, check=True,
                        timeout=PATIENCE_S)
+        (self.folder / "state").mkdir()
+        (self.folder / "state").chmod(0o2777)  # An emptyDir.
         Authority(self.folder).issue("server", "DNS:localhost")
         (self.folder / "tokens").touch(mode=0o440)
         return Server(self.folder / "data", *arguments("front", self.folder),

@@ -1,0 +1,58 @@
+"""The image of deploy/container has nothing but contactd, which runs in it without any right."""
+
+import os
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import contactd
+from contactd import Job, Server, ServerTest, three_ball_chain
+from container import Containers, or_skip
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+IMAGE = "localhost/contactd-test"
+USER = 65532
+
+
+class ContainerTest(ServerTest):
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.mkdtemp(prefix="contact-image-")
+        cls.addClassCleanup(shutil.rmtree, folder, ignore_errors=True)
+        cls.containers = Containers(folder)
+        cls.addClassCleanup(cls.containers.stop)
+        or_skip("make images", lambda: cls.containers.run(cls.containers.buildah, "from", "scratch"))
+        cls.containers.run(ROOT / "deploy/container/build", IMAGE, os.environ["CONTACT_BUILD"])
+        program = cls.containers.program(IMAGE)
+        or_skip("run containers", lambda: cls.containers.run(program, "--version"))
+
+    def make_server(self):
+        """contactd in a container, which may write into the test's folder alone."""
+        os.chown(self.folder, USER, USER)
+        program = self.containers.program(IMAGE, f"--volume={self.folder}:{self.folder}")
+        self.addCleanup(setattr, contactd, "BINARY", contactd.BINARY)
+        contactd.BINARY = str(program)
+        return Server(self.folder / "data", environment=self.containers.environment)
+
+    def test_image_solves_the_papers_chain_and_ends_when_it_is_told(self):
+        self.assertEqual(self.server.run(three_ball_chain()).state, Job.SUCCEEDED)
+        self.assertEqual((self.folder / "data").stat().st_uid, USER)
+        code, seconds = self.server.terminate()
+        self.assertEqual(code, 0)
+        print(f"ended within {seconds:.1f} s")
+
+    def test_image_has_one_program_and_no_shell(self):
+        buildah = self.containers.buildah
+        container = self.containers.run(buildah, "from", IMAGE)
+        root = pathlib.Path(self.containers.run(buildah, "mount", container))
+        programs = [str(path.relative_to(root)) for path in root.rglob("*")
+                    if path.is_file() and path.stat().st_mode & 0o111 and ".so" not in path.name]
+        size = sum(path.stat().st_size for path in root.rglob("*") if path.is_file())
+        print(f"{size / 1e6:.1f} MB")
+        self.assertEqual(programs, ["usr/bin/contactd"])
+
+
+if __name__ == "__main__":
+    unittest.main()
