@@ -23,7 +23,8 @@ class ContainerTest(ServerTest):
         cls.addClassCleanup(shutil.rmtree, folder, ignore_errors=True)
         cls.containers = Containers(folder)
         cls.addClassCleanup(cls.containers.stop)
-        or_skip("make images", lambda: cls.containers.run(cls.containers.buildah, "from", "scratch"))
+        buildah = cls.containers.buildah
+        or_skip("make images", lambda: cls.containers.run(buildah, "from", "scratch"))
         cls.containers.run(ROOT / "deploy/container/build", IMAGE, os.environ["CONTACT_BUILD"])
         program = cls.containers.program(IMAGE)
         or_skip("run containers", lambda: cls.containers.run(program, "--version"))

@@ -6,7 +6,7 @@ import re
 import subprocess
 
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
-# Of the roles; while contactd has none, files may name these.
+# What the roles bring; while contactd lacks some, files may name all.
 OF_ROLES = {
     "--role", "--lease", "--exit-when-idle", "--stop-after", "--grant-front", "--grant-worker",
     "--launcher", "--min-workers", "--max-workers", "--worker-threads", "--launch-interval",
@@ -20,16 +20,19 @@ def _help(*words):
 
 
 @functools.cache
-def has_roles():
-    return "--role" in FLAG.findall(_help())
-
-
-@functools.cache
-def known():
+def existing():
     """All of the program and of its subcommands."""
     texts = [_help(), *map(_help, ("migrate", "copy-store", "fsck"))]
-    found = set(FLAG.findall("".join(texts)))
-    return found if has_roles() else found | OF_ROLES
+    return set(FLAG.findall("".join(texts)))
+
+
+def known():
+    """Those that a file may name."""
+    return existing() if OF_ROLES <= existing() else existing() | OF_ROLES
+
+
+def has_roles():
+    return "--role" in existing()
 
 
 def unknown(arguments):

@@ -66,7 +66,7 @@ class KustomizeTest(unittest.TestCase):
     def test_secrets_come_as_files(self):
         for _, (_, container) in each(containers):
             store = next(word for word in container["args"] if word.startswith("--store="))
-            self.assertEqual(store, "--store=postgresql://?service=contactd")
+            self.assertEqual(store, "--store=postgresql:///?service=contactd")
             self.assertEqual([variable["name"] for variable in container["env"]], ["PGSERVICEFILE"])
 
     def test_files_of_flags_are_in_a_volume(self):

@@ -13,7 +13,7 @@ import grpc
 from authority import Authority
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
 from contactd import BINARY, PATIENCE_S, Server, ServerTest, cluster
-from flags import has_roles
+from flags import existing, has_roles
 from kustomize import containers
 
 # Where pods find what secrets have, and what a test has in its folder.
@@ -31,7 +31,7 @@ def arguments(name, folder):
     words = [re.sub(r"=0\.0\.0\.0:\d+", "=127.0.0.1:0", word) for word in container(name)["args"]]
     for place, here in PLACES.items():
         words = [word.replace(place, str(folder / here)) for word in words]
-    return [word for word in words if has_roles() or not word.startswith(("--role", "--grant"))]
+    return [word for word in words if word.split("=")[0] in existing() or word[0] != "-"]
 
 
 def environment(folder):

@@ -42,6 +42,10 @@ class SystemdTest(unittest.TestCase):
         path.write_text(path.read_text().replace("/usr/bin/contactd", str(program)))
         return path.with_name(name.replace("@.", "@1."))
 
+    def exposure(self, name):
+        return analyze("security", "--offline=yes", f"--threshold={MOST_EXPOSURE}",
+                       self.unit(name))
+
     def test_systemd_takes_every_unit(self):
         for name in UNITS:
             done = analyze("verify", "--man=no", self.unit(name, os.environ["CONTACTD"]))
@@ -50,15 +54,13 @@ class SystemdTest(unittest.TestCase):
 
     def test_no_unit_is_exposed(self):
         for name in UNITS:
-            done = analyze("security", "--offline=yes", f"--threshold={MOST_EXPOSURE}", self.unit(name))
+            done = self.exposure(name)
             print(name, re.findall(r"exposure level for .*: (\S+)", done.stdout))
             self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_hardening_is_what_protects_them(self):
         shutil.rmtree(self.root / PLACE / "contactd-.service.d")
-        done = analyze("security", "--offline=yes", f"--threshold={MOST_EXPOSURE}",
-                       self.unit("contactd-front.service"))
-        self.assertNotEqual(done.returncode, 0, "the test sees no drop-ins")
+        self.assertNotEqual(self.exposure("contactd-front.service").returncode, 0)
 
     def test_settings_are_flags_of_contactd(self):
         for name in SETTINGS:
@@ -69,14 +71,15 @@ class SystemdTest(unittest.TestCase):
 
     def test_commands_have_flags_of_contactd_and_settings_that_are_installed(self):
         for name in UNITS:
-            command = re.search(r"^ExecStart=\S+ (.*)$", (DEBIAN / name).read_text(), re.M)[1].split()
+            start = re.search(r"^ExecStart=\S+ (.*)$", (DEBIAN / name).read_text(), re.M)
+            command = start[1].split()
             self.assertEqual(unknown(command), [], name)
             settings = pathlib.Path(command[command.index("--config") + 1])
             self.assertTrue((self.root / settings.relative_to("/")).exists(), settings)
 
     def test_front_names_the_credentials_that_it_is_given(self):
-        given = re.findall(r"^LoadCredential=([^:]+):", (DEBIAN / "contactd-front.service").read_text(),
-                           re.M)
+        unit = (DEBIAN / "contactd-front.service").read_text()
+        given = re.findall(r"^LoadCredential=([^:]+):", unit, re.M)
         named = re.findall(r"/run/credentials/contactd-front\.service/([\w.]+)",
                            (DEBIAN / "front.conf").read_text())
         self.assertEqual(set(given), {*named, "pg_service.conf"})
