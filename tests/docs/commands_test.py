@@ -17,10 +17,11 @@ import re
 import shutil
 import subprocess
 import unittest
+from unittest import mock
 
 import contactsim
 import matplotlib
-from contactd import PATIENCE_S, ServerTest
+from contactd import BINARY, PATIENCE_S, Server, ServerTest, cluster, three_ball_chain
 
 matplotlib.use("agg")
 ROOT = pathlib.Path(__file__).parents[2]
@@ -41,7 +42,14 @@ RUN_ELSEWHERE = {
     "for change in client.watch_jobs": "tests/python/client_test.py",
     "contactctl server backup": "tests/cli/verbs/backup_test.py",
     "$ contactd fsck": "tests/system/storage_test.py",
-    "$ createdb contactd": "tests/system/stores_test.py",
+    "$ createdb contactd\n$ contactd --store": "tests/system/stores_test.py",
+    "$ contactd --store": "tests/system/stores_test.py",
+    "$ createuser": "tests/deploy/pods_test.py",
+    "$ deploy/container/build": "tests/deploy/container_test.py",
+    "$ sudo install": "tests/deploy/systemd_test.py",
+    "$ kubectl": "tests/deploy/kustomize_test.py",
+    "$ pg_basebackup": "tests/deploy/failover_test.py",
+    "$ psql": "tests/deploy/failover_test.py",
     "$ pg_dump": "tests/system/stores_test.py",
     "$ contactd --role launcher": "tests/launcher/slurm_test.py",
     "$ squeue": "tests/launcher/slurm_test.py",
@@ -175,6 +183,19 @@ class CommandsTest(ServerTest):
 
     def test_julia_page(self):
         self.assertEqual(self.shell(ROOT / "client" / "julia.md"), 4)
+
+    def test_deploy_readme(self):
+        state = self.folder / "session/.local/state"
+        state.mkdir(parents=True)
+        laptop = Server(state / "contactd")
+        laptop.start().run(three_ball_chain())
+        laptop.terminate()
+        (self.folder / "session" / "contactd").symlink_to(BINARY)
+        here = {"PGHOST": str(cluster().folder), "PGUSER": "contactd",
+                "PATH": f"{cluster().bin}:{self.folder / 'session'}:{os.environ['PATH']}"}
+        with mock.patch.dict(os.environ, here):
+            self.assertEqual(self.shell(ROOT / "deploy" / "README.md"), 3)
+        self.assertEqual(cluster().run("SELECT count(*) FROM contactd.jobs", "contactd"), "1")
 
     def test_python_readme(self):
         self.assertGreater(self.python(ROOT / "client" / "python" / "README.md"), 10)

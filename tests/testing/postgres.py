@@ -41,10 +41,18 @@ class Cluster:
         if os.geteuid() == 0:
             user = pwd.getpwnam("postgres")
             os.chown(self.folder, user.pw_uid, user.pw_gid)
-        subprocess.run(_as_server([self.bin / "initdb", "-D", self.data, "-A", "trust", "-U",
-                                   "contactd", "-k", "-E", "UTF8", "--no-sync", "--locale=C"]),
-                       check=True, stdout=subprocess.DEVNULL, cwd=self.folder)
+        self.make_data()
         self.start()
+
+    def make_data(self):
+        """A new one without databases of ours, or what a derived class makes."""
+        self.call("initdb", "-D", self.data, "-A", "trust", "-U", "contactd", "-k", "-E", "UTF8",
+                  "--no-sync", "--locale=C")
+
+    def call(self, program, *arguments):
+        """Runs a program of PostgreSQL as the server's user."""
+        subprocess.run(_as_server([self.bin / program, *arguments]), check=True, cwd=self.folder,
+                       stdout=subprocess.DEVNULL)
 
     def start(self):
         """Starts the server, and waits until it answers."""
