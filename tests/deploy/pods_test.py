@@ -14,7 +14,7 @@ from authority import Authority
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
 from contactd import BINARY, PATIENCE_S, Server, ServerTest, cluster
 from flags import existing, has_roles
-from kustomize import containers
+from kustomize import containers, objects
 
 # Where pods find what secrets have, and what a test has in its folder.
 PLACES = {"/etc/contactd/tls/tls.crt": "server.pem", "/etc/contactd/tls/tls.key": "server.key",
@@ -83,6 +83,13 @@ class PodTest(ServerTest):
             stub = job_service_pb2_grpc.JobServiceStub(channel)
             self.assertFails(grpc.StatusCode.UNAUTHENTICATED, "UNAUTHENTICATED", stub.GetServerInfo,
                              job_service_pb2.GetServerInfoRequest(), timeout=PATIENCE_S)
+
+    def test_query_of_keda_counts_jobs(self):
+        if not has_roles():
+            self.skipTest("this contactd has no roles")
+        [scaler] = objects("overlays/keda", "ScaledObject")
+        [trigger] = scaler["spec"]["triggers"]
+        self.assertEqual(cluster().run(trigger["metadata"]["query"], DATABASE), "0")
 
     def metrics_port(self, log):
         """The port that the worker's log tells, once it does."""
