@@ -1,5 +1,5 @@
-"""The failover of deploy/README.md: the first server of two dies, the standby is promoted, and contactd,
-whose address names both, goes on with all that it has answered."""
+"""The failover of deploy/README.md: the first server of two dies, the standby is promoted, and
+contactd, whose address names both, goes on with all that it has answered."""
 
 import sys
 import time
@@ -24,8 +24,8 @@ class Standby(postgres.Cluster):
         super().__init__()
 
     def make_data(self):
-        self.call("pg_basebackup", "-D", self.data, "-R", "-C", "-S", "db_2", "--checkpoint=fast",
-                  "-d", f"host={self.first.folder} user=contactd application_name=db_2")
+        self.call("pg_basebackup", "-D", self.data, "-R", "-C", "-S", "db_2", "--no-sync",
+                  "--checkpoint=fast", "-d", f"host={self.first.folder} user=contactd application_name=db_2")
 
 
 def wait_for(what, happened):
@@ -43,6 +43,7 @@ class FailoverTest(ServerTest):
         self.first.create("jobs")
         self.second = Standby(self.first)
         self.addCleanup(self.second.stop)
+        self.addCleanup(self.second.kill)
         self.first.run("ALTER SYSTEM SET synchronous_standby_names = 'FIRST 1 (db_2)'")
         self.first.run("SELECT pg_reload_conf()")
         wait_for("a synchronous standby", lambda: "sync" == self.first.run(

@@ -1,5 +1,5 @@
-"""Two fronts behind nginx with the configuration of deploy/nginx, and one worker, over one database:
-a client notices neither which front answers nor that one is gone."""
+"""Two fronts behind nginx with the configuration of deploy/nginx, and one worker, over one
+database: a client notices neither which front answers nor that one is gone."""
 
 import os
 import pathlib
