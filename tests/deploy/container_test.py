@@ -31,7 +31,7 @@ class ContainerTest(ServerTest):
 
     def make_server(self):
         """contactd in a container, which may write into the test's folder alone."""
-        os.chown(self.folder, USER, USER)
+        self.folder.chmod(0o777)
         program = self.containers.program(IMAGE, f"--volume={self.folder}:{self.folder}")
         self.addCleanup(setattr, contactd, "BINARY", contactd.BINARY)
         contactd.BINARY = str(program)
@@ -39,7 +39,8 @@ class ContainerTest(ServerTest):
 
     def test_image_solves_the_papers_chain_and_ends_when_it_is_told(self):
         self.assertEqual(self.server.run(three_ball_chain()).state, Job.SUCCEEDED)
-        self.assertEqual((self.folder / "data").stat().st_uid, USER)
+        if os.geteuid() == 0:  # Otherwise it is a subordinate id of the user.
+            self.assertEqual((self.folder / "data").stat().st_uid, USER)
         code, seconds = self.server.terminate()
         self.assertEqual(code, 0)
         print(f"ended within {seconds:.1f} s")

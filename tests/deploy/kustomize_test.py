@@ -61,20 +61,24 @@ class KustomizeTest(unittest.TestCase):
 
     def test_arguments_are_flags_of_contactd(self):
         for _, (_, container) in each(containers):
-            self.assertEqual(unknown(container["args"]), [])
+            names = [variable["name"] for variable in container["env"]]
+            settings = [name.replace("CONTACTD_", "--", 1).replace("_", "-").lower()
+                        for name in names if name.startswith("CONTACTD_")]
+            self.assertEqual(unknown(container["args"] + settings), [])
 
     def test_secrets_come_as_files(self):
         for _, (_, container) in each(containers):
             store = next(word for word in container["args"] if word.startswith("--store="))
             self.assertEqual(store, "--store=postgresql:///?service=contactd")
-            self.assertEqual([variable["name"] for variable in container["env"]], ["PGSERVICEFILE"])
+            self.assertIn("PGSERVICEFILE", [variable["name"] for variable in container["env"]])
 
     def test_files_of_flags_are_in_a_volume(self):
         for _, (spec, container) in each(containers):
             volumes = {volume["name"] for volume in spec["volumes"]}
             mounts = {mount["mountPath"]: mount for mount in container["volumeMounts"]}
-            values = [word.split("=", 1)[1] for word in container["args"] if "=/" in word]
-            for value in values + [variable["value"] for variable in container["env"]]:
+            values = [variable["value"] for variable in container["env"]]
+            values += [word.split("=", 1)[1] for word in container["args"] if "=" in word]
+            for value in (value for value in values if value.startswith("/")):
                 self.assertTrue(value in mounts or value.rsplit("/", 1)[0] in mounts, value)
             self.assertLessEqual({mount["name"] for mount in mounts.values()}, volumes)
 
@@ -125,6 +129,15 @@ class KustomizeTest(unittest.TestCase):
                         if workload["metadata"]["name"] == scaler["spec"]["scaleTargetRef"]["name"]]
             self.assertEqual(labels(worker)["app.kubernetes.io/component"], "worker")
             self.assertNotIn("replicas", worker["spec"])  # Each apply would set it back.
+
+    def test_there_is_a_thread_and_a_processor_for_each_job_that_keda_sees(self):
+        [worker] = [container for _, container in containers("overlays/keda")
+                    if container["name"] == "worker"]
+        [threads] = [variable["value"] for variable in worker["env"]
+                     if variable["name"] == "CONTACTD_WORKERS"]
+        [scaler] = objects("overlays/keda", "ScaledObject")
+        self.assertEqual(scaler["spec"]["triggers"][0]["metadata"]["targetQueryValue"], threads)
+        self.assertEqual(worker["resources"]["requests"]["cpu"], threads)
 
     def test_emptying_a_node_takes_one_and_leaves_one(self):
         for name, budget in each(lambda name: objects(name, "PodDisruptionBudget")):

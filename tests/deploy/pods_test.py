@@ -3,6 +3,7 @@ the file of a secret, asks who calls, and answers the probes."""
 
 import http.client
 import os
+import pathlib
 import re
 import signal
 import subprocess
@@ -10,9 +11,11 @@ import time
 import unittest
 
 import grpc
+import yaml
 from authority import Authority
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
-from contactd import BINARY, PATIENCE_S, Server, ServerTest, cluster
+from contactd import (BINARY, PATIENCE_S, Job, Server, ServerTest, cluster,
+                      three_ball_chain)
 from flags import existing, has_roles
 from kustomize import containers, objects
 
@@ -20,25 +23,31 @@ from kustomize import containers, objects
 PLACES = {"/etc/contactd/tls/tls.crt": "server.pem", "/etc/contactd/tls/tls.key": "server.key",
           "/etc/contactd/tokens/tokens": "tokens", "/var/lib/contactd": "state"}
 DATABASE = "pods"
+COMPOSE = pathlib.Path(__file__).resolve().parents[2] / "deploy/compose.yml"
 
 
 def container(name):
     return next(found for _, found in containers("base") if found["name"] == name)
 
 
-def arguments(name, folder):
-    """Those of a container, with the places of this test, and on loopback only."""
-    words = [re.sub(r"=0\.0\.0\.0:\d+", "=127.0.0.1:0", word) for word in container(name)["args"]]
-    for place, here in PLACES.items():
-        words = [word.replace(place, str(folder / here)) for word in words]
+def here(words, folder):
+    """Arguments with the places of this test, and on loopback only."""
+    words = [re.sub(r"=0\.0\.0\.0:\d+", "=127.0.0.1:0", word) for word in words]
+    for place, file in PLACES.items():
+        words = [word.replace(place, str(folder / file)) for word in words]
     return [word for word in words if word.split("=")[0] in existing() or word[0] != "-"]
 
 
-def environment(folder):
-    """Of a pod: the secret says where the database is."""
+def arguments(name, folder):
+    return here(container(name)["args"], folder)
+
+
+def environment(name, folder):
+    """Of a container: the secret says where the database is."""
     service = folder / "pg_service.conf"
     service.write_text(f"[contactd]\nhost={cluster().folder}\nuser=contactd\ndbname={DATABASE}\n")
-    return {**os.environ, "PGSERVICEFILE": str(service)}
+    told = {variable["name"]: variable["value"] for variable in container(name)["env"]}
+    return {**os.environ, **told, "PGSERVICEFILE": str(service)}
 
 
 def status(name, probe, port):
@@ -62,7 +71,7 @@ class PodTest(ServerTest):
         for role in ("contactd_front", "contactd_worker"):
             cluster().run(f"DROP ROLE IF EXISTS {role}")
             cluster().run(f"CREATE ROLE {role}")
-        environ = environment(self.folder)
+        environ = environment("front", self.folder)
         subprocess.run([BINARY, *arguments("migrate", self.folder)], env=environ, check=True,
                        timeout=PATIENCE_S)
         (self.folder / "state").mkdir()
@@ -91,6 +100,16 @@ class PodTest(ServerTest):
         [trigger] = scaler["spec"]["triggers"]
         self.assertEqual(cluster().run(trigger["metadata"]["query"], DATABASE), "0")
 
+    def test_front_of_compose_runs_jobs_of_whoever_reaches_it(self):
+        if not has_roles():
+            self.skipTest("this contactd has no roles")
+        words = yaml.safe_load(COMPOSE.read_text())["services"]["front"]["command"]
+        front = Server(self.folder / "compose", *here(words, self.folder),
+                       environment=environment("front", self.folder), store="")
+        self.addCleanup(front.kill)
+        front.start()
+        self.assertEqual(front.create(three_ball_chain()).state, Job.QUEUED)
+
     def metrics_port(self, log):
         """The port that the worker's log tells, once it does."""
         end = time.monotonic() + PATIENCE_S
@@ -106,7 +125,7 @@ class PodTest(ServerTest):
         log = self.folder / "worker.log"
         with log.open("w") as out:
             worker = subprocess.Popen([BINARY, *arguments("worker", self.folder)], stderr=out,
-                                      stdout=out, env=environment(self.folder))
+                                      stdout=out, env=environment("worker", self.folder))
         self.addCleanup(worker.wait)
         self.addCleanup(worker.kill)
         port = self.metrics_port(log)
