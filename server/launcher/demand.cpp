@@ -6,8 +6,8 @@ namespace contact::launcher {
 
 absl::StatusOr<Demand> DemandReader::Read() {
   if (absl::Status status = Connect(); !status.ok()) return status;
-  const auto rows =
-      connection_->Run(postgres::Statement{"SELECT queued, running FROM contactd.demand()"});
+  const auto rows = connection_->Run(
+      postgres::Statement{"SELECT queued + cells, running FROM contactd.demand()"});
   if (!rows.ok()) {
     // Also one that stands: it may be half-way in an answer, or that of a standby.
     if (absl::IsUnavailable(rows.status())) connection_.reset();

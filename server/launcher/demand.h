@@ -13,7 +13,7 @@ namespace contact::launcher {
 
 /// What there is to do.
 struct Demand {
-  std::int64_t queued = 0;   ///< Jobs that wait for a worker.
+  std::int64_t queued = 0;   ///< Jobs that wait for a worker, and cells of sweeps that run.
   std::int64_t running = 0;  ///< Jobs that a worker has.
 };
 

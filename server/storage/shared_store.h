@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,34 @@ struct Demand {
   std::int64_t threads = 0;
 };
 
+/// Cells of a running sweep that its worker lets another one compute.
+struct Loan {
+  /// Name and epoch of the sweep's job.
+  std::string job;
+  std::uint64_t epoch = 0;
+  /// Tells it from the other loans of the same epoch.
+  std::int64_t number = 0;
+  /// First and last cell.
+  std::int32_t first = 0;
+  std::int32_t last = 0;
+};
+
+/// What came of a loan's cells.
+struct LoanCounts {
+  std::int32_t failed = 0;
+  std::int32_t not_converged = 0;
+  /// Integration steps.
+  std::int64_t steps = 0;
+};
+
+/// A loan that has come to an end.
+struct LoanEnd {
+  std::int64_t number = 0;
+  /// The cells are in the sweep's log; false: nobody computes them.
+  bool done = false;
+  LoanCounts counts = {};
+};
+
 /// What of its limits an owner has.
 struct OwnerCounts {
   std::int64_t jobs = 0;
@@ -98,6 +127,8 @@ struct Note {
     kCancel = 2,
     /// How far the run of the job is: `progress`.
     kProgress = 3,
+    /// Cells of the sweep wait for a worker.
+    kLoans = 4,
   };
   Kind kind = Kind::kChanged;
   std::string name;
@@ -121,6 +152,23 @@ class SharedStore : public Store {
   virtual void Claim(const JobClaim& claim, Callback<std::vector<StoredJob>> done) = 0;
   /// The worker ends: what it has and has not begun waits for another.
   virtual void Leave(const std::string& worker, Callback<bool> done) = 0;
+
+  /// Lends cells of sweeps that the worker runs. Of a loan `job`, `number` and the cells count.
+  virtual void Lend(const std::string& worker, const std::string& job,
+                    const std::vector<Loan>& loans, Callback<bool> done) = 0;
+  /// Which of the loans with these numbers have ended. Those of dead workers have; `back`: those
+  /// that nobody has taken, too.
+  virtual void SettleLoans(const std::string& worker, const std::string& job,
+                           const std::vector<std::int64_t>& numbers, bool back,
+                           Callback<std::vector<LoanEnd>> done) = 0;
+  /// Takes a loan of any sweep; a worker has one at a time. Nothing: there is none.
+  virtual void TakeLoan(const std::string& worker, Callback<std::optional<Loan>> done) = 0;
+  /// Appends the cells of a loan, as events, to the log of its sweep. ABORTED: they are not wanted
+  /// any more.
+  virtual void ReturnLoan(const std::string& worker, const Loan& loan, const LoanCounts& counts,
+                          absl::Span<const v1::Event> events, Callback<std::uint64_t> done) = 0;
+  /// Gives a loan back as it was.
+  virtual void RefuseLoan(const std::string& worker, const Loan& loan, Callback<bool> done) = 0;
 
   virtual void Count(Callback<Demand> done) = 0;
   virtual void CountOf(const JobOwner& whose, Callback<OwnerCounts> done) = 0;

@@ -23,8 +23,8 @@ CREATE SCHEMA contactd;
 CREATE TABLE contactd.stub(queued bigint, running bigint);
 INSERT INTO contactd.stub VALUES (0, 0);
 CREATE FUNCTION contactd.demand(OUT queued bigint, OUT running bigint, OUT workers bigint,
-                                OUT threads bigint)
-  LANGUAGE sql AS 'SELECT queued, running, 0::bigint, 0::bigint FROM contactd.stub'
+                                OUT threads bigint, OUT cells bigint)
+  LANGUAGE sql AS 'SELECT queued, running, 0::bigint, 0::bigint, 0::bigint FROM contactd.stub'
 """
 # Writes its words, environment and end to notes/PID; ends at SIGTERM, or when the file `leave` is there.
 WORKER = """#!/bin/sh

@@ -141,6 +141,78 @@ class ServingTest(ClusterTest):
                          three_ball_chain())
 
 
+def wide_sweep(cells, end_time_s=0.05):
+    """Cells of some milliseconds each."""
+    return scenario_pb2.Sweep(
+        base=spring_wall(end_time_s), metrics=["iterations"], axes=[scenario_pb2.Sweep.Axis(
+            field="contacts[0].restitution",
+            values=[0.7 + 0.2 * i / cells for i in range(cells)])])
+
+
+class SweepTest(ClusterTest):
+    """Cells of one sweep on several workers."""
+
+    def submit(self, front, sweep):
+        return front.stub.CreateJob(job_service_pb2.CreateJobRequest(job=Job(sweep=sweep)),
+                                    timeout=PATIENCE_S).name
+
+    def cells_of(self, events):
+        """What each cell gave, by number; each stands in the log once."""
+        cells = [e.sweep_cell for e in events if e.WhichOneof("payload") == "sweep_cell"]
+        found = {cell.index: to_bytes(cell) for cell in cells}
+        self.assertEqual(len(found), len(cells), "a cell was stored twice")
+        return found
+
+    def golden(self, sweep):
+        return self.cells_of(self.server.events(self.submit(self.server, sweep)))
+
+    def loans(self):
+        return int(self.shared.ask("SELECT count(*) FROM contactd.loans WHERE done"))
+
+    def test_idle_workers_compute_cells_of_a_sweep(self):
+        front, sweep = self.shared.front(), wide_sweep(160)
+        for _ in range(2):
+            self.shared.worker("--workers=1")
+        name = self.submit(front, sweep)
+        lent = wait_for(lambda: self.loans() > 0 or front.get(name).state in ENDED)
+        self.assertNotIn(front.get(name).state, ENDED, f"nothing was lent in {lent} s")
+        events = front.events(name)
+        self.assertWholeLog(events)
+        self.assertEqual(self.cells_of(events), self.golden(sweep))
+        job = front.get(name)
+        self.assertEqual((job.state, job.convergence), (Job.SUCCEEDED, Job.FULL))
+        self.assertEqual((job.progress.cells, job.progress.cells_done), (160, 160))
+
+    def test_cells_of_a_killed_borrower_and_of_a_killed_lender_are_computed_by_others(self):
+        front, sweep = self.shared.front(), wide_sweep(160)
+        workers = [self.shared.worker("--workers=1") for _ in range(3)]
+        name = self.submit(front, sweep)
+        wait_for(lambda: self.loans() > 0)
+        lender = self.shared.ask(f"SELECT worker FROM contactd.jobs WHERE name = '{name}'")
+        borrower = next(worker for worker in workers if f"job={name}" not in worker.log())
+        self.assertTrue(lender)
+        borrower.kill()
+        time.sleep(1.5 * LEASE_S)
+        next(worker for worker in workers if f"job={name}" in worker.log()).kill()
+        events = front.events(name)
+        self.assertWholeLog(events)
+        self.assertEqual(self.cells_of(events), self.golden(sweep))
+        self.assertEqual(front.get(name).progress.cells_done, 160)
+
+    def test_sweep_with_loans_is_cancelled_and_handed_back(self):
+        front = self.shared.front()
+        first, second = (self.shared.worker("--workers=1") for _ in range(2))
+        name = self.submit(front, wide_sweep(2000, end_time_s=0.5))
+        wait_for(lambda: self.loans() > 0)
+        owner = first if f"job={name}" in first.log() else second
+        self.assertEqual(owner.end()[0], 0)
+        wait_for(lambda: front.get(name).state == Job.RUNNING)
+        owner.start()
+        front.cancel(name)
+        self.assertLess(wait_for(lambda: front.get(name).state == Job.CANCELLED), 5)
+        self.assertWholeLog(front.events(name))
+
+
 class CancelTest(ClusterTest):
     def test_job_without_a_worker_is_cancelled(self):
         front = self.shared.front()

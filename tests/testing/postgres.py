@@ -55,7 +55,15 @@ class Cluster:
                        stdout=subprocess.DEVNULL)
 
     def start(self):
-        """Starts the server, and waits until it answers."""
+        """Starts the server, and waits until it answers. One that was killed leaves processes, which end
+        soon; until then it cannot start anew."""
+        for _ in range(50):
+            if self._try_start():
+                return
+            time.sleep(0.1)
+        raise RuntimeError("PostgreSQL does not start: " + (self.folder / "log").read_text()[-2000:])
+
+    def _try_start(self):
         options = [word for name, value in self.settings.items() for word in ("-c", f"{name}={value}")]
         with (self.folder / "log").open("ab") as log:
             self.process = subprocess.Popen(
@@ -64,11 +72,11 @@ class Cluster:
                 stdout=log, stderr=log, cwd=self.folder, start_new_session=True)
         for _ in range(600):
             if subprocess.run([self.bin / "pg_isready", "-q", "-h", self.folder], check=False).returncode == 0:
-                return
+                return True
             if self.process.poll() is not None:
                 break
             time.sleep(0.05)
-        raise RuntimeError("PostgreSQL does not start: " + (self.folder / "log").read_text())
+        return False
 
     @property
     def pid(self):

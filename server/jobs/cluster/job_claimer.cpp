@@ -45,10 +45,12 @@ JobClaimer::JobClaimer(SharedStore& store, const Clock& clock, const JobOptions&
       scheduler_(store, clock, options, feed, quotas_,
                  [this] {
                    const MutexLock lock(mutex_);
-                   job_left_ = true;
+                   woken_ = true;
                    rate_ += 1;
                    changed_.notify_all();
                  }),
+      lender_(store, process_.name, options.workers),
+      borrower_(store, clock, options, process_.name, scheduler_, [this] { Wake(); }),
       thread_([this](const std::stop_token& stop) { Loop(stop); }) {}
 
 JobClaimer::~JobClaimer() { Stop(); }
@@ -57,6 +59,29 @@ void JobClaimer::JobsWait() {
   const MutexLock lock(mutex_);
   jobs_wait_ = true;
   changed_.notify_all();
+}
+
+void JobClaimer::LoansWait() {
+  borrower_.LoansWait();
+  Wake();
+}
+
+void JobClaimer::Wake() {
+  const MutexLock lock(mutex_);
+  woken_ = true;
+  changed_.notify_all();
+}
+
+void JobClaimer::SetDemand(const Demand& demand) {
+  const MutexLock lock(mutex_);
+  demand_ = demand;
+}
+
+int JobClaimer::IdleElsewhere(const Jobs& jobs) const {
+  const MutexLock lock(mutex_);
+  const auto running = demand_.running - static_cast<std::int64_t>(jobs.size());
+  const std::int64_t idle = demand_.threads - process_.threads - std::max(running, std::int64_t{0});
+  return static_cast<int>(std::max(idle, std::int64_t{0}));
 }
 
 void JobClaimer::Cancel(const std::string& name) {
@@ -70,12 +95,13 @@ void JobClaimer::Loop(const std::stop_token& stop) {
     const Time now = clock_.Elapsed();
     BeatIfDue(now, jobs);
     ClaimIfUseful(now, jobs);
+    borrower_.Look(now);
     Look(now, jobs);
     const MutexLock lock(mutex_);
     changed_.wait_for(mutex_, stop, kLookTime, [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-      return (jobs_wait_ || job_left_) && !claiming_;
+      return woken_ || (jobs_wait_ && !claiming_);
     });
-    job_left_ = false;
+    woken_ = false;
   }
 }
 
@@ -191,7 +217,8 @@ void JobClaimer::Look(Time now, const Jobs& jobs) {
     rate_ /= 2;
   }
   TellProgress(now, jobs);
-  if (!jobs.empty() || last_busy_ == Time()) last_busy_ = now;
+  lender_.Look(now, scheduler_.sweeps(), IdleElsewhere(jobs));
+  if (!jobs.empty() || borrower_.busy() || last_busy_ == Time()) last_busy_ = now;
   if (shared_.exit_when_idle > 0ms && now - last_busy_ >= shared_.exit_when_idle &&
       !std::exchange(left_, true)) {
     spdlog::info("no job came for the time of --exit-when-idle");
@@ -220,6 +247,8 @@ void JobClaimer::Stop() {
   if (!thread_.joinable()) return;
   thread_.request_stop();
   thread_.join();
+  lender_.TakeBack();
+  borrower_.Stop();
   scheduler_.Stop();
   // After what the runs have stored last.
   Await<bool>([this](const auto& done) { store_.Flush([done] { done(true); }); });

@@ -13,6 +13,8 @@
 #include "base/clock.h"
 #include "base/mutex.h"
 #include "jobs/cluster/shared_options.h"
+#include "jobs/cluster/sweep_borrower.h"
+#include "jobs/cluster/sweep_lender.h"
 #include "jobs/log/job_feed.h"
 #include "jobs/quota/quotas.h"
 #include "jobs/schedule/scheduler.h"
@@ -31,6 +33,10 @@ class JobClaimer {
 
   /// Jobs wait, perhaps.
   void JobsWait();
+  /// Cells of sweeps wait, perhaps.
+  void LoansWait();
+  /// How much there is to do in all processes.
+  void SetDemand(const Demand& demand);
   /// Somebody wants the job cancelled, wherever it is.
   void Cancel(const std::string& name);
   /// Runs the jobs that this process has.
@@ -58,6 +64,10 @@ class JobClaimer {
   /// Counts worker time, tells how far the runs are, and finds out whether the process is idle.
   void Look(Time now, const Jobs& jobs);
   void TellProgress(Time now, const Jobs& jobs);
+  /// There is something to do.
+  void Wake();
+  /// Threads of other processes that have nothing to do.
+  int IdleElsewhere(const Jobs& jobs) const;
   /// Jobs more that this process could begin soon.
   int Wanted(const Jobs& jobs) const;
 
@@ -92,13 +102,16 @@ class JobClaimer {
   /// Notified when there is something to do.
   std::condition_variable_any changed_;
   bool jobs_wait_ ABSL_GUARDED_BY(mutex_) = true;
-  bool job_left_ ABSL_GUARDED_BY(mutex_) = false;
+  bool woken_ ABSL_GUARDED_BY(mutex_) = false;
+  Demand demand_ ABSL_GUARDED_BY(mutex_);
   bool claiming_ ABSL_GUARDED_BY(mutex_) = false;
   bool beating_ ABSL_GUARDED_BY(mutex_) = false;
   /// Jobs that have left of late; it counts half each tenth of a second later.
   double rate_ ABSL_GUARDED_BY(mutex_) = 0;
 
   Scheduler scheduler_;
+  SweepLender lender_;
+  SweepBorrower borrower_;
   std::jthread thread_;  // Last: it uses all of the above.
 };
 

@@ -51,6 +51,9 @@ void SharedJobs::Hear(const Note& note) {
     case Note::Kind::kCancel:
       if (claimer_) claimer_->Cancel(note.name);
       return;
+    case Note::Kind::kLoans:
+      if (claimer_) claimer_->LoansWait();
+      return;
     case Note::Kind::kProgress:
       return HearProgress(note);
   }
@@ -90,7 +93,10 @@ void SharedJobs::Ask() {
     const MutexLock lock(mutex_);
     demand_ = *demand;
   }
-  if (claimer_ && demand.ok() && demand->queued > 0) claimer_->JobsWait();
+  if (claimer_ && demand.ok()) {
+    claimer_->SetDemand(*demand);
+    if (demand->queued > 0) claimer_->JobsWait();
+  }
   ForgetOld();
 }
 

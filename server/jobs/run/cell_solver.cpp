@@ -67,6 +67,15 @@ void Fail(const std::string& reason, const std::string& message, v1::SweepCell* 
 
 }  // namespace
 
+std::vector<v1::Event> ToEvents(SolvedCell solved, std::chrono::system_clock::time_point now) {
+  std::vector<v1::Event> events;
+  for (v1::FrameChunk& chunk : solved.trajectory) {
+    *events.emplace_back(EventAt(now)).mutable_frame_chunk() = std::move(chunk);
+  }
+  *events.emplace_back(EventAt(now)).mutable_sweep_cell() = std::move(solved.cell);
+  return events;
+}
+
 CellSolver::CellSolver(const v1::Sweep& sweep, const DecodedSweep& plan, const JobOptions& options)
     : sweep_(sweep), plan_(plan), options_(options), fields_(sweep, &none_) {}
 

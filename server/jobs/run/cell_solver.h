@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -20,6 +21,9 @@ struct SolvedCell {
   /// Empty unless the sweep keeps the cell's trajectory.
   std::vector<v1::FrameChunk> trajectory;
 };
+
+/// The events of a computed cell, in the order of the log: what was kept of it, then the cell.
+std::vector<v1::Event> ToEvents(SolvedCell solved, std::chrono::system_clock::time_point now);
 
 /// What a thread does now and then while it computes a cell.
 struct Meanwhile {

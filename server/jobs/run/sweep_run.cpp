@@ -1,5 +1,6 @@
 #include "jobs/run/sweep_run.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace contact {
@@ -14,6 +15,7 @@ SweepRun::SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done, c
       control_(std::move(control)),
       sink_(std::move(sink)) {
   const MutexLock lock(mutex_);
+  waiting_ = static_cast<std::int32_t>(std::ranges::count(done_, false));
   SkipDone();
 }
 
@@ -34,6 +36,7 @@ std::optional<std::int32_t> SweepRun::Claim() {
   const MutexLock lock(mutex_);
   if (!HasWorkLocked()) return std::nullopt;
   ++begun_;
+  --waiting_;
   if (!left_.empty()) {
     const std::int32_t cell = left_.back();
     left_.pop_back();
@@ -46,9 +49,49 @@ std::optional<std::int32_t> SweepRun::Claim() {
 
 void SweepRun::Release(std::int32_t cell, bool computed) {
   const MutexLock lock(mutex_);
-  if (!computed) left_.push_back(cell);
+  if (!computed) {
+    left_.push_back(cell);
+    ++waiting_;
+  }
   --begun_;
   released_.notify_all();
+}
+
+std::optional<SweepRun::Cells> SweepRun::Lend(std::int32_t most) {
+  const MutexLock lock(mutex_);
+  const std::int32_t end = plan_.axes.cells();
+  if (next_ >= end || most < 1 || control_->stopping()) return std::nullopt;
+  Cells cells{next_, next_};
+  while (cells.count() < most && cells.last + 1 < end &&
+         !done_[static_cast<std::size_t>(cells.last + 1)]) {
+    ++cells.last;
+  }
+  next_ = cells.last + 1;
+  SkipDone();
+  begun_ += cells.count();
+  waiting_ -= cells.count();
+  return cells;
+}
+
+void SweepRun::PutBack(const Cells& cells) {
+  const MutexLock lock(mutex_);
+  for (std::int32_t cell = cells.first; cell <= cells.last; ++cell) left_.push_back(cell);
+  begun_ -= cells.count();
+  waiting_ += cells.count();
+  released_.notify_all();
+}
+
+void SweepRun::Returned(const CellCounts& counts) {
+  control_->CountSteps(counts.steps);
+  sink_.count(counts);
+  const MutexLock lock(mutex_);
+  begun_ -= counts.cells;
+  released_.notify_all();
+}
+
+std::int32_t SweepRun::waiting() const {
+  const MutexLock lock(mutex_);
+  return waiting_;
 }
 
 bool SweepRun::Work(std::chrono::milliseconds slice, const std::function<bool()>& leave) {

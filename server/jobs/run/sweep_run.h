@@ -18,6 +18,15 @@
 
 namespace contact {
 
+/// What became of cells that were computed elsewhere.
+struct CellCounts {
+  std::int32_t cells = 0;
+  std::int32_t failed = 0;
+  std::int32_t not_converged = 0;
+  /// Integration steps.
+  std::int64_t steps = 0;
+};
+
 /// A sweep while it runs: hands its cells out to the threads that compute them. Thread-safe.
 class SweepRun {
  public:
@@ -28,12 +37,30 @@ class SweepRun {
     std::function<void(SolvedCell)> store;
     /// Called now and then while a cell is computed.
     std::function<void()> write;
+    /// Counts cells that others have computed and stored.
+    std::function<void(const CellCounts&)> count = [](const CellCounts&) {};
   };
 
   /// Cells for which `done` is true have been computed before. Clock and options outlive the run.
   /// The sink must stay valid until every call of Work that has begun a cell has returned.
   SweepRun(v1::Sweep sweep, DecodedSweep plan, std::vector<bool> done, const Clock& clock,
            const JobOptions& options, std::shared_ptr<RunControl> control, Sink sink);
+
+  /// A range of cells.
+  struct Cells {
+    std::int32_t first;
+    std::int32_t last;
+    std::int32_t count() const { return last - first + 1; }
+  };
+  /// Gives away cells that nobody has begun, `most` at most: they count as begun until they are put
+  /// back or Returned. Nothing: there are none.
+  std::optional<Cells> Lend(std::int32_t most);
+  /// Cells that were lent come back as they were.
+  void PutBack(const Cells& cells);
+  /// Cells that were lent are in the log.
+  void Returned(const CellCounts& counts);
+  /// Cells that nobody has begun.
+  std::int32_t waiting() const;
 
   /// The control of the attempt that runs the sweep.
   const std::shared_ptr<RunControl>& control() const { return control_; }
@@ -75,6 +102,8 @@ class SweepRun {
   std::int32_t next_ ABSL_GUARDED_BY(mutex_) = 0;
   /// Cells that were begun and that the sink has not taken.
   int begun_ ABSL_GUARDED_BY(mutex_) = 0;
+  /// Cells that nobody has begun.
+  std::int32_t waiting_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace contact

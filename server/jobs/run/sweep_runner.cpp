@@ -42,7 +42,8 @@ Transition SweepRunner::Run(const v1::Sweep& sweep) {
     Publish();
   }
   const SweepRun::Sink sink{[this](SolvedCell solved) { TakeCell(std::move(solved)); },
-                            [this] { WriteIfDue(); }};
+                            [this] { WriteIfDue(); },
+                            [this](const CellCounts& counts) { TakeCounts(counts); }};
   const auto run = std::make_shared<SweepRun>(sweep, std::move(plan), std::move(done), clock_,
                                               options_, assignment_.control, sink);
   if (const RunControl::Hold hold(*assignment_.control); hold) assignment_.offer(run);
@@ -127,14 +128,9 @@ std::optional<SolvedCell> SweepRunner::NextFinished() {
 void SweepRunner::StoreCell(SolvedCell solved) {
   const v1::Job::State state = solved.cell.state();
   const v1::Job::Convergence convergence = solved.cell.convergence();
-  v1::Event event = EventAt(clock_.Now());
-  *event.mutable_sweep_cell() = std::move(solved.cell);
-  for (v1::FrameChunk& chunk : solved.trajectory) {
-    v1::Event frame = EventAt(clock_.Now());
-    *frame.mutable_frame_chunk() = std::move(chunk);
-    if (!writer_.Add(std::move(frame))) return;
+  for (v1::Event& event : ToEvents(std::move(solved), clock_.Now())) {
+    if (!writer_.Add(std::move(event))) return;
   }
-  if (!writer_.Add(std::move(event))) return;
   Count(state, convergence);
   const auto now = clock_.Elapsed();
   if (now - last_progress_ < kProgressTime) return;
@@ -142,9 +138,30 @@ void SweepRunner::StoreCell(SolvedCell solved) {
   Publish();
 }
 
+void SweepRunner::TakeCounts(const CellCounts& counts) {
+  const MutexLock lock(mutex_);
+  stored_.cells += counts.cells;
+  stored_.failed += counts.failed;
+  stored_.not_converged += counts.not_converged;
+}
+
+void SweepRunner::CountStored() {
+  CellCounts counts;
+  {
+    const MutexLock lock(mutex_);
+    counts = std::exchange(stored_, {});
+  }
+  if (counts.cells == 0) return;
+  progress_.set_cells_done(progress_.cells_done() + counts.cells);
+  progress_.set_cells_failed(progress_.cells_failed() + counts.failed);
+  progress_.set_cells_not_converged(progress_.cells_not_converged() + counts.not_converged);
+  Publish();
+}
+
 // Also a cell that was finished while another worker was here.
 void SweepRunner::WriteIfDue() {
   if (!log_mutex_.try_lock()) return;
+  CountStored();
   if (std::optional<SolvedCell> solved = NextFinished()) StoreCell(*std::move(solved));
   writer_.WriteIfDue();
   log_mutex_.unlock();
@@ -160,6 +177,7 @@ void SweepRunner::Publish() {
 Transition SweepRunner::Conclude(const std::vector<Violation>& advice) {
   const MutexLock lock(log_mutex_);
   StoreFinished();
+  CountStored();
   Publish();
   if (progress_.cells_done() < progress_.cells()) return {v1::Job::CANCELLED, reason::kUserRequest};
   const std::int32_t cells = progress_.cells(), failed = progress_.cells_failed();

@@ -54,6 +54,10 @@ class SweepRunner {
   void StoreFinished() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
   /// Adds a cell to the log, directly after the chunks of its trajectory.
   void StoreCell(SolvedCell solved) ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
+  /// Counts cells that others have stored in the log.
+  void TakeCounts(const CellCounts& counts);
+  /// Adds them to the progress.
+  void CountStored() ABSL_EXCLUSIVE_LOCKS_REQUIRED(log_mutex_);
   /// Writes what was handed to the log, unless another thread is at it.
   void WriteIfDue();
   /// Tells the progress to the record and to watchers.
@@ -78,6 +82,8 @@ class SweepRunner {
   Mutex mutex_ ABSL_ACQUIRED_AFTER(log_mutex_);
   /// Computed cells that are not in the log yet.
   std::deque<SolvedCell> finished_ ABSL_GUARDED_BY(mutex_);
+  /// Cells that others have stored, and that are not counted yet.
+  CellCounts stored_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace contact

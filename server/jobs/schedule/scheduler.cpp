@@ -321,7 +321,15 @@ Assignment Scheduler::Assign(Active& active) {
           active.log,
           active.record,
           active.control,
-          [this](const std::shared_ptr<SweepRun>& sweep) { Offer(sweep); },
+          [this, name = job.name()](const std::shared_ptr<SweepRun>& sweep) {
+            {
+              const MutexLock lock(mutex_);
+              if (const auto found = active_.find(name); found != active_.end()) {
+                found->second.sweep = sweep;
+              }
+            }
+            Offer(sweep);
+          },
           [this, name = job.name(), control = active.control] { Yield(name, *control); }};
 }
 
@@ -416,6 +424,20 @@ std::vector<Scheduler::Here> Scheduler::jobs() const {
                     .progress = active.record->Get(false).progress()});
   }
   return jobs;
+}
+
+std::vector<Scheduler::OwnSweep> Scheduler::sweeps() const {
+  const MutexLock lock(mutex_);
+  std::vector<OwnSweep> sweeps;
+  for (const auto& [name, active] : active_) {
+    if (auto run = active.sweep.lock()) sweeps.push_back({name, std::move(run)});
+  }
+  return sweeps;
+}
+
+int Scheduler::idle() const {
+  const MutexLock lock(mutex_);
+  return idle_ - turns_.waiting();
 }
 
 void Scheduler::CountOf(const JobOwner& whose,

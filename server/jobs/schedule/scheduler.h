@@ -83,6 +83,17 @@ class Scheduler final : public Unfinished {
   };
   std::vector<Here> jobs() const;
 
+  /// A sweep that runs here.
+  struct OwnSweep {
+    std::string job;
+    std::shared_ptr<SweepRun> run;
+  };
+  std::vector<OwnSweep> sweeps() const;
+  /// Has idle workers help with cells of a sweep that runs elsewhere.
+  void Help(const std::shared_ptr<SweepRun>& sweep) { Offer(sweep); }
+  /// Threads that neither run a job nor help.
+  int idle() const;
+
  private:
   /// A job that has not ended.
   struct Active {
@@ -98,6 +109,8 @@ class Scheduler final : public Unfinished {
     std::shared_ptr<const void> held;
     /// Null until a worker has the job.
     std::shared_ptr<RunControl> control;
+    /// Of a job that is a sweep and runs.
+    std::weak_ptr<SweepRun> sweep = {};
     /// Another worker has the job, in another process.
     bool lost = false;
     /// The run has ended, and its end could not be stored.

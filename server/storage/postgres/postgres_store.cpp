@@ -170,6 +170,49 @@ class PostgresStore : public SharedStore {
         std::move(done));
   }
 
+  void Lend(const std::string& worker, const std::string& job, const std::vector<Loan>& loans,
+            Callback<bool> done) override {
+    Post<bool>(
+        postgres::Lend(worker, job, loans),
+        [this, job](const Rows&) -> absl::StatusOr<bool> {
+          Tell({.kind = Note::Kind::kLoans, .name = job});
+          return true;
+        },
+        std::move(done));
+  }
+
+  void SettleLoans(const std::string& worker, const std::string& job,
+                   const std::vector<std::int64_t>& numbers, bool back,
+                   Callback<std::vector<LoanEnd>> done) override {
+    Post<std::vector<LoanEnd>>(postgres::SettleLoans(worker, job, numbers, back),
+                               postgres::LoanEndsOf, std::move(done));
+  }
+
+  void TakeLoan(const std::string& worker, Callback<std::optional<Loan>> done) override {
+    Post<std::optional<Loan>>(postgres::TakeLoan(worker), postgres::LoanOf, std::move(done));
+  }
+
+  void ReturnLoan(const std::string& worker, const Loan& loan, const LoanCounts& counts,
+                  absl::Span<const v1::Event> events, Callback<std::uint64_t> done) override {
+    const JobChange change = ToChange({.name = loan.job, .epoch = loan.epoch, .events = events});
+    Post<std::uint64_t>(
+        postgres::ReturnLoan(worker, loan, counts, change),
+        [this, job = loan.job, count = events.size()](const Rows& rows) {
+          auto first = postgres::Changed(rows, job);
+          if (first.ok()) {
+            Tell({.name = job, .tenant = rows.Bytes(0, 2), .last_sequence = *first + count - 1});
+          }
+          return first;
+        },
+        std::move(done));
+  }
+
+  void RefuseLoan(const std::string& worker, const Loan& loan, Callback<bool> done) override {
+    Post<bool>(
+        postgres::RefuseLoan(worker, loan),
+        [](const Rows&) -> absl::StatusOr<bool> { return true; }, std::move(done));
+  }
+
   void Count(Callback<Demand> done) override {
     Post<Demand>(postgres::Count(), postgres::DemandOf, std::move(done));
   }

@@ -95,6 +95,23 @@ CREATE TABLE contactd.workers(
   until timestamptz NOT NULL
 );
 
+-- Cells of a running sweep that its worker, under this epoch, lets others compute. `worker`: NULL while
+-- nobody has taken them, empty once the lender has them back.
+CREATE TABLE contactd.loans(
+  job bigint NOT NULL REFERENCES contactd.jobs ON DELETE CASCADE,
+  epoch bigint NOT NULL,
+  loan bigint NOT NULL,
+  first bigint NOT NULL,
+  last bigint NOT NULL,
+  worker text COLLATE "C",
+  done boolean NOT NULL DEFAULT false,
+  failed bigint NOT NULL DEFAULT 0,
+  not_converged bigint NOT NULL DEFAULT 0,
+  steps bigint NOT NULL DEFAULT 0,
+  PRIMARY KEY(job, epoch, loan)
+);
+CREATE INDEX loans_open ON contactd.loans(job, loan) WHERE worker IS NULL;
+
 -- Worker time of each owner [s], as of a moment; it counts half each minute later.
 CREATE TABLE contactd.used(
   worker text COLLATE "C" NOT NULL,
@@ -298,6 +315,7 @@ BEGIN
       first_of_change = j.last_sequence + 1
     WHERE j.number = v_job.number;
   IF a_end_time > 0 THEN
+    DELETE FROM contactd.loans l WHERE l.job = v_job.number;
     DELETE FROM contactd.checkpoints c WHERE c.job = v_job.number;
   ELSIF a_checkpoint IS NOT NULL THEN
     INSERT INTO contactd.checkpoints(job, sequence, crc32, state)

@@ -16,21 +16,6 @@ namespace {
 // Sequences from here on are not stored; the sum of one and a page stays a bigint.
 constexpr std::uint64_t kMostSequence = std::uint64_t{1} << 62;
 
-// The arrays of a log's new events. A row's place is its primary key, so its checksum has none.
-void AddEvents(const std::vector<EventRow>& events, Parameters* parameters) {
-  std::vector<std::int64_t> kinds, codings, sizes, checksums;
-  std::vector<const std::string*> payloads;
-  for (const auto& [kind, event] : events) {
-    kinds.push_back(kind);
-    codings.push_back(static_cast<std::int64_t>(event.coding));
-    sizes.push_back(static_cast<std::int64_t>(DecodedSize(event.coding, event.bytes)));
-    checksums.push_back(Checksum(event, 0));
-    payloads.push_back(&event.bytes);
-  }
-  parameters->Integers(kinds).Integers(codings).Integers(sizes).Integers(checksums);
-  parameters->Blobs(payloads).Integer(static_cast<std::int64_t>(BytesOf(events)));
-}
-
 // The job of a row whose columns from `first` on are kHeader.
 StoredJob HeaderOf(const Rows& rows, int row, int first = 0) {
   const auto column = [first](int place) { return first + place; };
@@ -88,6 +73,21 @@ absl::StatusOr<JobOwner> IfDone(const Rows& rows, const std::string& name) {
 const char kHeader[] =
     "number, name, state, epoch, cancel_requested, last_sequence, crc32, header, oldest_sequence,"
     " compacted, owner, tenant, request_id";
+
+// A row's place is its primary key, so its checksum has none.
+void AddEvents(const std::vector<EventRow>& events, Parameters* parameters) {
+  std::vector<std::int64_t> kinds, codings, sizes, checksums;
+  std::vector<const std::string*> payloads;
+  for (const auto& [kind, event] : events) {
+    kinds.push_back(kind);
+    codings.push_back(static_cast<std::int64_t>(event.coding));
+    sizes.push_back(static_cast<std::int64_t>(DecodedSize(event.coding, event.bytes)));
+    checksums.push_back(Checksum(event, 0));
+    payloads.push_back(&event.bytes);
+  }
+  parameters->Integers(kinds).Integers(codings).Integers(sizes).Integers(checksums);
+  parameters->Blobs(payloads).Integer(static_cast<std::int64_t>(BytesOf(events)));
+}
 
 Statement CreateJob(const JobInsert& job) {
   std::vector<std::string> keys, values;

@@ -19,6 +19,10 @@ namespace contact::postgres {
 /// The columns of a job's row that HeaderOf and JobsOf read.
 extern const char kHeader[];
 
+/// Adds new events of a log as arrays of kinds, codings, sizes, checksums and payloads, and their
+/// bytes.
+void AddEvents(const std::vector<EventRow>& events, Parameters* parameters);
+
 /// See Store::Create.
 Statement CreateJob(const JobInsert& job);
 absl::StatusOr<StoredJob> Created(const Rows& rows, const std::string& name);

@@ -124,15 +124,112 @@ BEGIN
   END LOOP;
 END $$;
 
--- How much there is to do, and who does it; what launchers and scalers ask.
+-- Lends cells of a sweep that the worker runs; each range has the number a_loans.
+CREATE OR REPLACE FUNCTION contactd.lend(
+  a_worker text, a_name text, a_loans bigint[], a_firsts bigint[], a_lasts bigint[])
+RETURNS void LANGUAGE sql AS $$
+  INSERT INTO contactd.loans(job, epoch, loan, first, last)
+  SELECT j.number, j.epoch, n.loan, n.first, n.last
+  FROM contactd.jobs j, unnest(a_loans, a_firsts, a_lasts) AS n(loan, first, last)
+  WHERE j.name = a_name AND j.worker = a_worker AND j.state = 2
+  ON CONFLICT DO NOTHING
+$$;
+
+-- The loan that the worker has, or else one that nobody has, of the oldest sweep.
+CREATE OR REPLACE FUNCTION contactd.take_loan(a_worker text)
+RETURNS TABLE(name text, epoch bigint, loan bigint, first bigint, last bigint)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_loan contactd.loans;
+BEGIN
+  SELECT l.* INTO v_loan FROM contactd.loans l
+    JOIN contactd.jobs j ON j.number = l.job AND j.epoch = l.epoch AND j.state = 2
+    WHERE l.worker = a_worker AND NOT l.done LIMIT 1;
+  IF NOT FOUND THEN
+    SELECT l.* INTO v_loan FROM contactd.loans l
+      JOIN contactd.jobs j ON j.number = l.job AND j.epoch = l.epoch AND j.state = 2
+      WHERE l.worker IS NULL ORDER BY l.job, l.loan LIMIT 1 FOR UPDATE OF l SKIP LOCKED;
+    IF NOT FOUND THEN RETURN; END IF;
+    UPDATE contactd.loans l SET worker = a_worker
+      WHERE l.job = v_loan.job AND l.epoch = v_loan.epoch AND l.loan = v_loan.loan;
+  END IF;
+  RETURN QUERY SELECT j.name, v_loan.epoch, v_loan.loan, v_loan.first, v_loan.last
+    FROM contactd.jobs j WHERE j.number = v_loan.job;
+END $$;
+
+-- Appends the cells of a loan to the log of its sweep. Outcomes: as of change_job; O, too, if the
+-- lender has them back.
+CREATE OR REPLACE FUNCTION contactd.return_loan(
+  a_worker text, a_name text, a_epoch bigint, a_loan bigint, a_failed bigint,
+  a_not_converged bigint, a_steps bigint, a_change bigint, a_kinds bigint[], a_codings bigint[],
+  a_sizes bigint[], a_crc32s bigint[], a_payloads bytea[], a_event_bytes bigint,
+  OUT outcome text, OUT first bigint, OUT job_tenant text)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_job bigint;
+  v_loan contactd.loans;
+BEGIN
+  SELECT j.number, j.tenant INTO v_job, job_tenant FROM contactd.jobs j
+    WHERE j.name = a_name FOR UPDATE;
+  SELECT l.* INTO v_loan FROM contactd.loans l
+    WHERE l.job = v_job AND l.epoch = a_epoch AND l.loan = a_loan AND l.worker = a_worker
+    FOR UPDATE;
+  IF NOT FOUND THEN
+    outcome := 'O';
+    RETURN;
+  ELSIF v_loan.done THEN  -- Sent again because the answer was lost.
+    outcome := 'D';
+    first := 1;
+    RETURN;
+  END IF;
+  SELECT c.outcome, c.first INTO outcome, first FROM contactd.change_job(a_name, a_epoch, a_change,
+    false, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, a_kinds, a_codings, a_sizes,
+    a_crc32s, a_payloads, a_event_bytes) c;
+  IF outcome = 'D' THEN
+    UPDATE contactd.loans l SET done = true, failed = a_failed, not_converged = a_not_converged,
+      steps = a_steps WHERE l.job = v_job AND l.epoch = a_epoch AND l.loan = a_loan;
+  END IF;
+END $$;
+
+-- A worker gives a loan back as it was.
+CREATE OR REPLACE FUNCTION contactd.refuse_loan(
+  a_worker text, a_name text, a_epoch bigint, a_loan bigint) RETURNS void LANGUAGE sql AS $$
+  UPDATE contactd.loans l SET worker = '' FROM contactd.jobs j
+    WHERE j.name = a_name AND l.job = j.number AND l.epoch = a_epoch AND l.loan = a_loan
+      AND l.worker = a_worker AND NOT l.done
+$$;
+
+-- Which of these loans have come to an end: done, or taken back because the worker is dead or, with
+-- a_back, because nobody has taken them.
+CREATE OR REPLACE FUNCTION contactd.settle_loans(
+  a_worker text, a_name text, a_loans bigint[], a_back boolean)
+RETURNS TABLE(loan bigint, done boolean, failed bigint, not_converged bigint, steps bigint)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_job contactd.jobs;
+BEGIN
+  SELECT j.* INTO v_job FROM contactd.jobs j
+    WHERE j.name = a_name AND j.worker = a_worker AND j.state = 2;
+  UPDATE contactd.loans l SET worker = ''
+    WHERE l.job = v_job.number AND l.epoch = v_job.epoch AND l.loan = ANY(a_loans) AND NOT l.done
+      AND CASE WHEN l.worker IS NULL THEN a_back ELSE NOT EXISTS(SELECT FROM contactd.workers w
+        WHERE w.name = l.worker AND w.until > clock_timestamp()) END;
+  RETURN QUERY SELECT l.loan, l.done, l.failed, l.not_converged, l.steps FROM contactd.loans l
+    WHERE l.job = v_job.number AND l.epoch = v_job.epoch AND l.loan = ANY(a_loans)
+      AND (l.done OR l.worker = '');
+END $$;
+
+-- How much there is to do, and who does it; what launchers and scalers ask. `cells`: of sweeps that
+-- run, which several workers can compute.
 CREATE OR REPLACE FUNCTION contactd.demand(
-  OUT queued bigint, OUT running bigint, OUT workers bigint, OUT threads bigint)
+  OUT queued bigint, OUT running bigint, OUT workers bigint, OUT threads bigint, OUT cells bigint)
 LANGUAGE sql STABLE AS $$
   SELECT
     (SELECT count(*) FROM contactd.jobs j WHERE j.state = 1 AND j.worker IS NULL),
     (SELECT count(*) FROM contactd.jobs j
       WHERE j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL)),
-    count(*), coalesce(sum(w.threads), 0)::bigint
+    count(*), coalesce(sum(w.threads), 0)::bigint,
+    (SELECT coalesce(sum(j.cells), 0)::bigint FROM contactd.jobs j WHERE j.state = 2)
   FROM contactd.workers w WHERE w.until > clock_timestamp()
 $$;
 

@@ -2,6 +2,8 @@
 
 #include <absl/strings/str_cat.h>
 
+#include <utility>
+
 #include "storage/postgres/statements.h"
 
 namespace contact::postgres {
@@ -59,6 +61,66 @@ Statement Claim(const JobClaim& claim) {
 
 Statement Leave(const std::string& worker) {
   return {"SELECT contactd.leave($1)", Parameters().Bytes(worker)};
+}
+
+Statement Lend(const std::string& worker, const std::string& job, const std::vector<Loan>& loans) {
+  std::vector<std::int64_t> numbers, firsts, lasts;
+  for (const Loan& loan : loans) {
+    numbers.push_back(loan.number);
+    firsts.push_back(loan.first);
+    lasts.push_back(loan.last);
+  }
+  return {"SELECT contactd.lend($1,$2,$3,$4,$5)",
+          Parameters().Bytes(worker).Bytes(job).Integers(numbers).Integers(firsts).Integers(lasts)};
+}
+
+Statement SettleLoans(const std::string& worker, const std::string& job,
+                      const std::vector<std::int64_t>& numbers, bool back) {
+  return {"SELECT loan, done, failed, not_converged, steps FROM contactd.settle_loans($1,$2,$3,$4)",
+          Parameters().Bytes(worker).Bytes(job).Integers(numbers).Boolean(back)};
+}
+
+absl::StatusOr<std::vector<LoanEnd>> LoanEndsOf(const Rows& rows) {
+  std::vector<LoanEnd> ends;
+  for (int row = 0; row < rows.size(); ++row) {
+    ends.push_back({rows.Integer(row, 0),
+                    rows.Integer(row, 1) != 0,
+                    {static_cast<std::int32_t>(rows.Integer(row, 2)),
+                     static_cast<std::int32_t>(rows.Integer(row, 3)), rows.Integer(row, 4)}});
+  }
+  return ends;
+}
+
+Statement TakeLoan(const std::string& worker) {
+  return {"SELECT name, epoch, loan, first, last FROM contactd.take_loan($1)",
+          Parameters().Bytes(worker)};
+}
+
+absl::StatusOr<std::optional<Loan>> LoanOf(const Rows& rows) {
+  if (rows.size() == 0) return std::nullopt;
+  return Loan{rows.Bytes(0, 0), Unsigned(rows, 0, 1), rows.Integer(0, 2),
+              static_cast<std::int32_t>(rows.Integer(0, 3)),
+              static_cast<std::int32_t>(rows.Integer(0, 4))};
+}
+
+Statement ReturnLoan(const std::string& worker, const Loan& loan, const LoanCounts& counts,
+                     const JobChange& change) {
+  Parameters parameters;
+  parameters.Bytes(worker).Bytes(loan.job).Integer(static_cast<std::int64_t>(loan.epoch));
+  parameters.Integer(loan.number).Integer(counts.failed).Integer(counts.not_converged);
+  parameters.Integer(counts.steps).Integer(static_cast<std::int64_t>(change.id));
+  AddEvents(change.events, &parameters);
+  return {"SELECT * FROM contactd.return_loan($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13,$14)",
+          std::move(parameters)};
+}
+
+Statement RefuseLoan(const std::string& worker, const Loan& loan) {
+  return {"SELECT contactd.refuse_loan($1,$2,$3,$4)",
+          Parameters()
+              .Bytes(worker)
+              .Bytes(loan.job)
+              .Integer(static_cast<std::int64_t>(loan.epoch))
+              .Integer(loan.number)};
 }
 
 Statement Count() { return {"SELECT queued, running, workers, threads FROM contactd.demand()"}; }

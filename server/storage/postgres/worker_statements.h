@@ -20,6 +20,17 @@ Statement Claim(const JobClaim& claim);
 
 Statement Leave(const std::string& worker);
 
+Statement Lend(const std::string& worker, const std::string& job, const std::vector<Loan>& loans);
+Statement SettleLoans(const std::string& worker, const std::string& job,
+                      const std::vector<std::int64_t>& numbers, bool back);
+absl::StatusOr<std::vector<LoanEnd>> LoanEndsOf(const Rows& rows);
+Statement TakeLoan(const std::string& worker);
+absl::StatusOr<std::optional<Loan>> LoanOf(const Rows& rows);
+/// The answer is read by Changed.
+Statement ReturnLoan(const std::string& worker, const Loan& loan, const LoanCounts& counts,
+                     const JobChange& change);
+Statement RefuseLoan(const std::string& worker, const Loan& loan);
+
 Statement Count();
 absl::StatusOr<Demand> DemandOf(const Rows& rows);
 
