@@ -12,7 +12,8 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "testing"))
-import postgres  # pylint: disable=wrong-import-position
+import postgres
+import slurm
 
 BINARY = os.environ["CONTACTD"]
 PATIENCE_S = 60
@@ -92,10 +93,42 @@ class LauncherTest(unittest.TestCase):
         return [path.read_text() for path in (self.folder / "notes").iterdir()
                 if path.suffix != ".new"]
 
-    def wait_for(self, done, why):
+    def wait_for(self, done, why, patience_s=PATIENCE_S, every_s=0.1):
         """Waits until `done` answers something true, and returns that."""
-        deadline = time.monotonic() + PATIENCE_S
+        deadline = time.monotonic() + patience_s
         while not (found := done()):
             self.assertLess(time.monotonic(), deadline, f"{why}\n{self.log()}")
-            time.sleep(0.05)
+            time.sleep(every_s)
         return found
+
+
+@unittest.skipIf(slurm.MISSING, f"{', '.join(slurm.MISSING)} not here; deploy/setup installs Slurm")
+class SlurmLauncherTest(LauncherTest):
+    """A test whose workers are jobs of a Slurm, `self.slurm`, of the job name `self.name`."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.slurm = slurm.Slurm()
+        cls.addClassCleanup(cls.slurm.stop)
+        cls.environment = cls.slurm.environment
+
+    def setUp(self):
+        super().setUp()
+        self.name = self._testMethodName
+
+    def launch(self, *flags, store=None):
+        self.addCleanup(self.slurm.run, "scancel", f"--name={self.name}")
+        return super().launch("--launcher=slurm", f"--slurm-job-name={self.name}",
+                              f"--slurm-output={self.folder}/worker-%j.log", *flags, store=store)
+
+    def jobs(self, *states):
+        """Numbers of the jobs of this test, all or those in one of the states."""
+        jobs = self.slurm.jobs(self.name)
+        return [number for number, state in jobs.items() if not states or state in states]
+
+    def wait_for_workers(self, count):
+        """Waits until so many run, and no job is left beside them; returns their numbers."""
+        return self.wait_for(
+            lambda: len(self.jobs("RUNNING")) == len(self.jobs()) == count and self.jobs("RUNNING"),
+            f"there are not {count} workers")

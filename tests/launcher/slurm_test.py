@@ -3,39 +3,10 @@
 import time
 import unittest
 
-from launching import LauncherTest
-import slurm  # Of tests/testing, which launching has found.
+from launching import SlurmLauncherTest
 
 
-@unittest.skipIf(slurm.MISSING, f"{', '.join(slurm.MISSING)} not here; deploy/setup installs Slurm")
-class SlurmTest(LauncherTest):
-
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.slurm = slurm.Slurm()
-        cls.addClassCleanup(cls.slurm.stop)
-        cls.environment = cls.slurm.environment
-
-    def setUp(self):
-        super().setUp()
-        self.name = f"worker-{self._testMethodName}"
-
-    def launch(self, *flags, store=None):
-        self.addCleanup(self.slurm.run, "scancel", f"--name={self.name}")
-        return super().launch("--launcher=slurm", f"--slurm-job-name={self.name}",
-                              f"--slurm-output={self.folder}/worker-%j.log", *flags, store=store)
-
-    def jobs(self, *states):
-        """Numbers of the jobs of this test, all or those in one of the states."""
-        jobs = self.slurm.jobs(self.name)
-        return [number for number, state in jobs.items() if not states or state in states]
-
-    def wait_for_workers(self, count):
-        """Waits until so many run, and no job is left beside them; returns their numbers."""
-        return self.wait_for(
-            lambda: len(self.jobs("RUNNING")) == len(self.jobs()) == count and self.jobs("RUNNING"),
-            f"there are not {count} workers")
+class SlurmTest(SlurmLauncherTest):
 
     def test_slurm_itself_runs_a_job(self):
         self.assertEqual(len(self.slurm.run("srun", "-N2", "hostname").splitlines()), 2)
