@@ -20,8 +20,9 @@ absl::StatusOr<Demand> DemandReader::Read() {
 absl::Status DemandReader::Connect() {
   if (connection_ && connection_->good()) return absl::OkStatus();
   auto opened = postgres::Connection::Open(address_);
-  if (opened.ok()) connection_ = *std::move(opened);
-  return opened.status();
+  if (!opened.ok()) return opened.status();
+  connection_ = *std::move(opened);
+  return absl::OkStatus();
 }
 
 }  // namespace contact::launcher

@@ -1,10 +1,11 @@
 """The launcher with workers that are processes of this machine."""
 
 import os
+import subprocess
 import time
 import unittest
 
-from launching import LauncherTest
+from launching import BINARY, PATIENCE_S, LauncherTest
 
 
 class ExecTest(LauncherTest):
@@ -77,6 +78,13 @@ class ExecTest(LauncherTest):
         time.sleep(3)
         self.assertLess(len(self.notes()), 8)
         self.assertEqual(self.log().count("soon after their start"), 1)
+
+    def test_settings_that_do_not_belong_together_are_refused(self):
+        for flag in ("--store=", "--min-workers=2", "--launch-interval=0", "--slurm-job-name=a,b"):
+            run = subprocess.run([BINARY, "--role=launcher", "--store=postgresql:///x", flag],
+                                 capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn(flag.split("=")[0], run.stdout + run.stderr)
 
     def test_without_a_database_the_launcher_says_so(self):
         self.assertEqual(self.launch(store="postgresql:///x?host=/nowhere"), "")

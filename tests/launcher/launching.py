@@ -27,7 +27,8 @@ CREATE FUNCTION contactd.demand(OUT queued bigint, OUT running bigint, OUT worke
                                 OUT threads bigint, OUT cells bigint)
   LANGUAGE sql AS 'SELECT queued, running, 0::bigint, 0::bigint, 0::bigint FROM contactd.stub'
 """
-# Writes its words, environment and end to notes/PID; ends at SIGTERM, or when the file `leave` is there.
+# Writes its words, environment and end to notes/PID; ends at SIGTERM, or when the file `leave` is
+# there.
 WORKER = """#!/bin/sh
 note="{folder}/notes/$$"
 {{ echo "words $*"; env; }} > "$note.new"

@@ -1,4 +1,4 @@
-"""The launcher with a whole Slurm on this machine: workers come, go and are replaced as its jobs."""
+"""The launcher with a whole Slurm on this machine, whose jobs the workers are."""
 
 import time
 import unittest

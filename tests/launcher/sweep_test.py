@@ -59,7 +59,7 @@ class SweepTest(SlurmLauncherTest):
         self.worker = BINARY
         self.launch("--max-workers=2", "--worker-threads=2", "--launch-interval=2s",
                     "--slurm-time=1m", "--exit-when-idle=5s",
-                    *(f"--worker-option={flag}" for flag in UNLIMITED), "--worker-option=--lease=3s")
+                    *(f"--worker-option={flag}" for flag in (*UNLIMITED, "--lease=3s")))
 
     def watch_first_cell(self, front, name, start):
         front.wait_until(name, is_cell)

@@ -1,5 +1,5 @@
-"""A whole Slurm of its own for tests: munge, a controller and two nodes with two cores each, on free
-ports of this machine, in a new folder of /tmp. It ends itself after an hour.
+"""A whole Slurm of its own for tests: munge, a controller and two nodes with two cores each, on
+free ports of this machine, in a new folder of /tmp. It ends itself after an hour.
 
 Anybody may run it; then all its jobs are that one's."""
 
@@ -79,7 +79,8 @@ class Slurm:
         key.write_bytes(os.urandom(1024))
         key.chmod(0o400)
         self._spawn("munged", "--foreground", "--force", f"--key-file={key}",
-                    *(f"--{name}-file={self.folder}/munge.{name}" for name in ("pid", "log", "seed")),
+                    f"--pid-file={self.folder}/munge.pid", f"--log-file={self.folder}/munge.log",
+                    f"--seed-file={self.folder}/munge.seed",
                     f"--socket={self.folder}/munge.socket")
         self._await(lambda: (self.folder / "munge.socket").exists(), "munged does not answer")
         self._spawn("slurmctld", "-D")
