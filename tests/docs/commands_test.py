@@ -42,7 +42,7 @@ RUN_ELSEWHERE = {
     "for change in client.watch_jobs": "tests/python/client_test.py",
     "contactctl server backup": "tests/cli/verbs/backup_test.py",
     "$ contactd fsck": "tests/system/storage_test.py",
-    "$ createdb contactd\n$ contactd --store": "tests/system/stores_test.py",
+    "$ createdb contactd": "tests/system/stores_test.py",
     "$ contactd --store": "tests/system/stores_test.py",
     "$ createuser": "tests/deploy/pods_test.py",
     "$ deploy/container/build": "tests/deploy/container_test.py",
