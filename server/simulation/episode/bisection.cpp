@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/laws/isolated_collision.h"
+
 namespace contact {
 namespace {
 
@@ -10,6 +12,9 @@ namespace {
 constexpr double kRoot = 1e-4;
 // Relative error of the passes that only look; those that decide are as exact as the scenario asks.
 constexpr double kCoarse = 1e-6;
+// Where the group was nearer than this its root is looked for nearby, so much further off than an
+// isolated collision has it, as a power.
+constexpr double kClose = 0.5, kBeyond = 1.5;
 constexpr double kGrow = 4;  // Factor between two μ in search of a bracket.
 constexpr int kMostGrows = 12;
 // A scan begins at this part of the first guess, goes on by this factor, so often at most.
@@ -27,6 +32,8 @@ constexpr double kNarrow = 1e-6, kApart = 3e-3;
 constexpr double kCreeps = 0.05, kSteeper = 4;
 // coarse passes tell no more of a jump than this,
 constexpr double kBlurred = 1e-3;
+// troughs that are so far apart, in durations of the group, are two,
+constexpr double kElsewhere = 0.05;
 // and one so narrow has no root whatever is in it.
 constexpr double kNarrowest = 1e-11;
 // How much longer than before a trial may last, in durations of the group.
@@ -47,6 +54,7 @@ Bisection::Point Bisection::At(double mu, bool slope) {
     point.excess = seen->squared / square - 1;
     if (seen->column != kNone) point.slope = seen->SlopeOfSquare() / square;
     point.most = problem_.MostMu(*seen);
+    point.end = seen->end_time;
   } else {
     point.ended = false;
   }
@@ -65,8 +73,9 @@ Root Bisection::Finish(Root root) {
   return root;
 }
 
-Root Bisection::Solve(const GroupSight& group) {
+Root Bisection::Solve(const GroupSight& group, bool sharply) {
   group_ = group;
+  sharply_ = sharply;
   until_ = group.end_time + kLonger * (group.end_time - group.start_time);
   coarse_ = true;
   const Root root = Exactly(Look());
@@ -85,7 +94,7 @@ Root Bisection::Exactly(Root root) {
 bool Bisection::Scan(const GroupSight& group) {
   group_ = group;
   until_ = kForever;
-  coarse_ = true;
+  coarse_ = sharply_ = true;
   const Unknown kept = problem_.groups.At(group.id);
   Point last = At(0);
   double mu = kLowest * (kept.first_mu > 0 ? kept.first_mu : group.mu);
@@ -126,7 +135,9 @@ Root Bisection::Look() {
   if (problem_.Aborted()) return Root::kAborted;
   if (std::abs(first.excess) < kRoot) return Root::kFound;
   Keep(first);
-  const Root bracket = Bracket();
+  Approach(first);
+  if (problem_.Aborted()) return Root::kAborted;
+  const Root bracket = more_.there && less_.there ? Root::kFound : Bracket();
   return bracket == Root::kFound && more_.there && less_.there ? Narrow() : bracket;
 }
 
@@ -165,9 +176,25 @@ void Bisection::Keep(const Point& point) {
 bool Bisection::HasNone() const {
   const double width = std::abs(less_.mu - more_.mu), mu = std::max(less_.mu, more_.mu);
   if (!less_.ended && width <= kCreeps * mu) return more_.excess > kSteeper * fall_ * width;
-  if (coarse_ && width <= kBlurred * mu) return true;
+  if (width <= kBlurred * mu && (coarse_ || (!sharply_ && PartsTroughs()))) return true;
   const bool apart = more_.excess > kApart && less_.excess < -kApart;
   return width <= (apart ? kNarrow : kNarrowest) * mu;
+}
+
+// Whether the group ends at different troughs on the two sides, so that what is between is a jump.
+bool Bisection::PartsTroughs() const {
+  const double end = std::max(less_.end, more_.end);
+  return less_.ended && std::abs(less_.end - more_.end) > kElsewhere * (end - group_.start_time);
+}
+
+// Looks beyond a root that is near, where an isolated collision would have it: A(ε) falls as 1/μ.
+void Bisection::Approach(const Point& first) {
+  if (!first.ended || first.mu == 0 || std::abs(first.excess) > kClose) return;
+  const double in = group_.restitution_in, out = in * std::sqrt(1 + first.excess);
+  if (out >= 1) return;
+  const double ratio = ExactCoefficient(in) / ExactCoefficient(out);
+  const Point beyond = At(first.mu * std::pow(ratio, kBeyond));
+  if (beyond.there) Keep(beyond);
 }
 
 // Looks for what the first point lacks: more at μ = 0, less at ever larger μ. What gives back too
@@ -199,17 +226,22 @@ Root Bisection::Bracket() {
   return less_.there ? Root::kFound : Root::kTooMuch;
 }
 
-// Regula falsi and halving in turn.
+// Regula falsi, with ever less weight for a side that stays, and halving every third time.
 Root Bisection::Narrow() {
+  double weight_of_less = 1;
+  bool was_more = false;
   for (int i = 0; i < kHalvings && !HasNone(); ++i) {
     const double width = less_.mu - more_.mu;
-    const double weight = more_.excess / (more_.excess - less_.excess);
+    const double weight = more_.excess / (more_.excess - weight_of_less * less_.excess);
     const bool far = more_.mu > 0 && less_.mu > 10 * more_.mu;
     const double half = far ? std::sqrt(more_.mu * less_.mu) : more_.mu + 0.5 * width;
-    const bool linear = i % 2 == 0 && !far && less_.ended;
+    const bool linear = i % 3 != 2 && !far && less_.ended;
     const Point point = At(linear ? more_.mu + weight * width : half);
     if (problem_.Aborted()) return Root::kAborted;
     if (std::abs(point.excess) < kRoot) return Root::kFound;
+    const bool more = point.excess > 0;
+    weight_of_less = i == 0 || more != was_more ? 1 : weight_of_less * (more ? 0.5 : 2);
+    was_more = more;
     Keep(point);
   }
   const bool more_is_nearer = !less_.ended || more_.excess < -less_.excess;

@@ -20,7 +20,8 @@ class Bisection {
  public:
   explicit Bisection(Problem& problem) : problem_(problem) {}
 
-  Root Solve(const GroupSight& group);
+  /// `sharply`: a jump is to be told as narrowly as it can be; else it is enough that it is one.
+  Root Solve(const GroupSight& group, bool sharply);
   /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
   /// none need not be the only one. Sets its μ to the root.
   bool Scan(const GroupSight& group);
@@ -31,6 +32,7 @@ class Bisection {
     double excess = 0;  // ε_out²/ε_in² − 1; of what does not end −1.
     double slope = 0;   // Of the excess, by μ; 0: unknown.
     double most = 0;    // See Problem::MostMu.
+    double end = 0;     // Of the group [s].
     bool there = true;
     bool ended = true;
   };
@@ -41,7 +43,9 @@ class Bisection {
   bool Confirmed(Root root);
   bool Holds();
   bool HasNone() const;
+  bool PartsTroughs() const;
   Root Bracket();
+  void Approach(const Point& first);
   Root Narrow();
   void Keep(const Point& point);
   Root Finish(Root root);
@@ -50,8 +54,9 @@ class Bisection {
   GroupSight group_;    // As first seen.
   double until_ = 0;    // What has not ended then is open [s].
   bool coarse_ = true;  // Passes only look.
-  Point more_, less_;   // Nearest μ with too much, too little.
-  double fall_ = 0;     // Of what is too much, over the last change of its μ.
+  bool sharply_ = true;
+  Point more_, less_;  // Nearest μ with too much, too little.
+  double fall_ = 0;    // Of what is too much, over the last change of its μ.
 };
 
 }  // namespace contact

@@ -9,9 +9,12 @@
 namespace contact {
 namespace {
 
-// Bisections of all groups of a front, one by one, between which Newton's method begins anew; after
-// as many the front makes no progress.
-constexpr int kSweeps = 4;
+// Bisections between which Newton's method begins anew, first of the group because of which it has
+// stalled, then of all groups of a front, one by one; after as many the front makes no progress.
+constexpr int kSweeps = 5;
+// Fronts may take turns without end, where one that is solved brings back another: so many stalls
+// since a group has grown, was decided or the window has, are no progress either.
+constexpr int kStalls = 10;
 // Rounds of the search in an episode: each solves a front, grows a group or gives one up.
 constexpr int kRounds = 500;
 // Instants so near, relative to the episode, are one: round-off parts them.
@@ -135,7 +138,7 @@ Sight EpisodeSolver::Scan(bool coarse) {
 }
 
 Motion::Pause EpisodeSolver::Search() {
-  sweeps_ = 0;
+  sweeps_ = stalls_ = 0;
   guessing_ = true;
   solved_.clear();
   growing_.Begin();
@@ -166,6 +169,7 @@ Motion::Pause EpisodeSolver::Search() {
     const double final =
         window_.FinalUntil(sight, problem_.groups, problem_.tolerance(), problem_.end());
     guessing_ = true;
+    stalls_ = 0;
     if (final > problem_.start_time()) return Record(sight, final);
     // The window has grown.
   }
@@ -207,7 +211,7 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   if (unsolved) problem_.Distrust();
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;
-  const bool again = unsolved || (now.front() == last_ && sweeps_ > 0);
+  const bool again = unsolved || (now.front() == last_ && sweeps_ > 1);
   Found found = newton_.Solve(now, goal, most, !again, sight);
   if (found == Found::kSolved && newton_.corrections() == 0) {  // A coarse pass sees what is not.
     found = newton_.Solve(front, problem_.tolerance(), most, false, sight);
@@ -223,11 +227,14 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   }
   if (now.front() != last_) sweeps_ = 0;
   last_ = now.front();
-  if (sweeps_ == kSweeps) {
-    sweeps_ = 0;
+  if (sweeps_ == kSweeps || ++stalls_ > kStalls) {
+    sweeps_ = stalls_ = 0;
     growing_.Force(now);
   } else {
-    sweeps_ = Bisect(sight, now) ? 0 : sweeps_ + 1;
+    const bool one = sweeps_ == 0 && !newton_.suspect().empty();
+    const bool answered = one ? BisectSuspect(sight, now) : Bisect(sight, now);
+    sweeps_ = answered ? 0 : sweeps_ + 1;
+    if (answered) stalls_ = 0;
   }
   return problem_.Aborted() ? Found::kAborted : Found::kStalled;
 }
@@ -250,22 +257,46 @@ bool EpisodeSolver::Bisect(const Sight& sight, const std::vector<GroupId>& front
     const GroupSight* seen = now.Find(id);
     const GroupSight group = seen != nullptr && seen->ended ? *seen : *sight.Find(id);
     if (group.weak || std::abs(group.Miss()) <= kNear) continue;
-    const Root root = bisection_.Solve(group);
+    const Root root = bisection_.Solve(group, !Grows());
     if (root == Root::kAborted) return true;
-    if (root != Root::kFound) {
-      if (!growing_.Answer(group, root)) growing_.Decide(id, root);
-      return true;
-    }
+    if (root != Root::kFound) return Answer(group, root);
     now = problem_.Evaluate(front, false, kForever, kCoarse);
   }
   return false;
+}
+
+// The group because of which Newton's method has stalled. What gives back too much may do so
+// because those before it miss: that is left to a sweep, and so is a root that changes nothing.
+bool EpisodeSolver::BisectSuspect(const Sight& sight, const std::vector<GroupId>& front) {
+  const GroupId id = newton_.suspect().front();
+  const Sight now = problem_.Evaluate({id}, false, kForever, kCoarse);
+  const GroupSight* seen = now.Find(id);
+  const GroupSight group = seen != nullptr && seen->ended ? *seen : *sight.Find(id);
+  if (group.weak || problem_.Aborted()) return problem_.Aborted();
+  const Root root = bisection_.Solve(group, !Grows());
+  if (root == Root::kFound) return false;
+  if (root == Root::kTooMuch) return Bisect(sight, front);
+  return root == Root::kAborted || Answer(group, root);
+}
+
+bool EpisodeSolver::Grows() const {
+  return scenario_.solver.restitution_scope != RestitutionScope::kCycle;
+}
+
+// A group without a root grows, or it is said what it is. A jump is then to be told sharply.
+bool EpisodeSolver::Answer(const GroupSight& group, Root root) {
+  if (growing_.Answer(group, root)) return true;
+  if (Grows() && root == Root::kJump) root = bisection_.Solve(group, true);
+  if (root != Root::kFound && root != Root::kAborted) growing_.Decide(group.id, root);
+  return true;
 }
 
 // As many corrections as are allowed did not solve the front: those that miss keep what they have.
 void EpisodeSolver::GiveUp(const Sight& sight, const std::vector<GroupId>& front) {
   const Sight now = problem_.Evaluate(front, false, 1e300);
   for (const GroupId& id : front) {
-    const GroupSight* g = now.Find(id) != nullptr ? now.Find(id) : sight.Find(id);
+    const GroupSight* seen = now.Find(id);
+    const GroupSight* g = seen != nullptr && seen->ended ? seen : sight.Find(id);
     if (Misses(*g, problem_.groups, problem_.tolerance())) problem_.groups.At(id).given_up = true;
   }
 }

@@ -48,6 +48,9 @@ class EpisodeSolver {
   Motion::Pause Tentatively();
   Found SolveFront(const Sight& sight, const std::vector<GroupId>& front);
   bool Bisect(const Sight& sight, const std::vector<GroupId>& front);
+  bool BisectSuspect(const Sight& sight, const std::vector<GroupId>& front);
+  bool Answer(const GroupSight& group, Root root);
+  bool Grows() const;
   void Freeze(const Sight& sight, const std::vector<GroupId>& front);
   void GiveUp(const Sight& sight, const std::vector<GroupId>& front);
 
@@ -68,6 +71,7 @@ class EpisodeSolver {
   std::vector<GroupId> solved_;  // The last front, or part of one, that was solved.
   GroupId last_;                 // The first of the last front that was not, and
   int sweeps_ = 0;               // how often its groups were bisected one by one.
+  int stalls_ = 0;               // Of any front, since something else has changed.
   bool guessing_ = true;         // The μ of neighbours may have changed what is to be guessed.
 };
 

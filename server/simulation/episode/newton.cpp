@@ -28,6 +28,8 @@ constexpr double kNoise = 1e-3;
 // are more than a few unknowns.
 constexpr double kNear = 0.01;
 constexpr std::size_t kFew = 4;
+// Where the merit falls to this part they lead on, too.
+constexpr double kLeap = 0.1;
 // Part of the goal below which a miss that is expected is none.
 constexpr double kSure = 0.1;
 // The curvature that is expected before it was seen.
@@ -35,6 +37,8 @@ constexpr double kCurved = 1;
 // In so many corrections the merit has to fall by this factor: else the method only creeps.
 constexpr int kPace = 5;
 constexpr double kHeadway = 0.5;
+// Two steps in a row of less than this part lead to a jump, not to a root.
+constexpr double kCreep = 0.2;
 // A miss that may be the error of a coarse pass.
 constexpr double kBlurred = 1e-2;
 // How much longer than before a trial may last, in spans of the front.
@@ -180,6 +184,8 @@ Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_cor
   goal_ = goal;
   coarse_ = coarse;
   curvature_ = kCurved;
+  suspect_.clear();
+  creeps_ = 0;
   sinks_ = Mask::Constant(static_cast<Eigen::Index>(front.size()), false);
   Sight now = seen.exact ? Look(front, true, Worst(front, seen), kForever) : seen;
   Take(front, now);
@@ -189,6 +195,7 @@ Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_cor
     if (now.pause == Motion::Pause::kNumeric) return Found::kStalled;
     if (Worst(front, now) <= goal) return Found::kSolved;
     if (corrections_ >= most_corrections) return Found::kLimit;
+    if (creeps_ > 1) return Found::kStalled;
     if (corrections_ % kPace == 0) {
       const double before = std::exchange(merit, Merit(front, now));
       if (merit > kHeadway * before) return Found::kStalled;
@@ -210,16 +217,30 @@ Found Newton::Solve(const std::vector<GroupId>& front, double goal, int most_cor
 }
 
 // Whether tangents lead to μ < 0 of a group twice in a row.
-bool Newton::Sinks(const Eigen::VectorXd& step) {
+bool Newton::Sinks(const std::vector<GroupId>& front, const Eigen::VectorXd& step) {
   const Mask before = std::exchange(sinks_, step.array() <= -1);
-  return (before && sinks_).any();
+  Eigen::Index first = 0;
+  if (!(before && sinks_).maxCoeff(&first)) return false;
+  suspect_ = {front[static_cast<std::size_t>(first)]};
+  return true;
+}
+
+// No step has helped: it may be for the group that misses most in the last trial.
+void Newton::Suspect(const std::vector<GroupId>& front, const Sight& trial) {
+  const auto miss = [&](const GroupId& id) {
+    const GroupSight* g = trial.Find(id);
+    return g == nullptr                             ? 0
+           : g->ended && std::isfinite(g->residual) ? std::abs(g->residual)
+                                                    : kOpen;
+  };
+  suspect_ = {*std::ranges::max_element(front, {}, miss)};
 }
 
 // One correction, shortened until the merit falls enough. Slopes are for steps that are taken: most
 // that are shortened are not, and of many unknowns a pass with slopes costs many passes without.
 Found Newton::Correct(const std::vector<GroupId>& front, Sight& now) {
   const Eigen::VectorXd step = Step();
-  if (Sinks(step)) return Found::kStalled;
+  if (Sinks(front, step)) return Found::kStalled;
   const double worst = Worst(front, now), merit = Merit(front, now), horizon = Horizon(front, now);
   const bool few = front.size() <= kFew, near = worst < kNear && !few;
   double part = 1;
@@ -233,9 +254,12 @@ Found Newton::Correct(const std::vector<GroupId>& front, Sight& now) {
     if (part == 1 && (falls ? true_ : now.exact)) {
       curvature_ = std::max(1.0, Worst(front, trial) / (worst * worst));
     }
+    if (!falls) Suspect(front, trial);
     if (trial.pause == Motion::Pause::kNumeric || !falls) continue;
     Count(front, now, corrections_ + 1, part < 1);
-    if (near) {
+    creeps_ = part < kCreep ? creeps_ + 1 : 0;
+    const bool leaps = !few && part == 1 && Merit(front, trial) < kLeap * merit;
+    if (near || leaps) {
       Learn(front, trial, part * step);
     } else {
       if (!slopes) trial = Look(front, true, expected, horizon);

@@ -31,10 +31,14 @@ class Newton {
               const Sight& seen);
   /// Corrections made by the last Solve.
   int corrections() const { return corrections_; }
+  /// The group because of which the last Solve has stalled, for all that Newton's method can tell:
+  /// tangents lead to μ < 0 of it, or it missed most where no step helped; or none.
+  const std::vector<GroupId>& suspect() const { return suspect_; }
 
  private:
   using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
-  bool Sinks(const Eigen::VectorXd& step);
+  bool Sinks(const std::vector<GroupId>& front, const Eigen::VectorXd& step);
+  void Suspect(const std::vector<GroupId>& front, const Sight& trial);
   Found Correct(const std::vector<GroupId>& front, Sight& now);
   void Take(const std::vector<GroupId>& front, const Sight& sight);
   void Learn(const std::vector<GroupId>& front, const Sight& sight, const Eigen::VectorXd& step);
@@ -54,8 +58,10 @@ class Newton {
   double goal_ = 0;
   bool coarse_ = true;
   int corrections_ = 0;
-  bool true_ = false;     // The Jacobian is that of a pass with sensitivities.
-  Mask sinks_;            // Groups of which the last step led to μ < 0.
+  std::vector<GroupId> suspect_;  // One or none.
+  int creeps_ = 0;                // Corrections in a row of a small part of a step.
+  bool true_ = false;             // The Jacobian is that of a pass with sensitivities.
+  Mask sinks_;                    // Groups of which the last step led to μ < 0.
   double curvature_ = 0;  // Largest miss after a whole true step over the square of that before.
   Eigen::MatrixXd jacobian_;  // ∂residual/∂ln μ.
   Eigen::VectorXd residual_;  // Of the last pass.

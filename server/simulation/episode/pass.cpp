@@ -11,6 +11,8 @@ namespace {
 // A cycle of an explicit integrator takes some 20 steps, one of a stiff contact thousands: what
 // does not turn in so many creeps.
 constexpr int kPatience = 5'000;
+// Scans have a little less, so that what they see to end is seen to end by all.
+constexpr int kPatienceOfAScan = 4'000;
 // A(ε_in) to which residuals are relative at least, for ε_in near 1.
 constexpr double kLeastGoal = 1e-6;
 // ε_out below this part of ε_in counts as this: A(0) is infinite.
@@ -140,6 +142,7 @@ void Pass::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient
   seen->work_compression = state.member.group.work_compression;
   seen->work_restitution = state.member.group.work_restitution;
   seen->frozen_slope = FrozenSlope(cycle);
+  seen->depth = std::max(seen->depth, cycle.max_deformation);
   if (seen->cycles == 1) seen->length = length, seen->speed = speed;
   Add(seen->gradient_compression, compression_gradient);
   Add(seen->gradient_restitution, restitution_gradient);
@@ -187,7 +190,7 @@ bool Pass::Enough() const {
 
 bool Pass::OnStep() {
   observer_.OnStep();
-  if (++idle_steps_ > kPatience) enough_ = true;
+  if (++idle_steps_ > (plan_.front.empty() ? kPatienceOfAScan : kPatience)) enough_ = true;
   return !enough_;
 }
 

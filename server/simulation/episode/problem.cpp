@@ -47,6 +47,7 @@ Sight Problem::Look(const State& from, Pass::Plan plan) {
 
 Sight Problem::Scan(int most_cycles, bool guess, bool coarse) {
   trusting_ = true;
+  begun_.clear();
   Sight sight = Look(*start_, {.tolerance = coarse ? Tolerance(kCoarsest) : 0,
                                .most_cycles = most_cycles,
                                .guess = guess,
@@ -70,7 +71,7 @@ double Problem::Tolerance(double wanted) const {
 double Problem::MostMu(const GroupSight& g) const {
   const Contact& contact = scenario_.contacts[static_cast<std::size_t>(g.id.contact)];
   const double duration = g.end_time - g.start_time;
-  const double unit = std::pow(g.length, contact.exponent) * duration /
+  const double unit = std::pow(g.depth, contact.exponent) * duration /
                       motion_.equations().effective_mass(g.id.contact);
   return (g.id.place > 1 ? kFelt : kFeltAtFirst) / g.restitution_in / unit;
 }
@@ -93,14 +94,24 @@ const State& Problem::Before(const std::vector<GroupId>& front) {
   const bool keeps = near_.time > start_->time && !has_begun(near_) && held_ == HeldIn(near_);
   const State& from = keeps ? near_ : *start_;
   double begin = horizon_;  // By the last pass that saw it: with other μ it may be another.
-  for (const GroupId& id : front) begin = std::min(begin, groups.At(id).start_time);
+  for (const GroupId& id : front) {
+    begin = std::min(begin, groups.At(id).start_time);
+    if (const auto known = begun_.find(id); known != begun_.end()) {
+      begin = std::min(begin, known->second);
+    }
+  }
   if (begin - from.time < kWorth * (seen_ - start_->time)) return from;
   const double until = begin - kShortly * (begin - start_->time);
   const Sight sight =
       Look(from, {.until = until, .most_cycles = kMostCyclesOfATrial, .front = {front.front()}});
   if (sight.pause != Motion::Pause::kTimeUp) return from;
   State reached = motion_.Save();
-  if (has_begun(reached)) return from;
+  if (has_begun(reached)) {
+    for (const GroupId& id : front) {
+      if (HasBegun(reached, id)) begun_[id] = groups.At(id).start_time;
+    }
+    return from;
+  }
   near_ = std::move(reached);
   held_ = HeldIn(near_);
   return near_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <stop_token>
 #include <tuple>
 #include <vector>
@@ -67,7 +68,8 @@ class Problem {
   State near_;              // Shortly before the last front, if
   std::vector<Held> held_;  // all that begins before is still this.
   bool trusting_ = false;
-  double seen_ = 0;  // How far the last scan went [s].
+  std::map<GroupId, double> begun_;  // Earlier starts [s] of groups than other passes have seen.
+  double seen_ = 0;                  // How far the last scan went [s].
   double end_ = 0;
   double horizon_ = 0;  // Passes go no further.
   std::stop_token stop_;

@@ -69,6 +69,7 @@ struct GroupSight {
   double residual = kNaN;      ///< A(ε_out)/A(ε_in) − 1.
   double frozen_slope = kNaN;  ///< Paper (30).
   double length = 0, speed = 0;
+  double depth = 0;                          ///< Largest δ of its cycles [m].
   double bracket_low = 0, bracket_high = 0;  ///< μ known to give too much, too little; 0: none.
   Iteration::Update update = Iteration::Update::kNothing;  ///< How μ is changed after the pass.
   int column = kNone;
