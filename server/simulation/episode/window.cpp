@@ -27,16 +27,17 @@ void Window::Begin(double start, int running, int known, int contacts, int longe
   cycles_ = std::min(longest * std::max({known, kFirst, running + kMore}), most_);
 }
 
-// Whether the pass saw the ends of all groups that overlap with it in time, and of all that overlap
-// with these: one that grows may change those before it by any amount.
-bool Window::Foreseen(const GroupSight& of, const Sight& sight) {
+// Whether the pass saw the ends of all groups that overlap with it in time: the μ of one whose end
+// was not seen is a guess. In packings also of all that overlap with these, for one that grows late
+// may change those before it by any amount.
+bool Window::Foreseen(const GroupSight& of, const Sight& sight) const {
   double end = of.end_time;
   for (const GroupSight& g : sight.groups) {
     if (g.start_time >= of.end_time || !g.sought) continue;
     if (!g.ended) return false;
     end = std::max(end, g.end_time);
   }
-  return std::ranges::all_of(sight.groups, [&](const GroupSight& g) {
+  return !packing_ || std::ranges::all_of(sight.groups, [&](const GroupSight& g) {
     return g.ended || !g.sought || g.start_time >= end;
   });
 }
@@ -48,7 +49,7 @@ bool Window::IsFinal(const GroupSight& g, const Sight& sight, Groups& groups, do
   if (!g.ended) return false;
   const bool apart = std::ranges::any_of(sight.quiet, [&](double t) { return t >= g.end_time; });
   const bool unchanged = g.weak || std::abs(g.mu - before) <= change * g.mu;
-  if (!apart && !(unchanged && (!packing_ || Foreseen(g, sight)))) return false;
+  if (!apart && !(unchanged && Foreseen(g, sight))) return false;
   if (g.separated) return true;
   // The next group of the encounter may still want to join it.
   const GroupSight* next = sight.Find({g.id.contact, g.id.encounter, g.id.place + 1});

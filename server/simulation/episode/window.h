@@ -21,7 +21,7 @@ class Window {
   double FinalUntil(const Sight& sight, Groups& groups, double tolerance, double end);
 
  private:
-  static bool Foreseen(const GroupSight& group, const Sight& sight);
+  bool Foreseen(const GroupSight& group, const Sight& sight) const;
   bool IsFinal(const GroupSight& group, const Sight& sight, Groups& groups, double change) const;
 
   double start_ = 0;
