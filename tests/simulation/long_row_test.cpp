@@ -1,0 +1,70 @@
+// Rows and columns of six to thirty balls: every group has its answer, in few steps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "simulation/kinds.h"
+#include "testing/cases.h"
+
+namespace contact {
+namespace {
+
+using testing::Kind;
+using testing::Record;
+using testing::RunAndRecord;
+
+// A seed of kinds.h, and the most steps that its search may take.
+struct Case {
+  Kind kind;
+  unsigned seed;
+  std::int64_t steps;
+};
+
+std::string NameOf(const ::testing::TestParamInfo<Case>& info) {
+  return testing::kKindNames[static_cast<int>(info.param.kind)] + std::to_string(info.param.seed);
+}
+
+Record RunOf(const Case& of) {
+  Scenario scenario = testing::Dice(of.seed, of.kind).Roll();
+  scenario.solver.max_steps = of.steps;
+  return RunAndRecord(scenario);
+}
+
+class LongRow : public ::testing::TestWithParam<Case> {};
+
+// Bisection of whole fronts, and of groups with a μ that nothing feels, took 11 and 3.9 million
+// steps.
+TEST_P(LongRow, IsFullInFewSteps) {
+  if (!testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
+  const Record r = RunOf(GetParam());
+  ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << r.outcome.message;
+  EXPECT_TRUE(r.outcome.all_converged);
+  EXPECT_LT(r.outcome.energy_residual, 1e-8);
+  for (const Group& g : r.groups) {
+    if (g.end == Cycle::End::kRunEnd || g.status != Cycle::Status::kConverged) continue;
+    EXPECT_NEAR(g.restitution_out / g.restitution_in, 1, 2e-8) << g.contact << " " << g.number;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Slow, LongRow,
+                         ::testing::Values(Case{Kind::kColumn, 17, 4'000'000},
+                                           Case{Kind::kColumn, 22, 2'000'000}),
+                         NameOf);
+
+// Neighbours of which the window had seen no end had a guessed μ when the first group was recorded.
+TEST(LongRowWindow, AGroupIsFinalWhenThoseThatOverlapItWereSeenToEnd) {
+  const Record r = RunOf({Kind::kLong, 71, 1'000'000});
+  EXPECT_TRUE(r.outcome.all_converged);
+  EXPECT_EQ(std::ranges::count(r.groups, Cycle::Status::kNotConverged, &Group::status), 0);
+}
+
+// The front that one solution brings back after another, where an encounter parts in two by a
+// graze, went on for ever.
+TEST(LongRowSearch, FrontsThatTakeTurnsEnd) {
+  if (!testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
+  EXPECT_TRUE(RunOf({Kind::kLong, 11, 3'000'000}).outcome.all_converged);
+}
+
+}  // namespace
+}  // namespace contact
