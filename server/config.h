@@ -15,6 +15,7 @@
 #include "launcher/launcher_options.h"
 #include "log.h"
 #include "rpc/grpc_server.h"
+#include "storage/postgres/grants.h"
 #include "storage/store.h"
 
 namespace contact {
@@ -73,6 +74,7 @@ struct Config {
   bool copy_store = false;  ///< Copy the jobs from one store to the other and end.
   std::string copy_from;    ///< With `copy_store`: a directory, or the address of a database.
   std::string copy_to;      ///< As `copy_from`; a store without jobs.
+  postgres::Grants grants;  ///< With `migrate`: roles that get what they need.
   bool migrate = false;     ///< Bring the tables of `store_address` up to date and end.
   LogFormat log_format = LogFormat::kText;
   StoreOptions store;

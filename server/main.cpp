@@ -212,7 +212,7 @@ int CopyStores(const Config& config) {
 }
 
 int MigrateStore(const Config& config) {
-  const absl::Status status = MigratePostgres(config.store_address);
+  const absl::Status status = MigratePostgres(config.store_address, config.grants);
   if (!status.ok()) return Refuse(status);
   fmt::print("{} is up to date\n", StoreName(config));
   return kExitOk;

@@ -328,9 +328,13 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
   const CLI::App* fsck =
       app.add_subcommand("fsck", "Check what is in --data-dir, without a change to it, and end")
           ->fallthrough();
-  const CLI::App* migrate =
+  CLI::App* migrate =
       app.add_subcommand("migrate", "Make the tables of --store, or bring them up to date, and end")
           ->fallthrough();
+  migrate->add_option(
+      "--grant-front", config.grants.front,
+      "Role of PostgreSQL that fronts connect as: it gets the rights that they need");
+  migrate->add_option("--grant-worker", config.grants.worker, "The same for workers");
   CLI::App* copy = app.add_subcommand(
       "copy-store", "Copy all jobs into an empty store while no contactd uses the two, and end");
   copy->add_option("--from", config.copy_from, "Directory, or postgresql://… of a database")

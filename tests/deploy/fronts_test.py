@@ -11,7 +11,6 @@ import grpc
 from authority import Authority
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
 from contactd import BINARY, PATIENCE_S, Job, Server, ServerTest, cluster, three_ball_chain
-from flags import has_roles
 from tools import tool
 
 SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "deploy/nginx/contactd-fronts.conf"
@@ -38,8 +37,6 @@ class FrontsTest(ServerTest):
                       f"--tokens={self.folder}/tokens", store="")
 
     def make_server(self):
-        if not has_roles():
-            self.skipTest("this contactd has no roles")
         self.nginx = tool("nginx")
         self.ca = Authority(self.folder)
         self.ca.issue("server", "DNS:localhost")

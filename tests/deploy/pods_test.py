@@ -16,7 +16,6 @@ from authority import Authority
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
 from contactd import (BINARY, PATIENCE_S, Job, Server, ServerTest, cluster,
                       three_ball_chain)
-from flags import existing, has_roles
 from kustomize import containers, objects
 
 # Where pods find what secrets have, and what a test has in its folder.
@@ -35,7 +34,7 @@ def here(words, folder):
     words = [re.sub(r"=0\.0\.0\.0:\d+", "=127.0.0.1:0", word) for word in words]
     for place, file in PLACES.items():
         words = [word.replace(place, str(folder / file)) for word in words]
-    return [word for word in words if word.split("=")[0] in existing() or word[0] != "-"]
+    return words
 
 
 def arguments(name, folder):
@@ -94,15 +93,11 @@ class PodTest(ServerTest):
                              job_service_pb2.GetServerInfoRequest(), timeout=PATIENCE_S)
 
     def test_query_of_keda_counts_jobs(self):
-        if not has_roles():
-            self.skipTest("this contactd has no roles")
         [scaler] = objects("overlays/keda", "ScaledObject")
         [trigger] = scaler["spec"]["triggers"]
         self.assertEqual(cluster().run(trigger["metadata"]["query"], DATABASE), "0")
 
     def test_front_of_compose_runs_jobs_of_whoever_reaches_it(self):
-        if not has_roles():
-            self.skipTest("this contactd has no roles")
         words = yaml.safe_load(COMPOSE.read_text())["services"]["front"]["command"]
         front = Server(self.folder / "compose", *here(words, self.folder),
                        environment=environment("front", self.folder), store="")
@@ -120,8 +115,6 @@ class PodTest(ServerTest):
         self.fail(log.read_text())
 
     def test_worker_answers_its_probes_and_ends_in_time(self):
-        if not has_roles():
-            self.skipTest("this contactd has no roles")
         log = self.folder / "worker.log"
         with log.open("w") as out:
             worker = subprocess.Popen([BINARY, *arguments("worker", self.folder)], stderr=out,

@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 import unittest
 
-from flags import known, unknown
+from flags import existing, unknown
 
 DEBIAN = pathlib.Path(__file__).resolve().parents[2] / "deploy/debian"
 UNITS = ("contactd.service", "contactd-front.service", "contactd-worker@.service",
@@ -67,7 +67,7 @@ class SystemdTest(unittest.TestCase):
             text = (DEBIAN / name).read_text()
             offered = re.sub(r"^#(?=[a-z-]+ = )", "", text, flags=re.M)
             for setting in tomllib.loads(offered):
-                self.assertIn(f"--{setting}", known(), name)
+                self.assertIn(f"--{setting}", existing(), name)
 
     def test_commands_have_flags_of_contactd_and_settings_that_are_installed(self):
         for name in UNITS:

@@ -1,13 +1,14 @@
 """Fronts and workers that share a database: any front serves any job, and workers come and go."""
 
 import concurrent.futures
+import subprocess
 import threading
 import time
 import unittest
 
 import grpc
 from contact.v1 import job_pb2, job_service_pb2, scenario_pb2
-from contactd import (ENDED, PATIENCE_S, Job, Server, ServerTest, endless, endless_and_slow, is_cycle,
+from contactd import (BINARY, ENDED, cluster, PATIENCE_S, Job, Server, ServerTest, endless, endless_and_slow, is_cycle,
                       spring_wall, three_ball_chain, to_bytes)
 from shared import LEASE_S, Shared
 
@@ -319,6 +320,61 @@ class WorkerTest(ClusterTest):
                for worker in workers]
         self.assertEqual(sum(ran), 8)
         self.assertGreaterEqual(min(ran), 2, ran)
+
+
+class RolesTest(ClusterTest):
+    """Front and worker connect as roles that own nothing."""
+
+    def setUp(self):
+        super().setUp()
+        for role in "a_front", "a_worker":
+            cluster().run(f"DROP ROLE IF EXISTS {role}; CREATE ROLE {role} LOGIN")
+            self.addCleanup(cluster().run, f"DROP ROLE {role}")
+        store = self.shared.store
+        subprocess.run([BINARY, "migrate", f"--store={store}", "--grant-front=a_front",
+                        "--grant-worker=a_worker"], check=True, stdout=subprocess.DEVNULL)
+        self.addCleanup(self.shared.ask, "DROP OWNED BY a_front, a_worker")
+        self.as_role = lambda role: store.replace("contactd@", f"{role}@")
+
+    def may(self, role, sql):
+        done = subprocess.run([cluster().bin / "psql", "-XAtq", "-c", sql, self.as_role(role)],
+                              capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            self.assertRegex(done.stderr, "permission denied|must be owner")
+        return done.returncode == 0
+
+    def test_jobs_and_sweeps_run_and_are_deleted(self):
+        store = self.shared.store
+        self.shared.store = self.as_role("a_front")
+        front = self.shared.front()
+        self.shared.store = self.as_role("a_worker")
+        for _ in range(2):
+            self.shared.worker("--workers=1")
+        self.shared.store = store
+        job = front.run(three_ball_chain())
+        self.assertEqual(job.state, Job.SUCCEEDED)
+        front.delete(job.name)
+        name = front.stub.CreateJob(job_service_pb2.CreateJobRequest(job=Job(sweep=wide_sweep(160))),
+                                    timeout=PATIENCE_S).name
+        front.events(name)
+        self.assertEqual(front.get(name).state, Job.SUCCEEDED)
+        endless_job = self.running(front)
+        front.cancel(endless_job)
+        wait_for(lambda: front.get(endless_job).state == Job.CANCELLED)
+
+    def test_nobody_writes_but_by_the_functions_of_his_role(self):
+        self.assertTrue(self.may("a_front", "SELECT count(*) FROM contactd.jobs"))
+        self.assertTrue(self.may("a_worker", "SELECT contactd.leave('nobody')"))
+        for role, sql in [
+                ("a_front", "UPDATE contactd.jobs SET state = 3"),
+                ("a_worker", "DELETE FROM contactd.events"),
+                ("a_worker", "INSERT INTO contactd.workers VALUES('w', 'h', 1, '', now())"),
+                ("a_front", "SELECT contactd.leave('nobody')"),
+                ("a_worker", "SELECT contactd.remove_job('jobs/a', '')"),
+                ("a_worker", "DROP TABLE contactd.jobs"),
+                ("a_front", "CREATE TABLE contactd.mine(i int)")]:
+            with self.subTest(role=role, sql=sql):
+                self.assertFalse(self.may(role, sql))
 
 
 class FrontTest(ClusterTest):

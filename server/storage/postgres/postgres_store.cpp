@@ -324,9 +324,12 @@ std::string PostgresName(const std::string& address) {
   return absl::StrCat("PostgreSQL database ", database, host.empty() ? "" : " at ", host);
 }
 
-absl::Status MigratePostgres(const std::string& address) {
+absl::Status MigratePostgres(const std::string& address, const postgres::Grants& grants) {
   const auto connection = Connection::Open(address);
-  return connection.ok() ? postgres::Migrate(**connection) : connection.status();
+  if (!connection.ok()) return connection.status();
+  const absl::Status migrated = postgres::Migrate(**connection);
+  const std::string script = postgres::GrantScript(grants);
+  return migrated.ok() && !script.empty() ? (*connection)->RunScript(script) : migrated;
 }
 
 absl::StatusOr<std::unique_ptr<SharedStore>> OpenPostgres(const std::string& address,

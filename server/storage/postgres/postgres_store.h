@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "storage/postgres/grants.h"
 #include "storage/shared_store.h"
 
 namespace contact {
@@ -26,7 +27,8 @@ absl::StatusOr<std::unique_ptr<Store>> OpenPostgresAlone(const std::string& addr
 /// Database and server of an address, without secrets, for people.
 std::string PostgresName(const std::string& address);
 
-/// Makes the tables of the store in a database, or brings them up to date. Errors: as OpenPostgres.
-absl::Status MigratePostgres(const std::string& address);
+/// Makes the tables of the store in a database, or brings them up to date, and gives the roles what
+/// they need. Errors: as OpenPostgres.
+absl::Status MigratePostgres(const std::string& address, const postgres::Grants& grants = {});
 
 }  // namespace contact
