@@ -44,6 +44,7 @@ RUN_ELSEWHERE = {
     "$ contactd fsck": "tests/system/storage_test.py",
     "$ createdb contactd": "tests/system/stores_test.py",
     "$ contactd --store": "tests/system/stores_test.py",
+    "$ contactd migrate": "tests/system/cluster_test.py",
     "$ createuser": "tests/deploy/pods_test.py",
     "$ deploy/container/build": "tests/deploy/container_test.py",
     "$ sudo install": "tests/deploy/systemd_test.py",

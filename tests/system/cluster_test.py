@@ -7,7 +7,7 @@ import time
 import unittest
 
 import grpc
-from contact.v1 import job_pb2, job_service_pb2, scenario_pb2
+from contact.v1 import job_service_pb2, scenario_pb2
 from contactd import (BINARY, ENDED, PATIENCE_S, Job, Server, ServerTest, cluster, endless,
                       endless_and_slow, is_cycle, spring_wall, three_ball_chain, to_bytes)
 from shared import LEASE_S, Shared

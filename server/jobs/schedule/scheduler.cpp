@@ -470,6 +470,8 @@ void Scheduler::FailLostRun(const std::string& name, const RunControl& run) {
   store_.Read(name, JobPart::kHeader,
               [this, name, active = std::move(active)](absl::StatusOr<StoredJob> stored) mutable {
                 if (!stored.ok() || IsFinal(stored->job.state())) return;
+                // The run may have taken the job; past that it is another worker's.
+                if (stored->epoch > active.epoch + 1) return Remove(name);
                 active.epoch = stored->epoch;
                 active.job.MergeFrom(active.record->Get(true));
                 active.job.set_server_version(kVersion);
