@@ -1,4 +1,5 @@
-// Rows and columns of six to thirty balls: every group has its answer, in few steps.
+// Rows and columns of six to thirty balls, and a ball that rattles: every group has its answer, in
+// few steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,6 +65,19 @@ TEST(LongRowWindow, AGroupIsFinalWhenThoseThatOverlapItWereSeenToEnd) {
 TEST(LongRowSearch, FrontsThatTakeTurnsEnd) {
   if (!testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
   EXPECT_TRUE(RunOf({Kind::kLong, 11, 3'000'000}).outcome.all_converged);
+}
+
+// From 0.45 s on the ball rattles: a group needs more than three times the μ that stops what
+// no load moves.
+TEST(DrivenWall, IsFullInFewStepsWhereTheBallRattles) {
+  if (!testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
+  Scenario scenario = testing::SpringWall();
+  scenario.contacts[0].restitution = 0.8;
+  scenario.end_time = 1;
+  scenario.solver.max_steps = 7'000'000;
+  const Record r = RunAndRecord(scenario);
+  ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << r.outcome.message;
+  EXPECT_TRUE(r.outcome.all_converged);
 }
 
 }  // namespace
