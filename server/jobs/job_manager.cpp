@@ -12,7 +12,8 @@ JobManager::JobManager(Store& store, const Clock& clock, IdSource& ids, JobOptio
     : JobManager(store, clock, ids, std::move(options), [&](JobManager& manager) {
         auto scheduler = std::make_unique<Scheduler>(store, clock, manager.options_, manager.feed_,
                                                      manager.quotas_);
-        scheduler->Recover();
+        scheduler->Recover();  // All of them, before the first is begun.
+        scheduler->Start();
         return scheduler;
       }) {}
 

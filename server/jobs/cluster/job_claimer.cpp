@@ -51,7 +51,10 @@ JobClaimer::JobClaimer(SharedStore& store, const Clock& clock, const JobOptions&
                  }),
       lender_(store, process_.name, options.workers),
       borrower_(store, clock, options, process_.name, scheduler_, [this] { Wake(); }),
-      thread_([this](const std::stop_token& stop) { Loop(stop); }) {}
+      thread_([this](const std::stop_token& stop) {
+        scheduler_.Start();
+        Loop(stop);
+      }) {}
 
 JobClaimer::~JobClaimer() { Stop(); }
 

@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "base/future.h"
@@ -136,7 +137,10 @@ std::shared_ptr<const RunRecord> SharedJobs::Record(const v1::Job& job) const {
 
 Demand SharedJobs::demand() const {
   const MutexLock lock(mutex_);
-  return demand_;
+  Demand demand = demand_;
+  // The first heartbeat may not have come yet.
+  if (claimer_) demand.threads = std::max<std::int64_t>(demand.threads, options_.workers);
+  return demand;
 }
 
 void SharedJobs::CountOf(const JobOwner& whose,

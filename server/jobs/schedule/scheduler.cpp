@@ -63,7 +63,9 @@ Scheduler::Scheduler(Store& store, const Clock& clock, const JobOptions& options
       supervisor_(
           clock, options, endings_,
           [this](const std::string& job, const RunControl& run) { FailLostRun(job, run); },
-          [this] { Balance(); }) {
+          [this] { Balance(); }) {}
+
+void Scheduler::Start() {
   {
     const MutexLock lock(mutex_);
     idle_ = options_.workers;

@@ -41,8 +41,8 @@ namespace contact {
 /// of the store a job is known here just if the store says that it has not ended.
 class Scheduler final : public Unfinished {
  public:
-  /// Starts the workers. Every change of a job's state is told to `feed`. `left` is called each
-  /// time a job has left the scheduler.
+  /// Every change of a job's state is told to `feed`. `left` is called each time a job has left the
+  /// scheduler.
   Scheduler(
       Store& store, const Clock& clock, const JobOptions& options, JobFeed& feed, Quotas& quotas,
       std::function<void()> left = [] {});
@@ -51,6 +51,8 @@ class Scheduler final : public Unfinished {
   /// Queues the jobs that an earlier process left unfinished, or ends them; waits until that is
   /// done. They count in the quotas. For a process that alone has the store.
   void Recover();
+  /// Starts the workers. Called once.
+  void Start();
   /// Queues a job of the store. On the store's thread.
   void Take(StoredJob stored);
   /// Moves a job that was running when its worker died into its next state, in the store; it does
