@@ -53,7 +53,7 @@ void JobManager::IfAllowed(const Principal& caller, const std::string& name,
 }
 
 void JobManager::Cancel(const Principal& caller, const v1::CancelJobRequest& request,
-                        Callback<v1::Job> done) {
+                        const Callback<v1::Job>& done) {
   const std::string& uid = request.expected_uid();
   // Of a job that has ended the scheduler knows nothing.
   Callback<v1::Job> checked = [uid, done](Result<v1::Job> job) {
@@ -70,7 +70,7 @@ void JobManager::Cancel(const Principal& caller, const v1::CancelJobRequest& req
 }
 
 void JobManager::Delete(const Principal& caller, const v1::DeleteJobRequest& request,
-                        Callback<bool> done) {
+                        const Callback<bool>& done) {
   const auto remove = [this, request, done] {
     const auto removed = [this, name = request.name(), done](const auto& whose) {
       if (!whose.ok()) return done(ToError(whose.status(), name));

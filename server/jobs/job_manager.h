@@ -57,9 +57,11 @@ class JobManager {
   /// Takes the job from the queue or asks its run to stop; `done` gets the job as it is then. No
   /// error if the job has ended. PERMISSION_DENIED: the job is not the caller's, nor may the caller
   /// change those of others of the tenant.
-  void Cancel(const Principal& caller, const v1::CancelJobRequest& request, Callback<v1::Job> done);
+  void Cancel(const Principal& caller, const v1::CancelJobRequest& request,
+              const Callback<v1::Job>& done);
   /// Deletes a job that has ended, with its log. PERMISSION_DENIED: as Cancel.
-  void Delete(const Principal& caller, const v1::DeleteJobRequest& request, Callback<bool> done);
+  void Delete(const Principal& caller, const v1::DeleteJobRequest& request,
+              const Callback<bool>& done);
 
   /// What GetServerInfo tells of jobs: workers, queued and running jobs, limits.
   v1::ServerInfo Info() const;

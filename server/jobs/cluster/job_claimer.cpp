@@ -189,10 +189,10 @@ void JobClaimer::ClaimIfUseful(Time now, const Jobs& jobs) {
   for (const auto& [whose, time] : std::exchange(used_, {})) {
     claim.used.push_back({{whose.second, whose.first}, time});
   }
-  Claim(std::move(claim));
+  Claim(claim);
 }
 
-void JobClaimer::Claim(JobClaim claim) {
+void JobClaimer::Claim(const JobClaim& claim) {
   const auto most = static_cast<std::size_t>(claim.most);
   store_.Claim(claim, [this, most](absl::StatusOr<std::vector<StoredJob>> claimed) {
     const std::size_t count = claimed.ok() ? claimed->size() : 0;

@@ -58,7 +58,7 @@ class JobClaimer {
   void Adopt(const HeldJob& held);
   /// Claims what can be begun soon, if there may be some.
   void ClaimIfUseful(Time now, const Jobs& jobs);
-  void Claim(JobClaim claim);
+  void Claim(const JobClaim& claim);
   /// Takes in what was claimed.
   void TakeIn(StoredJob stored);
   /// Counts worker time, tells how far the runs are, and finds out whether the process is idle.
