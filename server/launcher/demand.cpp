@@ -2,19 +2,20 @@
 
 #include <utility>
 
+#include "storage/postgres/worker_statements.h"
+
 namespace contact::launcher {
 
 absl::StatusOr<Demand> DemandReader::Read() {
   if (absl::Status status = Connect(); !status.ok()) return status;
-  const auto rows = connection_->Run(
-      postgres::Statement{"SELECT queued + cells, running FROM contactd.demand()"});
+  const auto rows = connection_->Run(postgres::Count());
   if (!rows.ok()) {
     // Also one that stands: it may be half-way in an answer, or that of a standby.
     if (absl::IsUnavailable(rows.status())) connection_.reset();
     return rows.status();
   }
   if (rows->size() != 1) return absl::InternalError("contactd.demand() does not answer one row");
-  return Demand{.queued = rows->Integer(0, 0), .running = rows->Integer(0, 1)};
+  return postgres::DemandOf(*rows);
 }
 
 absl::Status DemandReader::Connect() {

@@ -2,20 +2,14 @@
 
 #include <absl/status/statusor.h>
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "storage/postgres/connection.h"
+#include "storage/shared_store.h"
 
 namespace contact::launcher {
-
-/// What there is to do.
-struct Demand {
-  std::int64_t queued = 0;   ///< Jobs that wait for a worker, and cells of sweeps that run.
-  std::int64_t running = 0;  ///< Jobs that a worker has.
-};
 
 /// Reads the demand of a database, with a new connection if the old one is lost.
 class DemandReader {

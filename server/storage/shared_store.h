@@ -62,6 +62,8 @@ struct Demand {
   /// Processes that live, and their threads.
   std::int64_t workers = 0;
   std::int64_t threads = 0;
+  /// Cells of sweeps that run, which several workers can compute.
+  std::int64_t cells = 0;
 };
 
 /// Cells of a running sweep that its worker lets another one compute.

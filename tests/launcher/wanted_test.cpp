@@ -62,5 +62,12 @@ TEST(WantedTest, LimitsHoldWhateverIsAsked) {
   EXPECT_EQ(Wanted({-1, -1}, limits), 2);
 }
 
+TEST(WantedTest, CellsOfASweepWantWorkersAsWaitingJobsDo) {
+  for (std::int64_t count = 0; count <= 60; ++count) {
+    EXPECT_EQ(Wanted({.running = 1, .cells = count}, kLimits),
+              Wanted({.queued = count, .running = 1}, kLimits));
+  }
+}
+
 }  // namespace
 }  // namespace contact::launcher

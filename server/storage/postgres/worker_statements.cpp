@@ -123,10 +123,13 @@ Statement RefuseLoan(const std::string& worker, const Loan& loan) {
               .Integer(loan.number)};
 }
 
-Statement Count() { return {"SELECT queued, running, workers, threads FROM contactd.demand()"}; }
+Statement Count() {
+  return {"SELECT queued, running, workers, threads, cells FROM contactd.demand()"};
+}
 
 absl::StatusOr<Demand> DemandOf(const Rows& rows) {
-  return Demand{rows.Integer(0, 0), rows.Integer(0, 1), rows.Integer(0, 2), rows.Integer(0, 3)};
+  return Demand{rows.Integer(0, 0), rows.Integer(0, 1), rows.Integer(0, 2), rows.Integer(0, 3),
+                rows.Integer(0, 4)};
 }
 
 Statement CountOf(const JobOwner& whose) {
