@@ -40,10 +40,11 @@ RETURNS TABLE(tenant text, owner text) LANGUAGE sql AS $$
 $$;
 
 -- Who is to have the next worker: tenants get the same worker time, and so do the owners of one
--- tenant. A job that a worker has counts for a second that it will use. Not those of a_not_tenants and
--- a_not_owners. `alone`: nobody else waits.
+-- tenant. A job that a worker has counts for a second that it will use. Not those of a_not_tenants
+-- and a_not_owners. `alone`: nobody else waits.
 CREATE OR REPLACE FUNCTION contactd.next_owner(
-  a_most_running bigint, a_not_tenants text[], a_not_owners text[], OUT tenant text, OUT owner text, OUT running bigint, OUT alone boolean)
+  a_most_running bigint, a_not_tenants text[], a_not_owners text[], OUT tenant text,
+  OUT owner text, OUT running bigint, OUT alone boolean)
 LANGUAGE sql AS $$
   WITH shares AS (
     SELECT s.tenant, s.owner, sum(s.seconds) AS seconds, sum(s.running)::bigint AS running FROM (
@@ -67,8 +68,9 @@ LANGUAGE sql AS $$
 $$;
 
 -- Gives a living worker the jobs whose worker is dead, and then a_most of those that wait; at most
--- a_most_running of one owner run at a time. Whoever had them can change them no more. Takes in what
--- the worker has used, by owner. After a start of the database the workers have a while to come back.
+-- a_most_running of one owner run at a time. Whoever had them can change them no more. Takes
+-- in what the worker has used, by owner. After a start of the database the workers have a while to
+-- come back.
 CREATE OR REPLACE FUNCTION contactd.claim(
   a_worker text, a_most bigint, a_most_running bigint, a_grace bigint, a_tenants text[],
   a_owners text[], a_milliseconds bigint[], a_not_tenants text[], a_not_owners text[])
