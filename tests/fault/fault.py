@@ -10,7 +10,7 @@ import time
 
 import grpc
 from contact.v1 import job_service_pb2, scenario_pb2
-from contactd import PATIENCE_S, Job, Server, ServerTest, details_of, spring_wall
+from contactd import PATIENCE_S, Job, Server, ServerTest, details_of, spring_wall, wait_for
 from history import ENDED, Final, History, digest, result_digest, violations
 
 # A promise is for an idle machine and an optimised build; here it may take so many times longer.
@@ -167,16 +167,6 @@ def cpu_by_thread(server):
         words = (task / "stat").read_text().rsplit(")", 1)[1].split()
         seconds[task.name] = (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
     return seconds
-
-
-def wait_for(condition, limit=PATIENCE_S):
-    """Seconds until it held."""
-    start = time.monotonic()
-    while not condition():
-        if time.monotonic() - start > limit:
-            raise AssertionError(f"not so after {limit} s")
-        time.sleep(0.02)
-    return time.monotonic() - start
 
 
 def percentile(values, percent):

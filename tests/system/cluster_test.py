@@ -9,17 +9,9 @@ import unittest
 import grpc
 from contact.v1 import job_service_pb2, scenario_pb2
 from contactd import (BINARY, ENDED, PATIENCE_S, Job, Server, ServerTest, cluster, endless,
-                      endless_and_slow, is_cycle, spring_wall, three_ball_chain, to_bytes)
+                      endless_and_slow, is_cycle, spring_wall, three_ball_chain, to_bytes,
+                      wait_for)
 from shared import LEASE_S, Shared
-
-
-def wait_for(condition, limit=PATIENCE_S):
-    start = time.monotonic()
-    while not condition():
-        if time.monotonic() - start > limit:
-            raise AssertionError(f"not so after {limit} s")
-        time.sleep(0.02)
-    return time.monotonic() - start
 
 
 def result_of(job):

@@ -196,6 +196,16 @@ class ServerTest(unittest.TestCase):
         self.assertIn(events[-1].state_changed.state, ENDED)
 
 
+def wait_for(condition, limit=PATIENCE_S):
+    """Seconds until it held."""
+    start = time.monotonic()
+    while not condition():
+        if time.monotonic() - start > limit:
+            raise AssertionError(f"not so after {limit} s")
+        time.sleep(0.02)
+    return time.monotonic() - start
+
+
 def stored(event):
     return event.WhichOneof("payload") not in ("progress", "bookmark", "gap")
 
