@@ -77,6 +77,11 @@ class SystemdTest(unittest.TestCase):
             settings = pathlib.Path(command[command.index("--config") + 1])
             self.assertTrue((self.root / settings.relative_to("/")).exists(), settings)
 
+    def test_workers_of_slurm_log_where_every_node_can_write(self):
+        settings = tomllib.loads((DEBIAN / "launcher.conf").read_text())
+        self.assertRegex(settings["slurm-output"], "^/tmp/.*%j",
+                         "a relative path begins at /, in which the unit is started")
+
     def test_front_names_the_credentials_that_it_is_given(self):
         unit = (DEBIAN / "contactd-front.service").read_text()
         given = re.findall(r"^LoadCredential=([^:]+):", unit, re.M)
