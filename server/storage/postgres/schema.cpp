@@ -266,7 +266,7 @@ END $$;
 
 -- Changes a job and appends to its log. Outcomes: D done, the first event appended is a_first; N no
 -- such job; O the job has another epoch. A change that is sent again because its answer was lost is
--- done once.
+-- done once. a_change: NULL for one that may come between such a change and its repetition.
 CREATE OR REPLACE FUNCTION contactd.change_job(
   a_name text, a_epoch bigint, a_change bigint, a_take boolean, a_state bigint, a_end_time bigint,
   a_crc32 bigint, a_header bytea, a_result_crc32 bigint, a_result bytea, a_checkpoint_events bigint,
@@ -311,8 +311,9 @@ BEGIN
       end_time = coalesce(a_end_time, j.end_time),
       crc32 = coalesce(a_crc32, j.crc32),
       header = coalesce(a_header, j.header),
-      last_change = a_change,
-      first_of_change = j.last_sequence + 1
+      last_change = coalesce(a_change, j.last_change),
+      first_of_change = CASE WHEN a_change IS NULL THEN j.first_of_change
+        ELSE j.last_sequence + 1 END
     WHERE j.number = v_job.number;
   IF a_end_time > 0 THEN
     DELETE FROM contactd.loans l WHERE l.job = v_job.number;

@@ -163,8 +163,8 @@ END $$;
 -- lender has them back.
 CREATE OR REPLACE FUNCTION contactd.return_loan(
   a_worker text, a_name text, a_epoch bigint, a_loan bigint, a_failed bigint,
-  a_not_converged bigint, a_steps bigint, a_change bigint, a_kinds bigint[], a_codings bigint[],
-  a_sizes bigint[], a_crc32s bigint[], a_payloads bytea[], a_event_bytes bigint,
+  a_not_converged bigint, a_steps bigint, a_kinds bigint[], a_codings bigint[], a_sizes bigint[],
+  a_crc32s bigint[], a_payloads bytea[], a_event_bytes bigint,
   OUT outcome text, OUT first bigint, OUT job_tenant text)
 LANGUAGE plpgsql AS $$
 DECLARE
@@ -184,7 +184,7 @@ BEGIN
     first := 1;
     RETURN;
   END IF;
-  SELECT c.outcome, c.first INTO outcome, first FROM contactd.change_job(a_name, a_epoch, a_change,
+  SELECT c.outcome, c.first INTO outcome, first FROM contactd.change_job(a_name, a_epoch, NULL,
     false, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, a_kinds, a_codings, a_sizes,
     a_crc32s, a_payloads, a_event_bytes) c;
   IF outcome = 'D' THEN

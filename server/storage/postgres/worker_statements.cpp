@@ -108,9 +108,9 @@ Statement ReturnLoan(const std::string& worker, const Loan& loan, const LoanCoun
   Parameters parameters;
   parameters.Bytes(worker).Bytes(loan.job).Integer(static_cast<std::int64_t>(loan.epoch));
   parameters.Integer(loan.number).Integer(counts.failed).Integer(counts.not_converged);
-  parameters.Integer(counts.steps).Integer(static_cast<std::int64_t>(change.id));
+  parameters.Integer(counts.steps);
   AddEvents(change.events, &parameters);
-  return {"SELECT * FROM contactd.return_loan($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13,$14)",
+  return {"SELECT * FROM contactd.return_loan($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13)",
           std::move(parameters)};
 }
 

@@ -286,6 +286,37 @@ TEST_F(SharedStoreTest, MovedJobsAreFoundWithoutNotes) {
   EXPECT_EQ(second.jobs[0].tenant, "acme");
 }
 
+TEST_F(SharedStoreTest, ChangeThatIsSentAgainAfterALoanHasComeBackIsDoneOnce) {
+  ASSERT_TRUE(one_.Create(Job("a")).ok());
+  one_.Beat("lender");
+  two_.Beat("borrower");
+  const StoredJob stored = one_.ClaimJobs({.worker = "lender", .most = 1}).front();
+  ASSERT_TRUE(one_.Move(stored, v1::Job::RUNNING).ok());
+  const std::vector<v1::Event> cells = {LogEvent("cell")};
+  const std::string name = "jobs/a";
+  const auto change = Store::Encode({.name = name, .epoch = stored.epoch, .events = cells});
+  const auto update = [&](SharedStore& store, auto done) {
+    store.Update(change, stored.epoch, std::move(done));
+  };
+  ASSERT_EQ(one_.Ask<std::uint64_t>(update).value(), 1U);
+  const Loan loan{.job = name, .epoch = stored.epoch, .number = 1, .first = 0, .last = 0};
+  const auto lend = [&](SharedStore& store, auto done) {
+    store.Lend("lender", name, {loan}, std::move(done));
+  };
+  ASSERT_TRUE(one_.Ask<bool>(lend).ok());
+  const auto take = [](SharedStore& store, auto done) {
+    store.TakeLoan("borrower", std::move(done));
+  };
+  ASSERT_TRUE(two_.Ask<std::optional<Loan>>(take).ok());
+  const auto give_back = [&](SharedStore& store, auto done) {
+    store.ReturnLoan("borrower", loan, {}, cells, std::move(done));
+  };
+  ASSERT_EQ(two_.Ask<std::uint64_t>(give_back).value(), 2U);
+  EXPECT_EQ(one_.Ask<std::uint64_t>(update).value(), 1U) << "the lender's answer was lost";
+  EXPECT_TRUE(two_.Ask<std::uint64_t>(give_back).ok()) << "the borrower's answer was lost";
+  EXPECT_EQ(database_.Run("SELECT count(*) FROM contactd.events").Integer(0, 0), 2);
+}
+
 TEST_F(SharedStoreTest, PositionsAreThoseOfTheLogs) {
   ASSERT_TRUE(one_.Create(Job("a")).ok());
   const auto positions = two_.Ask<std::vector<LogPosition>>([](SharedStore& store, auto done) {
