@@ -11,7 +11,8 @@ import time
 import grpc
 from contact.v1 import job_service_pb2, scenario_pb2
 from contactd import PATIENCE_S, Job, Server, ServerTest, details_of, spring_wall, wait_for
-from history import ENDED, Final, History, digest, result_digest, violations
+from history import (ENDED, Final, History, digest, outcome_digest, result_digest,
+                     violations)
 
 # A promise is for an idle machine and an optimised build; here it may take so many times longer.
 SLACK = float(os.environ.get("FAULT_SLACK", "5"))
@@ -36,12 +37,12 @@ class FaultTest(ServerTest):
         figures = " ".join(f"{name}={value}" for name, value in self.figures.items())
         print(f"\n{self.id().split('.', 1)[1]}: seed={self.seed} {figures}", file=sys.stderr)
 
-    def golden(self, *scenarios):
-        """Result digests by spec digest, from a server with a directory that nobody disturbs."""
+    def golden(self, *specs):
+        """Outcome digests by spec digest, from a server with a directory that nobody disturbs."""
         server = Server(self.folder / "undisturbed", store="")
         self.addCleanup(server.kill)
         server.start()
-        return {spec_digest(one): result_digest(server.run(one)) for one in scenarios}
+        return {spec_digest(spec): outcome(server, spec) for spec in specs}
 
     def end_time(self, wall_s):
         """Of a spring_wall that takes about so long here; at least wall_s itself."""
@@ -88,6 +89,14 @@ def job_of(spec):
 
 def spec_digest(spec):
     return digest(job_of(spec))
+
+
+def outcome(server, spec):
+    """Runs the job to its end; the digest of what it gave."""
+    request = job_service_pb2.CreateJobRequest(job=job_of(spec))
+    name = server.stub.CreateJob(request, timeout=PATIENCE_S).name
+    events = server.events(name)
+    return outcome_digest(server.get(name), events)
 
 
 @contextlib.contextmanager

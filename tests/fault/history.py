@@ -40,6 +40,15 @@ def result_digest(job):
     return digest(result)
 
 
+def outcome_digest(job, events):
+    """What the physics gave: of a scenario its result, of a sweep its cells."""
+    if not job.HasField("sweep"):
+        return result_digest(job)
+    cells = {event.sweep_cell.index: digest(event.sweep_cell) for event in events
+             if event.WhichOneof("payload") == "sweep_cell"}
+    return hashlib.sha256(repr(sorted(cells.items())).encode()).hexdigest()
+
+
 @dataclasses.dataclass
 class Call:
     """One call: `unknown` until it is told otherwise."""
@@ -55,6 +64,13 @@ class Call:
         self.answer = answer
 
 
+def _unnumbered(event):
+    copy = event.__class__()
+    copy.CopyFrom(event)
+    copy.ClearField("sequence")
+    return copy
+
+
 @dataclasses.dataclass
 class Entry:
     """A stored event as a watcher or the final log has it."""
@@ -64,17 +80,21 @@ class Entry:
     state: int = None  # Of state_changed.
     attempt: int = None  # Of attempt_started.
     samples: tuple = None  # First and number, of frame_chunk.
+    cell: int = None  # Of sweep_cell.
+    content: str = None  # Digest of all but the sequence: no two of an attempt have the same.
 
     @staticmethod
     def of(event):
         kind = event.WhichOneof("payload")
-        entry = Entry(event.sequence, kind, digest(event))
+        entry = Entry(event.sequence, kind, digest(event), content=digest(_unnumbered(event)))
         if kind == "state_changed":
             entry.state = event.state_changed.state
         elif kind == "attempt_started":
             entry.attempt = event.attempt_started.attempt
         elif kind == "frame_chunk":
             entry.samples = event.frame_chunk.first_sample, event.frame_chunk.samples
+        elif kind == "sweep_cell":
+            entry.cell = event.sweep_cell.index
         return entry
 
 
@@ -115,7 +135,7 @@ class Final:
     def of(job, events):
         spec = Job(scenario=job.scenario) if job.HasField("scenario") else Job(sweep=job.sweep)
         return Final(job.state, job.attempt, digest(spec), job.labels.get("request", ""),
-                     result_digest(job), [Entry.of(e) for e in events
+                     outcome_digest(job, events), [Entry.of(e) for e in events
                                           if e.WhichOneof("payload") not in LOSSY])
 
 
@@ -164,7 +184,7 @@ class History:
 def violations(history, final, golden=None, max_attempts=None, resources=None):
     """All promises broken, in words; `final` has the jobs of the service by name.
 
-    golden: result digest of a spec digest; max_attempts: of a job; resources: name -> (before,
+    golden: outcome digest of a spec digest; max_attempts: of a job; resources: name -> (before,
     after) of what must be given back, such as streams and descriptors.
     """
     found = []
@@ -246,12 +266,16 @@ def _watches(history, final):
 
 
 def _log(name, job):
-    """I3, I4, I5 and I7 of what is stored."""
+    """I3, I4, I5 and I7 of what is stored; I4, too: an attempt stores nothing twice."""
     if [entry.sequence for entry in job.log] != list(range(1, len(job.log) + 1)):
         yield f"I3: the log of {name} is not 1, 2, 3, …"
-    attempt, samples = 0, 0
+    attempt, samples, contents = 0, 0, set()
     for entry in job.log:
+        if entry.content and entry.content in contents:
+            yield f"I4: event {entry.sequence} of {name} repeats one of the same attempt"
+        contents.add(entry.content)
         if entry.kind == "attempt_started":
+            contents.clear()
             if entry.attempt not in (attempt, attempt + 1):
                 yield f"I4: attempt {entry.attempt} of {name} came after {attempt}"
             attempt, samples = entry.attempt, 0
@@ -259,6 +283,9 @@ def _log(name, job):
             if entry.samples[0] != samples:
                 yield f"I4: {name} mixes attempts at event {entry.sequence}"
             samples = sum(entry.samples)
+    cells = [entry.cell for entry in job.log if entry.kind == "sweep_cell"]
+    for cell in {cell for cell in cells if cells.count(cell) > 1}:
+        yield f"I4: cell {cell} of {name} stands {cells.count(cell)} times in its log"
     ends = [entry.sequence for entry in job.log if entry.state in ENDED]
     if job.state in ENDED and ends != [len(job.log)] or job.state not in ENDED and ends:
         yield f"I5: {name} ends at events {ends} of {len(job.log)}"

@@ -164,6 +164,20 @@ class CheckerTest(unittest.TestCase):
         self.history.watches.clear()
         self.assertBroken("I4")
 
+    def test_cell_that_is_stored_twice(self):
+        self.job.log = log(*(Entry(0, "sweep_cell", "", cell=cell) for cell in (0, 1)))
+        self.history.watches.clear()
+        self.assertEqual(self.found(), [])
+        self.job.log[-2].cell = 0
+        self.assertBroken("I4")
+
+    def test_event_that_is_stored_twice(self):
+        self.job.log = log(*(Entry(0, "cycle", "", content=f"cycle {i}") for i in (1, 2)))
+        self.history.watches.clear()
+        self.assertEqual(self.found(), [])
+        self.job.log[-2].content = "cycle 1"
+        self.assertBroken("I4")
+
     def test_two_ends(self):
         self.job.log = log(Entry(0, "state_changed", "", state=Job.CANCELLED))
         self.history.watches.clear()

@@ -6,8 +6,9 @@ import time
 import unittest
 
 os.environ["CONTACT_STORE"] = "postgres"
-from contactd import cluster, database_of, spring_wall, three_ball_chain
+from contactd import cluster, database_of, endless_and_slow, spring_wall, three_ball_chain
 from fault import *
+from shared import Shared
 
 ROUNDS = 6
 
@@ -87,6 +88,27 @@ class AwayTest(FaultTest):
         follow(self.server, self.history.watch(name))
         job = self.server.get(name)
         self.assertEqual((job.state, job.attempt), (Job.SUCCEEDED, 1), "the run went on")
+
+    def test_what_a_network_held_back_comes_too_late(self):
+        shared = Shared(self)
+        way, address = shared.way()
+        self.server.kill()
+        self.server = Server(self.folder / "behind", f"--store={address}", store="")
+        self.addCleanup(self.server.kill)
+        self.server.start()
+        name = submit(self.server, self.history, endless_and_slow(), "stalled").name
+        for _ in range(3):
+            before = self.server.get(name).last_sequence
+            wait_for(lambda: self.server.get(name).last_sequence > before)
+            time.sleep(self.random.uniform(0.1, 0.2))  # Nobody asks but the run.
+            way.stall()
+            time.sleep(5.5)
+            before = patient(lambda: self.server.get(name)).last_sequence
+            wait_for(lambda: self.server.get(name).last_sequence > before)
+            way.resume()
+        self.server.cancel(name)
+        follow(self.server, self.history.watch(name))
+        self.assertPromises(self.server)
 
     def test_secrets_of_the_address_are_not_told(self):
         server = Server(self.folder / "secret", store="")

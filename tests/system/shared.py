@@ -69,17 +69,31 @@ class Shared:
         folder.mkdir()
         return folder
 
-    def front(self, *flags):
+    def front(self, *flags, store=None):
+        """`store`: another address of the database, as for a worker."""
         folder = self._path("front")
-        front = Server(folder / "data", "--role=front", f"--store={self.store}", *flags, store="")
+        front = Server(folder / "data", "--role=front", f"--store={store or self.store}", *flags,
+                       store="")
         self.test.addCleanup(front.kill)
         return front.start()
 
-    def worker(self, *flags, environment=None):
-        worker = Worker(self._path("worker") / "contactd.log", self.store, *flags,
+    def worker(self, *flags, environment=None, store=None):
+        worker = Worker(self._path("worker") / "contactd.log", store or self.store, *flags,
                         environment=environment)
         self.test.addCleanup(worker.kill)
         return worker.start()
 
+    def way(self):
+        """A proxy before the database, and the address of the database through it."""
+        target = cluster().folder / ".s.PGSQL.5432"
+        from proxy import Proxy  # cluster() has made it known.
+        proxy = Proxy(target)
+        self.test.addCleanup(proxy.close)
+        return proxy, f"postgresql://contactd@127.0.0.1:{proxy.port}/{self.database}"
+
+    @property
+    def database(self):
+        return self.store.split("@/")[1].split("?")[0]
+
     def ask(self, sql):
-        return cluster().run(sql, self.store.split("@/")[1].split("?")[0])
+        return cluster().run(sql, self.database)

@@ -22,11 +22,19 @@ constexpr std::array kDefaults = {
 };
 
 // Durable before answered, whatever the server's default is. A lost client holds no lock for long.
+// Answers the session.
 constexpr char kSettings[] =
     "SELECT set_config('synchronous_commit', 'on', false)"
     " WHERE current_setting('synchronous_commit') IN ('off', 'local');"
     "SET statement_timeout = '4s'; SET idle_in_transaction_session_timeout = '10s';"
-    "SET search_path = contactd, pg_temp";
+    "SET search_path = contactd, pg_temp;"
+    "SELECT pid || ' ' || extract(epoch FROM backend_start) FROM pg_stat_activity"
+    " WHERE pid = pg_backend_pid()";
+
+// Waits [ms] for less than a statement may take.
+constexpr char kEnd[] =
+    "SELECT pg_terminate_backend(pid, 3000) FROM pg_stat_activity"
+    " WHERE pid || ' ' || extract(epoch FROM backend_start) = $1";
 
 // A server that has not answered for so long [ms] is lost. Longer than any statement may take.
 constexpr int kSilence = 5000;
@@ -78,7 +86,9 @@ absl::StatusOr<std::unique_ptr<Connection>> Connection::Open(const std::string& 
   }
   PQsetNoticeProcessor(
       connection->connection_.get(), [](void*, const char*) {}, nullptr);
-  if (absl::Status set = connection->RunScript(kSettings); !set.ok()) return set;
+  const Rows session(PQexec(connection->connection_.get(), kSettings));
+  if (!session.ok()) return connection->Failure(session.raw());
+  connection->session_ = PQgetvalue(session.raw(), 0, 0);
   PQsetnonblocking(connection->connection_.get(), 1);
   return connection;
 }
@@ -86,6 +96,13 @@ absl::StatusOr<std::unique_ptr<Connection>> Connection::Open(const std::string& 
 absl::Status Connection::RunScript(const std::string& sql) {
   const Rows answer(PQexec(connection_.get(), sql.c_str()));
   return answer.ok() ? absl::OkStatus() : Failure(answer.raw());
+}
+
+absl::Status Connection::End(const std::string& session) {
+  const absl::StatusOr<Rows> ended = Run({kEnd, Parameters().Bytes(session)});
+  if (!ended.ok()) return ended.status();
+  if (ended->size() == 0 || ended->Integer(0, 0) != 0) return absl::OkStatus();
+  return absl::UnavailableError("an earlier session of the database has not ended");
 }
 
 absl::StatusOr<Rows> Connection::Run(const Statement& statement) {

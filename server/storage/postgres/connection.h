@@ -46,6 +46,12 @@ class Connection {
   /// Is readable when something has come.
   int socket() const { return PQsocket(connection_.get()); }
 
+  /// Which session of the server this is; no other ever is the same.
+  const std::string& session() const { return session_; }
+  /// Ends another session of the same role, and waits for it: what it was sent and has not done by
+  /// then is never done. OK, too, if it has ended before. UNAVAILABLE: it has not ended yet.
+  absl::Status End(const std::string& session);
+
   /// False: the connection is lost.
   bool good() const { return PQstatus(connection_.get()) == CONNECTION_OK; }
   /// Database and server, without secrets, for messages.
@@ -73,6 +79,7 @@ class Connection {
   std::map<std::string, std::string> names_;
   // Number of the newest name.
   int numbers_ = 0;
+  std::string session_;
 };
 
 }  // namespace contact::postgres

@@ -27,6 +27,7 @@ QueryThread::QueryThread(Opener open, std::unique_ptr<Connection> connection, St
                          std::shared_ptr<StoreMetrics> metrics, const Clock& clock)
     : open_(std::move(open)),
       connection_(std::move(connection)),
+      session_(connection_->session()),
       tidy_(std::move(tidy)),
       metrics_(std::move(metrics)),
       clock_(clock),
@@ -130,7 +131,7 @@ bool QueryThread::Connect() {
   if (connection_ && connection_->good()) return true;
   if (lost_.ok()) lost_since_ = clock_.Elapsed();
   do {
-    absl::StatusOr<std::unique_ptr<Connection>> opened = open_();
+    absl::StatusOr<std::unique_ptr<Connection>> opened = Reopen();
     if (opened.ok()) {
       if (!lost_.ok()) spdlog::info("the database answers again");
       lost_ = absl::OkStatus();
@@ -144,6 +145,15 @@ bool QueryThread::Connect() {
     posted_.wait_for(mutex_, kRetryTime);
   } while (clock_.Elapsed() - lost_since_ < kPatience);
   return false;
+}
+
+absl::StatusOr<std::unique_ptr<Connection>> QueryThread::Reopen() {
+  absl::StatusOr<std::unique_ptr<Connection>> opened = open_();
+  if (!opened.ok()) return opened;
+  // A network may hold back what the last one was sent, and deliver it after what this one is.
+  if (absl::Status ended = (*opened)->End(session_); !ended.ok()) return ended;
+  session_ = (*opened)->session();
+  return opened;
 }
 
 void QueryThread::Tidy() {

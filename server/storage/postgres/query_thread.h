@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -23,8 +24,9 @@ namespace contact::postgres {
 /// into the next transaction, so that one turn of the network and one sync of the disk serve them
 /// all; one that comes alone does not wait for others.
 ///
-/// When the connection is lost the thread opens another and sends again what was not answered.
-/// Every statement must therefore be one that may be done twice.
+/// When the connection is lost the thread opens another, ends the session of the first, and sends
+/// again what was not answered. Every statement must therefore be one that may be done twice, but
+/// not one that may be done late.
 class QueryThread {
  public:
   struct Operation {
@@ -59,11 +61,15 @@ class QueryThread {
   absl::StatusOr<std::vector<Rows>> Ask(const std::vector<const Statement*>& statements);
   // A connection, for so long as it may take to open one. False: none is to be had.
   bool Connect();
+  // A new connection, once the session of the last one has ended.
+  absl::StatusOr<std::unique_ptr<Connection>> Reopen();
   void Tidy();
 
   // Used by the thread alone, as all members up to `mutex_`.
   const Opener open_;
   std::unique_ptr<Connection> connection_;
+  // Of the newest connection.
+  std::string session_;
   const Statement tidy_;
   const std::shared_ptr<StoreMetrics> metrics_;
   const Clock& clock_;

@@ -83,6 +83,16 @@ TEST_F(PostgresStoreTest, ChangeThatIsSentAgainIsDoneOnce) {
   EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 3U);
 }
 
+TEST_F(PostgresStoreTest, SessionThatWasReplacedDoesNothingMore) {
+  const auto late = postgres::Connection::Open(database_.address()).value();
+  const auto next = postgres::Connection::Open(database_.address()).value();
+  EXPECT_NE(late->session(), next->session());
+  ASSERT_TRUE(next->End(late->session()).ok());
+  EXPECT_EQ(late->Run({"SELECT 1"}).status().code(), absl::StatusCode::kUnavailable);
+  EXPECT_TRUE(next->End(late->session()).ok()) << "there is none any more";
+  EXPECT_TRUE(next->Run({"SELECT 1"}).ok());
+}
+
 TEST_F(PostgresStoreTest, JobThatIsSentAgainIsMadeOnce) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a"))->created);
