@@ -335,6 +335,8 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
       "--grant-front", config.grants.front,
       "Role of PostgreSQL that fronts connect as: it gets the rights that they need");
   migrate->add_option("--grant-worker", config.grants.worker, "The same for workers");
+  migrate->add_option("--grant-launcher", config.grants.launcher,
+                      "The same for launchers and scalers, which ask how much there is to do");
   CLI::App* copy = app.add_subcommand(
       "copy-store", "Copy all jobs into an empty store while no contactd uses the two, and end");
   copy->add_option("--from", config.copy_from, "Directory, or postgresql://… of a database")

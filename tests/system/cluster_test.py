@@ -313,17 +313,22 @@ class WorkerTest(ClusterTest):
 
 
 class RolesTest(ClusterTest):
-    """Front and worker connect as roles that own nothing."""
+    """Front, worker and launcher connect as roles that own nothing and may read no table."""
+
+    ROLES = "a_front", "a_worker", "a_launcher"
 
     def setUp(self):
         super().setUp()
-        for role in "a_front", "a_worker":
+        for role in self.ROLES:
             cluster().run(f"DROP ROLE IF EXISTS {role}; CREATE ROLE {role} LOGIN")
             self.addCleanup(cluster().run, f"DROP ROLE {role}")
         store = self.shared.store
-        subprocess.run([BINARY, "migrate", f"--store={store}", "--grant-front=a_front",
-                        "--grant-worker=a_worker"], check=True, stdout=subprocess.DEVNULL)
-        self.addCleanup(self.shared.ask, "DROP OWNED BY a_front, a_worker")
+        self.migrate = lambda: subprocess.run(
+            [BINARY, "migrate", f"--store={store}",
+             *(f"--grant-{role[2:]}={role}" for role in self.ROLES)],
+            check=True, stdout=subprocess.DEVNULL)
+        self.migrate()
+        self.addCleanup(self.shared.ask, f"DROP OWNED BY {', '.join(self.ROLES)}")
         self.as_role = lambda role: store.replace("contactd@", f"{role}@")
 
     def may(self, role, sql):
@@ -334,15 +339,14 @@ class RolesTest(ClusterTest):
         return done.returncode == 0
 
     def test_jobs_and_sweeps_run_and_are_deleted(self):
-        store = self.shared.store
-        self.shared.store = self.as_role("a_front")
-        front = self.shared.front()
-        self.shared.store = self.as_role("a_worker")
+        front = self.shared.front("--max-stored-bytes-per-owner=1GiB", "--retain-for=1h",
+                                  store=self.as_role("a_front"))
         for _ in range(2):
-            self.shared.worker("--workers=1")
-        self.shared.store = store
-        job = front.run(three_ball_chain())
+            self.shared.worker("--workers=1", store=self.as_role("a_worker"))
+        job = front.run(three_ball_chain(), labels={"a": "b"})
         self.assertEqual(job.state, Job.SUCCEEDED)
+        [listed] = front.list(labels={"a": "b"}).jobs
+        self.assertEqual(listed.name, job.name)
         front.delete(job.name)
         name = front.stub.CreateJob(job_service_pb2.CreateJobRequest(job=Job(sweep=self.wide_sweep(3))),
                                     timeout=PATIENCE_S).name
@@ -351,20 +355,41 @@ class RolesTest(ClusterTest):
         endless_job = self.running(front)
         front.cancel(endless_job)
         wait_for(lambda: front.get(endless_job).state == Job.CANCELLED)
+        log = front.log() + "".join(path.read_text() for path in self.folder.glob("*worker*/*.log"))
+        self.assertNotIn("permission denied", log)
 
-    def test_nobody_writes_but_by_the_functions_of_his_role(self):
-        self.assertTrue(self.may("a_front", "SELECT count(*) FROM contactd.jobs"))
-        self.assertTrue(self.may("a_worker", "SELECT contactd.leave('nobody')"))
+    def test_nobody_reads_or_writes_but_by_the_functions_of_his_role(self):
+        for role, sql in [
+                ("a_front", "SELECT contactd.list_jobs(9, '', '{}', '{}', '{}', '', 9)"),
+                ("a_worker", "SELECT contactd.leave('nobody')"),
+                ("a_launcher", "SELECT * FROM contactd.demand()")]:
+            with self.subTest(role=role, sql=sql):
+                self.assertTrue(self.may(role, sql))
+        for role in self.ROLES:
+            for table in self.shared.ask("SELECT tablename FROM pg_tables"
+                                         " WHERE schemaname = 'contactd'").split():
+                for sql in f"SELECT FROM contactd.{table}", f"DELETE FROM contactd.{table}":
+                    with self.subTest(role=role, sql=sql):
+                        self.assertFalse(self.may(role, sql))
         for role, sql in [
                 ("a_front", "UPDATE contactd.jobs SET state = 3"),
-                ("a_worker", "DELETE FROM contactd.events"),
                 ("a_worker", "INSERT INTO contactd.workers VALUES('w', 'h', 1, '', now())"),
                 ("a_front", "SELECT contactd.leave('nobody')"),
                 ("a_worker", "SELECT contactd.remove_job('jobs/a', '')"),
+                ("a_worker", "SELECT contactd.list_jobs(9, '', '{}', '{}', '{}', '', 9)"),
+                ("a_launcher", "SELECT contactd.read_job('jobs/a', '', true, true, true)"),
+                ("a_launcher", "SELECT contactd.purge(1)"),
                 ("a_worker", "DROP TABLE contactd.jobs"),
                 ("a_front", "CREATE TABLE contactd.mine(i int)")]:
             with self.subTest(role=role, sql=sql):
                 self.assertFalse(self.may(role, sql))
+
+    def test_rights_of_an_earlier_version_are_taken_back(self):
+        self.shared.ask("GRANT SELECT ON contactd.jobs TO a_front;"
+                        "GRANT EXECUTE ON FUNCTION contactd.leave TO a_launcher")
+        self.migrate()
+        self.assertFalse(self.may("a_front", "SELECT FROM contactd.jobs"))
+        self.assertFalse(self.may("a_launcher", "SELECT contactd.leave('nobody')"))
 
 
 class FrontTest(ClusterTest):

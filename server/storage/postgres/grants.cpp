@@ -3,68 +3,65 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
 #include <absl/strings/str_replace.h>
+#include <absl/types/span.h>
 
-#include <vector>
+#include <array>
+#include <initializer_list>
 
 namespace contact::postgres {
 namespace {
 
-// Functions that write, of both roles and of one.
-const std::vector<std::string>& Shared() {
-  static const std::vector<std::string> names = {"change_job", "request_cancel", "purge"};
-  return names;
-}
-const std::vector<std::string>& OfFront() {
-  static const std::vector<std::string> names = {"create_job", "remove_job", "compact_job"};
-  return names;
-}
-const std::vector<std::string>& OfWorker() {
-  static const std::vector<std::string> names = {
-      "beat", "claim", "leave", "lend", "take_loan", "return_loan", "refuse_loan", "settle_loans"};
-  return names;
-}
+using Functions = absl::Span<const char* const>;
 
-// Functions that only read run with the rights of whoever calls them.
-constexpr char kReaders[] =
-    "contactd.read_job, contactd.read_events, contactd.count_of, contactd.demand,"
-    " contactd.moved_since";
-
-std::string Names(const std::vector<std::string>& names) {
-  return absl::StrJoin(names, ", ", [](std::string* out, const std::string& name) {
-    absl::StrAppend(out, "contactd.", name);
-  });
-}
+// Of fronts and workers.
+constexpr std::array kShared = {"schema_version", "read_job", "read_events", "positions_of",
+                                "moved_since",    "count_of", "demand",      "change_job",
+                                "request_cancel", "purge"};
+constexpr std::array kOfFront = {"create_job", "remove_job", "compact_job", "owner_of",
+                                 "bytes_of",   "list_jobs",  "job_sizes"};
+constexpr std::array kOfWorker = {"beat",      "claim",       "leave",       "lend",
+                                  "take_loan", "return_loan", "refuse_loan", "settle_loans"};
+constexpr std::array kOfLauncher = {"demand"};
 
 // A name as SQL has it.
 std::string Quoted(const std::string& name) {
   return absl::StrCat("\"", absl::StrReplaceAll(name, {{"\"", "\"\""}}), "\"");
 }
 
-std::string AsOwner(const std::vector<std::string>& names) {
+// They have the rights of the owner, whoever calls them.
+std::string AsOwner(Functions functions) {
   std::string script;
-  for (const std::string& name : names) {
+  for (const char* name : functions) {
     absl::StrAppend(&script, "ALTER FUNCTION contactd.", name,
                     " SECURITY DEFINER SET search_path = contactd, pg_temp;");
   }
   return script;
 }
 
-std::string GrantTo(const std::string& role, const std::vector<std::string>& functions) {
-  if (role.empty()) return "";
-  const std::string to = absl::StrCat(" TO ", Quoted(role), ";");
-  return absl::StrCat("GRANT USAGE ON SCHEMA contactd", to,
-                      "GRANT SELECT ON ALL TABLES IN SCHEMA contactd", to,
-                      "GRANT EXECUTE ON FUNCTION ", kReaders, to, "GRANT EXECUTE ON FUNCTION ",
-                      Names(Shared()), to, "GRANT EXECUTE ON FUNCTION ", Names(functions), to);
+std::string GrantTo(const std::string& role, Functions functions) {
+  const std::string names = absl::StrJoin(functions, ", contactd.");
+  return absl::StrCat("GRANT EXECUTE ON FUNCTION contactd.", names, " TO ", role, ";");
+}
+
+// The role has the right to call these functions, whatever it had before.
+std::string OnlyTo(const std::string& name, std::initializer_list<Functions> all) {
+  if (name.empty()) return "";
+  const std::string role = Quoted(name);
+  std::string script = absl::StrCat("REVOKE ALL ON ALL TABLES IN SCHEMA contactd FROM ", role,
+                                    "; REVOKE ALL ON ALL FUNCTIONS IN SCHEMA contactd FROM ", role,
+                                    "; GRANT USAGE ON SCHEMA contactd TO ", role, ";");
+  for (const Functions functions : all) absl::StrAppend(&script, GrantTo(role, functions));
+  return script;
 }
 
 }  // namespace
 
 std::string GrantScript(const Grants& grants) {
-  if (grants.front.empty() && grants.worker.empty()) return "";
-  return absl::StrCat("REVOKE ALL ON ALL FUNCTIONS IN SCHEMA contactd FROM PUBLIC;",
-                      AsOwner(Shared()), AsOwner(OfFront()), AsOwner(OfWorker()),
-                      GrantTo(grants.front, OfFront()), GrantTo(grants.worker, OfWorker()));
+  if (grants.front.empty() && grants.worker.empty() && grants.launcher.empty()) return "";
+  return absl::StrCat(
+      "REVOKE ALL ON ALL FUNCTIONS IN SCHEMA contactd FROM PUBLIC;", AsOwner(kShared),
+      AsOwner(kOfFront), AsOwner(kOfWorker), OnlyTo(grants.front, {kShared, kOfFront}),
+      OnlyTo(grants.worker, {kShared, kOfWorker}), OnlyTo(grants.launcher, {kOfLauncher}));
 }
 
 }  // namespace contact::postgres

@@ -8,11 +8,12 @@ namespace contact::postgres {
 struct Grants {
   std::string front;
   std::string worker;
+  std::string launcher;
 };
 
-/// The statements that give the roles what they need: all tables to be read, none to be written,
-/// and the functions that write for them. They run as the owner of the schema; all others lose the
-/// right to them.
+/// The statements that let each role call the functions that it needs, and nothing else: no role
+/// may read or write a table. They run as the owner of the schema; all others lose the right to its
+/// functions.
 std::string GrantScript(const Grants& grants);
 
 }  // namespace contact::postgres

@@ -15,9 +15,9 @@ absl::StatusOr<int> Version(Connection& connection) {
   const auto table = connection.Run({"SELECT to_regclass('contactd.version') IS NOT NULL"});
   if (!table.ok()) return table.status();
   if (table->Integer(0, 0) == 0) return 0;
-  const auto version = connection.Run({"SELECT version FROM contactd.version"});
+  const auto version = connection.Run({"SELECT contactd.schema_version()"});
   if (!version.ok()) return version.status();
-  return version->size() == 0 ? 0 : static_cast<int>(version->Integer(0, 0));
+  return static_cast<int>(version->Integer(0, 0));  // 0 for NULL: the table is empty.
 }
 
 absl::Status IsNewer(const Connection& connection, int version) {
@@ -34,7 +34,7 @@ absl::Status Migrate(Connection& connection) {
   if (*version > kSchemaVersion) return IsNewer(connection, *version);
   if (*version == kSchemaVersion) return absl::OkStatus();
   const absl::Status made = connection.RunScript(
-      absl::StrCat(kLock, kTables, kFunctions, kWorkerFunctions,
+      absl::StrCat(kLock, kTables, kFunctions, kReaderFunctions, kWorkerFunctions,
                    "INSERT INTO contactd.version VALUES(", kSchemaVersion, ")"));
   // Another program may have done it meanwhile.
   return CheckVersion(connection).ok() ? absl::OkStatus() : made;

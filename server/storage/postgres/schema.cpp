@@ -137,26 +137,28 @@ RETURNS TABLE(
   last_sequence bigint, crc32 bigint, header bytea, oldest_sequence bigint, compacted boolean,
   owner text, tenant text, request_id text, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint,
   checkpoint bytea, checkpoint_sequence bigint, result_crc32 bigint, result bytea)
-LANGUAGE sql AS $$
-  SELECT j.number, j.name, j.state, j.epoch, j.cancel_requested, j.last_sequence, j.crc32,
+LANGUAGE plpgsql AS $$
+BEGIN
+  RETURN QUERY SELECT j.number, j.name, j.state, j.epoch, j.cancel_requested, j.last_sequence, j.crc32,
     j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id, s.crc32, s.spec, c.crc32, c.state,
     c.sequence, r.crc32, r.result
   FROM contactd.jobs j
     LEFT JOIN contactd.specs s ON a_spec AND s.job = j.number
     LEFT JOIN contactd.checkpoints c ON a_checkpoint AND c.job = j.number
     LEFT JOIN contactd.results r ON a_result AND r.job = j.number
-  WHERE j.name = a_name AND (a_tenant IS NULL OR j.tenant = a_tenant)
-$$;
+  WHERE j.name = a_name AND (a_tenant IS NULL OR j.tenant = a_tenant);
+END $$;
 
 -- What of its limits the owner has: unfinished jobs, their cells, and jobs that a worker has.
 CREATE OR REPLACE FUNCTION contactd.count_of(
   a_tenant text, a_owner text, OUT jobs bigint, OUT cells bigint, OUT running bigint)
-LANGUAGE sql STABLE AS $$
-  SELECT count(*), coalesce(sum(j.cells), 0)::bigint,
-    count(*) FILTER (WHERE j.state = 2 OR j.worker IS NOT NULL)
-  FROM contactd.jobs j
-  WHERE j.tenant = a_tenant AND j.owner = a_owner AND j.state NOT IN (3,4,5)
-$$;
+LANGUAGE plpgsql STABLE AS $$
+BEGIN
+  SELECT count(*), coalesce(sum(j.cells), 0),
+      count(*) FILTER (WHERE j.state = 2 OR j.worker IS NOT NULL)
+    INTO jobs, cells, running FROM contactd.jobs j
+    WHERE j.tenant = a_tenant AND j.owner = a_owner AND j.state NOT IN (3,4,5);
+END $$;
 
 -- Appends to the log of a job whose last event is a_last.
 CREATE OR REPLACE FUNCTION contactd.append(

@@ -13,6 +13,9 @@ extern const char kTables[];
 /// transaction's worth of work that needs no answer in between, so many go to the server together.
 extern const char kFunctions[];
 
+/// The functions that read the tables for fronts and tools.
+extern const char kReaderFunctions[];
+
 /// The functions by which processes share the jobs that have not ended.
 extern const char kWorkerFunctions[];
 

@@ -210,49 +210,36 @@ absl::StatusOr<StoredJob> JobOf(const Rows& rows, const std::string& name) {
 }
 
 Statement FindOwner(const std::string& tenant, const std::string& name) {
-  return {"SELECT owner FROM contactd.jobs WHERE name=$1 AND tenant=$2",
-          Parameters().Bytes(name).Bytes(tenant)};
+  return {"SELECT contactd.owner_of($1,$2)", Parameters().Bytes(tenant).Bytes(name)};
 }
 
 absl::StatusOr<JobOwner> OwnerOf(const Rows& rows, const std::string& name,
                                  const std::string& tenant) {
-  if (rows.size() == 0) return NoSuchJob(name);
+  if (rows.IsNull(0, 0)) return NoSuchJob(name);
   return JobOwner{rows.Bytes(0, 0), tenant};
 }
 
 Statement SumBytes(const JobOwner& whose) {
-  return {"SELECT coalesce(sum(bytes), 0)::bigint FROM contactd.jobs WHERE tenant=$1 AND owner=$2",
-          Parameters().Bytes(whose.tenant).Bytes(whose.owner)};
+  return {"SELECT contactd.bytes_of($1,$2)", Parameters().Bytes(whose.tenant).Bytes(whose.owner)};
 }
 
 Statement ListJobs(const JobQuery& query) {
-  int number = 0;
-  const auto next = [&number] { return absl::StrCat("$", ++number); };
-  std::string sql = absl::StrCat("SELECT ", kHeader, " FROM contactd.jobs WHERE number<", next());
+  std::vector<std::string> keys, values;
+  for (const auto& [key, value] : query.labels) {
+    keys.push_back(key);
+    values.push_back(value);
+  }
   Parameters parameters;
   parameters.Integer(query.before > 0 ? query.before : INT64_MAX);
   if (query.tenant) {
-    absl::StrAppend(&sql, " AND tenant=", next());
     parameters.Bytes(*query.tenant);
+  } else {
+    parameters.Null();
   }
-  if (!query.states.empty()) {
-    absl::StrAppend(&sql, " AND state = ANY(", next(), "::bigint[])");
-    parameters.Integers({query.states.begin(), query.states.end()});
-  }
-  for (const auto& [key, value] : query.labels) {
-    const std::string at_key = next();
-    absl::StrAppend(&sql,
-                    " AND EXISTS(SELECT FROM contactd.labels WHERE job=number AND key=", at_key,
-                    " AND value=", next(), ")");
-    parameters.Bytes(key).Bytes(value);
-  }
-  if (!query.name_prefix.empty()) {
-    absl::StrAppend(&sql, " AND starts_with(name, ", next(), ")");
-    parameters.Bytes(query.name_prefix);
-  }
-  absl::StrAppend(&sql, " ORDER BY number DESC LIMIT ", next());
-  parameters.Integer(query.limit + 1);
-  return {std::move(sql), std::move(parameters)};
+  parameters.Integers({query.states.begin(), query.states.end()}).Texts(keys).Texts(values);
+  parameters.Bytes(query.name_prefix).Integer(query.limit + 1);
+  return {absl::StrCat("SELECT ", kHeader, " FROM contactd.list_jobs($1,$2,$3,$4,$5,$6,$7)"),
+          std::move(parameters)};
 }
 
 absl::StatusOr<JobPage> PageOf(const Rows& rows, int limit) {
@@ -263,6 +250,7 @@ absl::StatusOr<JobPage> PageOf(const Rows& rows, int limit) {
   return page;
 }
 
+// For a process that has the jobs alone, as the owner of the tables.
 Statement ListUnfinished() {
   return {absl::StrCat("SELECT ", kHeader,
                        " FROM contactd.jobs WHERE state NOT IN (3,4,5) ORDER BY number")};
@@ -274,11 +262,7 @@ absl::StatusOr<std::vector<StoredJob>> JobsOf(const Rows& rows) {
   return jobs;
 }
 
-Statement ListSizes() {
-  return {
-      "SELECT name, end_time, bytes FROM contactd.jobs WHERE state IN (3,4,5)"
-      " ORDER BY end_time, number"};
-}
+Statement ListSizes() { return {"SELECT name, end_time, bytes FROM contactd.job_sizes()"}; }
 
 absl::StatusOr<std::vector<JobSize>> SizesOf(const Rows& rows) {
   std::vector<JobSize> sizes;

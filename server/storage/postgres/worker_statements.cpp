@@ -142,7 +142,7 @@ absl::StatusOr<OwnerCounts> OwnerCountsOf(const Rows& rows) {
 }
 
 Statement FindPositions(const std::vector<std::string>& names) {
-  return {"SELECT name, last_sequence, state IN (3,4,5) FROM contactd.jobs WHERE name = ANY($1)",
+  return {"SELECT name, last_sequence, ended FROM contactd.positions_of($1)",
           Parameters().Texts(names)};
 }
 
