@@ -1,6 +1,7 @@
 """A way to a server that stalls, breaks and mends again, as networks do."""
 
 import asyncio
+import contextlib
 import functools
 import threading
 
@@ -83,12 +84,11 @@ class Proxy:
 
 async def _carry(source, sink, gate):
     """All of one direction, then its end."""
-    try:
+    with contextlib.suppress(OSError):  # One of the two is lost: that is an end, too.
         while data := await source.read(1 << 16):
             await gate.wait()
             sink.write(data)
             await sink.drain()
-        await gate.wait()
+    await gate.wait()
+    with contextlib.suppress(OSError):
         sink.write_eof()
-    except OSError:
-        pass  # Its other side has gone; the other direction finds that, too.
