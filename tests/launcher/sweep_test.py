@@ -67,6 +67,12 @@ class SweepTest(SlurmLauncherTest):
         print(f"first cell {took:.1f} s after the sweep was submitted to 0 workers (≤ 10 s)")
         self.assertLess(took, 10)
 
+    def watch_two_at_once(self, start):
+        """Waits until a worker has computed cells that the one that has the sweep lent it."""
+        self.wait_for(lambda: self.postgres.run("SELECT count(*) FROM contactd.loans WHERE done",
+                                                "sweep") != "0", "only one worker computes")
+        print(f"two workers compute {time.monotonic() - start:.1f} s after it was submitted")
+
     def run_out_of_time(self, front, name, but):
         """Waits until a worker has left while the sweep runs that nobody has cancelled."""
         seen = set()
@@ -91,6 +97,7 @@ class SweepTest(SlurmLauncherTest):
         start = time.monotonic()
         name = self.submit(front)
         self.watch_first_cell(front, name, start)
+        self.watch_two_at_once(start)
         cancelled = self.jobs("RUNNING")[0]
         self.slurm.cancel(cancelled)
         print(f"job {cancelled} cancelled")
