@@ -110,6 +110,46 @@ test('a zoom asks the server again, and no peak is lost', async () => {
   assert.equal(ofAddress('from'), null);
 });
 
+test('zooms faster than the server answers end with the last window', async () => {
+  const id = await server.submit(CHAIN);
+  const {summary: {timeReachedS}} = await server.ended(id);
+  await open(`/runs/${id}`);
+  await hold(async () => await points('force') > 100);
+  const calls = {asked: 0, answered: 0};
+  let release;
+  const pressed = new Promise((resolve) => { release = resolve; });
+  await page.route('**/GetSeries', async (route) => {
+    ++calls.asked;
+    await pressed;
+    await route.fulfill({response: await route.fetch()});
+    ++calls.answered;
+  });
+  for (let i = 0; i < 4; ++i) await page.keyboard.press('+');
+  const range = () => [Number(ofAddress('from')), Number(ofAddress('to'))];
+  await hold(() => range()[1] - range()[0] < 0.07 * timeReachedS);
+  release();
+  await hold(() => calls.answered === 2);
+  await page.waitForTimeout(500);   // Chromium begins ten downloads a second and drops others without a word: one look.
+  const [startTimeS, endTimeS] = range();
+  const recorded = await server.call('GetSeries', {name: `jobs/${id}`, channels: ['B1-B2.contact_force'], decimation: 'RAW', startTimeS, endTimeS, plainNumbers: true});
+  const [times, forces] = recorded.columns.map(({numbers}) => numbers);
+  assert.ok(times.length > 10);
+  assert.deepEqual(await forcePoints('B1-B2'), times.map((time, i) => [time, forces[i]]));
+  assert.deepEqual(calls, {asked: 2, answered: 2}, 'the first window and the last');
+  await page.unrouteAll();
+});
+
+test('a zoom whose answer is lost is asked for again', async () => {
+  const id = await server.submit(CHAIN);
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  await hold(async () => await points('force') > 100);
+  const whole = await points('force');
+  await page.route('**/GetSeries', (route) => route.abort(), {times: 1});
+  await page.keyboard.press('+');
+  await hold(async () => await points('force') < whole);
+});
+
 test('one cursor reads all plots', async () => {
   const id = await server.submit(CHAIN);
   await server.ended(id);

@@ -1,15 +1,18 @@
 // The recorded columns of all plots of a run, in one call: the server reads the same part of its log
 // whatever the number of columns. Asked for again when the window changes or the run goes on.
 
-import {useEffect, useLayoutEffect, useRef, useState} from 'preact/hooks';
+import {useEffect, useLayoutEffect, useMemo, useRef, useState} from 'preact/hooks';
 
+import {passes} from '../../api/errors';
 import {readSeries, type Series} from '../../api/series';
+import {Turns, type Rest} from '../../api/turns';
 import type {Window} from '../../plots/range';
 
 const POINTS = 4000;
 const POINTS_PER_CHANNEL = 500;
 const MOST_BYTES = 3.5e6;        // The server answers with 4 MB at most.
 const LIVE_PAUSE_MS = 400;       // Between two calls while a run goes on.
+const RETRY_MS = 1000;           // After a call that failed.
 const LATE_MS = 150;             // After which plots do not wait for their values.
 
 /** Samples to ask for, so that each column has enough and the answer is not too large. */
@@ -38,29 +41,27 @@ export interface Shown {
 export function useSeries(name: string, channels: string[], window: Window | undefined, tick: number): Shown {
   const view = `${name} ${channels.join(' ')} ${window?.[0]} ${window?.[1]}`;
   const [shown, setShown] = useState<Shown>({window, view});
-  const state = useRef({busy: false, again: false, alive: true, asked: '', start: 0});
-  const ask = useRef<() => void>(() => undefined);
-  useEffect(() => { state.current.alive = true; return () => { state.current.alive = false; }; }, []);
-  ask.current = () => {
-    const now = state.current;
-    if (channels.length === 0 || !now.alive) return;
-    if (now.busy) { now.again = true; return; }
-    Object.assign(now, {busy: true, again: false, asked: view});
+  const asked = useRef({view: '', start: 0});
+  const call = useRef<() => Promise<Rest>>();
+  call.current = async () => {
     const start = performance.now();
-    readSeries({name, channels, from: window?.[0], to: window?.[1], maxPoints: pointsFor(channels.length)})
-      .then((series) => {
-        now.start = start;
-        if (now.alive) setShown({series, window, view});
-      }, () => undefined)
-      .finally(() => {
-        now.busy = false;
-        if (now.again) setTimeout(() => ask.current(), tick < 0 ? 0 : LIVE_PAUSE_MS);
-      });
+    asked.current.view = view;
+    try {
+      const series = await readSeries({name, channels, from: window?.[0], to: window?.[1], maxPoints: pointsFor(channels.length)});
+      asked.current.start = start;
+      setShown({series, window, view});
+      return {pauseMs: tick < 0 ? 0 : LIVE_PAUSE_MS};
+    } catch (error) {
+      return {pauseMs: RETRY_MS, again: passes(error)};
+    }
   };
-  useLayoutEffect(() => { if (shown.series) measure(state.current.start); }, [shown.series]);
+  const turns = useMemo(() => new Turns(() => call.current!()), []);
+  useEffect(() => () => turns.end(), []);
+  useLayoutEffect(() => { if (shown.series) measure(asked.current.start); }, [shown.series]);
   useLayoutEffect(() => {
-    if (tick >= 0 && state.current.asked === view && state.current.busy) state.current.again = true;
-    else ask.current();
+    if (channels.length === 0) return;
+    if (tick >= 0 && asked.current.view === view) turns.later();
+    else turns.now();
   }, [view, tick]);
   useEffect(() => {
     const late = setTimeout(() => setShown((now) => (now.view === view ? now : {...now, window, view})), LATE_MS);
