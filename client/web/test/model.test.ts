@@ -71,7 +71,7 @@ describe('panels', () => {
   });
   it('mark cycles at their exact ends, whatever the samples', () => {
     const cycle = create(CycleSchema, {contact: 'A-B', number: 1, startTimeS: 0.123456789, endTimeS: 0.5, approachVelocityMPerS: 3});
-    const view = {mechanics: mechanicsOf(scenario), cycles: [cycle] as Cycle[], groups: [], series: series({time: [0, 1], 'A-B.contact_force': [0, 0]})};
+    const view = {mechanics: mechanicsOf(scenario), cycles: [cycle] as Cycle[], groups: [], bands: [], series: series({time: [0, 1], 'A-B.contact_force': [0, 0]})};
     const force = PRESETS.find(({id}) => id === 'force')!.panel(view);
     expect(force.curves.find(({mark}) => mark === 'start')!.x).toEqual([0.123456789]);
     expect(panelCsv(force).split('\n')[0]).toBe('curve,time [s],force [N]');

@@ -3,14 +3,20 @@
 import type {Series} from '../api/series';
 import {Cycle_End, type Cycle, type Group} from '../api/generated/contact/v1/job_pb';
 import {endForce, type ContactModel, type Mechanics} from './mechanics';
-import {interpolate, joined, type Curve, type Panel} from './panel';
+import {interpolate, joined, type Band, type Curve, type Panel} from './panel';
 
-/** A run, or the part of it that a plot shows. */
-export interface RunView {
-  mechanics: Mechanics;
+/** What happened in a run, or in a part of its time. */
+export interface RunPart {
   cycles: Cycle[];
   groups: Group[];
   series: Series;
+  /** When bodies were in contact. */
+  bands: Band[];
+}
+
+/** What a plot shows. */
+export interface RunView extends RunPart {
+  mechanics: Mechanics;
 }
 
 export const NOTE = 'o start, × end of a contact cycle; shaded: in contact';
@@ -26,9 +32,13 @@ export function at(series: Series, name: string, time: number): number {
   return interpolate(values(series, 'time'), values(series, name), time);
 }
 
+/** The stretches of time with a cycle. */
+export function bandsOf(cycles: Cycle[]): Band[] {
+  return joined(cycles.map(({startTimeS, endTimeS}) => ({start: startTimeS, end: endTimeS})));
+}
+
 /** A panel over time, with contact shaded. */
-export function overTime(view: RunView, id: string, title: string, yLabel: string): Panel {
-  const bands = joined(view.cycles.map(({startTimeS, endTimeS}) => ({start: startTimeS, end: endTimeS})));
+export function overTime({bands}: RunView, id: string, title: string, yLabel: string): Panel {
   return {id, title, xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, note: NOTE};
 }
 

@@ -2,11 +2,11 @@
 
 import {useMemo} from 'preact/hooks';
 
-import {setQuery, useRoute} from './route';
+import {setQuery, useParameter} from './route';
 
 /** The hidden curves of a plot, and how to change them. */
 export function useHidden(plot: string): [Set<string>, (hidden: Set<string>) => void] {
-  const all = useRoute().query.getAll('hide');
+  const all = useParameter('hide');
   const mark = `${plot}:`;
   const own = all.filter((entry) => entry.startsWith(mark));
   const hidden = useMemo(() => new Set(own.map((entry) => entry.slice(mark.length))), [own.join('\n')]);

@@ -1,6 +1,6 @@
 // The address holds the whole state of a view: a path and parameters.
 
-import {useEffect, useState} from 'preact/hooks';
+import {useEffect, useMemo, useState} from 'preact/hooks';
 
 const listeners = new Set<() => void>();
 
@@ -32,16 +32,33 @@ export function setQuery(changes: Record<string, string | string[] | undefined>,
   go(`${location.pathname}${text ? `?${text}` : ''}${location.hash}`, replace);
 }
 
-/** The address, as it changes. */
-export function useRoute(): Route {
-  const [route, setRoute] = useState(current);
+/** What `look` finds in the address, as it changes. */
+function useAddress<T>(look: () => T): T {
+  const [found, setFound] = useState(look);
   useEffect(() => {
-    const told = () => setRoute(current());
+    const told = () => setFound(look);
     listeners.add(told);
     addEventListener('popstate', told);
     return () => { listeners.delete(told); removeEventListener('popstate', told); };
   }, []);
-  return route;
+  return found;
+}
+
+/** The address, as it changes. */
+export function useRoute(): Route {
+  return useAddress(current);
+}
+
+/** The entries of one parameter; who asks for them is not drawn again when others change. */
+export function useParameter(name: string): string[] {
+  const text = useAddress(() => JSON.stringify(current().query.getAll(name)));
+  return useMemo(() => JSON.parse(text) as string[], [text]);
+}
+
+/** The parameters without those named: the same object until one of the others changes. */
+export function useOthers(query: URLSearchParams, ...names: string[]): URLSearchParams {
+  const others = new URLSearchParams([...query].filter(([name]) => !names.includes(name)));
+  return useMemo(() => others, [others.toString()]);
 }
 
 /** Follows links inside the dashboard without loading the page again. */

@@ -2,6 +2,7 @@
 
 import {useEffect, useMemo} from 'preact/hooks';
 
+import {bandsOf, type RunPart} from '../../model/curves';
 import {PRESETS, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
 import type {Series} from '../../api/series';
@@ -52,16 +53,31 @@ function crop(mechanics: Mechanics, contact: string | null): Mechanics {
   };
 }
 
-function PresetPlot({preset, ...props}: Props & {preset: Preset}) {
-  const {run, drawn, mechanics: all, query, series} = props;
-  const mechanics = useMemo(() => partFor(preset, all, query.get('contact')), [all, query.get('contact')]);
-  const panel = useMemo(() => {
+/** What of a run lies in the window that the plots show. While it runs, it changes with the samples. */
+function usePart({run, drawn, series}: Props): RunPart {
+  return useMemo(() => {
     const inside = <T extends {startTimeS: number; endTimeS: number}>(list: T[]) =>
       (drawn ? list.filter((c) => c.endTimeS >= drawn[0] && c.startTimeS <= drawn[1]) : list);
-    return preset.panel({mechanics, cycles: inside(run.cycles), groups: inside(run.groups), series: series ?? new Map()});
-  }, [series, isFinal(run.state) && run.cycles.length, mechanics]);   // While it runs: with the samples.
-  return <Plot panel={panel} window={drawn} onZoom={setWindow} source={props.source}
-    empty={series ? 'Nothing recorded here.' : 'Waiting for samples …'} />;
+    const cycles = inside(run.cycles);
+    return {cycles, groups: inside(run.groups), series: series ?? new Map(), bands: bandsOf(cycles)};
+  }, [series, isFinal(run.state) && run.cycles.length]);
+}
+
+interface PresetProps {
+  preset: Preset;
+  mechanics: Mechanics;
+  part: RunPart;
+  contact: string | null;
+  drawn: Window | undefined;
+  source: string;
+  /** What to say where nothing is drawn. */
+  empty: string;
+}
+
+function PresetPlot({preset, mechanics: all, part, contact, ...rest}: PresetProps) {
+  const mechanics = useMemo(() => partFor(preset, all, contact), [all, contact]);
+  const panel = useMemo(() => preset.panel({mechanics, ...part}), [part, mechanics]);
+  return <Plot panel={panel} window={rest.drawn} onZoom={setWindow} source={rest.source} empty={rest.empty} />;
 }
 
 /** Zoom by buttons and keys, for those who do not drag. */
@@ -94,8 +110,13 @@ function Zoom({query, window, whole, live}: {query: URLSearchParams; window: Win
 }
 
 export function Motion(props: Props) {
-  const {query, window, whole, run} = props;
+  const {mechanics, query, window, drawn, whole, run, source} = props;
   const all = query.get('plots') === 'all';
+  const contact = query.get('contact');
+  const part = usePart(props);
+  const empty = isFinal(run.state) && part.series.size > 0 ? 'Nothing recorded here.' : 'Waiting for samples …';
+  const plots = useMemo(() => presetsFor(mechanics).slice(0, all ? PRESETS.length : FIRST).map((preset) => (
+    <PresetPlot key={preset.id} {...{preset, mechanics, part, contact, drawn, source, empty}} />)), [mechanics, all, contact, part, drawn, source, empty]);
   return (
     <section aria-label="Motion">
       <div class="tools"><h2>Motion</h2>
@@ -104,9 +125,7 @@ export function Motion(props: Props) {
         <label><input type="checkbox" checked={all} onChange={(e) => setQuery({plots: e.currentTarget.checked ? 'all' : undefined})} /> more plots</label>
         <span class="soft hint">drag in a plot to zoom, double-click to see all</span>
       </div>
-      <div class="plots">
-        {presetsFor(props.mechanics).slice(0, all ? PRESETS.length : FIRST).map((preset) => <PresetPlot key={preset.id} preset={preset} {...props} />)}
-      </div>
+      <div class="plots">{plots}</div>
     </section>
   );
 }

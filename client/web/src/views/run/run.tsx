@@ -8,7 +8,7 @@ import type {RunState} from '../../model/runState';
 import type {Scenario as ScenarioMessage} from '../../api/generated/contact/v1/scenario_pb';
 import {setPlayhead} from '../../ui/playhead';
 import {LinkNote} from '../../ui/link_note';
-import type {Route} from '../../ui/route';
+import {useOthers, type Route} from '../../ui/route';
 import {Sweep} from '../sweep/sweep';
 import {Details} from './details';
 import {Header} from './header';
@@ -37,13 +37,17 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const channels = useMemo(() => channelsOf(mechanics, query.get('contact')), [mechanics, query.get('contact')]);
   const {series, window: drawn} = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
   const recorded = !scenario.output?.ledgerOnly;
+  const choice = useOthers(query, 'from', 'to');   // A zoom leaves all but the plots over time as they are.
+  const strip = useMemo(() => <StripView mechanics={mechanics} series={series} query={choice} />, [mechanics, series, choice]);
+  const iterations = useMemo(() => <Iterations run={run} query={choice} source={source} />, [run, choice, source]);
+  const ledger = useMemo(() => <Ledger run={run} query={choice} />, [run, choice]);
   return (
     <>
-      {recorded && <StripView mechanics={mechanics} series={series} query={query} />}
-      <Iterations run={run} query={query} source={source} />
-      {recorded ? <Motion run={run} mechanics={mechanics} series={series} query={query} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
+      {recorded && strip}
+      {iterations}
+      {recorded ? <Motion run={run} mechanics={mechanics} series={series} query={choice} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
         : <p class="nothing">This run records no trajectory, only its ledger.</p>}
-      <Ledger run={run} query={query} />
+      {ledger}
     </>
   );
 }
@@ -53,14 +57,16 @@ export function Run({route}: {route: Route}) {
   const {run, link} = useRun(id);
   useEffect(() => { document.title = `${run.job?.title || id} · contactd`; }, [run.job?.title]);
   useEffect(() => () => setPlayhead(undefined), [id]);
+  const header = useMemo(() => <Header id={id} run={run} />, [id, run]);
+  const details = useMemo(() => <Details run={run} />, [run]);
   return (
     <>
       <LinkNote link={link} />
-      {run.job ? <Header id={id} run={run} /> : <div class="head"><h1>Run {id}</h1></div>}
+      {run.job ? header : <div class="head"><h1>Run {id}</h1></div>}
       {!run.job && (link.state === 'lost' ? <p class="nothing"><a href="/runs">All runs</a></p> : <p class="nothing" role="status">Loading …</p>)}
       {run.job?.spec.case === 'scenario' && <Recording id={id} run={run} query={route.query} />}
       {run.job?.spec.case === 'sweep' && <Sweep id={id} run={run} query={route.query} />}
-      {run.job?.spec.case && <Details run={run} />}
+      {run.job?.spec.case && details}
     </>
   );
 }
