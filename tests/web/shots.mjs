@@ -43,6 +43,8 @@ for (const colorScheme of ['light', 'dark']) {
       if (name === 'loading') await page.route('**/contact.v1.JobService/*', () => undefined);
       await page.goto(from.origin + path);
       await page.waitForTimeout(DRAWN_MS);
+      await page.setViewportSize({width, height: await page.evaluate(() => document.documentElement.scrollHeight)});   // Plots are drawn where they can be seen.
+      await page.waitForTimeout(DRAWN_MS);
       await page.screenshot({path: `${folder}/${name}-${colorScheme}-${width}.png`, fullPage: true});
       await page.context().close();
     }

@@ -55,7 +55,7 @@ function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => voi
     const observer = new IntersectionObserver((entries) => {
       state.current.seen = entries.at(-1)!.isIntersecting;
       if (state.current.seen) flush();
-    }, {rootMargin: '200px'});
+    });
     observer.observe(box.current!);
     return () => { observer.disconnect(); clearTimeout(state.current.timer); };
   }, []);
@@ -132,7 +132,7 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty}:
   }, [panel, span?.[0], span?.[1], hidden]);
 
   usePlayhead(plot, panel);
-  const points = panel.curves.some(({x}) => x.length > 0);
+  const points = panel.curves.some(({x, mark}) => x.length > 0 && mark !== 'start' && mark !== 'end');
   return (
     <figure class="plot" data-plot={panel.id} data-points={lines(panel)[0]?.x.length ?? 0}>
       <figcaption>

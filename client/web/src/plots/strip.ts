@@ -17,10 +17,11 @@ export interface Sheet {
   theme: Theme;
 }
 
+/** Where the bodies are at a moment; where they begin if nothing is recorded yet. */
 function placesAt({mechanics, series, magnification}: Stage, time: number): number[] {
   const times = values(series, 'time');
   return mechanics.bodies.map(({name, position}) =>
-    position + magnification * (interpolate(times, values(series, `${name}.position`), time) - position));
+    position + magnification * (interpolate(times, values(series, `${name}.position`), time) - position || 0));
 }
 
 function spring(ctx: CanvasRenderingContext2D, from: number, to: number, y: number): void {

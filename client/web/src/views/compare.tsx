@@ -66,7 +66,7 @@ function Results({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
       </div>
       <div class="scroll" tabIndex={0} role="region" aria-label="Results with verdicts"><table>
         <thead><tr><th>result</th><th>unit</th>{jobs.map(({name}, i) => <th key={name} class="number">{short(name)}{i === 0 ? ' (baseline)' : ''}</th>)}</tr></thead>
-        <tbody>{shown.map((row) => <tr key={row.name}><td>{row.name}</td><td class="soft">{row.unit}</td>{jobs.map((_, i) => <Verdict key={i} row={row} i={i} />)}</tr>)}</tbody>
+        <tbody>{shown.map((row) => <tr key={row.name}><td class="name">{row.name}</td><td class="soft">{row.unit}</td>{jobs.map((_, i) => <Verdict key={i} row={row} i={i} />)}</tr>)}</tbody>
       </table></div>
       {shown.length === MOST_SHOWN && <p class="soft">The first {MOST_SHOWN} are shown.</p>}
     </section>

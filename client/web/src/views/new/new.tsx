@@ -105,7 +105,7 @@ export function New({route}: {route: Route}) {
       <div class="head"><h1>{from ? `Run ${from} again with changes` : 'New run'}</h1></div>
       <div class="new">
         <nav aria-label="Templates"><h2>Templates</h2><ul>{Object.keys(templates).sort().map((name) => (
-          <li key={name}><button type="button" class="quiet" aria-pressed={!from && (route.query.get('template') ?? FIRST.replace('.yaml', '')) === name.replace('.yaml', '')}
+          <li key={name}><button type="button" class="quiet" aria-pressed={text === templates[name]}
             onClick={() => { history.replaceState(null, '', '/new'); setQuery({template: name.replace('.yaml', '')}); setText(templates[name]!); }}>{titleOf(name)}</button></li>))}</ul></nav>
         <div>
           <Editor text={text} setText={setText} problems={verdict.problems} />

@@ -108,9 +108,9 @@ export function HeatMap(props: Props) {
         </svg>
       </div>
       <p class="pointed soft mono">{shown ? wordsOf(props, shown) : '\u00a0'}</p>
-      <p class="scale soft"><span class="mono">{exact(range[0])}</span>
+      <p class="scale soft"><span class="mono">{short(range[0], 6)}</span>
         <svg width="180" height="12" aria-hidden="true">{Array.from({length: 60}, (_, i) => <rect key={i} x={i * 3} y="0" width="3" height="12" fill={viridis(i / 59)} />)}</svg>
-        <span class="mono">{exact(range[1])}</span> hatched: not converged · ×: failed · –: no value</p>
+        <span class="mono">{short(range[1], 6)}</span> hatched: not converged · ×: failed · –: no value</p>
     </figure>
   );
 }

@@ -71,8 +71,8 @@ function Axes({names, ranges, xs, top, rows, width}: Lines & {names: string[]; w
       <g key={name}>
         <line x1={xs[i]} x2={xs[i]} y1={top} y2={top + HEIGHT} class="rule" />
         <text class="ink name" x={anchor(i, names.length) === 'start' ? 4 : anchor(i, names.length) === 'end' ? width - 4 : xs[i]} y={LINE_PX * (rows - i % rows)} text-anchor={anchor(i, names.length)}>{name}</text>
-        <text class="ink" x={xs[i]! + 4} y={top + 12}>{short(ranges[i]![1])}</text>
-        <text class="ink" x={xs[i]! + 4} y={top + HEIGHT}>{short(ranges[i]![0])}</text>
+        <text class="ink edge" x={xs[i]! + 4} y={top + 12}>{short(ranges[i]![1])}</text>
+        <text class="ink edge" x={xs[i]! + 4} y={top + HEIGHT}>{short(ranges[i]![0])}</text>
       </g>))}</>
   );
 }
@@ -84,7 +84,7 @@ export function Parallel({names, axes, cells, metric, choose, open, chosen, csv,
   const lines = useMemo(() => linesOf(names, cells, width), [cells, names.join(), width]);
   const [low, high] = lines.ranges[axes + metric] ?? [0, 1];
   const colour = (cell: SweepCell) =>
-    levelOf((dark ? 0.25 : 0) + (dark ? 0.75 : 0.9) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
+    levelOf((dark ? 0.35 : 0) + (dark ? 0.65 : 0.9) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
   const paths = useMemo(() => [true, false].map((converged) => pathsOf(lines, cells, colour, converged)), [lines, metric, dark]);
   const place = cells.findIndex(({index}) => index === chosen);
   const press = (event: KeyboardEvent) => {
@@ -106,7 +106,7 @@ export function Parallel({names, axes, cells, metric, choose, open, chosen, csv,
         aria-label={`${cells.length} cells as lines over ${names.join(', ')}; arrow keys choose a cell, Enter runs it`}>
         <svg ref={drawn} class="map parallel" viewBox={`0 0 ${width} ${HEIGHT + lines.top + 12}`} onClick={click}>
           {paths.flatMap((list, i) => list.map(([ink, path]) => (
-            <path key={`${i}${ink}`} d={path} fill="none" stroke={ink} stroke-width="1.3" stroke-opacity={chosen === undefined ? 0.9 : 0.45} stroke-dasharray={i ? '4 3' : undefined} />)))}
+            <path key={`${i}${ink}`} d={path} fill="none" stroke={ink} stroke-width="1.3" stroke-opacity={chosen === undefined ? 0.9 : 0.6} stroke-dasharray={i ? '4 3' : undefined} />)))}
           {place >= 0 && <path d={pathOf(lines.xs, lines.heights[place]!)} fill="none" stroke={colour(cells[place]!)} stroke-width="4" />}
           <Axes names={names} width={width} {...lines} />
         </svg>
