@@ -14,7 +14,7 @@ import {flatten, setField} from '../src/model/field_path';
 import {iterationPanels} from '../src/model/iterations';
 import {JobList, labelsOf, matches} from '../src/model/job_list';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
-import {interpolate, joined, panelCsv} from '../src/model/panel';
+import {insideOf, interpolate, joined, panelCsv} from '../src/model/panel';
 import {PRESETS} from '../src/model/presets';
 import {parseMetrics} from '../src/model/prometheus';
 import {emptyRun, takeEvents} from '../src/model/runState';
@@ -68,6 +68,10 @@ describe('panels', () => {
   });
   it('join bands that overlap', () => {
     expect(joined([{start: 2, end: 3}, {start: 0, end: 1}, {start: 1, end: 1.5}])).toEqual([{start: 0, end: 1.5}, {start: 2, end: 3}]);
+  });
+  it('serve for another window only where they go on beyond its ends', () => {
+    const times = [0, 1, 2, 3, 4];
+    expect([[0.5, 3.5], [1, 3], [0.5, 4.5], [-1, 2], [5, 6]].map((window) => insideOf(times, window as [number, number]))).toEqual([3, 2, 0, 0, 0]);
   });
   it('mark cycles at their exact ends, whatever the samples', () => {
     const cycle = create(CycleSchema, {contact: 'A-B', number: 1, startTimeS: 0.123456789, endTimeS: 0.5, approachVelocityMPerS: 3});

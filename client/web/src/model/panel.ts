@@ -89,6 +89,12 @@ export function lowerBound(xs: ArrayLike<number>, x: number): number {
   return low;
 }
 
+/** How many ascending values lie between two others; 0 unless the values go on beyond both. */
+export function insideOf(xs: ArrayLike<number>, [from, to]: [number, number]): number {
+  const [first, end] = [lowerBound(xs, from), lowerBound(xs, to)];
+  return first > 0 && end < xs.length ? end - first : 0;
+}
+
 /** Smallest and largest finite value; undefined without any. */
 export function extent(lists: Iterable<ArrayLike<number>>, positive = false): [number, number] | undefined {
   let low = Infinity;

@@ -11,7 +11,7 @@ import {isFinal} from '../../api/watch';
 import {Plot} from '../../plots/plot';
 import type {Window} from '../../plots/range';
 import {setQuery} from '../../ui/route';
-import {changed, setWindow} from './window';
+import {changed, setWindow, windowOf} from './window';
 
 interface Props {
   run: RunState;
@@ -82,8 +82,9 @@ function PresetPlot({preset, mechanics: all, part, contact, ...rest}: PresetProp
 
 /** Zoom by buttons and keys, for those who do not drag. */
 function Zoom({query, window, whole, live}: {query: URLSearchParams; window: Window | undefined; whole: Window; live: boolean}) {
-  const now = window ?? whole;
-  const zoom = (factor: number, move = 0) => setWindow(changed(now, factor, move));
+  // From the address: keys may come faster than the page is drawn.
+  const now = () => windowOf(new URLSearchParams(location.search), whole[1]) ?? whole;
+  const zoom = (factor: number, move = 0) => setWindow(changed(now(), factor, move));
   useEffect(() => {
     const keys: Record<string, () => void> = {
       '+': () => zoom(0.5), '=': () => zoom(0.5), '-': () => zoom(2), '0': () => setWindow(undefined),

@@ -6,6 +6,7 @@ import {useEffect, useLayoutEffect, useMemo, useRef, useState} from 'preact/hook
 import {passes} from '../../api/errors';
 import {readSeries, type Series} from '../../api/series';
 import {Turns, type Rest} from '../../api/turns';
+import {insideOf} from '../../model/panel';
 import type {Window} from '../../plots/range';
 
 const POINTS = 4000;
@@ -14,6 +15,7 @@ const MOST_BYTES = 3.5e6;        // The server answers with 4 MB at most.
 const LIVE_PAUSE_MS = 400;       // Between two calls while a run goes on.
 const RETRY_MS = 1000;           // After a call that failed.
 const LATE_MS = 150;             // After which plots do not wait for their values.
+const ENOUGH = 1000;             // Samples in a window with which they do not wait at all.
 
 /** Samples to ask for, so that each column has enough and the answer is not too large. */
 export function pointsFor(channels: number): number {
@@ -22,8 +24,8 @@ export function pointsFor(channels: number): number {
 }
 
 /** Notes how long it took from `start` to the frame that shows what the plots are about to draw. */
-function measure(start: number): void {
-  setTimeout(() => requestAnimationFrame(() => setTimeout(() => performance.measure('series', {start, end: performance.now()}))));
+function measure(name: 'window' | 'series', start: number): void {
+  setTimeout(() => requestAnimationFrame(() => setTimeout(() => performance.measure(name, {start, end: performance.now()}))));
 }
 
 /** What the plots of a run show. */
@@ -34,14 +36,34 @@ export interface Shown {
   view: string;
 }
 
+/** True if a window can be drawn of the columns of another one until its own are there. */
+function servesFor({series}: Shown, window: Window | undefined): boolean {
+  const times = series?.get('time')?.values;
+  return !!times && !!window && insideOf(times, window) >= ENOUGH;
+}
+
+/** Moves on to a window without its columns: at once if those that are there serve for it, else when its own are late. */
+function useMove(shown: Shown, setShown: (next: (now: Shown) => Shown) => void, {window, view}: Shown): void {
+  useEffect(() => {
+    const start = performance.now();
+    const late = setTimeout(() => {
+      setShown((now) => (now.view === view ? now : {...now, window, view}));
+      measure('window', start);
+    }, servesFor(shown, window) ? 0 : LATE_MS);
+    return () => clearTimeout(late);
+  }, [view]);
+}
+
 /**
- * The columns and their window. Those of before stay until the next are there, so that each plot is drawn once; if that
- * takes long, their window moves on without them. `tick` grows as the run goes on, and is below 0 if it does not.
+ * The columns and their window. Those of before stay until the next are there. `tick` grows as the run goes on, and is
+ * below 0 if it does not.
  */
 export function useSeries(name: string, channels: string[], window: Window | undefined, tick: number): Shown {
   const view = `${name} ${channels.join(' ')} ${window?.[0]} ${window?.[1]}`;
   const [shown, setShown] = useState<Shown>({window, view});
   const asked = useRef({view: '', start: 0});
+  const newest = useRef(view);
+  newest.current = view;
   const call = useRef<() => Promise<Rest>>();
   call.current = async () => {
     const start = performance.now();
@@ -49,7 +71,7 @@ export function useSeries(name: string, channels: string[], window: Window | und
     try {
       const series = await readSeries({name, channels, from: window?.[0], to: window?.[1], maxPoints: pointsFor(channels.length)});
       asked.current.start = start;
-      setShown({series, window, view});
+      setShown((now) => (now.view === newest.current ? {...now, series} : {series, window, view}));   // Never back to a window.
       return {pauseMs: tick < 0 ? 0 : LIVE_PAUSE_MS};
     } catch (error) {
       return {pauseMs: RETRY_MS, again: passes(error)};
@@ -57,15 +79,12 @@ export function useSeries(name: string, channels: string[], window: Window | und
   };
   const turns = useMemo(() => new Turns(() => call.current!()), []);
   useEffect(() => () => turns.end(), []);
-  useLayoutEffect(() => { if (shown.series) measure(asked.current.start); }, [shown.series]);
+  useLayoutEffect(() => { if (shown.series) measure('series', asked.current.start); }, [shown.series]);
   useLayoutEffect(() => {
     if (channels.length === 0) return;
     if (tick >= 0 && asked.current.view === view) turns.later();
     else turns.now();
   }, [view, tick]);
-  useEffect(() => {
-    const late = setTimeout(() => setShown((now) => (now.view === view ? now : {...now, window, view})), LATE_MS);
-    return () => clearTimeout(late);
-  }, [view]);
+  useMove(shown, setShown, {window, view});
   return shown;
 }
