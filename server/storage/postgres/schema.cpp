@@ -31,7 +31,6 @@ CREATE TABLE contactd.jobs(
   worker text COLLATE "C",
   moved xid8 NOT NULL DEFAULT pg_current_xact_id()
 ) WITH (fillfactor=70, autovacuum_vacuum_scale_factor=0.02, autovacuum_vacuum_threshold=200);
-CREATE INDEX jobs_unfinished ON contactd.jobs(number) WHERE state NOT IN (3,4,5);
 CREATE INDEX jobs_by_tenant ON contactd.jobs(tenant, number);
 CREATE INDEX jobs_by_owner ON contactd.jobs(tenant, owner);
 CREATE INDEX jobs_of_owner_unfinished ON contactd.jobs(tenant, owner) WHERE state NOT IN (3,4,5);
@@ -129,6 +128,8 @@ ALTER TABLE contactd.checkpoints ALTER COLUMN state SET STORAGE EXTERNAL;
 )sql";
 
 const char kFunctions[] = R"sql(
+-- In plpgsql, which keeps the plans of a session; a function in sql is planned at each call.
+
 -- The job with this name, with the parts that are asked for. a_tenant: NULL for any.
 CREATE OR REPLACE FUNCTION contactd.read_job(
   a_name text, a_tenant text, a_spec boolean, a_checkpoint boolean, a_result boolean)
@@ -139,14 +140,14 @@ RETURNS TABLE(
   checkpoint bytea, checkpoint_sequence bigint, result_crc32 bigint, result bytea)
 LANGUAGE plpgsql AS $$
 BEGIN
-  RETURN QUERY SELECT j.number, j.name, j.state, j.epoch, j.cancel_requested, j.last_sequence, j.crc32,
-    j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id, s.crc32, s.spec, c.crc32, c.state,
-    c.sequence, r.crc32, r.result
-  FROM contactd.jobs j
-    LEFT JOIN contactd.specs s ON a_spec AND s.job = j.number
-    LEFT JOIN contactd.checkpoints c ON a_checkpoint AND c.job = j.number
-    LEFT JOIN contactd.results r ON a_result AND r.job = j.number
-  WHERE j.name = a_name AND (a_tenant IS NULL OR j.tenant = a_tenant);
+  RETURN QUERY SELECT j.number, j.name, j.state, j.epoch, j.cancel_requested, j.last_sequence,
+      j.crc32, j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id, s.crc32,
+      s.spec, c.crc32, c.state, c.sequence, r.crc32, r.result
+    FROM contactd.jobs j
+      LEFT JOIN contactd.specs s ON a_spec AND s.job = j.number
+      LEFT JOIN contactd.checkpoints c ON a_checkpoint AND c.job = j.number
+      LEFT JOIN contactd.results r ON a_result AND r.job = j.number
+    WHERE j.name = a_name AND (a_tenant IS NULL OR j.tenant = a_tenant);
 END $$;
 
 -- What of its limits the owner has: unfinished jobs, their cells, and jobs that a worker has.
@@ -154,7 +155,7 @@ CREATE OR REPLACE FUNCTION contactd.count_of(
   a_tenant text, a_owner text, OUT jobs bigint, OUT cells bigint, OUT running bigint)
 LANGUAGE plpgsql STABLE AS $$
 BEGIN
-  SELECT count(*), coalesce(sum(j.cells), 0),
+  SELECT count(*), coalesce(sum(j.cells), 0)::bigint,
       count(*) FILTER (WHERE j.state = 2 OR j.worker IS NOT NULL)
     INTO jobs, cells, running FROM contactd.jobs j
     WHERE j.tenant = a_tenant AND j.owner = a_owner AND j.state NOT IN (3,4,5);
@@ -164,12 +165,32 @@ END $$;
 CREATE OR REPLACE FUNCTION contactd.append(
   a_job bigint, a_last bigint, a_kinds bigint[], a_codings bigint[], a_sizes bigint[],
   a_crc32s bigint[], a_payloads bytea[])
-RETURNS void LANGUAGE sql AS $$
+RETURNS void LANGUAGE plpgsql AS $$
+BEGIN
   INSERT INTO contactd.events(job, sequence, kind, coding, size, crc32, payload)
   SELECT a_job, a_last + e.place, e.kind, e.coding, e.size, e.crc32, e.payload
   FROM unnest(a_kinds, a_codings, a_sizes, a_crc32s, a_payloads) WITH ORDINALITY
-    AS e(kind, coding, size, crc32, payload, place)
-$$;
+    AS e(kind, coding, size, crc32, payload, place);
+END $$;
+
+-- How many jobs wait for a worker, at most a_most. To count them takes long if there are many, so a
+-- session does it ten times a second at most, unless a_now.
+CREATE OR REPLACE FUNCTION contactd.waiting(a_most bigint, a_now boolean) RETURNS bigint
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_time bigint := extract(epoch FROM clock_timestamp()) * 1000;
+  -- What was counted last: when, up to which number, and how many.
+  v_known bigint[] := string_to_array(nullif(current_setting('contactd.waiting', true), ''), ' ');
+  v_count bigint;
+BEGIN
+  IF NOT a_now AND v_known[1] BETWEEN v_time - 100 AND v_time AND v_known[2] = a_most THEN
+    RETURN v_known[3];
+  END IF;
+  SELECT count(*) INTO v_count FROM (SELECT FROM contactd.jobs j
+    WHERE j.state = 1 AND j.worker IS NULL LIMIT a_most) w;
+  PERFORM set_config('contactd.waiting', concat_ws(' ', v_time, a_most, v_count), false);
+  RETURN v_count;
+END $$;
 
 -- Which limit a new job of the owner would exceed, see create_job; 0 is any number. Counts that come
 -- near a limit are made once more while nobody else creates jobs.
@@ -178,15 +199,14 @@ CREATE OR REPLACE FUNCTION contactd.exceeded(
   a_max_owner_jobs bigint, a_max_owner_cells bigint, OUT outcome text, OUT has bigint)
 LANGUAGE plpgsql AS $$
 DECLARE
-  c_near CONSTANT bigint := 1024;  -- More jobs than are created at a time.
+  c_near CONSTANT bigint := 1024;  -- More jobs than are created before they are counted again.
   v_waiting bigint := 0;
   v_jobs bigint := 0;
   v_cells bigint := 0;
 BEGIN
   FOR attempt IN 1..2 LOOP
     IF a_max_waiting > 0 THEN
-      SELECT count(*) INTO v_waiting FROM (SELECT FROM contactd.jobs j
-        WHERE j.state = 1 AND j.worker IS NULL LIMIT a_max_waiting) w;
+      v_waiting := contactd.waiting(a_max_waiting, attempt = 2);
     END IF;
     IF a_max_owner_jobs > 0 OR a_max_owner_cells > 0 THEN
       SELECT o.jobs, o.cells INTO v_jobs, v_cells FROM contactd.count_of(a_tenant, a_owner) o;
@@ -277,36 +297,13 @@ CREATE OR REPLACE FUNCTION contactd.change_job(
   OUT outcome text, OUT first bigint, OUT job_tenant text)
 LANGUAGE plpgsql AS $$
 DECLARE
-  v_job contactd.jobs;
-  v_replaced bigint;
+  v_job bigint;
+  v_cells bigint;
 BEGIN
-  SELECT * INTO v_job FROM contactd.jobs j WHERE j.name = a_name FOR UPDATE;
-  job_tenant := v_job.tenant;
-  IF NOT FOUND THEN
-    outcome := 'N';
-    RETURN;
-  ELSIF v_job.last_change = a_change THEN
-    outcome := 'D';
-    first := v_job.first_of_change;
-    RETURN;
-  ELSIF v_job.epoch <> a_epoch THEN
-    outcome := 'O';
-    RETURN;
-  END IF;
-  outcome := 'D';
-  first := v_job.last_sequence + 1;
-  IF a_result IS NOT NULL THEN
-    SELECT octet_length(r.result) INTO v_replaced
-      FROM contactd.results r WHERE r.job = v_job.number;
-    INSERT INTO contactd.results(job, crc32, result)
-      VALUES(v_job.number, a_result_crc32, a_result)
-      ON CONFLICT (job) DO UPDATE SET crc32 = excluded.crc32, result = excluded.result;
-  END IF;
   UPDATE contactd.jobs j SET
       epoch = j.epoch + a_take::int,
       last_sequence = j.last_sequence + cardinality(a_kinds),
-      bytes = j.bytes + a_event_bytes + coalesce(octet_length(a_result), 0)
-        - coalesce(v_replaced, 0),
+      bytes = j.bytes + a_event_bytes + coalesce(octet_length(a_result), 0),
       state = coalesce(a_state, j.state),
       worker = CASE WHEN a_state <> 2 THEN NULL ELSE j.worker END,
       moved = CASE WHEN a_state <> j.state THEN pg_current_xact_id() ELSE j.moved END,
@@ -316,19 +313,36 @@ BEGIN
       last_change = coalesce(a_change, j.last_change),
       first_of_change = CASE WHEN a_change IS NULL THEN j.first_of_change
         ELSE j.last_sequence + 1 END
-    WHERE j.number = v_job.number;
+    WHERE j.name = a_name AND j.epoch = a_epoch
+      AND (a_change IS NULL OR j.last_change IS DISTINCT FROM a_change)
+    RETURNING j.number, j.tenant, j.last_sequence + 1 - cardinality(a_kinds), j.cells
+    INTO v_job, job_tenant, first, v_cells;
+  IF v_job IS NULL THEN
+    SELECT CASE WHEN j.last_change = a_change THEN 'D' ELSE 'O' END, j.first_of_change, j.tenant
+      INTO outcome, first, job_tenant FROM contactd.jobs j WHERE j.name = a_name;
+    outcome := coalesce(outcome, 'N');
+    RETURN;
+  END IF;
+  outcome := 'D';
+  IF a_result IS NOT NULL THEN
+    INSERT INTO contactd.results(job, crc32, result) VALUES(v_job, a_result_crc32, a_result)
+      ON CONFLICT DO NOTHING;
+    IF NOT FOUND THEN
+      UPDATE contactd.jobs j SET bytes = j.bytes - octet_length(r.result)
+        FROM contactd.results r WHERE j.number = v_job AND r.job = v_job;
+      UPDATE contactd.results r SET crc32 = a_result_crc32, result = a_result WHERE r.job = v_job;
+    END IF;
+  END IF;
   IF a_end_time > 0 THEN
-    DELETE FROM contactd.loans l WHERE l.job = v_job.number;
-    DELETE FROM contactd.checkpoints c WHERE c.job = v_job.number;
+    IF v_cells > 0 THEN DELETE FROM contactd.loans l WHERE l.job = v_job; END IF;
+    DELETE FROM contactd.checkpoints c WHERE c.job = v_job;
   ELSIF a_checkpoint IS NOT NULL THEN
     INSERT INTO contactd.checkpoints(job, sequence, crc32, state)
-      VALUES(v_job.number, v_job.last_sequence + a_checkpoint_events, a_checkpoint_crc32,
-        a_checkpoint)
+      VALUES(v_job, first - 1 + a_checkpoint_events, a_checkpoint_crc32, a_checkpoint)
       ON CONFLICT (job) DO UPDATE SET sequence = excluded.sequence, crc32 = excluded.crc32,
         state = excluded.state;
   END IF;
-  PERFORM contactd.append(v_job.number, v_job.last_sequence, a_kinds, a_codings, a_sizes, a_crc32s,
-    a_payloads);
+  PERFORM contactd.append(v_job, first - 1, a_kinds, a_codings, a_sizes, a_crc32s, a_payloads);
 END $$;
 
 -- Outcomes: D done; N no such job.
