@@ -35,6 +35,8 @@ struct JobClaim {
   int most_running = 0;
   /// After a start of the database workers have so long to come back before they lose their jobs.
   std::chrono::milliseconds grace{0};
+  /// Specs of at most so many bytes come with their jobs.
+  std::int64_t spec_bytes = 64 << 10;
   /// Whose jobs it does not want.
   std::vector<JobOwner> none_of = {};
   /// Worker time used since the last claim, by owner.
@@ -149,8 +151,9 @@ class SharedStore : public Store {
   /// Says that the worker lives, and answers the jobs that it has. The first call makes it known.
   virtual void Beat(const WorkerProcess& worker, Callback<std::vector<HeldJob>> done) = 0;
   /// Gives the worker jobs, with a new epoch: those whose worker is dead, in the state in which
-  /// that has left them; and QUEUED ones, by priority and fair among owners. No job if the worker
-  /// is not known or was not heard of for its lease.
+  /// that has left them; and QUEUED ones, by priority and fair among owners. With a job comes its
+  /// checkpoint, and its spec unless that is too large or damaged. No job if the worker is not known
+  /// or was not heard of for its lease.
   virtual void Claim(const JobClaim& claim, Callback<std::vector<StoredJob>> done) = 0;
   /// The worker ends: what it has and has not begun waits for another.
   virtual void Leave(const std::string& worker, Callback<bool> done) = 0;

@@ -8,24 +8,34 @@ namespace contact {
 namespace {
 
 // A job whose spec takes about so many bytes.
-v1::Job Job(const std::string& name, std::size_t bytes) {
-  v1::Job job;
-  job.set_name(name);
-  job.mutable_scenario()->add_bodies()->set_name(std::string(bytes, 'x'));
-  return job;
+StoredJob Job(const std::string& name, std::size_t bytes) {
+  StoredJob stored;
+  stored.job.set_name(name);
+  stored.job.mutable_scenario()->add_bodies()->set_name(std::string(bytes, 'x'));
+  return stored;
 }
 
 TEST(SpecCache, GivesEachSpecOnceAndLeavesTheHeader) {
   SpecCache cache;
-  v1::Job job = Job("jobs/a", 10);
-  const v1::Job whole = job;
-  cache.Keep(&job);
-  EXPECT_FALSE(job.has_scenario());
-  EXPECT_EQ(job.name(), "jobs/a");
+  StoredJob stored = Job("jobs/a", 10);
+  stored.checkpoint = "state";
+  const v1::Job whole = stored.job;
+  cache.Keep(&stored);
+  EXPECT_FALSE(stored.job.has_scenario());
+  EXPECT_EQ(stored.job.name(), "jobs/a");
   EXPECT_EQ(cache.Take("jobs/b"), nullptr);
   const auto spec = cache.Take("jobs/a");
   ASSERT_TRUE(spec);
   EXPECT_EQ(spec->job.SerializeAsString(), whole.SerializeAsString());
+  EXPECT_EQ(spec->checkpoint, "state");
+  EXPECT_EQ(cache.Take("jobs/a"), nullptr);
+}
+
+TEST(SpecCache, KeepsNoJobWithoutSpec) {
+  SpecCache cache;
+  StoredJob header;
+  header.job.set_name("jobs/a");
+  cache.Keep(&header);
   EXPECT_EQ(cache.Take("jobs/a"), nullptr);
 }
 
@@ -34,9 +44,9 @@ TEST(SpecCache, HoldsSixteenMebibytesHoweverOftenItIsFilled) {
   SpecCache cache;
   for (int round = 0; round < 3; ++round) {
     for (int i = 0; i < 6; ++i) {
-      v1::Job job = Job("jobs/" + std::to_string(i), kBytes);
-      cache.Keep(&job);
-      EXPECT_FALSE(job.has_scenario());
+      StoredJob stored = Job("jobs/" + std::to_string(i), kBytes);
+      cache.Keep(&stored);
+      EXPECT_FALSE(stored.job.has_scenario());
     }
     for (int i = 0; i < 6; ++i) {
       EXPECT_EQ(cache.Take("jobs/" + std::to_string(i)) != nullptr, i < 4) << i;

@@ -124,7 +124,9 @@ void Scheduler::Settle(StoredJob stored) {
 
 void Scheduler::Take(StoredJob stored) {
   const MutexLock lock(mutex_);
-  if (!active_.contains(stored.job.name())) Add(ToActive(std::move(stored)));
+  if (active_.contains(stored.job.name())) return;
+  specs_.Keep(&stored);
+  Add(ToActive(std::move(stored)));
 }
 
 void Scheduler::Lose(const std::string& name) {
@@ -201,14 +203,15 @@ void Scheduler::Release() {
 
 void Scheduler::Enqueue(v1::Job job, std::vector<v1::Event> events,
                         std::shared_ptr<const void> held) {
+  StoredJob stored{.job = std::move(job)};
   Active active;
-  active.job = std::move(job);
   active.held = std::move(held);
-  active.log = NewLog(active.job, 0);
+  active.log = NewLog(stored.job, 0);
   active.log->Append(1, std::move(events));
   const MutexLock lock(mutex_);
   --reserved_;
-  specs_.Keep(&active.job);
+  specs_.Keep(&stored);
+  active.job = std::move(stored.job);
   Add(std::move(active));
 }
 
@@ -348,6 +351,7 @@ void Scheduler::Remove(const std::string& name) {
   if (const auto found = active_.find(name); found != active_.end()) held = found->second.held;
   active_.erase(name);
   running_.erase(name);
+  specs_.Take(name);
   changed_.notify_all();  // A last attempt may have waited for this.
   left_();
 }

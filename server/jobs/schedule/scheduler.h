@@ -195,7 +195,7 @@ class Scheduler final : public Unfinished {
   MemoryWatch memory_ ABSL_GUARDED_BY(mutex_);
   /// Threads that wait in Next, or will soon.
   int idle_ ABSL_GUARDED_BY(mutex_) = 0;
-  /// Specs of jobs in the queue.
+  /// Specs and checkpoints of jobs in the queue.
   SpecCache specs_ ABSL_GUARDED_BY(mutex_);
   /// Number of the newest job.
   std::uint64_t numbers_ ABSL_GUARDED_BY(mutex_) = 0;

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 
-#include "contact/v1/job.pb.h"
 #include "storage/records.h"
 
 namespace contact {
@@ -14,8 +13,9 @@ namespace contact {
 /// thread-safe.
 class SpecCache {
  public:
-  /// Takes the spec out of the job, and keeps it if there is room: 16 MiB in all.
-  void Keep(v1::Job* job);
+  /// Takes the spec out of the job, if it has one, and keeps it with the checkpoint if there is
+  /// room: 16 MiB in all.
+  void Keep(StoredJob* stored);
   /// Gives away the kept spec of the job with this name. Null if it was not kept.
   std::shared_ptr<const StoredJob> Take(const std::string& name);
 

@@ -161,7 +161,7 @@ class PostgresStore : public SharedStore {
   }
 
   void Claim(const JobClaim& claim, Callback<std::vector<StoredJob>> done) override {
-    Post<std::vector<StoredJob>>(postgres::Claim(claim), postgres::JobsOf, std::move(done));
+    Post<std::vector<StoredJob>>(postgres::Claim(claim), postgres::ClaimedOf, std::move(done));
   }
 
   void Leave(const std::string& worker, Callback<bool> done) override {

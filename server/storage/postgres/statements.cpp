@@ -33,19 +33,29 @@ StoredJob HeaderOf(const Rows& rows, int row, int first = 0) {
                    .request_key = rows.Bytes(row, column(12))});
 }
 
+// Of the columns of read_job.
+constexpr int kSpecColumn = 13;
+constexpr int kCheckpointColumn = kSpecColumn + 2;
+constexpr int kResultColumn = kCheckpointColumn + 3;
+
+// Adds spec and checkpoint to the job of a row whose columns from `first` on are those of read_job.
+void MergeRunParts(const Rows& rows, int row, int first, StoredJob* stored) {
+  const int spec = first + kSpecColumn;
+  const int checkpoint = first + kCheckpointColumn;
+  if (!rows.IsNull(row, spec)) {
+    MergePart(rows.Bytes(row, spec + 1), rows.Integer(row, spec), stored);
+  }
+  if (!rows.IsNull(row, checkpoint)) {
+    AddCheckpoint(rows.Bytes(row, checkpoint + 1), rows.Integer(row, checkpoint),
+                  static_cast<std::uint64_t>(rows.Integer(row, checkpoint + 2)), stored);
+  }
+}
+
 // The job of a row whose columns from `first` on are those of read_job.
 absl::StatusOr<StoredJob> WholeOf(const Rows& rows, int first) {
   StoredJob stored = HeaderOf(rows, 0, first);
-  const int spec = first + 13;
-  const int checkpoint = spec + 2;
-  const int result = checkpoint + 3;
-  if (!rows.IsNull(0, spec)) {
-    MergePart(rows.Bytes(0, spec + 1), rows.Integer(0, spec), &stored);
-  }
-  if (!rows.IsNull(0, checkpoint)) {
-    AddCheckpoint(rows.Bytes(0, checkpoint + 1), rows.Integer(0, checkpoint),
-                  static_cast<std::uint64_t>(rows.Integer(0, checkpoint + 2)), &stored);
-  }
+  MergeRunParts(rows, 0, first, &stored);
+  const int result = first + kResultColumn;
   if (!rows.IsNull(0, result)) {
     stored.result_crc32 = rows.Integer(0, result);
     stored.result = rows.Bytes(0, result + 1);
@@ -259,6 +269,17 @@ Statement ListUnfinished() {
 absl::StatusOr<std::vector<StoredJob>> JobsOf(const Rows& rows) {
   std::vector<StoredJob> jobs;
   for (int row = 0; row < rows.size(); ++row) jobs.push_back(HeaderOf(rows, row));
+  return jobs;
+}
+
+std::vector<StoredJob> ClaimedOf(const Rows& rows) {
+  std::vector<StoredJob> jobs;
+  for (int row = 0; row < rows.size(); ++row) {
+    const StoredJob header = HeaderOf(rows, row);
+    StoredJob whole = header;
+    MergeRunParts(rows, row, 0, &whole);
+    jobs.push_back(whole.intact ? std::move(whole) : header);
+  }
   return jobs;
 }
 

@@ -55,6 +55,9 @@ absl::StatusOr<JobPage> PageOf(const Rows& rows, int limit);
 /// See Store::ListUnfinished.
 Statement ListUnfinished();
 absl::StatusOr<std::vector<StoredJob>> JobsOf(const Rows& rows);
+/// The jobs of rows with the columns of read_job up to the checkpoint. Of one whose spec is damaged
+/// only the header.
+std::vector<StoredJob> ClaimedOf(const Rows& rows);
 
 /// See Store::Sizes.
 Statement ListSizes();

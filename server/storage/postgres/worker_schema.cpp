@@ -25,105 +25,129 @@ CREATE OR REPLACE FUNCTION contactd.leave(a_worker text) RETURNS void LANGUAGE s
   DELETE FROM contactd.workers w WHERE w.name = a_worker;
 $$;
 
--- The tenants and owners whose jobs wait, each once. One look at the index for each.
+-- The tenants and owners whose jobs wait, each once. One look at the index for each: only
+-- jobs_waiting has this order.
 CREATE OR REPLACE FUNCTION contactd.waiting_owners()
-RETURNS TABLE(tenant text, owner text) LANGUAGE sql AS $$
-  WITH RECURSIVE o(tenant, owner) AS (
+RETURNS TABLE(tenant text, owner text) LANGUAGE plpgsql AS $$
+BEGIN
+  RETURN QUERY WITH RECURSIVE o(tenant, owner) AS (
     (SELECT j.tenant, j.owner FROM contactd.jobs j WHERE j.state = 1 AND j.worker IS NULL
-      ORDER BY j.tenant, j.owner LIMIT 1)
+      ORDER BY j.tenant, j.owner, j.priority DESC, j.number LIMIT 1)
     UNION ALL
     SELECT n.tenant, n.owner FROM o, LATERAL (
       SELECT j.tenant, j.owner FROM contactd.jobs j
       WHERE j.state = 1 AND j.worker IS NULL AND (j.tenant, j.owner) > (o.tenant, o.owner)
-      ORDER BY j.tenant, j.owner LIMIT 1) n)
-  SELECT o.tenant, o.owner FROM o
-$$;
+      ORDER BY j.tenant, j.owner, j.priority DESC, j.number LIMIT 1) n)
+  SELECT o.tenant, o.owner FROM o;
+END $$;
 
--- Who is to have the next worker: tenants get the same worker time, and so do the owners of one
--- tenant. A job that a worker has counts for a second that it will use. Not those of a_not_tenants
--- and a_not_owners. `alone`: nobody else waits.
-CREATE OR REPLACE FUNCTION contactd.next_owner(
-  a_most_running bigint, a_not_tenants text[], a_not_owners text[], OUT tenant text,
-  OUT owner text, OUT running bigint, OUT alone boolean)
-LANGUAGE sql AS $$
-  WITH shares AS (
+-- Whose jobs are to have the next a_most workers, and how many of them, as if all owners had
+-- enough: tenants get the same worker time, and so do the owners of one tenant. A job that a worker
+-- has counts for a second that it will use. Not those of a_not_tenants and a_not_owners.
+CREATE OR REPLACE FUNCTION contactd.shares(
+  a_most bigint, a_most_running bigint, a_not_tenants text[], a_not_owners text[])
+RETURNS TABLE(tenant text, owner text, jobs bigint) LANGUAGE plpgsql AS $$
+BEGIN
+  RETURN QUERY WITH
+  shares AS (
     SELECT s.tenant, s.owner, sum(s.seconds) AS seconds, sum(s.running)::bigint AS running FROM (
       SELECT u.tenant, u.owner, u.seconds
           * power(0.5, extract(epoch FROM clock_timestamp() - u.at) / 60) AS seconds, 0 AS running
         FROM contactd.used u
       UNION ALL
-      SELECT j.tenant, j.owner, 1, 1 FROM contactd.jobs j
-        WHERE j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL)) s
+      SELECT j.tenant, j.owner, count(*), count(*) FROM contactd.jobs j
+        WHERE j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL) GROUP BY j.tenant, j.owner) s
     GROUP BY s.tenant, s.owner),
   tenants AS (SELECT s.tenant, sum(s.seconds) AS seconds FROM shares s GROUP BY s.tenant),
-  waiting AS MATERIALIZED (SELECT w.tenant, w.owner FROM contactd.waiting_owners() w)
-  SELECT w.tenant, w.owner, coalesce(s.running, 0), (SELECT count(*) = 1 FROM waiting)
-  FROM waiting w
-    LEFT JOIN shares s ON s.tenant = w.tenant AND s.owner = w.owner
-    LEFT JOIN tenants t ON t.tenant = w.tenant
-  WHERE (a_most_running = 0 OR coalesce(s.running, 0) < a_most_running) AND NOT EXISTS(
-    SELECT FROM unnest(a_not_tenants, a_not_owners) AS n(tenant, owner)
-    WHERE n.tenant = w.tenant AND n.owner = w.owner)
-  ORDER BY coalesce(t.seconds, 0), coalesce(s.seconds, 0), w.tenant, w.owner LIMIT 1
-$$;
+  owners AS (
+    SELECT w.tenant, w.owner, coalesce(t.seconds, 0) AS before, coalesce(s.seconds, 0) AS seconds,
+      coalesce(s.running, 0) AS running
+    FROM contactd.waiting_owners() w
+      LEFT JOIN shares s ON s.tenant = w.tenant AND s.owner = w.owner
+      LEFT JOIN tenants t ON t.tenant = w.tenant
+    WHERE (a_most_running = 0 OR coalesce(s.running, 0) < a_most_running) AND NOT EXISTS(
+      SELECT FROM unnest(a_not_tenants, a_not_owners) AS n(tenant, owner)
+      WHERE n.tenant = w.tenant AND n.owner = w.owner)),
+  -- Nobody else can be among the next a_most.
+  first AS (
+    SELECT o.* FROM owners o
+    ORDER BY o.before + row_number() OVER (PARTITION BY o.tenant ORDER BY o.seconds, o.owner),
+      o.seconds, o.tenant, o.owner LIMIT a_most),
+  next AS (
+    SELECT f.tenant, f.owner FROM first f, generate_series(1, CASE
+      WHEN a_most_running = 0 THEN a_most ELSE least(a_most, a_most_running - f.running) END) AS k
+    ORDER BY f.before + row_number() OVER (
+      PARTITION BY f.tenant ORDER BY f.seconds + k, f.owner), f.seconds + k, f.tenant, f.owner
+    LIMIT a_most)
+  SELECT n.tenant, n.owner, count(*) FROM next n GROUP BY n.tenant, n.owner;
+END $$;
 
 -- Gives a living worker the jobs whose worker is dead, and then a_most of those that wait; at most
--- a_most_running of one owner run at a time. Whoever had them can change them no more. Takes
--- in what the worker has used, by owner. After a start of the database the workers have a while to
--- come back.
+-- a_most_running of one owner run at a time. Whoever had them can change them no more. A job comes
+-- with its checkpoint, and if it waits and its spec has at most a_spec_bytes, with that. Takes in
+-- what the worker has used, by owner. After a start of the database the workers have a while to
+-- come back. Generic plans: one made for a_most costs more than it spares.
 CREATE OR REPLACE FUNCTION contactd.claim(
   a_worker text, a_most bigint, a_most_running bigint, a_grace bigint, a_tenants text[],
-  a_owners text[], a_milliseconds bigint[], a_not_tenants text[], a_not_owners text[])
-RETURNS SETOF contactd.jobs LANGUAGE plpgsql AS $$
+  a_owners text[], a_milliseconds bigint[], a_not_tenants text[], a_not_owners text[],
+  a_spec_bytes bigint)
+RETURNS TABLE(
+  number bigint, name text, state smallint, epoch bigint, cancel_requested boolean,
+  last_sequence bigint, crc32 bigint, header bytea, oldest_sequence bigint, compacted boolean,
+  owner text, tenant text, request_id text, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint,
+  checkpoint bytea, checkpoint_sequence bigint)
+LANGUAGE plpgsql SET plan_cache_mode = force_generic_plan AS $$
 DECLARE
   c_lost CONSTANT bigint := 64;
   v_now timestamptz := clock_timestamp();
+  v_alive text[];
+  v_taken bigint[] := '{}';
   v_left bigint := a_most;
+  v_before bigint;
+  v_more bigint[];
   v_next record;
-  v_number bigint;
-  v_job contactd.jobs;
-  v_found boolean;
 BEGIN
   INSERT INTO contactd.used AS u(worker, tenant, owner, seconds, at)
     SELECT a_worker, n.tenant, n.owner, n.milliseconds / 1000.0, v_now
     FROM unnest(a_tenants, a_owners, a_milliseconds) AS n(tenant, owner, milliseconds)
     ON CONFLICT ON CONSTRAINT used_pkey DO UPDATE SET at = v_now, seconds = excluded.seconds
       + u.seconds * power(0.5, extract(epoch FROM v_now - u.at) / 60);
-  PERFORM FROM contactd.workers w WHERE w.name = a_worker AND w.until > v_now;
-  IF NOT FOUND THEN RETURN; END IF;
+  SELECT array_agg(w.name) INTO v_alive FROM contactd.workers w WHERE w.until > v_now;
+  IF a_worker = ANY(v_alive) IS NOT TRUE THEN RETURN; END IF;
   IF v_now > pg_postmaster_start_time() + a_grace * interval '1 ms' THEN
-    FOR v_number IN
+    SELECT coalesce(array_agg(l.number), '{}') INTO v_taken FROM (
       SELECT j.number FROM contactd.jobs j
-      WHERE (j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL)) AND NOT EXISTS(
-        SELECT FROM contactd.workers w WHERE w.name = j.worker AND w.until > v_now)
-      ORDER BY j.number LIMIT c_lost FOR UPDATE SKIP LOCKED
-    LOOP
-      UPDATE contactd.jobs j SET worker = a_worker, epoch = j.epoch + 1
-        WHERE j.number = v_number RETURNING j.* INTO v_job;
-      RETURN NEXT v_job;
-    END LOOP;
+      WHERE (j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL))
+        AND coalesce(j.worker, '') <> ALL(v_alive)
+      ORDER BY j.number LIMIT c_lost FOR UPDATE SKIP LOCKED) l;
+    UPDATE contactd.jobs j SET worker = a_worker, epoch = j.epoch + 1
+      WHERE j.number = ANY(v_taken);
   END IF;
   WHILE v_left > 0 LOOP
-    SELECT * INTO v_next FROM contactd.next_owner(a_most_running, a_not_tenants, a_not_owners);
-    EXIT WHEN v_next.tenant IS NULL;
-    v_found := false;
-    FOR v_number IN
-      SELECT j.number FROM contactd.jobs j
-      WHERE j.state = 1 AND j.worker IS NULL AND j.tenant = v_next.tenant
-        AND j.owner = v_next.owner
-      ORDER BY j.priority DESC, j.number
-      LIMIT CASE WHEN NOT v_next.alone THEN 1 WHEN a_most_running = 0 THEN v_left
-        ELSE least(v_left, a_most_running - v_next.running) END
-      FOR UPDATE SKIP LOCKED
+    v_before := v_left;
+    FOR v_next IN
+      SELECT * FROM contactd.shares(v_left, a_most_running, a_not_tenants, a_not_owners)
     LOOP
+      SELECT coalesce(array_agg(n.number), '{}') INTO v_more FROM (
+        SELECT j.number FROM contactd.jobs j
+        WHERE j.state = 1 AND j.worker IS NULL AND j.tenant = v_next.tenant
+          AND j.owner = v_next.owner
+        ORDER BY j.priority DESC, j.number LIMIT v_next.jobs FOR UPDATE SKIP LOCKED) n;
       UPDATE contactd.jobs j SET worker = a_worker, epoch = j.epoch + 1
-        WHERE j.number = v_number RETURNING j.* INTO v_job;
-      v_found := true;
-      v_left := v_left - 1;
-      RETURN NEXT v_job;
+        WHERE j.number = ANY(v_more);
+      v_taken := v_taken || v_more;
+      v_left := v_left - cardinality(v_more);
     END LOOP;
-    EXIT WHEN NOT v_found OR v_next.alone;
+    EXIT WHEN v_left = v_before;
   END LOOP;
+  RETURN QUERY SELECT j.number, j.name, j.state, j.epoch, j.cancel_requested, j.last_sequence,
+      j.crc32, j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id, s.crc32,
+      s.spec, c.crc32, c.state, c.sequence
+    FROM contactd.jobs j
+      LEFT JOIN contactd.specs s
+        ON s.job = j.number AND j.state = 1 AND octet_length(s.spec) <= a_spec_bytes
+      LEFT JOIN contactd.checkpoints c ON c.job = j.number
+    WHERE j.number = ANY(v_taken) ORDER BY j.priority DESC, j.number;
 END $$;
 
 -- Lends cells of a sweep that the worker runs; each range has the number a_loans.

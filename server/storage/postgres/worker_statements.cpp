@@ -1,7 +1,5 @@
 #include "storage/postgres/worker_statements.h"
 
-#include <absl/strings/str_cat.h>
-
 #include <utility>
 
 #include "storage/postgres/statements.h"
@@ -46,7 +44,7 @@ Statement Claim(const JobClaim& claim) {
     not_tenants.push_back(whose.tenant);
     not_owners.push_back(whose.owner);
   }
-  return {absl::StrCat("SELECT ", kHeader, " FROM contactd.claim($1,$2,$3,$4,$5,$6,$7,$8,$9)"),
+  return {"SELECT * FROM contactd.claim($1,$2,$3,$4,$5,$6,$7,$8,$9,$10)",
           Parameters()
               .Bytes(claim.worker)
               .Integer(claim.most)
@@ -56,7 +54,8 @@ Statement Claim(const JobClaim& claim) {
               .Texts(owners)
               .Integers(milliseconds)
               .Texts(not_tenants)
-              .Texts(not_owners)};
+              .Texts(not_owners)
+              .Integer(claim.spec_bytes)};
 }
 
 Statement Leave(const std::string& worker) {

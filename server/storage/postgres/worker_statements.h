@@ -15,7 +15,7 @@ namespace contact::postgres {
 Statement Beat(const WorkerProcess& worker);
 absl::StatusOr<std::vector<HeldJob>> HeldJobsOf(const Rows& rows);
 
-/// The answer is read by JobsOf. What a lost answer gave away is in the answer of the next Beat.
+/// The answer is read by ClaimedOf. What a lost answer gave away is in the answer of the next Beat.
 Statement Claim(const JobClaim& claim);
 
 Statement Leave(const std::string& worker);

@@ -106,6 +106,37 @@ TEST_F(SharedStoreTest, JobIsClaimedOnceByPriorityThenAge) {
   EXPECT_EQ(one_.Count().running, 3);
 }
 
+TEST_F(SharedStoreTest, ClaimedJobComesWithCheckpointAndSmallSpec) {
+  const auto stored = one_.Create(Job("a"));
+  const Checkpoint checkpoint{0, "state"};
+  ASSERT_TRUE(one_.Ask<std::uint64_t>([&](SharedStore& store, auto done) {
+                    store.Update({.name = stored->job.name(), .checkpoint = &checkpoint},
+                                 std::move(done));
+                  })
+                  .ok());
+  v1::Job large = Job("b");
+  large.mutable_scenario()->set_title(std::string(1000, 'x'));
+  ASSERT_TRUE(one_.Create(large).ok());
+  one_.Beat("w1");
+  const auto claimed = one_.ClaimJobs({.worker = "w1", .most = 2, .spec_bytes = 900});
+  ASSERT_EQ(claimed.size(), 2U);
+  EXPECT_EQ(claimed[0].job.scenario().title(), "of jobs/a");
+  EXPECT_EQ(claimed[0].checkpoint, "state");
+  EXPECT_TRUE(claimed[1].intact);
+  EXPECT_FALSE(claimed[1].job.has_scenario()) << "its worker reads it when it is its turn";
+}
+
+TEST_F(SharedStoreTest, DamagedSpecStaysBehind) {
+  ASSERT_TRUE(one_.Create(Job("a")).ok());
+  database_.Run("UPDATE contactd.specs SET spec = '\\x00'");
+  one_.Beat("w1");
+  const auto claimed = one_.ClaimJobs({.worker = "w1", .most = 1});
+  ASSERT_EQ(claimed.size(), 1U);
+  EXPECT_TRUE(claimed[0].intact);
+  EXPECT_EQ(claimed[0].job.owner(), "ada");
+  EXPECT_FALSE(claimed[0].job.has_scenario());
+}
+
 TEST_F(SharedStoreTest, ManyWorkersThatClaimAtOnceShareNoJob) {
   constexpr int kJobs = 300;
   for (int i = 0; i < kJobs; ++i) {
@@ -193,6 +224,15 @@ TEST_F(SharedStoreTest, OwnersOfATenantAndTenantsTakeTurns) {
   for (const std::string& name : one_.Claim("w1", 8)) ++of[name[5]];
   EXPECT_EQ(of['e'], 3) << "half, or all there are";
   EXPECT_LE(std::abs(of['a'] - of['b']), 1) << of['a'] << " and " << of['b'];
+}
+
+TEST_F(SharedStoreTest, WhatAnOwnerHasTooFewJobsForGoesToTheOthers) {
+  for (int i = 0; i < 9; ++i) {
+    ASSERT_TRUE(one_.Create(Job("a" + std::to_string(i), "ada")).ok());
+  }
+  ASSERT_TRUE(one_.Create(Job("b", "bob")).ok());
+  one_.Beat("w1");
+  EXPECT_EQ(one_.Claim("w1", 8).size(), 8U);
 }
 
 TEST_F(SharedStoreTest, OwnerWhoHasUsedMoreWorkerTimeWaits) {
