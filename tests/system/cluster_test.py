@@ -1,6 +1,8 @@
 """Fronts and workers that share a database: any front serves any job, and workers come and go."""
 
 import concurrent.futures
+import os
+import pathlib
 import subprocess
 import threading
 import time
@@ -17,6 +19,16 @@ from shared import LEASE_S, Shared
 def result_of(job):
     """What the physics gave."""
     return [to_bytes(part) for part in (*job.cycles, *job.groups, *job.final_bodies)]
+
+
+def cpu_seconds(pid, thread):
+    """What the threads of this name have used."""
+    ticks = 0
+    for stat in pathlib.Path(f"/proc/{pid}/task").glob("*/stat"):
+        name, _, fields = stat.read_text().split(" ", 1)[1].partition(") ")
+        if name == "(" + thread:
+            ticks += sum(map(int, fields.split()[11:13]))
+    return ticks / os.sysconf("SC_CLK_TCK")
 
 
 class ClusterTest(ServerTest):
@@ -310,6 +322,18 @@ class WorkerTest(ClusterTest):
                for worker in workers]
         self.assertEqual(sum(ran), 8)
         self.assertGreaterEqual(min(ran), 2, ran)
+
+
+    def test_worker_rests_while_jobs_wait_for_its_threads(self):
+        front = self.shared.front()
+        worker = self.shared.worker("--workers=1")
+        self.running(front)
+        for _ in range(3):
+            front.create(endless())
+        before, start = cpu_seconds(worker.process.pid, "claimer"), time.monotonic()
+        time.sleep(2)
+        share = (cpu_seconds(worker.process.pid, "claimer") - before) / (time.monotonic() - start)
+        self.assertLess(share, 0.2)
 
 
 class RolesTest(ClusterTest):

@@ -42,13 +42,7 @@ JobClaimer::JobClaimer(SharedStore& store, const Clock& clock, const JobOptions&
       shared_(shared),
       process_(ProcessOf(shared, options)),
       quotas_({}, clock),
-      scheduler_(store, clock, options, feed, quotas_,
-                 [this] {
-                   const MutexLock lock(mutex_);
-                   woken_ = true;
-                   rate_ += 1;
-                   changed_.notify_all();
-                 }),
+      scheduler_(store, clock, options, feed, quotas_, [this] { Left(); }),
       lender_(store, process_.name, options.workers),
       borrower_(store, clock, options, process_.name, scheduler_, [this] { Wake(); }),
       thread_([this](const std::stop_token& stop) {
@@ -80,6 +74,14 @@ void JobClaimer::SetDemand(const Demand& demand) {
   demand_ = demand;
 }
 
+void JobClaimer::Left() {
+  const MutexLock lock(mutex_);
+  rate_ += 1;
+  --enough_;
+  woken_ |= !jobs_wait_;  // Threads may be idle now, for cells of sweeps.
+  if (woken_ || hungry()) changed_.notify_all();
+}
+
 int JobClaimer::IdleElsewhere(const Jobs& jobs) const {
   const MutexLock lock(mutex_);
   const auto running = demand_.running - static_cast<std::int64_t>(jobs.size());
@@ -102,7 +104,7 @@ void JobClaimer::Loop(const std::stop_token& stop) {
     Look(now, jobs);
     const MutexLock lock(mutex_);
     changed_.wait_for(mutex_, stop, kLookTime, [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-      return woken_ || (jobs_wait_ && !claiming_);
+      return woken_ || hungry();
     });
     woken_ = false;
   }
@@ -158,11 +160,15 @@ void JobClaimer::TakeIn(StoredJob stored) {
   }
 }
 
-int JobClaimer::Wanted(const Jobs& jobs) const {
+int JobClaimer::Wanted(const Jobs& jobs) {
+  const auto here = static_cast<int>(std::ranges::count(jobs, false, &Scheduler::Here::ending));
   const MutexLock lock(mutex_);
   const double per_second = rate_ / 0.144;  // The sum of what halves each tenth of a second.
   const int ahead = std::min(static_cast<int>(per_second * kAheadTime), kMostAhead);
-  return options_.workers + ahead - static_cast<int>(jobs.size());
+  const int most = options_.workers + ahead - here;
+  const int least = std::max(ahead / 2, 1);
+  enough_ = std::max(least - most, 0);
+  return most < least ? 0 : most;
 }
 
 void JobClaimer::ClaimIfUseful(Time now, const Jobs& jobs) {
@@ -172,7 +178,7 @@ void JobClaimer::ClaimIfUseful(Time now, const Jobs& jobs) {
                  .most = Wanted(jobs),
                  .most_running = options_.max_running_per_owner,
                  .grace = process_.lease};
-  if (claim.most <= 0) {
+  if (claim.most == 0) {
     if (now - busy_since_ < kBusyTime) return;
     busy_since_ = now;
     claim.most = 1;

@@ -68,8 +68,15 @@ class JobClaimer {
   void Wake();
   /// Threads of other processes that have nothing to do.
   int IdleElsewhere(const Jobs& jobs) const;
-  /// Jobs more that this process could begin soon.
-  int Wanted(const Jobs& jobs) const;
+  /// Jobs more that this process could begin soon; 0: too few to ask for them. Notes how many may
+  /// leave until there are enough.
+  int Wanted(const Jobs& jobs);
+  /// A job has left the scheduler.
+  void Left();
+  /// True if jobs are to be claimed now.
+  bool hungry() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    return jobs_wait_ && !claiming_ && enough_ <= 0;
+  }
 
   SharedStore& store_;
   const Clock& clock_;
@@ -108,6 +115,8 @@ class JobClaimer {
   bool beating_ ABSL_GUARDED_BY(mutex_) = false;
   /// Jobs that have left of late; it counts half each tenth of a second later.
   double rate_ ABSL_GUARDED_BY(mutex_) = 0;
+  /// Jobs that may leave before it is worth to claim more.
+  int enough_ ABSL_GUARDED_BY(mutex_) = 0;
 
   Scheduler scheduler_;
   SweepLender lender_;

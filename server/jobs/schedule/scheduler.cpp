@@ -260,6 +260,9 @@ Scheduler::Task Scheduler::Next(Worker& worker) {
 
 void Scheduler::EndTask(const Task& task) {
   ++idle_;
+  if (const auto ended = active_.find(task.name); ended != active_.end()) {
+    ended->second.ending = true;
+  }
   // A run that was given up may have been ended for it.
   if (task.sweep || !turns_.End(task.name, Now())) turns_.GiveBack();
 }
@@ -426,7 +429,8 @@ std::vector<Scheduler::Here> Scheduler::jobs() const {
   for (const auto& [name, active] : active_) {
     jobs.push_back({.name = name,
                     .whose = {OwnerOf(active.job), TenantOf(active.job)},
-                    .running = running_.contains(name),
+                    .running = running_.contains(name) && !active.ending,
+                    .ending = active.ending,
                     .progress = active.record->Get(false).progress()});
   }
   return jobs;

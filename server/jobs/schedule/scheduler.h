@@ -80,7 +80,10 @@ class Scheduler final : public Unfinished {
   struct Here {
     std::string name;
     JobOwner whose;
+    /// It has a thread.
     bool running = false;
+    /// Its run has ended, and its end is being stored.
+    bool ending = false;
     v1::Progress progress = {};
   };
   std::vector<Here> jobs() const;
@@ -115,6 +118,8 @@ class Scheduler final : public Unfinished {
     std::weak_ptr<SweepRun> sweep = {};
     /// Another worker has the job, in another process.
     bool lost = false;
+    /// The run has ended.
+    bool ending = false;
     /// The run has ended, and its end could not be stored.
     bool unstored = false;
   };
