@@ -54,6 +54,22 @@ JobChange ToChange(const JobUpdate& update) {
   return change;
 }
 
+JobChange Joined(const JobChange& first, const JobChange& last) {
+  JobChange both = last;
+  both.take = first.take || last.take;
+  if (both.parts.header.empty()) {
+    both.state = first.state;
+    both.parts = first.parts;
+  }
+  both.events.insert(both.events.begin(), first.events.begin(), first.events.end());
+  if (both.checkpoint) {
+    both.checkpoint->events += first.events.size();
+  } else {
+    both.checkpoint = first.checkpoint;
+  }
+  return both;
+}
+
 std::size_t BytesOf(const std::vector<EventRow>& events) {
   std::size_t bytes = 0;
   for (const EventRow& row : events) bytes += row.event.bytes.size();

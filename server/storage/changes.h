@@ -59,6 +59,8 @@ struct JobChange {
   std::optional<Checkpoint> checkpoint;
 };
 JobChange ToChange(const JobUpdate& update);
+/// One change that does what `first` and then `last` do to the same job.
+JobChange Joined(const JobChange& first, const JobChange& last);
 
 /// Bytes that events take in the store.
 std::size_t BytesOf(const std::vector<EventRow>& events);

@@ -70,6 +70,9 @@ class Store {
   /// The second step. Costs little, also on the store's thread, and may be done again after a
   /// failure. `epoch`: see JobUpdate.
   virtual void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done) = 0;
+  /// Takes back an update that the engine has not begun with: it is as if it had never been asked
+  /// for. False: it is too late, or the engine never waits for long enough.
+  virtual bool Recall(const Encoded& /*change*/) { return false; }
 
   /// Remembers that a user wants a job cancelled, whoever runs it. NOT_FOUND.
   virtual void RequestCancel(std::string name, Callback<bool> done) = 0;

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <iterator>
 #include <utility>
 
 #include "base/clock.h"
@@ -38,6 +39,8 @@ void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
   pending_.take = true;
   pending_.job = std::move(job);
   pending_.events = std::move(events);
+  Encode(&pending_);
+  take_ = pending_.encoded;
   Advance(clock_.Elapsed());
 }
 
@@ -78,6 +81,7 @@ bool LogWriter::Finish(v1::Job job, v1::Event event, Ended ended) {
   pending_.events.push_back(std::move(event));
   pending_.ended = std::move(ended);
   Encode(&pending_);
+  if (store_.Recall(take_)) JoinTake();
   Disk disk;
   {
     const MutexLock lock(mutex_);
@@ -133,6 +137,15 @@ void LogWriter::Send() {
                 [self = shared_from_this()](const absl::StatusOr<std::uint64_t>& first) {
                   self->Written(first);
                 });
+}
+
+void LogWriter::JoinTake() {
+  pending_.encoded = std::make_shared<const JobChange>(Joined(*take_, *pending_.encoded));
+  pending_.take = true;
+  batch_.records.insert(batch_.records.end(), std::make_move_iterator(pending_.records.begin()),
+                        std::make_move_iterator(pending_.records.end()));
+  pending_.records = std::move(batch_.records);
+  SetDisk(Disk::kIdle);
 }
 
 LogWriter::Disk LogWriter::AwaitIdle() {

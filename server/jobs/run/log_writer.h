@@ -127,6 +127,9 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   bool BeginWriting(Time now);
   /// Hands batch_ to the store.
   void Send();
+  /// Joins what takes the job, if the store has not begun with that, and pending_ into one batch:
+  /// so a run that is shorter than the store's turn costs one change.
+  void JoinTake();
   /// Waits until no batch is being written or to be tried again: kIdle, or kLost.
   Disk AwaitIdle();
   /// Goes on after a batch was stored, or not. On the store's thread.
@@ -152,6 +155,8 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   Time last_write_ = {};
   /// Keeps the run from being given up from Finish until its end is stored.
   std::optional<RunControl::Hold> hold_;
+  /// What takes the job, and its events for the log in memory; null until that was sent.
+  std::shared_ptr<const JobChange> take_;
 
   // Used by the store's thread while disk_ is kWriting, else as above.
   /// What is being written, or to be tried again.

@@ -58,8 +58,10 @@ class PostgresStore : public SharedStore {
           }
           return first;
         },
-        std::move(done));
+        std::move(done), change->id);
   }
+
+  bool Recall(const Encoded& change) override { return queries_.Recall(change->id); }
 
   void RequestCancel(std::string name, Callback<bool> done) override {
     Statement statement = postgres::RequestCancel(name);
@@ -279,16 +281,19 @@ class PostgresStore : public SharedStore {
   }
 
   // Runs the statement, and gives `done` what `read` makes of its rows once that is committed.
+  // `id`: of the operation.
   template <class T, class Read>
-  void Post(Statement statement, Read read, Callback<T> done) {
-    queries_.Post({std::move(statement), [read = std::move(read), done = std::move(done)](
-                                             const absl::StatusOr<Rows>& rows) {
+  void Post(Statement statement, Read read, Callback<T> done, std::uint64_t id = 0) {
+    queries_.Post({std::move(statement),
+                   [read = std::move(read), done = std::move(done)](
+                       const absl::StatusOr<Rows>& rows) {
                      if (rows.ok()) {
                        done(read(*rows));
                      } else {
                        done(rows.status());
                      }
-                   }});
+                   },
+                   id});
   }
 
   const std::string address_;

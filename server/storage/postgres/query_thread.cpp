@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -48,6 +49,16 @@ void QueryThread::Post(Operation operation) {
     queue_.push_back(std::move(operation));
   }
   posted_.notify_one();
+}
+
+bool QueryThread::Recall(std::uint64_t id) {
+  std::optional<Operation> recalled;  // Goes after the lock.
+  const MutexLock lock(mutex_);
+  const auto found = std::ranges::find(queue_, id, &Operation::id);
+  if (found == queue_.end()) return false;
+  recalled = std::move(*found);
+  queue_.erase(found);
+  return true;
 }
 
 void QueryThread::Loop() {

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -34,6 +35,8 @@ class QueryThread {
     Statement statement;
     /// Runs once, after the commit or with the reason why there is none.
     std::function<void(absl::StatusOr<Rows>)> done;
+    /// By which it can be recalled; 0: it cannot.
+    std::uint64_t id = 0;
   };
 
   /// Opens a connection and makes it ready for use.
@@ -47,6 +50,8 @@ class QueryThread {
 
   /// Thread-safe; returns at once. Operations take effect in the order of their posting.
   void Post(Operation operation);
+  /// Forgets an operation that still waits to be sent. False: there is none.
+  bool Recall(std::uint64_t id);
 
  private:
   using Batch = std::vector<Operation>;

@@ -68,6 +68,28 @@ TEST_F(PostgresStoreTest, ConnectionThatIsCutWhileMuchIsAskedLosesAndRepeatsNoth
   EXPECT_EQ(Count("events"), 1 + 2 * kUpdates);
 }
 
+TEST_F(PostgresStoreTest, ChangeIsRecalledBeforeItIsSentAndNotAfter) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  const std::vector<v1::Event> events = {LogEvent("x")};
+  const std::string name = "jobs/a";
+  const auto change = Store::Encode({.name = name, .events = events});
+  const auto other = Store::Encode({.name = name, .events = events});
+  bool told = false;
+  Await<bool> recalled;
+  store_->Flush([&] {  // The store's thread is here, so it sends nothing.
+    store_->Update(change, 0, [&told](const auto&) { told = true; });
+    store_->Update(other, 0, [](const auto&) {});
+    recalled.callback()(store_->Recall(change));
+  });
+  EXPECT_TRUE(recalled.Get());
+  Await<absl::StatusOr<std::uint64_t>> first;
+  store_->Update(change, 0, first.callback());
+  EXPECT_EQ(first.Get().value(), 3U) << "after the other one";
+  EXPECT_FALSE(told);
+  EXPECT_FALSE(store_->Recall(change));
+}
+
 TEST_F(PostgresStoreTest, ChangeThatIsSentAgainIsDoneOnce) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
