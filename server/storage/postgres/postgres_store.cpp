@@ -46,19 +46,18 @@ class PostgresStore : public SharedStore {
 
   using Store::Update;
   void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done) override {
-    Post<std::uint64_t>(
-        postgres::ChangeJob(*change, epoch),
-        [this, change](const Rows& rows) {
-          auto first = postgres::Changed(rows, change->name);
-          if (first.ok()) {
-            Tell({.name = change->name,
-                  .tenant = rows.Bytes(0, 2),
-                  .last_sequence = *first + change->events.size() - 1,
-                  .state = change->state});
-          }
-          return first;
-        },
-        std::move(done), change->id);
+    Post<std::uint64_t>(postgres::ChangeJob(*change, epoch),
+                        [this, change](const Rows& rows) {
+                          auto first = postgres::Changed(rows, change->name);
+                          if (first.ok()) {
+                            Tell({.name = change->name,
+                                  .tenant = rows.Bytes(0, 2),
+                                  .last_sequence = *first + change->events.size() - 1,
+                                  .state = change->state});
+                          }
+                          return first;
+                        },
+                        std::move(done), {.id = change->id});
   }
 
   bool Recall(const Encoded& change) override { return queries_.Recall(change->id); }
@@ -128,15 +127,14 @@ class PostgresStore : public SharedStore {
 
   void Delete(std::string name, std::string expected_uid, Callback<JobOwner> done) override {
     Statement statement = postgres::RemoveJob(name, expected_uid);
-    Post<JobOwner>(
-        std::move(statement),
-        [this, name = std::move(name)](const Rows& rows) {
-          auto whose = postgres::Removed(rows, name);
-          if (whose.ok())
-            Tell({.name = name, .tenant = whose->tenant, .state = v1::Job::SUCCEEDED});
-          return whose;
-        },
-        std::move(done));
+    Post<JobOwner>(std::move(statement),
+                   [this, name = std::move(name)](const Rows& rows) {
+                     auto whose = postgres::Removed(rows, name);
+                     if (whose.ok())
+                       Tell({.name = name, .tenant = whose->tenant, .state = v1::Job::SUCCEEDED});
+                     return whose;
+                   },
+                   std::move(done), {.untidy = true});
   }
 
   void Compact(std::string name, Callback<JobOwner> done) override {
@@ -144,18 +142,19 @@ class PostgresStore : public SharedStore {
     Post<JobOwner>(
         std::move(statement),
         [name = std::move(name)](const Rows& rows) { return postgres::Compacted(rows, name); },
-        std::move(done));
+        std::move(done), {.untidy = true});
   }
 
   void Backup(std::stop_token /*stop*/, Callback<std::unique_ptr<BackupFile>> done) override {
-    queries_.Post({{}, [done = std::move(done)](const absl::StatusOr<Rows>& /*told*/) {
-                     done(absl::FailedPreconditionError(
-                         "the store is a PostgreSQL database; copy it with pg_dump"));
-                   }});
+    queries_.Post({.done = [done = std::move(done)](const absl::StatusOr<Rows>& /*told*/) {
+      done(absl::FailedPreconditionError(
+          "the store is a PostgreSQL database; copy it with pg_dump"));
+    }});
   }
 
   void Flush(std::function<void()> done) override {
-    queries_.Post({{}, [done = std::move(done)](const absl::StatusOr<Rows>& /*told*/) { done(); }});
+    queries_.Post(
+        {.done = [done = std::move(done)](const absl::StatusOr<Rows>& /*told*/) { done(); }});
   }
 
   void Beat(const WorkerProcess& worker, Callback<std::vector<HeldJob>> done) override {
@@ -280,20 +279,21 @@ class PostgresStore : public SharedStore {
         std::move(done));
   }
 
+  using Operation = postgres::QueryThread::Operation;
   // Runs the statement, and gives `done` what `read` makes of its rows once that is committed.
-  // `id`: of the operation.
+  // `operation`: what else is to be said of it.
   template <class T, class Read>
-  void Post(Statement statement, Read read, Callback<T> done, std::uint64_t id = 0) {
-    queries_.Post({std::move(statement),
-                   [read = std::move(read), done = std::move(done)](
-                       const absl::StatusOr<Rows>& rows) {
-                     if (rows.ok()) {
-                       done(read(*rows));
-                     } else {
-                       done(rows.status());
-                     }
-                   },
-                   id});
+  void Post(Statement statement, Read read, Callback<T> done, Operation operation = {}) {
+    operation.statement = std::move(statement);
+    operation.done = [read = std::move(read),
+                      done = std::move(done)](const absl::StatusOr<Rows>& rows) {
+      if (rows.ok()) {
+        done(read(*rows));
+      } else {
+        done(rows.status());
+      }
+    };
+    queries_.Post(std::move(operation));
   }
 
   const std::string address_;

@@ -68,7 +68,6 @@ void QueryThread::Loop() {
       Tidy();
     } else {
       Run(*batch);
-      untidy_ = true;
     }
   }
 }
@@ -84,6 +83,7 @@ std::optional<QueryThread::Batch> QueryThread::NextBatch() {
   std::size_t bytes = 0;
   while (!queue_.empty() && batch.size() < kMaxBatch && bytes < kMaxBatchBytes) {
     bytes += queue_.front().statement.parameters.bytes();
+    untidy_ |= queue_.front().untidy;
     batch.push_back(std::move(queue_.front()));
     queue_.pop_front();
   }

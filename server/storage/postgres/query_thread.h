@@ -32,17 +32,19 @@ class QueryThread {
  public:
   struct Operation {
     /// Empty SQL: nothing is to be done, only told.
-    Statement statement;
+    Statement statement = {};
     /// Runs once, after the commit or with the reason why there is none.
-    std::function<void(absl::StatusOr<Rows>)> done;
+    std::function<void(absl::StatusOr<Rows>)> done = {};
     /// By which it can be recalled; 0: it cannot.
     std::uint64_t id = 0;
+    /// It leaves something to tidy up.
+    bool untidy = false;
   };
 
   /// Opens a connection and makes it ready for use.
   using Opener = std::function<absl::StatusOr<std::unique_ptr<Connection>>()>;
-  /// `tidy`: a statement that is run when there is nothing else to do after a batch, and again
-  /// until it answers false.
+  /// `tidy`: a statement that is run at the start and after untidy operations, when there is
+  /// nothing else to do, and again until it answers false.
   QueryThread(Opener open, std::unique_ptr<Connection> connection, Statement tidy,
               std::shared_ptr<StoreMetrics> metrics, const Clock& clock);
   /// Does what was posted, then joins. Without a connection it is answered with UNAVAILABLE.
