@@ -157,6 +157,15 @@ TEST_F(JobsCursorTest, ReaderThatFallsBehindAllBoundsIsToldSo) {
   EXPECT_EQ(step.error->reason, "SLOW_WATCHER");
 }
 
+TEST(JobFeed, IsWatchedWhileItHasReaders) {
+  JobFeed feed;
+  EXPECT_FALSE(feed.watched());
+  auto reader = feed.Subscribe("acme", [] {});
+  EXPECT_TRUE(feed.watched());
+  reader = nullptr;
+  EXPECT_FALSE(feed.watched());
+}
+
 TEST(JobFeed, KeepsEachNameOnceAndNotTooMany) {
   JobFeed feed;
   const auto reader = feed.Subscribe(kLocal, [] {});

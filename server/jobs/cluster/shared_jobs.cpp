@@ -82,11 +82,7 @@ void SharedJobs::Follow(const std::stop_token& stop) {
 }
 
 void SharedJobs::Ask() {
-  const auto moved = Await<absl::StatusOr<MovedJobs>>(
-      [this](auto done) { store_.Moved(moved_, std::move(done)); });
-  if (!moved.ok()) return;  // The next time tells.
-  for (const MovedJobs::Job& job : moved->jobs) feed_.Changed(job.tenant, job.name);
-  moved_ = moved->next;
+  if (!AskMoved()) return;  // The next time tells.
   AskPositions(logs_.names());
   const auto demand =
       Await<absl::StatusOr<Demand>>([this](auto done) { store_.Count(std::move(done)); });
@@ -99,6 +95,18 @@ void SharedJobs::Ask() {
     if (demand->queued > 0) claimer_->JobsWait();
   }
   ForgetOld();
+}
+
+// Where nobody watches, only where to begin is asked for.
+bool SharedJobs::AskMoved() {
+  const bool watched = feed_.watched();
+  const auto moved = Await<absl::StatusOr<MovedJobs>>(
+      [&](auto done) { store_.Moved(watched ? moved_ : 0, std::move(done)); });
+  if (!moved.ok()) return false;
+  for (const MovedJobs::Job& job : moved->jobs) feed_.Changed(job.tenant, job.name);
+  // Somebody who has begun meanwhile may have looked before.
+  if (watched || moved_ == 0 || !feed_.watched()) moved_ = moved->next;
+  return true;
 }
 
 void SharedJobs::AskPositions(const std::vector<std::string>& names) {

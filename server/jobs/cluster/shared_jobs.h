@@ -59,6 +59,8 @@ class SharedJobs final : public Unfinished {
   /// The loop of the thread that asks the store.
   void Follow(const std::stop_token& stop);
   void Ask();
+  /// Asks which jobs have changed their state. False: the store does not answer.
+  bool AskMoved();
   /// Notes how far all watched jobs are.
   void AskPositions(const std::vector<std::string>& names);
   /// Forgets what was told of runs that nobody tells of any more.

@@ -41,6 +41,12 @@ std::shared_ptr<JobFeed::Reader> JobFeed::Subscribe(std::string tenant,
   return reader;
 }
 
+bool JobFeed::watched() {
+  const MutexLock lock(mutex_);
+  std::erase_if(readers_, [](const auto& weak) { return weak.expired(); });
+  return !readers_.empty();
+}
+
 void JobFeed::Changed(const std::string& tenant, const std::string& name) {
   std::vector<std::shared_ptr<Reader>> readers;
   {

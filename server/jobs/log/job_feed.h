@@ -47,6 +47,9 @@ class JobFeed {
   /// Hears of changes of the tenant's jobs from now on, until the reader is destroyed.
   std::shared_ptr<Reader> Subscribe(std::string tenant, std::function<void()> wake);
 
+  /// True if there are readers.
+  bool watched();
+
   /// A job of the tenant was created, changed its state, or was deleted; and that is stored.
   void Changed(const std::string& tenant, const std::string& name);
 
