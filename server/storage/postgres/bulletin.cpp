@@ -46,11 +46,13 @@ Bulletin::~Bulletin() {
 }
 
 void Bulletin::Tell(const Note& note) {
+  bool first = false;
   {
     const MutexLock lock(mutex_);
+    first = waiting_.empty();
     waiting_.Add(note);
   }
-  eventfd_write(wake_, 1);
+  if (first) eventfd_write(wake_, 1);  // After it the thread looks at the time.
 }
 
 bool Bulletin::stopping() const {
