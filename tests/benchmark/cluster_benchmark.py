@@ -1,33 +1,43 @@
-"""What several contactd on one PostgreSQL database do, beside one with a directory. One machine stands
-for several. Prints one table.
+"""What several contactd on one PostgreSQL database do, beside one with a directory and beside libpq
+that sends the same statements. One machine stands for several. Prints one table; rates are medians.
 
-  CONTACTD=build/release/server/contactd PYTHONPATH=build/release/python:tests/system \\
+  CONTACTD=build/release/server/contactd PEER=build/release/tests/benchmark/cluster_peer \\
+    PYTHONPATH=build/release/python:tests/system \\
     /usr/bin/python3 tests/benchmark/cluster_benchmark.py
 
---tiny only shows that it runs.
+The database syncs as in use; POSTGRES_SETTINGS=fsync=off shows what that costs. --tiny only shows
+that it runs.
 """
 
-import concurrent.futures
+import os
 import pathlib
 import shutil
 import signal
+import statistics
+import subprocess
 import sys
 import tempfile
-import threading
 import time
 
-import grpc
+os.environ.setdefault("POSTGRES_SETTINGS", "fsync=on")
+
+# pylint: disable=wrong-import-position
 from contact.v1 import job_service_pb2, scenario_pb2
-from contactd import ENDED, PATIENCE_S, Job, Server, endless_and_slow, spring_wall, three_ball_chain
+from contactd import (ENDED, PATIENCE_S, Job, Server, cluster, endless_and_slow, spring_wall,
+                      three_ball_chain)
 from shared import LEASE_S, Shared
 
 TINY = "--tiny" in sys.argv[1:]
-JOBS = 40 if TINY else 2000
-CLIENTS = 16
-WATCHERS = 6 if TINY else 300  # On three fronts together; Python's clients take the most time.
+PEER = os.environ["PEER"]
+JOBS = 40 if TINY else 3000
+ROUNDS = 1 if TINY else 3
+CLIENTS = 64
+FRONTS = 3
+WATCHERS = 6 if TINY else 999
+WATCH_S = 2 if TINY else 10
 SWEEP_S = 2 if TINY else 12
-FLAGS = ("--max-creates-per-second=1e6", "--max-create-burst=100000")
-ROWS = []
+FLAGS = ("--max-creates-per-second=1e6", "--max-create-burst=100000",
+         "--max-watchers-per-peer=1000")
 
 
 class Ground:
@@ -47,124 +57,237 @@ class Ground:
 
 
 def tell(what, figure):
-    ROWS.append((what, figure))
-    print(f"{what:<62} {figure}", flush=True)
+    print(f"{what:<72} {figure}", flush=True)
 
 
-def percentile(values, percent):
-    ordered = sorted(values)
-    return ordered[min(len(ordered) - 1, int(len(ordered) * percent / 100))]
+def peer(*words):
+    """The figures that cluster_peer prints."""
+    told = subprocess.run([PEER, *map(str, words)], check=True, stdout=subprocess.PIPE, text=True)
+    return [float(word) for word in told.stdout.split()]
 
 
-def submit_all(fronts):
-    """Seconds that it takes to create JOBS jobs, and names."""
-    start = time.monotonic()
-    with concurrent.futures.ThreadPoolExecutor(max_workers=CLIENTS) as pool:
-        names = list(pool.map(lambda i: fronts[i % len(fronts)].create(three_ball_chain()).name,
-                              range(JOBS)))
-    return time.monotonic() - start, names
+def addresses(servers):
+    return [server.address for server in servers]
 
 
 def await_all(front):
-    """Seconds until no job is unfinished."""
-    start = time.monotonic()
+    """Waits until no job is unfinished."""
     while front.list(states=[Job.QUEUED, Job.RUNNING], page_size=1).jobs:
         time.sleep(0.02)
-    return time.monotonic() - start
 
 
-def jobs(name, fronts, start_workers):
-    """Created without workers, then run by them."""
-    took, _ = submit_all(fronts)
-    tell(f"{name}: jobs created a second, {CLIENTS} clients", f"{JOBS / took:.0f}")
-    start_workers()
-    tell(f"{name}: 1-ms jobs run a second", f"{JOBS / await_all(fronts[0]):.0f}")
+def submit_and_run(servers):
+    """Jobs a second that are taken while they run, and from the first submit to the last result."""
+    start = time.monotonic()
+    taken, = peer("submit", JOBS, CLIENTS, *addresses(servers))
+    await_all(servers[0])
+    return taken, JOBS / (time.monotonic() - start)
 
 
-def sweep_seconds(server, sweep):
+def database_seconds():
+    """Processor time of PostgreSQL, also of its processes that are gone."""
+    server = cluster().pid
+    ticks = 0
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rsplit(") ", 1)[1].split()
+        except OSError:
+            continue
+        if str(server) == stat.parent.name:
+            ticks += sum(map(int, fields[11:15]))
+        elif int(fields[1]) == server:
+            ticks += sum(map(int, fields[11:13]))
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+class Cost:
+    """What PostgreSQL takes from here on, for each job of one database."""
+
+    def __init__(self, shared):
+        self.shared = shared
+        self.before = self.now()
+
+    def now(self):
+        log, size = self.shared.ask(
+            "SELECT pg_current_wal_lsn() - '0/0', pg_database_size(current_database())").split("|")
+        return database_seconds(), float(log), float(size)
+
+    def tell(self, what):
+        seconds, log, size = (b - a for a, b in zip(self.before, self.now()))
+        tell(f"{what}: PostgreSQL's time [ms], log and disk [kB] for a job",
+             f"{1e3 * seconds / JOBS:.2f}, {log / JOBS / 1e3:.1f}, {size / JOBS / 1e3:.1f}")
+
+
+class Rates:
+    """Of several rounds, by name."""
+
+    def __init__(self):
+        self.rates = {}
+
+    def add(self, **rates):
+        for name, rate in rates.items():
+            self.rates.setdefault(name, []).append(rate)
+
+    def tell(self, what, name, *others):
+        rate = statistics.median(self.rates[name])
+        text = f"{rate:.0f}"
+        for other in others:
+            shares = [a / b for a, b in zip(self.rates[name], self.rates[other])]
+            text += (f"; {other} {statistics.median(self.rates[other]):.0f}:"
+                     f" {100 * statistics.median(shares):.0f} %")
+        tell(what, text)
+
+
+class Cluster:
+    """Fronts, and a worker or two of one thread."""
+
+    def __init__(self, ground, name):
+        self.shared = Shared(ground, name)
+        self.fronts = [self.shared.front(*FLAGS) for _ in range(FRONTS)]
+        self.workers = []
+
+    def work(self, count):
+        """With so many workers from here on."""
+        while len(self.workers) > count:
+            self.workers.pop().end()
+        while len(self.workers) < count:
+            self.workers.append(self.shared.worker("--workers=1"))
+
+    def sample(self):
+        """A job that has ended."""
+        self.work(1)
+        name = self.fronts[0].run(three_ball_chain()).name
+        self.work(0)
+        return name
+
+
+def run_ours(ours, rates):
+    """Jobs are created without workers, then run by two."""
+    cost = Cost(ours.shared)
+    submits, = peer("submit", JOBS, CLIENTS, *addresses(ours.fronts))
+    cost.tell("created")
+    cost = Cost(ours.shared)
+    start = time.monotonic()
+    ours.work(2)
+    await_all(ours.fronts[0])
+    rates.add(submits=submits, runs=JOBS / (time.monotonic() - start))
+    cost.tell("run")
+    ours.work(0)
+
+
+def run_libpq(database, sample, rates):
+    """The same by libpq, which computes nothing; and again, computing."""
+    submits, = peer("libpq-submit", database, sample, JOBS, FRONTS)
+    runs, _ = peer("libpq-run", database, sample, 2)
+    peer("libpq-submit", database, sample, JOBS, FRONTS)
+    solving, _ = peer("libpq-run", database, sample, 2, "solve")
+    rates.add(libpq_submits=submits, libpq_runs=runs, libpq_that_solves=solving)
+
+
+def run_at_once(ours, rates):
+    ours.work(2)
+    taken, done = submit_and_run(ours.fronts)
+    rates.add(taken=taken, done=done)
+    ours.work(0)
+
+
+def job_rates(ground):
+    """Of a cluster, and of libpq on a database of its own, in turns."""
+    ours, other = Cluster(ground, "ours"), Cluster(ground, "libpq")
+    ours.sample()
+    sample = other.sample()
+    for front in other.fronts:
+        front.kill()
+    rates = Rates()
+    for _ in range(ROUNDS):
+        run_ours(ours, rates)
+        run_libpq(other.shared.store, sample, rates)
+        run_at_once(ours, rates)
+    rates.tell(f"{FRONTS} fronts: jobs created a second, {CLIENTS} clients", "submits",
+               "libpq_submits")
+    rates.tell("2 workers: 1-ms jobs run a second", "runs", "libpq_runs", "libpq_that_solves")
+    events = ours.shared.ask("SELECT sum(last_sequence - 1) / count(*) FROM contactd.jobs")
+    tell("events of such a job, beside its first", f"{float(events):.0f}")
+    rates.tell("both at once: created a second", "taken")
+    rates.tell("both at once: from first submit to last result", "done")
+    return ours
+
+
+def embedded_rates(ground, pace):
+    rates = Rates()
+    with_directory = Server(ground.folder / "data", "--workers=2", *FLAGS, store="")
+    ground.addCleanup(with_directory.kill)
+    with_directory.start()
+    for _ in range(ROUNDS):
+        taken, done = submit_and_run([with_directory])
+        rates.add(taken=taken, done=done)
+    rates.tell("directory, both at once: created a second", "taken")
+    rates.tell("directory, both at once: from first submit to last result", "done")
+    tell("directory: cells a second, 2 threads", f"{cell_rate(with_directory, pace):.0f}")
+    with_directory.terminate()
+
+
+def cell_rate(server, pace, cells=400):
+    axis = scenario_pb2.Sweep.Axis(field="contacts[0].stiffness",
+                                   values=[1.8e7 * (1 + i / 1000) for i in range(cells)])
+    sweep = scenario_pb2.Sweep(base=spring_wall(SWEEP_S / cells / pace), axes=[axis])
     start = time.monotonic()
     name = server.stub.CreateJob(job_service_pb2.CreateJobRequest(job=Job(sweep=sweep)),
                                  timeout=PATIENCE_S).name
     while server.get(name).state not in ENDED:
         time.sleep(0.05)
-    return time.monotonic() - start
+    return cells / (time.monotonic() - start)
 
 
-def sweep_of(pace, cells=400):
-    axis = scenario_pb2.Sweep.Axis(field="contacts[0].stiffness",
-                                   values=[1.8e7 * (1 + i / 1000) for i in range(cells)])
-    return scenario_pb2.Sweep(base=spring_wall(SWEEP_S / cells / pace), axes=[axis])
+def cells(ours, pace):
+    rates = []
+    for count in 1, 2:
+        ours.work(count)
+        rates.append(cell_rate(ours.fronts[0], pace))
+    tell("cells a second, 1 and 2 workers of 1 thread", f"{rates[0]:.0f}, {rates[1]:.0f}")
 
 
-def watch_latency(fronts, name):
-    """Of cycles, from the moment they are recorded to that a client has them [s]."""
-    late, lock = [], threading.Lock()
-    deadline = time.monotonic() + (2 if TINY else 8)
+def watch(ours):
+    """Ends with a job that runs."""
+    ours.work(1)
+    name = ours.fronts[0].create(endless_and_slow()).name
+    while ours.fronts[0].get(name).state != Job.RUNNING:
+        time.sleep(0.05)
+    p50, p99, events = peer("watch", name, WATCHERS, WATCH_S, *addresses(ours.fronts))
+    tell(f"cycle to {WATCHERS} watchers on {FRONTS} fronts, p50 and p99 [ms]",
+         f"{p50:.0f}, {p99:.0f}")
+    tell("the same: events received a second", f"{events / WATCH_S:.0f}")
+    return name
 
-    def watch(front):
-        call = front.watch(name, live_only=True, kinds=["cycle"])
-        try:
-            for message in call:
-                now = time.time()
-                with lock:
-                    late.extend(now - event.event_time.ToMicroseconds() / 1e6
-                                for event in message.events if event.HasField("cycle"))
-                if time.monotonic() > deadline:
-                    call.cancel()
-        except grpc.RpcError:
-            pass
 
-    threads = [threading.Thread(target=watch, args=(fronts[i % 3],)) for i in range(WATCHERS)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    return late
+def take_over(ours, name):
+    ours.work(2)
+    ours.workers[0].end(signal.SIGKILL)
+    died = time.monotonic()
+    while ours.fronts[0].get(name).attempt < 2:
+        time.sleep(0.02)
+    tell(f"a job runs again after kill -9, lease {LEASE_S} s [s]",
+         f"{time.monotonic() - died:.1f}")
+    ours.fronts[0].kill()
+    died = time.monotonic()
+    next(iter(ours.fronts[1].watch(name, live_only=True, kinds=["cycle"])))
+    tell("a watcher has events of another front [s]", f"{time.monotonic() - died:.2f}")
+    ours.fronts[1].cancel(name)
 
 
 def main():
     ground = Ground()
     try:
-        embedded = Server(ground.folder / "data", "--workers=2", *FLAGS, store="")
-        ground.addCleanup(embedded.kill)
-        embedded.start()
-        pace = embedded.run(spring_wall(1.0)).summary.wall_time_s
-        took, _ = submit_all([embedded])
-        tell(f"directory: jobs created a second while they run, {CLIENTS} clients",
-             f"{JOBS / took:.0f}")
-        await_all(embedded)
-        alone = sweep_seconds(embedded, sweep_of(pace))
-        tell("directory: cells a second, 2 threads", f"{400 / alone:.0f}")
-        embedded.terminate()
-
-        shared = Shared(ground)
-        fronts = [shared.front(*FLAGS) for _ in range(3)]
-        workers = []
-        jobs("3 fronts, 2 workers", fronts,
-             lambda: workers.extend(shared.worker("--workers=1") for _ in range(2)))
-        both = sweep_seconds(fronts[0], sweep_of(pace))
-        workers.pop().end()
-        one = sweep_seconds(fronts[0], sweep_of(pace))
-        tell("cells a second, 1 and 2 workers of 1 thread", f"{400 / one:.0f}, {400 / both:.0f}")
-
-        name = fronts[0].create(endless_and_slow()).name
-        while fronts[0].get(name).state != Job.RUNNING:
-            time.sleep(0.05)
-        late = watch_latency(fronts, name)
-        tell(f"cycle to {WATCHERS} watchers on 3 fronts, p50 and p99 [ms]",
-             f"{1e3 * percentile(late, 50):.0f}, {1e3 * percentile(late, 99):.0f}")
-
-        workers.append(shared.worker("--workers=1"))
-        workers[0].end(signal.SIGKILL)
-        died = time.monotonic()
-        while fronts[0].get(name).attempt < 2:
-            time.sleep(0.02)
-        tell(f"a job runs again after kill -9, lease {LEASE_S} s [s]", f"{time.monotonic() - died:.1f}")
-        fronts[0].kill()
-        died = time.monotonic()
-        next(iter(fronts[1].watch(name, live_only=True, kinds=["cycle"])))
-        tell("a watcher has events of another front [s]", f"{time.monotonic() - died:.2f}")
-        fronts[1].cancel(name)
+        tell("load before", f"{os.getloadavg()[0]:.1f}")
+        alone = Server(ground.folder / "pace", store="")
+        ground.addCleanup(alone.kill)
+        pace = alone.start().run(spring_wall(1.0)).summary.wall_time_s
+        alone.terminate()
+        embedded_rates(ground, pace)
+        ours = job_rates(ground)
+        cells(ours, pace)
+        take_over(ours, watch(ours))
+        tell("load after", f"{os.getloadavg()[0]:.1f}")
     finally:
         ground.clean()
 

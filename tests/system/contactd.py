@@ -32,10 +32,11 @@ ENDED = (Job.SUCCEEDED, Job.FAILED, Job.CANCELLED)
 
 @functools.cache
 def cluster():
-    """The PostgreSQL server of this test program."""
+    """The PostgreSQL server of this test program; POSTGRES_SETTINGS is for those who measure."""
     sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "testing"))
     import postgres
-    started = postgres.Cluster()
+    settings = os.environ.get("POSTGRES_SETTINGS", "").split()
+    started = postgres.Cluster(**dict(setting.split("=", 1) for setting in settings))
     atexit.register(started.stop)
     return started
 

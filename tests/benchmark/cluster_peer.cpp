@@ -1,0 +1,248 @@
+// What cluster_benchmark.py compares a cluster with, and clients of it that take less time than
+// Python's.
+//
+//   cluster_peer submit JOBS CLIENTS FRONT...         creates jobs by gRPC
+//   cluster_peer watch JOB WATCHERS SECONDS FRONT...  watches cycles of a job
+//   cluster_peer libpq-submit ADDRESS JOB JOBS CONNECTIONS
+//   cluster_peer libpq-run ADDRESS JOB CONNECTIONS [SOLVE]
+//
+// The last two do what fronts and workers do, with the same statements in the same transactions but
+// without a service: they create copies of JOB, which has ended, and claim, begin and end all that
+// wait. SOLVE: they compute them, too. Each prints a line of figures.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/ids.h"
+#include "contact/v1/job_service.grpc.pb.h"
+#include "simulation/run.h"
+#include "storage/postgres/statements.h"
+#include "storage/postgres/worker_statements.h"
+#include "testing/watch_crowd.h"
+#include "wire/scenario/scenario_codec.h"
+
+namespace contact {
+namespace {
+
+using postgres::Connection;
+using postgres::Statement;
+using std::chrono::steady_clock;
+using testing::Percentile;
+using testing::WatchCrowd;
+using Words = std::vector<std::string>;
+
+constexpr int kClaim = 32;
+
+double SecondsSince(steady_clock::time_point start) {
+  return std::chrono::duration<double>(steady_clock::now() - start).count();
+}
+
+template <class T>
+T OrThrow(absl::StatusOr<T> value) {
+  if (!value.ok()) throw std::runtime_error(value.status().ToString());
+  return *std::move(value);
+}
+
+void InThreads(int count, const std::function<void(int)>& run) {
+  std::vector<std::future<void>> threads;
+  for (int i = 0; i < count; ++i) threads.push_back(std::async(std::launch::async, run, i));
+  for (auto& thread : threads) thread.get();
+}
+
+// The chain of the paper's section 6.1, which takes about a millisecond.
+v1::CreateJobRequest Chain() {
+  v1::CreateJobRequest request;
+  v1::Scenario& scenario = *request.mutable_job()->mutable_scenario();
+  for (int i = 0; i < 3; ++i) {
+    v1::Body& body = *scenario.add_bodies();
+    body.set_name(fmt::format("B{}", i + 1));
+    body.set_mass_kg(0.5);
+    body.set_radius_m(0.05);
+    body.set_position_m(0.1 * i);
+  }
+  scenario.mutable_bodies(0)->set_velocity_m_per_s(0.2);
+  for (int i = 0; i < 2; ++i) {
+    v1::Contact& contact = *scenario.add_contacts();
+    contact.add_between(scenario.bodies(i).name());
+    contact.add_between(scenario.bodies(i + 1).name());
+    contact.set_stiffness(1e8);
+    contact.set_restitution(i == 0 ? 0.8 : 0.7);
+  }
+  scenario.mutable_solver()->set_restitution_tolerance(1e-8);
+  scenario.set_end_time_s(4e-3);
+  return request;
+}
+
+void Submit(const Words& words) {
+  const int jobs = std::stoi(words[0]);
+  const int clients = std::stoi(words[1]);
+  const Words fronts(words.begin() + 2, words.end());
+  std::atomic<int> next = 0;
+  const auto start = steady_clock::now();
+  InThreads(clients, [&](int client) {
+    const auto stub = v1::JobService::NewStub(
+        grpc::CreateChannel(fronts[static_cast<std::size_t>(client) % fronts.size()],
+                            grpc::InsecureChannelCredentials()));
+    for (const v1::CreateJobRequest request = Chain(); next++ < jobs;) {
+      grpc::ClientContext context;
+      v1::Job job;
+      const grpc::Status status = stub->CreateJob(&context, request, &job);
+      if (!status.ok()) throw std::runtime_error(status.error_message());
+    }
+  });
+  fmt::print("{:.0f}\n", jobs / SecondsSince(start));
+}
+
+// Prints median and 99th percentile [ms].
+void Watch(const Words& words) {
+  std::vector<std::unique_ptr<WatchCrowd>> crowds;
+  for (std::size_t front = 3; front < words.size(); ++front) {
+    WatchCrowd::Options options;
+    options.address = words[front];
+    options.request.set_name(words[0]);
+    options.request.add_kinds("cycle");
+    options.request.set_live_only(true);
+    options.watchers = std::stoi(words[1]) / static_cast<int>(words.size() - 3);
+    options.connections = options.watchers / 100 + 1;
+    crowds.push_back(std::make_unique<WatchCrowd>(options));
+  }
+  for (const auto& crowd : crowds) crowd->AwaitAttached(std::chrono::seconds(60));
+  std::this_thread::sleep_for(std::chrono::seconds(std::stoi(words[2])));
+  std::vector<double> all;
+  for (const auto& crowd : crowds) {
+    const auto figures = crowd->figures();
+    if (figures.failed > 0) throw std::runtime_error("some cannot watch");
+    all.insert(all.end(), figures.latencies_ms.begin(), figures.latencies_ms.end());
+  }
+  std::ranges::sort(all);
+  fmt::print("{:.1f} {:.1f} {}\n", Percentile(all, 50), Percentile(all, 99), all.size());
+}
+
+// A job that has ended, and how it came to that.
+struct Sample {
+  v1::Job job;
+  JobChange run;
+};
+
+Sample ReadSample(Connection& connection, const std::string& name) {
+  StoredJob stored = OrThrow(postgres::JobOf(
+      OrThrow(connection.Run(postgres::ReadJob(name, std::nullopt, JobPart::kAll))), name));
+  stored.MergeResult();
+  const EventQuery query{.name = name};
+  std::vector<v1::Event> events;
+  for (const StoredEvent& event :
+       OrThrow(postgres::EventsOf(OrThrow(connection.Run(postgres::ReadEvents(query))), query))
+           .events) {
+    v1::Event parsed;
+    if (event.sequence > 1 && event.Parse(&parsed)) events.push_back(std::move(parsed));
+  }
+  JobChange run = ToChange({.name = name, .take = true, .job = &stored.job, .events = events});
+  return {std::move(stored.job), std::move(run)};
+}
+
+void RunAll(Connection& connection, const std::vector<Statement>& statements) {
+  std::vector<const Statement*> all;
+  for (const Statement& statement : statements) all.push_back(&statement);
+  if (!all.empty()) OrThrow(connection.Run(all));
+}
+
+std::unique_ptr<Connection> Connect(const std::string& address) {
+  return OrThrow(Connection::Open(address));
+}
+
+void LibpqSubmit(const Words& words) {
+  const int jobs = std::stoi(words[2]);
+  const int connections = std::stoi(words[3]);
+  v1::Job job = ReadSample(*Connect(words[0]), words[1]).job;
+  job.clear_cycles();
+  job.clear_final_bodies();
+  job.set_state(v1::Job::QUEUED);
+  const std::vector<v1::Event> events(1);
+  const JobInsert like = ToInsert({job, "", events});
+  std::atomic<int> next = 0;
+  const auto start = steady_clock::now();
+  InThreads(connections, [&](int) {
+    const auto connection = Connect(words[0]);
+    while (next < jobs) {
+      // As many as come together when 64 clients call.
+      std::vector<Statement> statements;
+      for (int i = 0; i < 64 / connections && next++ < jobs; ++i) {
+        JobInsert insert = like;
+        insert.name = "jobs/" + RandomIds().NextId();
+        insert.uid = RandomIds().NextUuid();
+        insert.limits.waiting = 10'000;
+        statements.push_back(postgres::CreateJob(insert));
+      }
+      RunAll(*connection, statements);
+    }
+  });
+  fmt::print("{:.0f}\n", jobs / SecondsSince(start));
+}
+
+void Solve(const StoredJob& claimed) {
+  const DecodedScenario decoded = DecodeScenario(claimed.job.scenario(), {});
+  Observer nobody;
+  Run(decoded.scenario, nobody);
+}
+
+// Prints jobs and events a second.
+void LibpqRun(const Words& words) {
+  const Sample sample = ReadSample(*Connect(words[0]), words[1]);
+  const bool solve = words.size() > 3;
+  std::atomic<int> jobs = 0;
+  const auto start = steady_clock::now();
+  InThreads(std::stoi(words[2]), [&](int number) {
+    const auto connection = Connect(words[0]);
+    const std::string worker = fmt::format("peer{}", number);
+    OrThrow(connection->Run(postgres::Beat({.name = worker, .host = "h"})));
+    const Statement claim = postgres::Claim({.worker = worker, .most = kClaim});
+    std::vector<StoredJob> claimed;
+    do {
+      claimed = postgres::ClaimedOf(OrThrow(connection->Run(claim)));
+      std::vector<Statement> ends;
+      for (const StoredJob& job : claimed) {
+        if (solve) Solve(job);
+        JobChange run = sample.run;
+        run.name = job.job.name();
+        ends.push_back(postgres::ChangeJob(run, job.epoch));
+      }
+      RunAll(*connection, ends);
+      jobs += static_cast<int>(claimed.size());
+    } while (!claimed.empty());
+  });
+  const double rate = jobs / SecondsSince(start);
+  fmt::print("{:.0f} {:.0f}\n", rate, rate * static_cast<double>(sample.run.events.size()));
+}
+
+int Main(const Words& words) {
+  const std::map<std::string, std::pair<std::size_t, void (*)(const Words&)>> kinds = {
+      {"submit", {3, Submit}},
+      {"watch", {4, Watch}},
+      {"libpq-submit", {4, LibpqSubmit}},
+      {"libpq-run", {3, LibpqRun}}};
+  const auto kind = words.empty() ? kinds.end() : kinds.find(words[0]);
+  if (kind == kinds.end() || words.size() <= kind->second.first) {
+    fmt::print(stderr, "cluster_peer submit|watch|libpq-submit|libpq-run ..., see its source\n");
+    return EXIT_FAILURE;
+  }
+  try {
+    kind->second.second({words.begin() + 1, words.end()});
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "cluster_peer: {}\n", error.what());
+    return EXIT_FAILURE;
+  }
+}
+
+}  // namespace
+}  // namespace contact
+
+int main(int argc, char** argv) { return contact::Main({argv + 1, argv + argc}); }
