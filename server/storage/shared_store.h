@@ -152,8 +152,8 @@ class SharedStore : public Store {
   virtual void Beat(const WorkerProcess& worker, Callback<std::vector<HeldJob>> done) = 0;
   /// Gives the worker jobs, with a new epoch: those whose worker is dead, in the state in which
   /// that has left them; and QUEUED ones, by priority and fair among owners. With a job comes its
-  /// checkpoint, and its spec unless that is too large or damaged. No job if the worker is not known
-  /// or was not heard of for its lease.
+  /// checkpoint, and its spec unless that is too large or damaged. No job if the worker is not
+  /// known or was not heard of for its lease.
   virtual void Claim(const JobClaim& claim, Callback<std::vector<StoredJob>> done) = 0;
   /// The worker ends: what it has and has not begun waits for another.
   virtual void Leave(const std::string& worker, Callback<bool> done) = 0;
