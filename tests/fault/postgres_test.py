@@ -120,5 +120,49 @@ class AwayTest(FaultTest):
         self.assertNotIn("hunter2", str(caught.exception) + server.log())
 
 
+class FullTest(FaultTest):
+    """F4, with a disk of the database that is full: nothing can be stored, all can be read."""
+
+    flags = ("--workers=2",)
+
+    def test_full_database_refuses_and_recovers_without_a_restart(self):
+        golden = self.golden(three_ball_chain())
+        ended = submit(self.server, self.history, three_ball_chain(), "before").name
+        follow(self.server, self.history.watch(ended))
+        long = submit(self.server, self.history, endless_and_slow(), "long").name
+        wait_for(lambda: self.server.get(long).last_sequence > 20)
+        self.fill()
+        began = time.monotonic()
+        self.assertFails(grpc.StatusCode.RESOURCE_EXHAUSTED, "STORE_FULL", submit, self.server,
+                         self.history, three_ball_chain(), "full")
+        self.assertKept("refused_after", time.monotonic() - began, 1)
+        wait_for(lambda: f"job={long} cannot store events" in self.server.log())
+        follow(self.server, self.history.watch(ended))
+        self.assertEqual(get(self.server, self.history, long).state, Job.RUNNING)
+        stored = self.server.get(long).last_sequence
+        self.empty()
+        submit(self.server, self.history, three_ball_chain(), "after")
+        recovered = wait_for(lambda: self.server.get(long).last_sequence > stored)
+        self.assertKept("recovered_after", recovered, 2)
+        self.server.cancel(long)
+        final = self.assertPromises(self.server, golden=golden, max_attempts=1)
+        starts = sum(entry.kind == "attempt_started" for entry in final[long].log)
+        self.assertEqual(starts, 1, "it did not wait but began again")
+
+    def fill(self):
+        """What PostgreSQL says when a table can have no new page, with an SQLSTATE of its own."""
+        self.ask("CREATE FUNCTION full_disk() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN"
+                 " RAISE EXCEPTION 'could not extend file' USING ERRCODE = 'disk_full'; END $$")
+        for table in "jobs", "events":
+            self.ask(f"CREATE TRIGGER full_disk BEFORE INSERT OR UPDATE ON contactd.{table}"
+                     " EXECUTE FUNCTION full_disk()")
+
+    def empty(self):
+        self.ask("DROP FUNCTION full_disk CASCADE")
+
+    def ask(self, sql):
+        cluster().run(sql, database_of(self.server.data_dir).split("@/")[1].split("?")[0])
+
+
 if __name__ == "__main__":
     unittest.main()
