@@ -262,19 +262,32 @@ class WorkerTest(ClusterTest):
         self.assertEqual(result_of(job), result_of(self.server.run(scenario)))
 
     def test_stale_worker_is_fenced(self):
-        front = self.shared.front()
-        scenario = self.long()
         stale = self.shared.worker("--workers=1", "--checkpoint-interval=100ms")
+        self.assertFenced(stale, stale.freeze, stale.thaw)
+
+    def test_worker_that_cannot_reach_the_database_is_fenced(self):
+        """What it computes meanwhile comes when another one has its job."""
+        way, address = self.shared.way()
+        stale = self.shared.worker("--workers=1", "--checkpoint-interval=100ms", store=address)
+        self.assertFenced(stale, way.pause, way.resume)
+
+    def assertFenced(self, stale, go, come_back):
+        """The worker goes for longer than its lease while it runs a job, and comes back."""
+        front, scenario = self.shared.front(), self.long()
         name = self.running(front, scenario)
-        stale.freeze()
-        self.shared.worker("--workers=1")
-        wait_for(lambda: front.get(name).attempt == 2)
-        stale.thaw()
-        wait_for(lambda: "has another worker" in stale.log() or "cannot store" in stale.log())
-        events = front.events(name)
+        with concurrent.futures.ThreadPoolExecutor() as pool:
+            watch = pool.submit(front.events, name)
+            go()
+            self.shared.worker("--workers=1")
+            time.sleep(1.5 * LEASE_S)
+            wait_for(lambda: front.get(name).attempt == 2)
+            come_back()
+            wait_for(lambda: "has another worker" in stale.log() or "cannot store" in stale.log())
+            events = watch.result(PATIENCE_S)
         self.assertWholeLog(events)
         starts = [e for e in events if e.WhichOneof("payload") == "attempt_started"]
         self.assertEqual([e.attempt_started.attempt for e in starts], [1, 2])
+        self.assertEqual(sum(e.state_changed.state in ENDED for e in events), 1)
         job = front.get(name)
         self.assertEqual(result_of(job), result_of(self.server.run(scenario)))
         # It takes part again.
