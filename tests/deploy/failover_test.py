@@ -1,19 +1,21 @@
-"""The failover of deploy/README.md: the first server of two dies, the standby is promoted, and
-contactd, whose address names both, goes on with all that it has answered."""
+"""The failover of deploy/README.md: the first server of two dies, the standby is promoted, and a
+front and a worker, whose address names both, go on with all that was answered."""
 
+import pathlib
 import sys
+import threading
 import time
 import unittest
-from pathlib import Path
 
-import grpc
-from contactd import Job, Server, ServerTest, is_cycle, spring_wall, three_ball_chain
+from contactd import is_cycle, spring_wall, three_ball_chain
+from shared import Worker
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "testing"))
+for folder in "testing", "fault":
+    sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / folder))
 import postgres
+from fault import *
 
-PATIENCE_S = 30
-MOST_AWAY_S = 10  # With the promotion, on a busy machine.
+CLIENTS = 4
 
 
 class Standby(postgres.Cluster):
@@ -29,14 +31,8 @@ class Standby(postgres.Cluster):
                   f"host={self.first.folder} user=contactd application_name=db_2")
 
 
-def wait_for(what, happened):
-    end = time.monotonic() + PATIENCE_S
-    while not happened():
-        assert time.monotonic() < end, what
-        time.sleep(0.05)
-
-
-class FailoverTest(ServerTest):
+class FailoverTest(FaultTest):
+    """`self.server` is the front."""
 
     def make_server(self):
         self.first = postgres.Cluster()
@@ -44,36 +40,46 @@ class FailoverTest(ServerTest):
         self.first.create("jobs")
         self.second = Standby(self.first)
         self.addCleanup(self.second.stop)
-        self.addCleanup(self.second.kill)
         self.first.run("ALTER SYSTEM SET synchronous_standby_names = 'FIRST 1 (db_2)'")
         self.first.run("SELECT pg_reload_conf()")
-        wait_for("a synchronous standby", lambda: "sync" == self.first.run(
-            "SELECT sync_state FROM pg_stat_replication"))
-        hosts = f"{self.first.folder},{self.second.folder}"
-        return Server(self.folder / "data", f"--store=postgresql://contactd@/jobs?host={hosts}",
-                      "--checkpoint-interval=0s", store="")
+        wait_for(lambda: self.first.run("SELECT sync_state FROM pg_stat_replication") == "sync")
+        self.store = (f"postgresql://contactd@/jobs?host={self.first.folder},{self.second.folder}"
+                      "&target_session_attrs=read-write")
+        return Server(self.folder / "data", "--role=front", f"--store={self.store}", store="")
 
-    def stores(self):
-        """Whether a job is created, which is answered once it is on disk."""
-        try:
-            return self.server.create(three_ball_chain())
-        except grpc.RpcError:
-            return None
+    def setUp(self):
+        super().setUp()
+        worker = Worker(self.folder / "worker.log", self.store, "--workers=2",
+                        "--checkpoint-interval=200ms")
+        self.addCleanup(worker.kill)
+        worker.start()
 
     def test_nothing_that_was_answered_is_lost_with_the_first_server(self):
-        done = [self.server.create(three_ball_chain()).name for _ in range(20)]
-        long = self.server.create(spring_wall(end_time_s=2)).name
-        self.server.wait_until(long, is_cycle)
-        self.first.kill()
-        lost = time.monotonic()
-        self.second.run("SELECT pg_promote()")
-        wait_for("an answer", self.stores)
-        away = time.monotonic() - lost
-        print(f"creates jobs again {away:.2f} s after the loss")
-        self.assertLess(away, MOST_AWAY_S)
-        for name in [*done, long]:
-            wait_for(name, lambda name=name: self.server.get(name).state == Job.SUCCEEDED)
-            self.assertWholeLog(self.server.events(name))
+        chain, long = three_ball_chain(), spring_wall(self.end_time(2))
+        golden = self.golden(chain, long)
+        done = threading.Event()
+
+        def keep_submitting(client):
+            for i in range(1000):
+                if done.is_set():
+                    return
+                patient(lambda: submit(self.server, self.history, chain, f"{client}-{i}"))
+
+        name = submit(self.server, self.history, long, "long").name
+        with clients() as start:
+            start(follow, self.server, self.history.watch(name))
+            for client in range(CLIENTS):
+                start(keep_submitting, client)
+            self.server.wait_until(name, is_cycle)
+            self.first.kill()
+            lost = time.monotonic()
+            self.second.run("SELECT pg_promote()")
+            patient(lambda: submit(self.server, self.history, chain, "after"))
+            self.assertKept("creates_jobs_again", time.monotonic() - lost, 2)
+            done.set()
+        final = self.assertPromises(self.server, golden=golden)
+        self.assertEqual({job.state for job in final.values()}, {Job.SUCCEEDED})
+        self.figures |= dict(jobs=len(final), attempts=final[name].attempt)
 
 
 if __name__ == "__main__":
