@@ -73,15 +73,13 @@ class SweepTest(SlurmLauncherTest):
                                                 "sweep") != "0", "only one worker computes")
         print(f"two workers compute {time.monotonic() - start:.1f} s after it was submitted")
 
-    def run_out_of_time(self, front, name, but):
-        """Waits until a worker has left while the sweep runs that nobody has cancelled."""
-        seen = set()
-
+    def run_out_of_time(self, front, name):
+        """Waits until a worker has left the running sweep because its time was over, as it says."""
         def left():
             self.assertNotIn(front.get(name).state, ENDED, "the sweep is too short")
-            now = set(self.jobs())
-            seen.update(now)
-            return seen - now - {but}
+            said = {log.stem.rsplit("-", 1)[1] for log in self.folder.glob("worker-*.log")
+                    if "the time of --stop-after is over" in log.read_text()}
+            return said - set(self.jobs())
         return self.wait_for(left, "no worker runs out of time", patience_s=120, every_s=0.5)
 
     def wait_for_end(self, server, name):
@@ -101,7 +99,7 @@ class SweepTest(SlurmLauncherTest):
         cancelled = self.jobs("RUNNING")[0]
         self.slurm.cancel(cancelled)
         print(f"job {cancelled} cancelled")
-        print(f"jobs {self.run_out_of_time(front, name, but=cancelled)} out of time")
+        print(f"jobs {self.run_out_of_time(front, name)} out of time")
         self.wait_for_end(front, name)
         print(f"the sweep ends {time.monotonic() - start:.0f} s after it was submitted")
         self.wait_for(lambda: not self.jobs(), "the workers do not leave")
