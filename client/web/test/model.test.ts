@@ -11,15 +11,16 @@ import {compareResults, differingParameters, holds} from '../src/model/compariso
 import {sweepAsPython} from '../src/model/copy_as';
 import {mechanicalEnergy} from '../src/model/energy';
 import {flatten, setField} from '../src/model/field_path';
-import {iterationPanels} from '../src/model/iterations';
+import {bracketOf, iterationPanels, nextOf, passesOf} from '../src/model/iterations';
 import {JobList, labelsOf, matches} from '../src/model/job_list';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
 import {insideOf, interpolate, joined, panelCsv} from '../src/model/panel';
 import {PRESETS} from '../src/model/presets';
 import {parseMetrics} from '../src/model/prometheus';
-import {emptyRun, takeEvents} from '../src/model/runState';
+import {emptyRun, MOST_ITERATIONS, takeEvents} from '../src/model/runState';
 import {axisValues, cellIndex, viridis} from '../src/model/sweep';
 import {travel, yRange} from '../src/plots/range';
+import {leafOf} from '../src/views/run/leaves';
 
 const series = (columns: Record<string, number[]>): Series => new Map(Object.entries(columns).map(([name, values]) =>
   [name, {name, quantity: '', unit: '', values: Float64Array.from(values)}]));
@@ -98,6 +99,26 @@ describe('panels', () => {
 });
 
 describe('a run', () => {
+  const pass = (number: number, episode = 1) => ({case: 'iteration', value: {episode, number, accepted: number === 1, unknowns: [
+    {contact: 'A-B', number: 1, mu: 5, bracketLow: 2, bracketHigh: 0, update: number === 1 ? 0 : 1}]}}) as unknown as Event['payload'];
+  it('tells of each pass what contactctl tells', () => {
+    const run = emptyRun();
+    takeEvents(run, [pass(0), pass(1), pass(0, 2)].map((payload) => event(payload)));
+    expect(passesOf(run.iterations, 1).map((row) => [row.number, nextOf(row), bracketOf(row)])).toEqual([[0, 'NEWTON', '[2, –]'], [1, 'accepted', '[2, –]']]);
+  });
+  it('keeps the newest passes and knows what it dropped', () => {
+    const run = emptyRun();
+    takeEvents(run, Array.from({length: MOST_ITERATIONS}, (_, i) => event(pass(i % 2, 1 + (i >> 1)))));
+    expect([run.dropped, run.droppedTo]).toEqual([0, 0]);
+    takeEvents(run, [0, 1, 2].map((i) => event(pass(i, MOST_ITERATIONS))));
+    expect([run.iterations.length, run.dropped, run.droppedTo, run.iterations[0]!.episode]).toEqual([MOST_ITERATIONS, 3, 2, 2]);
+  });
+  it('has tables whose pages end where the rows do', () => {
+    const rows = Array.from({length: 201}, (_, i) => i);
+    expect([null, '3', '9', '-1', 'x'].map((page) => leafOf(rows, page)).map(({first, shown}) => [first, shown.length]))
+      .toEqual([[0, 100], [200, 1], [200, 1], [0, 100], [0, 100]]);
+    expect(leafOf([], '2').first).toBe(0);
+  });
   it('begins anew with an attempt, but keeps cells', () => {
     const run = emptyRun();
     takeEvents(run, [event({case: 'cycle', value: create(CycleSchema)}), event({case: 'sweepCell', value: {index: 3}} as Event['payload'])]);

@@ -1,6 +1,7 @@
 // μ and residual over the passes of an episode, as `contactctl plot iterations` shows them.
 
-import type {Iteration} from '../api/generated/contact/v1/event_pb';
+import {Iteration_Update, type Iteration, type Iteration_Unknown} from '../api/generated/contact/v1/event_pb';
+import {exact} from './numbers';
 import type {Curve, Panel} from './panel';
 
 const LEAST_RESIDUAL = 1e-17;
@@ -19,6 +20,31 @@ export function hardestEpisode(iterations: Iteration[]): number | undefined {
   let hardest: Iteration | undefined;
   for (const pass of iterations) if (!hardest || pass.number > hardest.number) hardest = pass;
   return hardest?.episode;
+}
+
+/** What became of one contact or group in one pass. */
+export interface Pass {
+  episode: number;
+  number: number;
+  accepted: boolean;
+  unknown: Iteration_Unknown;
+}
+
+/** The passes of an episode, a row for each contact or group. */
+export function passesOf(iterations: Iteration[], episode: number): Pass[] {
+  return iterations.filter((pass) => pass.episode === episode)
+    .flatMap(({number, accepted, unknowns}) => unknowns.map((unknown) => ({episode, number, accepted, unknown})));
+}
+
+/** How the next μ was found, as `contactctl watch` tells it. */
+export function nextOf({accepted, unknown: {update}}: Pass): string {
+  if (accepted) return 'accepted';
+  return update === Iteration_Update.UPDATE_UNSPECIFIED ? '–' : Iteration_Update[update]!;
+}
+
+/** The interval in which μ is known to lie; a side that is not known yet is `–`. */
+export function bracketOf({unknown: {bracketLow, bracketHigh}}: Pass): string {
+  return `[${[bracketLow, bracketHigh].map((mu) => (mu === 0 ? '–' : exact(mu))).join(', ')}]`;
 }
 
 function haveManySizes(curves: Curve[]): boolean {

@@ -5,7 +5,7 @@ import type {
 } from '../api/generated/contact/v1/event_pb';
 import {Job_State, type Cycle, type Group, type Job, type Progress} from '../api/generated/contact/v1/job_pb';
 
-const MOST_ITERATIONS = 50_000;   // Older passes are dropped; the plot shows one episode.
+export const MOST_ITERATIONS = 50_000;   // Older passes are dropped; plot and table show one episode.
 
 /** The parts of a job; `version` grows with every change. */
 export interface RunState {
@@ -16,7 +16,10 @@ export interface RunState {
   message: string;
   attempt: number;
   progress: Progress | undefined;
+  /** The newest passes; of `dropped` older ones the last was of the episode `droppedTo`. */
   iterations: Iteration[];
+  dropped: number;
+  droppedTo: number;
   growths: GroupGrowth[];
   cycles: Cycle[];
   groups: Group[];
@@ -27,7 +30,7 @@ export interface RunState {
 export function emptyRun(): RunState {
   return {
     version: 0, job: undefined, state: Job_State.STATE_UNSPECIFIED, reason: '', message: '',
-    attempt: 0, progress: undefined, iterations: [], growths: [], cycles: [], groups: [], log: [],
+    attempt: 0, progress: undefined, iterations: [], dropped: 0, droppedTo: 0, growths: [], cycles: [], groups: [], log: [],
     cells: new Map(),
   };
 }
@@ -43,7 +46,7 @@ export function takeSnapshot(run: RunState, job: Job): void {
 
 /** A worker began anew: what came before belongs to an earlier attempt, but for cells. */
 function restart(run: RunState, attempt: number): void {
-  Object.assign(run, {attempt, iterations: [], growths: [], cycles: [], groups: []});
+  Object.assign(run, {attempt, iterations: [], dropped: 0, droppedTo: 0, growths: [], cycles: [], groups: []});
 }
 
 function takeEvent(run: RunState, {payload}: Event): void {
@@ -65,11 +68,15 @@ function takeEvent(run: RunState, {payload}: Event): void {
   }
 }
 
+function dropOldest(run: RunState): void {
+  const old = run.iterations.splice(0, Math.max(run.iterations.length - MOST_ITERATIONS, 0));
+  run.dropped += old.length;
+  run.droppedTo = old.at(-1)?.episode ?? run.droppedTo;
+}
+
 /** Takes events in order. */
 export function takeEvents(run: RunState, events: Event[]): void {
   for (const event of events) takeEvent(run, event);
-  if (run.iterations.length > MOST_ITERATIONS) {
-    run.iterations.splice(0, run.iterations.length - MOST_ITERATIONS);
-  }
+  dropOldest(run);
   if (events.length > 0) ++run.version;
 }

@@ -8,6 +8,7 @@ import {isFinal} from '../../api/watch';
 import {count} from '../../model/numbers';
 import {Plot} from '../../plots/plot';
 import {setQuery} from '../../ui/route';
+import {Passes} from './passes';
 
 interface Props {
   run: RunState;
@@ -23,25 +24,47 @@ function episodeOf(run: RunState, query: URLSearchParams): number {
   return (isFinal(run.state) ? hardestEpisode(run.iterations) : newest) ?? 1;
 }
 
+/** Why an episode has no points. */
+function emptyOf({dropped, droppedTo, iterations}: RunState, episode: number): string {
+  if (dropped > 0 && episode <= droppedTo) return `The passes of episode ${count(episode)} are no longer in this page.`;
+  return iterations.length > 0 ? `Episode ${count(episode)} needed no iteration.` : 'No cycle needed an iteration.';
+}
+
+function Kept({dropped, droppedTo, iterations}: RunState) {
+  if (dropped === 0) return null;
+  return (
+    <p class="soft">The newest {count(iterations.length)} of {count(dropped + iterations.length)} passes are shown; those
+      before, up to episode {count(droppedTo)}, are not. <code>contactctl watch</code> has all.</p>
+  );
+}
+
+function Episode({run, episode, last, chosen}: {run: RunState; episode: number; last: number; chosen: boolean}) {
+  const hardest = run.dropped > 0 ? 'The one with most passes of those shown' : 'The one with most passes';
+  return (
+    <>
+      <label>Episode <input type="number" size={6} min={1} max={last} value={episode}
+        onChange={(e) => setQuery({episode: e.currentTarget.value})} /> of {count(last)}</label>
+      {chosen && <button type="button" onClick={() => setQuery({episode: undefined})}>
+        {isFinal(run.state) ? hardest : 'Follow the newest'}</button>}
+    </>
+  );
+}
+
 export function Iterations({run, query, source}: Props) {
   const episode = episodeOf(run, query);
-  const panels = useMemo(() => iterationPanels(run.iterations, episode), [run.iterations.length, episode]);
-  const episodes = useMemo(() => [...episodesOf(run.iterations).keys()], [run.iterations.length]);
+  const version = run.dropped + run.iterations.length;
+  const panels = useMemo(() => iterationPanels(run.iterations, episode), [version, episode]);
+  const episodes = useMemo(() => [...episodesOf(run.iterations).keys()], [version]);
   return (
     <section aria-label="Iterations">
       <div class="tools"><h2>Iteration of μ</h2>
-        {episodes.length > 1 && (
-          <>
-            <label>Episode <input type="number" size={6} min={1} max={episodes.at(-1)} value={episode}
-              onChange={(e) => setQuery({episode: e.currentTarget.value})} /> of {count(episodes.at(-1)!)}</label>
-            {query.has('episode') && <button type="button" onClick={() => setQuery({episode: undefined})}>
-              {isFinal(run.state) ? 'The one with most passes' : 'Follow the newest'}</button>}
-          </>
-        )}
+        {(episodes.length > 1 || run.dropped > 0) && <Episode run={run} episode={episode} last={episodes.at(-1)!} chosen={query.has('episode')} />}
       </div>
+      <Kept {...run} />
       <div class="plots">
-        {panels.map((panel) => <Plot key={panel.id} panel={panel} source={source} height={210} empty="No cycle needed an iteration." />)}
+        {panels.map((panel) => <Plot key={panel.id} panel={panel} source={source} height={210} empty={emptyOf(run, episode)} />)}
       </div>
+      {run.iterations.length > 0 && <Passes iterations={run.iterations} episode={episode} version={version} query={query} />}
     </section>
   );
 }

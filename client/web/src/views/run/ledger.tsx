@@ -8,9 +8,8 @@ import {
 import type {RunState} from '../../model/runState';
 import {count, exact} from '../../model/numbers';
 import {setQuery} from '../../ui/route';
+import {leafOf, Leaves} from './leaves';
 import {setWindow} from './window';
-
-const PAGE = 100;
 
 interface Column<T> {
   name: string;
@@ -91,8 +90,6 @@ function Table<T extends Entry>({rows, columns}: {rows: T[]; columns: Column<T>[
 }
 
 export function Ledger({run, query}: {run: RunState; query: URLSearchParams}) {
-  const page = Math.max(Number(query.get('leaf') ?? 1) - 1, 0) || 0;
-  const setPage = (n: number) => setQuery({leaf: n > 0 ? String(n + 1) : undefined});
   const groups = query.get('ledger') === 'groups';
   const contact = query.get('contact') ?? '';
   const status = query.get('status') ?? '';
@@ -100,7 +97,7 @@ export function Ledger({run, query}: {run: RunState; query: URLSearchParams}) {
   const contacts = useMemo(() => [...new Set(run.cycles.map((c) => c.contact))], [run.cycles.length]);
   const rows = all.filter((row) => (!contact || row.contact === contact) && (!status || Cycle_Status[row.status] === status));
   const statuses = [...new Set(all.map((row) => Cycle_Status[row.status]!))];
-  const shown = rows.slice(page * PAGE, (page + 1) * PAGE);
+  const leaf = leafOf(rows, query.get('leaf'));
   return (
     <section aria-label="Cycle ledger">
       <div class="tools"><h2>Ledger</h2>
@@ -111,12 +108,10 @@ export function Ledger({run, query}: {run: RunState; query: URLSearchParams}) {
         <label>Status <select value={status} onChange={(e) => setQuery({status: e.currentTarget.value, leaf: undefined})}>
           <option value="">all</option>{statuses.map((s) => <option key={s}>{s}</option>)}</select></label>
         <span class="soft">{count(rows.length)} of {count(all.length)}</span>
-        {rows.length > PAGE && <span class="group">
-          <button type="button" disabled={page === 0} onClick={() => setPage(page - 1)}>‹</button>
-          <button type="button" disabled={(page + 1) * PAGE >= rows.length} onClick={() => setPage(page + 1)}>›</button></span>}
+        <Leaves leaf={leaf} name="leaf" what="the ledger" />
       </div>
       {all.length === 0 ? <p class="nothing">No {groups ? 'group' : 'cycle'} has ended yet.</p>
-        : groups ? <Table rows={shown as Group[]} columns={GROUPS} /> : <Table rows={shown as Cycle[]} columns={CYCLES} />}
+        : groups ? <Table rows={leaf.shown as Group[]} columns={GROUPS} /> : <Table rows={leaf.shown as Cycle[]} columns={CYCLES} />}
     </section>
   );
 }
