@@ -3,6 +3,7 @@
 import type {Series} from '../api/series';
 import {Cycle_End, type Cycle, type Group} from '../api/generated/contact/v1/job_pb';
 import {endForce, type ContactModel, type Mechanics} from './mechanics';
+import {count} from './numbers';
 import {interpolate, joined, type Band, type Curve, type Panel} from './panel';
 
 /** What happened in a run, or in a part of its time. */
@@ -19,7 +20,7 @@ export interface RunView extends RunPart {
   mechanics: Mechanics;
 }
 
-export const NOTE = 'o start, × end of a contact cycle; shaded: in contact';
+const NOTE = 'o start, × end of a contact cycle; shaded: in contact';
 export const MOST_MARKED = 400;    // Cycles; more marks would hide the curves.
 
 /** The values of a column; none if it is not there. */
@@ -32,14 +33,23 @@ export function at(series: Series, name: string, time: number): number {
   return interpolate(values(series, 'time'), values(series, name), time);
 }
 
+/** What a note adds if the cycles of a contact are more than are marked. */
+export function unmarked(cycles: Cycle[]): string {
+  if (cycles.length <= MOST_MARKED) return '';
+  const numbers = new Map<string, number>();
+  for (const {contact} of cycles) numbers.set(contact, (numbers.get(contact) ?? 0) + 1);
+  const most = Math.max(...numbers.values());
+  return most > MOST_MARKED ? `; ${MOST_MARKED} of ${count(most)} cycles of a contact shown, zoom in for others` : '';
+}
+
 /** The stretches of time with a cycle. */
 export function bandsOf(cycles: Cycle[]): Band[] {
   return joined(cycles.map(({startTimeS, endTimeS}) => ({start: startTimeS, end: endTimeS})));
 }
 
 /** A panel over time, with contact shaded. */
-export function overTime({bands}: RunView, id: string, title: string, yLabel: string): Panel {
-  return {id, title, xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, note: NOTE};
+export function overTime({bands, cycles}: RunView, id: string, title: string, yLabel: string): Panel {
+  return {id, title, xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, note: NOTE + unmarked(cycles)};
 }
 
 /** A column as a curve. */

@@ -1,7 +1,7 @@
 // Force over deformation: a loop for each cycle.
 
 import type {Cycle} from '../api/generated/contact/v1/job_pb';
-import {endForces, MOST_MARKED, values, type RunView} from './curves';
+import {endForces, MOST_MARKED, unmarked, values, type RunView} from './curves';
 import type {ContactModel} from './mechanics';
 import {lowerBound, type Curve, type Panel} from './panel';
 
@@ -35,7 +35,7 @@ function loop(view: RunView, cycle: Cycle, contact: ContactModel): Loop {
 export function hysteresis(view: RunView): Panel {
   const panel: Panel = {id: 'hysteresis', title: 'Hysteresis', xLabel: 'deformation [m]',
     yLabel: 'contact force [N]', overTime: false, curves: [],
-    note: 'o start, × end of a contact cycle; the area of a loop is the energy lost'};
+    note: 'o start, × end of a contact cycle; the area of a loop is the energy lost' + unmarked(view.cycles)};
   view.mechanics.contacts.forEach((contact, colour) => {
     let keyed = true;
     for (const cycle of view.cycles.filter(({contact: name}) => name === contact.name).slice(0, MOST_MARKED)) {

@@ -1,7 +1,7 @@
 // The plots of a run: the same channels, axes, words and units as `contactctl plot`.
 
 import {Cycle_End, type Cycle} from '../api/generated/contact/v1/job_pb';
-import {at, endForces, line, marks, NOTE, overTime, values, type RunView} from './curves';
+import {at, endForces, line, marks, overTime, values, type RunView} from './curves';
 import {energyChannels, mechanicalEnergy} from './energy';
 import {hysteresis} from './hysteresis';
 import type {Mechanics} from './mechanics';
@@ -70,7 +70,7 @@ function force(view: RunView): Panel {
     panel.curves.push(...marks(own, contact.name, colour, ...endForces(view, contact)));
   });
   return {...panel, lanes: lanesOf(view), labels: peakLabels(view),
-    note: `${NOTE}; bars: groups, by number; dashed: equivalent external`};
+    note: `${panel.note}; bars: groups, by number; dashed: equivalent external`};
 }
 
 function deformation(view: RunView, rate: boolean): Panel {
@@ -87,7 +87,7 @@ function deformation(view: RunView, rate: boolean): Panel {
       (c) => (rate ? c.approachVelocityMPerS : c.deltaStartM),
       (c) => cut(c, rate ? c.separationVelocityMPerS : c.deltaEndM)));
   });
-  return rate ? panel : {...panel, note: `${NOTE}; below 0: the gap`};
+  return rate ? panel : {...panel, note: `${panel.note}; below 0: the gap`};
 }
 
 function energy(view: RunView): Panel {

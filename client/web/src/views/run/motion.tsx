@@ -10,6 +10,7 @@ import type {RunState} from '../../model/runState';
 import {isFinal} from '../../api/watch';
 import {Plot} from '../../plots/plot';
 import type {Window} from '../../plots/range';
+import {LeftOut} from '../../ui/left_out';
 import {setQuery} from '../../ui/route';
 import {changed, setWindow, windowOf} from './window';
 
@@ -110,6 +111,19 @@ function Zoom({query, window, whole, live}: {query: URLSearchParams; window: Win
   );
 }
 
+/** What the plots leave out of a large scenario. */
+function Cropped({mechanics, contact}: {mechanics: Mechanics; contact: string | null}) {
+  const {bodies, contacts} = useMemo(() => crop(mechanics, contact), [mechanics, contact]);
+  const way = contact ? '' : 'choose a contact in the ledger';
+  return (
+    <>
+      <LeftOut shown={contacts.length} all={mechanics.contacts.length} what="contacts" way={way} />
+      <LeftOut shown={bodies.length} all={mechanics.bodies.length} what="bodies" />
+      {mechanics.bodies.length > MOST_BODIES && <span class="soft">no energy of more than {MOST_BODIES} bodies</span>}
+    </>
+  );
+}
+
 export function Motion(props: Props) {
   const {mechanics, query, window, drawn, whole, run, source} = props;
   const all = query.get('plots') === 'all';
@@ -124,6 +138,7 @@ export function Motion(props: Props) {
         <Zoom query={query} window={window} whole={whole} live={!isFinal(run.state)} />
         {window && <span class="soft mono">{window[0]} … {window[1]} s</span>}
         <label><input type="checkbox" checked={all} onChange={(e) => setQuery({plots: e.currentTarget.checked ? 'all' : undefined})} /> more plots</label>
+        <Cropped mechanics={mechanics} contact={contact} />
         <span class="soft hint">drag in a plot to zoom, double-click to see all</span>
       </div>
       <div class="plots">{plots}</div>

@@ -9,6 +9,7 @@ import type {Window} from '../../plots/range';
 import {stageOf} from '../../model/stage';
 import {drawStrip} from '../../plots/strip';
 import {onPlayhead, playhead, setPlayhead} from '../../ui/playhead';
+import {LeftOut} from '../../ui/left_out';
 import {setQuery} from '../../ui/route';
 import {useTheme} from '../../ui/theme';
 
@@ -101,6 +102,7 @@ export function StripView({mechanics, series, query}: Props) {
         <label>all in <select value={seconds} onChange={(e) => setQuery({play: e.currentTarget.value})}>
           {SECONDS.map((s) => <option key={s} value={s}>{s} s</option>)}</select></label>
         <label><input type="checkbox" checked={!magnified} onChange={(e) => setQuery({scale: e.currentTarget.checked ? 'true' : undefined})} /> to scale</label>
+        <LeftOut shown={part.bodies.length} all={mechanics.bodies.length} what="bodies" />
         {stage && stage.magnification > 1 && <span class="soft">displacements × {stage.magnification}</span>}
       </div>
     </section>
