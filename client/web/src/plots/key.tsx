@@ -10,7 +10,7 @@ interface Props {
   panel: Panel;
   hidden: Set<string>;
   setHidden: (hidden: Set<string>) => void;
-  values: {current: (HTMLElement | null)[]};
+  values: (HTMLElement | null)[];
   unit: string;
 }
 
@@ -39,7 +39,7 @@ export function Key({panel, hidden, setHidden, values, unit}: Props) {
           onClick={() => toggle(curve.label)} title="show or hide">
           <Swatch curve={curve} />
           {curve.label}
-          <output ref={(at) => { values.current[i] = at; }} />
+          <output ref={(at) => { values[i] = at; }} />
         </button>
       ))}
       {curves.length > MOST && <span class="soft">and {curves.length - MOST} more</span>}

@@ -1,18 +1,17 @@
 // A panel with its key and its exports.
 
-import {useEffect, useLayoutEffect, useMemo, useRef} from 'preact/hooks';
+import {useEffect, useLayoutEffect, useRef} from 'preact/hooks';
 import type uPlot from 'uplot';
 
-import {exact} from '../model/numbers';
 import type {Panel} from '../model/panel';
 import {unitOf} from '../model/units';
 import {useHidden} from '../ui/hidden';
-import {onPlayhead, playhead} from '../ui/playhead';
 import {useTheme} from '../ui/theme';
 import type {Ink} from './axes';
 import {aligned, buildPlot, lines, type Shown} from './build';
 import {Exports} from './exports';
 import {Key} from './key';
+import {useReading} from './moment';
 import type {Window} from './range';
 
 interface Props {
@@ -24,6 +23,14 @@ interface Props {
   source: string;
   /** What to show where there are no points. */
   empty?: string;
+  choosing?: Choosing;
+}
+
+/** How points are chosen by mouse and keys, where they stand for something. */
+interface Choosing {
+  label: string;
+  press: (event: KeyboardEvent) => void;
+  pick: (place: number) => void;
 }
 
 function inkOf(element: Element): Ink {
@@ -67,48 +74,31 @@ function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => voi
   return {flush, draw};
 }
 
-/** Moves a line to the moment of the strip. */
-function usePlayhead(plot: {current: uPlot | undefined}, panel: Panel): void {
-  const timed = panel.overTime && !panel.countedX;
-  useEffect(() => {
-    if (!timed) return undefined;
-    const place = (time: number | undefined) => {
-      const over = plot.current?.over;
-      if (!over) return;
-      let mark = over.querySelector<HTMLElement>('.playhead');
-      if (!mark) over.append(mark = Object.assign(document.createElement('div'), {className: 'playhead'}));
-      const left = time === undefined ? -1 : plot.current!.valToPos(time, 'x');
-      mark.hidden = !(left >= 0 && left <= over.clientWidth);
-      if (!mark.hidden) mark.style.transform = `translateX(${left}px)`;
-    };
-    place(playhead());
-    return onPlayhead(place);
-  });
+/** What a plot shows, for those who do not see it. */
+function namesOf({title, xLabel, yLabel, curves}: Panel): string {
+  return `${title}: ${yLabel} over ${xLabel}; ${curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`;
 }
 
-export function Plot({panel, window: span, onZoom, height = 240, source, empty}: Props) {
+/** The attributes of a plot whose points are chosen. */
+function choosable({label, press, pick}: Choosing, plot: {current: uPlot | undefined}) {
+  const click = () => { if (typeof plot.current?.cursor.idx === 'number') pick(plot.current.cursor.idx); };
+  return {role: 'application' as const, tabIndex: 0, 'aria-label': label, onKeyDown: press, onClick: click};
+}
+
+export function Plot({panel, window: span, onZoom, height = 240, source, empty, choosing}: Props) {
   const theme = useTheme();
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot>();
   const shown = useRef<Shown>();
-  const values = useRef<(HTMLElement | null)[]>([]);
   const [hidden, setHidden] = useHidden(panel.id);
   const key = structure(panel);
   const unit = unitOf(panel.yLabel);
   const seen = useSeen(box);
-
-  const told = useMemo(() => ({
-    cursor: (index: number | null) => {
-      values.current.forEach((at, i) => {
-        const value = index === null ? undefined : plot.current?.data[i + 1]?.[index];
-        if (at) at.textContent = value === undefined || value === null ? '' : ` ${exact(value)}`;
-      });
-    },
-  }), []);
+  const reading = useReading(plot, panel);
 
   useLayoutEffect(() => {
     const ink = inkOf(box.current!);
-    shown.current = {panel, window: span, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: told.cursor};
+    shown.current = {panel, window: span, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: (place) => reading.point(place)};
     plot.current = buildPlot(shown.current, box.current!.clientWidth || 400, height, box.current!);
     const observer = new ResizeObserver(() => {
       const width = box.current?.clientWidth;
@@ -131,7 +121,6 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty}:
     });
   }, [panel, span?.[0], span?.[1], hidden]);
 
-  usePlayhead(plot, panel);
   const points = panel.curves.some(({x, mark}) => x.length > 0 && mark !== 'start' && mark !== 'end');
   return (
     <figure class="plot" data-plot={panel.id} data-points={lines(panel)[0]?.x.length ?? 0}>
@@ -139,10 +128,10 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty}:
         <h3>{panel.title}</h3>
         <Exports panel={panel} plot={plot} source={source} flush={seen.flush} />
       </figcaption>
-      <div ref={box} class="canvas" role="img"
-        aria-label={`${panel.title}: ${panel.yLabel} over ${panel.xLabel}; ${panel.curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`} />
+      <div ref={box} class={choosing ? 'canvas keys' : 'canvas'} {...(choosing ? choosable(choosing, plot) : {role: 'img', 'aria-label': namesOf(panel)})} />
       {!points && <p class="nothing">{empty ?? 'Nothing to show yet.'}</p>}
-      <Key panel={panel} hidden={hidden} setHidden={setHidden} values={values} unit={unit} />
+      <Key panel={panel} hidden={hidden} setHidden={setHidden} values={reading.values} unit={unit} />
+      <output class="hidden" ref={(at) => { reading.words = at; }} />
       {panel.note && <p class="note">{panel.note}</p>}
     </figure>
   );

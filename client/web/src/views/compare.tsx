@@ -11,25 +11,31 @@ import {mechanicsOf} from '../model/mechanics';
 import {exact} from '../model/numbers';
 import type {Panel} from '../model/panel';
 import {Plot} from '../plots/plot';
+import {LeftOut} from '../ui/left_out';
+import {setPlayhead} from '../ui/playhead';
 import {setQuery, type Route} from '../ui/route';
 import {StateBadge} from '../ui/state_badge';
 import {useAsync} from '../ui/use_async';
 import {setWindow, windowOf} from './run/window';
 
 const MOST_SHOWN = 300;
+const MOST_LISTED = 200;
 const short = (name: string) => name.replace('jobs/', '');
 const text = (value: Value) => (typeof value === 'number' ? exact(value) : value ?? '–');
 
 function Picker({jobs}: {jobs: string[]}) {
-  const known = useAsync(() => server.listJobs({pageSize: 200}), []).value?.jobs ?? [];
+  const {value: answer, error} = useAsync(() => server.listJobs({pageSize: MOST_LISTED}), []);
+  const known = answer?.jobs ?? [];
   const add = (event: Event) => {
     const {value} = event.currentTarget as HTMLSelectElement;
     if (value) setQuery({jobs: [...jobs, value].join(',')});
   };
   return (
-    <label>Add a run <select value="" onChange={add}><option value="">choose …</option>
+    <><label>Add a run <select value="" onChange={add}><option value="">choose …</option>
       {known.filter(({name}) => !jobs.includes(short(name))).map((job) => <option key={job.name} value={short(job.name)}>{job.title || short(job.name)} · {short(job.name)}</option>)}
     </select></label>
+      {error !== undefined && <span role="alert">{explain(error)}</span>}
+      {answer?.nextPageToken && <span class="soft">the newest {MOST_LISTED} runs; older ones are in the <a href="/runs">list</a></span>}</>
   );
 }
 
@@ -55,7 +61,8 @@ function Results({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
   const absolute = Number(query.get('abs') ?? 1e-12);
   const rows = useMemo(() => compareResults(jobs, {absolute, relative}), [jobs, absolute, relative]);
   const differing = rows.filter((row) => row.holds.includes(false));
-  const shown = (query.get('rows') === 'all' ? rows : differing).slice(0, MOST_SHOWN);
+  const wanted = query.get('rows') === 'all' ? rows : differing;
+  const shown = wanted.slice(0, MOST_SHOWN);
   return (
     <section aria-label="Results">
       <div class="tools"><h2>Results</h2>
@@ -68,7 +75,7 @@ function Results({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
         <thead><tr><th>result</th><th>unit</th>{jobs.map(({name}, i) => <th key={name} class="number">{short(name)}{i === 0 ? ' (baseline)' : ''}</th>)}</tr></thead>
         <tbody>{shown.map((row) => <tr key={row.name}><td class="name">{row.name}</td><td class="soft">{row.unit}</td>{jobs.map((_, i) => <Verdict key={i} row={row} i={i} />)}</tr>)}</tbody>
       </table></div>
-      {shown.length === MOST_SHOWN && <p class="soft">The first {MOST_SHOWN} are shown.</p>}
+      <LeftOut shown={shown.length} all={wanted.length} what="results" way="contactctl compare has all" />
     </section>
   );
 }
@@ -92,6 +99,13 @@ function overlay(channel: string, jobs: Job[], series: (Series | undefined)[]): 
   };
 }
 
+/** Moves the moment whose values all plots tell. */
+function Moment({from, to}: {from: number; to: number}) {
+  useEffect(() => () => setPlayhead(undefined), []);
+  return <label>Values at <input class="scrub" type="range" min="0" max="1" step="0.0005" defaultValue="0" aria-label="moment"
+    onInput={(e) => setPlayhead(from + Number(e.currentTarget.value) * (to - from))} /></label>;
+}
+
 function Overlay({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
   const names = useMemo(() => [...new Set(jobs.flatMap(channelNames))], [jobs]);
   const channels = (query.get('channels') ?? names.slice(0, 2).join(',')).split(',').filter((name) => names.includes(name));
@@ -101,6 +115,7 @@ function Overlay({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
     return own.length ? readSeries({name: job.name, channels: own, from: window?.[0], to: window?.[1], maxPoints: 3000}).catch(() => undefined) : undefined;
   })), [jobs, channels.join(), window?.[0], window?.[1]]).value;
   const panels = useMemo(() => channels.map((c) => overlay(c, jobs, series ?? [])), [series, channels.join()]);
+  const times = series?.find(Boolean)?.get('time')?.values;
   const set = (list: string[]) => setQuery({channels: list.join(',')});
   return (
     <section aria-label="Overlay">
@@ -108,6 +123,7 @@ function Overlay({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
         <label>Add a channel <select value="" onChange={(e) => set([...channels, e.currentTarget.value])}><option value="">choose …</option>
           {names.filter((n) => !channels.includes(n)).map((n) => <option key={n}>{n}</option>)}</select></label>
         {channels.map((c) => <button key={c} type="button" class="quiet" aria-label={`remove ${c}`} onClick={() => set(channels.filter((o) => o !== c))}>{c} ✕</button>)}
+        {times && times.length > 0 && <Moment from={times[0]!} to={times.at(-1)!} />}
         {window && <button type="button" onClick={() => setWindow(undefined)}>All the time</button>}
       </div>
       <div class="plots">{panels.map((panel) => <Plot key={panel.id} panel={panel} window={window} onZoom={setWindow} source={jobs.map(({name}) => name).join(' ')} height={260} />)}</div>

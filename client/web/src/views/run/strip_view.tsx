@@ -84,7 +84,9 @@ export function StripView({mechanics, series, query}: Props) {
       const shown = Math.min(Math.max(time, range[0]), range[1]);
       drawStrip(stage, sheet, shown);
       slider.current!.value = String((shown - range[0]) / (range[1] - range[0]) || 0);
-      moment.current!.textContent = `${short(shown * 1000, 7)} ms`;
+      const words = `${short(shown * 1000, 7)} ms`;
+      moment.current!.textContent = words;
+      slider.current!.setAttribute('aria-valuetext', words);
     };
     show(playhead());
     return onPlayhead(show);
