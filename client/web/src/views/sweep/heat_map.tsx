@@ -9,17 +9,15 @@ import {viridis} from '../../model/sweep';
 import {ExportButtons} from '../../plots/exports';
 import {drawingOf, pointIn} from '../../plots/drawing';
 import {useWidth} from '../../ui/use_width';
+import type {Choosing} from './choosing';
 
 const NARROW_PX = 560;
 const BOTTOM = 56;
 const TICK_PX = 64;   // Room for a number below the map.
 
-interface Props extends MapData {
+interface Props extends MapData, Choosing {
   /** Changes with the cells. */
   version: number;
-  chosen: number | undefined;
-  choose: (cell: number) => void;
-  open: (cell: number) => void;
   source: string;
 }
 

@@ -11,20 +11,18 @@ import {drawingOf, pointIn} from '../../plots/drawing';
 import {ExportButtons} from '../../plots/exports';
 import {useTheme} from '../../ui/theme';
 import {useWidth} from '../../ui/use_width';
+import {keysOver, type Choosing} from './choosing';
 
 const NARROW_PX = 560;
 const HEIGHT = 300;
 const LINE_PX = 14;   // Of the names above.
 
-interface Props {
+interface Props extends Choosing {
   names: string[];
   /** Axes come first, then metrics. */
   axes: number;
   cells: SweepCell[];
   metric: number;
-  choose: (cell: number) => void;
-  open: (cell: number) => void;
-  chosen: number | undefined;
   csv: () => string;
   source: string;
 }
@@ -87,13 +85,6 @@ export function Parallel({names, axes, cells, metric, choose, open, chosen, csv,
     levelOf((dark ? 0.35 : 0) + (dark ? 0.65 : 0.9) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
   const paths = useMemo(() => [true, false].map((converged) => pathsOf(lines, cells, colour, converged)), [lines, metric, dark]);
   const place = cells.findIndex(({index}) => index === chosen);
-  const press = (event: KeyboardEvent) => {
-    if (event.key === 'Enter' && chosen !== undefined) open(chosen);
-    const step = {ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1}[event.key];
-    if (!step || cells.length === 0) return;
-    event.preventDefault();
-    choose(cells[Math.min(Math.max(place + step, 0), cells.length - 1)]!.index);
-  };
   const click = (event: MouseEvent) => {
     const near = cells[nearestLine(lines.xs, lines.heights, ...pointIn(drawn.current!, event))];
     if (near) choose(near.index);
@@ -102,7 +93,7 @@ export function Parallel({names, axes, cells, metric, choose, open, chosen, csv,
     <figure class="plot" data-plot="parallel" data-lines={cells.length}>
       <figcaption><h3>Parallel coordinates</h3>
         <ExportButtons title="parallel coordinates" name={`${source}-parallel`} csv={csv} svg={() => drawingOf(drawn.current!, names.join(', '), source)} /></figcaption>
-      <div ref={box} class="keys" tabIndex={0} role="application" onKeyDown={press}
+      <div ref={box} class="keys" tabIndex={0} role="application" onKeyDown={keysOver(cells, {chosen, choose, open})}
         aria-label={`${cells.length} cells as lines over ${names.join(', ')}; arrow keys choose a cell, Enter runs it`}>
         <svg ref={drawn} class="map parallel" viewBox={`0 0 ${width} ${HEIGHT + lines.top + 12}`} onClick={click}>
           {paths.flatMap((list, i) => list.map(([ink, path]) => (

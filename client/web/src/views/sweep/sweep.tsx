@@ -1,19 +1,19 @@
 // A parameter study: map, line or parallel coordinates, filling as cells are computed.
 
-import {useMemo} from 'preact/hooks';
+import {useMemo, useState} from 'preact/hooks';
 
+import {explain} from '../../api/errors';
 import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
 import type {Sweep as SweepSpec} from '../../api/generated/contact/v1/scenario_pb';
 import {sliceIndex} from '../../model/map_data';
-import type {Panel} from '../../model/panel';
 import type {RunState} from '../../model/runState';
 import {count, exact} from '../../model/numbers';
-import {axisName, axisValues, isGrid, metricOf, outcomeOf} from '../../model/sweep';
-import {Plot} from '../../plots/plot';
+import {axisName, axisValues, isGrid, outcomeOf} from '../../model/sweep';
 import {save} from '../../ui/save';
 import {setQuery} from '../../ui/route';
 import {CellDetails, runCell} from './cell';
 import {HeatMap} from './heat_map';
+import {Line} from './line';
 import {Parallel} from './parallel';
 
 interface Props {
@@ -28,18 +28,6 @@ function csvOf(sweep: SweepSpec, cells: SweepCell[]): string {
   return `${[head, ...rows].map((row) => row.join(',')).join('\n')}\n`;
 }
 
-/** A metric over one axis. */
-function linePanel(sweep: SweepSpec, cells: SweepCell[], metric: number): Panel {
-  const sorted = cells.filter((c) => outcomeOf(c) !== 'failed').sort((a, b) => a.values[0]! - b.values[0]!);
-  const curve = {label: sweep.metrics[metric]!, colour: 0, mark: 'linePoints' as const,
-    x: sorted.map((c) => c.values[0]!), y: sorted.map((c) => metricOf(c, metric))};
-  const missed = sorted.filter((c) => outcomeOf(c) === 'not converged');
-  return {id: 'line', title: sweep.metrics[metric]!, xLabel: axisName(sweep.axes[0]!), yLabel: sweep.metrics[metric]!, overTime: true,
-    logX: !!sweep.axes[0]!.log, curves: [curve, {label: `${curve.label} ends`, colour: 1, mark: 'end', keyed: false,
-      x: missed.map((c) => c.values[0]!), y: missed.map((c) => metricOf(c, metric))}],
-    ...(missed.length > 0 ? {note: '×: not converged'} : {})};
-}
-
 function Choice({name, query, keyName, options}: {name: string; query: URLSearchParams; keyName: string; options: [string, string][]}) {
   return (
     <label>{name} <select value={query.get(keyName) ?? options[0]?.[0]} onChange={(e) => setQuery({[keyName]: e.currentTarget.value})}>
@@ -51,6 +39,7 @@ export function Sweep({id, run, query}: Props) {
   const spec = run.job!.spec;
   const sweep = spec.case === 'sweep' ? spec.value : undefined;
   const cells = useMemo(() => [...run.cells.values()].sort((a, b) => a.index - b.index), [run.cells.size]);
+  const [error, setError] = useState('');
   if (!sweep) return null;
   const axes = sweep.axes.map((axis) => ({name: axisName(axis), values: axisValues(axis)}));
   const sizes = axes.map(({values}) => values.length);
@@ -64,7 +53,11 @@ export function Sweep({id, run, query}: Props) {
   const chosen = query.has('cell') ? Number(query.get('cell')) : undefined;
   const choose = (cell: number) => setQuery({cell: String(cell)});
   const total = run.job?.progress?.cells || run.progress?.cells || sizes.reduce((a, b) => a * b, 1);
-  const open = (index: number) => { const cell = run.cells.get(index); if (cell) void runCell(id, sweep, cell); };
+  const open = (index: number) => {
+    const cell = run.cells.get(index);
+    setError('');
+    if (cell) runCell(id, sweep, cell).catch((why: unknown) => setError(explain(why)));
+  };
   const axisOptions = axes.map(({name}, i): [string, string] => [String(i), name]);
   return (
     <section aria-label="Sweep" data-cells={cells.length}>
@@ -79,10 +72,11 @@ export function Sweep({id, run, query}: Props) {
         {kind === 'map' && <label><input type="checkbox" checked={query.has('log')} onChange={(e) => setQuery({log: e.currentTarget.checked ? '1' : undefined})} /> log colours</label>}
         <button type="button" onClick={() => save(`${id}-cells.csv`, new Blob([csvOf(sweep, cells)], {type: 'text/csv'}))}>All cells as CSV</button>
       </div>
+      {error && <p class="notice" role="alert">{error}</p>}
       {sweep.metrics.length === 0 && <p class="soft">This sweep keeps no metrics; cells show only whether they converged.</p>}
       {kind === 'map' && grid && xAxis !== yAxis && <HeatMap x={axes[xAxis]!} y={axes[yAxis]!} indexAt={sliceIndex(sizes, slice, xAxis, yAxis)}
         cells={run.cells} version={cells.length} metric={metric} metricName={sweep.metrics[metric] ?? 'convergence'} log={query.has('log')} chosen={chosen} choose={choose} open={open} source={`jobs/${id}`} />}
-      {kind === 'line' && sweep.metrics.length > 0 && <Plot panel={linePanel(sweep, cells, metric)} source={`jobs/${id}`} height={320} />}
+      {kind === 'line' && sweep.metrics.length > 0 && <Line sweep={sweep} cells={cells} metric={metric} chosen={chosen} choose={choose} open={open} source={`jobs/${id}`} />}
       {kind === 'parallel' && <Parallel names={[...axes.map(({name}) => name), ...sweep.metrics]} axes={axes.length} cells={cells} metric={metric} choose={choose} open={open} chosen={chosen} csv={() => csvOf(sweep, cells)} source={`jobs/${id}`} />}
       {chosen !== undefined && <CellDetails id={id} sweep={sweep} cell={run.cells.get(chosen)} index={chosen} />}
     </section>

@@ -1,0 +1,58 @@
+// A metric over the one axis of a sweep; each point is a cell.
+
+import {useMemo} from 'preact/hooks';
+
+import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
+import type {Sweep} from '../../api/generated/contact/v1/scenario_pb';
+import {exact} from '../../model/numbers';
+import type {Curve, Panel} from '../../model/panel';
+import {axisName, metricOf, outcomeOf} from '../../model/sweep';
+import {Plot} from '../../plots/plot';
+import {keysOver, type Choosing} from './choosing';
+
+interface Props extends Choosing {
+  sweep: Sweep;
+  cells: SweepCell[];
+  metric: number;
+  source: string;
+}
+
+/** The cells that have a value, by the value of the axis. */
+function pointsOf(cells: SweepCell[]): SweepCell[] {
+  return cells.filter((c) => outcomeOf(c) !== 'failed').sort((a, b) => a.values[0]! - b.values[0]!);
+}
+
+function linePanel({sweep, metric, chosen}: Props, points: SweepCell[]): Panel {
+  const [axis, name] = [sweep.axes[0]!, sweep.metrics[metric]!];
+  const curve = (label: string, colour: number, mark: Curve['mark'], of: SweepCell[]): Curve => ({
+    label, colour, mark, keyed: mark === 'linePoints', x: of.map((c) => c.values[0]!), y: of.map((c) => metricOf(c, metric))});
+  const missed = points.filter((c) => outcomeOf(c) === 'not converged');
+  return {
+    id: 'line', title: name, xLabel: axisName(axis), yLabel: name, overTime: true, logX: !!axis.log,
+    curves: [curve(name, 0, 'linePoints', points), curve(`${name} ends`, 1, 'end', missed),
+      curve('chosen', 1, 'start', points.filter(({index}) => index === chosen))],
+    note: `o chosen${missed.length > 0 ? '; ×: not converged' : ''}`,
+  };
+}
+
+function wordsOf({sweep, metric}: Props, cell: SweepCell): string {
+  return `${axisName(sweep.axes[0]!)} = ${exact(cell.values[0])}: ${sweep.metrics[metric]} ${exact(metricOf(cell, metric))} ${outcomeOf(cell)}`;
+}
+
+export function Line(props: Props) {
+  const {sweep, cells, metric, chosen, choose, open, source} = props;
+  const points = useMemo(() => pointsOf(cells), [cells]);
+  const panel = useMemo(() => linePanel(props, points), [points, metric, chosen]);
+  const cell = points.find(({index}) => index === chosen);
+  const pick = (place: number) => {
+    const {index} = points[place]!;
+    if (index === chosen) open(index); else choose(index);
+  };
+  const label = `${sweep.metrics[metric]} over ${axisName(sweep.axes[0]!)}; arrow keys choose a cell, Enter runs it`;
+  return (
+    <>
+      <Plot panel={panel} source={source} height={320} choosing={{label, press: keysOver(points, props), pick}} />
+      <p class="pointed soft mono">{cell ? wordsOf(props, cell) : '\u00a0'}</p>
+    </>
+  );
+}
