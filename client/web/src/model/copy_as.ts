@@ -5,9 +5,17 @@ import {toJson, type JsonValue} from '@bufbuild/protobuf';
 import {ScenarioSchema, type Sweep} from '../api/generated/contact/v1/scenario_pb';
 import {axisValues, isGrid} from './sweep';
 
+export type Labels = Record<string, string>;
+
+/** A word of a shell. */
+function quoted(word: string): string {
+  return /^[\w=.,:/@+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}
+
 /** For contactctl; needs no file. */
-export function asCli(text: string, kind: 'scenario' | 'sweep'): string {
-  return `contactctl ${kind === 'sweep' ? 'sweep run' : 'run'} - <<'END'\n${text.trimEnd()}\nEND\n`;
+export function asCli(text: string, kind: 'scenario' | 'sweep', labels: Labels = {}): string {
+  const options = Object.entries(labels).map(([key, value]) => ` --label ${quoted(`${key}=${value}`)}`).join('');
+  return `contactctl ${kind === 'sweep' ? 'sweep run' : 'run'} -${options} <<'END'\n${text.trimEnd()}\nEND\n`;
 }
 
 /** JSON as a literal of Python. */
@@ -23,25 +31,31 @@ export function pythonLiteral(value: JsonValue, indent = ''): string {
   return `{\n${rows.map(([k, v]) => `    ${k}: ${pythonLiteral(v, deeper)},`).join('\n')}\n}`;
 }
 
+/** The argument with labels, if there are any. */
+function labelsArgument(labels: Labels): string {
+  return Object.keys(labels).length > 0 ? `, labels=${pythonLiteral(labels, ' ')}` : '';
+}
+
 /** For the package contactsim. */
-export function asPython(json: JsonValue): string {
-  return `import contactsim\n\nresult = contactsim.Client().run(${pythonLiteral(json)})\n`
+export function asPython(json: JsonValue, labels: Labels = {}): string {
+  return `import contactsim\n\nresult = contactsim.Client().run(${pythonLiteral(json)}${labelsArgument(labels)})\n`
     + 'print(result.cycles)\n';
 }
 
 /** For the package contactsim; undefined for sweeps that it cannot make: it makes grids of single fields. */
-export function sweepAsPython(sweep: Sweep): string | undefined {
+export function sweepAsPython(sweep: Sweep, labels: Labels = {}): string | undefined {
   const {base, axes, metrics} = sweep;
   if (!base || !isGrid(sweep) || axes.some((axis) => axis.also.length > 0 || axisValues(axis).length === 0)) return undefined;
   const scenario = toJson(ScenarioSchema, base, {useProtoFieldName: true});
   const grid = Object.fromEntries(axes.map((axis) => [axis.field, axisValues(axis)]));
   return `import contactsim\n\nscenario = ${pythonLiteral(scenario)}\ngrid = ${pythonLiteral(grid)}\n`
-    + `result = contactsim.Client().sweep(scenario, grid${metrics.length ? `, metrics=${pythonLiteral(metrics)}` : ''})\n`
+    + `result = contactsim.Client().sweep(scenario, grid${metrics.length ? `, metrics=${pythonLiteral(metrics)}` : ''}${labelsArgument(labels)})\n`
     + 'print(result.frame)\n';
 }
 
 /** For curl. */
-export function asCurl(json: JsonValue, kind: 'scenario' | 'sweep', origin: string): string {
+export function asCurl(json: JsonValue, kind: 'scenario' | 'sweep', origin: string, labels: Labels = {}): string {
+  const labelled = Object.keys(labels).length > 0 ? {labels} : {};
   return `curl -H 'content-type: application/json' -d @- ${origin}/contact.v1.JobService/CreateJob <<'END'\n`
-    + `${JSON.stringify({job: {[kind]: json}}, null, 1)}\nEND\n`;
+    + `${JSON.stringify({job: {[kind]: json, ...labelled}}, null, 1)}\nEND\n`;
 }

@@ -7,7 +7,7 @@ import {server} from '../../api/client';
 import {explain} from '../../api/errors';
 import {ScenarioSchema, SweepSchema} from '../../api/generated/contact/v1/scenario_pb';
 import {templates, titleOf} from '../../api/templates';
-import {asCli, asCurl, asPython, sweepAsPython} from '../../model/copy_as';
+import {asCli, asCurl, asPython, sweepAsPython, type Labels} from '../../model/copy_as';
 import {labelsOf} from '../../model/job_list';
 import {bytes, count, seconds} from '../../model/numbers';
 import {requestId} from '../../ui/request_id';
@@ -61,27 +61,27 @@ function Verdicts({problems, warnings, estimate, settled}: Verdict) {
 }
 
 /** The page for Python; undefined while it is wrong, or where contactsim cannot make it. */
-function pythonOf({page, problems, settled}: Verdict): string | undefined {
+function pythonOf({page, problems, settled}: Verdict, labels: Labels): string | undefined {
   if (!page.json) return undefined;
-  if (page.kind === 'scenario') return asPython(page.json);
+  if (page.kind === 'scenario') return asPython(page.json, labels);
   if (!settled || problems.length > 0) return undefined;
   const {spec} = jobOf(page);
-  return spec.case === 'sweep' ? sweepAsPython(spec.value) : undefined;
+  return spec.case === 'sweep' ? sweepAsPython(spec.value, labels) : undefined;
 }
 
-function CopyAs({text, verdict}: {text: string; verdict: Verdict}) {
+function CopyAs({text, verdict, labels}: {text: string; verdict: Verdict; labels: Labels}) {
   const [shown, setShown] = useState('');
   const {page} = verdict;
-  const python = useMemo(() => pythonOf(verdict), [page, verdict.settled]);
+  const python = useMemo(() => pythonOf(verdict, labels), [page, verdict.settled, JSON.stringify(labels)]);
   const copy = (what: string) => {
     setShown(what);
     void navigator.clipboard?.writeText(what).catch(() => undefined);
   };
   return (
     <div><span class="group" role="group" aria-label="Copy as">Copy as
-      <button type="button" onClick={() => copy(asCli(page.kind === 'sweep' ? JSON.stringify(page.json) : text, page.kind))} disabled={!page.json}>CLI</button>
+      <button type="button" onClick={() => copy(asCli(page.kind === 'sweep' ? JSON.stringify(page.json) : text, page.kind, labels))} disabled={!page.json}>CLI</button>
       <button type="button" onClick={() => copy(python!)} disabled={!python} title={page.kind === 'sweep' && !python ? 'contactsim makes grids of single fields; use the CLI' : ''}>Python</button>
-      <button type="button" onClick={() => copy(asCurl(page.json!, page.kind, location.origin))} disabled={!page.json}>curl</button></span>
+      <button type="button" onClick={() => copy(asCurl(page.json!, page.kind, location.origin, labels))} disabled={!page.json}>curl</button></span>
       {shown && <pre class="copied" tabIndex={0} aria-label="copied text">{shown}</pre>}
     </div>
   );
@@ -114,7 +114,7 @@ export function New({route}: {route: Route}) {
           <div class="tools">
             <label>Labels <input value={labels} placeholder="key=value, …" onInput={(e) => setQuery({labels: e.currentTarget.value})} /></label>
             <button type="button" class="primary" disabled={busy || !verdict.settled || verdict.problems.length > 0} onClick={start}>{verdict.page.kind === 'sweep' ? 'Start the sweep' : 'Start the run'}</button>
-            <CopyAs text={text} verdict={verdict} />
+            <CopyAs text={text} verdict={verdict} labels={labelsOf(labels)} />
           </div>
         </div>
       </div>
