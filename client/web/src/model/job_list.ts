@@ -1,6 +1,6 @@
 // The list of jobs: newest first, kept while changes come in.
 
-import {Job_State, type Job} from '../api/generated/contact/v1/job_pb';
+import {Job_Convergence, Job_State, type Job} from '../api/generated/contact/v1/job_pb';
 import type {WatchJobsResponse} from '../api/generated/contact/v1/job_service_pb';
 import {epoch} from '../ui/times';
 
@@ -56,6 +56,8 @@ export class JobList {
   }
 }
 
+export const NOT_CONVERGED = 'NOT_CONVERGED';
+
 /** True if all words are in the title, the name or a label of the job. */
 export function matches(job: Job, words: string): boolean {
   const text = [job.title, job.name, ...Object.entries(job.labels).map(([k, v]) => `${k}=${v}`)]
@@ -63,8 +65,28 @@ export function matches(job: Job, words: string): boolean {
   return words.toLowerCase().split(/\s+/).every((word) => text.includes(word));
 }
 
+/** What the server is not asked for: it has no filter of words, times and convergence. */
+export interface Choice {
+  words: string;
+  state: string;
+  /** Moments; empty or wrong ones choose nothing. */
+  after: string;
+  before: string;
+}
+
+/** The jobs of a choice. */
+export function chosenOf(jobs: Job[], {words, state, after, before}: Choice): Job[] {
+  const [from, to] = [after, before].map((text) => Date.parse(text) / 1000) as [number, number];
+  return jobs.filter((job) => {
+    const born = job.createTime ? epoch(job.createTime) : 0;
+    return !(born < from) && !(born >= to) && (!words || matches(job, words))
+      && (state !== NOT_CONVERGED || job.convergence === Job_Convergence.PARTIAL);
+  });
+}
+
 /** The states that a choice stands for. */
 export function statesOf(choice: string): Job_State[] {
+  if (choice === NOT_CONVERGED) return [Job_State.SUCCEEDED];
   const found = Job_State[choice.toUpperCase() as keyof typeof Job_State];
   return found ? [found] : [];
 }

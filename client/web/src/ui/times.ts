@@ -20,6 +20,19 @@ export function clock(moment: Moment | undefined): string {
   return `${date.getFullYear()}-${pad(date.getMonth() + 1)}-${pad(date.getDate())} ${time}`;
 }
 
+/** What a field of a local time holds for a moment of the address; empty if there is none. */
+export function localField(utcText: string): string {
+  const date = new Date(utcText);
+  if (Number.isNaN(date.getTime())) return '';
+  return new Date(date.getTime() - date.getTimezoneOffset() * 60_000).toISOString().slice(0, 16);
+}
+
+/** The moment of a field of a local time, in UTC for the address. */
+export function utcOfField(local: string): string {
+  const date = new Date(local);
+  return Number.isNaN(date.getTime()) ? '' : date.toISOString().replace(':00.000Z', 'Z');
+}
+
 /** UTC, for provenance. */
 export function utc(moment: Moment | undefined): string {
   return moment ? new Date(epoch(moment) * 1000).toISOString() : '';

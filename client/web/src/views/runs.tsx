@@ -5,17 +5,17 @@ import {useEffect, useMemo, useRef, useState} from 'preact/hooks';
 import type {Job} from '../api/generated/contact/v1/job_pb';
 import type {Link} from '../api/stream';
 import {watchJobs} from '../api/watch';
-import {JobList, METRICS, labelsOf, matches, statesOf} from '../model/job_list';
+import {chosenOf, JobList, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../model/job_list';
 import {count, exact} from '../model/numbers';
 import {LinkNote} from '../ui/link_note';
 import {setQuery, type Route} from '../ui/route';
 import {StateBadge} from '../ui/state_badge';
-import {clock} from '../ui/times';
+import {clock, localField, utcOfField} from '../ui/times';
 import {elapsed} from './elapsed';
 
 const PAGE = 50;
 const idOf = ({name}: Job) => name.replace('jobs/', '');
-const STATES = ['QUEUED', 'RUNNING', 'SUCCEEDED', 'FAILED', 'CANCELLED'];
+const STATES = ['QUEUED', 'RUNNING', 'SUCCEEDED', NOT_CONVERGED, 'FAILED', 'CANCELLED'];
 
 /** The jobs of a filter, as they change. */
 function useJobs(state: string, labels: string): {jobs: Job[]; link: Link; complete: boolean} {
@@ -59,13 +59,18 @@ function Row({job, metric, best, chosen, choose}: {
 function Filters({query}: {query: URLSearchParams}) {
   const change = (key: string) => (e: Event) =>
     setQuery({[key]: (e.currentTarget as HTMLInputElement).value, page: undefined});
+  const time = (key: string) => (
+    <input type="datetime-local" value={localField(query.get(key) ?? '')}
+      onChange={(e) => setQuery({[key]: utcOfField(e.currentTarget.value), page: undefined})} />);
   return (
     <div class="tools" role="search">
       <label>Find <input type="search" value={query.get('q') ?? ''} placeholder="title, name, label" onInput={change('q')} /></label>
       <label>State <select value={query.get('state') ?? ''} onChange={change('state')}>
-        <option value="">all</option>{STATES.map((s) => <option key={s} value={s}>{s.toLowerCase()}</option>)}
+        <option value="">all</option>{STATES.map((s) => <option key={s} value={s}>{s.toLowerCase().replace('_', ' ')}</option>)}
       </select></label>
       <label>Label <input value={query.get('label') ?? ''} placeholder="key=value" onChange={change('label')} /></label>
+      <label>Created after {time('after')}</label>
+      <label>before {time('before')}</label>
       <label>Metric <select value={query.get('metric') ?? 'iterations'} onChange={change('metric')}>
         {METRICS.map(({id, label}) => <option key={id} value={id}>{label}</option>)}
       </select></label>
@@ -95,13 +100,13 @@ function ordered(jobs: Job[], sort: string | null, metric: (job: Job) => number 
 }
 
 export function Runs({route: {query}}: {route: Route}) {
-  const {jobs, link, complete} = useJobs(query.get('state') ?? '', query.get('label') ?? '');
+  const [words, state, after, before] = ['q', 'state', 'after', 'before'].map((name) => query.get(name) ?? '') as [string, string, string, string];
+  const {jobs, link, complete} = useJobs(state, query.get('label') ?? '');
   const chosen = (query.get('chosen') ?? '').split(',').filter(Boolean);
   const table = useRef<HTMLTableElement>(null);
-  const words = query.get('q') ?? '';
   const metric = METRICS.find(({id}) => id === query.get('metric')) ?? METRICS[0]!;
-  const found = useMemo(() => ordered(words ? jobs.filter((job) => matches(job, words)) : jobs, query.get('sort'), metric.of),
-    [jobs, words, metric, query.get('sort')]);
+  const found = useMemo(() => ordered(chosenOf(jobs, {words, state, after, before}), query.get('sort'), metric.of),
+    [jobs, words, state, after, before, metric, query.get('sort')]);
   const best = useMemo(() => Math.min(...found.map((job) => metric.of(job) ?? Infinity)), [found, metric]);
   const pages = Math.max(1, Math.ceil(found.length / PAGE));
   const page = Math.min(Math.max(Number(query.get('page') ?? 1) - 1, 0), pages - 1);
@@ -127,7 +132,7 @@ export function Runs({route: {query}}: {route: Route}) {
         </table>
       </div>
       {complete && found.length === 0 && (
-        <p class="nothing">{jobs.length === 0 ? <>No runs yet. <a href="/new">Start the first one.</a></> : 'No run matches.'}</p>
+        <p class="nothing">{jobs.length === 0 && !state && !query.get('label') ? <>No runs yet. <a href="/new">Start the first one.</a></> : 'No run matches.'}</p>
       )}
       {found.length > 0 && <Pages page={page} pages={pages} total={found.length} />}
     </>
