@@ -264,11 +264,13 @@ test('a sweep is copied for each client', async () => {
 test('what is copied for curl makes the same job', async () => {
   await open('/new?template=two-balls');
   await page.getByText('The server accepts it.').waitFor();
+  await page.getByLabel('Labels').fill('study=copied');
   await page.getByRole('button', {name: 'curl'}).click();
   const [, address, body] = /CreateJob|@- (\S+) <<'END'\n([\s\S]*)\nEND/.exec(await page.getByLabel('copied text').innerText().then((t) => t.slice(t.indexOf('@-'))));
   const answer = await fetch(address, {method: 'POST', headers: {'content-type': 'application/json'}, body});
   assert.equal(answer.status, 200);
-  assert.equal((await answer.json()).title, 'Two balls, one collision');
+  const {title, labels} = await answer.json();
+  assert.deepEqual([title, labels], ['Two balls, one collision', {study: 'copied'}]);
 });
 
 test('a sweep fills cell by cell, and a cell becomes a run', async () => {

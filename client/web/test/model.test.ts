@@ -8,11 +8,12 @@ import {Contact_Damping, ScenarioSchema, SweepSchema, Wall_Side} from '../src/ap
 import {doubles, type Series} from '../src/api/series';
 import {cellAt, levelOf, mapShapes, nearestLine} from '../src/model/cell_shapes';
 import {compareResults, differingParameters, holds} from '../src/model/comparison';
-import {sweepAsPython} from '../src/model/copy_as';
+import {asCli, asCurl, asPython, sweepAsPython} from '../src/model/copy_as';
+import {MOST_MARKED, unmarked} from '../src/model/curves';
 import {mechanicalEnergy} from '../src/model/energy';
 import {flatten, setField} from '../src/model/field_path';
 import {bracketOf, iterationPanels, nextOf, passesOf} from '../src/model/iterations';
-import {JobList, labelsOf, matches} from '../src/model/job_list';
+import {chosenOf, JobList, labelsOf, matches, statesOf} from '../src/model/job_list';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
 import {insideOf, interpolate, joined, panelCsv} from '../src/model/panel';
 import {PRESETS} from '../src/model/presets';
@@ -20,6 +21,7 @@ import {parseMetrics} from '../src/model/prometheus';
 import {emptyRun, MOST_ITERATIONS, takeEvents} from '../src/model/runState';
 import {axisValues, cellIndex, viridis} from '../src/model/sweep';
 import {travel, yRange} from '../src/plots/range';
+import {localField, utcOfField} from '../src/ui/times';
 import {leafOf} from '../src/views/run/leaves';
 
 const series = (columns: Record<string, number[]>): Series => new Map(Object.entries(columns).map(([name, values]) =>
@@ -80,6 +82,11 @@ describe('panels', () => {
     const force = PRESETS.find(({id}) => id === 'force')!.panel(view);
     expect(force.curves.find(({mark}) => mark === 'start')!.x).toEqual([0.123456789]);
     expect(panelCsv(force).split('\n')[0]).toBe('curve,time [s],force [N]');
+  });
+  it('tell how many cycles of a contact have no marks', () => {
+    const cycles = (n: number, contact: string) => Array.from({length: n}, () => create(CycleSchema, {contact}));
+    expect(unmarked([...cycles(MOST_MARKED, 'a'), ...cycles(MOST_MARKED, 'b')])).toBe('');
+    expect(unmarked(cycles(MOST_MARKED + 600, 'a'))).toBe('; 400 of 1\u202f000 cycles of a contact shown, zoom in for others');
   });
   it('name each channel once and know it', () => {
     const mechanics = mechanicsOf(scenario);
@@ -152,6 +159,17 @@ describe('the list of jobs', () => {
     expect([matches(job('x', 1n), 't a=b'), matches(job('x', 1n), 'q')]).toEqual([true, false]);
     expect(labelsOf('a=b, c=, d')).toEqual({a: 'b'});
   });
+  it('is chosen from by time and by convergence', () => {
+    const jobs = [1n, 60n, 120n].map((at) => job(`j${at}`, at));
+    jobs[2]!.convergence = Job_Convergence.PARTIAL;
+    const names = (choice: object) => chosenOf(jobs, {words: '', state: '', after: '', before: '', ...choice}).map(({name}) => name);
+    expect([names({after: '1970-01-01T00:01Z'}), names({before: '1970-01-01T00:01Z'}), names({after: 'x'}).length]).toEqual([['j60', 'j120'], ['j1'], 3]);
+    expect([names({state: 'NOT_CONVERGED'}), names({words: 'j60'}), statesOf('NOT_CONVERGED')]).toEqual([['j120'], ['j60'], [Job_State.SUCCEEDED]]);
+  });
+  it('has times in its address that a field gives back', () => {
+    for (const at of ['2026-01-02T03:04Z', '2026-07-02T23:59Z']) expect(utcOfField(localField(at))).toBe(at);
+    expect([localField(''), localField('x'), utcOfField('')]).toEqual(['', '', '']);
+  });
 });
 
 describe('sweeps and comparisons', () => {
@@ -182,6 +200,13 @@ describe('sweeps and comparisons', () => {
     const place = {left: 10, width: 5, height: 4, columns: 3, rows: 2};
     expect([cellAt(place, 12, 1), cellAt(place, 24, 7), cellAt(place, 9, 1), cellAt(place, 12, 8)]).toEqual([[0, 1], [2, 0], undefined, undefined]);
     expect([nearestLine([0, 10], [[0, 10], [10, 0]], 9, 2), nearestLine([0, 10], [[NaN, NaN]], 1, 1)]).toEqual([1, -1]);
+  });
+  it('are copied with their labels', () => {
+    const labels = {study: 'chain', note: "it's $HOME"};
+    expect(asCli('a: 1', 'sweep', labels)).toBe("contactctl sweep run - --label study=chain --label 'note=it'\\''s $HOME' <<'END'\na: 1\nEND\n");
+    expect(asPython({a: 1}, labels)).toContain('}, labels={"study": "chain", "note": "it\'s $HOME"})');
+    expect(JSON.parse(asCurl({a: 1}, 'scenario', 'http://h', labels).split("'END'\n")[1]!.split('\nEND')[0]!)).toEqual({job: {scenario: {a: 1}, labels}});
+    expect(asCurl({}, 'sweep', 'http://h')).not.toContain('labels');
   });
   it('become Python, if contactsim can make them', () => {
     const axis = {field: 'contacts[*].restitution', linear: {low: 0.5, high: 1, count: 2}};

@@ -3,7 +3,7 @@
 import {useEffect, useMemo, useRef} from 'preact/hooks';
 import type uPlot from 'uplot';
 
-import {exact} from '../model/numbers';
+import {exact, short} from '../model/numbers';
 import type {Panel} from '../model/panel';
 import {onPlayhead, playhead} from '../ui/playhead';
 import {lines} from './build';
@@ -31,7 +31,7 @@ function valueAt(plot: uPlot | undefined, curve: number, place: number | null): 
 /** The values of a moment in a line, for those who do not see the key. */
 function sentence(plot: uPlot, panel: Panel, place: number | null): string {
   const values = lines(panel).flatMap(({label}, i) => (valueAt(plot, i, place) ? [`${label} ${valueAt(plot, i, place)}`] : []));
-  return values.length > 0 ? `${panel.title}, ${panel.yLabel}, at ${exact(plot.data[0][place!])} s: ${values.join('; ')}` : '';
+  return values.length > 0 ? `${panel.title}, ${panel.yLabel}, at ${short(plot.data[0][place!]!, 9)} s: ${values.join('; ')}` : '';
 }
 
 /** Where the values of the curves stand: in the key, at the pointer or else at the moment; and the moment's in words. */

@@ -1,0 +1,188 @@
+// What the pages show and choose among, in a real browser against a real contactd.
+
+import assert from 'node:assert/strict';
+import {after, afterEach, before, beforeEach, test} from 'node:test';
+
+import {CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
+
+const LONG = swinging(2, {method: 'RK4', stepS: 1e-7});   // Ten seconds or so.
+const BALL = {title: 'A ball alone', bodies: [{name: 'a', massKg: 1}], endTimeS: 1e-3, output: {ledgerOnly: true}};
+let server;
+let browser;
+let page;
+let chain;   // A run that has ended.
+before(async () => {
+  [server, browser] = await Promise.all([new Server('--workers=2', '--max-creates-per-second=0').start(), openBrowser()]);
+  chain = await server.submit(CHAIN);
+  await server.ended(chain);
+});
+after(async () => { await browser?.close(); await server?.close(); });
+beforeEach(async () => { page = await openPage(browser, server); });
+afterEach(async () => {
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+});
+
+const open = (path) => page.goto(server.origin + path);
+const hold = (what) => until(what, what.toString());
+const ofAddress = (name) => new URL(page.url()).searchParams.get(name);
+const points = (plot) => page.locator(`[data-plot="${plot}"]`).getAttribute('data-points').then(Number);
+const drawn = () => hold(async () => await points('force') > 100);
+const stop = async (id) => { await server.call('CancelJob', {name: `jobs/${id}`}); await server.ended(id); };
+const refuse = (method) => page.route(`**/${method}`, (route) => route.fulfill({
+  status: 503, contentType: 'application/json', body: JSON.stringify({code: 'unavailable', message: 'The store is full.'})}));
+
+test('the list of runs turns its pages and tells how many match', async () => {
+  const rows = page.locator('.runs tbody tr');
+  await Promise.all(Array.from({length: 60}, (_, i) => server.submit(BALL, {labels: {half: i % 2 ? 'odd' : 'even'}})));
+  const missed = await server.submit({...swinging(0.035, {maxIterations: 1}), title: 'Missed'});
+  await server.ended(missed);
+  await open('/runs?q=alone');
+  await page.getByText('page 1 of 2, 60 runs').waitFor();
+  assert.equal(await rows.count(), 50);
+  await page.getByRole('button', {name: 'Older ›'}).click();
+  await page.getByText('page 2 of 2, 60 runs').waitFor();
+  assert.deepEqual([await rows.count(), ofAddress('page')], [10, '2']);
+  await page.getByLabel('Label', {exact: true}).fill('half=odd');
+  await page.keyboard.press('Enter');
+  await page.getByText('page 1 of 1, 30 runs').waitFor();
+  await open('/runs');
+  await page.getByLabel('State').selectOption('NOT_CONVERGED');
+  await page.getByText('page 1 of 1, 1 runs').waitFor();
+  assert.match(await rows.innerText(), /Missed.*NOT CONVERGED/s);
+  await page.getByLabel('State').selectOption('FAILED');
+  await page.getByText('No run matches.').waitFor();
+});
+
+test('runs are chosen by when they were created, for everybody who has the address', async () => {
+  await open('/runs?after=2020-01-01T00:00Z');
+  await page.getByText(/page 1 of \d+, \d+ runs/).waitFor();
+  await page.getByLabel('before').fill('2020-01-02T00:00');
+  await page.getByText('No run matches.').waitFor();
+  assert.equal(ofAddress('before'), new Date('2020-01-02T00:00').toISOString().replace(':00.000Z', 'Z'));
+  await page.reload();
+  await page.getByText('No run matches.').waitFor();
+  assert.equal(await page.getByLabel('before').inputValue(), '2020-01-02T00:00');
+});
+
+test('a run is deleted when that is said twice', async () => {
+  const id = await server.submit(BALL);
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  await page.getByRole('button', {name: 'Delete …'}).click();
+  await page.getByRole('button', {name: 'Keep'}).click();
+  await page.getByRole('button', {name: 'Delete …'}).click();
+  await page.getByRole('button', {name: 'Delete for good'}).click();
+  await hold(() => new URL(page.url()).pathname === '/runs');
+  await assert.rejects(server.call('GetJob', {name: `jobs/${id}`}), /not_found/);
+});
+
+test('a window that follows goes on to follow after a zoom', async () => {
+  const id = await server.submit(LONG);
+  await open(`/runs/${id}?from=0&to=0.01&follow=1`);
+  const shown = () => page.getByLabel('Motion', {exact: true}).locator('.tools .mono').innerText().then((text) => text.match(/[\d.e-]+/g).map(Number));
+  await hold(async () => (await shown())[0] > 0.002);
+  await page.keyboard.press('+');
+  await hold(() => Number(ofAddress('to')) - Number(ofAddress('from')) < 0.006);
+  const [from, to] = await shown();
+  assert.ok(to - from < 0.006 && ofAddress('follow') === '1');
+  await hold(async () => (await shown())[0] > from);
+  await stop(id);
+});
+
+test('the ledger shows what its filters choose', async () => {
+  await open(`/runs/${chain}`);
+  const ledger = page.getByLabel('Cycle ledger');
+  const rows = ledger.locator('tbody tr');
+  await hold(async () => await rows.count() === 2);
+  await ledger.getByLabel('Contact').selectOption('B2-B3');
+  await hold(async () => await rows.count() === 1);
+  assert.match(await rows.innerText(), /^B2-B3/);
+  await ledger.getByText('1 of 2').waitFor();
+  await ledger.getByLabel('Show').selectOption('groups');
+  await ledger.getByText('encounter').waitFor();
+  await ledger.getByLabel('Status').selectOption('CONVERGED');
+  await hold(() => ofAddress('status') === 'CONVERGED');
+  assert.equal(await rows.count(), 1);
+});
+
+test('the page of the server tells what waits and what runs', async () => {
+  const ids = await Promise.all([LONG, LONG, LONG].map((scenario) => server.submit(scenario)));
+  await open('/server');
+  const tile = (name) => page.locator('.tile', {hasText: name}).innerText().then((text) => text.replace(/\s+/g, ' '));
+  await hold(async () => /queued 1 of/.test(await tile('queued')) && /running 2 of 2 workers/.test(await tile('running')));
+  await Promise.all(ids.map(stop));
+  await hold(async () => /queued 0/.test(await tile('queued')) && /running 0/.test(await tile('running')));
+});
+
+test('the passes of an episode stand in a table that keys open', async () => {
+  const {cycles} = await server.call('GetJob', {name: `jobs/${chain}`});
+  await open(`/runs/${chain}`);
+  await page.getByText('Passes in numbers').press('Enter');
+  const rows = page.getByLabel('Passes', {exact: true}).locator('tbody tr');
+  await hold(async () => await rows.count() >= 4);
+  assert.equal(ofAddress('passes'), '1');
+  const accepted = rows.filter({hasText: 'accepted'});
+  assert.deepEqual(await accepted.locator('td:nth-child(4)').allInnerTexts(), cycles.map(({mu}) => String(mu)));
+  assert.match(await rows.first().innerText(), /^1\s+0\s+B1-B2 #1\s.*NEWTON/s);
+});
+
+test('keys move the moment, and every plot over time tells its values there', async () => {
+  await open(`/runs/${chain}`);
+  await drawn();
+  await page.getByLabel('moment').focus();
+  await page.keyboard.press('PageUp');   // A tenth of all.
+  for (const [plot, words] of [['force', /^Contact force, force \[N\], at 0\.0004\d* s: B1-B2 \d/], ['velocity', /^Velocity.*B1 0\.\d/], ['energy', /^Energy balance.*kinetic 0\.\d/]]) {
+    const figure = page.locator(`[data-plot="${plot}"]`);
+    await hold(async () => words.test(await figure.locator('> output').textContent()));
+    assert.match(await figure.locator('.key output').first().innerText(), /\d/);
+  }
+});
+
+test('a point of the line of a sweep is chosen and becomes a run', async () => {
+  const {name} = await server.call('CreateJob', {job: {sweep: {base: CHAIN, metrics: ['iterations', 'cycles[B1-B2].alpha'],
+    axes: [{field: 'bodies[0].velocity_m_per_s', linear: {low: 0.1, high: 0.5, count: 5}}]}}});
+  const id = name.replace('jobs/', '');
+  await server.ended(id);
+  await open(`/runs/${id}?metric=1`);
+  await hold(async () => await points('line') === 5);
+  const line = page.getByLabel(/arrow keys choose a cell/);
+  await line.press('ArrowRight');
+  await hold(() => ofAddress('cell') === '0');
+  await line.press('ArrowRight');
+  await page.getByText(/velocity_m_per_s = 0.2: cycles\[B1-B2\].alpha [\d.]+ converged/).waitFor();
+  const box = await line.locator('.u-over').boundingBox();
+  await page.mouse.click(box.x + box.width - 3, box.y + 40);
+  await hold(() => ofAddress('cell') === '4');
+  await refuse('CreateJob');
+  await line.press('Enter');
+  await page.getByRole('alert').getByText('The store is full.').waitFor();
+  await page.unrouteAll();
+  await line.press('Enter');
+  await hold(() => !page.url().includes(id));
+  const job = await server.ended(new URL(page.url()).pathname.split('/')[2]);
+  assert.deepEqual([job.labels, job.scenario.bodies[0].velocityMPerS], [{sweep: id, cell: '4'}, 0.5]);
+});
+
+test('a file that does not come says why, and can be asked for again', async () => {
+  await open(`/runs/${chain}`);
+  await page.route('**/ReadArtifact', (route) => route.abort());
+  const button = page.locator('.files button').first();
+  await button.click();
+  await page.getByRole('alert').getByText('The server does not answer.').waitFor();
+  assert.ok(await button.isEnabled());
+  await page.unrouteAll();
+  await Promise.all([page.waitForEvent('download'), button.click()]);
+  assert.equal(await page.getByRole('alert').count(), 0);
+});
+
+test('a page says how much of a large scenario it shows', async () => {
+  const bodies = Array.from({length: 110}, (_, i) => ({name: `b${i}`, massKg: 1, radiusM: 0.05, positionM: 0.2 * i, velocityMPerS: i === 0 ? 1 : 0}));
+  const id = await server.submit({title: 'A row', bodies, endTimeS: 0.001, output: {sampleIntervalS: 1e-4},
+    contacts: [{name: 'row', between: bodies.map(({name}) => name), stiffness: 1e6, restitution: 0.8}]});
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  for (const words of ['60 of 110 bodies shown', '12 of 109 contacts shown; choose a contact in the ledger', '13 of 110 bodies shown', '100 of 110 bodies shown']) {
+    await page.getByText(words).waitFor();
+  }
+});
