@@ -52,9 +52,16 @@ export class Reading {
   /** The moment has come to rest at a time. */
   rest(time: number | undefined, panel: Panel): void {
     this.#time = time;
+    this.drawn(panel);
+  }
+
+  /** The plot has other values than before. */
+  drawn(panel: Panel): void {
     this.#show();
     const plot = this.plot.current;
-    if (plot && this.words) this.words.textContent = sentence(plot, panel, placeOf(plot, time));
+    if (!plot || !this.words) return;
+    const now = sentence(plot, panel, placeOf(plot, this.#time));
+    if (this.words.textContent !== now) this.words.textContent = now;
   }
 
   #show(): void {

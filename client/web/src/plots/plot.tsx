@@ -117,7 +117,8 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
         const visible = !hidden.has(label);
         if (plot.current!.series[i + 1]!.show !== visible) plot.current!.setSeries(i + 1, {show: visible});
       });
-      plot.current!.setData(aligned(panel));
+      plot.current.setData(aligned(panel));
+      reading.drawn(panel);
     });
   }, [panel, span?.[0], span?.[1], hidden]);
 
