@@ -81,7 +81,7 @@ test('a window that follows goes on to follow after a zoom', async () => {
   const id = await server.submit(LONG);
   await open(`/runs/${id}?from=0&to=0.01&follow=1`);
   const shown = () => page.getByLabel('Motion', {exact: true}).locator('.tools .mono').innerText().then((text) => text.match(/[\d.e-]+/g).map(Number));
-  await hold(async () => (await shown())[0] > 0.002);
+  await hold(async () => await points('force') > 2 && (await shown())[0] > 0.002);
   await page.keyboard.press('+');
   await hold(() => Number(ofAddress('to')) - Number(ofAddress('from')) < 0.006);
   const [from, to] = await shown();

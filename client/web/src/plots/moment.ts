@@ -55,8 +55,9 @@ export class Reading {
     this.drawn(panel);
   }
 
-  /** The plot has other values than before. */
+  /** The plot has other values than before, or shows another part of them. */
   drawn(panel: Panel): void {
+    if (timed(panel)) moveLine(this.plot, playhead());
     this.#show();
     const plot = this.plot.current;
     if (!plot || !this.words) return;
