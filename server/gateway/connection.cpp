@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -30,8 +31,6 @@ using Buffers = std::vector<asio::const_buffer>;
 // For what a client still sends when it is refused, so that it reads the answer.
 constexpr auto kLingerTime = 2s;
 constexpr std::size_t kMostHeadBytes = 16 << 10;
-// A body up to this size needs no reservation.
-constexpr std::size_t kSmallBody = 64 << 10;
 
 // Token of an operation that gives its error instead of throwing it.
 auto Into(ErrorCode* error) { return asio::redirect_error(asio::use_awaitable, *error); }
@@ -77,7 +76,7 @@ asio::awaitable<bool> Connection::Begin() {
 }
 
 asio::awaitable<std::optional<HttpRequest>> Connection::Read() {
-  service_.GiveBack(std::exchange(reserved_, 0));
+  body_.reset();
   if (!keep_alive_) co_return std::nullopt;
   const bool begun = co_await Begin();
   if (!begun) co_return std::nullopt;
@@ -105,12 +104,10 @@ asio::awaitable<std::optional<HttpRequest>> Connection::Read() {
 asio::awaitable<bool> Connection::ReadBody(Parser& parser, const HttpRequest& head) {
   const std::size_t most = service_.options().max_body_bytes;
   const std::size_t size = parser.content_length() ? *parser.content_length() : most;
-  if (size > kSmallBody) {
-    if (!service_.Reserve(size)) {
-      co_await Refuse(head, PlainAnswer(503, "too many large requests at once"));
-      co_return false;
-    }
-    reserved_ = size;
+  body_ = service_.bodies().Take(size);
+  if (!body_) {
+    co_await Refuse(head, Exhausted(head, 503, "too many large requests at once"));
+    co_return false;
   }
   if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
     const bool sent = co_await Write(Parts(1, "HTTP/1.1 100 Continue\r\n\r\n"));
@@ -132,7 +129,10 @@ asio::awaitable<void> Connection::Reject(const Parser& parser, ErrorCode error) 
   }
   HttpAnswer answer = PlainAnswer(400, "this is no HTTP/1.1 request: " + error.message());
   if (error == http::error::header_limit) answer = PlainAnswer(431, "the head is over 16 KiB");
-  if (error == http::error::body_limit) answer = TooLarge(head, service_.options().max_body_bytes);
+  if (error == http::error::body_limit) {
+    const std::size_t most = service_.options().max_body_bytes;
+    answer = Exhausted(head, 413, fmt::format("the body is larger than {} bytes", most));
+  }
   co_await Refuse(head, std::move(answer));
 }
 
@@ -157,6 +157,8 @@ std::string Connection::HeadText(const HttpAnswer& answer) const {
 }
 
 asio::awaitable<bool> Connection::Send(const HttpRequest& request, HttpAnswer answer) {
+  const Memory::Share room = service_.answers().Take(answer.body.size());
+  if (!room) answer = Exhausted(request, 503, kNoRoom);
   const HttpAnswer full = service_.Complete(request, std::move(answer));
   std::string head = HeadText(full);
   if (full.status != 204 && full.status != 304) {
@@ -165,7 +167,8 @@ asio::awaitable<bool> Connection::Send(const HttpRequest& request, HttpAnswer an
   head += "\r\n";
   Parts parts(1, head);
   if (request.method != "HEAD") parts.emplace_back(full.body);
-  co_return co_await Write(std::move(parts));
+  co_return co_await Write(std::move(parts),
+                           std::chrono::steady_clock::now() + service_.options().answer);
 }
 
 asio::awaitable<bool> Connection::SendHead(const HttpRequest& request, HttpAnswer answer) {
@@ -191,13 +194,13 @@ asio::awaitable<bool> Connection::SendEnd() {
   co_return co_await Write(Parts(1, "0\r\n\r\n"));
 }
 
-asio::awaitable<bool> Connection::Write(Parts parts) {
+asio::awaitable<bool> Connection::Write(Parts parts, Time end) {
   Buffers buffers;
   for (const std::string_view part : parts) buffers.emplace_back(part.data(), part.size());
   beast::buffers_suffix<Buffers> rest(buffers);
   ErrorCode error;
   while (!error && asio::buffer_size(rest) > 0) {
-    stream_.expires_after(service_.options().stall);
+    stream_.expires_at(std::min(std::chrono::steady_clock::now() + service_.options().stall, end));
     const std::size_t size = co_await stream_.async_write_some(rest, Into(&error));
     rest.consume(size);
   }

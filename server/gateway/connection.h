@@ -7,6 +7,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -26,7 +27,6 @@ class Connection {
 
   /// Takes over `fd`. The service outlives it.
   Connection(boost::asio::io_context& io, Service& service, int fd);
-  ~Connection() { service_.GiveBack(reserved_); }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
@@ -39,7 +39,7 @@ class Connection {
 
   // Each of these is false if the client takes nothing more.
 
-  /// Sends a whole answer.
+  /// Sends a whole answer; or that there is no memory for it, as the request's protocol says it.
   Awaitable<bool> Send(const HttpRequest& request, HttpAnswer answer);
   /// Sends an answer in pieces: its head, then any number of parts, then its end.
   Awaitable<bool> SendHead(const HttpRequest& request, HttpAnswer answer);
@@ -60,6 +60,7 @@ class Connection {
  private:
   using Stream = boost::beast::basic_stream<boost::asio::generic::stream_protocol, Executor>;
   using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
+  using Time = std::chrono::steady_clock::time_point;
 
   /// Waits until something of the next request is there. False: nothing comes.
   Awaitable<bool> Begin();
@@ -68,8 +69,8 @@ class Connection {
   /// Refuses a request that cannot be read, and waits until the client has seen that.
   Awaitable<void> Reject(const Parser& parser, boost::beast::error_code error);
   Awaitable<void> Refuse(const HttpRequest& head, HttpAnswer answer);
-  /// Sends all; gives up a client that takes nothing for a while.
-  Awaitable<bool> Write(Parts parts);
+  /// Sends all; gives up a client that takes nothing for a while, or has not taken all at `end`.
+  Awaitable<bool> Write(Parts parts, Time end = Time::max());
   /// The head without what says how long the answer is.
   std::string HeadText(const HttpAnswer& answer) const;
 
@@ -82,7 +83,7 @@ class Connection {
   bool keep_alive_ = true;
   bool http11_ = true;
   /// What its body has of the service's memory.
-  std::size_t reserved_ = 0;
+  Memory::Share body_;
 };
 
 }  // namespace contact::gateway

@@ -17,13 +17,14 @@ void Prepare(const RpcRequest& request, const std::string& peer, grpc::ClientCon
   *message = grpc::ByteBuffer(&slice, 1);
 }
 
-std::shared_ptr<RpcCall> RpcCall::Start(grpc::GenericStub& stub, const RpcRequest& request,
+std::shared_ptr<RpcCall> RpcCall::Start(Service& service, const RpcRequest& request,
                                         const std::string& peer, Post post,
                                         std::function<void()> changed) {
   std::shared_ptr<RpcCall> call(new RpcCall(std::move(post), std::move(changed)));
   call->self_ = call;
   Prepare(request, peer, &call->context_, &call->request_);
-  stub.PrepareBidiStreamingCall(&call->context_, request.path, grpc::StubOptions(), call.get());
+  service.stub().PrepareBidiStreamingCall(&call->context_, request.path, grpc::StubOptions(),
+                                          call.get());
   call->AddHold();  // Reads start outside of gRPC's reactions.
   call->StartWriteLast(&call->request_, grpc::WriteOptions());
   // Before the call: the in-process transport of gRPC 1.51 drops a message that comes together with

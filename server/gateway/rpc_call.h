@@ -1,6 +1,5 @@
 #pragma once
 
-#include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 
 #include <functional>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "gateway/protocol/rpc_request.h"
+#include "gateway/service.h"
 
 namespace contact::gateway {
 
@@ -27,7 +27,7 @@ class RpcCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
  public:
   /// Starts the call of `peer`, and asks for its first message. After each change of what is below,
   /// `changed` is called on the thread, until Leave. `post` lives as long as the call.
-  static std::shared_ptr<RpcCall> Start(grpc::GenericStub& stub, const RpcRequest& request,
+  static std::shared_ptr<RpcCall> Start(Service& service, const RpcRequest& request,
                                         const std::string& peer, Post post,
                                         std::function<void()> changed);
 

@@ -6,9 +6,6 @@
 namespace contact::gateway {
 namespace {
 
-// Of all bodies that are being read.
-constexpr std::size_t kMostReserved = 64 << 20;
-
 // Pages load nothing but what the gateway serves. Plots draw into images and blobs.
 constexpr char kPolicy[] =
     "default-src 'self'; img-src 'self' data: blob:; worker-src 'self' blob:; object-src 'none'; "
@@ -46,12 +43,6 @@ HttpAnswer Service::Complete(const HttpRequest& request, HttpAnswer answer) cons
   if (cors.empty()) headers.emplace_back("cross-origin-resource-policy", "same-origin");
   std::ranges::copy(cors, std::back_inserter(headers));
   return answer;
-}
-
-bool Service::Reserve(std::size_t bytes) {
-  if (reserved_.fetch_add(bytes) + bytes <= kMostReserved) return true;
-  GiveBack(bytes);
-  return false;
 }
 
 }  // namespace contact::gateway

@@ -2,12 +2,11 @@
 
 #include <grpcpp/generic/generic_stub.h>
 
-#include <atomic>
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "gateway/memory.h"
 #include "gateway/options.h"
 #include "gateway/protocol/static_files.h"
 
@@ -32,16 +31,16 @@ class Service {
   /// The answer with what every answer has: what a browser may do with it, and who may read it.
   HttpAnswer Complete(const HttpRequest& request, HttpAnswer answer) const;
 
-  /// Reserves memory for the body of a request; false if there is none. Small bodies need none.
-  bool Reserve(std::size_t bytes);
-  void GiveBack(std::size_t bytes) { reserved_ -= bytes; }
+  /// What the bodies of requests may take, and what whole answers may until they are sent.
+  Memory& bodies() { return bodies_; }
+  Memory& answers() { return answers_; }
 
  private:
   const GatewayOptions options_;
   grpc::GenericStub stub_;
   const StaticFiles files_;
-  /// Bytes of the bodies that are being read.
-  std::atomic<std::size_t> reserved_ = 0;
+  Memory bodies_{options_.memory};
+  Memory answers_{options_.memory};
 };
 
 }  // namespace contact::gateway

@@ -51,8 +51,8 @@ class Session : public std::enable_shared_from_this<Session> {
   class Running {
    public:
     Running(Session& session, const RpcRequest& request) : session_(session) {
-      call_ = Call::Start(session.service_.stub(), request, session.connection_.peer(),
-                          session.Poster(), session.Waker());
+      call_ = Call::Start(session.service_, request, session.connection_.peer(), session.Poster(),
+                          session.Waker());
       session.connection_.Watch(
           [self = session.shared_from_this(), call = call_] { call->Cancel(); });
     }
@@ -159,8 +159,7 @@ awaitable<bool> Session::Unary(const HttpRequest& request, const RpcRequest& ask
   {
     const Running<UnaryCall> call(*this, asked);
     while (!call->status()) co_await Changed();
-    const std::string message = call->status()->ok() ? Flat(call->message()) : "";
-    answer = AnswerOf(asked, message, *call->status(), call->head(), call->trailers());
+    answer = AnswerOf(asked, call->TakeAnswer(), *call->status(), call->head(), call->trailers());
   }
   co_return co_await connection_.Send(request, std::move(answer));
 }
@@ -196,7 +195,7 @@ awaitable<bool> Session::Readiness(const HttpRequest& request) {
   {
     const Running<UnaryCall> call(*this, HealthCheck());
     while (!call->status()) co_await Changed();
-    if (call->status()->ok()) health.ParseFromString(Flat(call->message()));
+    if (call->status()->ok()) health.ParseFromString(call->TakeAnswer());
   }
   HttpAnswer answer = PlainAnswer(503, "not ready");
   if (health.status() == HealthCheckResponse::SERVING) answer = PlainAnswer(200, "ready");

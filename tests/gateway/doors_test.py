@@ -138,30 +138,45 @@ class PeerTest(GatewayTest):
         native.cancel()
 
 
-class StalledTest(GatewayTest):
-    http_flags = ("--write-stall-seconds=2", "--max-watchers-per-peer=1000", "--max-watchers=1000")
+class ReaderlessTest(GatewayTest):
+    """A server with clients that take nothing."""
+
     CLIENTS = 100
 
-    def rss(self):
+    def memory(self, name):
+        """A number of the server's memory, as the system calls it [B]."""
         status = pathlib.Path(f"/proc/{self.server.process.pid}/status").read_text()
-        return int(re.search(r"VmRSS:\s+(\d+) kB", status)[1]) << 10
+        return int(re.search(rf"{name}:\s+(\d+) kB", status)[1]) << 10
+
+    def post(self, method, kind, body):
+        """Clients that ask so, and read nothing."""
+        request = (f"POST {SERVICE}{method} HTTP/1.1\r\nhost: localhost\r\ncontent-type: "
+                   f"{kind}\r\ncontent-length: {len(body)}\r\n\r\n").encode()
+        raws = [self.connect() for _ in range(self.CLIENTS)]
+        for raw in raws:
+            raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            raw.sendall(request + body)
+        return raws
+
+    def long_job(self):
+        """The name of a job with 200,000 samples."""
+        scenario = spring_wall(end_time_s=2.0)
+        scenario.output.sample_interval_s = 1e-5
+        return self.server.run(scenario).name
+
+
+class StalledTest(ReaderlessTest):
+    http_flags = ("--write-stall-seconds=2", "--max-watchers-per-peer=1000", "--max-watchers=1000")
 
     def watchers(self):
         metrics = self.ask("GET", "/metrics").body.decode()
         return int(re.search(r"\ncontactd_watchers (\d+)", metrics)[1])
 
     def test_clients_that_take_nothing_cost_little_and_are_ended(self):
-        scenario = spring_wall(end_time_s=2.0)
-        scenario.output.sample_interval_s = 1e-5
-        name = self.server.run(scenario).name
-        body = frame(job_service_pb2.WatchJobRequest(name=name).SerializeToString())
-        request = (f"POST {SERVICE}WatchJob HTTP/1.1\r\nhost: localhost\r\ncontent-type: "
-                   f"application/connect+proto\r\ncontent-length: {len(body)}\r\n\r\n").encode()
-        before = self.rss()
-        raws = [self.connect() for _ in range(self.CLIENTS)]
-        for raw in raws:
-            raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-            raw.sendall(request + body)
+        request = job_service_pb2.WatchJobRequest(name=self.long_job())
+        before = self.memory("VmRSS")
+        raws = self.post("WatchJob", "application/connect+proto",
+                         frame(request.SerializeToString()))
         for raw in raws:
             raw.recv(1)
         times = []
@@ -170,12 +185,33 @@ class StalledTest(GatewayTest):
             self.assertEqual(self.call("ListJobs", {}).status, 200)
             times.append(time.monotonic() - start)
         if not os.environ.get("CONTACT_SANITIZE"):  # Its allocator keeps what was freed.
-            self.assertLess(self.rss() - before, self.CLIENTS * (1 << 20))
+            self.assertLess(self.memory("VmRSS") - before, self.CLIENTS * (1 << 20))
         self.assertLess(sorted(times)[len(times) // 2], 1.0)
         end = time.monotonic() + PATIENCE_S
         while self.watchers() > 0:
             self.assertLess(time.monotonic(), end)
             time.sleep(0.1)
+
+
+class HeldAnswersTest(ReaderlessTest):
+
+    def test_large_answers_that_nobody_takes_cost_bounded_memory(self):
+        series = {"name": self.long_job(), "maxPoints": 1_000_000, "plainNumbers": True}
+        whole = self.call("GetSeries", series)
+        self.assertGreater(len(whole.body), 5_000_000)
+        before = self.memory("VmRSS")
+        raws = self.post("GetSeries", "application/json", json.dumps(series).encode())
+        statuses = [int(raw.recv(12, socket.MSG_WAITALL).split()[1]) for raw in raws]
+        grown = self.memory("VmHWM") - before
+        print(f"answers of {len(whole.body) / 1e6:.1f} MB: {statuses.count(200)} of "
+              f"{self.CLIENTS} held, {grown / 1e6:.0f} MB", file=sys.stderr)
+        self.assertEqual(set(statuses), {200, 429})
+        if not os.environ.get("CONTACT_SANITIZE"):
+            self.assertLess(grown, 300_000_000)
+        self.assertEqual(self.call("ListJobs", {}).status, 200)
+        for raw in raws:
+            raw.close()
+        self.wait_until(lambda: self.call("GetSeries", series).status == 200)
 
 
 class SettingsTest(unittest.TestCase):

@@ -6,6 +6,7 @@ import json
 import re
 import socket
 import struct
+import time
 
 from contactd import PATIENCE_S, ServerTest, three_ball_chain
 
@@ -88,6 +89,12 @@ class GatewayTest(ServerTest):
         if not any(re.match("(transfer-encoding|content-length):", line) for line in headers):
             lines.append(f"content-length: {len(body)}")
         return "\r\n".join(lines).encode() + b"\r\n\r\n" + body
+
+    def wait_until(self, condition):
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
 
     def one_job(self):
         """The name of a job that has ended."""

@@ -8,10 +8,12 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
 #include "base/file_descriptor.h"
 #include "contact/v1/job_service.grpc.pb.h"
@@ -24,15 +26,23 @@ namespace {
 
 using namespace std::chrono_literals;
 using nlohmann::json;
+using std::chrono::steady_clock;
 
 // Past the last year that JSON has.
 constexpr std::int64_t kNoTime = 253'402'300'800;
 
-// Answers with a time that JSON does not have.
-class TimelessService final : public v1::JobService::Service {
-  grpc::Status GetJob(grpc::ServerContext* /*context*/, const v1::GetJobRequest* /*request*/,
+// Asks for an answer of 18 MB in JSON, more than sockets hold; its bytes are few enough for gRPC.
+constexpr char kLarge[] = R"({"name":"large"})";
+
+// Answers with a time that JSON does not have, or with what a name asks for.
+class TestService final : public v1::JobService::Service {
+  grpc::Status GetJob(grpc::ServerContext* /*context*/, const v1::GetJobRequest* request,
                       v1::Job* job) override {
-    job->mutable_create_time()->set_seconds(kNoTime);
+    if (request->name() == "large") {
+      job->set_name(std::string(3'000'000, '\x01'));  // Six times as long in JSON.
+    } else {
+      job->mutable_create_time()->set_seconds(kNoTime);
+    }
     return grpc::Status::OK;
   }
   grpc::Status WatchJob(grpc::ServerContext* /*context*/, const v1::WatchJobRequest* /*request*/,
@@ -67,16 +77,18 @@ class Client {
     pollfd readable = {socket_.get(), POLLIN, 0};
     return poll(&readable, 1, static_cast<int>(most.count())) > 0;
   }
+  // What is there, at most so much; empty: the other side has closed.
+  std::string Read(std::size_t most) const {
+    std::string part(most, 0);
+    if (!Wait(kPatience)) ADD_FAILURE() << "nothing comes";
+    const ssize_t size = recv(socket_.get(), part.data(), most, MSG_DONTWAIT);
+    part.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    return part;
+  }
   // What comes until the other side closes.
   std::string ReadAll() const {
     std::string all;
-    std::array<char, 4096> part;
-    while (Wait(kPatience)) {
-      const ssize_t size = recv(socket_.get(), part.data(), part.size(), 0);
-      if (size <= 0) return all;
-      all.append(part.data(), static_cast<std::size_t>(size));
-    }
-    ADD_FAILURE() << "the connection does not end";
+    for (std::string part; !(part = Read(4096)).empty();) all += part;
     return all;
   }
 
@@ -119,6 +131,7 @@ class GatewayTest : public testing::Test {
                                          std::move(options));
     return Client(port_);
   }
+  std::size_t connections() const { return gateway_->connections(); }
   // Whether others are answered.
   bool Answers() const {
     const Client other(port_);
@@ -127,7 +140,7 @@ class GatewayTest : public testing::Test {
   }
 
  private:
-  TimelessService service_;
+  TestService service_;
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<Gateway> gateway_;
   int port_ = 0;
@@ -150,6 +163,33 @@ TEST_F(GatewayTest, AStreamedMessageWithoutJsonEndsTheStreamWithAnError) {
   EXPECT_EQ(json::parse(frames->front().payload)["snapshot"]["name"], "jobs/a");
   EXPECT_EQ(frames->back().flags, gateway::kEndOfStream);
   EXPECT_EQ(json::parse(frames->back().payload)["error"]["code"], "internal");
+}
+
+TEST_F(GatewayTest, AnAnswerThatThereIsNoRoomForIsRefusedAsItsProtocolSays) {
+  const Client client = Connect({.memory = 1 << 20});
+  client.Send(Post("GetJob", "application/json", kLarge));
+  const std::string answer = client.ReadAll();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 429 ")) << answer;
+  EXPECT_EQ(json::parse(BodyOf(answer))["code"], "resource_exhausted");
+}
+
+TEST_F(GatewayTest, JsonThatThereIsNoRoomForIsRefusedAsItsProtocolSays) {
+  const Client client = Connect({.memory = 4 << 20});
+  client.Send(Post("GetJob", "application/grpc-web+json", gateway::ToBytes({0, kLarge})));
+  const auto frames = gateway::ToFrames(BodyOf(client.ReadAll()));
+  ASSERT_TRUE(frames && frames->size() == 1);
+  EXPECT_TRUE(frames->front().payload.starts_with("grpc-status: 8\r\n"));
+}
+
+TEST_F(GatewayTest, AnAnswerThatIsTakenDropByDropIsCut) {
+  const Client client = Connect({.answer = 100ms});
+  client.Send(Post("GetJob", "application/json", kLarge));
+  const auto start = steady_clock::now();
+  while (connections() > 0 && steady_clock::now() - start < kPatience) {
+    EXPECT_EQ(client.Read(1).size(), 1U);
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_LT(steady_clock::now() - start, 10s) << "each drop gives it more time";
 }
 
 TEST_F(GatewayTest, AConnectionWithoutARequestIsClosed) {

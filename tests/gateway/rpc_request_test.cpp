@@ -234,9 +234,9 @@ TEST(RpcRequestTest, AWebAnswerIsAMessageAndItsTrailers) {
 }
 
 TEST(RpcRequestTest, ABodyThatIsTooLargeIsAnErrorOfTheProtocol) {
-  EXPECT_EQ(TooLarge(Post(kGet, "application/json", ""), 10).status, 429);
-  EXPECT_EQ(TooLarge(Post(kGet, "application/grpc-web", ""), 10).status, 200);
-  EXPECT_EQ(TooLarge(Post("/x", "application/json", ""), 10).status, 413);
+  EXPECT_EQ(Exhausted(Post(kGet, "application/json", ""), 413, "").status, 429);
+  EXPECT_EQ(Exhausted(Post(kGet, "application/grpc-web", ""), 413, "").status, 200);
+  EXPECT_EQ(Exhausted(Post("/x", "application/json", ""), 413, "").status, 413);
 }
 
 }  // namespace

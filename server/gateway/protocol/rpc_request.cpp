@@ -140,8 +140,9 @@ Status ReadQuery(const HttpRequest& request, RpcRequest* call) {
   return ToWire(*call, &call->message);
 }
 
-// The dialect of a GET, by its query.
-std::optional<Dialect> DialectOfQuery(const HttpRequest& request) {
+// The dialect of a request, that of a GET by its query.
+std::optional<Dialect> DialectOf(const HttpRequest& request) {
+  if (request.method != "GET") return DialectOf(MediaType(request.header("content-type")));
   const std::string encoding = QueryValue(request.target, "encoding").value_or("");
   if (encoding != "json" && encoding != "proto") return std::nullopt;
   return DialectOf("application/" + encoding);
@@ -164,8 +165,7 @@ std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request) {
     return WithHeader(PlainAnswer(405, "the method is not called so"), "allow",
                       may_get ? "GET, POST" : "POST");
   }
-  const auto dialect =
-      get ? DialectOfQuery(request) : DialectOf(MediaType(request.header("content-type")));
+  const auto dialect = DialectOf(request);
   if (!dialect || !Fits(*dialect, *call.method)) return WrongType();
   call.dialect = *dialect;
   Status status = call.method->client_streaming() ? Unimplemented("clients cannot stream here")
@@ -175,14 +175,15 @@ std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request) {
   return call;
 }
 
-HttpAnswer AnswerOf(const RpcRequest& call, const std::string& message, const Status& status,
+HttpAnswer AnswerOf(const RpcRequest& call, std::string message, const Status& status,
                     const Trailers& head, const Trailers& trailers) {
   const Dialect& dialect = call.dialect;
   if (!status.ok()) return Failure(dialect, status, trailers);
-  HttpAnswer answer{200, HeadersOf(dialect), message};
+  HttpAnswer answer{200, HeadersOf(dialect), std::move(message)};
   std::ranges::move(ToHeaders(head, ""), std::back_inserter(answer.headers));
   if (dialect.json) {
-    const Status printed = ToJson(*call.method->output_type(), message, &answer.body);
+    const Status printed =
+        ToJson(*call.method->output_type(), std::exchange(answer.body, {}), &answer.body);
     if (!printed.ok()) return Failure(dialect, printed, trailers);
   }
   if (!dialect.framed()) {
@@ -195,10 +196,9 @@ HttpAnswer AnswerOf(const RpcRequest& call, const std::string& message, const St
   return answer;
 }
 
-HttpAnswer TooLarge(const HttpRequest& head, std::size_t most) {
-  const auto dialect = DialectOf(MediaType(head.header("content-type")));
-  const std::string words = fmt::format("the body is larger than {} bytes", most);
-  if (!IsRpc(head) || !dialect) return PlainAnswer(413, words);
+HttpAnswer Exhausted(const HttpRequest& head, int status, const std::string& words) {
+  const auto dialect = DialectOf(head);
+  if (!IsRpc(head) || !dialect) return PlainAnswer(status, words);
   return Failure(*dialect, {StatusCode::RESOURCE_EXHAUSTED, words});
 }
 

@@ -34,10 +34,14 @@ bool IsRpc(const HttpRequest& request);
 std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request);
 
 /// The whole answer of a unary call that has ended so.
-HttpAnswer AnswerOf(const RpcRequest& call, const std::string& message, const grpc::Status& status,
+HttpAnswer AnswerOf(const RpcRequest& call, std::string message, const grpc::Status& status,
                     const Trailers& head, const Trailers& trailers);
 
-/// The answer to a request whose body is larger than `most` bytes.
-HttpAnswer TooLarge(const HttpRequest& head, std::size_t most);
+/// The answer to a request that there is no room for: RESOURCE_EXHAUSTED, as the call's protocol
+/// says it; `status` to what is no call.
+HttpAnswer Exhausted(const HttpRequest& head, int status, const std::string& words);
+
+/// What Exhausted says where the answer is what there is no room for.
+inline constexpr char kNoRoom[] = "too many large answers are being sent; ask again later";
 
 }  // namespace contact::gateway
