@@ -213,14 +213,19 @@ asio::awaitable<void> Connection::Writable() {
   co_await stream_.socket().async_wait(stream_protocol::socket::wait_write, Into(&ignored));
 }
 
-void Connection::Watch(std::function<void()> left) {
-  const auto look = [this, left = std::move(left)](ErrorCode error) {
-    if (error) return;
-    char byte = 0;
-    const ssize_t size = recv(stream_.socket().native_handle(), &byte, 1, MSG_PEEK | MSG_DONTWAIT);
-    if (size == 0 || (size < 0 && errno != EAGAIN)) left();
+bool Connection::Closed() {
+  char byte = 0;
+  const ssize_t size = recv(stream_.socket().native_handle(), &byte, 1, MSG_PEEK | MSG_DONTWAIT);
+  return size == 0 || (size < 0 && errno != EAGAIN);
+}
+
+void Connection::Watch(Leaving leaving, std::function<void()> left) {
+  using Socket = stream_protocol::socket;
+  const bool closes = leaving == Leaving::kCloses;
+  const auto look = [this, closes, left = std::move(left)](ErrorCode error) {
+    if (!error && (!closes || Closed())) left();
   };
-  stream_.socket().async_wait(stream_protocol::socket::wait_read, look);
+  stream_.socket().async_wait(closes ? Socket::wait_read : Socket::wait_error, look);
 }
 
 void Connection::Unwatch() {

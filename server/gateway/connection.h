@@ -49,9 +49,14 @@ class Connection {
   /// Waits until the client's system takes bytes, or the connection is cut.
   Awaitable<void> Writable();
 
-  /// Calls `left` once if the client leaves before Unwatch. It has left when it closes the
-  /// connection or its half of it. `left` keeps this alive.
-  void Watch(std::function<void()> left);
+  /// What a client does that leaves. TCP tells who closes the whole connection from who closes the
+  /// half of it only once something is sent.
+  enum class Leaving {
+    kCloses,  ///< The connection or its half of it.
+    kResets,  ///< It takes nothing more.
+  };
+  /// Calls `left` once if the client leaves so before Unwatch. `left` keeps this alive.
+  void Watch(Leaving leaving, std::function<void()> left);
   void Unwatch();
 
   /// Ends the connection.
@@ -66,6 +71,8 @@ class Connection {
   Awaitable<bool> Begin();
   /// Reads the body, if the service has room for it. False: the request was refused.
   Awaitable<bool> ReadBody(Parser& parser, const HttpRequest& head);
+  /// True if the client has left.
+  bool Closed();
   /// Refuses a request that cannot be read, and waits until the client has seen that.
   Awaitable<void> Reject(const Parser& parser, boost::beast::error_code error);
   Awaitable<void> Refuse(const HttpRequest& head, HttpAnswer answer);

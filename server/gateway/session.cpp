@@ -24,6 +24,7 @@ namespace {
 
 namespace asio = boost::asio;
 using asio::awaitable;
+using Leaving = Connection::Leaving;
 
 constexpr std::chrono::seconds kReadyTime{2};
 
@@ -50,11 +51,11 @@ class Session : public std::enable_shared_from_this<Session> {
   template <class Call>
   class Running {
    public:
-    Running(Session& session, const RpcRequest& request) : session_(session) {
+    Running(Session& session, const RpcRequest& request, Leaving leaving) : session_(session) {
       call_ = Call::Start(session.service_, request, session.connection_.peer(), session.Poster(),
                           session.Waker());
       session.connection_.Watch(
-          [self = session.shared_from_this(), call = call_] { call->Cancel(); });
+          leaving, [self = session.shared_from_this(), call = call_] { call->Cancel(); });
     }
     ~Running() {
       call_->Leave();
@@ -157,7 +158,7 @@ awaitable<std::optional<grpc::ByteBuffer>> Session::Next(RpcCall& call) {
 awaitable<bool> Session::Unary(const HttpRequest& request, const RpcRequest& asked) {
   HttpAnswer answer;
   {
-    const Running<UnaryCall> call(*this, asked);
+    const Running<UnaryCall> call(*this, asked, Leaving::kResets);
     while (!call->status()) co_await Changed();
     answer = AnswerOf(asked, call->TakeAnswer(), *call->status(), call->head(), call->trailers());
   }
@@ -165,7 +166,8 @@ awaitable<bool> Session::Unary(const HttpRequest& request, const RpcRequest& ask
 }
 
 awaitable<bool> Session::Streaming(const HttpRequest& request, const RpcRequest& asked) {
-  const Running<RpcCall> call(*this, asked);
+  // A stream may wait long for a message, and so for a sign that the client has closed all.
+  const Running<RpcCall> call(*this, asked, Leaving::kCloses);
   while (!call->has_head()) co_await Changed();
   HttpAnswer head;
   head.headers = HeadersOf(asked.dialect);
@@ -193,7 +195,7 @@ awaitable<bool> Session::Readiness(const HttpRequest& request) {
   using grpc::health::v1::HealthCheckResponse;
   HealthCheckResponse health;
   {
-    const Running<UnaryCall> call(*this, HealthCheck());
+    const Running<UnaryCall> call(*this, HealthCheck(), Leaving::kResets);
     while (!call->status()) co_await Changed();
     if (call->status()->ok()) health.ParseFromString(call->TakeAnswer());
   }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -33,13 +34,45 @@ constexpr std::int64_t kNoTime = 253'402'300'800;
 
 // Asks for an answer of 18 MB in JSON, more than sockets hold; its bytes are few enough for gRPC.
 constexpr char kLarge[] = R"({"name":"large"})";
+// Asks for an answer that waits for the test.
+constexpr char kSlow[] = R"({"name":"slow"})";
+
+// A call that lasts until it is cancelled or told to end.
+class SlowCall {
+ public:
+  void Run(const grpc::ServerContext& context) {
+    begun_.set_value();
+    const auto end = end_.get_future();
+    while (!context.IsCancelled() && end.wait_for(1ms) != std::future_status::ready) {
+    }
+    cancelled_.set_value(context.IsCancelled());
+  }
+  bool Begins() { return begun_.get_future().wait_for(kPatience) == std::future_status::ready; }
+  void End() { end_.set_value(); }
+  // False also if it does not end.
+  bool IsCancelled() {
+    auto ended = cancelled_.get_future();
+    return ended.wait_for(kPatience) == std::future_status::ready && ended.get();
+  }
+
+ private:
+  std::promise<void> begun_, end_;
+  std::promise<bool> cancelled_;
+};
 
 // Answers with a time that JSON does not have, or with what a name asks for.
 class TestService final : public v1::JobService::Service {
-  grpc::Status GetJob(grpc::ServerContext* /*context*/, const v1::GetJobRequest* request,
+ public:
+  SlowCall& slow() { return slow_; }
+
+ private:
+  grpc::Status GetJob(grpc::ServerContext* context, const v1::GetJobRequest* request,
                       v1::Job* job) override {
     if (request->name() == "large") {
       job->set_name(std::string(3'000'000, '\x01'));  // Six times as long in JSON.
+    } else if (request->name() == "slow") {
+      slow_.Run(*context);
+      job->set_name("done");
     } else {
       job->mutable_create_time()->set_seconds(kNoTime);
     }
@@ -54,6 +87,8 @@ class TestService final : public v1::JobService::Service {
     writer->Write(response);
     return grpc::Status::OK;
   }
+
+  SlowCall slow_;
 };
 
 // A client that says what it likes.
@@ -71,6 +106,13 @@ class Client {
   bool Send(const std::string& text) const {
     return send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL) ==
            static_cast<ssize_t>(text.size());
+  }
+  // Says that nothing more comes, but goes on to read.
+  void CloseHalf() const { shutdown(socket_.get(), SHUT_WR); }
+  // Has the other side told when this goes.
+  void ResetAtEnd() const {
+    const linger none = {1, 0};
+    setsockopt(socket_.get(), SOL_SOCKET, SO_LINGER, &none, sizeof(none));
   }
   // True once something comes, or the other side has closed.
   bool Wait(std::chrono::milliseconds most) const {
@@ -131,6 +173,7 @@ class GatewayTest : public testing::Test {
                                          std::move(options));
     return Client(port_);
   }
+  SlowCall& slow() { return service_.slow(); }
   std::size_t connections() const { return gateway_->connections(); }
   // Whether others are answered.
   bool Answers() const {
@@ -179,6 +222,26 @@ TEST_F(GatewayTest, JsonThatThereIsNoRoomForIsRefusedAsItsProtocolSays) {
   const auto frames = gateway::ToFrames(BodyOf(client.ReadAll()));
   ASSERT_TRUE(frames && frames->size() == 1);
   EXPECT_TRUE(frames->front().payload.starts_with("grpc-status: 8\r\n"));
+}
+
+TEST_F(GatewayTest, AUnaryCallIsAnsweredToAClientThatHasClosedItsHalf) {
+  const Client client = Connect({});
+  client.Send(Post("GetJob", "application/json", kSlow));
+  ASSERT_TRUE(slow().Begins());
+  client.CloseHalf();
+  EXPECT_FALSE(client.Wait(50ms)) << "the call is cancelled";
+  slow().End();
+  EXPECT_TRUE(client.ReadAll().ends_with(R"({"name":"done"})"));
+}
+
+TEST_F(GatewayTest, AUnaryCallIsCancelledOnceItsClientTakesNothingMore) {
+  {
+    const Client client = Connect({});
+    client.Send(Post("GetJob", "application/json", kSlow));
+    ASSERT_TRUE(slow().Begins());
+    client.ResetAtEnd();
+  }
+  EXPECT_TRUE(slow().IsCancelled());
 }
 
 TEST_F(GatewayTest, AnAnswerThatIsTakenDropByDropIsCut) {

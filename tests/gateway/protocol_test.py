@@ -61,11 +61,7 @@ class HttpTest(GatewayTest):
         self.assertNotIn(b"chunked", head)
         self.assertEqual(frames(rest)[-1], (2, b"{}"))
 
-    def test_a_client_that_closes_its_half_has_left(self):
-        raw = self.connect()
-        raw.sendall(self.request("GET", b"", target="/healthz"))
-        raw.shutdown(socket.SHUT_WR)
-        self.assertTrue(read_all(raw).endswith(b"ok\n"))
+    def test_a_stream_ends_for_a_client_that_closes_its_half(self):
         raw = self.connect()
         body = frame(b"{}")
         raw.sendall(f"POST {SERVICE}WatchJobs HTTP/1.1\r\nhost: localhost\r\ncontent-type: "
@@ -75,7 +71,14 @@ class HttpTest(GatewayTest):
         raw.shutdown(socket.SHUT_WR)
         self.assertIn(b'"canceled"', read_all(raw))
 
-    def test_the_call_of_a_client_that_leaves_is_cancelled(self):
+    def test_a_unary_call_is_answered_to_a_client_that_closes_its_half(self):
+        raw = self.connect()
+        raw.sendall(self.request("POST"))
+        raw.shutdown(socket.SHUT_WR)
+        self.assertEqual(read_answer(raw)[0], 200)
+        self.assertEqual(raw.recv(1), b"")
+
+    def test_the_stream_of_a_client_that_leaves_is_cancelled(self):
         name = self.server.create(endless()).name
         raw = self.connect()
         body = frame(json.dumps({"name": name}).encode())
