@@ -49,6 +49,12 @@ int FamilyOf(int fd) {
   return address.ss_family;
 }
 
+// True if nobody knows where the body ends.
+template <class Parser>
+bool IsOfUnknownCoding(const Parser& parser) {
+  return parser.get().count(http::field::transfer_encoding) > 0 && !parser.chunked();
+}
+
 std::string_view ReasonOf(int status) {
   if (status == 499) return "Client Closed Request";
   const auto reason = http::obsolete_reason(static_cast<http::status>(status));
@@ -86,6 +92,7 @@ asio::awaitable<std::optional<HttpRequest>> Connection::Read() {
   ErrorCode error;
   stream_.expires_after(service_.options().head);
   co_await http::async_read_header(stream_, buffer_, parser, Into(&error));
+  if (!error && IsOfUnknownCoding(parser)) error = http::error::bad_transfer_encoding;
   keep_alive_ = !error && parser.get().keep_alive();
   http11_ = parser.get().version() >= 11;
   if (error) {
