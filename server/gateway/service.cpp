@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "gateway/protocol/rpc_request.h"
+
 namespace contact::gateway {
 namespace {
 
@@ -18,11 +20,12 @@ bool Has(const Headers& headers, std::string_view name) {
 }  // namespace
 
 HttpAnswer Service::Answer(const HttpRequest& request) const {
-  if (request.method == "OPTIONS") return Options(options_.rules, request);
+  const std::string allowed = AllowedMethods(request);
+  if (request.method == "OPTIONS") return Options(options_.rules, request, allowed);
   if (request.method != "GET" && request.method != "HEAD") {
     HttpAnswer answer =
         PlainAnswer(request.method == "POST" ? 404 : 405, "there is no such method");
-    answer.headers.emplace_back("allow", "GET, HEAD, OPTIONS");
+    answer.headers.emplace_back("allow", allowed);
     return answer;
   }
   if (request.path() == "/healthz") return PlainAnswer(200, "ok");

@@ -114,7 +114,7 @@ TEST(RpcRequestTest, OnlyMethodsWithoutSideEffectsAreAGet) {
     get.target = std::string(path) + "?encoding=json&message=%7B%7D";
     const HttpAnswer answer = Refusal(get);
     EXPECT_EQ(answer.status, 405);
-    EXPECT_THAT(answer.headers, Contains(Pair("allow", "POST")));
+    EXPECT_THAT(answer.headers, Contains(Pair("allow", "POST, OPTIONS")));
   }
 }
 

@@ -62,8 +62,9 @@ Headers CorsHeaders(const OriginRules& rules, const HttpRequest& request) {
           {"vary", "origin"}};
 }
 
-HttpAnswer Options(const OriginRules& rules, const HttpRequest& request) {
-  HttpAnswer answer{204, {{"allow", "GET, HEAD, POST, OPTIONS"}}, ""};
+HttpAnswer Options(const OriginRules& rules, const HttpRequest& request,
+                   const std::string& allowed) {
+  HttpAnswer answer{204, {{"allow", allowed}}, ""};
   if (!IsAllowedOrigin(rules, request)) return answer;
   answer.headers.emplace_back("access-control-allow-methods", "GET, POST");
   const std::string asked(request.header("access-control-request-headers"));

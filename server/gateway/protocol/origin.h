@@ -25,7 +25,8 @@ std::optional<HttpAnswer> Refuse(const OriginRules& rules, const HttpRequest& re
 /// The headers that let a page of an origin of the rules read the answer; none for others.
 Headers CorsHeaders(const OriginRules& rules, const HttpRequest& request);
 
-/// The answer to OPTIONS.
-HttpAnswer Options(const OriginRules& rules, const HttpRequest& request);
+/// The answer to OPTIONS where these methods are allowed.
+HttpAnswer Options(const OriginRules& rules, const HttpRequest& request,
+                   const std::string& allowed);
 
 }  // namespace contact::gateway

@@ -148,6 +148,10 @@ std::optional<Dialect> DialectOf(const HttpRequest& request) {
   return DialectOf("application/" + encoding);
 }
 
+bool MayBeGot(const MethodDescriptor& method) {
+  return HasNoSideEffects(method) && !method.server_streaming();
+}
+
 bool Fits(const Dialect& dialect, const MethodDescriptor& method) {
   if (dialect.web()) return true;
   return dialect.framed() == method.server_streaming();
@@ -157,13 +161,18 @@ bool Fits(const Dialect& dialect, const MethodDescriptor& method) {
 
 bool IsRpc(const HttpRequest& request) { return FindMethod(request.path()) != nullptr; }
 
+std::string AllowedMethods(const HttpRequest& request) {
+  const MethodDescriptor* method = FindMethod(request.path());
+  if (method == nullptr) return "GET, HEAD, OPTIONS";
+  return MayBeGot(*method) ? "GET, POST, OPTIONS" : "POST, OPTIONS";
+}
+
 std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request) {
   RpcRequest call{.method = FindMethod(request.path()), .path = std::string(request.path())};
   const bool get = request.method == "GET";
-  const bool may_get = HasNoSideEffects(*call.method) && !call.method->server_streaming();
-  if (request.method != "POST" && !(get && may_get)) {
+  if (request.method != "POST" && !(get && MayBeGot(*call.method))) {
     return WithHeader(PlainAnswer(405, "the method is not called so"), "allow",
-                      may_get ? "GET, POST" : "POST");
+                      AllowedMethods(request));
   }
   const auto dialect = DialectOf(request);
   if (!dialect || !Fits(*dialect, *call.method)) return WrongType();

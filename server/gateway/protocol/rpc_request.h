@@ -29,6 +29,9 @@ struct RpcRequest {
 /// True if the request is for a method of the contract.
 bool IsRpc(const HttpRequest& request);
 
+/// The methods of HTTP that the target of a request takes, as `Allow` has them.
+std::string AllowedMethods(const HttpRequest& request);
+
 /// What a request that IsRpc asks for, by the specifications of Connect and gRPC-Web; or the answer
 /// to one that does not keep to them.
 std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request);
