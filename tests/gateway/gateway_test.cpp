@@ -2,6 +2,7 @@
 #include "gateway/gateway.h"
 
 #include <arpa/inet.h>
+#include <gmock/gmock.h>
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -28,6 +29,7 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 using std::chrono::steady_clock;
+using testing::HasSubstr;
 
 // Past the last year that JSON has.
 constexpr std::int64_t kNoTime = 253'402'300'800;
@@ -68,6 +70,7 @@ class TestService final : public v1::JobService::Service {
  private:
   grpc::Status GetJob(grpc::ServerContext* context, const v1::GetJobRequest* request,
                       v1::Job* job) override {
+    AddMetadata(context);
     if (request->name() == "large") {
       job->set_name(std::string(3'000'000, '\x01'));  // Six times as long in JSON.
     } else if (request->name() == "slow") {
@@ -78,14 +81,21 @@ class TestService final : public v1::JobService::Service {
     }
     return grpc::Status::OK;
   }
-  grpc::Status WatchJob(grpc::ServerContext* /*context*/, const v1::WatchJobRequest* /*request*/,
+  grpc::Status WatchJob(grpc::ServerContext* context, const v1::WatchJobRequest* /*request*/,
                         grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
+    AddMetadata(context);
     v1::WatchJobResponse response;
     response.mutable_snapshot()->set_name("jobs/a");
     writer->Write(response);
     response.mutable_snapshot()->mutable_create_time()->set_seconds(kNoTime);
     writer->Write(response);
     return grpc::Status::OK;
+  }
+  static void AddMetadata(grpc::ServerContext* context) {
+    context->AddInitialMetadata("x-head", "1");
+    context->AddInitialMetadata("x-head-bin", "\xff");
+    context->AddTrailingMetadata("x-tail", "2");
+    context->AddTrailingMetadata("x-tail-bin", "\xfe");
   }
 
   SlowCall slow_;
@@ -206,6 +216,37 @@ TEST_F(GatewayTest, AStreamedMessageWithoutJsonEndsTheStreamWithAnError) {
   EXPECT_EQ(json::parse(frames->front().payload)["snapshot"]["name"], "jobs/a");
   EXPECT_EQ(frames->back().flags, gateway::kEndOfStream);
   EXPECT_EQ(json::parse(frames->back().payload)["error"]["code"], "internal");
+}
+
+TEST_F(GatewayTest, MetadataOfTheServerComeBeforeAndBehindAnAnswer) {
+  const Client client = Connect({});
+  client.Send(Post("GetJob", "application/proto", ""));
+  const std::string answer = client.ReadAll();
+  for (const char* line :
+       {"x-head: 1", "x-head-bin: /w", "trailer-x-tail: 2", "trailer-x-tail-bin: /g"}) {
+    EXPECT_THAT(answer, HasSubstr("\r\n" + std::string(line) + "\r\n"));
+  }
+}
+
+TEST_F(GatewayTest, MetadataOfTheServerComeBeforeAndBehindAStream) {
+  const Client client = Connect({});
+  client.Send(Post("WatchJob", "application/connect+proto", gateway::ToBytes({0, ""})));
+  const std::string answer = client.ReadAll();
+  EXPECT_THAT(answer, HasSubstr("\r\nx-head: 1\r\nx-head-bin: /w\r\n"));
+  const auto frames = gateway::ToFrames(Unchunked(BodyOf(answer)));
+  ASSERT_TRUE(frames && !frames->empty());
+  EXPECT_EQ(json::parse(frames->back().payload)["metadata"],
+            json({{"x-tail", {"2"}}, {"x-tail-bin", {"/g"}}}));
+}
+
+TEST_F(GatewayTest, MetadataOfTheServerAreHeadersAndTrailersOfTheWeb) {
+  const Client client = Connect({});
+  client.Send(Post("GetJob", "application/grpc-web", gateway::ToBytes({0, ""})));
+  const std::string answer = client.ReadAll();
+  EXPECT_THAT(answer, HasSubstr("\r\nx-head: 1\r\nx-head-bin: /w\r\n"));
+  const auto frames = gateway::ToFrames(BodyOf(answer));
+  ASSERT_TRUE(frames && frames->size() == 2);
+  EXPECT_THAT(frames->back().payload, HasSubstr("x-tail: 2\r\nx-tail-bin: /g\r\n"));
 }
 
 TEST_F(GatewayTest, AnAnswerThatThereIsNoRoomForIsRefusedAsItsProtocolSays) {
