@@ -1,5 +1,6 @@
-// The gateway beside native gRPC, in one run: bytes of a stream, time of a unary call, and what
-// clients that take nothing cost. gateway_benchmark --contactd build/release/server/contactd
+// The gateway beside native gRPC, in one run: bytes of a stream, time of a unary call, also beside
+// streams in JSON, and what clients that take nothing cost. gateway_benchmark --contactd
+// build/release/server/contactd
 #include <fmt/format.h>
 #include <grpcpp/grpcpp.h>
 #include <netinet/in.h>
@@ -8,9 +9,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <future>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -256,6 +259,26 @@ void Calls(Stub& stub, int port, const UnaryCall& call, const Sizes& sizes) {
       Quantile(bytes, 0.99));
 }
 
+// Calls beside two clients that read the stream in JSON again and again.
+void BesideJson(int port, const std::string& name, const Sizes& sizes) {
+  std::atomic<bool> stop = false;
+  const auto read = [&] {
+    while (!stop) HttpStream(port, name, "application/connect+json");
+  };
+  auto one = std::async(std::launch::async, read);
+  auto other = std::async(std::launch::async, read);
+  std::vector<double> times;
+  constexpr int kRounds = 10;  // On connections of their own, so that all threads are met.
+  for (int i = 0; i < kRounds; ++i) {
+    HttpCalls(port, GetJob(name), true, sizes.calls / kRounds, &times);
+  }
+  stop = true;
+  one.get();
+  other.get();
+  fmt::print("GetJob beside two streams in JSON, p50 / p99 ms: {:.3f} / {:.3f}\n",
+             Quantile(times, 0.5), Quantile(times, 0.99));
+}
+
 void Stalled(const ServerProcess& server, int port, const std::string& name, const Sizes& sizes) {
   const double before = server.ResidentMegabytes();
   std::vector<HttpClient> clients;
@@ -290,6 +313,7 @@ int RunAll(const std::string& contactd, const Sizes& sizes) {
   Streams(*stub, port, name, sizes);
   Calls(*stub, port, GetServerInfo(), sizes);
   Calls(*stub, port, GetJob(name), sizes);
+  BesideJson(port, name, sizes);
   Stalled(server, port, name, sizes);
   return EXIT_SUCCESS;
 }
