@@ -12,6 +12,7 @@ OWN_CLOCK = {
     "server/base/clock.cpp": "is the clock",
     "server/self_probe.cpp": "deadlines of calls are gRPC's, in system time",
     "server/gateway/rpc_call.cpp": "deadlines of calls are gRPC's, in system time",
+    "server/gateway/connection.cpp": "limits what real sockets do in real time",
     "server/rpc/grpc_server.cpp": "gRPC takes the deadline of its shutdown as system time",
     "server/rpc/grpc_log.cpp": "gRPC logs before there is a server to inject a clock into",
     "server/rpc/shutdown_timer.cpp": "waits on a condition until a real instant",

@@ -71,7 +71,7 @@ class Connection {
   Awaitable<bool> Begin();
   /// Reads the body, if the service has room for it. False: the request was refused.
   Awaitable<bool> ReadBody(Parser& parser, const HttpRequest& head);
-  /// True if the client has left.
+  /// True if the client has closed the connection or its half of it.
   bool Closed();
   /// Refuses a request that cannot be read, and waits until the client has seen that.
   Awaitable<void> Reject(const Parser& parser, boost::beast::error_code error);

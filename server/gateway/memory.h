@@ -6,7 +6,7 @@
 
 namespace contact::gateway {
 
-/// Memory that many share. It is not had, only counted. Thread-safe.
+/// Counts memory that many share, and has none itself. Thread-safe.
 class Memory {
  public:
   struct GiveBack {

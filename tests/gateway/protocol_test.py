@@ -123,7 +123,7 @@ class HttpTest(GatewayTest):
         answer = read_all(raw)
         self.assertTrue(answer.startswith(b"HTTP/1.1 400 "), answer)
         self.assertIn(b"\r\nconnection: close\r\n", answer)
-        self.assertEqual(answer.count(b"HTTP/1.1 "), 1, answer)
+        self.assertEqual(answer.count(b"\r\n\r\n"), 1, answer)
 
     def test_length_and_chunks_together_are_refused(self):
         chunked, length = "transfer-encoding: chunked", "content-length: 5"
