@@ -28,6 +28,10 @@ constexpr int kRescans = 5;
 constexpr double kPoor = 0.02, kGood = 1e-3;
 // Relative error of passes that only look, and a miss that they can tell.
 constexpr double kCoarse = 1e-6, kNear = 1e-4;
+// A group that began compressed and misses by more than this may be there only because others miss;
+// of fronts of a few groups all are solved at once.
+constexpr double kAstray = 0.5;
+constexpr std::size_t kFew = 6;
 constexpr double kForever = 1e300;
 // A miss that may be the error of the first, coarse look.
 constexpr double kNoise = 1e-6;
@@ -43,6 +47,25 @@ bool IsApart(const Sight& sight) {
 bool Within(const std::vector<GroupId>& front, const Sight& sight, double miss) {
   return std::ranges::all_of(
       front, [&](const GroupId& id) { return std::abs(sight.Find(id)->Miss()) <= miss; });
+}
+
+// Those of these groups that begin an encounter or miss by little, if one of them misses by more
+// than `miss`; else all.
+std::vector<GroupId> WithoutAstray(const std::vector<GroupId>& groups, const Sight& sight,
+                                   double miss) {
+  std::vector<GroupId> rest;
+  for (const GroupId& id : groups) {
+    if (id.place == 1 || std::abs(sight.Find(id)->Miss()) < kAstray) rest.push_back(id);
+  }
+  return groups.size() <= kFew || Within(rest, sight, miss) ? groups : rest;
+}
+
+// Groups of which an earlier search has found the answer. It may have seen many more, with guesses.
+int Answered(const Groups& groups) {
+  return static_cast<int>(std::ranges::count_if(groups.known(), [](const auto& entry) {
+    const Unknown& u = entry.second;
+    return u.corrected && (u.Decided() || u.status == Cycle::Status::kConverged);
+  }));
 }
 
 }  // namespace
@@ -102,7 +125,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
   }
   const auto running = static_cast<int>(std::ranges::count_if(
       start.contacts, [](const ContactState& c) { return c.phase == Phase::kRestitution; }));
-  window_.Begin(start.time, running, static_cast<int>(problem_.groups.known().size()),
+  window_.Begin(start.time, running, Answered(problem_.groups),
                 static_cast<int>(scenario_.contacts.size()),
                 scenario_.solver.restitution_scope == RestitutionScope::kEncounter
                     ? scenario_.solver.encounter_cycles
@@ -205,8 +228,8 @@ bool EpisodeSolver::Accepts(Motion::Pause pause) {
 Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front) {
   const std::vector<GroupId> part = EarliestPart(front, sight, kPoor);
   guessing_ = !part.empty();
-  const bool whole = part.empty() || part.size() == front.size();
-  const std::vector<GroupId>& now = whole ? front : part;
+  const std::vector<GroupId> now = WithoutAstray(part.empty() ? front : part, sight, kGood);
+  const bool whole = now.size() == front.size();
   const bool unsolved = now == solved_;  // As a scan has seen it after all.
   if (unsolved) problem_.Distrust();
   const double goal = whole ? problem_.tolerance() : kGood;
@@ -266,7 +289,7 @@ bool EpisodeSolver::Bisect(const Sight& sight, const std::vector<GroupId>& front
 }
 
 // The group because of which Newton's method has stalled. What gives back too much may do so
-// because those before it miss: that is left to a sweep, and so is a root that changes nothing.
+// because others miss: that is left to a sweep, and so is a root that changes nothing.
 bool EpisodeSolver::BisectSuspect(const Sight& sight, const std::vector<GroupId>& front) {
   const GroupId id = newton_.suspect().front();
   const Sight now = problem_.Evaluate({id}, false, kForever, kCoarse);
@@ -275,7 +298,12 @@ bool EpisodeSolver::BisectSuspect(const Sight& sight, const std::vector<GroupId>
   if (group.weak || problem_.Aborted()) return problem_.Aborted();
   const Root root = bisection_.Solve(group, !Grows());
   if (root == Root::kFound) return false;
-  if (root == Root::kTooMuch) return Bisect(sight, front);
+  const auto misses = [&](const GroupId& other) {
+    const GroupSight* g = now.Find(other);
+    return other != id && g != nullptr && g->ended && std::abs(g->Miss()) > kGood;
+  };
+  const bool others = front.size() <= kFew || std::ranges::any_of(front, misses);
+  if (root == Root::kTooMuch && others) return Bisect(sight, front);
   return root == Root::kAborted || Answer(group, root);
 }
 

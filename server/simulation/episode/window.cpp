@@ -24,7 +24,7 @@ void Window::Begin(double start, int running, int known, int contacts, int longe
   packing_ = packing;
   start_ = start;
   most_ = MostWindowCycles(static_cast<std::size_t>(contacts));
-  cycles_ = std::min(longest * std::max({known, kFirst, running + kMore}), most_);
+  cycles_ = std::min(longest * std::max(kFirst, std::max(known, running) + kMore), most_);
 }
 
 // Whether the pass saw the ends of all groups that overlap with it in time: the μ of one whose end

@@ -9,7 +9,8 @@ namespace contact {
 /// README.md.
 class Window {
  public:
-  /// Of an episode that begins at `start` [s] while so many cycles run; `known` groups have a μ.
+  /// Of an episode that begins at `start` [s] while so many cycles run; `known` groups have
+  /// their μ from an earlier search.
   /// `longest`: cycles that a group may have at first. `packing`: loads, supports or walls may keep
   /// contacts closed, so that groups may grow late.
   void Begin(double start, int running, int known, int contacts, int longest, bool packing);
