@@ -16,6 +16,13 @@ from contactd import (BINARY, ENDED, PATIENCE_S, Job, Server, ServerTest, cluste
                       wait_for)
 from shared import LEASE_S, Shared
 
+# Jobs of a worker that died run elsewhere so long after its last word; on an idle machine, a second
+# after its lease.
+TAKE_OVER_S = LEASE_S + 5
+# A worker that was only slow runs other jobs after so long; on an idle machine, after its next word,
+# a fifth of its lease later.
+BACK_S = 10
+
 
 def result_of(job):
     """What the physics gave."""
@@ -255,7 +262,7 @@ class WorkerTest(ClusterTest):
         died = time.monotonic()
         self.shared.worker("--workers=1")
         wait_for(lambda: front.get(name).attempt == 2)
-        self.assertLess(time.monotonic() - died, LEASE_S + 5)  # Promised: 1 s, on an idle machine.
+        self.assertLess(time.monotonic() - died, TAKE_OVER_S)
         watcher.join(PATIENCE_S)
         self.assertWholeLog(events)
         job = front.get(name)
@@ -279,7 +286,7 @@ class WorkerTest(ClusterTest):
         with concurrent.futures.ThreadPoolExecutor() as pool:
             watch = pool.submit(front.events, name)
             go()
-            self.shared.worker("--workers=1")
+            other = self.shared.worker("--workers=1")
             time.sleep(1.5 * LEASE_S)
             wait_for(lambda: front.get(name).attempt == 2)
             come_back()
@@ -291,9 +298,10 @@ class WorkerTest(ClusterTest):
         self.assertEqual(sum(e.state_changed.state in ENDED for e in events), 1)
         job = front.get(name)
         self.assertEqual(result_of(job), result_of(self.server.run(scenario)))
-        # It takes part again.
-        another = front.run(three_ball_chain())
-        self.assertEqual(another.state, Job.SUCCEEDED)
+        other.kill()
+        alone = time.monotonic()
+        self.assertEqual(front.run(three_ball_chain()).state, Job.SUCCEEDED)
+        self.assertLess(time.monotonic() - alone, BACK_S)
 
     def test_worker_hands_its_jobs_back_when_it_is_asked_to_end(self):
         front = self.shared.front()
