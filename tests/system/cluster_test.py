@@ -430,6 +430,18 @@ class RolesTest(ClusterTest):
             with self.subTest(role=role, sql=sql):
                 self.assertFalse(self.may(role, sql))
 
+    def test_role_that_meets_older_tables_is_told_to_migrate(self):
+        self.shared.ask("UPDATE contactd.version SET version = 1")
+        for role in "front", "worker":
+            done = subprocess.run([BINARY, f"--role={role}", f"--store={self.as_role('a_' + role)}"],
+                                  capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+            with self.subTest(role=role):
+                self.assertEqual(done.returncode, 2)
+                self.assertRegex(done.stderr, r"\Acontactd: .* has tables of an older version; "
+                                 r"run contactd migrate as their owner\n\Z")
+        self.migrate()
+        self.assertTrue(self.may("a_front", "SELECT contactd.schema_version()"))
+
     def test_rights_of_an_earlier_version_are_taken_back(self):
         self.shared.ask("GRANT SELECT ON contactd.jobs TO a_front;"
                         "GRANT EXECUTE ON FUNCTION contactd.leave TO a_launcher")

@@ -58,10 +58,10 @@ std::string OnlyTo(const std::string& name, std::initializer_list<Functions> all
 
 std::string GrantScript(const Grants& grants) {
   if (grants.front.empty() && grants.worker.empty() && grants.launcher.empty()) return "";
-  return absl::StrCat(
-      "REVOKE ALL ON ALL FUNCTIONS IN SCHEMA contactd FROM PUBLIC;", AsOwner(kShared),
-      AsOwner(kOfFront), AsOwner(kOfWorker), OnlyTo(grants.front, {kShared, kOfFront}),
-      OnlyTo(grants.worker, {kShared, kOfWorker}), OnlyTo(grants.launcher, {kOfLauncher}));
+  return absl::StrCat(AsOwner(kShared), AsOwner(kOfFront), AsOwner(kOfWorker),
+                      OnlyTo(grants.front, {kShared, kOfFront}),
+                      OnlyTo(grants.worker, {kShared, kOfWorker}),
+                      OnlyTo(grants.launcher, {kOfLauncher}));
 }
 
 }  // namespace contact::postgres

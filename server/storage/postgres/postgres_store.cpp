@@ -332,9 +332,7 @@ std::string PostgresName(const std::string& address) {
 absl::Status MigratePostgres(const std::string& address, const postgres::Grants& grants) {
   const auto connection = Connection::Open(address);
   if (!connection.ok()) return connection.status();
-  const absl::Status migrated = postgres::Migrate(**connection);
-  const std::string script = postgres::GrantScript(grants);
-  return migrated.ok() && !script.empty() ? (*connection)->RunScript(script) : migrated;
+  return postgres::Migrate(**connection, grants);
 }
 
 absl::StatusOr<std::unique_ptr<SharedStore>> OpenPostgres(const std::string& address,
