@@ -17,6 +17,7 @@ export interface Shown {
   ink: Ink;
   onZoom: (window: Window | undefined) => void;
   onCursor: (index: number | null) => void;
+  onDrawn: () => void;
 }
 
 const NAMED_FROM_PX = 480;   // Narrower plots have no room for names beside the curves.
@@ -110,7 +111,7 @@ export function buildPlot(shown: Shown, width: number, height: number, into: HTM
     cursor: cursorOf(shown),
     hooks: {
       drawAxes: [(plot) => drawBehind(sheet(plot))],
-      draw: [(plot) => drawOver(sheet(plot), shown.hidden, plot.width >= NAMED_FROM_PX)],
+      draw: [(plot) => drawOver(sheet(plot), shown.hidden, plot.width >= NAMED_FROM_PX), () => shown.onDrawn()],
       setSelect: [(plot) => takeSelection(plot, shown)],
       setCursor: [(plot) => shown.onCursor(plot.cursor.idx ?? null)],
     },

@@ -55,7 +55,7 @@ export class Reading {
     this.drawn(panel);
   }
 
-  /** The plot has other values than before, or shows another part of them. */
+  /** The plot has been drawn, perhaps of other values, or of another part of them. */
   drawn(panel: Panel): void {
     if (timed(panel)) moveLine(this.plot, playhead());
     this.#show();

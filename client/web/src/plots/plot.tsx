@@ -98,7 +98,8 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
 
   useLayoutEffect(() => {
     const ink = inkOf(box.current!);
-    shown.current = {panel, window: span, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: (place) => reading.point(place)};
+    shown.current = {panel, window: span, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: (place) => reading.point(place),
+      onDrawn: () => reading.drawn(shown.current!.panel)};
     plot.current = buildPlot(shown.current, box.current!.clientWidth || 400, height, box.current!);
     const observer = new ResizeObserver(() => {
       const width = box.current?.clientWidth;
@@ -118,7 +119,6 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
         if (plot.current!.series[i + 1]!.show !== visible) plot.current!.setSeries(i + 1, {show: visible});
       });
       plot.current.setData(aligned(panel));
-      reading.drawn(panel);
     });
   }, [panel, span?.[0], span?.[1], hidden]);
 

@@ -8,7 +8,7 @@ import type {Job} from '../api/generated/contact/v1/job_pb';
 import {readSeries, type Series} from '../api/series';
 import {compareResults, deviation, differingParameters, type Result, type Value} from '../model/comparison';
 import {mechanicsOf} from '../model/mechanics';
-import {exact} from '../model/numbers';
+import {exact, short as digits} from '../model/numbers';
 import type {Panel} from '../model/panel';
 import {Plot} from '../plots/plot';
 import {LeftOut} from '../ui/left_out';
@@ -101,9 +101,13 @@ function overlay(channel: string, jobs: Job[], series: (Series | undefined)[]): 
 
 /** Moves the moment whose values all plots tell. */
 function Moment({from, to}: {from: number; to: number}) {
+  const [time, setTime] = useState<number>();
+  useEffect(() => setPlayhead(time), [time]);
   useEffect(() => () => setPlayhead(undefined), []);
-  return <label>Values at <input class="scrub" type="range" min="0" max="1" step="0.0005" defaultValue="0" aria-label="moment"
-    onInput={(e) => setPlayhead(from + Number(e.currentTarget.value) * (to - from))} /></label>;
+  const part = time === undefined ? 0 : (time - from) / (to - from) || 0;
+  const words = time === undefined ? '' : `${digits(time * 1000, 7)} ms`;
+  return <label>Values at <input class="scrub" type="range" min="0" max="1" step="0.0005" value={part} aria-label="moment" aria-valuetext={words}
+    onInput={(e) => setTime(from + Number(e.currentTarget.value) * (to - from))} /> <span class="mono">{words}</span></label>;
 }
 
 function Overlay({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
