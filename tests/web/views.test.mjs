@@ -48,7 +48,7 @@ test('the list of runs turns its pages and tells how many match', async () => {
   await page.getByText('page 1 of 1, 30 runs').waitFor();
   await open('/runs');
   await page.getByLabel('State').selectOption('NOT_CONVERGED');
-  await page.getByText('page 1 of 1, 1 runs').waitFor();
+  await page.getByText('page 1 of 1, 1 run').waitFor();
   assert.match(await rows.innerText(), /Missed.*NOT CONVERGED/s);
   await page.getByLabel('State').selectOption('FAILED');
   await page.getByText('No run matches.').waitFor();

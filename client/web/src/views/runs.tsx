@@ -69,8 +69,8 @@ function Filters({query}: {query: URLSearchParams}) {
         <option value="">all</option>{STATES.map((s) => <option key={s} value={s}>{s.toLowerCase().replace('_', ' ')}</option>)}
       </select></label>
       <label>Label <input value={query.get('label') ?? ''} placeholder="key=value" onChange={change('label')} /></label>
-      <label>Created after {time('after')}</label>
-      <label>before {time('before')}</label>
+      <span class="group"><label>Created after {time('after')}</label>
+        <label>before {time('before')}</label></span>
       <label>Metric <select value={query.get('metric') ?? 'iterations'} onChange={change('metric')}>
         {METRICS.map(({id, label}) => <option key={id} value={id}>{label}</option>)}
       </select></label>
@@ -86,7 +86,7 @@ function Pages({page, pages, total}: {page: number; pages: number; total: number
   return (
     <div class="tools pages">
       <button type="button" disabled={page === 0} onClick={() => to(page - 1)}>‹ Newer</button>
-      <span aria-live="polite">page {page + 1} of {pages}, {count(total)} runs</span>
+      <span aria-live="polite">page {page + 1} of {pages}, {count(total)} {total === 1 ? 'run' : 'runs'}</span>
       <button type="button" disabled={page + 1 >= pages} onClick={() => to(page + 1)}>Older ›</button>
       <button type="button" disabled={page + 1 >= pages} onClick={() => to(pages - 1)}>Last</button>
     </div>

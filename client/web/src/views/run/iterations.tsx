@@ -27,7 +27,7 @@ function episodeOf(run: RunState, query: URLSearchParams): number {
 /** Why an episode has no points. */
 function emptyOf({dropped, droppedTo, iterations}: RunState, episode: number): string {
   if (dropped > 0 && episode <= droppedTo) return `The passes of episode ${count(episode)} are no longer in this page.`;
-  return iterations.length > 0 ? `Episode ${count(episode)} needed no iteration.` : 'No cycle needed an iteration.';
+  return iterations.length > 0 ? `No μ is sought in episode ${count(episode)}.` : 'No cycle needed an iteration.';
 }
 
 function Kept({dropped, droppedTo, iterations}: RunState) {
