@@ -141,7 +141,7 @@ Status ReadQuery(const HttpRequest& request, RpcRequest* call) {
 }
 
 // The dialect of a request, that of a GET by its query.
-std::optional<Dialect> DialectOf(const HttpRequest& request) {
+std::optional<Dialect> DialectOfRequest(const HttpRequest& request) {
   if (request.method != "GET") return DialectOf(MediaType(request.header("content-type")));
   const std::string encoding = QueryValue(request.target, "encoding").value_or("");
   if (encoding != "json" && encoding != "proto") return std::nullopt;
@@ -174,7 +174,7 @@ std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request) {
     return WithHeader(PlainAnswer(405, "the method is not called so"), "allow",
                       AllowedMethods(request));
   }
-  const auto dialect = DialectOf(request);
+  const auto dialect = DialectOfRequest(request);
   if (!dialect || !Fits(*dialect, *call.method)) return WrongType();
   call.dialect = *dialect;
   Status status = call.method->client_streaming() ? Unimplemented("clients cannot stream here")
@@ -206,7 +206,7 @@ HttpAnswer AnswerOf(const RpcRequest& call, std::string message, const Status& s
 }
 
 HttpAnswer Exhausted(const HttpRequest& head, int status, const std::string& words) {
-  const auto dialect = DialectOf(head);
+  const auto dialect = DialectOfRequest(head);
   if (!IsRpc(head) || !dialect) return PlainAnswer(status, words);
   return Failure(*dialect, {StatusCode::RESOURCE_EXHAUSTED, words});
 }
