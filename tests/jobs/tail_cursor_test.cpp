@@ -202,6 +202,19 @@ TEST_F(TailCursorTest, ProgressIsTheNewestOnlyAndHasNoSequence) {
   EXPECT_EQ(cursor->Read(1, &none), LogCursor::Next::kWait) << "it was seen";
 }
 
+TEST_F(TailCursorTest, NoProgressFollowsTheEndOfAJobThatRanElsewhere) {
+  Finish();
+  log_ = std::make_shared<JobLog>(2, false);  // It has not been told of the end.
+  LogReader reader;
+  const auto cursor = Cursor(reader);
+  ASSERT_THAT(Sequences(reader.Next(*cursor)), ElementsAre(1, 2, 3));
+  log_->SetProgress({});
+  std::vector<LogRecord> none;
+  EXPECT_EQ(cursor->Read(1, &none), LogCursor::Next::kWait);
+  log_->Advance(3, true);
+  EXPECT_EQ(cursor->Read(1, &none), LogCursor::Next::kEnd);
+}
+
 TEST_F(TailCursorTest, DeletedJobEndsTheWatch) {
   Finish();
   LogReader reader;

@@ -111,7 +111,9 @@ JobLog::Tail JobLog::After(const Want& want, std::uint64_t* progress_seen,
   if (!tail.events.empty()) return tail;
   if (ended_ || failed_) {
     tail.found = ended_ ? Tail::Found::kEnd : Tail::Found::kFailed;
-  } else if (progress_count_ > *progress_seen && (want.kinds & KindBit(v1::Event::kProgress))) {
+  } else if (progress_count_ > *progress_seen && want.position <= last_ &&
+             (want.kinds & KindBit(v1::Event::kProgress))) {
+    // Of a reader that knows more than this log the job may have ended.
     *progress_seen = progress_count_;
     tail.events.push_back(progress_);
   } else {
