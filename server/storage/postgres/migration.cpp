@@ -46,14 +46,21 @@ absl::Status Refusal(const Connection& connection, const std::string& why) {
   return absl::FailedPreconditionError(absl::StrCat(connection.Name(), " ", why));
 }
 
+// Whether there are tables, and whether they have a function that tells their version. From the
+// catalog: what a session has once looked up by name it may still believe while it has a lock.
+constexpr char kFind[] = R"sql(
+SELECT
+  EXISTS(SELECT FROM pg_tables WHERE schemaname = 'contactd' AND tablename = 'version'),
+  EXISTS(SELECT FROM pg_proc p JOIN pg_namespace n ON n.oid = p.pronamespace
+    WHERE n.nspname = 'contactd' AND p.proname = 'schema_version')
+)sql";
+
 // The version of the tables; 0: there are none.
 absl::StatusOr<int> Version(Connection& connection) {
-  const auto found =
-      connection.Run({"SELECT to_regclass('contactd.version') IS NOT NULL,"
-                      " to_regproc('contactd.schema_version') IS NOT NULL"});
+  const auto found = connection.Run({kFind});
   if (!found.ok()) return found.status();
   if (found->Integer(0, 0) == 0) return 0;
-  // Version 1 has no function that tells it.
+  // Version 1 has no such function.
   const auto version =
       connection.Run({found->Integer(0, 1) != 0 ? "SELECT contactd.schema_version()"
                                                 : "SELECT max(version) FROM contactd.version"});

@@ -160,7 +160,8 @@ TEST_F(PostgresStoreTest, ProgramThatWantsItAloneIsRefusedWhileOthersUseIt) {
 TEST_F(PostgresStoreTest, ProgramsThatBeginAtOnceMakeTheTablesOnce) {
   std::vector<std::thread> programs;
   for (int i = 0; i < 8; ++i) {
-    programs.emplace_back([this] { EXPECT_TRUE(MigratePostgres(database_.address()).ok()); });
+    programs.emplace_back(
+        [this] { EXPECT_EQ(MigratePostgres(database_.address()), absl::OkStatus()); });
   }
   for (std::thread& program : programs) program.join();
   EXPECT_EQ(Count("version"), 1);
