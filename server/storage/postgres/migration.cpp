@@ -70,7 +70,7 @@ absl::StatusOr<int> Version(Connection& connection) {
 
 // The version of the tables, which is no newer than this program's.
 absl::StatusOr<int> KnownVersion(Connection& connection) {
-  const auto version = Version(connection);
+  auto version = Version(connection);
   if (absl::IsFailedPrecondition(version.status())) {
     return Refusal(connection,
                    "lets this role call nothing; run contactd migrate as the owner of its tables,"
@@ -94,7 +94,7 @@ std::string Tables(int version) {
 
 // Brings what is older than this program up to date.
 absl::Status Update(Connection& connection, int version) {
-  const absl::Status made = connection.RunScript(absl::StrCat(
+  absl::Status made = connection.RunScript(absl::StrCat(
       Tables(version), kFunctions, kReaderFunctions, kWorkerFunctions, kKeepFunctions,
       "DELETE FROM contactd.version; INSERT INTO contactd.version VALUES(", kSchemaVersion, ")"));
   if (!absl::IsFailedPrecondition(made)) return made;
