@@ -30,7 +30,7 @@ const live = await server.submit({...swinging(3, {method: 'RK4', stepS: 1e-7}), 
 const pages = {
   runs: [`/runs?chosen=${chain},${softer}`], empty: ['/runs', empty], token: ['/runs', asking],
   run: [`/runs/${chain}?t=0.0012`], wall: [`/runs/${wall}?plots=all`], missed: [`/runs/${missed}`], live: [`/runs/${live}`], none: ['/runs/none'], loading: [`/runs/${chain}`],
-  map: [`/runs/${map}?cell=3`], large: [`/runs/${large}?cell=5050`], parallel: [`/runs/${map}?view=parallel&cell=3`],
+  map: [`/runs/${map}?cell=3`], large: [`/runs/${large}?cell=5050`], contours: [`/runs/${map}?metric=1&contours=1`], 'large-contours': [`/runs/${large}?contours=1&log=1`], parallel: [`/runs/${map}?view=parallel&cell=3`],
   compare: [`/compare?jobs=${chain},${softer}`], 'compare-none': ['/compare'],
   new: ['/new'], 'new-wrong': [`/new#text=${encodeURIComponent('title: x\nbodies:\n  - {name: A, mass_kg: -1}\ncontact: []\n')}`], server: ['/server'],
 };

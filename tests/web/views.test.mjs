@@ -164,6 +164,27 @@ test('a point of the line of a sweep is chosen and becomes a run', async () => {
   assert.deepEqual([job.labels, job.scenario.bodies[0].velocityMPerS], [{sweep: id, cell: '4'}, 0.5]);
 });
 
+test('a map shows lines of equal value in place of numbers, if its address says so', async () => {
+  const axis = (field) => ({field: `bodies[0].${field}`, linear: {low: 0.1, high: 1, count: 6}});
+  const {name} = await server.call('CreateJob', {job: {sweep: {base: BALL, metrics: ['final_bodies[a].position_m'], axes: [axis('velocity_m_per_s'), axis('position_m')]}}});
+  const id = name.replace('jobs/', '');
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  const map = page.locator('[data-plot="map"][data-filled="36"]');
+  const levels = () => map.locator('[data-level]').evaluateAll((paths) => paths.map((path) => path.dataset.level));
+  const words = () => map.locator('.halo').allTextContents();
+  await map.waitFor();
+  assert.deepEqual(await levels(), []);
+  await page.getByLabel('contours').check();
+  await hold(() => ofAddress('contours') === '1');
+  await hold(async () => (await levels()).join() === '0.2,0.4,0.6,0.8,1');
+  assert.deepEqual((await words()).sort(), ['0.2', '0.4', '0.6', '0.8', '1']);
+  await page.reload();
+  await hold(async () => (await levels()).length === 5);
+  await page.getByLabel('contours').uncheck();
+  await hold(async () => (await levels()).length === 0);
+});
+
 test('a file that does not come says why, and can be asked for again', async () => {
   await open(`/runs/${chain}`);
   await page.route('**/ReadArtifact', (route) => route.abort());

@@ -64,10 +64,10 @@ export function cellAt({left, width, height, columns, rows}: MapPlace, x: number
   return i >= 0 && i < columns && j >= 0 && j < rows ? [i, j] : undefined;
 }
 
-/** The shapes of a map. `part`: where a value stands on the scale, from 0 to 1. */
-export function mapShapes(place: MapPlace, cellOf: (i: number, j: number) => SweepCell | undefined, metric: number, part: (value: number) => number): MapShapes {
+/** The shapes of a map. `part`: where a value stands on the scale, from 0 to 1; `numbers`: whether large cells show theirs. */
+export function mapShapes(place: MapPlace, cellOf: (i: number, j: number) => SweepCell | undefined, metric: number, part: (value: number) => number, numbers = true): MapShapes {
   const {width, height, columns, rows} = place;
-  const roomy = width > 30 && height > 13;
+  const roomy = numbers && width > 30 && height > 13;
   const fills: [string, string][] = [];
   const words: Word[] = [];
   let hatched = '';

@@ -3,6 +3,7 @@
 import {useMemo, useRef, useState} from 'preact/hooks';
 
 import {cellAt, cornerOf, mapShapes, type MapPlace, type MapShapes} from '../../model/cell_shapes';
+import {contourShapes} from '../../model/contour_shapes';
 import {csvOf, placeOfCell, scaleOf, wordsOf, type Axis, type MapData} from '../../model/map_data';
 import {exact, short} from '../../model/numbers';
 import {viridis} from '../../model/sweep';
@@ -10,6 +11,7 @@ import {ExportButtons} from '../../plots/exports';
 import {drawingOf, pointIn} from '../../plots/drawing';
 import {useWidth} from '../../ui/use_width';
 import type {Choosing} from './choosing';
+import {Contours} from './contours';
 
 const NARROW_PX = 560;
 const BOTTOM = 56;
@@ -18,6 +20,8 @@ const TICK_PX = 64;   // Room for a number below the map.
 interface Props extends MapData, Choosing {
   /** Changes with the cells. */
   version: number;
+  /** Whether lines of equal value are drawn, instead of numbers in the cells. */
+  contours: boolean;
   source: string;
 }
 
@@ -77,11 +81,12 @@ export function HeatMap(props: Props) {
   const [pointed, setPointed] = useState<[number, number]>();
   const [box, width] = useWidth(900);
   const place = placeOf(props, width);
-  const view = [props.version, metric, log, x.name, y.name, indexAt(0, 0), width];
+  const view = [props.version, metric, log, props.contours, x.name, y.name, indexAt(0, 0), width];
   const {range, part} = useMemo(() => scaleOf(props), view);
-  const shapes = useMemo(() => mapShapes(place, (i, j) => cells.get(indexAt(i, j)), metric, part), view);
+  const lines = useMemo(() => (props.contours ? contourShapes(props, place, range) : undefined), view);
+  const shapes = useMemo(() => mapShapes(place, (i, j) => cells.get(indexAt(i, j)), metric, part, !lines?.contours.length), view);
   const ticks = useMemo(() => <Ticks x={x} y={y} place={place} />, [x.name, y.name, place.columns, place.rows, width]);
-  const drawing = useMemo(() => <Cells shapes={shapes} large={place.width > 12 && place.height > 8} />, [shapes]);
+  const drawing = useMemo(() => <><Cells shapes={shapes} large={place.width > 12 && place.height > 8} />{lines && <Contours {...lines} />}</>, [shapes]);
   const marked = placeOfCell(props, chosen);
   const shown = pointed ?? marked;
   const under = (event: MouseEvent) => cellAt(place, ...pointIn(drawn.current!, event));

@@ -70,12 +70,13 @@ export function Sweep({id, run, query}: Props) {
         {kind === 'map' && axes.map(({name, values}, i) => i !== xAxis && i !== yAxis && (
           <Choice key={name} name={name} query={query} keyName={`at${i}`} options={values.map((v, j) => [String(j), exact(v)])} />))}
         {kind === 'map' && <label><input type="checkbox" checked={query.has('log')} onChange={(e) => setQuery({log: e.currentTarget.checked ? '1' : undefined})} /> log colours</label>}
+        {kind === 'map' && <label><input type="checkbox" checked={query.has('contours')} onChange={(e) => setQuery({contours: e.currentTarget.checked ? '1' : undefined})} /> contours</label>}
         <button type="button" onClick={() => save(`${id}-cells.csv`, new Blob([csvOf(sweep, cells)], {type: 'text/csv'}))}>All cells as CSV</button>
       </div>
       {error && <p class="notice" role="alert">{error}</p>}
       {sweep.metrics.length === 0 && <p class="soft">This sweep keeps no metrics; cells show only whether they converged.</p>}
       {kind === 'map' && grid && xAxis !== yAxis && <HeatMap x={axes[xAxis]!} y={axes[yAxis]!} indexAt={sliceIndex(sizes, slice, xAxis, yAxis)}
-        cells={run.cells} version={cells.length} metric={metric} metricName={sweep.metrics[metric] ?? 'convergence'} log={query.has('log')} chosen={chosen} choose={choose} open={open} source={`jobs/${id}`} />}
+        cells={run.cells} version={cells.length} metric={metric} metricName={sweep.metrics[metric] ?? 'convergence'} log={query.has('log')} contours={query.has('contours')} chosen={chosen} choose={choose} open={open} source={`jobs/${id}`} />}
       {kind === 'line' && sweep.metrics.length > 0 && <Line sweep={sweep} cells={cells} metric={metric} chosen={chosen} choose={choose} open={open} source={`jobs/${id}`} />}
       {kind === 'parallel' && <Parallel names={[...axes.map(({name}) => name), ...sweep.metrics]} axes={axes.length} cells={cells} metric={metric} choose={choose} open={open} chosen={chosen} csv={() => csvOf(sweep, cells)} source={`jobs/${id}`} />}
       {chosen !== undefined && <CellDetails id={id} sweep={sweep} cell={run.cells.get(chosen)} index={chosen} />}
