@@ -12,6 +12,7 @@ that it runs.
 import concurrent.futures
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import statistics
@@ -76,7 +77,7 @@ def addresses(servers):
 def await_all(front):
     """Waits until no job is unfinished."""
     while front.list(states=[Job.QUEUED, Job.RUNNING], page_size=1).jobs:
-        time.sleep(0.02)
+        time.sleep(0.1)
 
 
 def submit_and_run(servers):
@@ -87,24 +88,32 @@ def submit_and_run(servers):
     return taken, JOBS / (time.monotonic() - start)
 
 
+def times_of(pid):
+    """Parent and processor times of a process and of its ended children, user's and system's."""
+    stat = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(") ", 1)[1].split()
+    return stat[1], [int(ticks) / os.sysconf("SC_CLK_TCK") for ticks in stat[11:15]]
+
+
+def processor_seconds(servers):
+    return sum(sum(times_of(server.process.pid)[1][:2]) for server in servers)
+
+
 def database_seconds():
     """Processor time of PostgreSQL, also of its processes that are gone."""
-    server = cluster().pid
-    ticks = 0
-    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+    server = str(cluster().pid)
+    seconds = sum(times_of(server)[1])
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
-            fields = stat.read_text().rsplit(") ", 1)[1].split()
+            parent, times = times_of(folder.name)
         except OSError:
             continue
-        if str(server) == stat.parent.name:
-            ticks += sum(map(int, fields[11:15]))
-        elif int(fields[1]) == server:
-            ticks += sum(map(int, fields[11:13]))
-    return ticks / os.sysconf("SC_CLK_TCK")
+        if parent == server:
+            seconds += sum(times[:2])
+    return seconds
 
 
 class Cost:
-    """What PostgreSQL takes from here on, for each job of one database."""
+    """What PostgreSQL takes from here on, for each job of one database, as `<what>_ms` and so on."""
 
     def __init__(self, shared):
         self.shared = shared
@@ -115,10 +124,9 @@ class Cost:
             "SELECT pg_current_wal_lsn() - '0/0', pg_database_size(current_database())").split("|")
         return database_seconds(), float(log), float(size)
 
-    def tell(self, what):
-        seconds, log, size = (b - a for a, b in zip(self.before, self.now()))
-        tell(f"{what}: PostgreSQL's time [ms], log and disk [kB] for a job",
-             f"{1e3 * seconds / JOBS:.2f}, {log / JOBS / 1e3:.1f}, {size / JOBS / 1e3:.1f}")
+    def of(self, what):
+        seconds, log, size = ((b - a) / JOBS for a, b in zip(self.before, self.now()))
+        return {what + "_ms": 1e3 * seconds, what + "_log": log / 1e3, what + "_disk": size / 1e3}
 
 
 class Rates:
@@ -131,14 +139,21 @@ class Rates:
         for name, rate in rates.items():
             self.rates.setdefault(name, []).append(rate)
 
+    def of(self, name):
+        return statistics.median(self.rates[name])
+
     def tell(self, what, name, *others):
-        rate = statistics.median(self.rates[name])
-        text = f"{rate:.0f}"
+        text = f"{self.of(name):.0f}"
         for other in others:
             shares = [a / b for a, b in zip(self.rates[name], self.rates[other])]
-            text += (f"; {other} {statistics.median(self.rates[other]):.0f}:"
-                     f" {100 * statistics.median(shares):.0f} %")
+            text += f"; {other} {self.of(other):.0f}: {100 * statistics.median(shares):.0f} %"
         tell(what, text)
+
+    def tell_costs(self, what):
+        tell(f"PostgreSQL's time for a {what} job, and libpq's [ms]",
+             f"{self.of(what + '_ms'):.2f}, {self.of('libpq_' + what + '_ms'):.2f}")
+        tell(f"its log and disk for a {what} job [kB]",
+             f"{self.of(what + '_log'):.1f}, {self.of(what + '_disk'):.1f}")
 
 
 class Cluster:
@@ -171,27 +186,36 @@ def events_of_a_job(shared):
 
 def run_ours(ours, rates):
     """Jobs are created without workers, then run by two."""
-    cost = Cost(ours.shared)
+    cost, before = Cost(ours.shared), processor_seconds(ours.fronts)
+    clients = resource.getrusage(resource.RUSAGE_CHILDREN)
     submits, = peer("submit", JOBS, CLIENTS, *addresses(ours.fronts))
-    cost.tell("created")
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    rates.add(submits=submits, **cost.of("created"),
+              fronts_ms=1e3 * (processor_seconds(ours.fronts) - before) / JOBS,
+              clients_ms=1e3 * (after.ru_utime + after.ru_stime - clients.ru_utime
+                                - clients.ru_stime) / JOBS)
     cost = Cost(ours.shared)
     start = time.monotonic()
     ours.work(2)
     await_all(ours.fronts[0])
     runs = JOBS / (time.monotonic() - start)
-    rates.add(submits=submits, runs=runs, events=runs * events_of_a_job(ours.shared))
-    cost.tell("run")
+    rates.add(runs=runs, events=runs * events_of_a_job(ours.shared), **cost.of("run"),
+              workers_ms=1e3 * processor_seconds(ours.workers) / JOBS)
     ours.work(0)
 
 
-def run_libpq(database, sample, rates):
+def run_libpq(other, sample, rates):
     """The same by libpq, which computes nothing; and again, computing."""
+    database = other.shared.store
+    cost = Cost(other.shared)
     submits, = peer("libpq-submit", database, sample, JOBS, FRONTS)
+    rates.add(libpq_submits=submits, **cost.of("libpq_created"))
+    cost = Cost(other.shared)
     runs, events = peer("libpq-run", database, sample, 2)
+    rates.add(libpq_runs=runs, libpq_events=events, **cost.of("libpq_run"))
     peer("libpq-submit", database, sample, JOBS, FRONTS)
     solving, _ = peer("libpq-run", database, sample, 2, "solve")
-    rates.add(libpq_submits=submits, libpq_runs=runs, libpq_events=events,
-              libpq_that_solves=solving)
+    rates.add(libpq_that_solves=solving)
 
 
 def run_at_once(ours, rates):
@@ -211,12 +235,19 @@ def job_rates(ground):
     rates = Rates()
     for _ in range(ROUNDS):
         run_ours(ours, rates)
-        run_libpq(other.shared.store, sample, rates)
+        run_libpq(other, sample, rates)
         run_at_once(ours, rates)
+        for shared in ours.shared, other.shared:
+            shared.ask("ANALYZE")  # As autovacuum does it each minute.
     rates.tell(f"{FRONTS} fronts: jobs created a second, {CLIENTS} clients", "submits",
                "libpq_submits")
+    tell("time of fronts and clients for a created job [ms]",
+         f"{rates.of('fronts_ms'):.2f}, {rates.of('clients_ms'):.2f}")
+    rates.tell_costs("created")
     rates.tell("2 workers: 1-ms jobs run a second", "runs", "libpq_runs", "libpq_that_solves")
     rates.tell("the same: events stored a second", "events", "libpq_events")
+    tell("time of workers for a run job [ms]", f"{rates.of('workers_ms'):.2f}")
+    rates.tell_costs("run")
     rates.tell("both at once: created a second", "taken")
     rates.tell("both at once: from first submit to last result", "done")
     return ours

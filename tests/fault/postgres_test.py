@@ -124,6 +124,7 @@ class FullTest(FaultTest):
     """F4, with a disk of the database that is full: nothing can be stored, all can be read."""
 
     flags = ("--workers=2",)
+    FILE = "base/16384/16400"
 
     def test_full_database_refuses_and_recovers_without_a_restart(self):
         golden = self.golden(three_ball_chain())
@@ -133,8 +134,10 @@ class FullTest(FaultTest):
         wait_for(lambda: self.server.get(long).last_sequence > 20)
         self.fill()
         began = time.monotonic()
-        self.assertFails(grpc.StatusCode.RESOURCE_EXHAUSTED, "STORE_FULL", submit, self.server,
-                         self.history, three_ball_chain(), "full")
+        told = self.assertFails(grpc.StatusCode.RESOURCE_EXHAUSTED, "STORE_FULL", submit,
+                                self.server, self.history, three_ball_chain(), "full")
+        self.assertNotIn(self.FILE, told["message"])
+        self.assertIn(self.FILE, self.server.log())
         self.assertKept("refused_after", time.monotonic() - began, 1)
         wait_for(lambda: f"job={long} cannot store events" in self.server.log())
         follow(self.server, self.history.watch(ended))
@@ -152,7 +155,8 @@ class FullTest(FaultTest):
     def fill(self):
         """What PostgreSQL says when a table can have no new page, with an SQLSTATE of its own."""
         self.ask("CREATE FUNCTION full_disk() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN"
-                 " RAISE EXCEPTION 'could not extend file' USING ERRCODE = 'disk_full'; END $$")
+                 f" RAISE EXCEPTION 'could not extend file \"{self.FILE}\"'"
+                 " USING ERRCODE = 'disk_full'; END $$")
         for table in "jobs", "events":
             self.ask(f"CREATE TRIGGER full_disk BEFORE INSERT OR UPDATE ON contactd.{table}"
                      " EXECUTE FUNCTION full_disk()")

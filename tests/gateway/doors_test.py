@@ -197,6 +197,7 @@ class StalledTest(ReaderlessTest):
 
 
 class HeldAnswersTest(ReaderlessTest):
+    CLIENTS = 40  # Ask for four times what is held, and for what a sanitizer makes in its time.
 
     def test_large_answers_that_nobody_takes_are_held_within_a_bound(self):
         series = {"name": self.long_job(), "maxPoints": 1_000_000, "plainNumbers": True}

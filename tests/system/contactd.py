@@ -178,7 +178,8 @@ class ServerTest(unittest.TestCase):
         return Server(self.folder / "data", *self.flags)
 
     def assertFails(self, code, reason, call, *arguments, **keywords):
-        """Checks code and reason of a call that must fail; returns its google.rpc details."""
+        """Checks code and reason of a call that must fail; returns its google.rpc details, and what
+        it says."""
         with self.assertRaises(grpc.RpcError) as caught:
             answer = call(*arguments, **keywords)
             if isinstance(answer, collections.abc.Iterable):
@@ -187,7 +188,7 @@ class ServerTest(unittest.TestCase):
         details = details_of(caught.exception)
         self.assertEqual(details["ErrorInfo"].domain, "contact")
         self.assertEqual(details["ErrorInfo"].reason, reason)
-        return details
+        return details | {"message": caught.exception.details()}
 
     def assertWholeLog(self, events, after=0):
         """Checks that no stored event is missing or doubled, and that a final state ends them."""

@@ -10,7 +10,7 @@ namespace contact {
 
 void Recordings::GetSeries(const Principal& caller, const v1::GetSeriesRequest& request,
                            Callback<v1::Series> done, Abandoned abandoned) {
-  std::make_shared<SeriesReader>(store_, executor_, limits_, caller.tenant, request,
+  std::make_shared<SeriesReader>(store_, executor_, large_series_, limits_, caller.tenant, request,
                                  std::move(done), std::move(abandoned))
       ->Start();
 }

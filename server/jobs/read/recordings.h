@@ -8,6 +8,7 @@
 #include "jobs/job/callback.h"
 #include "jobs/log/stream_source.h"
 #include "jobs/quota/places.h"
+#include "jobs/read/few_at_once.h"
 #include "storage/store.h"
 #include "wire/scenario/scenario_codec.h"
 
@@ -35,6 +36,8 @@ class Recordings {
   Executor& executor_;
   const ScenarioLimits limits_;
   const Places readers_;
+  /// Large series are made two at a time: one is decoded while the store reads for the other.
+  FewAtOnce large_series_{2};
 };
 
 }  // namespace contact

@@ -1,5 +1,6 @@
 #include "jobs/read/series_reader.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/executor.h"
@@ -11,13 +12,24 @@ namespace {
 
 constexpr std::size_t kPageBytes = 1 << 18;
 
+// Values of a large series, at least [B]: many times what is shown on a screen.
+constexpr double kLarge = 1 << 20;
+
+bool IsLarge(const SeriesSelection& selection, const Scenario& scenario) {
+  const double samples = scenario.end_time / scenario.sample_interval;
+  const double rows = std::min(samples, static_cast<double>(selection.max_rows));
+  return rows * static_cast<double>(selection.columns.size() * sizeof(double)) >= kLarge;
+}
+
 }  // namespace
 
-SeriesReader::SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits,
-                           std::string tenant, v1::GetSeriesRequest request,
-                           Callback<v1::Series> done, Abandoned abandoned)
+SeriesReader::SeriesReader(Store& store, Executor& executor, FewAtOnce& large,
+                           const ScenarioLimits& limits, std::string tenant,
+                           v1::GetSeriesRequest request, Callback<v1::Series> done,
+                           Abandoned abandoned)
     : store_(store),
       executor_(executor),
+      large_(large),
       limits_(limits),
       tenant_(std::move(tenant)),
       request_(std::move(request)),
@@ -44,11 +56,22 @@ void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
   std::vector<v1::FrameChunk::Column> channels = Channels(decoded.scenario);
   Result<SeriesSelection> selection = ToSelection(request_, channels);
   if (!selection.ok()) return Answer(selection.error());
+  const bool large = IsLarge(selection.value(), decoded.scenario);
   builder_.emplace(std::move(selection.value()), std::move(channels));
   last_ = job.last_sequence();
+  if (!large) return Begin(stored->epoch);
+  large_.Run([self = shared_from_this(), attempts = stored->epoch](FewAtOnce::Place place) {
+    self->Post([self, attempts, place = std::move(place)] {
+      self->place_ = place;
+      self->Begin(attempts);
+    });
+  });
+}
+
+void SeriesReader::Begin(std::uint64_t attempts) {
   if (!request_.has_start_time_s() && !request_.has_end_time_s()) return ReadPage();
   // A job that was taken once has one attempt: no need to look through its log.
-  if (stored->epoch <= 1) return FindStart();
+  if (attempts <= 1) return FindStart();
   FindAttempt();
 }
 
@@ -140,6 +163,7 @@ void SeriesReader::Take(const Page& page) {
 
 void SeriesReader::Answer(Result<v1::Series> series) {
   if (!answered_.exchange(true)) done_(std::move(series));
+  place_ = nullptr;
 }
 
 bool SeriesReader::Take(const StoredEvent& stored) {

@@ -11,6 +11,7 @@
 
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job/callback.h"
+#include "jobs/read/few_at_once.h"
 #include "jobs/read/series_builder.h"
 #include "storage/store.h"
 #include "wire/scenario/scenario_codec.h"
@@ -26,9 +27,11 @@ class Executor;
 /// place where the range begins is found by halving.
 class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
  public:
-  /// Store and executor outlive the reading. The job is one of the tenant.
-  SeriesReader(Store& store, Executor& executor, const ScenarioLimits& limits, std::string tenant,
-               v1::GetSeriesRequest request, Callback<v1::Series> done, Abandoned abandoned);
+  /// Store, executor and `large`, which lets few large series be made at a time, outlive the
+  /// reading. The job is one of the tenant.
+  SeriesReader(Store& store, Executor& executor, FewAtOnce& large, const ScenarioLimits& limits,
+               std::string tenant, v1::GetSeriesRequest request, Callback<v1::Series> done,
+               Abandoned abandoned);
 
   /// Starts to read. To be called once.
   void Start();
@@ -36,8 +39,10 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
  private:
   using Page = absl::StatusOr<EventPage>;
 
-  /// Checks the request against the job, and begins with its log.
+  /// Checks the request against the job.
   void Open(const absl::StatusOr<StoredJob>& stored);
+  /// Begins with the log of the job, which was taken so many times.
+  void Begin(std::uint64_t attempts);
   /// Runs the work on the executor; answers SERVER_DRAINING if that has stopped.
   void Post(std::function<void()> work);
   /// Reads the events of these kinds after position_, and posts `take` with them.
@@ -65,6 +70,7 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
 
   Store& store_;
   Executor& executor_;
+  FewAtOnce& large_;
   const ScenarioLimits limits_;
   const std::string tenant_;
   const v1::GetSeriesRequest request_;
@@ -74,6 +80,8 @@ class SeriesReader : public std::enable_shared_from_this<SeriesReader> {
 
   // Owned by the executor task that is running.
 
+  /// Of a large series, from Begin to the answer.
+  FewAtOnce::Place place_;
   /// Nothing before Open.
   std::optional<SeriesBuilder> builder_;
   /// Sequence of the last event that was read.

@@ -3,6 +3,7 @@
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 #include <poll.h>
+#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -22,12 +23,12 @@ constexpr std::array kDefaults = {
 };
 
 // Durable before answered, whatever the server's default is. A lost client holds no lock for long.
-// Answers the session.
+// No statement is worth the time to compile it. Answers the session.
 constexpr char kSettings[] =
     "SELECT set_config('synchronous_commit', 'on', false)"
     " WHERE current_setting('synchronous_commit') IN ('off', 'local');"
     "SET statement_timeout = '4s'; SET idle_in_transaction_session_timeout = '10s';"
-    "SET search_path = contactd, pg_temp;"
+    "SET search_path = contactd, pg_temp; SET jit = off;"
     "SELECT pid || ' ' || extract(epoch FROM backend_start) FROM pg_stat_activity"
     " WHERE pid = pg_backend_pid()";
 
@@ -63,6 +64,15 @@ absl::StatusCode CodeOf(std::string_view state) {
 
 std::string FirstLine(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
+}
+
+// What PostgreSQL says of its disk names its files, which are no business of a client: that is for
+// the log.
+absl::Status WithoutFiles(absl::StatusCode code, const std::string& message) {
+  const bool full = code == absl::StatusCode::kResourceExhausted;
+  if (!full && code != absl::StatusCode::kDataLoss) return {code, message};
+  spdlog::error("{}", message);
+  return {code, full ? "the database has no room for more" : "the database finds damage in it"};
 }
 
 }  // namespace
@@ -191,7 +201,7 @@ absl::Status Connection::Failure(const PGresult* result) const {
     return absl::UnavailableError(absl::StrCat("the connection to the database is lost: ",
                                                FirstLine(PQerrorMessage(connection_.get()))));
   }
-  return {CodeOf(state), FirstLine(PQresultErrorMessage(result))};
+  return WithoutFiles(CodeOf(state), FirstLine(PQresultErrorMessage(result)));
 }
 
 std::string Connection::Name() const {

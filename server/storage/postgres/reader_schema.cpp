@@ -34,6 +34,10 @@ DECLARE
 BEGIN
   IF a_tenant IS NOT NULL THEN v_sql := v_sql || ' AND j.tenant = $2'; END IF;
   IF cardinality(a_states) > 0 THEN v_sql := v_sql || ' AND j.state = ANY($3)'; END IF;
+  -- By the index of the unfinished, who are few beside those that have ended.
+  IF a_states <@ '{1,2}' AND cardinality(a_states) > 0 THEN
+    v_sql := v_sql || ' AND j.state NOT IN (3,4,5)';
+  END IF;
   FOR i IN 1..cardinality(a_keys) LOOP
     v_sql := v_sql || format(' AND EXISTS(SELECT FROM contactd.labels l WHERE l.job = j.number'
       ' AND l.key = ($4)[%1$s] AND l.value = ($5)[%1$s])', i);

@@ -192,6 +192,27 @@ BEGIN
   RETURN v_count;
 END $$;
 
+-- Bytes of all jobs of the owner. To add them up takes long if there are many, so a session does it
+-- once a second for an owner, unless they come as near to a_most as they may grow meanwhile.
+CREATE OR REPLACE FUNCTION contactd.stored_of(a_tenant text, a_owner text, a_most bigint)
+RETURNS bigint LANGUAGE plpgsql AS $$
+DECLARE
+  c_place CONSTANT text := 'contactd.stored_' || md5(concat_ws(' ', a_tenant, a_owner));
+  v_time bigint := extract(epoch FROM clock_timestamp()) * 1000;
+  -- What was added up last: when, and how much.
+  v_known bigint[] := string_to_array(nullif(current_setting(c_place, true), ''), ' ');
+  v_bytes bigint;
+BEGIN
+  IF v_known[1] BETWEEN v_time - 1000 AND v_time
+      AND v_known[2] + greatest(a_most / 16, 64 << 20) < a_most THEN
+    RETURN v_known[2];
+  END IF;
+  SELECT coalesce(sum(j.bytes), 0) INTO v_bytes FROM contactd.jobs j
+    WHERE j.tenant = a_tenant AND j.owner = a_owner;
+  PERFORM set_config(c_place, concat_ws(' ', v_time, v_bytes), false);
+  RETURN v_bytes;
+END $$;
+
 -- Which limit a new job of the owner would exceed, see create_job; 0 is any number. Counts that come
 -- near a limit are made once more while nobody else creates jobs.
 CREATE OR REPLACE FUNCTION contactd.exceeded(
@@ -227,8 +248,7 @@ BEGIN
     outcome := 'K';
     has := v_cells;
   ELSIF a_max_owner_bytes > 0 THEN
-    SELECT coalesce(sum(j.bytes), 0) INTO has FROM contactd.jobs j
-      WHERE j.tenant = a_tenant AND j.owner = a_owner;
+    has := contactd.stored_of(a_tenant, a_owner, a_max_owner_bytes);
     IF has >= a_max_owner_bytes THEN outcome := 'O'; END IF;
   END IF;
 END $$;
@@ -253,10 +273,16 @@ DECLARE
 BEGIN
   -- Twice: another session may make the same job meanwhile.
   FOR attempt IN 1..2 LOOP
-    SELECT j.name, j.uid, s.spec INTO existing, v_uid, v_spec
-      FROM contactd.jobs j LEFT JOIN contactd.specs s ON s.job = j.number
-      WHERE j.request_id = a_request_id OR j.name = a_name LIMIT 1;
-    IF FOUND THEN
+    -- A session may keep the plan that it has made while there were few jobs, so each of these is
+    -- one look at a unique index.
+    SELECT j.number INTO v_job FROM contactd.jobs j WHERE j.name = a_name;
+    IF v_job IS NULL AND a_request_id IS NOT NULL THEN
+      SELECT j.number INTO v_job FROM contactd.jobs j WHERE j.request_id = a_request_id;
+    END IF;
+    IF v_job IS NOT NULL THEN
+      SELECT j.name, j.uid, s.spec INTO existing, v_uid, v_spec
+        FROM contactd.jobs j LEFT JOIN contactd.specs s ON s.job = j.number
+        WHERE j.number = v_job;
       IF existing = a_name AND v_uid <> a_uid THEN
         RAISE unique_violation USING MESSAGE = 'there is a job ' || a_name;
       END IF;
