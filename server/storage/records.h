@@ -54,7 +54,7 @@ struct Checkpoint {
 /// A change of a job, written as a whole. Only looked at during the call.
 struct JobUpdate {
   const std::string& name;
-  /// The epoch that the job must have, else ABORTED: another owner took the job.
+  /// The epoch that the job must have, else ABORTED: another owner took it, or it has ended.
   std::uint64_t epoch = 0;
   /// Takes the job: its epoch becomes `epoch` + 1.
   bool take = false;

@@ -23,7 +23,7 @@ absl::Status OtherJob(const v1::Job& job) {
 }
 
 absl::Status HasOtherOwner(const std::string& name) {
-  return absl::AbortedError(absl::StrCat(name, " has another owner"));
+  return absl::AbortedError(absl::StrCat(name, " has another owner, or has ended"));
 }
 
 absl::Status HasNotEnded(const std::string& name) {

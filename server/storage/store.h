@@ -60,7 +60,7 @@ class Store {
   void Create(const NewJob& job, Callback<StoredJob> done);
 
   /// Changes a job and appends to its log in one transaction. Answers the sequence of the first
-  /// event appended; the others follow without a hole. ABORTED: stale epoch. NOT_FOUND.
+  /// event appended; the others are dense. ABORTED: stale epoch, or the job has ended. NOT_FOUND.
   void Update(const JobUpdate& update, Callback<std::uint64_t> done);
 
   /// An update that is serialised and compressed already.

@@ -60,7 +60,9 @@ class Copier {
     Answer<StoredJob> stored = Read(name, JobPart::kAll);
     if (!stored.ok()) return stored.status();
     if (!stored->MergeResult()) return FailsChecksum(name);
-    const NewJob made{stored->job, stored->request_id, {}};
+    v1::Job open = stored->job;  // One that has ended would take no events.
+    open.set_state(v1::Job::QUEUED);
+    const NewJob made{open, stored->request_id, {}};
     const Answer<StoredJob> created =
         Await<Answer<StoredJob>>([&](auto done) { to_.Create(made, std::move(done)); });
     if (!created.ok()) return created.status();

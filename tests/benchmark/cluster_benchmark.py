@@ -218,6 +218,16 @@ def run_libpq(other, sample, rates):
     rates.add(libpq_that_solves=solving)
 
 
+def run_small(ours, rates):
+    """As run_ours, with jobs that record no trajectory."""
+    peer("submit-small", JOBS, CLIENTS, *addresses(ours.fronts))
+    cost, start = Cost(ours.shared), time.monotonic()
+    ours.work(2)
+    await_all(ours.fronts[0])
+    rates.add(small=JOBS / (time.monotonic() - start), **cost.of("small"))
+    ours.work(0)
+
+
 def run_at_once(ours, rates):
     ours.work(2)
     taken, done = submit_and_run(ours.fronts)
@@ -236,6 +246,7 @@ def job_rates(ground):
     for _ in range(ROUNDS):
         run_ours(ours, rates)
         run_libpq(other, sample, rates)
+        run_small(ours, rates)
         run_at_once(ours, rates)
         for shared in ours.shared, other.shared:
             shared.ask("ANALYZE")  # As autovacuum does it each minute.
@@ -248,6 +259,9 @@ def job_rates(ground):
     rates.tell("the same: events stored a second", "events", "libpq_events")
     tell("time of workers for a run job [ms]", f"{rates.of('workers_ms'):.2f}")
     rates.tell_costs("run")
+    rates.tell("the same without a trajectory: jobs run a second", "small")
+    tell("PostgreSQL's time [ms], its log and disk for one [kB]",
+         f"{rates.of('small_ms'):.2f}, {rates.of('small_log'):.1f}, {rates.of('small_disk'):.1f}")
     rates.tell("both at once: created a second", "taken")
     rates.tell("both at once: from first submit to last result", "done")
     return ours
@@ -293,9 +307,12 @@ def watch(where, servers):
     name = servers[0].create(endless_and_slow()).name
     while servers[0].get(name).state != Job.RUNNING:
         time.sleep(0.05)
+    before = database_seconds()
     p50, p99, events = peer("watch", name, WATCHERS, WATCH_S, *addresses(servers))
+    database = database_seconds() - before
     tell(f"{where}cycle to {WATCHERS} watchers, p50 and p99 [ms]", f"{p50:.0f}, {p99:.0f}")
     tell("the same: events received a second", f"{events / WATCH_S:.0f}")
+    tell("the same: PostgreSQL's time in a second [ms]", f"{1e3 * database / WATCH_S:.0f}")
     return name
 
 

@@ -2,6 +2,7 @@
 // Python's.
 //
 //   cluster_peer submit JOBS CLIENTS FRONT...         creates jobs by gRPC
+//   cluster_peer submit-small JOBS CLIENTS FRONT...   the same, jobs that record no trajectory
 //   cluster_peer watch JOB WATCHERS SECONDS FRONT...  watches cycles of a job
 //   cluster_peer libpq-submit ADDRESS JOB JOBS CONNECTIONS
 //   cluster_peer libpq-run ADDRESS JOB CONNECTIONS [SOLVE]
@@ -81,7 +82,7 @@ v1::CreateJobRequest Chain() {
   return request;
 }
 
-void Submit(const Words& words) {
+void SubmitLike(const v1::CreateJobRequest& request, const Words& words) {
   const int jobs = std::stoi(words[0]);
   const int clients = std::stoi(words[1]);
   const Words fronts(words.begin() + 2, words.end());
@@ -91,7 +92,7 @@ void Submit(const Words& words) {
     const auto stub = v1::JobService::NewStub(
         grpc::CreateChannel(fronts[static_cast<std::size_t>(client) % fronts.size()],
                             grpc::InsecureChannelCredentials()));
-    for (const v1::CreateJobRequest request = Chain(); next++ < jobs;) {
+    while (next++ < jobs) {
       grpc::ClientContext context;
       v1::Job job;
       const grpc::Status status = stub->CreateJob(&context, request, &job);
@@ -99,6 +100,14 @@ void Submit(const Words& words) {
     }
   });
   fmt::print("{:.0f}\n", jobs / SecondsSince(start));
+}
+
+void Submit(const Words& words) { SubmitLike(Chain(), words); }
+
+void SubmitSmall(const Words& words) {
+  v1::CreateJobRequest request = Chain();
+  request.mutable_job()->mutable_scenario()->mutable_output()->set_ledger_only(true);
+  SubmitLike(request, words);
 }
 
 // Prints median and 99th percentile [ms].
@@ -225,6 +234,7 @@ void LibpqRun(const Words& words) {
 int Main(const Words& words) {
   const std::map<std::string, std::pair<std::size_t, void (*)(const Words&)>> kinds = {
       {"submit", {3, Submit}},
+      {"submit-small", {3, SubmitSmall}},
       {"watch", {4, Watch}},
       {"libpq-submit", {4, LibpqSubmit}},
       {"libpq-run", {3, LibpqRun}}};

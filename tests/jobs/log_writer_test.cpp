@@ -1,5 +1,6 @@
 #include "jobs/run/log_writer.h"
 
+#include <string>
 #include <thread>
 
 #include "jobs_fixture.h"
@@ -11,17 +12,17 @@ class LogWriterTest : public testing::Test {
  protected:
   void Open(std::int64_t max_bytes = 0) {
     store_ = *OpenSqlite(directory_.path(), {.max_bytes = max_bytes});
-    Make("jobs/old", v1::Job::SUCCEEDED);
-    Make("jobs/a", v1::Job::QUEUED);
+    ASSERT_TRUE(Make("jobs/first", v1::Job::QUEUED, {}));
+    ASSERT_TRUE(Make("jobs/a", v1::Job::QUEUED, {}));
   }
-  void Make(const std::string& name, v1::Job::State state) {
+  bool Make(const std::string& name, v1::Job::State state, const v1::Event& event) {
     v1::Job job;
     job.set_name(name);
     job.set_state(state);
-    const std::vector<v1::Event> events(1);
+    const std::vector<v1::Event> events = {event};
     Await<absl::StatusOr<StoredJob>> created;
     store_->Create({job, "", events}, created.callback());
-    ASSERT_TRUE(created.Get().ok());
+    return created.Get().ok();
   }
   std::shared_ptr<LogWriter> Writer() {
     auto writer = std::make_shared<LogWriter>(*store_, clock_, LogWriter::Place{"jobs/a", 0, log_},
@@ -44,18 +45,23 @@ class LogWriterTest : public testing::Test {
     }
     return ended.Get();
   }
+  // Fills the store with ended jobs of one event, until not one more fits in.
+  void Fill(const v1::Event& event) {
+    while (Make(Old(old_), v1::Job::SUCCEEDED, event)) ++old_;
+  }
   void FillStore() {
-    v1::Event small;
-    for (const v1::Event& event : {Big(), small}) {
-      while (Append("jobs/old", {event}).ok()) {
-      }
+    Fill(Big());
+    while (Append("jobs/first", {v1::Event()}).ok()) {
     }
   }
   void MakeSpace() {
-    Await<absl::StatusOr<JobOwner>> deleted;
-    store_->Delete("jobs/old", "", deleted.callback());
-    ASSERT_TRUE(deleted.Get().ok());
+    for (; old_ > 0; --old_) {
+      Await<absl::StatusOr<JobOwner>> deleted;
+      store_->Delete(Old(old_ - 1), "", deleted.callback());
+      ASSERT_TRUE(deleted.Get().ok());
+    }
   }
+  static std::string Old(int number) { return "jobs/old" + std::to_string(number); }
   static v1::Job Job(v1::Job::State state) {
     v1::Job job;
     job.set_name("jobs/a");
@@ -96,6 +102,7 @@ class LogWriterTest : public testing::Test {
     }
   }
 
+  int old_ = 0;
   TempDirectory directory_;
   std::unique_ptr<Store> store_;
   FakeClock clock_;
@@ -117,8 +124,7 @@ TEST_F(LogWriterTest, EverythingIsStoredWhenTheEndIsTold) {
 TEST_F(LogWriterTest, WaitsForSpaceAndLosesNothing) {
   Open(3'000'000);
   const auto writer = Writer();
-  while (Append("jobs/old", {Big()}).ok()) {
-  }
+  Fill(Big());
   for (int i = 0; i < 20; ++i) writer->Add(Big());
   ASSERT_EQ(Stored()->job.last_sequence(), 2U) << "it is stuck";
   MakeSpace();

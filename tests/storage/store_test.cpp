@@ -127,6 +127,22 @@ TEST_P(StoreCallsTest, StaleOwnerIsFencedOff) {
   EXPECT_TRUE(Update({.name = "jobs/a", .epoch = 1, .events = events}).ok());
 }
 
+TEST_P(StoreCallsTest, EndedJobIsNotChangedAgain) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  v1::Job ended = MakeJob("jobs/a");
+  ended.set_state(v1::Job::CANCELLED);
+  const std::vector<v1::Event> events = {StateEvent(v1::Job::CANCELLED)};
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .job = &ended, .events = events}).ok());
+  // Whoever has lost the answer may ask for the same by another change.
+  const auto again = Update({.name = "jobs/a", .epoch = 0, .job = &ended, .events = events});
+  EXPECT_TRUE(absl::IsAborted(again.status())) << again.status();
+  ended.set_state(v1::Job::SUCCEEDED);
+  EXPECT_TRUE(absl::IsAborted(Update({.name = "jobs/a", .epoch = 0, .job = &ended}).status()));
+  EXPECT_EQ(Read("jobs/a")->job.state(), v1::Job::CANCELLED);
+  EXPECT_EQ(Read("jobs/a")->job.last_sequence(), 2U);
+}
+
 TEST_P(StoreCallsTest, ChangeOfJobKeepsItsSpecAndAddsItsResult) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
@@ -309,10 +325,12 @@ TEST_P(StoreCallsTest, SizesAreThoseOfEndedJobsOldestEndFirst) {
   job.set_name("jobs/a");
   ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .job = &job}).ok());
   job.set_name("jobs/b");
-  job.set_state(v1::Job::FAILED);
-  job.mutable_end_time()->set_seconds(1'700'000'001);
+  job.set_state(v1::Job::RUNNING);
+  job.clear_end_time();
   ASSERT_TRUE(Update({.name = "jobs/b", .epoch = 0, .job = &job}).ok());
   job.add_cycles()->set_mu(2);  // A result that replaces another counts once.
+  job.set_state(v1::Job::FAILED);
+  job.mutable_end_time()->set_seconds(1'700'000'001);
   ASSERT_TRUE(Update({.name = "jobs/b", .epoch = 0, .job = &job}).ok());
   const auto sizes = Sizes();
   ASSERT_EQ(sizes->size(), 2U);

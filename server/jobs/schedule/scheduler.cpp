@@ -390,7 +390,8 @@ void Scheduler::Withdraw(const Active& active, Done done) {
          [this, active = active, done = std::move(done)](const absl::Status& stored) mutable {
            {
              const MutexLock lock(mutex_);
-             if (stored.ok()) {
+             // ABORTED: it has ended by a call whose answer was lost, or another worker has it.
+             if (stored.ok() || absl::IsAborted(stored)) {
                active_.erase(active.job.name());
              } else {
                Queue(active);

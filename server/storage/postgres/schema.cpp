@@ -313,7 +313,7 @@ BEGIN
 END $$;
 
 -- Changes a job and appends to its log. Outcomes: D done, the first event appended is a_first; N no
--- such job; O the job has another epoch. A change that is sent again because its answer was lost is
+-- such job; O the job has another epoch, or has ended. A change that is sent again because its answer was lost is
 -- done once. a_change: NULL for one that may come between such a change and its repetition.
 CREATE OR REPLACE FUNCTION contactd.change_job(
   a_name text, a_epoch bigint, a_change bigint, a_take boolean, a_state bigint, a_end_time bigint,
@@ -339,7 +339,7 @@ BEGIN
       last_change = coalesce(a_change, j.last_change),
       first_of_change = CASE WHEN a_change IS NULL THEN j.first_of_change
         ELSE j.last_sequence + 1 END
-    WHERE j.name = a_name AND j.epoch = a_epoch
+    WHERE j.name = a_name AND j.epoch = a_epoch AND j.state NOT IN (3,4,5)
       AND (a_change IS NULL OR j.last_change IS DISTINCT FROM a_change)
     RETURNING j.number, j.tenant, j.last_sequence + 1 - cardinality(a_kinds), j.cells
     INTO v_job, job_tenant, first, v_cells;

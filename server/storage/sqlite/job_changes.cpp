@@ -115,11 +115,13 @@ absl::StatusOr<StoredJob> Insert(Database& database, const JobInsert& insert) {
 
 absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change,
                                      std::uint64_t epoch) {
-  Query job(database, "SELECT number, epoch, last_sequence FROM jobs WHERE name=?", change.name);
+  Query job(database,
+            "SELECT number, epoch, last_sequence, state IN (3,4,5) FROM jobs WHERE name=?",
+            change.name);
   if (!job.Next()) return NoSuchJob(change.name);
   const std::int64_t number = job.Integer(0);
   const auto last = static_cast<std::uint64_t>(job.Integer(2));
-  if (static_cast<std::uint64_t>(job.Integer(1)) != epoch) {
+  if (static_cast<std::uint64_t>(job.Integer(1)) != epoch || job.Integer(3) != 0) {
     return HasOtherOwner(change.name);
   }
   Execute(database, "UPDATE jobs SET epoch=epoch+?, last_sequence=?, bytes=bytes+? WHERE number=?",

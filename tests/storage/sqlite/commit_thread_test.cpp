@@ -31,10 +31,11 @@ TEST_F(StoreTest, FullStoreRefusesWhatDoesNotFitAndKeepsTheRest) {
 TEST_F(StoreTest, FullStoreWorksAgainAfterADelete) {
   Open({.max_bytes = 1'000'000});
   v1::Job job = MakeJob("jobs/a");
-  job.set_state(v1::Job::SUCCEEDED);
   ASSERT_TRUE(Create(job).ok());
   const std::vector<v1::Event> big = {LogEvent(std::string(600'000, 'x'))};
   ASSERT_TRUE(Append("jobs/a", big).ok());
+  job.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .job = &job}).ok());
   ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
   ASSERT_TRUE(absl::IsResourceExhausted(Append("jobs/b", big).status()));
   ASSERT_TRUE(Delete("jobs/a").ok());

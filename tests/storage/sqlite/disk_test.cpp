@@ -73,9 +73,10 @@ TEST_F(StoreTest, FullDiskTakesDeletionsByItsReserveAndNothingElse) {
   Open({.reserve_bytes = 3 << 20});
   EXPECT_EQ(std::filesystem::file_size(reserve), 3U << 20);
   v1::Job job = MakeJob("jobs/a");
-  job.set_state(v1::Job::SUCCEEDED);
   ASSERT_TRUE(Create(job).ok());
   ASSERT_TRUE(Append("jobs/a", std::vector(100, LogEvent(std::string(2000, 'x')))).ok());
+  job.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Update({.name = "jobs/a", .epoch = 0, .job = &job}).ok());
   ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
   disk.FullWhile([&] { return std::filesystem::file_size(reserve) > 0; });
   EXPECT_TRUE(absl::IsResourceExhausted(Append("jobs/b", {LogEvent("x")}).status()));
