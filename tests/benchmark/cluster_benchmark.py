@@ -113,7 +113,7 @@ def database_seconds():
 
 
 class Cost:
-    """What PostgreSQL takes from here on, for each job of one database, as `<what>_ms` and so on."""
+    """What PostgreSQL takes from here on for each job of one database: `<what>_ms` and so on."""
 
     def __init__(self, shared):
         self.shared = shared

@@ -82,7 +82,7 @@ export function Parallel({names, axes, cells, metric, choose, open, chosen, csv,
   const lines = useMemo(() => linesOf(names, cells, width), [cells, names.join(), width]);
   const [low, high] = lines.ranges[axes + metric] ?? [0, 1];
   const colour = (cell: SweepCell) =>
-    levelOf((dark ? 0.35 : 0) + (dark ? 0.65 : 0.9) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
+    levelOf((dark ? 0.35 : 0) + (dark ? 0.65 : 0.6) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
   const paths = useMemo(() => [true, false].map((converged) => pathsOf(lines, cells, colour, converged)), [lines, metric, dark]);
   const place = cells.findIndex(({index}) => index === chosen);
   const click = (event: MouseEvent) => {
