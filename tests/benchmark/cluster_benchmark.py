@@ -10,6 +10,7 @@ that it runs.
 """
 
 import concurrent.futures
+import contextlib
 import os
 import pathlib
 import resource
@@ -204,9 +205,25 @@ def run_ours(ours, rates):
     ours.work(0)
 
 
+@contextlib.contextmanager
+def bare_fronts(database, sample):
+    """gRPC and libpq alone: the addresses of so many as there are fronts."""
+    with contextlib.ExitStack() as stack:
+        fronts = [stack.enter_context(subprocess.Popen(
+            [PEER, "libpq-front", database, sample], stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE, text=True)) for _ in range(FRONTS)]
+        yield [front.stdout.readline().strip() for front in fronts]
+        for front in fronts:
+            front.stdin.close()
+
+
 def run_libpq(other, sample, rates):
     """The same by libpq, which computes nothing; and again, computing."""
     database = other.shared.store
+    with bare_fronts(database, sample) as fronts:
+        served, = peer("submit", JOBS, CLIENTS, *fronts)
+    rates.add(libpq_behind_grpc=served)
+    peer("libpq-run", database, sample, 2)
     cost = Cost(other.shared)
     submits, = peer("libpq-submit", database, sample, JOBS, FRONTS)
     rates.add(libpq_submits=submits, **cost.of("libpq_created"))
@@ -251,7 +268,7 @@ def job_rates(ground):
         for shared in ours.shared, other.shared:
             shared.ask("ANALYZE")  # As autovacuum does it each minute.
     rates.tell(f"{FRONTS} fronts: jobs created a second, {CLIENTS} clients", "submits",
-               "libpq_submits")
+               "libpq_behind_grpc", "libpq_submits")
     tell("time of fronts and clients for a created job [ms]",
          f"{rates.of('fronts_ms'):.2f}, {rates.of('clients_ms'):.2f}")
     rates.tell_costs("created")
@@ -300,6 +317,27 @@ def cells(ours, pace):
         ours.work(count)
         rates.append(cell_rate(ours.fronts[0], pace))
     tell("cells a second, 1 and 2 workers of 1 thread", f"{rates[0]:.0f}, {rates[1]:.0f}")
+
+
+def database_milliseconds():
+    """Of each second."""
+    before = database_seconds()
+    time.sleep(WATCH_S)
+    return 1e3 * (database_seconds() - before) / WATCH_S
+
+
+def standing_costs(ours):
+    """Of processes, and of a job that nobody watches."""
+    ours.work(2)
+    time.sleep(2)
+    idle = database_milliseconds()
+    name = ours.fronts[0].create(endless_and_slow()).name
+    time.sleep(2)
+    runs = database_milliseconds()
+    ours.fronts[0].cancel(name)
+    tell(f"PostgreSQL's time in a second, {FRONTS} fronts and 2 workers that idle [ms]",
+         f"{idle:.0f}")
+    tell("the same with one job that runs [ms]", f"{runs:.0f}")
 
 
 def watch(where, servers):
@@ -361,6 +399,7 @@ def main():
         embedded_rates(ground, pace)
         ours = job_rates(ground)
         cells(ours, pace)
+        standing_costs(ours)
         ours.work(1)
         take_over(ours, watch(f"{FRONTS} fronts: ", ours.fronts))
         tell("load after", f"{os.getloadavg()[0]:.1f}")

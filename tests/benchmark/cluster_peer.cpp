@@ -5,11 +5,12 @@
 //   cluster_peer submit-small JOBS CLIENTS FRONT...   the same, jobs that record no trajectory
 //   cluster_peer watch JOB WATCHERS SECONDS FRONT...  watches cycles of a job
 //   cluster_peer libpq-submit ADDRESS JOB JOBS CONNECTIONS
+//   cluster_peer libpq-front ADDRESS JOB              serves CreateJob, until its input ends
 //   cluster_peer libpq-run ADDRESS JOB CONNECTIONS [SOLVE]
 //
-// The last two do what fronts and workers do, with the same statements in the same transactions but
-// without a service: they create copies of JOB, which has ended, and claim, begin and end all that
-// wait. SOLVE: they compute them, too. Each prints a line of figures.
+// The last three do what fronts and workers do, with the same statements in the same transactions
+// but without a service: they create copies of JOB, which has ended, and claim, begin and end all
+// that wait. SOLVE: they compute them, too. Each prints a line of figures, libpq-front its address.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -17,11 +18,13 @@
 #include <cstdlib>
 #include <functional>
 #include <future>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "bare_front.h"
 #include "base/ids.h"
 #include "contact/v1/job_service.grpc.pb.h"
 #include "simulation/run.h"
@@ -167,15 +170,35 @@ std::unique_ptr<Connection> Connect(const std::string& address) {
   return OrThrow(Connection::Open(address));
 }
 
-void LibpqSubmit(const Words& words) {
-  const int jobs = std::stoi(words[2]);
-  const int connections = std::stoi(words[3]);
-  v1::Job job = ReadSample(*Connect(words[0]), words[1]).job;
+// The insert of a job that waits, like the one that has ended.
+JobInsert LikeThat(const std::string& address, const std::string& name) {
+  v1::Job job = ReadSample(*Connect(address), name).job;
   job.clear_cycles();
   job.clear_final_bodies();
   job.set_state(v1::Job::QUEUED);
   const std::vector<v1::Event> events(1);
-  const JobInsert like = ToInsert({job, "", events});
+  return ToInsert({job, "", events});
+}
+
+Statement Copy(JobInsert insert) {
+  insert.name = "jobs/" + RandomIds().NextId();
+  insert.uid = RandomIds().NextUuid();
+  insert.limits.waiting = 10'000;
+  return postgres::CreateJob(insert);
+}
+
+void LibpqFront(const Words& words) {
+  const JobInsert like = LikeThat(words[0], words[1]);
+  const BareFront front(Connect(words[0]), [&like] { return Copy(like); });
+  fmt::print("127.0.0.1:{}\n", front.port());
+  std::fflush(stdout);
+  std::cin.get();
+}
+
+void LibpqSubmit(const Words& words) {
+  const int jobs = std::stoi(words[2]);
+  const int connections = std::stoi(words[3]);
+  const JobInsert like = LikeThat(words[0], words[1]);
   std::atomic<int> next = 0;
   const auto start = steady_clock::now();
   InThreads(connections, [&](int) {
@@ -183,13 +206,7 @@ void LibpqSubmit(const Words& words) {
     while (next < jobs) {
       // As many as come together when 64 clients call.
       std::vector<Statement> statements;
-      for (int i = 0; i < 64 / connections && next++ < jobs; ++i) {
-        JobInsert insert = like;
-        insert.name = "jobs/" + RandomIds().NextId();
-        insert.uid = RandomIds().NextUuid();
-        insert.limits.waiting = 10'000;
-        statements.push_back(postgres::CreateJob(insert));
-      }
+      for (int i = 0; i < 64 / connections && next++ < jobs; ++i) statements.push_back(Copy(like));
       RunAll(*connection, statements);
     }
   });
@@ -237,6 +254,7 @@ int Main(const Words& words) {
       {"submit-small", {3, SubmitSmall}},
       {"watch", {4, Watch}},
       {"libpq-submit", {4, LibpqSubmit}},
+      {"libpq-front", {2, LibpqFront}},
       {"libpq-run", {3, LibpqRun}}};
   const auto kind = words.empty() ? kinds.end() : kinds.find(words[0]);
   if (kind == kinds.end() || words.size() <= kind->second.first) {
