@@ -89,13 +89,26 @@ class AwayTest(FaultTest):
         job = self.server.get(name)
         self.assertEqual((job.state, job.attempt), (Job.SUCCEEDED, 1), "the run went on")
 
-    def test_what_a_network_held_back_comes_too_late(self):
-        shared = Shared(self)
-        way, address = shared.way()
+    def behind_a_proxy(self):
+        """Moves the server there; returns the proxy."""
+        way, address = Shared(self).way()
         self.server.kill()
         self.server = Server(self.folder / "behind", f"--store={address}", store="")
         self.addCleanup(self.server.kill)
         self.server.start()
+        return way
+
+    def test_idle_server_outlives_a_network_that_says_nothing(self):
+        way = self.behind_a_proxy()
+        way.pause()
+        time.sleep(17)  # It asks after 5 s of silence, and waits for the answer.
+        way.resume()
+        name = patient(lambda: submit(self.server, self.history, three_ball_chain(), "after")).name
+        follow(self.server, self.history.watch(name))
+        self.assertIsNone(self.server.process.poll(), "it is the same process")
+
+    def test_what_a_network_held_back_comes_too_late(self):
+        way = self.behind_a_proxy()
         name = submit(self.server, self.history, endless_and_slow(), "stalled").name
         for _ in range(3):
             before = self.server.get(name).last_sequence

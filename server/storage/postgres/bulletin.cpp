@@ -69,9 +69,7 @@ void Bulletin::Loop() {
       ClearWake();
       continue;
     }
-    Wait();
-    Hear();
-    if (!connection_->good() || !Send()) connection_.reset();
+    if (!Wait() || !Hear() || !Send()) connection_.reset();
   }
   last_sent_ = {};
   if (connection_) Send();
@@ -86,25 +84,25 @@ bool Bulletin::Connect() {
   return true;
 }
 
-void Bulletin::Wait() {
+bool Bulletin::Wait() {
   SteadyClock::duration most = kSilence;
   {
     const MutexLock lock(mutex_);
     if (!waiting_.empty()) most = kLeastPause - (SteadyClock::now() - last_sent_);
   }
-  if (most <= 0s) return;
+  if (most <= 0s) return true;
   std::array<pollfd, 2> waits = {{{.fd = wake_, .events = POLLIN, .revents = 0},
                                   {.fd = connection_->socket(), .events = POLLIN, .revents = 0}}};
   const int ready = ::poll(waits.data(), waits.size(), Milliseconds(most));
-  if (ready == 0 && most == kSilence && !connection_->Run({"SELECT 1"}).ok()) connection_.reset();
   ClearWake();
+  return ready != 0 || most != kSilence || connection_->Run({"SELECT 1"}).ok();
 }
 
-void Bulletin::Hear() {
-  if (!connection_) return;
+bool Bulletin::Hear() {
   for (const std::string& text : connection_->TakeNotifications()) {
     for (const Note& note : NotesOf(text)) heard_(note);
   }
+  return connection_->good();
 }
 
 std::vector<std::string> Bulletin::TakeDue() {

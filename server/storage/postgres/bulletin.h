@@ -36,11 +36,12 @@ class Bulletin {
   void Loop();
   // A connection that listens. False: none is to be had now.
   bool Connect();
+  // Of each: false if the connection is lost.
   // Waits for notes of others, for something to tell, or for the end.
-  void Wait();
+  bool Wait();
   // Hands over what has come.
-  void Hear();
-  // Sends what is to be told. False: the connection is lost.
+  bool Hear();
+  // Sends what is to be told.
   bool Send();
   // What is to be told, if it is time.
   std::vector<std::string> TakeDue();
