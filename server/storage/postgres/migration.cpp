@@ -18,8 +18,11 @@ struct Step {
 
 // A version that changes functions alone needs none.
 constexpr std::array kSteps = {
-    // Nothing looks for all unfinished jobs by an index any more.
-    Step{2, "DROP INDEX IF EXISTS contactd.jobs_unfinished;"},
+    // Nothing looks for all unfinished jobs by an index any more; jobs are taken by their worker.
+    Step{2,
+         "DROP INDEX IF EXISTS contactd.jobs_unfinished, contactd.jobs_taken;"
+         "CREATE INDEX jobs_taken ON contactd.jobs(worker, number)"
+         " WHERE state = 2 OR (state = 1 AND worker IS NOT NULL);"},
 };
 
 // The lock is held to the end, so that of several programs that begin at once one does it. Tables

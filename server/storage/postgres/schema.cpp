@@ -36,7 +36,7 @@ CREATE INDEX jobs_by_owner ON contactd.jobs(tenant, owner);
 CREATE INDEX jobs_of_owner_unfinished ON contactd.jobs(tenant, owner) WHERE state NOT IN (3,4,5);
 CREATE INDEX jobs_waiting ON contactd.jobs(tenant, owner, priority DESC, number)
   WHERE state = 1 AND worker IS NULL;
-CREATE INDEX jobs_taken ON contactd.jobs(number)
+CREATE INDEX jobs_taken ON contactd.jobs(worker, number)
   WHERE state = 2 OR (state = 1 AND worker IS NOT NULL);
 CREATE INDEX jobs_moved ON contactd.jobs(moved);
 

@@ -86,7 +86,9 @@ END $$;
 -- a_most_running of one owner run at a time. Whoever had them can change them no more. A job comes
 -- with its checkpoint, and if it waits and its spec has at most a_spec_bytes, with that. Takes in
 -- what the worker has used, by owner. After a start of the database the workers have a while to
--- come back. Generic plans: one made for a_most costs more than it spares.
+-- come back. Generic plans: one made for a_most costs more than it spares. They are kept, so those of
+-- the time when there were few jobs must not read all of them: only jobs_taken has the first order,
+-- and the rest goes by number.
 CREATE OR REPLACE FUNCTION contactd.claim(
   a_worker text, a_most bigint, a_most_running bigint, a_grace bigint, a_tenants text[],
   a_owners text[], a_milliseconds bigint[], a_not_tenants text[], a_not_owners text[],
@@ -96,7 +98,7 @@ RETURNS TABLE(
   last_sequence bigint, crc32 bigint, header bytea, oldest_sequence bigint, compacted boolean,
   owner text, tenant text, request_id text, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint,
   checkpoint bytea, checkpoint_sequence bigint)
-LANGUAGE plpgsql SET plan_cache_mode = force_generic_plan AS $$
+LANGUAGE plpgsql SET plan_cache_mode = force_generic_plan SET enable_seqscan = off AS $$
 DECLARE
   c_lost CONSTANT bigint := 64;
   v_now timestamptz := clock_timestamp();
@@ -119,7 +121,7 @@ BEGIN
       SELECT j.number FROM contactd.jobs j
       WHERE (j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL))
         AND coalesce(j.worker, '') <> ALL(v_alive)
-      ORDER BY j.number LIMIT c_lost FOR UPDATE SKIP LOCKED) l;
+      ORDER BY j.worker, j.number LIMIT c_lost FOR UPDATE SKIP LOCKED) l;
     UPDATE contactd.jobs j SET worker = a_worker, epoch = j.epoch + 1
       WHERE j.number = ANY(v_taken);
   END IF;
@@ -164,7 +166,7 @@ $$;
 -- The loan that the worker has, or else one that nobody has, of the oldest sweep.
 CREATE OR REPLACE FUNCTION contactd.take_loan(a_worker text)
 RETURNS TABLE(name text, epoch bigint, loan bigint, first bigint, last bigint)
-LANGUAGE plpgsql AS $$
+LANGUAGE plpgsql SET enable_seqscan = off AS $$
 DECLARE
   v_loan contactd.loans;
 BEGIN
