@@ -95,7 +95,7 @@ class Copier {
       const Checkpoint checkpoint{run.checkpoint_sequence - last, run.checkpoint};
       const bool here = !run.checkpoint.empty() && last < run.checkpoint_sequence &&
                         run.checkpoint_sequence <= last + events->size();
-      const absl::Status appended =
+      absl::Status appended =
           Update({.name = name, .events = *events, .checkpoint = here ? &checkpoint : nullptr});
       if (!appended.ok()) return appended;
       last += events->size();
@@ -108,9 +108,9 @@ class Copier {
   absl::Status CopyMarks(const StoredJob& stored) {
     const std::string& name = stored.job.name();
     if (stored.cancel_requested) {
-      const absl::Status asked = Await<Answer<bool>>([&](auto done) {
-                                   to_.RequestCancel(name, std::move(done));
-                                 }).status();
+      absl::Status asked = Await<Answer<bool>>([&](auto done) {
+                             to_.RequestCancel(name, std::move(done));
+                           }).status();
       if (!asked.ok()) return asked;
     }
     if (!stored.compacted) return absl::OkStatus();
