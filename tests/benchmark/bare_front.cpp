@@ -40,7 +40,8 @@ void BareFront::Loop(const std::stop_token& stop) {
     if (calls.empty()) continue;
     const bool stored = connection_->Run(statements).ok();
     for (const Call& call : calls) {
-      call.reactor->Finish(stored ? grpc::Status::OK : grpc::Status(grpc::StatusCode::ABORTED, ""));
+      call.reactor->Finish(stored ? grpc::Status::OK
+                                  : grpc::Status(grpc::StatusCode::ABORTED, "not stored"));
     }
   }
 }

@@ -368,6 +368,16 @@ def take_over(ours, name):
     ours.fronts[1].cancel(name)
 
 
+def watched(ours):
+    """Before all that leaves work for autovacuum, whose time would count."""
+    standing_costs(ours)
+    ours.work(1)
+    take_over(ours, watch(f"{FRONTS} fronts: ", ours.fronts))
+    ours.work(0)
+    for front in ours.fronts:
+        front.kill()
+
+
 def watchers_back(fronts, name):
     """Seconds until clients, which know all fronts, have an event that is newer than the kill."""
     heard, died = set(), []
@@ -397,11 +407,8 @@ def main():
         pace = alone.start().run(spring_wall(1.0)).summary.wall_time_s
         alone.terminate()
         embedded_rates(ground, pace)
-        ours = job_rates(ground)
-        cells(ours, pace)
-        standing_costs(ours)
-        ours.work(1)
-        take_over(ours, watch(f"{FRONTS} fronts: ", ours.fronts))
+        watched(Cluster(ground, "watched"))
+        cells(job_rates(ground), pace)
         tell("load after", f"{os.getloadavg()[0]:.1f}")
     finally:
         ground.clean()

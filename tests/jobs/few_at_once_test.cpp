@@ -36,17 +36,15 @@ TEST_F(FewAtOnceTest, TasksBeginInTheirOrderAsPlacesComeFree) {
 
 TEST_F(FewAtOnceTest, TaskThatGivesItsPlaceBackAtOnceLetsTheNextBegin) {
   int called = 0;
-  // So many would not fit on the stack within one another.
-  for (int task = 0; task < 1'000'000; ++task) {
-    few_.Run([&called](const FewAtOnce::Place&) { ++called; });
-  }
-  EXPECT_EQ(called, 1'000'000);
+  for (int task = 0; task < 10; ++task) few_.Run([&called](const FewAtOnce::Place&) { ++called; });
+  EXPECT_EQ(called, 10);
 }
 
 TEST_F(FewAtOnceTest, WaitingTasksThatGiveTheirPlacesBackAtOnceAllBegin) {
   Run(1);
   Run(2);
   int called = 0;
+  // So many would not fit on the stack within one another.
   for (int task = 0; task < 1'000'000; ++task) {
     few_.Run([&called](const FewAtOnce::Place&) { ++called; });
   }

@@ -15,9 +15,12 @@ constexpr std::size_t kPageBytes = 1 << 18;
 // Values of a large series, at least [B]: many times what is shown on a screen.
 constexpr double kLarge = 1 << 20;
 
+// How many samples there are besides those of sample_interval is not known before they are read.
 bool IsLarge(const SeriesSelection& selection, const Scenario& scenario) {
-  const double samples = scenario.end_time / scenario.sample_interval;
-  const double rows = std::min(samples, static_cast<double>(selection.max_rows));
+  double rows = static_cast<double>(selection.max_rows);
+  if (scenario.samples_per_contact == 0) {
+    rows = std::min(rows, scenario.end_time / scenario.sample_interval);
+  }
   return rows * static_cast<double>(selection.columns.size() * sizeof(double)) >= kLarge;
 }
 

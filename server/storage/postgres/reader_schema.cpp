@@ -33,10 +33,10 @@ DECLARE
   v_sql text := 'SELECT j.* FROM contactd.jobs j WHERE j.number < $1';
 BEGIN
   IF a_tenant IS NOT NULL THEN v_sql := v_sql || ' AND j.tenant = $2'; END IF;
-  IF cardinality(a_states) > 0 THEN v_sql := v_sql || ' AND j.state = ANY($3)'; END IF;
-  -- By the index of the unfinished, who are few beside those that have ended.
-  IF a_states <@ '{1,2}' AND cardinality(a_states) > 0 THEN
-    v_sql := v_sql || ' AND j.state NOT IN (3,4,5)';
+  IF cardinality(a_states) > 0 THEN
+    v_sql := v_sql || ' AND j.state = ANY($3)';
+    -- By the index of the unfinished, who are few beside those that have ended.
+    IF a_states <@ '{1,2}' THEN v_sql := v_sql || ' AND j.state NOT IN (3,4,5)'; END IF;
   END IF;
   FOR i IN 1..cardinality(a_keys) LOOP
     v_sql := v_sql || format(' AND EXISTS(SELECT FROM contactd.labels l WHERE l.job = j.number'

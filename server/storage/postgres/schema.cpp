@@ -313,8 +313,9 @@ BEGIN
 END $$;
 
 -- Changes a job and appends to its log. Outcomes: D done, the first event appended is a_first; N no
--- such job; O the job has another epoch, or has ended. A change that is sent again because its answer was lost is
--- done once. a_change: NULL for one that may come between such a change and its repetition.
+-- such job; O the job has another epoch, or has ended. A change that is sent again because its answer
+-- was lost is done once. a_change: NULL for one that may come between such a change and its
+-- repetition.
 CREATE OR REPLACE FUNCTION contactd.change_job(
   a_name text, a_epoch bigint, a_change bigint, a_take boolean, a_state bigint, a_end_time bigint,
   a_crc32 bigint, a_header bytea, a_result_crc32 bigint, a_result bytea, a_checkpoint_events bigint,

@@ -252,7 +252,7 @@ TEST(PostgresSchemaTest, VersionNamesOneSchema) {
   const std::string schema = absl::StrCat(postgres::kTables, postgres::kFunctions,
                                           postgres::kReaderFunctions, postgres::kWorkerFunctions);
   EXPECT_EQ(std::pair(postgres::kSchemaVersion, Checksum(schema)),
-            std::pair(2, std::int64_t{1475318740}));
+            std::pair(2, std::int64_t{3760784307}));
 }
 
 }  // namespace
