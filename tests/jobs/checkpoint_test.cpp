@@ -4,6 +4,11 @@
 #include <thread>
 
 #include "jobs/job/lifecycle.h"
+#include "jobs/log/job_log.h"
+#include "jobs/run/assignment.h"
+#include "jobs/run/log_writer.h"
+#include "jobs/run/replay.h"
+#include "jobs/run/run_recorder.h"
 #include "jobs/run/run_state_codec.h"
 #include "jobs_fixture.h"
 
@@ -180,6 +185,21 @@ TEST_F(CheckpointTest, RunWhoseEventsAreDamagedBeginsAnew) {
   EXPECT_TRUE(resumed_from_.empty());
   ASSERT_EQ(Starts(name).size(), 3U) << "the attempt tells that it begins anew after all";
   EXPECT_EQ(Starts(name).back(), std::nullopt);
+}
+
+// A run that went on all the same told of its last samples, but not of those before them.
+TEST_F(CheckpointTest, ReplayThatIsStoppedIsNotComplete) {
+  Open(Options(kNever));
+  const std::string name = Create(Bouncing());
+  const std::uint64_t last = Ended(name).last_sequence();
+  const Assignment assignment{};
+  const auto control = std::make_shared<RunControl>();
+  const auto writer = std::make_shared<LogWriter>(
+      *store_, clock_, LogWriter::Place{"jobs/other", 0, nullptr}, control, std::stop_token());
+  const Scenario scenario;
+  RunRecorder recorder(scenario, clock_, assignment, *writer, seconds(1));
+  control->Stop();
+  EXPECT_FALSE(Replay(*store_, name, last, *control, recorder));
 }
 
 TEST(RunStateCodec, AsksForNoMoreMemoryThanItsBytes) {

@@ -38,20 +38,22 @@ bool ForEachEvent(Store& store, EventQuery query, std::uint64_t end, RunControl&
 
 bool Replay(Store& store, const std::string& job, std::uint64_t sequence, RunControl& control,
             RunRecorder& recorder) {
-  std::uint64_t begin = 0;  // Of the attempt.
+  std::uint64_t kept = 0;  // Up to here all is handed over, or is of an earlier attempt.
   const EventQuery attempts{.name = job, .kinds = KindBit(v1::Event::kAttemptStarted)};
   const bool found = ForEachEvent(store, attempts, sequence, control, [&](const auto& event) {
-    begin = event.sequence;
+    kept = event.sequence;
     return event.intact;
   });
   if (!found) return false;
-  return ForEachEvent(store, {.name = job, .after = begin}, sequence, control,
-                      [&](const auto& stored) {
-                        v1::Event event;
-                        if (!stored.Parse(&event)) return false;
-                        recorder.Keep(std::move(event));
-                        return true;
-                      });
+  const auto keep = [&](const StoredEvent& stored) {
+    v1::Event event;
+    if (!stored.Parse(&event)) return false;
+    recorder.Keep(std::move(event));
+    kept = stored.sequence;
+    return true;
+  };
+  return ForEachEvent(store, {.name = job, .after = kept}, sequence, control, keep) &&
+         kept >= sequence;
 }
 
 }  // namespace contact

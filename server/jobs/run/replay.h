@@ -20,7 +20,8 @@ bool ForEachEvent(Store& store, EventQuery query, std::uint64_t end, RunControl&
 
 /// Hands to `recorder`, from the log of a job, what the attempt that made its checkpoint has
 /// recorded before it, whose last event is `sequence`. Waits for the store; ends early when the run
-/// is asked to stop. False: not all of it can be read.
+/// is asked to stop. False: it has not handed over all of it, so that the run cannot go on from the
+/// checkpoint.
 bool Replay(Store& store, const std::string& job, std::uint64_t sequence, RunControl& control,
             RunRecorder& recorder);
 
