@@ -1,8 +1,8 @@
 // What cluster_benchmark.py compares a cluster with, and clients of it that take less time than
 // Python's.
 //
-//   cluster_peer submit JOBS CLIENTS FRONT...         creates jobs by gRPC
-//   cluster_peer submit-small JOBS CLIENTS FRONT...   the same, jobs that record no trajectory
+//   cluster_peer submit JOBS CALLS FRONT...           creates jobs by gRPC, so many calls at a time
+//   cluster_peer submit-small JOBS CALLS FRONT...     the same, jobs that record no trajectory
 //   cluster_peer watch JOB WATCHERS SECONDS FRONT...  watches cycles of a job
 //   cluster_peer libpq-submit ADDRESS JOB JOBS CONNECTIONS
 //   cluster_peer libpq-front ADDRESS JOB              serves CreateJob, until its input ends
@@ -19,6 +19,8 @@
 #include <functional>
 #include <future>
 #include <iostream>
+#include <latch>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -85,23 +87,59 @@ v1::CreateJobRequest Chain() {
   return request;
 }
 
+// Calls of one program, so many at a time, over a few connections to each front.
+class Submitter {
+ public:
+  Submitter(v1::CreateJobRequest request, int jobs, int calls, const Words& fronts)
+      : request_(std::move(request)), jobs_(jobs), calls_(calls), ended_(calls) {
+    for (int i = 0; i < kConnections; ++i) {
+      for (const std::string& front : fronts) {
+        grpc::ChannelArguments apart;
+        apart.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+        stubs_.push_back(v1::JobService::NewStub(
+            grpc::CreateCustomChannel(front, grpc::InsecureChannelCredentials(), apart)));
+      }
+    }
+  }
+
+  void Run() {
+    for (int i = 0; i < calls_; ++i) Next(static_cast<std::size_t>(i) % stubs_.size());
+    ended_.wait();
+    if (const int failed = failed_; failed > 0) {
+      throw std::runtime_error(fmt::format("{} jobs were not created", failed));
+    }
+  }
+
+ private:
+  static constexpr int kConnections = 2;
+  struct Call {
+    grpc::ClientContext context;
+    v1::Job job;
+  };
+
+  // A call, and after it the next over the same connection.
+  void Next(std::size_t connection) {
+    if (next_++ >= jobs_) return ended_.count_down();
+    const auto call = std::make_shared<Call>();
+    stubs_[connection]->async()->CreateJob(&call->context, &request_, &call->job,
+                                           [this, connection, call](const grpc::Status& status) {
+                                             if (!status.ok()) ++failed_;
+                                             Next(connection);
+                                           });
+  }
+
+  const v1::CreateJobRequest request_;
+  const int jobs_, calls_;
+  std::latch ended_;
+  std::vector<std::unique_ptr<v1::JobService::Stub>> stubs_;
+  std::atomic<int> next_ = 0, failed_ = 0;
+};
+
 void SubmitLike(const v1::CreateJobRequest& request, const Words& words) {
   const int jobs = std::stoi(words[0]);
-  const int clients = std::stoi(words[1]);
-  const Words fronts(words.begin() + 2, words.end());
-  std::atomic<int> next = 0;
+  Submitter submitter(request, jobs, std::stoi(words[1]), {words.begin() + 2, words.end()});
   const auto start = steady_clock::now();
-  InThreads(clients, [&](int client) {
-    const auto stub = v1::JobService::NewStub(
-        grpc::CreateChannel(fronts[static_cast<std::size_t>(client) % fronts.size()],
-                            grpc::InsecureChannelCredentials()));
-    while (next++ < jobs) {
-      grpc::ClientContext context;
-      v1::Job job;
-      const grpc::Status status = stub->CreateJob(&context, request, &job);
-      if (!status.ok()) throw std::runtime_error(status.error_message());
-    }
-  });
+  submitter.Run();
   fmt::print("{:.0f}\n", jobs / SecondsSince(start));
 }
 
