@@ -262,13 +262,13 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   return problem_.Aborted() ? Found::kAborted : Found::kStalled;
 }
 
-// What was guessed of groups that overlap a front which is solved stays as it is: to guess anew
-// would undo the solution.
+// What was guessed of groups that overlap a front which is solved stays as it is, if it is not
+// poor: to guess anew undoes the solution.
 void EpisodeSolver::Freeze(const Sight& sight, const std::vector<GroupId>& front) {
   double end = 0;
   for (const GroupId& id : front) end = std::max(end, sight.Find(id)->end_time);
   for (auto& [id, unknown] : problem_.groups.known()) {
-    if (unknown.start_time < end) unknown.corrected = true;
+    if (unknown.start_time < end) unknown.kept = true;
   }
 }
 

@@ -6,6 +6,11 @@
 namespace contact {
 namespace {
 
+// A guess that is off by more than this, relative, is poor; it is made again so often at most, for
+// what was solved with it is lost.
+constexpr double kPoor = 0.2;
+constexpr int kGuesses = 2;
+
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
@@ -64,11 +69,24 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
   if (law || (!unknown.corrected && (guessing_ || unknown.first_mu == 0))) {
     double mu = guess_.Factor(state, effective_mass, external_force);
     if (std::isnan(mu)) mu = std::isnan(state.last_mu) ? 0 : state.last_mu;
-    unknown.mu = unknown.first_mu = mu;
+    if (law || !Stays(unknown, mu)) {
+      unknown.guesses += unknown.kept;
+      unknown.mu = unknown.first_mu = mu;
+    }
   }
   const bool keeps = unknown.weak && !law && state.last_mu > 0;
   member.group.mu = keeps ? state.last_mu : unknown.mu;
   member.lasts = unknown.lasts;
+}
+
+// A guess is kept once what overlaps it was solved, unless a better one shows that it was poor: a
+// pulse in a row reaches contacts long before those that it has left are solved, and what was
+// guessed of them then follows from guesses alone. With a μ that is too small they rattle without
+// end. In packings guesses follow from loads, and stay.
+bool Membership::Stays(const Unknown& unknown, double guess) const {
+  const bool poor = std::abs(guess - unknown.mu) > kPoor * unknown.mu;
+  const bool again = poor && unknown.guesses < kGuesses && unknown.id.place == 1 && !packing_;
+  return unknown.kept && !again;
 }
 
 bool Membership::Cancel(ContactState& state) {

@@ -16,7 +16,10 @@ bool IsSought(const Scenario& scenario, int contact);
 class Membership {
  public:
   Membership(const Scenario& scenario, const Motion& motion, Groups& groups)
-      : scenario_(scenario), guess_(scenario, motion), groups_(groups) {}
+      : scenario_(scenario),
+        packing_(IsPacking(scenario)),
+        guess_(scenario, motion),
+        groups_(groups) {}
 
   /// A pass begins. `guess`: groups whose μ is a mere guess are guessed anew.
   void Begin(bool guess);
@@ -40,8 +43,10 @@ class Membership {
 
  private:
   void Open(ContactState& state, double effective_mass, double external_force);
+  bool Stays(const Unknown& unknown, double guess) const;
 
   const Scenario& scenario_;
+  const bool packing_;
   FirstGuess guess_;
   Groups& groups_;
   bool guessing_ = true;
