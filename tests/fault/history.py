@@ -281,7 +281,10 @@ def _log(name, job):
             attempt, samples = entry.attempt, 0
         elif entry.kind == "frame_chunk":
             if entry.samples[0] != samples:
-                yield f"I4: {name} mixes attempts at event {entry.sequence}"
+                kinds = [(e.sequence, e.kind, e.attempt or e.samples or e.state)
+                         for e in job.log[max(entry.sequence - 20, 0):entry.sequence + 3]]
+                yield (f"I4: {name} mixes attempts at event {entry.sequence}: its samples begin at "
+                       f"{entry.samples[0]}, those before end at {samples}; {kinds}")
             samples = sum(entry.samples)
     cells = [entry.cell for entry in job.log if entry.kind == "sweep_cell"]
     for cell in {cell for cell in cells if cells.count(cell) > 1}:

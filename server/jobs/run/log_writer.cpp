@@ -81,7 +81,7 @@ bool LogWriter::Finish(v1::Job job, v1::Event event, Ended ended) {
   pending_.events.push_back(std::move(event));
   pending_.ended = std::move(ended);
   Encode(&pending_);
-  if (store_.Recall(take_)) JoinTake();
+  if (store_.Recall(take_)) ResumeTake();
   Disk disk;
   {
     const MutexLock lock(mutex_);
@@ -138,6 +138,9 @@ void LogWriter::Send() {
                   self->Written(first);
                 });
 }
+
+// One that has failed may be done, for its answer may have been lost: it is sent as it was.
+void LogWriter::ResumeTake() { batch_.failed ? Send() : JoinTake(); }
 
 void LogWriter::JoinTake() {
   pending_.encoded = std::make_shared<const JobChange>(Joined(*take_, *pending_.encoded));

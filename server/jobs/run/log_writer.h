@@ -127,6 +127,8 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   bool BeginWriting(Time now);
   /// Hands batch_ to the store.
   void Send();
+  /// Goes on with what takes the job, which the store has given back: by JoinTake if it can.
+  void ResumeTake();
   /// Joins what takes the job, if the store has not begun with that, and pending_ into one batch:
   /// so a run that is shorter than the store's turn costs one change.
   void JoinTake();
