@@ -267,7 +267,7 @@ def job_rates(ground):
         run_at_once(ours, rates)
         for shared in ours.shared, other.shared:
             shared.ask("ANALYZE")  # As autovacuum does it each minute.
-    rates.tell(f"{FRONTS} fronts: jobs created a second, {CLIENTS} clients", "submits",
+    rates.tell(f"{FRONTS} fronts: jobs created a second, {CLIENTS} calls at a time", "submits",
                "libpq_behind_grpc", "libpq_submits")
     tell("time of fronts and clients for a created job [ms]",
          f"{rates.of('fronts_ms'):.2f}, {rates.of('clients_ms'):.2f}")
