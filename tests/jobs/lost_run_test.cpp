@@ -142,11 +142,13 @@ TEST_F(LostRunTest, SpentWallTimeEndsARealRun) {
   Open(LookOften({.max_budget = {.wall_time = seconds(100)}}));
   v1::CreateJobRequest request = RequestFor(BouncingBall());
   request.mutable_job()->mutable_budget()->mutable_wall_time()->set_seconds(10);
-  const v1::Job job = EndedInTime(Create(request).value().name());
+  const std::string name = Create(request).value().name();
+  while (Get(name).value().progress().time_s() == 0) std::this_thread::yield();
+  const v1::Job job = EndedInTime(name);
   EXPECT_EQ(job.state(), v1::Job::FAILED);
   EXPECT_EQ(job.state_reason(), "BUDGET_WALL_TIME");
   EXPECT_THAT(job.error().message(), HasSubstr("10 s"));
-  EXPECT_LT(job.summary().time_reached_s(), request.job().scenario().end_time_s());
+  EXPECT_GT(job.summary().time_reached_s(), 0);
   EXPECT_EQ(job.attempt(), 1);
 }
 

@@ -46,14 +46,13 @@ async function firstPaints(path, times = 9) {
   return paints;
 }
 
-/** From the time of an event at the server to the frame that shows it: cycles of a run that goes on, in a page that has loaded. */
+/** From the time of an event at the server to the frame that shows it: cycles of a run that goes on. */
 async function eventToPixel() {
   const id = await server.submit(swinging(1, {method: 'RK4', stepS: 1e-7}));
   const page = await openPage(browser, server);
   await page.goto(`${server.origin}/runs/${id}`);
   await page.locator('section[aria-label="Cycle ledger"] tbody tr').first().waitFor();
   await page.locator('section[aria-label="Cycle ledger"]').scrollIntoViewIfNeeded();
-  await page.waitForTimeout(500);
   await page.evaluate(() => {
     window.seen = [];
     const ledger = document.querySelector('section[aria-label="Cycle ledger"]');

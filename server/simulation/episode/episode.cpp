@@ -64,7 +64,7 @@ std::vector<GroupId> WithoutAstray(const std::vector<GroupId>& groups, const Sig
 int Answered(const Groups& groups) {
   return static_cast<int>(std::ranges::count_if(groups.known(), [](const auto& entry) {
     const Unknown& u = entry.second;
-    return u.corrected && (u.Decided() || u.status == Cycle::Status::kConverged);
+    return (u.corrected || u.kept) && (u.Decided() || u.status == Cycle::Status::kConverged);
   }));
 }
 

@@ -69,10 +69,7 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
   if (law || (!unknown.corrected && (guessing_ || unknown.first_mu == 0))) {
     double mu = guess_.Factor(state, effective_mass, external_force);
     if (std::isnan(mu)) mu = std::isnan(state.last_mu) ? 0 : state.last_mu;
-    if (law || !Stays(unknown, mu)) {
-      unknown.guesses += unknown.kept;
-      unknown.mu = unknown.first_mu = mu;
-    }
+    Guess(unknown, mu);
   }
   const bool keeps = unknown.weak && !law && state.last_mu > 0;
   member.group.mu = keeps ? state.last_mu : unknown.mu;
@@ -83,10 +80,13 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
 // pulse in a row reaches contacts long before those that it has left are solved, and what was
 // guessed of them then follows from guesses alone. With a μ that is too small they rattle without
 // end. In packings guesses follow from loads, and stay.
-bool Membership::Stays(const Unknown& unknown, double guess) const {
-  const bool poor = std::abs(guess - unknown.mu) > kPoor * unknown.mu;
-  const bool again = poor && unknown.guesses < kGuesses && unknown.id.place == 1 && !packing_;
-  return unknown.kept && !again;
+void Membership::Guess(Unknown& unknown, double mu) const {
+  if (unknown.kept && IsSought(scenario_, unknown.id.contact)) {
+    const bool poor = std::abs(mu - unknown.mu) > kPoor * unknown.mu;
+    if (!poor || packing_ || unknown.id.place > 1 || unknown.guesses == kGuesses) return;
+    ++unknown.guesses;
+  }
+  unknown.mu = unknown.first_mu = mu;
 }
 
 bool Membership::Cancel(ContactState& state) {

@@ -43,7 +43,7 @@ class Membership {
 
  private:
   void Open(ContactState& state, double effective_mass, double external_force);
-  bool Stays(const Unknown& unknown, double guess) const;
+  void Guess(Unknown& unknown, double mu) const;
 
   const Scenario& scenario_;
   const bool packing_;
