@@ -209,15 +209,5 @@ TEST(RungeKutta, LinearInvariantsAreKept) {
   }
 }
 
-TEST(RungeKutta, ResizeKeepsTheStart) {
-  RungeKutta rk = OfSize(2);
-  rk.y0 << 1, 2;
-  rk.slope0 << 3, 4;
-  rk.Resize(4, 2);
-  EXPECT_EQ(rk.size(), 4);
-  EXPECT_EQ(rk.y0[1], 2);
-  EXPECT_EQ(rk.slope0[1], 4);
-}
-
 }  // namespace
 }  // namespace contact

@@ -31,25 +31,28 @@ Equations::Equations(const Scenario& scenario)
     base.push_back(body.position);
     inverse_mass_.push_back(body.fixed ? 0 : 1 / body.mass);
   }
-  for (const Contact& contact : scenario.contacts) {
-    Sides& sides = sides_.emplace_back();
-    if (contact.left != kNone) {
-      sides.left = contact.left;
-      sides.left_counts = 1;
-      sides.left_inverse = inverse_mass_[At(contact.left)];
-    }
-    if (contact.right != kNone) {
-      sides.right = contact.right;
-      sides.right_counts = 1;
-      sides.right_inverse = inverse_mass_[At(contact.right)];
-    }
-  }
+  for (const Contact& c : scenario.contacts) sides_.push_back(SidesOf(c.left, c.right));
   for (const Load& load : scenario.loads) {
     breakpoints_.push_back(load.begin);
     breakpoints_.push_back(load.end);
   }
   std::sort(breakpoints_.begin(), breakpoints_.end());
   SelectLoads(0);
+}
+
+Sides Equations::SidesOf(int left, int right) const {
+  Sides sides;
+  if (left != kNone) {
+    sides.left = left;
+    sides.left_counts = 1;
+    sides.left_inverse = inverse_mass_[At(left)];
+  }
+  if (right != kNone) {
+    sides.right = right;
+    sides.right_counts = 1;
+    sides.right_inverse = inverse_mass_[At(right)];
+  }
+  return sides;
 }
 
 double Equations::SelectLoads(double time) {
@@ -123,57 +126,20 @@ template <class Count>
   }
 }
 
-// The same with the variational equations (S1): y' = f(y, μ) differentiated by the μ of each
-// column.
-template <class Count>
-[[gnu::always_inline]] inline void Equations::AddSensitiveContacts(Count n, const double* y,
-                                                                   double* dy, double* works,
-                                                                   double pace) const {
-  const std::ptrdiff_t sensitive = tangents();
-  for (const ActiveContact& contact : active) {
-    const ActiveContact c = contact;  // A copy, which no store to dy can change.
-    const double rate = c.Relative(y + n);
-    const ActiveContact::Force f = c.At(c.Relative(y) - c.gap, rate);
-    const double force = pace * f.force;
-    double* a = dy + n;
-    double* work = works + c.contact;
-    a[c.left] -= force * c.left_inverse;
-    a[c.right] += force * c.right_inverse;
-    *work = force * rate;
-    const double* u = y;
-    for (std::ptrdiff_t column = 0; column < sensitive; ++column) {
-      u += 2 * n;
-      a += 2 * n;
-      work += contacts();
-      const double rate_s = c.Relative(u + n);
-      double force_s = f.by_deformation * c.Relative(u) + f.by_rate * rate_s;
-      if (column == c.column) force_s += f.damping;
-      force_s *= pace;
-      a[c.left] -= force_s * c.left_inverse;
-      a[c.right] += force_s * c.right_inverse;
-      *work = force_s * rate + force * rate_s;
-    }
-  }
-}
-
 template <class Count>
 [[gnu::always_inline]] inline void Equations::Evaluate(Count n, double t, const double* y,
                                                        double* dy, double pace) const {
-  const std::ptrdiff_t blocks = 1 + tangents();
-  for (std::ptrdiff_t i = 0; i < 2 * n * blocks; i += 2 * n) {  // u̇ = v; to the rest is added.
-    InRows(n, [=](auto rows, std::ptrdiff_t j) {
-      rows(dy + i + j) = pace * rows(y + i + n + j);
-      rows(dy + i + n + j).setZero();
-    });
-  }
-  double* works = dy + 2 * n * blocks;
-  InRows(contacts() * blocks + (recording ? contacts() + 3 : 0),
+  InRows(n, [=](auto rows, std::ptrdiff_t j) {  // u̇ = v; to the rest is added.
+    rows(dy + j) = pace * rows(y + n + j);
+    rows(dy + n + j).setZero();
+  });
+  double* works = dy + 2 * n;
+  InRows(contacts() + (recording ? contacts() + 3 : 0),
          [=](auto rows, std::ptrdiff_t j) { rows(works + j).setZero(); });
   for (const Load& load : acting_) {
     dy[n + load.body] += pace * LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
   if (!scenario_.supports.empty()) AddSupports(y, dy, pace);
-  if (tangents() > 0) return AddSensitiveContacts(n, y, dy, works, pace);
   AddContacts(n, y, dy, works, pace);
   if (recording) AddRecord(t, y, dy, pace);
 }
@@ -181,56 +147,33 @@ template <class Count>
 // The same for a few bodies, all accelerations in registers.
 template <std::ptrdiff_t n, std::size_t kCount, bool kWalls>
 void Equations::EvaluateFew(const Equations& of, const double* y, double* dy, double pace) {
-  const std::ptrdiff_t sensitive = of.tangents();
   const ActiveContact* const contact = of.active.data();
   const auto relative = [](const Sides& sides, const double* of_bodies) {
     return kWalls ? sides.Relative(of_bodies) : of_bodies[sides.left] - of_bodies[sides.right];
   };
-  // Stored in pairs, as the integrator loads them: else it had to wait for the stores.
-  const auto move = [&](const double* from, const std::array<double, kCount>& force, double* to) {
-    const auto slope = [&](std::ptrdiff_t i) {
-      if (i < n) return pace * from[n + i];
-      double sum = force[0] * contact[0].response[static_cast<std::size_t>(i - n)];
-      for (std::size_t j = 1; j < kCount; ++j) {
-        sum += force[j] * contact[j].response[static_cast<std::size_t>(i - n)];
-      }
-      return sum;
-    };
-    for (std::ptrdiff_t i = 0; i < 2 * n; i += 2) {
-      Rows<2>()(to + i) = Rows<2>::Array(slope(i), slope(i + 1));
-    }
-  };
-  double* work = dy + 2 * n * (1 + sensitive);
-  const std::ptrdiff_t works =
-      of.contacts() * (1 + sensitive) + (of.recording ? of.contacts() + 3 : 0);
+  double* work = dy + 2 * n;
+  const std::ptrdiff_t works = of.contacts() + (of.recording ? of.contacts() + 3 : 0);
   if (works != kCount) {
     InRows(works, [=](auto rows, std::ptrdiff_t j) { rows(work + j).setZero(); });
   }
-  std::array<ActiveContact::Force, kCount> law;
   std::array<double, kCount> rate, force;
   for (std::size_t j = 0; j < kCount; ++j) {
     const ActiveContact& c = contact[j];
     rate[j] = relative(c, y + n);
-    law[j] = c.Plain(relative(c, y) - c.gap, rate[j]);
-    force[j] = pace * law[j].force;
+    force[j] = pace * c.Plain(relative(c, y) - c.gap, rate[j]).force;
     work[c.contact] = force[j] * rate[j];  // (W1)
   }
-  move(y, force, dy);
-  double* to = dy;
-  for (std::ptrdiff_t column = 0; column < sensitive; ++column) {  // (S1)
-    y += 2 * n;
-    to += 2 * n;
-    work += of.contacts();
-    std::array<double, kCount> change;
-    for (std::size_t j = 0; j < kCount; ++j) {
-      const ActiveContact& c = contact[j];
-      const double rate_s = relative(c, y + n);
-      double by_mu = law[j].by_deformation * relative(c, y) + law[j].by_rate * rate_s;
-      if (column == c.column) by_mu += law[j].damping;
-      change[j] = pace * by_mu;
-      work[c.contact] = change[j] * rate[j] + force[j] * rate_s;
+  const auto slope = [&](std::ptrdiff_t i) {
+    if (i < n) return pace * y[n + i];
+    double sum = force[0] * contact[0].response[static_cast<std::size_t>(i - n)];
+    for (std::size_t j = 1; j < kCount; ++j) {
+      sum += force[j] * contact[j].response[static_cast<std::size_t>(i - n)];
     }
-    move(y, change, to);
+    return sum;
+  };
+  // Stored in pairs, as the integrator loads them: else it had to wait for the stores.
+  for (std::ptrdiff_t i = 0; i < 2 * n; i += 2) {
+    Rows<2>()(dy + i) = Rows<2>::Array(slope(i), slope(i + 1));
   }
   if (!of.recording) return;
   double* const external = dy + of.external_work(0);
@@ -272,15 +215,9 @@ void Equations::EvaluateMany(double t, const double* y, double* dy, double pace)
 void Equations::AddSupports(const double* y, double* dy, double pace) const {
   const int n = bodies();
   for (const Support& s : scenario_.supports) {
-    const auto add = [&](double force, double* a) {
-      a[s.body] += pace * force * inverse_mass_[At(s.body)];
-      if (s.other != kNone) a[s.other] -= pace * force * inverse_mass_[At(s.other)];
-    };
-    add(SupportForce(s, y, y + n), dy + n);
-    for (int column = 0; column < tangents(); ++column) {  // (S1)
-      const double* u = y + tangent(column);
-      add(-s.stiffness * Relative(s, u) - s.damping * Relative(s, u + n), dy + tangent(column) + n);
-    }
+    const double force = pace * SupportForce(s, y, y + n);
+    dy[n + s.body] += force * inverse_mass_[At(s.body)];
+    if (s.other != kNone) dy[n + s.other] -= force * inverse_mass_[At(s.other)];
   }
 }
 

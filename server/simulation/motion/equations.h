@@ -88,15 +88,13 @@ struct ActiveContact : Sides {
 };
 
 /// The equations of motion as a first-order system, (M1) to (M5) of README.md, with the
-/// quadratures that the ledger needs and the sensitivities that the μ-solve needs.
+/// quadratures that the ledger needs.
 ///
 /// Displacements u are measured from `base`, near which they stay small, so that deformations
 /// keep their digits however far a body has come. State vector y, N bodies and C contacts:
 ///   [u (N), v (N)]
-///   [∂u/∂μ, ∂v/∂μ]                             for each column, when not recording
 /// and then quadratures, on which no slope depends:
 ///   [W (C)]                                    work of the running cycles
-///   [∂W/∂μ]                                    for each column, when not recording
 ///   [E (C), load work, support loss, impulse]  when recording
 class Equations {
  public:
@@ -105,20 +103,12 @@ class Equations {
 
   int bodies() const { return bodies_; }
   int contacts() const { return contacts_; }
-  /// How many numbers y has. It changes with `columns` and `recording`, as do the places below.
-  std::ptrdiff_t size() const {
-    return work(contacts()) + (recording ? contacts() + 3 : tangents() * contacts());
-  }
+  /// How many numbers y has. It changes with `recording`.
+  std::ptrdiff_t size() const { return work(contacts()) + (recording ? contacts() + 3 : 0); }
   /// How many of them, from the first, slopes depend on: all but the quadratures.
-  std::ptrdiff_t coupled() const { return 2 * std::ptrdiff_t{bodies()} * (1 + tangents()); }
-  /// Place of ∂u/∂μ of a column; ∂v/∂μ follows.
-  std::ptrdiff_t tangent(int column) const { return 2 * std::ptrdiff_t{bodies()} * (1 + column); }
+  std::ptrdiff_t coupled() const { return 2 * std::ptrdiff_t{bodies()}; }
   /// Place of the work W of a contact's running cycle [J], (W1).
   std::ptrdiff_t work(int contact) const { return coupled() + contact; }
-  /// Place of ∂W/∂μ of a contact for a column, (S2). Only when not recording.
-  std::ptrdiff_t work_tangent(int contact, int column) const {
-    return work(contact) + std::ptrdiff_t{contacts()} * (1 + column);
-  }
   /// Place of the work E of F_e in a contact's running cycle [J], (W3). This and the next three
   /// only when recording.
   std::ptrdiff_t external_work(int contact) const { return work(contacts()) + contact; }
@@ -139,6 +129,9 @@ class Equations {
   double Relative(int contact, const double* of_bodies) const {
     return sides(contact).Relative(of_bodies);
   }
+
+  /// Two bodies, or a body and, as kNone, a wall.
+  Sides SidesOf(int left, int right) const;
 
   /// m_e of a contact [kg], (M5); a wall or fixed body counts as infinitely heavy.
   double effective_mass(int contact) const;
@@ -165,21 +158,15 @@ class Equations {
   std::vector<double> base;
   /// The contacts that exert a force, in order of Scenario::contacts.
   std::vector<ActiveContact> active;
-  /// How many μ the motion is differentiated by, when not recording.
-  int columns = 0;
-  /// Whether y has the quadratures of the ledger instead of the sensitivities.
+  /// Whether y has the quadratures of the ledger.
   bool recording = false;
 
  private:
-  std::ptrdiff_t tangents() const { return recording ? 0 : columns; }
-  /// Adds the supports to the accelerations, and to their derivatives.
+  /// Adds the supports to the accelerations.
   void AddSupports(const double* y, double* dy, double pace) const;
-  /// Adds the active contacts to the accelerations, without sensitivities.
+  /// Adds the active contacts to the accelerations.
   template <class Count>
   void AddContacts(Count n, const double* y, double* dy, double* works, double pace) const;
-  /// Adds the active contacts to the accelerations and to their derivatives, (S1).
-  template <class Count>
-  void AddSensitiveContacts(Count n, const double* y, double* dy, double* works, double pace) const;
   /// All slopes, for `n` bodies: a number or an integral constant.
   template <class Count>
   void Evaluate(Count n, double t, const double* y, double* dy, double pace) const;

@@ -66,7 +66,7 @@ Motion::Motion(const Scenario& scenario)
       rk_(fixed_step_ > 0 ? RungeKutta::Method::kClassical : RungeKutta::Method::kDormandPrince),
       deformation_scale_(scenario.contacts.size()),
       velocity_scale_(scenario.contacts.size()),
-      start_gradient_(scenario.contacts.size()),
+      tangents_(scenario, equations_),
       turn_gradient_(scenario.contacts.size()),
       error5_(2 * scenario.bodies.size()),
       error3_(2 * scenario.bodies.size()),
@@ -90,7 +90,7 @@ void Motion::Begin(const State& state, bool recording, double tolerance) {
 
   equations_.base = state.positions;
   equations_.recording = recording;
-  equations_.columns = 0;
+  tangents_.Clear();
   SelectLoads();
   rk_.Resize(equations_.size(), equations_.coupled());
   rk_.y0.setZero();
@@ -99,7 +99,6 @@ void Motion::Begin(const State& state, bool recording, double tolerance) {
     ContactState& contact = contacts_[At(c)];
     rk_.y0[equations_.work(c)] = contact.work;
     if (recording) rk_.y0[equations_.external_work(c)] = contact.external_work;
-    start_gradient_[At(c)].resize(0);
     turn_gradient_[At(c)].resize(0);
     deformation_scale_[At(c)] = std::abs(contact.gap + contact.cycle.start_deformation);
     velocity_scale_[At(c)] = contact.cycle.approach_velocity;
@@ -199,6 +198,7 @@ void Motion::RefreshActive() {
         equations_.Activate(c, contact.gap, contact.cycle.mu, contact.column));
   }
   equations_.Prepare();
+  tangents_.Prepare();
   equations_(time_, rk_.y0.data(), rk_.slope0.data());
   ++evaluations_;
 }
@@ -259,6 +259,7 @@ Motion::Found Motion::FindEvent() const {
 Motion::Found Motion::PassTurns() {
   const int n = equations_.bodies();
   bool prepared = false;
+  turns_.clear();
   while (true) {
     const Found found = FindEvent();
     if (found.contact == kNone || found.event.kind != EventKind::kTurn) return found;
@@ -276,8 +277,25 @@ Motion::Found Motion::PassTurns() {
     theta = std::clamp(step_.Theta(step_.At(theta) - late), 0.0, 1.0);
     rk_.Interpolate(theta, &inside_);
     event_[At(found.contact)] = theta;
+    turns_.emplace_back(found.contact, step_.At(theta));
     Turn(contacts_[At(found.contact)], step_.At(theta), inside_);
   }
+}
+
+void Motion::FollowStep() {
+  paths_.clear();
+  for (const ActiveContact& active : equations_.active) {
+    const auto [start, end] = PathEnds(active.contact);
+    paths_.emplace_back(start, end);
+  }
+  double from = 0;
+  for (const auto& [contact, time] : turns_) {
+    const double theta = std::min(step_.Theta(time), 1.0);
+    tangents_.Follow(step_, paths_, from, theta);
+    turn_gradient_[At(contact)] = tangents_.Work(contact);
+    from = std::max(from, theta);
+  }
+  tangents_.Follow(step_, paths_, from, 1);
 }
 
 void Motion::Accept(StepListener* listener) {
@@ -285,6 +303,7 @@ void Motion::Accept(StepListener* listener) {
   if (equations_.recording || split_at_force_) {
     for (const ActiveContact& active : equations_.active) ObserveForce(active);
   }
+  if (tangents_.count() > 0) FollowStep();
   if (listener != nullptr) listener->OnStep(step_);
   const bool breaks = step_.h >= breakpoint_ - time_;
   time_ = breaks ? breakpoint_ : time_ + step_.h;

@@ -11,6 +11,7 @@
 #include "simulation/motion/contact_events.h"
 #include "simulation/motion/equations.h"
 #include "simulation/motion/runge_kutta.h"
+#include "simulation/motion/tangents.h"
 
 namespace contact {
 
@@ -146,7 +147,7 @@ class Motion {
   /// The scenario must outlive the motion.
   explicit Motion(const Scenario& scenario);
 
-  /// Takes over a state. Recording: quadratures of the ledger; else: sensitivities. `tolerance`
+  /// Takes over a state. Recording: quadratures of the ledger, and no tangents. `tolerance`
   /// takes the place of the scenario's; 0: the scenario's.
   void Begin(const State& state, bool recording, double tolerance = 0);
 
@@ -196,8 +197,6 @@ class Motion {
   void StartPushed(int collision, CycleHost& host);
   /// Begins the cycle of a contact whose kind is set.
   void StartCycle(int contact, CycleHost& host);
-  /// Adds a sensitivity column to y.
-  void AddColumn();
   /// Sets the scales to which a resting contact is integrated.
   void SetRestingScale(int contact);
   /// A first step for a cycle [s]: a small part of its duration.
@@ -233,6 +232,8 @@ class Motion {
   void Shift(double time, bool tangent);
   /// Computes the step of h [s] and its end; `parting`: it ends in a separation.
   void ComputeStep(double h, bool parting);
+  /// Takes the tangents along the step, and to the turns in it.
+  void FollowStep();
   /// Makes the end of the step the state, and tells the listener before.
   void Accept(StepListener* listener);
   /// Changes the phase of the contact whose event the step has ended on.
@@ -251,8 +252,6 @@ class Motion {
   void ObserveForce(const ActiveContact& active);
   /// Keeps the state at θ as that of the largest force.
   void KeepPeak(int contact, double theta);
-  /// ∂W/∂μ of a contact for each column, (S2).
-  Eigen::ArrayXd WorkGradient(int contact, const Eigen::ArrayXd& y) const;
   /// E of a contact in y [J]; 0 when not recording.
   double ExternalWork(int contact, const Eigen::ArrayXd& y) const;
   /// Takes the contacts in touch into the equations, and their slopes at this instant.
@@ -273,8 +272,13 @@ class Motion {
   std::vector<double> deformation_scale_;
   // Largest |δ̇| of each contact's running cycle [m/s].
   std::vector<double> velocity_scale_;
-  // WorkGradient of each contact at the start and at the turn of its running cycle.
-  std::vector<Eigen::ArrayXd> start_gradient_, turn_gradient_;
+  Tangents tangents_;
+  // ∂W/∂μ of each contact at the turn of its running cycle.
+  std::vector<Eigen::ArrayXd> turn_gradient_;
+  // The contacts that turn in the step, and when [s].
+  std::vector<std::pair<int, double>> turns_;
+  // The deformations of the active contacts in the step.
+  std::vector<DeformationPath> paths_;
   // Error estimates of every u and v; scratch of ErrorNorm.
   mutable std::vector<double> error5_, error3_;
   // Largest |u| [m] and |v| [m/s] while no contact was in touch.

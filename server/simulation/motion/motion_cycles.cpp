@@ -83,13 +83,10 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   state.column = factor.column;
   state.phase = state.settled ? Phase::kResting : Phase::kCompression;
 
-  if (factor.column >= equations_.columns && !equations_.recording) AddColumn();
+  if (factor.column >= tangents_.count() && !equations_.recording) tangents_.Add();
   rk_.y0[equations_.work(contact)] = 0;
-  for (int column = 0; !equations_.recording && column < equations_.columns; ++column) {
-    rk_.y0[equations_.work_tangent(contact, column)] = 0;
-  }
+  tangents_.Restart(contact);
   if (equations_.recording) rk_.y0[equations_.external_work(contact)] = 0;
-  start_gradient_[At(contact)] = WorkGradient(contact, rk_.y0);
   deformation_scale_[At(contact)] = factor.length;
   velocity_scale_[At(contact)] = std::max(factor.speed, approach);
   if (factor.length == 0 && collides) {
@@ -103,16 +100,6 @@ void Motion::StartCycle(int contact, CycleHost& host) {
   if (state.settled) SetRestingScale(contact);
   const double first = FirstStep(contact);
   next_step_ = next_step_ == 0 ? first : std::min(next_step_, first);
-}
-
-// Makes room for one more μ to differentiate by; nothing depends on it yet.
-void Motion::AddColumn() {
-  const Eigen::Index coupled = equations_.coupled();
-  const Eigen::ArrayXd works = rk_.y0.tail(rk_.size() - coupled);
-  ++equations_.columns;
-  rk_.Resize(equations_.size(), equations_.coupled());
-  rk_.y0.tail(rk_.size() - coupled).setZero();
-  rk_.y0.segment(equations_.coupled(), works.size()) = works;
 }
 
 void Motion::SetRestingScale(int contact) {
@@ -192,7 +179,7 @@ void Motion::Turn(ContactState& state, double time, const Eigen::ArrayXd& y) {
   cycle.max_deformation = Deformation(cycle.contact, y.data());
   SetCompression(contact, cycle.max_deformation, y[equations_.work(cycle.contact)],
                  ExternalWork(cycle.contact, y), &cycle);
-  turn_gradient_[At(cycle.contact)] = WorkGradient(cycle.contact, y);
+  turn_gradient_[At(cycle.contact)] = tangents_.Work(cycle.contact);
 }
 
 void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
@@ -227,17 +214,15 @@ void Motion::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
         cycle.work_compression;  // (W4)
     totals_.contact_loss += cycle.dissipated_compression + cycle.dissipated_restitution;
   }
-  // The gradients have the columns that existed then; later ones begin at zero.
-  Eigen::ArrayXd& start = start_gradient_[At(cycle.contact)];
+  const Eigen::ArrayXd gradient = tangents_.Work(cycle.contact);
+  // It has the μ that there were then; later ones begin at 0.
   Eigen::ArrayXd& turn = turn_gradient_[At(cycle.contact)];
-  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(equations_.columns);
-  start.conservativeResizeLike(none);
-  turn.conservativeResizeLike(none);
+  turn.conservativeResizeLike(Eigen::ArrayXd::Zero(gradient.size()));
   if (separates) ShiftAtJump(cycle.contact, -1);
   state.phase = separates ? Phase::kOpen : Phase::kStarting;
   state.last_mu = cycle.mu;
-  host.OnEnd(state, turn - start, WorkGradient(cycle.contact, rk_.y0) - turn,
-             deformation_scale_[At(cycle.contact)], velocity_scale_[At(cycle.contact)]);
+  host.OnEnd(state, turn, gradient - turn, deformation_scale_[At(cycle.contact)],
+             velocity_scale_[At(cycle.contact)]);
   state.largest_work = std::max(state.largest_work, cycle.work_compression);
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
   rk_.y0[equations_.work(cycle.contact)] = 0;
@@ -270,23 +255,8 @@ void Motion::ShiftAtJump(int contact, double sign) {
   const ContactState& state = contacts_[At(contact)];
   const ActiveContact c = equations_.Activate(contact, state.gap, state.cycle.mu, kNone);
   const double rate = c.Relative(rk_.y0.data() + n);
-  if (c.damping_exponent != 0 || equations_.recording || rate == 0) return;
-  const double force = sign * c.At(0, rate).force;
-  for (int column = 0; column < equations_.columns; ++column) {
-    double* tangent = rk_.y0.data() + equations_.tangent(column);
-    const double late = -c.Relative(tangent) / rate;
-    tangent[n + c.left] += force * c.left_inverse * late;
-    tangent[n + c.right] -= force * c.right_inverse * late;
-  }
-}
-
-// ∂W/∂μ of a contact for each column, (S2).
-Eigen::ArrayXd Motion::WorkGradient(int contact, const Eigen::ArrayXd& y) const {
-  Eigen::ArrayXd gradient(equations_.columns);
-  for (int column = 0; column < equations_.columns; ++column) {
-    gradient[column] = y[equations_.work_tangent(contact, column)];
-  }
-  return gradient;
+  if (c.damping_exponent != 0 || rate == 0) return;
+  tangents_.Jump(c, sign * c.At(0, rate).force / rate);
 }
 
 // Peak force and pulling time over the step.

@@ -47,9 +47,9 @@ double StepTime::Theta(double t) const {
 
 void RungeKutta::Resize(Eigen::Index size, Eigen::Index coupled) {
   coupled_ = coupled;
-  y0.conservativeResize(size);
+  y0.resize(size);
   y1.resize(size);
-  slope0.conservativeResize(size);
+  slope0.resize(size);
   slope1.resize(size);
   stage_.resize(size);
   k_.resize(size, 16);

@@ -49,7 +49,7 @@ class RungeKutta {
 
   explicit RungeKutta(Method method = Method::kDormandPrince) : method_(method) {}
 
-  /// Keeps what there is of y0 and slope0. f depends on the first `coupled` numbers of y only; the
+  /// f depends on the first `coupled` numbers of y only; the
   /// others are quadratures, which stages need not know.
   void Resize(Eigen::Index size, Eigen::Index coupled);
   /// How many numbers y has.

@@ -35,7 +35,7 @@ template <class F>
 void RungeKutta::Step(F&& f, const StepTime& time) {
   k_.col(0) = slope0 * time.Rate(0);
   if (method_ == Method::kClassical) return ClassicalStep(f, time);
-  WithCount<2, 4, 6, 12, 18>(coupled_, [&](auto coupled) { DormandPrinceStep(f, time, coupled); });
+  WithCount<2, 4, 6>(coupled_, [&](auto coupled) { DormandPrinceStep(f, time, coupled); });
 }
 
 template <class F>

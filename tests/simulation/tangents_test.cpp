@@ -1,0 +1,119 @@
+#include "simulation/motion/tangents.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "testing/cases.h"
+
+namespace contact {
+namespace {
+
+// Three balls, a wall, a support between bodies and one to the ground: every kind of term.
+Scenario Mixed() {
+  Scenario s = testing::Chain({0.5, 0.8, 0.3}, {1e8, 3e7}, {0.8, 0.7}, 0.2, 1);
+  s.contacts.push_back({.name = "wall",
+                        .right = 0,
+                        .wall_position = -0.05,
+                        .stiffness = 2e7,
+                        .exponent = 1.2,
+                        .restitution = 0.5});
+  s.supports = {{.body = 0, .stiffness = 1e6, .damping = 300, .rest_position = 1e-5},
+                {.body = 2, .other = 1, .stiffness = 2e6, .damping = 200, .rest_position = 0.09995}};
+  s.loads = {{.body = 1, .constant = 40, .amplitude = 9, .angular_frequency = 70, .phase = 0.4}};
+  return s;
+}
+
+// W of each contact in 0.2 ms, in which all stay closed, and ∂W/∂μ: a row for each μ.
+struct Works {
+  Eigen::ArrayXd works;
+  Eigen::ArrayXXd tangents;
+};
+
+Works Follow(const Scenario& s, const std::vector<double>& mu, int steps, double warp = 1) {
+  Equations equations(s);
+  Tangents tangents(s, equations);
+  const int contacts = equations.contacts(), n = equations.bodies();
+  for (int c = 0; c < contacts; ++c) {
+    equations.active.push_back(equations.Activate(c, 0, mu[static_cast<std::size_t>(c)], c));
+    tangents.Add();
+  }
+  tangents.Prepare();
+  RungeKutta rk;
+  rk.Resize(equations.size(), equations.coupled());
+  rk.y0.setZero();
+  rk.y0.head(6) << -3e-5, -6e-5, -1.3e-4, -0.1, -0.05, 0.02;
+  StepTime step{.h = 2e-4 / steps, .warp = warp};
+  for (int i = 0; i < steps; ++i, step.start += step.h) {
+    equations(step.start, rk.y0.data(), rk.slope0.data());
+    rk.Step(equations, step);
+    rk.FinishStep(equations, step);
+    const auto end = [&](int contact, const auto& y, const auto& slope, double theta) {
+      const double dt = step.h * step.Rate(theta);
+      const double rate = equations.Relative(contact, y.data() + n);
+      const double bend = 2 * step.h * (1 - warp);
+      return DeformationPath::End{
+          equations.Relative(contact, y.data()), dt * rate,
+          dt * dt * equations.Relative(contact, slope.data() + n) + bend * rate};
+    };
+    std::vector<DeformationPath> paths;
+    for (int c = 0; c < contacts; ++c) {
+      paths.emplace_back(end(c, rk.y0, rk.slope0, 0), end(c, rk.y1, rk.slope1, 1));
+    }
+    tangents.Follow(step, paths, 0, 0.3);  // In two stretches, as to a turn and from it.
+    tangents.Follow(step, paths, 0.3, 1);
+    rk.Advance();
+  }
+  Works made{rk.y0.segment(equations.work(0), contacts), {}};
+  made.tangents.resize(contacts, contacts);
+  for (int c = 0; c < contacts; ++c) made.tangents.col(c) = tangents.Work(c);
+  return made;
+}
+
+const std::vector<double> kMu = {1e8, 6e7, 3e7};
+
+TEST(Tangents, AreTheDifferencesOfWorksByTheirMu) {
+  const Scenario s = Mixed();
+  for (const double warp : {0.0, 1.0, 1.7}) {
+    const Works works = Follow(s, kMu, 40, warp);
+    for (std::size_t j = 0; j < kMu.size(); ++j) {
+      std::vector<double> more = kMu, less = kMu;
+      const double change = 1e-4 * kMu[j];
+      more[j] += change;
+      less[j] -= change;
+      const Eigen::ArrayXd difference =
+          (Follow(s, more, 40, warp).works - Follow(s, less, 40, warp).works) / (2 * change);
+      const Eigen::ArrayXd tangent = works.tangents.row(static_cast<Eigen::Index>(j));
+      for (Eigen::Index c = 0; c < tangent.size(); ++c) {
+        EXPECT_NEAR(tangent[c], difference[c], 5e-5 * difference.abs().maxCoeff())
+            << "contact " << c << ", μ " << j << ", warp " << warp;
+        EXPECT_GT(std::abs(difference[c]), 1e-4 * difference.abs().maxCoeff());
+      }
+    }
+  }
+}
+
+TEST(Tangents, ConvergeWithOrderFour) {
+  const Scenario s = Mixed();
+  const Eigen::ArrayXXd exact = Follow(s, kMu, 200).tangents;
+  const auto error = [&](int steps) {
+    return (Follow(s, kMu, steps).tangents - exact).abs().maxCoeff();
+  };
+  EXPECT_NEAR(std::log2(error(6) / error(12)), 4, 0.4);
+  EXPECT_NEAR(std::log2(error(12) / error(24)), 4, 0.4);
+}
+
+// Steps of the motion may be longer than the classical method is stable.
+TEST(Tangents, FollowStiffContactsInParts) {
+  const Scenario s = Mixed();
+  const std::vector<double> stiff = {3e9, 6e7, 3e7};
+  const Eigen::ArrayXXd exact = Follow(s, stiff, 400).tangents;
+  const Eigen::ArrayXXd coarse = Follow(s, stiff, 3).tangents;
+  for (Eigen::Index j = 0; j < exact.rows(); ++j) {
+    EXPECT_LT((coarse - exact).row(j).abs().maxCoeff(), 0.02 * exact.row(j).abs().maxCoeff()) << j;
+  }
+}
+
+}  // namespace
+}  // namespace contact
