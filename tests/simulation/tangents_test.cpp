@@ -19,8 +19,9 @@ Scenario Mixed() {
                         .stiffness = 2e7,
                         .exponent = 1.2,
                         .restitution = 0.5});
-  s.supports = {{.body = 0, .stiffness = 1e6, .damping = 300, .rest_position = 1e-5},
-                {.body = 2, .other = 1, .stiffness = 2e6, .damping = 200, .rest_position = 0.09995}};
+  s.supports = {
+      {.body = 0, .stiffness = 1e6, .damping = 300, .rest_position = 1e-5},
+      {.body = 2, .other = 1, .stiffness = 2e6, .damping = 200, .rest_position = 0.09995}};
   s.loads = {{.body = 1, .constant = 40, .amplitude = 9, .angular_frequency = 70, .phase = 0.4}};
   return s;
 }

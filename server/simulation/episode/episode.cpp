@@ -129,8 +129,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
                 static_cast<int>(scenario_.contacts.size()),
                 scenario_.solver.restitution_scope == RestitutionScope::kEncounter
                     ? scenario_.solver.encounter_cycles
-                    : 1,
-                IsPacking(scenario_));
+                    : 1);
   return Search();
 }
 

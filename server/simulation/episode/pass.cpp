@@ -21,7 +21,9 @@ constexpr double kLeastRestitution = 0.05;
 // A group that was negligible is so until its work is this many times what is: its μ, which depends
 // on that, changes its work.
 constexpr double kStillWeak = 10;
-// One that has changed between the two so often is negligible for good.
+// After so many changes between the two a group stays what it is then. Else it may change without
+// end: with the μ of the cycle before it lasts for two cycles, which are not negligible, and with its
+// own μ for one, which is.
 constexpr int kMostFlips = 3;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -150,8 +152,9 @@ void Pass::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient
   seen->ended = true;
   seen->separated = cycle.end == Cycle::End::kSeparation;
   const Unknown& known = *groups_.Find(seen->id);
-  seen->weak = seen->cycles == 1 &&
-               (known.flips > kMostFlips || membership_.IsWeak(state, known.weak ? kStillWeak : 1));
+  seen->weak = known.flips > kMostFlips
+                   ? known.weak
+                   : seen->cycles == 1 && membership_.IsWeak(state, known.weak ? kStillWeak : 1);
   Measure(*seen);
   if (Matters(*groups_.Find(seen->id))) --running_;
   enough_ = enough_ || Enough();

@@ -20,16 +20,15 @@ constexpr double kBefore = 1e-9;
 
 }  // namespace
 
-void Window::Begin(double start, int running, int known, int contacts, int longest, bool packing) {
-  packing_ = packing;
+void Window::Begin(double start, int running, int known, int contacts, int longest) {
   start_ = start;
   most_ = MostWindowCycles(static_cast<std::size_t>(contacts));
   cycles_ = std::min(longest * std::max(kFirst, std::max(known, running) + kMore), most_);
 }
 
 // Whether the pass saw the ends of all groups that overlap with it in time: the μ of one whose end
-// was not seen is a guess. In packings also of all that overlap with these, for one that grows late
-// may change those before it by any amount.
+// was not seen is a guess. Also of all that overlap with these, for one that grows late may change
+// those before it by any amount.
 bool Window::Foreseen(const GroupSight& of, const Sight& sight) const {
   double end = of.end_time;
   for (const GroupSight& g : sight.groups) {
@@ -37,7 +36,7 @@ bool Window::Foreseen(const GroupSight& of, const Sight& sight) const {
     if (!g.ended) return false;
     end = std::max(end, g.end_time);
   }
-  return !packing_ || std::ranges::all_of(sight.groups, [&](const GroupSight& g) {
+  return std::ranges::all_of(sight.groups, [&](const GroupSight& g) {
     return g.ended || !g.sought || g.start_time >= end;
   });
 }

@@ -10,10 +10,8 @@ namespace contact {
 class Window {
  public:
   /// Of an episode that begins at `start` [s] while so many cycles run; `known` groups have
-  /// their μ from an earlier search.
-  /// `longest`: cycles that a group may have at first. `packing`: loads, supports or walls may keep
-  /// contacts closed, so that groups may grow late.
-  void Begin(double start, int running, int known, int contacts, int longest, bool packing);
+  /// their μ from an earlier search. `longest`: cycles that a group may have at first.
+  void Begin(double start, int running, int known, int contacts, int longest);
   int cycles() const { return cycles_; }
 
   /// Looks at a pass in whose window every group has its answer: returns the instant [s] up to
@@ -27,7 +25,6 @@ class Window {
 
   double start_ = 0;
   int cycles_ = 0, most_ = 0;
-  bool packing_ = false;
 };
 
 }  // namespace contact
