@@ -42,6 +42,7 @@ constexpr double kChunksAtOnce = 3;    // Being filled, waiting, and being writt
 constexpr double kCycleBytes = 470;    // A row of the ledger and its group, as events.
 constexpr double kUnknownBytes = 110;  // A cycle in a row of the iteration.
 constexpr double kLogBytes = 600;      // States, attempt and progress of any job.
+constexpr double kTangents = 5;        // Arrays of derivatives by a μ, of motion and works.
 constexpr double kStages = 13;         // Slopes that a step of the integrator holds.
 
 // Cycles until one has but this fraction of the first one's work, of which each leaves ε².
@@ -179,7 +180,7 @@ double LedgerBytes(const std::vector<Cycles>& cycles) {
   return bytes;
 }
 
-// The slopes of a step with their sensitivities to each unknown μ, and chunks of samples.
+// The slopes of a step, the derivatives by each unknown μ, and chunks of samples.
 double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles, double samples) {
   double unknowns = 0;
   for (const Cycles& c : cycles) unknowns += c.passes > 1 ? c.count : 0;
@@ -187,7 +188,7 @@ double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles, doubl
                        5 * static_cast<double>(scenario.contacts.size());
   const double columns = std::min<double>(unknowns, MostWindowCycles(scenario.contacts.size()));
   const double pending = std::min(samples, kChunksAtOnce * ChunkRows(scenario));
-  return sizeof(double) * kStages * state * (1 + columns) +
+  return sizeof(double) * state * (kStages + kTangents * columns) +
          SampleBytes(scenario, pending, kColumnMemory);
 }
 
