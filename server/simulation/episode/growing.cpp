@@ -83,7 +83,9 @@ bool Growing::Answer(const GroupSight& group, Root root) {
                      : root == Root::kTooMuch ? Growth::kTooMuch
                                               : Growth::kJump;
   const bool ends = root == Root::kTooLittle && group.ended && group.end_time <= problem_.end();
-  if ((ends || !IsCut(group.id)) && Grow(group.id, why)) return true;
+  // One that was found to be cut, and ended after all, might be found so again and again.
+  const bool again = problem_.groups.At(group.id).reopened > 0;
+  if ((ends || again || !IsCut(group.id)) && Grow(group.id, why)) return true;
   if (problem_.Aborted() || !IsCut(group.id)) return problem_.Aborted();
   problem_.groups.At(group.id).status = Cycle::Status::kUnfinished;
   return true;
