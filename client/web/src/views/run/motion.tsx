@@ -12,7 +12,7 @@ import {Plot} from '../../plots/plot';
 import type {Window} from '../../plots/range';
 import {LeftOut} from '../../ui/left_out';
 import {setQuery} from '../../ui/route';
-import {changed, setWindow, windowOf} from './window';
+import {changed, covers, setWindow, windowOf} from './window';
 
 interface Props {
   run: RunState;
@@ -85,7 +85,10 @@ function PresetPlot({preset, mechanics: all, part, contact, ...rest}: PresetProp
 function Zoom({query, window, whole, live}: {query: URLSearchParams; window: Window | undefined; whole: Window; live: boolean}) {
   // From the address: keys may come faster than the page is drawn.
   const now = () => windowOf(new URLSearchParams(location.search), whole[1]) ?? whole;
-  const zoom = (factor: number, move = 0) => setWindow(changed(now(), factor, move));
+  const zoom = (factor: number, move = 0) => {
+    const next = changed(now(), factor, move);
+    setWindow(factor > 1 && covers(next, whole) ? undefined : next);
+  };
   useEffect(() => {
     const keys: Record<string, () => void> = {
       '+': () => zoom(0.5), '=': () => zoom(0.5), '-': () => zoom(2), '0': () => setWindow(undefined),

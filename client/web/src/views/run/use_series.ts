@@ -7,6 +7,7 @@ import {passes} from '../../api/errors';
 import {readSeries, type Series} from '../../api/series';
 import {Turns, type Rest} from '../../api/turns';
 import {insideOf} from '../../model/panel';
+import {Recent} from '../../model/recent';
 import type {Window} from '../../plots/range';
 
 const POINTS = 4000;
@@ -16,6 +17,7 @@ const LIVE_PAUSE_MS = 400;       // Between two calls while a run goes on.
 const RETRY_MS = 1000;           // After a call that failed.
 const LATE_MS = 150;             // After which plots do not wait for their values.
 const ENOUGH = 1000;             // Samples in a window with which they do not wait at all.
+const KEPT = 16;                 // Windows of a run that is over whose columns are kept: 0.3 MB each.
 
 /** Samples to ask for, so that each column has enough and the answer is not too large. */
 export function pointsFor(channels: number): number {
@@ -62,6 +64,8 @@ export function useSeries(name: string, channels: string[], window: Window | und
   const view = `${name} ${channels.join(' ')} ${window?.[0]} ${window?.[1]}`;
   const [shown, setShown] = useState<Shown>({window, view});
   const asked = useRef({view: '', start: 0});
+  const kept = useMemo(() => new Recent<Series>(KEPT), []);
+  const own = useRef('');   // The view whose own columns are shown.
   const newest = useRef(view);
   newest.current = view;
   const call = useRef<() => Promise<Rest>>();
@@ -70,7 +74,10 @@ export function useSeries(name: string, channels: string[], window: Window | und
     asked.current.view = view;
     try {
       const series = await readSeries({name, channels, from: window?.[0], to: window?.[1], maxPoints: pointsFor(channels.length)});
+      if (tick < 0) kept.put(view, series);
+      if (view !== newest.current && own.current === newest.current) return {pauseMs: 0};
       asked.current.start = start;
+      own.current = view;
       setShown((now) => (now.view === newest.current ? {...now, series} : {series, window, view}));   // Never back to a window.
       return {pauseMs: tick < 0 ? 0 : LIVE_PAUSE_MS};
     } catch (error) {
@@ -82,7 +89,12 @@ export function useSeries(name: string, channels: string[], window: Window | und
   useLayoutEffect(() => { if (shown.series) measure('series', asked.current.start); }, [shown.series]);
   useLayoutEffect(() => {
     if (channels.length === 0) return;
-    if (tick >= 0 && asked.current.view === view) turns.later();
+    const known = tick < 0 ? kept.get(view) : undefined;
+    if (known) {
+      asked.current = {view, start: performance.now()};
+      own.current = view;
+      setShown({series: known, window, view});
+    } else if (tick >= 0 && asked.current.view === view) turns.later();
     else turns.now();
   }, [view, tick]);
   useMove(shown, setShown, {window, view});

@@ -26,3 +26,9 @@ export function changed(window: Window, factor: number, move = 0): Window {
   const half = (to - from) / 2 * factor;
   return [middle - half, middle + half];
 }
+
+/** True if a window shows all of another one, but for rounding. */
+export function covers([from, to]: Window, whole: Window): boolean {
+  const rounding = 1e-6 * (whole[1] - whole[0]);
+  return from <= whole[0] + rounding && to >= whole[1] - rounding;
+}
