@@ -110,6 +110,27 @@ test('a zoom asks the server again, and no peak is lost', async () => {
   assert.equal(ofAddress('from'), null);
 });
 
+test('a window that was shown before is shown again without the server', async () => {
+  const id = await server.submit({...swinging(1), output: {sampleIntervalS: 1e-4}});
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  await hold(async () => await points('force') > 1000);
+  const whole = await forcePoints('ball-wall');
+  let asked = 0;
+  const count = (request) => { asked += request.url().endsWith('GetSeries'); };
+  page.on('request', count);
+  await page.keyboard.press('+');
+  await hold(async () => asked === 1 && JSON.stringify(await forcePoints('ball-wall')) !== JSON.stringify(whole));
+  await page.keyboard.press('-');
+  await hold(async () => JSON.stringify(await forcePoints('ball-wall')) === JSON.stringify(whole));
+  assert.equal(ofAddress('from'), null);
+  await page.keyboard.press('+');
+  await hold(() => ofAddress('from') !== null);
+  await page.waitForTimeout(300);
+  assert.equal(asked, 1);
+  page.off('request', count);
+});
+
 test('zooms faster than the server answers end with the last window', async () => {
   const id = await server.submit(CHAIN);
   const {summary: {timeReachedS}} = await server.ended(id);
