@@ -10,21 +10,6 @@
 namespace contact {
 namespace {
 
-// Three balls, a wall, a support between bodies and one to the ground: every kind of term.
-Scenario Mixed() {
-  Scenario s = testing::Chain({0.5, 0.8, 0.3}, {1e8, 3e7}, {0.8, 0.7}, 0.2, 1);
-  s.contacts.push_back({.name = "wall",
-                        .right = 0,
-                        .wall_position = -0.05,
-                        .stiffness = 2e7,
-                        .exponent = 1.2,
-                        .restitution = 0.5});
-  s.supports = {{.body = 0, .stiffness = 1e5, .damping = 30, .rest_position = 0.01},
-                {.body = 2, .other = 1, .stiffness = 2e5, .damping = 20, .rest_position = 0.1}};
-  s.loads = {{.body = 1, .constant = 40, .amplitude = 9, .angular_frequency = 70, .phase = 0.4}};
-  return s;
-}
-
 // The shorter way for a few contacts gives the same slopes, to the last bit.
 TEST(Equations, FewContactsAreComputedAsMany) {
   for (const bool recording : {false, true}) {
@@ -73,7 +58,7 @@ TEST(Equations, ExternalForceIsThatOfTheOtherForces) {
 }
 
 TEST(Equations, AWallHasInfiniteMass) {
-  const Scenario s = Mixed();
+  const Scenario s = testing::Mixed();
   EXPECT_DOUBLE_EQ(Equations(s).effective_mass(2), 0.5);
   EXPECT_DOUBLE_EQ(Equations(s).effective_mass(0), 1 / (1 / 0.5 + 1 / 0.8));
 }
@@ -146,7 +131,7 @@ TEST(ActiveContact, AClippedOneNeverPulls) {
 // Along the slope the energy changes by the work of the loads less all that is dissipated, and the
 // momentum by the impulse: what the balances of a run rest on, (B1), (B2).
 TEST(Equations, SlopesKeepTheBalances) {
-  const Scenario scenario = Mixed();
+  const Scenario scenario = testing::Mixed();
   Equations equations(scenario);
   equations.recording = true;
   for (int c = 0; c < 3; ++c) {
@@ -175,7 +160,7 @@ TEST(Equations, SlopesKeepTheBalances) {
 // A clock of which a second is longer or shorter changes every slope by that, also of the
 // quadratures.
 TEST(Equations, SlopesAreInProportionToThePace) {
-  const Scenario s = Mixed();
+  const Scenario s = testing::Mixed();
   Equations equations(s);
   for (int c = 0; c < 3; ++c) equations.active.push_back(equations.Activate(c, 0, 1e7, kNone));
   for (const bool recording : {false, true}) {
@@ -204,7 +189,7 @@ TEST(Equations, AccelerationsAreTheSameInEveryInertialFrame) {
 }
 
 TEST(Sides, PushWhatLiesBehindTheBodyTheyMove) {
-  const Scenario s = Mixed();  // 0: B1-B2, 1: B2-B3, 2: wall-B1.
+  const Scenario s = testing::Mixed();  // 0: B1-B2, 1: B2-B3, 2: wall-B1.
   const Equations equations(s);
   EXPECT_TRUE(equations.sides(0).Pushes(equations.sides(1)));
   EXPECT_TRUE(equations.sides(1).Pushes(equations.sides(0)));

@@ -10,22 +10,6 @@
 namespace contact {
 namespace {
 
-// Three balls, a wall, a support between bodies and one to the ground: every kind of term.
-Scenario Mixed() {
-  Scenario s = testing::Chain({0.5, 0.8, 0.3}, {1e8, 3e7}, {0.8, 0.7}, 0.2, 1);
-  s.contacts.push_back({.name = "wall",
-                        .right = 0,
-                        .wall_position = -0.05,
-                        .stiffness = 2e7,
-                        .exponent = 1.2,
-                        .restitution = 0.5});
-  s.supports = {
-      {.body = 0, .stiffness = 1e6, .damping = 300, .rest_position = 1e-5},
-      {.body = 2, .other = 1, .stiffness = 2e6, .damping = 200, .rest_position = 0.09995}};
-  s.loads = {{.body = 1, .constant = 40, .amplitude = 9, .angular_frequency = 70, .phase = 0.4}};
-  return s;
-}
-
 // W of each contact in 0.2 ms, in which all stay closed, and ∂W/∂μ: a row for each μ.
 struct Works {
   Eigen::ArrayXd works;
@@ -75,7 +59,7 @@ Works Follow(const Scenario& s, const std::vector<double>& mu, int steps, double
 const std::vector<double> kMu = {1e8, 6e7, 3e7};
 
 TEST(Tangents, AreTheDifferencesOfWorksByTheirMu) {
-  const Scenario s = Mixed();
+  const Scenario s = testing::Mixed();
   for (const double warp : {0.0, 1.0, 1.7}) {
     const Works works = Follow(s, kMu, 40, warp);
     for (std::size_t j = 0; j < kMu.size(); ++j) {
@@ -96,7 +80,7 @@ TEST(Tangents, AreTheDifferencesOfWorksByTheirMu) {
 }
 
 TEST(Tangents, ConvergeWithOrderFour) {
-  const Scenario s = Mixed();
+  const Scenario s = testing::Mixed();
   const Eigen::ArrayXXd exact = Follow(s, kMu, 200).tangents;
   const auto error = [&](int steps) {
     return (Follow(s, kMu, steps).tangents - exact).abs().maxCoeff();
@@ -107,7 +91,7 @@ TEST(Tangents, ConvergeWithOrderFour) {
 
 // Steps of the motion may be longer than the classical method is stable.
 TEST(Tangents, FollowStiffContactsInParts) {
-  const Scenario s = Mixed();
+  const Scenario s = testing::Mixed();
   const std::vector<double> stiff = {3e9, 6e7, 3e7};
   const Eigen::ArrayXXd exact = Follow(s, stiff, 400).tangents;
   const Eigen::ArrayXXd coarse = Follow(s, stiff, 3).tangents;

@@ -42,6 +42,22 @@ inline Scenario Chain(const std::vector<double>& masses, const std::vector<doubl
   return s;
 }
 
+/// Three balls, a wall, a support between bodies and one to the ground: every kind of term.
+inline Scenario Mixed() {
+  Scenario s = Chain({0.5, 0.8, 0.3}, {1e8, 3e7}, {0.8, 0.7}, 0.2, 1);
+  s.contacts.push_back({.name = "wall",
+                        .right = 0,
+                        .wall_position = -0.05,
+                        .stiffness = 2e7,
+                        .exponent = 1.2,
+                        .restitution = 0.5});
+  s.supports = {
+      {.body = 0, .stiffness = 1e6, .damping = 300, .rest_position = 1e-5},
+      {.body = 2, .other = 1, .stiffness = 2e6, .damping = 200, .rest_position = 0.09995}};
+  s.loads = {{.body = 1, .constant = 40, .amplitude = 9, .angular_frequency = 70, .phase = 0.4}};
+  return s;
+}
+
 /// The paper's 6.1.
 inline Scenario TripleChain() { return Chain({0.5, 0.5, 0.5}, {1e8, 1e8}, {0.8, 0.7}, 0.2, 4e-3); }
 

@@ -22,8 +22,8 @@ constexpr double kLeastRestitution = 0.05;
 // on that, changes its work.
 constexpr double kStillWeak = 10;
 // After so many changes between the two a group stays what it is then. Else it may change without
-// end: with the μ of the cycle before it lasts for two cycles, which are not negligible, and with its
-// own μ for one, which is.
+// end: with the μ of the cycle before it lasts for two cycles, which are not negligible, and with
+// its own μ for one, which is.
 constexpr int kMostFlips = 3;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
