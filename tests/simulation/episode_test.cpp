@@ -59,7 +59,11 @@ TEST(Sensitivities, AgreeWithFiniteDifferences) {
     const FixedFactors up = Pass(scenario, plus), down = Pass(scenario, minus);
     for (std::size_t i = 0; i < base.works.size(); ++i) {
       const double difference = (up.works[i] - down.works[i]) / (2 * step);
-      EXPECT_NEAR(base.gradients[i][column] / difference, 1, 1e-4) << i << ", " << column;
+      const double gradient = base.gradients[i][column],
+                   factor = mu[static_cast<std::size_t>(column)];
+      EXPECT_NEAR(gradient / difference, 1, 1e-4) << i << ", " << column;
+      EXPECT_NEAR(gradient * factor, difference * factor, 1e-6 * base.works[0])
+          << i << ", " << column;
     }
   }
 }

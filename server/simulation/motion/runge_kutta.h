@@ -49,8 +49,8 @@ class RungeKutta {
 
   explicit RungeKutta(Method method = Method::kDormandPrince) : method_(method) {}
 
-  /// f depends on the first `coupled` numbers of y only; the
-  /// others are quadratures, which stages need not know.
+  /// f depends on the first `coupled` numbers of y only; the others are quadratures, which stages
+  /// need not know.
   void Resize(Eigen::Index size, Eigen::Index coupled);
   /// How many numbers y has.
   Eigen::Index size() const { return y0.size(); }

@@ -75,7 +75,7 @@ export function useSeries(name: string, channels: string[], window: Window | und
     try {
       const series = await readSeries({name, channels, from: window?.[0], to: window?.[1], maxPoints: pointsFor(channels.length)});
       if (tick < 0) kept.put(view, series);
-      if (view !== newest.current && own.current === newest.current) return {pauseMs: 0};
+      if (view !== newest.current && own.current === newest.current) return {pauseMs: 0};   // A kept window is shown by now.
       asked.current.start = start;
       own.current = view;
       setShown((now) => (now.view === newest.current ? {...now, series} : {series, window, view}));   // Never back to a window.
