@@ -3,7 +3,16 @@
 namespace contact::postgres {
 
 const char kWorkerFunctions[] = R"sql(
--- A worker lives for so many milliseconds more. Answers the jobs that it has.
+-- What counts now of seconds that were used at a moment: half of them a minute later. Without the
+-- bounds the power is out of range, an error, after 18 hours, and after a clock was set back.
+CREATE OR REPLACE FUNCTION contactd.left_of(a_seconds double precision, a_at timestamptz)
+RETURNS double precision LANGUAGE sql STABLE AS $$
+  SELECT a_seconds * power(0.5::double precision,
+    least(greatest(extract(epoch FROM statement_timestamp() - a_at) / 60, 0), 64)::double precision);
+$$;
+
+-- A worker lives for so many milliseconds more. Answers the jobs that it has. What was used an hour
+-- ago counts no more, and goes; claim may have some of these rows.
 CREATE OR REPLACE FUNCTION contactd.beat(
   a_worker text, a_host text, a_threads bigint, a_batch_id text, a_lease bigint)
 RETURNS TABLE(name text, epoch bigint, cancel_requested boolean)
@@ -14,6 +23,9 @@ BEGIN
       clock_timestamp() + a_lease * interval '1 ms')
     ON CONFLICT ON CONSTRAINT workers_pkey DO UPDATE SET until = excluded.until;
   DELETE FROM contactd.workers w WHERE w.until < clock_timestamp() - interval '1 day';
+  DELETE FROM contactd.used u WHERE (u.worker, u.tenant, u.owner) IN (
+    SELECT o.worker, o.tenant, o.owner FROM contactd.used o
+    WHERE o.at < clock_timestamp() - interval '1 hour' FOR UPDATE SKIP LOCKED);
   RETURN QUERY SELECT j.name, j.epoch, j.cancel_requested FROM contactd.jobs j
     WHERE (j.state = 2 OR (j.state = 1 AND j.worker IS NOT NULL)) AND j.worker = a_worker;
 END $$;
@@ -51,8 +63,7 @@ BEGIN
   RETURN QUERY WITH
   shares AS (
     SELECT s.tenant, s.owner, sum(s.seconds) AS seconds, sum(s.running)::bigint AS running FROM (
-      SELECT u.tenant, u.owner, u.seconds
-          * power(0.5, extract(epoch FROM clock_timestamp() - u.at) / 60) AS seconds, 0 AS running
+      SELECT u.tenant, u.owner, contactd.left_of(u.seconds, u.at) AS seconds, 0 AS running
         FROM contactd.used u
       UNION ALL
       SELECT j.tenant, j.owner, count(*), count(*) FROM contactd.jobs j
@@ -112,8 +123,8 @@ BEGIN
   INSERT INTO contactd.used AS u(worker, tenant, owner, seconds, at)
     SELECT a_worker, n.tenant, n.owner, n.milliseconds / 1000.0, v_now
     FROM unnest(a_tenants, a_owners, a_milliseconds) AS n(tenant, owner, milliseconds)
-    ON CONFLICT ON CONSTRAINT used_pkey DO UPDATE SET at = v_now, seconds = excluded.seconds
-      + u.seconds * power(0.5, extract(epoch FROM v_now - u.at) / 60);
+    ON CONFLICT ON CONSTRAINT used_pkey DO UPDATE SET at = v_now,
+      seconds = excluded.seconds + contactd.left_of(u.seconds, u.at);
   SELECT array_agg(w.name) INTO v_alive FROM contactd.workers w WHERE w.until > v_now;
   IF a_worker = ANY(v_alive) IS NOT TRUE THEN RETURN; END IF;
   IF v_now > pg_postmaster_start_time() + a_grace * interval '1 ms' THEN

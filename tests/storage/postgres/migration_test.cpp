@@ -1,7 +1,8 @@
-// What becomes of the databases of earlier versions. version_1.sql is a dump of tables and
-// functions of that version: three jobs that succeeded, one of them a sweep and one being
-// compacted; one that ran, with a checkpoint; a sweep that a worker has, which lends its cells; one
-// that waits and is to be cancelled; one that was deleted. Two workers had them and are dead.
+// What becomes of the databases of earlier versions. version_N.sql is a dump of tables and
+// functions of that version, each with the same jobs: three that succeeded, one of them a sweep and
+// one being compacted; one that ran, with a checkpoint; a sweep that a worker has, which lends its
+// cells; one that waits and is to be cancelled; one that was deleted. Two workers had them and are
+// dead.
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_replace.h>
 #include <gmock/gmock.h>
@@ -227,7 +228,8 @@ class Role {
 TEST_P(PostgresMigrationTest, RoleThatOwnsNothingIsToldToMigrateUntilItHasItsRights) {
   const Role role(*connection_);
   Script("GRANT USAGE ON SCHEMA contactd TO " + role.name() +
-         "; GRANT SELECT ON ALL TABLES IN SCHEMA contactd TO " + role.name());
+         "; GRANT SELECT ON ALL TABLES IN SCHEMA contactd TO " + role.name() +
+         "; GRANT EXECUTE ON ALL FUNCTIONS IN SCHEMA contactd TO " + role.name());
   const std::set<std::string> definitions = Definitions();
   const absl::Status old = role.Open(database_);
   EXPECT_TRUE(absl::IsFailedPrecondition(old)) << old;
@@ -243,7 +245,7 @@ TEST_P(PostgresMigrationTest, RoleThatOwnsNothingIsToldToMigrateUntilItHasItsRig
   EXPECT_TRUE(role.Open(database_).ok());
 }
 
-INSTANTIATE_TEST_SUITE_P(FromVersion, PostgresMigrationTest, testing::Values(1),
+INSTANTIATE_TEST_SUITE_P(FromVersion, PostgresMigrationTest, testing::Values(1, 2),
                          testing::PrintToStringParamName());
 
 // A database that has a version has its tables and functions. Once a version is in use, another
@@ -252,7 +254,7 @@ TEST(PostgresSchemaTest, VersionNamesOneSchema) {
   const std::string schema = absl::StrCat(postgres::kTables, postgres::kFunctions,
                                           postgres::kReaderFunctions, postgres::kWorkerFunctions);
   EXPECT_EQ(std::pair(postgres::kSchemaVersion, Checksum(schema)),
-            std::pair(2, std::int64_t{3760784307}));
+            std::pair(3, std::int64_t{1050146687}));
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // What several processes of one database see of each other: claims, leases, limits and notes.
 #include "storage/shared_store.h"
 
+#include <absl/strings/str_cat.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <future>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <thread>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "storage/every_store.h"
+#include "storage/postgres/connection.h"
 
 namespace contact {
 namespace {
@@ -88,7 +91,16 @@ class SharedStoreTest : public testing::Test {
     return job;
   }
 
+  // Straight to the tables.
+  void Use(const std::string& sql) {
+    const absl::Status done = connection_->RunScript(sql);
+    ASSERT_TRUE(done.ok()) << done;
+  }
+  std::int64_t Ask(const std::string& sql) { return connection_->Run({sql})->Integer(0, 0); }
+
   PostgresDatabase database_;
+  const std::unique_ptr<postgres::Connection> connection_ =
+      postgres::Connection::Open(database_.address()).value();
   Process one_{database_};
   Process two_{database_};
 };
@@ -244,6 +256,37 @@ TEST_F(SharedStoreTest, OwnerWhoHasUsedMoreWorkerTimeWaits) {
       {.worker = "w1", .most = 1, .used = {{{"ada", "acme"}, 90s}, {{"bob", "acme"}, 30s}}});
   ASSERT_EQ(first.size(), 1U);
   EXPECT_EQ(first[0].job.owner(), "bob");
+}
+
+TEST_F(SharedStoreTest, UsedWorkerTimeCountsHalfEachMinute) {
+  for (const char* owner : {"ada", "bob"}) {
+    ASSERT_TRUE(one_.Create(Job(std::string("of") + owner, owner)).ok());
+  }
+  one_.Beat("w1");
+  one_.ClaimJobs({.worker = "w1", .used = {{{"ada", "acme"}, 90s}}});
+  Use("UPDATE contactd.used SET at = at - interval '2 minutes'");
+  const auto first = one_.ClaimJobs({.worker = "w1", .most = 1, .used = {{{"bob", "acme"}, 30s}}});
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_EQ(first[0].job.owner(), "ada");
+}
+
+TEST_F(SharedStoreTest, OwnerIsServedAfterDaysAndAfterAClockWasSetBack) {
+  for (const char* days : {"-3", "3"}) {
+    ASSERT_TRUE(one_.Create(Job(absl::StrCat("a", days))).ok());
+    one_.Beat("w1");
+    one_.ClaimJobs({.worker = "w1", .used = {{{"ada", "acme"}, 9s}}});
+    Use(absl::StrCat("UPDATE contactd.used SET at = at + interval '", days, " days'"));
+    EXPECT_EQ(one_.ClaimJobs({.worker = "w1", .most = 1}).size(), 1U) << days;
+    one_.ClaimJobs({.worker = "w1", .used = {{{"ada", "acme"}, 9s}}});
+  }
+}
+
+TEST_F(SharedStoreTest, WhatWasUsedLongAgoTakesNoSpace) {
+  one_.Beat("w1");
+  one_.ClaimJobs({.worker = "w1", .used = {{{"ada", "acme"}, 9s}, {{"bob", "acme"}, 9s}}});
+  Use("UPDATE contactd.used SET at = at - interval '2 hours' WHERE owner = 'ada'");
+  two_.Beat("w2");
+  EXPECT_EQ(Ask("SELECT count(*) FROM contactd.used"), 1);
 }
 
 TEST_F(SharedStoreTest, NoOwnerRunsMoreThanItMayInAllProcesses) {
