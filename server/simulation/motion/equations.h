@@ -72,6 +72,11 @@ struct ActiveContact : Sides {
   }
   /// At(…) of any contact.
   Force General(double deformation, double rate) const;
+  /// At(…).by_rate alone.
+  double DampingAt(double deformation) const {
+    const double d = std::max(deformation, 0.0);
+    return mu * (plain ? d * std::sqrt(d) : std::pow(d, damping_exponent));
+  }
   /// At(…).force alone.
   double ForceAt(double deformation, double rate) const {
     if (!plain) return General(deformation, rate).force;

@@ -158,7 +158,8 @@ bool Motion::TakeStep(double until) {
 }
 
 // Largest local error, in units of what the tolerance allows: that of each contact relative to
-// the scale of its own cycle, that of each body relative to the largest motion of all.
+// the scale of its own cycle, that of each body relative to the largest motion of all. An error of
+// δ̇ that damping ends within 1/λ leaves no more than an error of δ, λ = μ δᵖ/m_e times smaller.
 template <class Count>
 double Motion::ErrorNorm(Count n, double h) const {
   rk_.Errors(2 * n, error5_.data(), error3_.data());
@@ -190,8 +191,11 @@ double Motion::ErrorNorm(Count n, double h) const {
     const Motions three{active.Relative(e3), active.Relative(e3 + n)};
     // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
     const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
-    const Motions scale{Largest(deformation_scale_[c], least_length),
-                        Largest(velocity_scale_[c], least_speed)};
+    const double scale_length = Largest(deformation_scale_[c], least_length);
+    const double decay = active.DampingAt(active.Relative(y) - active.gap) *
+                         (active.left_inverse + active.right_inverse);
+    const Motions scale{scale_length,
+                        Largest(velocity_scale_[c], least_speed) + decay * scale_length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
   }
   return h * std::sqrt(norm) / tolerance_;
