@@ -89,7 +89,7 @@ TEST(Tangents, ConvergeWithOrderFour) {
   EXPECT_NEAR(std::log2(error(12) / error(24)), 4, 0.4);
 }
 
-// Steps of the motion may be longer than the classical method is stable.
+// Steps of the motion may be longer than a contact takes to stop.
 TEST(Tangents, FollowStiffContactsInParts) {
   const Scenario s = testing::Mixed();
   const std::vector<double> stiff = {3e9, 6e7, 3e7};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "simulation/motion/rows.h"
@@ -9,10 +10,12 @@
 namespace contact {
 namespace {
 
-// Damping and swing of a link in a part of a step, by its own masses: the classical method is
-// stable up to 2.7, and in a row a mode decays twice as fast as a link. With a swing of 0.5 it errs
-// by 3e-4.
-constexpr double kDecay = 1, kSwing = 0.5;
+// The method of Gauss with two stages: its nodes and table. Its weights are 1/2.
+constexpr double kNode[2] = {0.5 - std::numbers::sqrt3 / 6, 0.5 + std::numbers::sqrt3 / 6};
+constexpr double kTable[2][2] = {{0.25, 0.25 - std::numbers::sqrt3 / 6},
+                                 {0.25 + std::numbers::sqrt3 / 6, 0.25}};
+// Damping and swing of a link in a part of a step, by its own masses.
+constexpr double kDecay = 4, kSwing = 1;
 
 std::size_t At(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
@@ -36,28 +39,40 @@ void Tangents::Add() {
   }
 }
 
-std::ptrdiff_t Tangents::PlaceOf(std::ptrdiff_t body) {
-  if (place_[At(body)] == kNone) {
-    place_[At(body)] = std::ssize(moved_);
-    moved_.push_back(body);
-  }
-  return place_[At(body)];
-}
-
+// A wall is the body that touches it, which it does not move against itself.
 void Tangents::Connect(const Sides& sides, int column) {
   Link& link = links_.emplace_back(Link{sides, column});
-  link.left = PlaceOf(sides.left);
-  link.right = PlaceOf(sides.right);
+  if (link.left_counts == 0) link.left = link.right;
+  if (link.right_counts == 0) link.right = link.left;
+}
+
+// In their order on the line neighbours touch, so that the band of the system is narrow.
+void Tangents::CountMoved() {
+  std::ranges::fill(place_, kNone);
+  moved_.clear();
+  for (const Link& link : links_) {
+    for (const std::ptrdiff_t body : {link.left, link.right}) {
+      if (std::exchange(place_[At(body)], 0) == kNone) moved_.push_back(body);
+    }
+  }
+  std::ranges::sort(moved_, {}, [&](std::ptrdiff_t body) { return equations_.base[At(body)]; });
+  for (std::ptrdiff_t i = 0; i < std::ssize(moved_); ++i) place_[At(moved_[At(i)])] = i;
+  std::ptrdiff_t reach = 0;
+  for (Link& link : links_) {
+    link.left = place_[At(link.left)];
+    link.right = place_[At(link.right)];
+    reach = std::max(reach, std::abs(link.left - link.right));
+  }
+  system_.Resize(std::ssize(moved_), reach);
 }
 
 void Tangents::Prepare() {
   links_.clear();
-  moved_.clear();
-  std::ranges::fill(place_, kNone);
   for (const ActiveContact& contact : equations_.active) Connect(contact, contact.column);
   for (const Support& support : scenario_.supports) {
     Connect(equations_.SidesOf(support.body, support.other), kNone);
   }
+  CountMoved();
 }
 
 void Tangents::Gather() {
@@ -69,7 +84,8 @@ void Tangents::Gather() {
   }
   std::ptrdiff_t place = 2 * bodies;
   for (const ActiveContact& c : equations_.active) x_.col(place++) = work_.col(c.contact);
-  for (Eigen::ArrayXXd* like : {&slope_, &sum_, &stage_}) like->resize(x_.rows(), x_.cols());
+  sides_.resize(count(), 2 * bodies);
+  for (Eigen::ArrayXXd& at : at_) at.resize(count(), 2 * bodies);
 }
 
 void Tangents::Scatter() {
@@ -83,114 +99,155 @@ void Tangents::Scatter() {
 }
 
 void Tangents::Evaluate(const StepTime& step, const std::vector<DeformationPath>& paths,
-                        double theta, std::vector<Law>* laws) const {
-  const double pace = step.h * step.Rate(theta);
-  laws->clear();
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const double rate = pace > 0 ? paths[i].Slope(theta) / pace : 0;
-    const ActiveContact::Force f = equations_.active[i].At(paths[i].Value(theta), rate);
-    laws->push_back(
-        {pace * f.force, pace * f.by_deformation, pace * f.by_rate, pace * f.damping, rate});
-  }
-  for (const Support& s : scenario_.supports) {  // (M4)
-    laws->push_back({.by_deformation = pace * s.stiffness, .by_rate = pace * s.damping});
+                        double from, double to) {
+  for (std::size_t j = 0; j < 2; ++j) {
+    const double theta = from + kNode[j] * (to - from), slow = step.h * step.Rate(theta);
+    const double pace = slow * (to - from);
+    std::vector<Law>& laws = stages_.laws[j];
+    stages_.pace[j] = pace;
+    laws.clear();
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const double rate = paths[i].Slope(theta) / slow;
+      const ActiveContact::Force f = equations_.active[i].At(paths[i].Value(theta), rate);
+      laws.push_back(
+          {pace * f.force, pace * f.by_deformation, pace * f.by_rate, pace * f.damping, rate});
+    }
+    for (const Support& s : scenario_.supports) {  // (M4)
+      laws.push_back({.by_deformation = pace * s.stiffness, .by_rate = pace * s.damping});
+    }
   }
 }
 
-double Tangents::Parts(const std::vector<Law>& laws, double pace, double length) const {
+double Tangents::Parts() const {
   double parts = 1;
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const double inverse = links_[i].left_inverse + links_[i].right_inverse;
-    const double decay = laws[i].by_rate * inverse * length;
-    const double swing = std::sqrt(std::max(0.0, laws[i].by_deformation * inverse * pace)) * length;
-    parts = std::max({parts, decay / kDecay, swing / kSwing});
+  for (std::size_t j = 0; j < 2; ++j) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const double inverse = links_[i].left_inverse + links_[i].right_inverse;
+      const Law& law = stages_.laws[j][i];
+      const double swing = std::max(0.0, law.by_deformation * inverse * stages_.pace[j]);
+      parts = std::max({parts, law.by_rate * inverse / kDecay, std::sqrt(swing) / kSwing});
+    }
   }
   return std::ceil(parts);
 }
 
-// (S1) and (S2): y' = f(y, μ) differentiated by each μ.
+// With the stages V_j = v + Σ a_jk A_k and U_j = u + Σ a_jk p_k V_k the force of a link is
+// F_j = K_j ΔU_j + D_j ΔV_j, linear in the accelerations A_k of its bodies.
+void Tangents::Assemble() {
+  system_.Reset();
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Link& link = links_[i];
+    double block[2][2];
+    for (std::size_t j = 0; j < 2; ++j) {
+      const Law& law = stages_.laws[j][i];
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double lever = kTable[j][0] * stages_.pace[0] * kTable[0][k] +
+                             kTable[j][1] * stages_.pace[1] * kTable[1][k];
+        block[j][k] = law.by_deformation * lever + law.by_rate * kTable[j][k];
+      }
+    }
+    const double left = link.left_inverse, right = link.right_inverse;
+    system_.Add(link.left, link.left, left * link.left_counts, block);
+    system_.Add(link.left, link.right, -left * link.right_counts, block);
+    system_.Add(link.right, link.left, -right * link.left_counts, block);
+    system_.Add(link.right, link.right, right * link.right_counts, block);
+  }
+}
+
+// (S1): v' = f_u u + f_v v + f_μ at the stages, where u and v would be without accelerations.
 template <class Count>
-void Tangents::Slopes(Count count, const std::vector<Law>& laws, double pace, const double* x,
-                      double* dx) const {
+void Tangents::AddForces(Count count) {
+  sides_.setZero();
   const std::ptrdiff_t half = count * std::ssize(moved_);
-  for (std::ptrdiff_t i = 0; i < half; ++i) dx[i] = pace * x[half + i];
-  std::fill_n(dx + half, half, 0.0);
-  const std::size_t contacts = equations_.active.size();
-  double* work = dx + 2 * half;
-  for (std::size_t j = 0; j < laws.size(); ++j) {
-    const Link link = links_[j];  // Copies, which no store to dx can change.
-    const Law law = laws[j];
-    const double* left = x + count * link.left;
-    const double* right = x + count * link.right;
-    double* a_left = dx + half + count * link.left;
-    double* a_right = dx + half + count * link.right;
-    InRows(count, [&](auto rows, std::ptrdiff_t i) {
-      using Array = typename decltype(rows)::Array;
-      const Array deformation =
-          link.left_counts * rows(left + i) - link.right_counts * rows(right + i);
-      const Array rate =
-          link.left_counts * rows(left + half + i) - link.right_counts * rows(right + half + i);
-      const Array force = law.by_deformation * deformation + law.by_rate * rate;
-      rows(a_left + i) -= link.left_inverse * force;
-      rows(a_right + i) += link.right_inverse * force;
-      if (j < contacts) rows(work + i) = law.rate * force + law.force * rate;
-    });
-    if (j >= contacts) continue;
-    if (link.column != kNone) {
+  for (std::size_t j = 0; j < 2; ++j) {
+    const double time = kTable[j][0] * stages_.pace[0] + kTable[j][1] * stages_.pace[1];
+    for (std::size_t l = 0; l < links_.size(); ++l) {
+      const Link link = links_[l];  // Copies, which no store can change.
+      const Law law = stages_.laws[j][l];
+      const double by_rate = law.by_rate + time * law.by_deformation;
+      const double* left = x_.data() + count * link.left;
+      const double* right = x_.data() + count * link.right;
+      double* a_left = sides_.data() + count * (2 * link.left + static_cast<std::ptrdiff_t>(j));
+      double* a_right = sides_.data() + count * (2 * link.right + static_cast<std::ptrdiff_t>(j));
+      InRows(count, [&](auto rows, std::ptrdiff_t i) {
+        using Array = typename decltype(rows)::Array;
+        const Array force = law.by_deformation * (link.left_counts * rows(left + i) -
+                                                  link.right_counts * rows(right + i)) +
+                            by_rate * (link.left_counts * rows(left + half + i) -
+                                       link.right_counts * rows(right + half + i));
+        rows(a_left + i) -= link.left_inverse * force;
+        rows(a_right + i) += link.right_inverse * force;
+      });
+      if (link.column == kNone) continue;
       a_left[link.column] -= link.left_inverse * law.damping;
       a_right[link.column] += link.right_inverse * law.damping;
-      work[link.column] += law.rate * law.damping;
     }
-    work += count;
   }
 }
 
 template <class Count>
-void Tangents::Step(Count count, const double (&pace)[3], double length) {
-  const std::ptrdiff_t coupled = count * 2 * std::ssize(moved_), all = x_.size();
-  double* x = x_.data();
-  double* slope = slope_.data();
-  double* sum = sum_.data();
-  double* stage = stage_.data();
-  const auto next = [&](double part) {
-    for (std::ptrdiff_t i = 0; i < coupled; ++i) stage[i] = x[i] + part * slope[i];
-  };
-  const auto add = [&](double weight) {
-    for (std::ptrdiff_t i = 0; i < all; ++i) sum[i] += weight * slope[i];
-  };
-  Slopes(count, laws_[0], pace[0], x, slope);
-  std::copy_n(slope, all, sum);
-  next(length / 2);
-  Slopes(count, laws_[1], pace[1], stage, slope);
-  add(2);
-  next(length / 2);
-  Slopes(count, laws_[1], pace[1], stage, slope);
-  add(2);
-  next(length);
-  Slopes(count, laws_[2], pace[2], stage, slope);
-  for (std::ptrdiff_t i = 0; i < all; ++i) x[i] += length / 6 * (sum[i] + slope[i]);
+void Tangents::Move(Count count) {
+  const std::ptrdiff_t bodies = std::ssize(moved_), half = count * bodies;
+  const double* pace = stages_.pace;
+  for (std::ptrdiff_t body = 0; body < bodies; ++body) {
+    double* u = x_.data() + count * body;
+    double* u1 = at_[0].data() + count * body;
+    double* u2 = at_[1].data() + count * body;
+    const double* a = sides_.data() + count * 2 * body;
+    InRows(count, [&](auto rows, std::ptrdiff_t i) {
+      using Array = typename decltype(rows)::Array;
+      const Array a1 = rows(a + i), a2 = rows(a + count + i), v = rows(u + half + i);
+      const Array v1 = v + kTable[0][0] * a1 + kTable[0][1] * a2;
+      const Array v2 = v + kTable[1][0] * a1 + kTable[1][1] * a2;
+      const Array u0 = rows(u + i), d1 = pace[0] * v1, d2 = pace[1] * v2;
+      rows(u1 + half + i) = v1, rows(u2 + half + i) = v2;
+      rows(u1 + i) = u0 + kTable[0][0] * d1 + kTable[0][1] * d2;
+      rows(u2 + i) = u0 + kTable[1][0] * d1 + kTable[1][1] * d2;
+      rows(u + i) = u0 + 0.5 * (d1 + d2);
+      rows(u + half + i) = v + 0.5 * (a1 + a2);
+    });
+  }
+}
+
+// (S2): W' = F δ̇ differentiated by each μ.
+template <class Count>
+void Tangents::AddWorks(Count count) {
+  const std::ptrdiff_t half = count * std::ssize(moved_);
+  for (std::size_t j = 0; j < 2; ++j) {
+    double* work = x_.data() + 2 * half;
+    for (std::size_t l = 0; l < equations_.active.size(); ++l, work += count) {
+      const Link link = links_[l];
+      const Law law = stages_.laws[j][l];
+      const double* left = at_[j].data() + count * link.left;
+      const double* right = at_[j].data() + count * link.right;
+      const double by_deformation = 0.5 * law.rate * law.by_deformation;
+      const double by_rate = 0.5 * (law.rate * law.by_rate + law.force);
+      InRows(count, [&](auto rows, std::ptrdiff_t i) {
+        rows(work + i) += by_deformation * (link.left_counts * rows(left + i) -
+                                            link.right_counts * rows(right + i)) +
+                          by_rate * (link.left_counts * rows(left + half + i) -
+                                     link.right_counts * rows(right + half + i));
+      });
+      if (link.column != kNone) work[link.column] += 0.5 * law.rate * law.damping;
+    }
+  }
 }
 
 void Tangents::Follow(const StepTime& step, const std::vector<DeformationPath>& paths, double from,
                       double to) {
   if (count() == 0 || !(to > from)) return;
-  const auto pace = [&](double theta) { return step.h * step.Rate(theta); };
-  for (int i = 0; i < 3; ++i) Evaluate(step, paths, from + (to - from) * i / 2, &laws_[i]);
-  double parts = 1;
-  for (int i = 0; i < 3; ++i) {
-    parts = std::max(parts, Parts(laws_[i], pace(from + (to - from) * i / 2), to - from));
-  }
+  Evaluate(step, paths, from, to);
+  const double parts = Parts(), length = (to - from) / parts;
   Gather();
-  const double length = (to - from) / parts;
   for (double part = 0; part < parts; ++part) {
-    const double begin = from + part * length, end = begin + length;
-    if (part > 0) std::swap(laws_[0], laws_[2]);
-    if (parts > 1) {
-      Evaluate(step, paths, begin + length / 2, &laws_[1]);
-      Evaluate(step, paths, end, &laws_[2]);
-    }
-    const double paces[3] = {pace(begin), pace(begin + length / 2), pace(end)};
-    WithCount<1, 2, 3, 4>(count(), [&](auto n) { Step(n, paces, length); });
+    if (parts > 1) Evaluate(step, paths, from + part * length, from + (part + 1) * length);
+    Assemble();
+    WithCount<1, 2, 3, 4>(count(), [&](auto n) {
+      AddForces(n);
+      system_.Solve(n, sides_.data());
+      Move(n);
+      AddWorks(n);
+    });
   }
   const double time = step.Offset(to) - step.Offset(from);
   for (std::size_t body = 0; body < place_.size(); ++body) {  // Free flight.

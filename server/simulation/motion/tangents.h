@@ -8,6 +8,7 @@
 #include "simulation/motion/contact_events.h"
 #include "simulation/motion/equations.h"
 #include "simulation/motion/runge_kutta.h"
+#include "simulation/motion/stage_system.h"
 
 namespace contact {
 
@@ -15,9 +16,11 @@ namespace contact {
 /// README.md.
 ///
 /// Along a motion that is known they obey linear equations and steer no step. So each step of the
-/// motion is taken first, and they follow it with the classical Runge–Kutta method, in as many
-/// parts as their own rates demand: slopes are for Newton's method and need far fewer digits than
-/// the motion.
+/// motion is taken first, and they follow it with the Gauss method of order 4, in as many parts as
+/// their own rates demand: slopes are for Newton's method and need far fewer digits than the
+/// motion. The method is implicit, so that parts need not be short where damping is strong, and of
+/// linear equations its stages are one linear system, the same for every μ. Source: Hairer, Wanner,
+/// Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, IV.5.
 class Tangents {
  public:
   /// Both must outlive the tangents.
@@ -50,27 +53,37 @@ class Tangents {
     /// The μ of a contact, or kNone.
     int column = kNone;
   };
-  /// A force and its derivatives by δ, δ̇ and μ, by the clock of θ, and δ̇ itself [m/s].
+  /// A force and its derivatives by δ, δ̇ and μ, by the clock of a part, and δ̇ itself [m/s].
   struct Law {
     double force = 0, by_deformation = 0, by_rate = 0, damping = 0, rate = 0;
   };
+  /// The two stages of a part: its length in time by the pace of each [s], and the laws of all
+  /// links.
+  struct Stages {
+    double pace[2] = {};
+    std::vector<Law> laws[2];
+  };
 
-  /// Counts a body among those that are moved, and returns its place.
-  std::ptrdiff_t PlaceOf(std::ptrdiff_t body);
   /// Adds a link between the bodies of `sides`.
   void Connect(const Sides& sides, int column);
-  /// The laws of all links at θ; `pace` is dt/dθ [s].
-  void Evaluate(const StepTime& step, const std::vector<DeformationPath>& paths, double theta,
-                std::vector<Law>* laws) const;
-  /// In how many parts a stretch of θ must be taken in which these are the laws.
-  double Parts(const std::vector<Law>& laws, double pace, double length) const;
-  /// dx/dθ by the laws; `count` is the number of μ.
+  /// Counts the bodies of all links, in their order on the line.
+  void CountMoved();
+  /// The stages of a part from θ = `from` to `to`.
+  void Evaluate(const StepTime& step, const std::vector<DeformationPath>& paths, double from,
+                double to);
+  /// In how many parts that of the stages must be taken.
+  double Parts() const;
+  /// Sets up the linear system of the stages' accelerations.
+  void Assemble();
+  /// The forces of the stages if nothing were accelerated, as the right sides of that system.
   template <class Count>
-  void Slopes(Count count, const std::vector<Law>& laws, double pace, const double* x,
-              double* dx) const;
-  /// One step of the classical method, of `length` in θ.
+  void AddForces(Count count);
+  /// ∂u/∂μ and ∂v/∂μ of the moved bodies at the stages, by the accelerations.
   template <class Count>
-  void Step(Count count, const double (&pace)[3], double length);
+  void Move(Count count);
+  /// ∂W/∂μ at the end of a part.
+  template <class Count>
+  void AddWorks(Count count);
   /// Copies what is moved from u, v and W to x, or back.
   void Gather();
   void Scatter();
@@ -83,11 +96,14 @@ class Tangents {
   std::vector<std::ptrdiff_t> moved_, place_;
   // The active contacts, then the supports.
   std::vector<Link> links_;
-  // The laws of the links at the begin, middle and end of a part.
-  std::vector<Law> laws_[3];
-  // ∂u/∂μ and ∂v/∂μ of the moved bodies and ∂W/∂μ of the active contacts, a column each; its
-  // slopes, their weighted sum, and a stage.
-  Eigen::ArrayXXd x_, slope_, sum_, stage_;
+  Stages stages_;
+  StageSystem system_;
+  // ∂u/∂μ and ∂v/∂μ of the moved bodies and ∂W/∂μ of the active contacts, a column each.
+  Eigen::ArrayXXd x_;
+  // Accelerations at both stages of each moved body, by the clock of the part; right sides before.
+  Eigen::ArrayXXd sides_;
+  // u and v of the moved bodies at each stage.
+  Eigen::ArrayXXd at_[2];
 };
 
 }  // namespace contact
