@@ -10,8 +10,9 @@ namespace {
 
 // A root is as near as Newton needs it to go on, and as a coarse pass can tell.
 constexpr double kRoot = 1e-4;
-// Relative error of the passes that only look; those that decide are as exact as the scenario asks.
-constexpr double kCoarse = 1e-6;
+// Relative error of the passes that look, with brackets wider than this part of μ: a pass moves a
+// jump by some times its error. Those that decide are as exact as the scenario asks.
+constexpr double kCoarse = 1e-6, kWide = 1e-3;
 // Where the group was nearer than this its root is looked for nearby, so much further off than an
 // isolated collision has it, as a power.
 constexpr double kClose = 0.5, kBeyond = 1.5;
@@ -30,10 +31,8 @@ constexpr double kNarrow = 1e-6, kApart = 3e-3;
 // one whose other side does not end holds none if it is so narrow, and if what is left would have
 // to fall so many times as fast as it did,
 constexpr double kCreeps = 0.05, kSteeper = 4;
-// coarse passes tell no more of a jump than this,
-constexpr double kBlurred = 1e-3;
-// troughs that are so far apart, in durations of the group, are two,
-constexpr double kElsewhere = 0.05;
+// one so narrow parts troughs that are so far apart, in durations of the group,
+constexpr double kBlurred = 1e-3, kElsewhere = 0.05;
 // and one so narrow has no root whatever is in it.
 constexpr double kNarrowest = 1e-11;
 // How much longer than before a trial may last, in durations of the group.
@@ -46,7 +45,7 @@ Bisection::Point Bisection::At(double mu, bool slope) {
   Unknown& unknown = problem_.groups.At(group_.id);
   unknown.mu = mu;
   unknown.corrected = true;
-  const Sight sight = problem_.Evaluate({group_.id}, slope, until_, coarse_ ? kCoarse : 0);
+  const Sight sight = problem_.Evaluate({group_.id}, slope, until_, error_);
   const GroupSight* seen = sight.Find(group_.id);
   Point point{.mu = mu, .excess = -1, .there = seen != nullptr};
   if (seen != nullptr && seen->ended && std::isfinite(seen->squared)) {
@@ -77,14 +76,14 @@ Root Bisection::Solve(const GroupSight& group, bool sharply) {
   group_ = group;
   sharply_ = sharply;
   until_ = group.end_time + kLonger * (group.end_time - group.start_time);
-  coarse_ = true;
+  error_ = kCoarse;
   const Root root = Exactly(Look());
   return root == Root::kFound || root == Root::kAborted ? root : Finish(root);
 }
 
 // What coarse passes have found, if exact ones confirm it; else they go on, or look anew.
 Root Bisection::Exactly(Root root) {
-  coarse_ = false;
+  error_ = 0;
   if (!problem_.Aborted() && !Confirmed(root)) {
     root = more_.there && less_.there && Holds() ? Narrow() : Look();
   }
@@ -94,7 +93,8 @@ Root Bisection::Exactly(Root root) {
 bool Bisection::Scan(const GroupSight& group) {
   group_ = group;
   until_ = kForever;
-  coarse_ = sharply_ = true;
+  error_ = kCoarse;
+  sharply_ = true;
   const Unknown kept = problem_.groups.At(group.id);
   Point last = At(0);
   double mu = kLowest * (kept.first_mu > 0 ? kept.first_mu : group.mu);
@@ -116,7 +116,7 @@ bool Bisection::HasRoot(const Point& from, const Point& to, int depth) {
   if ((from.excess > 0) != (to.excess > 0)) {
     Keep(from), Keep(to);
     const bool found = Exactly(Narrow()) == Root::kFound;
-    coarse_ = true;
+    error_ = kCoarse;
     return found;
   }
   if (depth == 0 || problem_.Aborted()) return false;
@@ -141,12 +141,10 @@ Root Bisection::Look() {
   return bracket == Root::kFound && more_.there && less_.there ? Narrow() : bracket;
 }
 
-// Whether exact passes see what the coarse ones saw: the root, or that there is none. A jump is to
-// be narrowed further in any case.
+// Whether exact passes see what the coarse ones saw: the root, or that there is none.
 bool Bisection::Confirmed(Root root) {
   const double mu = problem_.groups.At(group_.id).mu;
   if (root == Root::kFound) return std::abs(At(mu).excess) < kRoot;
-  if (root == Root::kJump) return false;
   const bool confirmed = Holds();
   problem_.groups.At(group_.id).mu = mu;
   return confirmed;
@@ -176,7 +174,7 @@ void Bisection::Keep(const Point& point) {
 bool Bisection::HasNone() const {
   const double width = std::abs(less_.mu - more_.mu), mu = std::max(less_.mu, more_.mu);
   if (!less_.ended && width <= kCreeps * mu) return more_.excess > kSteeper * fall_ * width;
-  if (width <= kBlurred * mu && (coarse_ || (!sharply_ && PartsTroughs()))) return true;
+  if (width <= kBlurred * mu && !sharply_ && PartsTroughs()) return true;
   const bool apart = more_.excess > kApart && less_.excess < -kApart;
   return width <= (apart ? kNarrow : kNarrowest) * mu;
 }
@@ -232,6 +230,8 @@ Root Bisection::Narrow() {
   bool was_more = false;
   for (int i = 0; i < kHalvings && !HasNone(); ++i) {
     const double width = less_.mu - more_.mu;
+    const double wide = std::abs(width) / (kWide * std::max(less_.mu, more_.mu));
+    if (error_ > 0) error_ = kCoarse * std::min(1.0, wide);
     const double weight = more_.excess / (more_.excess - weight_of_less * less_.excess);
     const bool far = more_.mu > 0 && less_.mu > 10 * more_.mu;
     const double half = far ? std::sqrt(more_.mu * less_.mu) : more_.mu + 0.5 * width;

@@ -51,9 +51,9 @@ class Bisection {
   Root Finish(Root root);
 
   Problem& problem_;
-  GroupSight group_;    // As first seen.
-  double until_ = 0;    // What has not ended then is open [s].
-  bool coarse_ = true;  // Passes only look.
+  GroupSight group_;  // As first seen.
+  double until_ = 0;  // What has not ended then is open [s].
+  double error_ = 0;  // Relative error of a pass; 0: as little as the scenario asks.
   bool sharply_ = true;
   Point more_, less_;  // Nearest μ with too much, too little.
   double fall_ = 0;    // Of what is too much, over the last change of its μ.
