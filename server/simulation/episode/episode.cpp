@@ -227,10 +227,13 @@ bool EpisodeSolver::Accepts(Motion::Pause pause) {
 Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& front) {
   const std::vector<GroupId> part = EarliestPart(front, sight, kPoor);
   guessing_ = !part.empty();
-  const std::vector<GroupId> now = WithoutAstray(part.empty() ? front : part, sight, kGood);
-  const bool whole = now.size() == front.size();
+  std::vector<GroupId> now = WithoutAstray(part.empty() ? front : part, sight, kGood);
   const bool unsolved = now == solved_;  // As a scan has seen it after all.
-  if (unsolved) problem_.Distrust();
+  if (unsolved) {
+    problem_.Distrust();
+    now = now.size() < part.size() ? part : front;  // What was left out acts back on it.
+  }
+  const bool whole = now.size() == front.size();
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;
   const bool again = unsolved || (now.front() == last_ && sweeps_ > 1);

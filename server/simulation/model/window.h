@@ -10,9 +10,9 @@ namespace contact {
 // bounded time and memory.
 
 /// Cycles that a window may hold beyond one for each contact.
-inline constexpr int kSpareWindowCycles = 60;
+inline constexpr int kSpareWindowCycles = 140;
 /// Cycles that a window holds at most, however many contacts there are.
-inline constexpr int kMostWindowCycles = 120;
+inline constexpr int kMostWindowCycles = 240;
 
 /// The most cycles that a window holds in a scenario with so many contacts.
 constexpr int MostWindowCycles(std::size_t contacts) {
