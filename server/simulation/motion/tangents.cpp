@@ -14,8 +14,9 @@ namespace {
 constexpr double kNode[2] = {0.5 - std::numbers::sqrt3 / 6, 0.5 + std::numbers::sqrt3 / 6};
 constexpr double kTable[2][2] = {{0.25, 0.25 - std::numbers::sqrt3 / 6},
                                  {0.25 + std::numbers::sqrt3 / 6, 0.25}};
-// Damping and swing of a link in a part of a step, by its own masses.
-constexpr double kDecay = 4, kSwing = 1;
+// Damping and swing of a link in a part of a step, by its own masses. Of what decays to e⁻⁸ the
+// method leaves a quarter, until the next part, and after a swing of 1 it is late by 1e-3.
+constexpr double kDecay = 8, kSwing = 1;
 
 std::size_t At(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
