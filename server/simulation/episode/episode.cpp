@@ -28,6 +28,8 @@ constexpr int kRescans = 5;
 constexpr double kPoor = 0.02, kGood = 1e-3;
 // Relative error of passes that only look, and a miss that they can tell.
 constexpr double kCoarse = 1e-6, kNear = 1e-4;
+// What was left out of a part acts back on it if the part, solved so often in a row, misses again.
+constexpr int kUndone = 2;
 // A group that began compressed and misses by more than this may be there only because others miss;
 // of fronts of a few groups all are solved at once.
 constexpr double kAstray = 0.5;
@@ -163,6 +165,7 @@ Motion::Pause EpisodeSolver::Search() {
   sweeps_ = stalls_ = 0;
   guessing_ = true;
   solved_.clear();
+  unsolved_ = 0;
   growing_.Begin();
   for (int round = 0; round < kRounds; ++round) {
     const bool first = round == 0 && !rejected_;
@@ -229,10 +232,9 @@ Found EpisodeSolver::SolveFront(const Sight& sight, const std::vector<GroupId>& 
   guessing_ = !part.empty();
   std::vector<GroupId> now = WithoutAstray(part.empty() ? front : part, sight, kGood);
   const bool unsolved = now == solved_;  // As a scan has seen it after all.
-  if (unsolved) {
-    problem_.Distrust();
-    now = now.size() < part.size() ? part : front;  // What was left out acts back on it.
-  }
+  unsolved_ = unsolved ? unsolved_ + 1 : 0;
+  if (unsolved) problem_.Distrust();
+  if (unsolved_ > kUndone) now = now.size() < part.size() ? part : front;
   const bool whole = now.size() == front.size();
   const double goal = whole ? problem_.tolerance() : kGood;
   const int most = scenario_.solver.max_iterations;

@@ -68,7 +68,8 @@ class EpisodeSolver {
   double record_until_ = 0;
   bool tentative_ = false;
   bool rejected_ = false;        // A recording has shown that the episode is not solved.
-  std::vector<GroupId> solved_;  // The last front, or part of one, that was solved.
+  std::vector<GroupId> solved_;  // The last front, or part of one, that was solved,
+  int unsolved_ = 0;             // and how often in a row it missed again.
   GroupId last_;                 // The first of the last front that was not, and
   int sweeps_ = 0;               // how often its groups were bisected one by one.
   int stalls_ = 0;               // Of any front, since something else has changed.
