@@ -5,8 +5,9 @@ that sends the same statements. One machine stands for several. Prints one table
     PYTHONPATH=build/release/python:tests/system:client/python \\
     /usr/bin/python3 tests/benchmark/cluster_benchmark.py
 
-The database syncs as in use; POSTGRES_SETTINGS=fsync=off shows what that costs. --tiny only shows
-that it runs.
+The database syncs as in use; POSTGRES_SETTINGS=fsync=off shows what that costs. --apart: jobs alone,
+with a core for PostgreSQL, as on a machine of its own, and the others for all else, also beside
+libpq. --tiny only shows that it runs.
 """
 
 import concurrent.futures
@@ -32,9 +33,10 @@ from contactd import (ENDED, PATIENCE_S, Job, Server, cluster, endless_and_slow,
 from shared import LEASE_S, Shared
 
 TINY = "--tiny" in sys.argv[1:]
+APART = "--apart" in sys.argv[1:]
 PEER = os.environ["PEER"]
 JOBS = 40 if TINY else 3000
-ROUNDS = 1 if TINY else 3
+ROUNDS = 1 if TINY else 7 if APART else 3  # Of libpq the first is faster than all others.
 CLIENTS = 64
 FRONTS = 3
 WATCHERS = 6 if TINY else 999
@@ -99,18 +101,31 @@ def processor_seconds(servers):
     return sum(sum(times_of(server.process.pid)[1][:2]) for server in servers)
 
 
-def database_seconds():
-    """Processor time of PostgreSQL, also of its processes that are gone."""
-    server = str(cluster().pid)
-    seconds = sum(times_of(server)[1])
+def database_processes():
+    """Of PostgreSQL's children those that live: pid, and processor times as of times_of."""
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             parent, times = times_of(folder.name)
         except OSError:
             continue
-        if parent == server:
-            seconds += sum(times[:2])
-    return seconds
+        if parent == str(cluster().pid):
+            yield int(folder.name), times
+
+
+def database_seconds():
+    """Processor time of PostgreSQL, also of its processes that are gone."""
+    return (sum(times_of(cluster().pid)[1])
+            + sum(sum(times[:2]) for _, times in database_processes()))
+
+
+def set_apart():
+    """A core for PostgreSQL, and the others for all that this process starts from here on."""
+    core, *others = sorted(os.sched_getaffinity(0))
+    os.sched_setaffinity(cluster().pid, {core})
+    for pid, _ in database_processes():
+        with contextlib.suppress(ProcessLookupError):  # It has ended meanwhile.
+            os.sched_setaffinity(pid, {core})
+    os.sched_setaffinity(0, others)
 
 
 class Cost:
@@ -402,6 +417,11 @@ def main():
     ground = Ground()
     try:
         tell("load before", f"{os.getloadavg()[0]:.1f}")
+        if APART:
+            set_apart()
+            job_rates(ground)
+            tell("load after", f"{os.getloadavg()[0]:.1f}")
+            return
         alone = Server(ground.folder / "pace", store="")
         ground.addCleanup(alone.kill)
         pace = alone.start().run(spring_wall(1.0)).summary.wall_time_s
