@@ -328,7 +328,7 @@ void EventLatency(const std::string& contactd, const Sizes& sizes) {
       options.request.add_kinds("cycle");
       options.request.add_kinds("iteration");
       WatchCrowd crowd(options);
-      crowd.AwaitAttached(kPatience);
+      if (!crowd.AwaitAttached(kPatience)) throw std::runtime_error("not all can watch");
       std::this_thread::sleep_for(sizes.watched);
       client.Cancel(name);
       crowd.AwaitEnded(stalled, kPatience);
@@ -411,7 +411,10 @@ void IdleMemory(const ServerProcess& contactd, const Sizes& sizes) {
 int RunAll(const std::string& self, const std::string& binary, const Sizes& sizes,
            const std::string& only) {
   const auto wanted = [&only](const char* name) { return only.empty() || only == name; };
-  const ServerProcess contactd({binary, "--log-level=off", "--max-creates-per-second=0"});
+  const std::string watchers = std::to_string(sizes.idle_watchers + 100);
+  const ServerProcess contactd({binary, "--log-level=off", "--max-creates-per-second=0",
+                                "--max-watchers=" + watchers,
+                                "--max-watchers-per-peer=" + watchers});
   const ServerProcess bare({self, "--bare", "--messages", std::to_string(sizes.streamed_messages)});
   if (wanted("submit")) SubmitLatency(contactd.address(), bare.address(), sizes);
   if (wanted("jobs")) JobRate(contactd, sizes);
