@@ -28,7 +28,10 @@ Works Follow(const Scenario& s, const std::vector<double>& mu, int steps, double
   RungeKutta rk;
   rk.Resize(equations.size(), equations.coupled());
   rk.y0.setZero();
-  rk.y0.head(6) << -3e-5, -6e-5, -1.3e-4, -0.1, -0.05, 0.02;
+  for (int i = 0; i < n; ++i) {
+    rk.y0[i] = -3e-5 - 5e-5 * i;
+    rk.y0[n + i] = -0.1 + 0.06 * i;
+  }
   StepTime step{.h = 2e-4 / steps, .warp = warp};
   for (int i = 0; i < steps; ++i, step.start += step.h) {
     equations(step.start, rk.y0.data(), rk.slope0.data());
@@ -58,25 +61,34 @@ Works Follow(const Scenario& s, const std::vector<double>& mu, int steps, double
 
 const std::vector<double> kMu = {1e8, 6e7, 3e7};
 
-TEST(Tangents, AreTheDifferencesOfWorksByTheirMu) {
-  const Scenario s = testing::Mixed();
-  for (const double warp : {0.0, 1.0, 1.7}) {
-    const Works works = Follow(s, kMu, 40, warp);
-    for (std::size_t j = 0; j < kMu.size(); ++j) {
-      std::vector<double> more = kMu, less = kMu;
-      const double change = 1e-4 * kMu[j];
-      more[j] += change;
-      less[j] -= change;
-      const Eigen::ArrayXd difference =
-          (Follow(s, more, 40, warp).works - Follow(s, less, 40, warp).works) / (2 * change);
-      const Eigen::ArrayXd tangent = works.tangents.row(static_cast<Eigen::Index>(j));
-      for (Eigen::Index c = 0; c < tangent.size(); ++c) {
-        EXPECT_NEAR(tangent[c], difference[c], 5e-5 * difference.abs().maxCoeff())
-            << "contact " << c << ", μ " << j << ", warp " << warp;
-        EXPECT_GT(std::abs(difference[c]), 1e-4 * difference.abs().maxCoeff());
-      }
+void ExpectDifferences(const Scenario& s, const std::vector<double>& mu, double warp) {
+  const Works works = Follow(s, mu, 40, warp);
+  for (std::size_t j = 0; j < mu.size(); ++j) {
+    std::vector<double> more = mu, less = mu;
+    const double change = 1e-4 * mu[j];
+    more[j] += change;
+    less[j] -= change;
+    const Eigen::ArrayXd difference =
+        (Follow(s, more, 40, warp).works - Follow(s, less, 40, warp).works) / (2 * change);
+    EXPECT_GT(difference.abs().maxCoeff(), 0);
+    const Eigen::ArrayXd tangent = works.tangents.row(static_cast<Eigen::Index>(j));
+    for (Eigen::Index c = 0; c < tangent.size(); ++c) {
+      EXPECT_NEAR(tangent[c], difference[c], 5e-5 * difference.abs().maxCoeff())
+          << "contact " << c << ", μ " << j << ", warp " << warp;
     }
   }
+}
+
+TEST(Tangents, AreTheDifferencesOfWorksByTheirMu) {
+  for (const double warp : {0.0, 1.0, 1.7}) ExpectDifferences(testing::Mixed(), kMu, warp);
+}
+
+TEST(Tangents, FollowASpringBetweenTheEndsOfARow) {
+  Scenario s = testing::Chain(std::vector<double>(12, 0.5), std::vector<double>(11, 1e8),
+                              std::vector<double>(11, 0.8), 0.2, 1);
+  s.supports = {
+      {.body = 11, .other = 0, .stiffness = 1e6, .damping = 500, .rest_position = 11 * 0.1}};
+  ExpectDifferences(s, std::vector<double>(11, 1e8), 1);
 }
 
 TEST(Tangents, ConvergeWithOrderFour) {

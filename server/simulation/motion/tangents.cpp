@@ -17,6 +17,8 @@ constexpr double kTable[2][2] = {{0.25, 0.25 - std::numbers::sqrt3 / 6},
 // Damping and swing of a link in a part of a step, by its own masses. Of what decays to e⁻⁸ the
 // method leaves a quarter, until the next part, and after a swing of 1 it is late by 1e-3.
 constexpr double kDecay = 8, kSwing = 1;
+// Bodies further apart, in places, are not coupled in the system of a part: the band stays narrow.
+constexpr std::ptrdiff_t kFar = 8;
 
 std::size_t At(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
@@ -40,7 +42,7 @@ void Tangents::Add() {
   }
 }
 
-// A wall is the body that touches it, which it does not move against itself.
+// A wall takes the place of the body that touches it, and adds nothing there: it counts 0.
 void Tangents::Connect(const Sides& sides, int column) {
   Link& link = links_.emplace_back(Link{sides, column});
   if (link.left_counts == 0) link.left = link.right;
@@ -62,7 +64,8 @@ void Tangents::CountMoved() {
   for (Link& link : links_) {
     link.left = place_[At(link.left)];
     link.right = place_[At(link.right)];
-    reach = std::max(reach, std::abs(link.left - link.right));
+    link.couples = std::abs(link.left - link.right) <= kFar;
+    if (link.couples) reach = std::max(reach, std::abs(link.left - link.right));
   }
   system_.Resize(std::ssize(moved_), reach);
 }
@@ -138,6 +141,7 @@ void Tangents::Assemble() {
   system_.Reset();
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
+    if (!link.couples) continue;
     double block[2][2];
     for (std::size_t j = 0; j < 2; ++j) {
       const Law& law = stages_.laws[j][i];

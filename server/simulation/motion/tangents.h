@@ -52,6 +52,9 @@ class Tangents {
   struct Link : Sides {
     /// The μ of a contact, or kNone.
     int column = kNone;
+    /// Whether its force in a part depends on the accelerations in it; else to first order only, as
+    /// of a spring between the ends of a long row.
+    bool couples = true;
   };
   /// A force and its derivatives by δ, δ̇ and μ, by the clock of a part, and δ̇ itself [m/s].
   struct Law {
