@@ -72,7 +72,7 @@ struct ActiveContact : Sides {
   }
   /// At(…) of any contact.
   Force General(double deformation, double rate) const;
-  /// At(…).by_rate alone.
+  /// ∂F/∂δ̇ = μ δᵖ of a force that is not clipped.
   double DampingAt(double deformation) const {
     const double d = std::max(deformation, 0.0);
     return mu * (plain ? d * std::sqrt(d) : std::pow(d, damping_exponent));

@@ -198,7 +198,7 @@ void Motion::RefreshActive() {
         equations_.Activate(c, contact.gap, contact.cycle.mu, contact.column));
   }
   equations_.Prepare();
-  tangents_.Prepare();
+  if (tangents_.count() > 0) tangents_.Prepare();
   equations_(time_, rk_.y0.data(), rk_.slope0.data());
   ++evaluations_;
 }

@@ -192,8 +192,8 @@ double Motion::ErrorNorm(Count n, double h) const {
     // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
     const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
     const double scale_length = Largest(deformation_scale_[c], least_length);
-    const double decay = active.DampingAt(active.Relative(y) - active.gap) *
-                         (active.left_inverse + active.right_inverse);
+    const double damping = kink ? 0 : active.DampingAt(active.Relative(y) - active.gap);
+    const double decay = damping * (active.left_inverse + active.right_inverse);
     const Motions scale{scale_length,
                         Largest(velocity_scale_[c], least_speed) + decay * scale_length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));

@@ -32,7 +32,7 @@ class Tangents {
   void Add();
   /// How many μ there are.
   Eigen::Index count() const { return u_.rows(); }
-  /// Call when the equations' active contacts have changed.
+  /// Call when the equations' active contacts have changed, and after the first μ.
   void Prepare();
 
   /// Follows a step of the motion from θ = `from` to `to`. `paths` are the deformations of the
