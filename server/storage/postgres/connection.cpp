@@ -23,12 +23,14 @@ constexpr std::array kDefaults = {
 };
 
 // Durable before answered, whatever the server's default is. A lost client holds no lock for long.
-// No statement is worth the time to compile it. Answers the session.
+// No statement is worth the time to compile it, or to plan it at each call: every plan is one look
+// at an index, whatever the parameters. Answers the session.
 constexpr char kSettings[] =
     "SELECT set_config('synchronous_commit', 'on', false)"
     " WHERE current_setting('synchronous_commit') IN ('off', 'local');"
     "SET statement_timeout = '4s'; SET idle_in_transaction_session_timeout = '10s';"
     "SET search_path = contactd, pg_temp; SET jit = off;"
+    "SET plan_cache_mode = force_generic_plan;"
     "SELECT pid || ' ' || extract(epoch FROM backend_start) FROM pg_stat_activity"
     " WHERE pid = pg_backend_pid()";
 

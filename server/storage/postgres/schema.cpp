@@ -340,7 +340,9 @@ BEGIN
       last_change = coalesce(a_change, j.last_change),
       first_of_change = CASE WHEN a_change IS NULL THEN j.first_of_change
         ELSE j.last_sequence + 1 END
-    WHERE j.name = a_name AND j.epoch = a_epoch AND j.state NOT IN (3,4,5)
+    WHERE j.name = a_name AND j.epoch = a_epoch
+      -- Without the sum a plan of a time when all jobs had ended reads all that have not.
+      AND j.state + 0 NOT IN (3,4,5)
       AND (a_change IS NULL OR j.last_change IS DISTINCT FROM a_change)
     RETURNING j.number, j.tenant, j.last_sequence + 1 - cardinality(a_kinds), j.cells
     INTO v_job, job_tenant, first, v_cells;

@@ -97,9 +97,8 @@ END $$;
 -- a_most_running of one owner run at a time. Whoever had them can change them no more. A job comes
 -- with its checkpoint, and if it waits and its spec has at most a_spec_bytes, with that. Takes in
 -- what the worker has used, by owner. After a start of the database the workers have a while to
--- come back. Generic plans: one made for a_most costs more than it spares. They are kept, so those of
--- the time when there were few jobs must not read all of them: only jobs_taken has the first order,
--- and the rest goes by number.
+-- come back. Plans are kept, so those of the time when there were few jobs must not read all of them:
+-- only jobs_taken has the first order, and the rest goes by number.
 CREATE OR REPLACE FUNCTION contactd.claim(
   a_worker text, a_most bigint, a_most_running bigint, a_grace bigint, a_tenants text[],
   a_owners text[], a_milliseconds bigint[], a_not_tenants text[], a_not_owners text[],
@@ -109,7 +108,7 @@ RETURNS TABLE(
   last_sequence bigint, crc32 bigint, header bytea, oldest_sequence bigint, compacted boolean,
   owner text, tenant text, request_id text, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint,
   checkpoint bytea, checkpoint_sequence bigint)
-LANGUAGE plpgsql SET plan_cache_mode = force_generic_plan SET enable_seqscan = off AS $$
+LANGUAGE plpgsql SET enable_seqscan = off AS $$
 DECLARE
   c_lost CONSTANT bigint := 64;
   v_now timestamptz := clock_timestamp();
