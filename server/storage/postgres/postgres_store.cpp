@@ -46,18 +46,20 @@ class PostgresStore : public SharedStore {
 
   using Store::Update;
   void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done) override {
-    Post<std::uint64_t>(postgres::ChangeJob(*change, epoch),
-                        [this, change](const Rows& rows) {
-                          auto first = postgres::Changed(rows, change->name);
-                          if (first.ok()) {
-                            Tell({.name = change->name,
-                                  .tenant = rows.Bytes(0, 2),
-                                  .last_sequence = *first + change->events.size() - 1,
-                                  .state = change->state});
-                          }
-                          return first;
-                        },
-                        std::move(done), {.id = change->id});
+    Post<std::uint64_t>(
+        postgres::ChangeJob(*change, epoch),
+        [this, change](const Rows& rows) {
+          auto first = postgres::Changed(rows, change->name);
+          if (first.ok()) {
+            Tell({.name = change->name,
+                  .tenant = rows.Bytes(0, 2),
+                  .last_sequence = *first + change->events.size() - 1,
+                  .state = change->state});
+          }
+          return first;
+        },
+        std::move(done),
+        {.id = change->id, .patient = change->take && change->state == v1::Job::RUNNING});
   }
 
   bool Recall(const Encoded& change) override { return queries_.Recall(change->id); }

@@ -37,6 +37,8 @@ class QueryThread {
     std::function<void(absl::StatusOr<Rows>)> done = {};
     /// By which it can be recalled; 0: it cannot.
     std::uint64_t id = 0;
+    /// It is not worth a transaction of its own a few milliseconds after the last one.
+    bool patient = false;
     /// It leaves something to tidy up.
     bool untidy = false;
   };
@@ -60,6 +62,8 @@ class QueryThread {
 
   // All private methods run on the thread.
   void Loop();
+  // How many operations the next transaction may have: up to the last that is not patient, or all.
+  std::size_t Ready() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // Waits for operations. Empty: it is time to tidy up. None: it is time to stop.
   std::optional<Batch> NextBatch();
   // Runs a batch as one transaction, or its operations one by one if that fails, and tells them.
@@ -82,6 +86,8 @@ class QueryThread {
   const Clock& clock_;
   // True while `tidy_` may have something to do.
   bool untidy_ = true;
+  // Of the last transaction.
+  std::chrono::steady_clock::time_point last_begin_ = {};
   // Why there is no connection, and since when.
   absl::Status lost_;
   std::chrono::steady_clock::time_point lost_since_;

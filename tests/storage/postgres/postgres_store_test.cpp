@@ -3,12 +3,15 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "storage/every_store.h"
 #include "storage/postgres/schema.h"
+#include "storage/postgres/statements.h"
+#include "testing/fake_sources.h"
 
 namespace contact {
 namespace {
@@ -88,6 +91,58 @@ TEST_F(PostgresStoreTest, ChangeIsRecalledBeforeItIsSentAndNotAfter) {
   EXPECT_EQ(first.Get().value(), 3U) << "after the other one";
   EXPECT_FALSE(told);
   EXPECT_FALSE(store_->Recall(change));
+}
+
+TEST_F(PostgresStoreTest, TakeSoonAfterATransactionWaitsForTheNextOrAWhile) {
+  FakeClock clock;
+  Open({.clock = &clock});
+  const v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());  // A transaction has begun.
+  v1::Job running = job;
+  running.set_state(v1::Job::RUNNING);
+  const std::vector<v1::Event> events = {LogEvent("x")};
+  const auto take =
+      Store::Encode({.name = running.name(), .take = true, .job = &running, .events = events});
+  store_->Update(take, 0, [](const auto&) { ADD_FAILURE(); });
+  EXPECT_TRUE(store_->Recall(take)) << "nothing else is to be sent";
+
+  Await<absl::StatusOr<std::uint64_t>> after_a_while;
+  store_->Update(take, 0, after_a_while.callback());
+  clock.Advance(std::chrono::milliseconds(5));
+  EXPECT_EQ(after_a_while.Get().value(), 2U);
+
+  const auto again =
+      Store::Encode({.name = running.name(), .take = true, .job = &running, .events = events});
+  Await<absl::StatusOr<std::uint64_t>> with_the_next;
+  store_->Update(again, 1, with_the_next.callback());
+  ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
+  EXPECT_EQ(with_the_next.Get().value(), 3U);
+}
+
+// As many wait that have come since the database has last looked how many there are.
+TEST_F(PostgresStoreTest, ChangeReadsNoOtherJob) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  v1::Job ended = MakeJob("jobs/b");
+  ended.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Create(ended).ok());
+  database_.Run("UPDATE contactd.jobs SET state = 3");
+  database_.Run("ANALYZE");
+  database_.Run("UPDATE contactd.jobs SET state = 1 WHERE name = 'jobs/a'");
+  for (int i = 0; i < 200; ++i) ASSERT_TRUE(Create(MakeJob("jobs/w" + std::to_string(i))).ok());
+
+  const std::vector<v1::Event> events = {LogEvent("x")};
+  const std::string name = "jobs/a";
+  const postgres::Statement change =
+      postgres::ChangeJob(*Store::Encode({.name = name, .events = events}), 0);
+  const postgres::Statement reads{
+      "SELECT seq_tup_read + idx_tup_fetch FROM pg_stat_xact_user_tables"
+      " WHERE relid = 'contactd.jobs'::regclass"};
+  const auto answers =
+      postgres::Connection::Open(database_.address()).value()->Run({&change, &reads});
+  ASSERT_TRUE(answers.ok()) << answers.status();
+  EXPECT_EQ(postgres::Changed(answers->front(), name).value(), 2U);
+  EXPECT_LT(answers->back().Integer(0, 0), 5);
 }
 
 TEST_F(PostgresStoreTest, ChangeThatIsSentAgainIsDoneOnce) {
