@@ -10,7 +10,8 @@
 //
 // The last three do what fronts and workers do, with the same statements in the same transactions
 // but without a service: they create copies of JOB, which has ended, and claim, begin and end all
-// that wait. SOLVE: they compute them, too. Each prints a line of figures, libpq-front its address.
+// that wait. SOLVE: they compute them, too, and store what they have found. Each prints a line of
+// figures, libpq-front its address.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -29,10 +30,13 @@
 #include "bare_front.h"
 #include "base/ids.h"
 #include "contact/v1/job_service.grpc.pb.h"
+#include "simulation/model/observer.h"
 #include "simulation/run.h"
 #include "storage/postgres/statements.h"
 #include "storage/postgres/worker_statements.h"
 #include "testing/watch_crowd.h"
+#include "wire/ledger_codec.h"
+#include "wire/result_codec.h"
 #include "wire/scenario/scenario_codec.h"
 
 namespace contact {
@@ -120,12 +124,14 @@ class Submitter {
   // A call, and after it the next over the same connection.
   void Next(std::size_t connection) {
     if (next_++ >= jobs_) return ended_.count_down();
-    const auto call = std::make_shared<Call>();
-    stubs_[connection]->async()->CreateJob(&call->context, &request_, &call->job,
-                                           [this, connection, call](const grpc::Status& status) {
-                                             if (!status.ok()) ++failed_;
-                                             Next(connection);
-                                           });
+    auto call = std::make_shared<Call>();
+    stubs_[connection]->async()->CreateJob(
+        &call->context, &request_, &call->job,
+        [this, connection, call](const grpc::Status& status) mutable {
+          if (!status.ok()) ++failed_;
+          call.reset();  // The last call must not live longer than the program.
+          Next(connection);
+        });
   }
 
   const v1::CreateJobRequest request_;
@@ -179,6 +185,7 @@ void Watch(const Words& words) {
 // A job that has ended, and how it came to that.
 struct Sample {
   v1::Job job;
+  std::vector<v1::Event> events;
   JobChange run;
 };
 
@@ -195,7 +202,7 @@ Sample ReadSample(Connection& connection, const std::string& name) {
     if (event.sequence > 1 && event.Parse(&parsed)) events.push_back(std::move(parsed));
   }
   JobChange run = ToChange({.name = name, .take = true, .job = &stored.job, .events = events});
-  return {std::move(stored.job), std::move(run)};
+  return {std::move(stored.job), std::move(events), std::move(run)};
 }
 
 void RunAll(Connection& connection, const std::vector<Statement>& statements) {
@@ -208,25 +215,31 @@ std::unique_ptr<Connection> Connect(const std::string& address) {
   return OrThrow(Connection::Open(address));
 }
 
-// The insert of a job that waits, like the one that has ended.
-JobInsert LikeThat(const std::string& address, const std::string& name) {
-  v1::Job job = ReadSample(*Connect(address), name).job;
-  job.clear_cycles();
-  job.clear_final_bodies();
+// A job that waits, like the one that has ended.
+v1::Job LikeThat(const std::string& address, const std::string& name) {
+  const v1::Job ended = ReadSample(*Connect(address), name).job;
+  v1::Job job;
+  *job.mutable_scenario() = ended.scenario();
+  *job.mutable_create_time() = ended.create_time();
+  job.set_owner(ended.owner());
+  job.set_tenant(ended.tenant());
   job.set_state(v1::Job::QUEUED);
-  const std::vector<v1::Event> events(1);
-  return ToInsert({job, "", events});
+  return job;
 }
 
-Statement Copy(JobInsert insert) {
-  insert.name = "jobs/" + RandomIds().NextId();
-  insert.uid = RandomIds().NextUuid();
+Statement Copy(v1::Job job) {
+  job.set_name("jobs/" + RandomIds().NextId());
+  job.set_uid(RandomIds().NextUuid());
+  v1::Event event;
+  *event.mutable_event_time() = job.create_time();
+  event.mutable_state_changed()->set_state(v1::Job::QUEUED);
+  JobInsert insert = ToInsert({job, "", {&event, 1}});
   insert.limits.waiting = 10'000;
   return postgres::CreateJob(insert);
 }
 
 void LibpqFront(const Words& words) {
-  const JobInsert like = LikeThat(words[0], words[1]);
+  const v1::Job like = LikeThat(words[0], words[1]);
   const BareFront front(Connect(words[0]), [&like] { return Copy(like); });
   fmt::print("127.0.0.1:{}\n", front.port());
   std::fflush(stdout);
@@ -236,7 +249,7 @@ void LibpqFront(const Words& words) {
 void LibpqSubmit(const Words& words) {
   const int jobs = std::stoi(words[2]);
   const int connections = std::stoi(words[3]);
-  const JobInsert like = LikeThat(words[0], words[1]);
+  const v1::Job like = LikeThat(words[0], words[1]);
   std::atomic<int> next = 0;
   const auto start = steady_clock::now();
   InThreads(connections, [&](int) {
@@ -251,17 +264,68 @@ void LibpqSubmit(const Words& words) {
   fmt::print("{:.0f}\n", jobs / SecondsSince(start));
 }
 
-void Solve(const StoredJob& claimed) {
-  const DecodedScenario decoded = DecodeScenario(claimed.job.scenario(), {});
-  Observer nobody;
-  Run(decoded.scenario, nobody);
+// Computes a job as a worker does, and makes of it what is to be stored.
+class Solver : public Observer {
+ public:
+  Solver(const Sample& sample, const v1::Job& claimed)
+      : sample_(sample), job_(sample.job), scenario_(Decoded(claimed)) {
+    job_.set_name(claimed.name());
+    job_.clear_cycles();
+    job_.clear_groups();
+    job_.clear_final_bodies();
+  }
+
+  JobChange Run() {
+    for (const v1::Event& event : sample_.events) {
+      if (!IsRecorded(event)) events_.push_back(event);
+    }
+    EncodeOutcome(scenario_, contact::Run(scenario_, *this), &job_);
+    return ToChange({.name = job_.name(), .take = true, .job = &job_, .events = events_});
+  }
+
+  // The events that the methods below add.
+  static bool IsRecorded(const v1::Event& event) {
+    return event.has_iteration() || event.has_cycle() || event.has_group() ||
+           event.has_frame_chunk();
+  }
+
+  void OnIteration(const Iteration& iteration) override {
+    *events_.emplace_back().mutable_iteration() = Encode(scenario_, iteration);
+  }
+  void OnCycle(const Cycle& cycle) override {
+    *events_.emplace_back().mutable_cycle() = *job_.add_cycles() = Encode(scenario_, cycle);
+  }
+  void OnGroup(const Group& group) override {
+    *events_.emplace_back().mutable_group() = *job_.add_groups() = Encode(scenario_, group);
+  }
+  void OnSamples(const Samples& samples) override {
+    *events_.emplace_back().mutable_frame_chunk() = Encode(scenario_, samples);
+  }
+
+ private:
+  static Scenario Decoded(const v1::Job& claimed) {
+    DecodedScenario decoded = DecodeScenario(claimed.scenario(), {});
+    if (!decoded.violations.empty()) throw std::runtime_error("a job came without its scenario");
+    return std::move(decoded.scenario);
+  }
+
+  const Sample& sample_;
+  v1::Job job_;
+  const Scenario scenario_;
+  std::vector<v1::Event> events_;
+};
+
+JobChange Repeat(const Sample& sample, const v1::Job& claimed) {
+  JobChange run = sample.run;
+  run.name = claimed.name();
+  return run;
 }
 
 // Prints jobs and events a second.
 void LibpqRun(const Words& words) {
   const Sample sample = ReadSample(*Connect(words[0]), words[1]);
   const bool solve = words.size() > 3;
-  std::atomic<int> jobs = 0;
+  std::atomic<std::size_t> jobs = 0, events = 0;
   const auto start = steady_clock::now();
   InThreads(std::stoi(words[2]), [&](int number) {
     const auto connection = Connect(words[0]);
@@ -273,17 +337,17 @@ void LibpqRun(const Words& words) {
       claimed = postgres::ClaimedOf(OrThrow(connection->Run(claim)));
       std::vector<Statement> ends;
       for (const StoredJob& job : claimed) {
-        if (solve) Solve(job);
-        JobChange run = sample.run;
-        run.name = job.job.name();
+        const JobChange run = solve ? Solver(sample, job.job).Run() : Repeat(sample, job.job);
+        events += run.events.size();
         ends.push_back(postgres::ChangeJob(run, job.epoch));
       }
       RunAll(*connection, ends);
-      jobs += static_cast<int>(claimed.size());
+      jobs += claimed.size();
     } while (!claimed.empty());
   });
-  const double rate = jobs / SecondsSince(start);
-  fmt::print("{:.0f} {:.0f}\n", rate, rate * static_cast<double>(sample.run.events.size()));
+  const double seconds = SecondsSince(start);
+  fmt::print("{:.0f} {:.0f}\n", static_cast<double>(jobs) / seconds,
+             static_cast<double>(events) / seconds);
 }
 
 int Main(const Words& words) {
