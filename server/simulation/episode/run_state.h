@@ -5,7 +5,7 @@
 
 #include "simulation/episode/unknown.h"
 #include "simulation/model/ledger.h"
-#include "simulation/motion/motion.h"
+#include "simulation/motion/state.h"
 
 namespace contact {
 

@@ -24,9 +24,9 @@ ActiveContact::Force ActiveContact::General(double deformation, double rate) con
 }
 
 Equations::Equations(const Scenario& scenario)
-    : scenario_(scenario),
-      bodies_(static_cast<int>(scenario.bodies.size())),
-      contacts_(static_cast<int>(scenario.contacts.size())) {
+    : StateLayout(static_cast<int>(scenario.bodies.size()),
+                  static_cast<int>(scenario.contacts.size())),
+      scenario_(scenario) {
   for (const Body& body : scenario.bodies) {
     base.push_back(body.position);
     inverse_mass_.push_back(body.fixed ? 0 : 1 / body.mass);
@@ -99,7 +99,7 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
   made.column = column;
   made.gap = gap;
   made.mu = mu;
-  if (At(bodies_) <= made.response.size()) {
+  if (At(bodies()) <= made.response.size()) {
     made.response[static_cast<std::size_t>(made.left)] -= made.left_inverse;
     made.response[static_cast<std::size_t>(made.right)] += made.right_inverse;
   }
@@ -199,12 +199,12 @@ void Equations::Prepare() {
                  : &Equations::EvaluateFew<n, kCount, false>;
   };
   if (active.size() == 1) {
-    if (bodies_ == 1) choose.operator()<1, 1>();
-    if (bodies_ == 2) choose.operator()<2, 1>();
-    if (bodies_ == 3) choose.operator()<3, 1>();
+    if (bodies() == 1) choose.operator()<1, 1>();
+    if (bodies() == 2) choose.operator()<2, 1>();
+    if (bodies() == 3) choose.operator()<3, 1>();
   } else if (active.size() == 2) {
-    if (bodies_ == 2) choose.operator()<2, 2>();
-    if (bodies_ == 3) choose.operator()<3, 2>();
+    if (bodies() == 2) choose.operator()<2, 2>();
+    if (bodies() == 3) choose.operator()<3, 2>();
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "simulation/laws/power.h"
 #include "simulation/model/scenario.h"
+#include "simulation/motion/state_layout.h"
 
 namespace contact {
 
@@ -96,33 +97,11 @@ struct ActiveContact : Sides {
 /// quadratures that the ledger needs.
 ///
 /// Displacements u are measured from `base`, near which they stay small, so that deformations
-/// keep their digits however far a body has come. State vector y, N bodies and C contacts:
-///   [u (N), v (N)]
-/// and then quadratures, on which no slope depends:
-///   [W (C)]                                    work of the running cycles
-///   [E (C), load work, support loss, impulse]  when recording
-class Equations {
+/// keep their digits however far a body has come.
+class Equations : public StateLayout {
  public:
   /// The scenario must outlive the equations.
   explicit Equations(const Scenario& scenario);
-
-  int bodies() const { return bodies_; }
-  int contacts() const { return contacts_; }
-  /// How many numbers y has. It changes with `recording`.
-  std::ptrdiff_t size() const { return work(contacts()) + (recording ? contacts() + 3 : 0); }
-  /// How many of them, from the first, slopes depend on: all but the quadratures.
-  std::ptrdiff_t coupled() const { return 2 * std::ptrdiff_t{bodies()}; }
-  /// Place of the work W of a contact's running cycle [J], (W1).
-  std::ptrdiff_t work(int contact) const { return coupled() + contact; }
-  /// Place of the work E of F_e in a contact's running cycle [J], (W3). This and the next three
-  /// only when recording.
-  std::ptrdiff_t external_work(int contact) const { return work(contacts()) + contact; }
-  /// Place of the work of all loads [J], (B1).
-  std::ptrdiff_t load_work() const { return external_work(contacts()); }
-  /// Place of what the supports dissipate [J], (B1).
-  std::ptrdiff_t support_loss() const { return load_work() + 1; }
-  /// Place of the impulse of the external forces [N·s], (B2).
-  std::ptrdiff_t impulse() const { return load_work() + 2; }
 
   /// dy = pace · f(t, y): slopes by a clock of which a second is 1/pace.
   void operator()(double t, const double* y, double* dy, double pace = 1) const {
@@ -163,8 +142,6 @@ class Equations {
   std::vector<double> base;
   /// The contacts that exert a force, in order of Scenario::contacts.
   std::vector<ActiveContact> active;
-  /// Whether y has the quadratures of the ledger.
-  bool recording = false;
 
  private:
   /// Adds the supports to the accelerations.
@@ -195,7 +172,6 @@ class Equations {
   }
 
   const Scenario& scenario_;
-  const int bodies_, contacts_;
   // 1/m [1/kg]; 0 for a fixed body.
   std::vector<double> inverse_mass_;
   // One for every contact.

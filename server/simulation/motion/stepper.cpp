@@ -1,10 +1,9 @@
-// The part of Motion that takes one step: its length, its warp, its error, its landing.
+#include "simulation/motion/stepper.h"
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
-
-#include "simulation/motion/motion.h"
 
 namespace contact {
 namespace {
@@ -58,14 +57,46 @@ double Square(const Motions& e5, const Motions& e3, const Motions& scale) {
 
 }  // namespace
 
+Stepper::Stepper(MovingSystem& system)
+    : system_(system),
+      shifts_(system.fixed_step() == 0 && !IsPacking(system.scenario)),
+      error5_(2 * system.scenario.bodies.size()),
+      error3_(2 * system.scenario.bodies.size()) {}
+
+void Stepper::Begin() {
+  flight_length_ = flight_speed_ = 0;
+  cruise_ = 0;
+}
+
+void Stepper::Widen() {
+  const int n = system_.equations.bodies();
+  if (system_.equations.active.empty()) {
+    flight_length_ = std::max(flight_length_, system_.rk.y0.head(n).abs().maxCoeff());
+    flight_speed_ = std::max(flight_speed_, system_.rk.y0.segment(n, n).abs().maxCoeff());
+  }
+  for (const ActiveContact& active : system_.equations.active) {
+    const auto c = At(active.contact);
+    const double moved = system_.Deformation(active.contact, system_.rk.y0.data()) -
+                         system_.contacts[c].cycle.start_deformation;
+    system_.scales[c].length = std::max(system_.scales[c].length, std::abs(moved));
+    system_.scales[c].speed =
+        std::max(system_.scales[c].speed,
+                 std::abs(system_.equations.Relative(active.contact, system_.rk.y0.data() + n)));
+  }
+}
+
+void Stepper::Separated() {
+  if (shifts_) system_.next_step = std::max(system_.next_step, cruise_);
+}
+
 // How a step is warped: evenly in √(t − t_s) after a touch, or in √(t_o − t) before a separation,
 // whichever is nearer, for force grows and fades with a fractional power of these times.
-double Motion::Warp(double h, double parting) const {
-  if (fixed_step_ > 0) return 1;
+double Stepper::Warp(double h, double parting) const {
+  if (system_.fixed_step() > 0) return 1;
   const auto warp = [](double start, double end) {
     return 2 * std::sqrt(start) / (std::sqrt(start) + std::sqrt(end));
   };
-  const double since = time_ - touch_time_;
+  const double since = system_.time - system_.touch_time;
   const double after = std::isnan(since) ? 1 : warp(since, since + h);
   const double before = parting < kForever ? warp(parting, std::max(0.0, parting - h)) : 1;
   return before - 1 > 1 - after ? before : after;
@@ -73,86 +104,87 @@ double Motion::Warp(double h, double parting) const {
 
 // When a contact in restitution will part; infinite if it seems it will not. By the parabola
 // through δ, δ̇ and the mean δ̈, in which F fades like (1 − θ)^1.5 and all else stays.
-double Motion::TimeToSeparation(const ActiveContact& active) const {
+double Stepper::TimeToSeparation(const ActiveContact& active) const {
   constexpr double kFade = 3.0 / 7;  // 1 − 2 ∫(1 − θ)^2.5 dθ
-  const int n = equations_.bodies();
-  const double deformation = active.Relative(rk_.y0.data()) - active.gap;
-  const double speed = -active.Relative(rk_.y0.data() + n);
+  const int n = system_.equations.bodies();
+  const double deformation = active.Relative(system_.rk.y0.data()) - active.gap;
+  const double speed = -active.Relative(system_.rk.y0.data() + n);
   const double force = active.At(deformation, -speed).force;
-  const double bend = active.Relative(rk_.slope0.data() + n) +
+  const double bend = active.Relative(system_.rk.slope0.data() + n) +
                       kFade * force * (active.left_inverse + active.right_inverse);
   const double discriminant = speed * speed - 2 * deformation * bend;
   if (speed <= 0 || deformation <= 0 || discriminant < 0) return kForever;
   return 2 * deformation / (speed + std::sqrt(discriminant));
 }
 
-StepTime Motion::Plan(double until) {
-  const double left = std::min(until, breakpoint_) - time_;
-  double h = std::min({next_step_, left, 0.5 * forcing_time_});
+StepTime Stepper::Plan(double until) {
+  const double left = std::min(until, system_.breakpoint) - system_.time;
+  double h = std::min({system_.next_step, left, 0.5 * system_.forcing_time});
   if (left - h < 1e-3 * h) h = left;  // Leave no sliver.
   separating_ = kNone;
   double parting = kForever;
   const ActiveContact* first = nullptr;
-  for (const ActiveContact& active : equations_.active) {
-    if (contacts_[At(active.contact)].phase != Phase::kRestitution) continue;
+  for (const ActiveContact& active : system_.equations.active) {
+    if (system_.contacts[At(active.contact)].phase != Phase::kRestitution) continue;
     const double time = TimeToSeparation(active);
     if (time < parting) parting = time, first = &active;
   }
   if (parting > 2 * h) cruise_ = h;
   if (parting * kReach <= h && parting <= left) {
-    const double deformation = first->Relative(rk_.y0.data()) - first->gap;
-    const double near = kNear * std::pow(tolerance_, 1.0 / 7);
-    if (deformation <= near * deformation_scale_[At(first->contact)]) {
+    const double deformation = first->Relative(system_.rk.y0.data()) - first->gap;
+    const double near = kNear * std::pow(system_.tolerance, 1.0 / 7);
+    if (deformation <= near * system_.scales[At(first->contact)].length) {
       separating_ = first->contact;
-      return {.start = time_, .h = parting, .warp = 2};
+      return {.start = system_.time, .h = parting, .warp = 2};
     }
     h = std::min(h, kApproach * parting);  // Too far off to know when it will part.
   }
-  return {.start = time_, .h = h, .warp = Warp(h, parting)};
+  return {.start = system_.time, .h = h, .warp = Warp(h, parting)};
 }
 
 // The classical method's step is what it is.
-void Motion::TakeFixedStep(double until) {
-  const double left = std::min(until, breakpoint_) - time_;
-  const bool last = left < (1 + 1e-6) * fixed_step_;  // Leave no sliver.
+void Stepper::TakeFixed(double until) {
+  const double left = std::min(until, system_.breakpoint) - system_.time;
+  const bool last = left < (1 + 1e-6) * system_.fixed_step();  // Leave no sliver.
   separating_ = kNone;
-  ComputeStep(last ? left : fixed_step_, false);
+  Compute(last ? left : system_.fixed_step(), false);
 }
 
-bool Motion::TakeStep(double until) {
-  const int n = equations_.bodies();
-  std::fill(event_.begin(), event_.end(), 0.0);
-  if (fixed_step_ > 0) {
-    TakeFixedStep(until);
+bool Stepper::Take(double until) {
+  const int n = system_.equations.bodies();
+  if (system_.fixed_step() > 0) {
+    TakeFixed(until);
     return true;
   }
-  if (next_step_ == 0) {
-    const double speed = rk_.y0.segment(n, n).abs().maxCoeff();
-    const double acceleration = rk_.slope0.segment(n, n).abs().maxCoeff();
-    next_step_ = speed > 0 ? 0.01 * speed / acceleration : 1e-6;  // Infinite in free flight.
+  if (system_.next_step == 0) {
+    const double speed = system_.rk.y0.segment(n, n).abs().maxCoeff();
+    const double acceleration = system_.rk.slope0.segment(n, n).abs().maxCoeff();
+    system_.next_step = speed > 0 ? 0.01 * speed / acceleration : 1e-6;  // Infinite in free flight.
   }
-  const double most = tolerance_ > scenario_.solver.relative_tolerance ? kEarly : 1;
+  const double most = system_.tolerance > system_.scenario.solver.relative_tolerance ? kEarly : 1;
   for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
-    step_ = Plan(until);
-    rk_.Step(equations_, step_);
-    ++steps_;
-    evaluations_ += 11;
+    system_.step = Plan(until);
+    system_.rk.Step(system_.equations, system_.step);
+    ++system_.steps;
+    system_.evaluations += 11;
     double error = 0;
-    WithCount<1, 2, 3>(n, [&](auto count) { error = ErrorNorm(count, step_.h); });
+    WithCount<1, 2, 3>(n, [&](auto count) { error = ErrorNorm(count, system_.step.h); });
     const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
     const double factor = error > 0 ? kSafety / eighth_root : 6;
     if (error <= most) {
-      rk_.FinishStep(equations_, step_);
-      ++evaluations_;
+      system_.rk.FinishStep(system_.equations, system_.step);
+      ++system_.evaluations;
       const double growth = std::clamp(factor, 0.3, rejections > 0 ? 1.0 : 6.0);
-      const double next =
-          separating_ == kNone ? std::max(step_.Next(growth), 0.1 * step_.h) : step_.h * growth;
-      next_step_ = step_.h < next_step_ ? std::max(next, next_step_) : next;
+      const double next = separating_ == kNone
+                              ? std::max(system_.step.Next(growth), 0.1 * system_.step.h)
+                              : system_.step.h * growth;
+      system_.next_step =
+          system_.step.h < system_.next_step ? std::max(next, system_.next_step) : next;
       return true;
     }
     const double shorter = std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1;
     // What was to end in a separation was not near enough to it yet.
-    next_step_ = step_.Offset(separating_ == kNone ? shorter : 0.6);
+    system_.next_step = system_.step.Offset(separating_ == kNone ? shorter : 0.6);
   }
   return false;
 }
@@ -161,21 +193,22 @@ bool Motion::TakeStep(double until) {
 // the scale of its own cycle, that of each body relative to the largest motion of all. An error of
 // δ̇ that damping ends within 1/λ leaves no more than an error of δ, λ = μ δᵖ/m_e times smaller.
 template <class Count>
-double Motion::ErrorNorm(Count n, double h) const {
-  rk_.Errors(2 * n, error5_.data(), error3_.data());
+double Stepper::ErrorNorm(Count n, double h) const {
+  system_.rk.Errors(2 * n, error5_.data(), error3_.data());
   const double* e5 = error5_.data();
   const double* e3 = error3_.data();
   double sum = 0;
   for (std::ptrdiff_t i = 0; i < 2 * n; ++i) sum += e5[i] + e3[i];
   if (!std::isfinite(sum)) return kForever;  // And only then y1 is not finite.
-  const double* y = rk_.y1.data();
+  const double* y = system_.rk.y1.data();
   double length = 0, speed = 0;
-  for (const ActiveContact& active : equations_.active) {
+  for (const ActiveContact& active : system_.equations.active) {
     const auto c = At(active.contact);
-    const double moved = active.Relative(y) - active.gap - contacts_[c].cycle.start_deformation;
+    const double moved =
+        active.Relative(y) - active.gap - system_.contacts[c].cycle.start_deformation;
     const double rate = std::abs(active.Relative(y + n));
-    length = Largest(length, deformation_scale_[c], std::abs(moved), rate * h);
-    speed = Largest(speed, velocity_scale_[c], rate);
+    length = Largest(length, system_.scales[c].length, std::abs(moved), rate * h);
+    speed = Largest(speed, system_.scales[c].speed, rate);
   }
   // Bodies are held to the largest motion of all, contacts to that of contacts.
   const double body_speed = Largest(speed, flight_speed_, LargestOf(n, y + n));
@@ -183,92 +216,94 @@ double Motion::ErrorNorm(Count n, double h) const {
   double norm = Square({LargestOf(n, e5), LargestOf(n, e5 + n)},
                        {LargestOf(n, e3), LargestOf(n, e3 + n)}, {body_length, body_speed});
   // What the round-off of velocities makes of lengths in a step is no error of the step.
-  const double round_off = 1e-15 * body_speed * h / scenario_.solver.relative_tolerance;
+  const double round_off = 1e-15 * body_speed * h / system_.scenario.solver.relative_tolerance;
   const double least_length = Largest(1e-3 * length, round_off), least_speed = 1e-3 * speed;
-  for (const ActiveContact& active : equations_.active) {
+  for (const ActiveContact& active : system_.equations.active) {
     const auto c = At(active.contact);
     const Motions five{active.Relative(e5), active.Relative(e5 + n)};
     const Motions three{active.Relative(e3), active.Relative(e3 + n)};
     // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
     const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
-    const double scale_length = Largest(deformation_scale_[c], least_length);
+    const double scale_length = Largest(system_.scales[c].length, least_length);
     const double damping = kink ? 0 : active.DampingAt(active.Relative(y) - active.gap);
     const double decay = damping * (active.left_inverse + active.right_inverse);
     const Motions scale{scale_length,
-                        Largest(velocity_scale_[c], least_speed) + decay * scale_length};
+                        Largest(system_.scales[c].speed, least_speed) + decay * scale_length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
   }
-  return h * std::sqrt(norm) / tolerance_;
+  return h * std::sqrt(norm) / system_.tolerance;
 }
 
 // Makes the step end on the event: Newton on its length with the true solution, started from the
 // interpolated one, until the event's time is good to round-off. False if a predicted separation is
 // not there after all; the step is then one like others.
-bool Motion::Land(const Found& found) {
+bool Stepper::Land(const StepEvents::Found& found) {
   const bool parting = found.event.kind == EventKind::kSeparation;
-  const StepTime planned = step_;
-  const double left = breakpoint_ - time_;
+  const StepTime planned = system_.step;
+  const double left = system_.breakpoint - system_.time;
   // What the trapezoidal rule leaves is of third order in time.
-  const double nearby = shifts_ ? kTrapezoid * std::cbrt(tolerance_) * (time_ - touch_time_) : 0;
-  const double event = step_.Offset(found.event.theta);
-  if (separating_ == found.contact && step_.h - event <= nearby) {
-    if (found.event.theta < 1) Shift(event - step_.h, false);
+  const double nearby =
+      shifts_ ? kTrapezoid * std::cbrt(system_.tolerance) * (system_.time - system_.touch_time) : 0;
+  const double event = system_.step.Offset(found.event.theta);
+  if (separating_ == found.contact && system_.step.h - event <= nearby) {
+    if (found.event.theta < 1) Shift(event - system_.step.h, false);
   } else if (found.event.theta < 1) {
-    ComputeStep(event, parting);
+    Compute(event, parting);
   }
   for (int i = 0; i < kMaxLandings; ++i) {
     const double correction = Correction(found);
-    const double h = step_.h + correction;
+    const double h = system_.step.h + correction;
     if (!(h > 0) || h > 2 * planned.h) break;
     if (h > left) {  // The event is past a load's breakpoint, after which all is different.
-      ComputeStep(left, false);
+      Compute(left, false);
       return false;
     }
     // So near that the tangent leads there: its error is of second order.
-    const bool there = std::abs(correction) <= 1e-7 * step_.h;
+    const bool there = std::abs(correction) <= 1e-7 * system_.step.h;
     if (there || std::abs(correction) <= nearby) {
       Shift(correction, there);
       if (there) return true;
     } else {
-      ComputeStep(h, parting);
+      Compute(h, parting);
     }
   }
   if (!parting) return true;  // As near as it gets.
-  ComputeStep(planned.h, planned.warp == 2);
+  Compute(planned.h, planned.warp == 2);
   return false;
 }
 
 // Moves the end of the step by a short time: along the tangent, or by the trapezoidal rule.
-void Motion::Shift(double time, bool tangent) {
-  step_.h += time;
-  rk_.y1 += time * rk_.slope1;
+void Stepper::Shift(double time, bool tangent) {
+  system_.step.h += time;
+  system_.rk.y1 += time * system_.rk.slope1;
   if (!tangent) {
-    inside_ = rk_.slope1;
-    rk_.FinishStep(equations_, step_);
-    ++evaluations_;
-    rk_.y1 += 0.5 * time * (rk_.slope1 - inside_);
+    slope_ = system_.rk.slope1;
+    system_.rk.FinishStep(system_.equations, system_.step);
+    ++system_.evaluations;
+    system_.rk.y1 += 0.5 * time * (system_.rk.slope1 - slope_);
   }
-  rk_.FinishStep(equations_, step_);
-  ++evaluations_;
+  system_.rk.FinishStep(system_.equations, system_.step);
+  ++system_.evaluations;
 }
 
-void Motion::ComputeStep(double h, bool parting) {
-  step_ = {.start = time_, .h = h, .warp = parting && fixed_step_ == 0 ? 2 : Warp(h)};
-  rk_.Step(equations_, step_);
-  rk_.FinishStep(equations_, step_);
-  ++steps_;
-  evaluations_ += fixed_step_ > 0 ? 4 : 12;
+void Stepper::Compute(double h, bool parting) {
+  system_.step = {
+      .start = system_.time, .h = h, .warp = parting && system_.fixed_step() == 0 ? 2 : Warp(h)};
+  system_.rk.Step(system_.equations, system_.step);
+  system_.rk.FinishStep(system_.equations, system_.step);
+  ++system_.steps;
+  system_.evaluations += system_.fixed_step() > 0 ? 4 : 12;
 }
 
 // By how much the step must be longer to end on the event, to first order.
-double Motion::Correction(const Found& found) const {
+double Stepper::Correction(const StepEvents::Found& found) const {
   if (found.event.kind == EventKind::kRestTouch) return 0;  // Known to within the noise.
-  const int n = equations_.bodies();
-  const double rate = equations_.Relative(found.contact, rk_.y1.data() + n);
+  const int n = system_.equations.bodies();
+  const double rate = system_.equations.Relative(found.contact, system_.rk.y1.data() + n);
   if (found.event.kind == EventKind::kNonSeparation) {
-    return -rate / equations_.Relative(found.contact, rk_.slope1.data() + n);
+    return -rate / system_.equations.Relative(found.contact, system_.rk.slope1.data() + n);
   }
-  return -Deformation(found.contact, rk_.y1.data()) / rate;
+  return -system_.Deformation(found.contact, system_.rk.y1.data()) / rate;
 }
 
 }  // namespace contact

@@ -1,0 +1,322 @@
+#include "simulation/motion/cycles.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "simulation/model/derived.h"
+#include "simulation/motion/cycle_works.h"
+
+namespace contact {
+namespace {
+
+// A resting contact is awake when its work is this many times what lets it settle.
+constexpr double kWakeFactor = 4;
+// The scale to which a resting contact is integrated, relative to its deformation.
+constexpr double kRestingScale = 1e-3;
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+// Whether a cycle that ends at `time` is none: it has no duration, or began at δ = 0 and did no
+// work in compression, so that it has none to give back.
+bool DoesNothing(const ContactState& state, double time) {
+  const Cycle& cycle = state.cycle;
+  const bool idle = cycle.work_compression <= 0 || cycle.max_deformation <= 0;
+  const bool turned = state.phase == Phase::kRestitution && cycle.start_deformation == 0;
+  return (turned && idle) || time == cycle.start_time;
+}
+
+}  // namespace
+
+Cycles::Cycles(MovingSystem& system)
+    : system_(system), turn_gradient_(system.scenario.contacts.size()) {}
+
+void Cycles::Begin() {
+  for (int c = 0; c < system_.equations.contacts(); ++c) {
+    const ContactState& contact = system_.contacts[At(c)];
+    turn_gradient_[At(c)].resize(0);
+    system_.scales[At(c)] = {std::abs(contact.gap + contact.cycle.start_deformation),
+                             contact.cycle.approach_velocity};
+    if (contact.phase == Phase::kResting) SetRestingScale(c);
+  }
+}
+
+bool Cycles::Run() const { return std::ranges::any_of(system_.contacts, IsRunning); }
+
+bool Cycles::Wait() const {
+  return std::ranges::any_of(system_.contacts,
+                             [](const ContactState& c) { return c.phase == Phase::kStarting; });
+}
+
+void Cycles::KeepTurnGradient(int contact) {
+  turn_gradient_[At(contact)] = system_.tangents.Work(contact);
+}
+
+void Cycles::Start(CycleHost& host, bool resting_only) {
+  bool any = false;
+  for (int c = 0; c < system_.equations.contacts(); ++c) {
+    const ContactState& contact = system_.contacts[At(c)];
+    if (contact.phase != Phase::kStarting || (resting_only && !contact.settled)) continue;
+    StartCycle(c, host);
+    any = true;
+    if (contact.cycle.kind == Cycle::Kind::kCollision) StartPushed(c, host);
+  }
+  if (any) system_.RefreshActive();
+}
+
+// What touches the bodies of a collision at rest begins with it.
+void Cycles::StartPushed(int collision, CycleHost& host) {
+  const int n = system_.equations.bodies();
+  for (int c = 0; c < system_.equations.contacts(); ++c) {
+    ContactState& contact = system_.contacts[At(c)];
+    const Sides& sides = system_.equations.sides(c);
+    if (contact.phase != Phase::kOpen || !system_.equations.sides(collision).Pushes(sides))
+      continue;
+    const double* y = system_.rk.y0.data();  // Which a cycle that starts may move.
+    const bool at_rest = system_.Deformation(c, y) == 0 && sides.Relative(y + n) == 0;
+    if (!at_rest || sides.Relative(system_.rk.slope0.data() + n) < 0) continue;
+    contact.settled = false;
+    contact.cycle.kind = Cycle::Kind::kNirv;
+    StartCycle(c, host);
+  }
+}
+
+void Cycles::StartCycle(int contact, CycleHost& host) {
+  ContactState& state = system_.contacts[At(contact)];
+  const bool touches = state.cycles == 0 || state.cycle.end == Cycle::End::kSeparation;
+  if (touches) ++state.encounter;
+  ++state.cycles;
+  DescribeStart(contact);
+  const CycleHost::Factor factor =
+      host.OnStart(state, system_.equations.effective_mass(contact), ExternalForce(contact));
+  state.cycle.mu = factor.mu;
+  state.column = factor.column;
+  state.phase = state.settled ? Phase::kResting : Phase::kCompression;
+
+  if (factor.column >= system_.tangents.count() && !system_.equations.recording) {
+    system_.tangents.Add();
+  }
+  ResetWorks(contact);
+  system_.tangents.Restart(contact);
+  SetScale(contact, factor);
+  if (state.cycle.kind == Cycle::Kind::kCollision) system_.touch_time = system_.time;
+  ShiftAtJump(contact, 1);
+  state.duration = ExpectedDuration(contact);
+  if (state.settled) SetRestingScale(contact);
+  const double first = FirstStep(contact);
+  system_.next_step = system_.next_step == 0 ? first : std::min(system_.next_step, first);
+}
+
+void Cycles::DescribeStart(int contact) {
+  const double* y = system_.rk.y0.data();
+  const int n = system_.equations.bodies();
+  ContactState& state = system_.contacts[At(contact)];
+  const bool collides = state.cycle.kind == Cycle::Kind::kCollision;
+  const double deformation = collides ? 0 : std::max(0.0, system_.Deformation(contact, y));
+  const double approach = collides ? std::max(0.0, system_.equations.Relative(contact, y + n)) : 0;
+  state.cycle = {.contact = contact,
+                 .number = state.cycles,
+                 .kind = state.cycle.kind,
+                 .start_time = system_.time,
+                 .start_deformation = deformation,
+                 .max_deformation = deformation,
+                 .approach_velocity = approach};
+  state.peak = {};
+}
+
+double Cycles::ExternalForce(int contact) const {
+  const int n = system_.equations.bodies();
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
+  return system_.equations.effective_mass(contact) *
+             system_.equations.Relative(contact, system_.rk.slope0.data() + n) +
+         c.stiffness * Power(deformation, c.exponent).value;
+}
+
+void Cycles::ResetWorks(int contact) {
+  system_.rk.y0[system_.equations.work(contact)] = 0;
+  if (system_.equations.recording) system_.rk.y0[system_.equations.external_work(contact)] = 0;
+}
+
+void Cycles::SetScale(int contact, const CycleHost::Factor& factor) {
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const Cycle& cycle = system_.contacts[At(contact)].cycle;
+  const double approach = cycle.approach_velocity;
+  MovingSystem::Scale& scale = system_.scales[At(contact)];
+  scale = {factor.length, std::max(factor.speed, approach)};
+  if (factor.length != 0 || cycle.kind != Cycle::Kind::kCollision) return;
+  const double alpha = NeedsNoVelocity(c.damping) ? 0 : factor.mu * approach / c.stiffness;
+  scale.length = MaximumDeformation(system_.equations.effective_mass(contact), approach,
+                                    c.stiffness, c.exponent, alpha);
+}
+
+void Cycles::SetRestingScale(int contact) {
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
+  const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
+  system_.scales[At(contact)].length = kRestingScale * deformation;
+  system_.scales[At(contact)].speed =
+      kRestingScale * deformation *
+      std::sqrt(stiffness / system_.equations.effective_mass(contact));
+}
+
+// A small part of the cycle's duration, from the law's own scales.
+double Cycles::FirstStep(int contact) const {
+  const int n = system_.equations.bodies();
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const Cycle& cycle = system_.contacts[At(contact)].cycle;
+  const double mass = system_.equations.effective_mass(contact);
+  if (cycle.approach_velocity > 0) {
+    const double v = cycle.approach_velocity;
+    // In √t the error grows with the 9th power, t^4.5.
+    return std::min(4 * std::pow(system_.tolerance, 2.0 / 9), 0.2) *
+           MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
+  }
+  double deformation = cycle.start_deformation;
+  if (deformation == 0) {  // The load's equilibrium.
+    const double a = std::abs(system_.equations.Relative(contact, system_.rk.slope0.data() + n));
+    deformation = std::pow(mass * a / c.stiffness, 1 / c.exponent);
+  }
+  const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
+  return stiffness > 0 ? 0.1 / std::sqrt(stiffness / mass) : std::numeric_limits<double>::max();
+}
+
+// Three times the largest δ − δ_s over the largest |δ̇|: Hertz's elastic impact takes 2.94 of these,
+// a swing about the load's equilibrium π. Damping makes it longer.
+double Cycles::ExpectedDuration(int contact) const {
+  const double length = system_.scales[At(contact)].length,
+               speed = system_.scales[At(contact)].speed;
+  return length > 0 && speed > 0 ? 3 * length / speed : 0;
+}
+
+void Cycles::Apply(const StepEvents::Found& found, CycleHost& host) {
+  ContactState& state = system_.contacts[At(found.contact)];
+  const EventKind kind = found.event.kind;
+  assert(kind != EventKind::kTurn);  // PassTurns has dealt with it.
+  if (kind == EventKind::kTouch || kind == EventKind::kRestTouch) {
+    state.phase = Phase::kStarting;
+    state.settled = false;
+    state.cycle.kind = kind == EventKind::kTouch ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
+  } else if (DoesNothing(state, system_.time)) {
+    CancelCycle(state, host);
+  } else {
+    const bool separates = kind == EventKind::kSeparation;
+    EndCycle(state, separates ? Cycle::End::kSeparation : Cycle::End::kNonSeparation, host);
+  }
+}
+
+// A resting contact whose work has become worth a cycle of its own ends its rest.
+void Cycles::WakeResting(CycleHost& host) {
+  for (int c = 0; c < system_.equations.contacts(); ++c) {
+    ContactState& state = system_.contacts[At(c)];
+    if (state.phase != Phase::kResting) continue;
+    const Contact& contact = system_.scenario.contacts[At(c)];
+    const double deformation = system_.Deformation(c, system_.rk.y0.data());
+    const double work = contact.stiffness * Power(deformation, contact.exponent).value *
+                        std::abs(deformation - state.cycle.start_deformation);
+    if (work > kWakeFactor * system_.scenario.solver.settled_nirv_fraction * state.largest_work) {
+      EndCycle(state, Cycle::End::kNonSeparation, host);
+      state.settled = false;
+    }
+  }
+}
+
+void Cycles::Turn(int contact, double time, const Eigen::ArrayXd& y) {
+  ContactState& state = system_.contacts[At(contact)];
+  state.phase = Phase::kRestitution;
+  state.cycle.turn_time = time;
+  state.cycle.max_deformation = system_.Deformation(contact, y.data());
+  SetCompression(system_.scenario.contacts[At(contact)], state.cycle.max_deformation,
+                 y[system_.equations.work(contact)], system_.ExternalWork(contact, y),
+                 &state.cycle);
+  KeepTurnGradient(contact);
+}
+
+void Cycles::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
+  const int contact = state.cycle.contact;
+  const bool separates = end == Cycle::End::kSeparation;
+  if (state.phase == Phase::kResting) {
+    Turn(contact, system_.time, system_.rk.y0);  // Its works count as one compression.
+  }
+  state.cycle.end = end;
+  DescribeEnd(state);
+  const Eigen::ArrayXd gradient = system_.tangents.Work(contact);
+  // It has the μ that there were then; later ones begin at 0.
+  Eigen::ArrayXd& turn = turn_gradient_[At(contact)];
+  turn.conservativeResizeLike(Eigen::ArrayXd::Zero(gradient.size()));
+  if (separates) ShiftAtJump(contact, -1);
+  state.phase = separates ? Phase::kOpen : Phase::kStarting;
+  state.last_mu = state.cycle.mu;
+  const MovingSystem::Scale& scale = system_.scales[At(contact)];
+  host.OnEnd(state, turn, gradient - turn, scale.length, scale.speed);
+  state.largest_work = std::max(state.largest_work, state.cycle.work_compression);
+  state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
+  ResetWorks(contact);
+  system_.RefreshActive();
+}
+
+void Cycles::DescribeEnd(ContactState& state) {
+  Cycle& cycle = state.cycle;
+  const Contact& contact = system_.scenario.contacts[At(cycle.contact)];
+  const Eigen::ArrayXd& y = system_.rk.y0;
+  const bool separates = cycle.end == Cycle::End::kSeparation;
+  cycle.end_time = system_.time;
+  cycle.end_deformation = separates ? 0 : system_.Deformation(cycle.contact, y.data());
+  cycle.separation_velocity =
+      separates ? system_.equations.Relative(cycle.contact, y.data() + system_.equations.bodies())
+                : 0;
+  const ContactState::Peak& peak = state.peak;
+  const bool at_force = system_.splits_at_force() && !std::isnan(peak.time);
+  if (at_force) {
+    cycle.turn_time = peak.time;
+    SetCompression(contact, peak.deformation, peak.work, peak.external_work, &cycle);
+  }
+  SetRestitution(contact, at_force ? peak.deformation : cycle.max_deformation,
+                 y[system_.equations.work(cycle.contact)], system_.ExternalWork(cycle.contact, y),
+                 &cycle);
+  const double ratio = -cycle.work_restitution / cycle.work_compression;
+  cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
+  if (system_.equations.recording) Balance(at_force ? peak.velocity : 0, &cycle);
+}
+
+// (W4), and what the cycle has dissipated.
+void Cycles::Balance(double split_velocity, Cycle* cycle) {
+  const double kinetic =
+      0.5 * system_.equations.effective_mass(cycle->contact) *
+      (cycle->approach_velocity * cycle->approach_velocity - split_velocity * split_velocity);
+  cycle->identity_residual =
+      std::abs(cycle->work_compression - kinetic - cycle->external_compression) /
+      cycle->work_compression;
+  system_.contact_loss += cycle->dissipated_compression + cycle->dissipated_restitution;
+}
+
+// Takes back a cycle that does nothing: a load parts touching bodies as their cycle begins. The
+// next step is shorter, so that it does not see the same again.
+void Cycles::CancelCycle(ContactState& state, CycleHost& host) {
+  const int contact = state.cycle.contact;
+  host.OnCancel(state);
+  state.phase = state.cycle.start_deformation > 0 ? Phase::kStarting : Phase::kOpen;
+  const bool opened = state.cycles == 1 || state.cycle.start_deformation == 0;
+  if (opened) {  // There was no encounter: the next has its number.
+    --state.encounter;
+    state.cycle.end = Cycle::End::kSeparation;
+  }
+  --state.cycles;
+  ResetWorks(contact);
+  system_.next_step /= 2;
+  system_.RefreshActive();
+}
+
+// (S3): where a force that is not 0 begins (sign 1) or ends (−1), a change of that instant changes
+// the velocities after it.
+void Cycles::ShiftAtJump(int contact, double sign) {
+  const int n = system_.equations.bodies();
+  const ContactState& state = system_.contacts[At(contact)];
+  const ActiveContact c = system_.equations.Activate(contact, state.gap, state.cycle.mu, kNone);
+  const double rate = c.Relative(system_.rk.y0.data() + n);
+  if (c.damping_exponent != 0 || rate == 0) return;
+  system_.tangents.Jump(c, sign * c.At(0, rate).force / rate);
+}
+
+}  // namespace contact

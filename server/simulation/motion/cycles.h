@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "simulation/motion/cycle_host.h"
+#include "simulation/motion/moving_system.h"
+#include "simulation/motion/step_events.h"
+
+namespace contact {
+
+/// Takes the contacts through their cycles: their begin, their turn, their end.
+class Cycles {
+ public:
+  /// The system must outlive the cycles.
+  explicit Cycles(MovingSystem& system);
+
+  /// The system is at a new State.
+  void Begin();
+  /// Whether a cycle runs, and whether one wants to start.
+  bool Run() const;
+  bool Wait() const;
+  /// Begins the cycles of all contacts that are starting, or of those among them that rest.
+  void Start(CycleHost& host, bool resting_only);
+  /// Ends the compression of a contact at `time`, where the state is y.
+  void Turn(int contact, double time, const Eigen::ArrayXd& y);
+  /// The tangents are at the turn of a contact now.
+  void KeepTurnGradient(int contact);
+  /// Changes the phase of the contact whose event the step has ended on.
+  void Apply(const StepEvents::Found& found, CycleHost& host);
+  /// Ends the rest of contacts whose work has become worth a cycle.
+  void WakeResting(CycleHost& host);
+
+ private:
+  /// Begins NIRV cycles of what touches the bodies of a collision at rest.
+  void StartPushed(int collision, CycleHost& host);
+  /// Begins the cycle of a contact whose kind is set.
+  void StartCycle(int contact, CycleHost& host);
+  /// What is known of a cycle as it starts.
+  void DescribeStart(int contact);
+  /// F_e where the cycle of a contact starts [N].
+  double ExternalForce(int contact) const;
+  /// The works of a contact are counted from this instant on.
+  void ResetWorks(int contact);
+  /// Sets the scales of a cycle that starts.
+  void SetScale(int contact, const CycleHost::Factor& factor);
+  /// Sets the scales to which a resting contact is integrated.
+  void SetRestingScale(int contact);
+  /// A first step for a cycle [s]: a small part of its duration.
+  double FirstStep(int contact) const;
+  /// The duration of a cycle that starts [s], from its scales; 0: they are unknown.
+  double ExpectedDuration(int contact) const;
+  /// Ends the cycle of a contact at this instant.
+  void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
+  /// What is known of a cycle as it ends.
+  void DescribeEnd(ContactState& state);
+  /// Residual and losses of a cycle; `split_velocity`: δ̇ where its compression has ended [m/s].
+  void Balance(double split_velocity, Cycle* cycle);
+  /// Takes back a cycle that has no duration or did no work.
+  void CancelCycle(ContactState& state, CycleHost& host);
+  /// Changes the sensitivities where a force begins (sign 1) or ends (−1) with a jump, (S3).
+  void ShiftAtJump(int contact, double sign);
+
+  MovingSystem& system_;
+  // ∂W/∂μ of each contact at the turn of its running cycle.
+  std::vector<Eigen::ArrayXd> turn_gradient_;
+};
+
+}  // namespace contact

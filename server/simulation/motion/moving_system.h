@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "simulation/motion/equations.h"
+#include "simulation/motion/runge_kutta.h"
+#include "simulation/motion/state.h"
+#include "simulation/motion/tangents.h"
+
+namespace contact {
+
+/// The system between State and the next State, as the parts of Motion share it: where it is, and
+/// the step that it is about to make.
+struct MovingSystem {
+  /// The scenario must outlive the system.
+  explicit MovingSystem(const Scenario& scenario);
+  MovingSystem(const MovingSystem&) = delete;
+  MovingSystem& operator=(const MovingSystem&) = delete;
+
+  /// Takes over a state; the arguments are those of Motion::Begin.
+  void Begin(const State& state, bool recording, double tolerance);
+
+  /// Step of the classical method [s]; 0: error control.
+  double fixed_step() const { return scenario.solver.fixed_step; }
+  /// Whether compression ends where F is largest, and not where δ is.
+  bool splits_at_force() const { return scenario.solver.phase_split == PhaseSplit::kPeakForce; }
+  /// δ [m] of a contact for the displacements in y.
+  double Deformation(int contact, const double* y) const;
+  /// E of a contact in y [J]; 0 when not recording.
+  double ExternalWork(int contact, const Eigen::ArrayXd& y) const;
+  /// δ and its derivatives by θ at both ends of the step.
+  std::pair<DeformationPath::End, DeformationPath::End> PathEnds(int contact) const;
+
+  /// Takes the contacts in touch into the equations, and their slopes at this instant.
+  void RefreshActive();
+  /// Takes the loads that act from this instant on into the equations.
+  void SelectLoads();
+  /// Prepares rk.Interpolate for the step.
+  void PrepareInterpolation();
+
+  const Scenario& scenario;
+  Equations equations;
+  RungeKutta rk;
+  Tangents tangents;
+  /// In order of Scenario::contacts. Gaps are those at the last State.
+  std::vector<ContactState> contacts;
+  /// What the running cycle of a contact is measured by: the largest |δ − δ_s| [m] and |δ̇| [m/s]
+  /// of it, or those expected.
+  struct Scale {
+    double length = 0, speed = 0;
+  };
+  std::vector<Scale> scales;
+  /// Simulated time at y0 [s].
+  double time = 0;
+  /// The step in the integrator.
+  StepTime step;
+  /// Step to try next [s]; 0: find one.
+  double next_step = 0;
+  /// Relative tolerance of a step.
+  double tolerance;
+  /// When the latest collision began [s]; NaN before the first since the last State.
+  double touch_time = kNaN;
+  /// The next instant at which a load begins or ends [s].
+  double breakpoint = 0;
+  /// Shortest time in which a load or support changes [s].
+  double forcing_time = 0;
+  /// Whether a contact rests.
+  bool resting = false;
+  /// Energy dissipated in cycles that have ended [J].
+  double contact_loss = 0;
+  /// Steps tried, rejected ones included, and evaluations of the equations since construction.
+  std::int64_t steps = 0, evaluations = 0;
+};
+
+}  // namespace contact

@@ -1,0 +1,48 @@
+#include "simulation/motion/state.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "simulation/model/derived.h"
+
+namespace contact {
+namespace {
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+bool IsPacking(const Scenario& scenario) {
+  return !scenario.loads.empty() || !scenario.supports.empty() ||
+         scenario.contacts.size() >= scenario.bodies.size();
+}
+
+bool InCycle(const State& state) {
+  return std::ranges::any_of(state.contacts, [](const ContactState& c) {
+    return IsRunning(c) || (c.phase == Phase::kStarting && !c.settled);
+  });
+}
+
+State InitialState(const Scenario& scenario) {
+  State state;
+  for (const Body& body : scenario.bodies) {
+    state.positions.push_back(body.position);
+    state.velocities.push_back(body.velocity);
+  }
+  const auto velocity = [&](int body) {
+    return body == kNone ? 0 : scenario.bodies[At(body)].velocity;
+  };
+  for (const Contact& c : scenario.contacts) {
+    ContactState contact;
+    contact.gap = InitialGap(scenario, c);
+    if (contact.gap <= 0 && velocity(c.left) - velocity(c.right) > 0) {
+      contact.phase = Phase::kStarting;
+      contact.cycle.kind = Cycle::Kind::kCollision;
+    }
+    contact.cycle.contact = static_cast<int>(state.contacts.size());
+    state.contacts.push_back(contact);
+  }
+  return state;
+}
+
+}  // namespace contact

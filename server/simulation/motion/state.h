@@ -1,0 +1,93 @@
+#pragma once
+
+#include <vector>
+
+#include "simulation/model/ledger.h"
+#include "simulation/model/scenario.h"
+#include "simulation/motion/contact_events.h"
+
+namespace contact {
+
+/// Where a contact stands, and its running cycle.
+struct ContactState {
+  Phase phase = Phase::kOpen;
+  /// δ = u_left − u_right − gap, with the displacements from State::positions [m].
+  double gap = 0;
+  /// Cycles started so far.
+  int cycles = 0;
+  /// μ of the last cycle; NaN before the first.
+  double last_mu = kNaN;
+  /// Largest W_c of its cycles so far [J].
+  double largest_work = 0;
+  /// Whether the last cycle was too weak to iterate.
+  bool settled = false;
+  /// Expected duration of the running cycle [s]; 0: unknown.
+  double duration = 0;
+  /// W since the start of the running cycle [J], (W1).
+  double work = 0;
+  /// E since the start of the running cycle [J], (W3); only of a recording.
+  double external_work = 0;
+  /// Sensitivity column of its μ in the running pass, or kNone.
+  int column = kNone;
+  /// Where F was largest so far in the running cycle. Only with PhaseSplit::kPeakForce.
+  struct Peak {
+    /// Instant [s]; NaN before F was positive.
+    double time = kNaN;
+    /// δ [m] and δ̇ [m/s].
+    double deformation = 0, velocity = 0;
+    /// W and E [J].
+    double work = 0, external_work = 0;
+  } peak;
+  /// The running cycle, or what is known of the next: its contact and kind.
+  Cycle cycle;
+  /// Place of the running encounter among those of the contact, from 1.
+  int encounter = 0;
+  /// The group of the running cycle, and what decides where it ends. CycleHost keeps it.
+  struct Membership {
+    bool open = false;     ///< The next cycle of the encounter belongs to it too.
+    int place = 0;         ///< Among the groups of the encounter, from 1.
+    double lasts = 0;      ///< It does not end earlier after its start [s].
+    int groups = 0;        ///< Group::number of the last group that has one.
+    int iterations = 0;    ///< Corrections of its μ.
+    double imbalance = 0;  ///< Sum of |(W4)| over its cycles [J].
+    Group group;
+  } member;
+};
+
+/// Whether its cycle runs; a resting contact has none.
+inline bool IsRunning(const ContactState& c) {
+  return c.phase == Phase::kCompression || c.phase == Phase::kRestitution;
+}
+
+/// The system at an instant between two steps. Copied to roll back.
+struct State {
+  /// The instant [s].
+  double time = 0;
+  /// Step to try next [s]; 0: find one.
+  double step = 0;
+  /// Of each body [m].
+  std::vector<double> positions;
+  /// Of each body [m/s].
+  std::vector<double> velocities;
+  /// In order of Scenario::contacts.
+  std::vector<ContactState> contacts;
+  /// Work of the loads since t = 0 [J].
+  double load_work = 0;
+  /// Energy dissipated in supports since t = 0 [J].
+  double support_loss = 0;
+  /// Energy dissipated in cycles that have ended [J].
+  double contact_loss = 0;
+  /// Impulse of the external forces since t = 0 [N·s].
+  double impulse = 0;
+};
+
+/// The state at t = 0: touching contacts that approach are starting.
+State InitialState(const Scenario& scenario);
+
+/// Whether loads, supports or walls may keep contacts closed.
+bool IsPacking(const Scenario& scenario);
+
+/// Whether a cycle runs or wants to start; a resting contact has none.
+bool InCycle(const State& state);
+
+}  // namespace contact

@@ -1,0 +1,65 @@
+#include "simulation/motion/step_events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace contact {
+namespace {
+
+// What is this many times the error allowed is motion.
+constexpr double kResolved = 100;
+// A step meant to end in a separation has found it when so little of δ is left.
+constexpr double kShort = 1e-3;
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+StepEvents::StepEvents(const MovingSystem& system)
+    : system_(system), passed_(system.scenario.contacts.size()) {}
+
+void StepEvents::Restart() { std::ranges::fill(passed_, 0.0); }
+
+void StepEvents::Pass(int contact, double theta) { passed_[At(contact)] = theta; }
+
+// What round-off and the integrator's error may make of the deformation of two bodies at relative
+// rest [m].
+double StepEvents::Noise(int contact) const {
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  double noise = 0;
+  for (const ActiveContact& active : system_.equations.active) {
+    noise =
+        std::max(noise, kResolved * system_.tolerance * system_.scales[At(active.contact)].length);
+  }
+  for (const int body : {c.left, c.right}) {
+    if (body == kNone) continue;
+    noise += 1e-12 * std::max(std::abs(system_.rk.y0[body]), std::abs(system_.rk.y1[body])) +
+             1e-15 * (std::abs(system_.equations.base[At(body)]) +
+                      system_.scenario.bodies[At(body)].radius);
+  }
+  return noise;
+}
+
+StepEvents::Found StepEvents::First(int separating) const {
+  Found first;
+  for (int c = 0; c < system_.equations.contacts(); ++c) {
+    const Phase phase = system_.contacts[At(c)].phase;
+    const auto [start, end] = system_.PathEnds(c);
+    if (DeformationPath::IsPlain(phase, start, end)) continue;
+    const double noise = phase == Phase::kOpen ? Noise(c) : 0;
+    const auto event = FirstEvent(phase, {start, end}, passed_[At(c)], noise);
+    if (!event) continue;
+    if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
+  }
+  if (first.contact == kNone && separating != kNone &&
+      system_.Deformation(separating, system_.rk.y1.data()) <
+          kShort * system_.Deformation(separating, system_.rk.y0.data())) {
+    first = {separating, {EventKind::kSeparation, 1}};
+  }
+  // Within round-off of the step's start is at its start.
+  if (first.contact != kNone && first.event.theta < 1e-13) first.event.theta = 0;
+  return first;
+}
+
+}  // namespace contact

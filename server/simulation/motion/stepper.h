@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "simulation/motion/moving_system.h"
+#include "simulation/motion/step_events.h"
+
+namespace contact {
+
+/// Takes steps that keep the tolerance, and makes them end on events: their length, their warp,
+/// their error, their landing. README.md, "Integration".
+class Stepper {
+ public:
+  /// The system must outlive the stepper.
+  explicit Stepper(MovingSystem& system);
+
+  /// The system is at a new State.
+  void Begin();
+  /// Computes a step, at most to `until`. False: none is short enough.
+  bool Take(double until);
+  /// Makes the step end on an event. False: the separation found is not there.
+  bool Land(const StepEvents::Found& found);
+  /// Takes where the step has ended into the scales by which errors are measured.
+  void Widen();
+  /// A contact has separated at the end of the step: the next is as long as those before.
+  void Separated();
+
+  /// The contact whose predicted separation ends the step, or kNone.
+  int separating() const { return separating_; }
+
+ private:
+  /// Length and warp of the step to try next.
+  StepTime Plan(double until);
+  /// Computes a step of the classical method.
+  void TakeFixed(double until);
+  /// The warp of a step of h [s], with a separation expected `parting` [s] after its start.
+  double Warp(double h, double parting = std::numeric_limits<double>::infinity()) const;
+  /// Time until a contact in restitution is expected to separate [s]; infinite: not in sight.
+  double TimeToSeparation(const ActiveContact& active) const;
+  /// Local error of a step of h [s] with n bodies, in units of what the tolerance allows.
+  template <class Count>
+  double ErrorNorm(Count n, double h) const;
+  /// By how much the step must be longer to end on an event [s], to first order.
+  double Correction(const StepEvents::Found& found) const;
+  /// Moves the end of the step by a short time [s].
+  void Shift(double time, bool tangent);
+  /// Computes the step of h [s] and its end; `parting`: it ends in a separation.
+  void Compute(double h, bool parting);
+
+  MovingSystem& system_;
+  // Whether a step that misses its event by little is shifted there instead of repeated.
+  const bool shifts_;
+  // Error estimates of every u and v; scratch of ErrorNorm.
+  mutable std::vector<double> error5_, error3_;
+  // Largest |u| [m] and |v| [m/s] while no contact was in touch.
+  double flight_length_ = 0, flight_speed_ = 0;
+  int separating_ = kNone;
+  // The last step that no separation near has shortened [s].
+  double cruise_ = 0;
+  // Slopes before a Shift.
+  Eigen::ArrayXd slope_;
+};
+
+}  // namespace contact
