@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 // Bounds how long an operation waits for those before it in the same transaction.
 constexpr std::size_t kMaxBatch = 256;
 constexpr std::size_t kMaxBatchBytes = std::size_t{4} << 20;
-// How soon after the begin of one transaction patient operations alone are worth the next. A short
+// How soon after a transaction with a change patient operations alone are worth the next. A short
 // job ends meanwhile.
 constexpr auto kPause = 5ms;
 // Nobody is told of a loss that is mended within this time.
@@ -76,7 +76,9 @@ void QueryThread::Loop() {
 }
 
 std::size_t QueryThread::Ready() const {
-  if (stopping_ || clock_.Elapsed() - last_begin_ >= kPause) return queue_.size();
+  if (stopping_ || !last_change_ || clock_.Elapsed() - *last_change_ >= kPause) {
+    return queue_.size();
+  }
   const auto urgent = std::find_if(queue_.rbegin(), queue_.rend(),
                                    [](const Operation& operation) { return !operation.patient; });
   return static_cast<std::size_t>(queue_.rend() - urgent);
@@ -87,19 +89,19 @@ std::optional<QueryThread::Batch> QueryThread::NextBatch() {
   std::size_t ready = 0;
   while ((ready = Ready()) == 0) {
     if (!queue_.empty()) {
-      posted_.wait_for(mutex_, last_begin_ + kPause - clock_.Elapsed());
+      posted_.wait_for(mutex_, *last_change_ + kPause - clock_.Elapsed());
     } else {
       if (stopping_) return std::nullopt;
       if (untidy_) return Batch{};
       posted_.wait(mutex_);
     }
   }
-  last_begin_ = clock_.Elapsed();
   Batch batch;
   std::size_t bytes = 0;
   while (batch.size() < std::min(ready, kMaxBatch) && bytes < kMaxBatchBytes) {
     bytes += queue_.front().statement.parameters.bytes();
     untidy_ |= queue_.front().untidy;
+    if (queue_.front().id != 0) last_change_ = clock_.Elapsed();
     batch.push_back(std::move(queue_.front()));
     queue_.pop_front();
   }

@@ -35,9 +35,10 @@ class QueryThread {
     Statement statement = {};
     /// Runs once, after the commit or with the reason why there is none.
     std::function<void(absl::StatusOr<Rows>)> done = {};
-    /// By which it can be recalled; 0: it cannot.
+    /// By which it can be recalled, as a change of a job; 0: it cannot.
     std::uint64_t id = 0;
-    /// It is not worth a transaction of its own a few milliseconds after the last one.
+    /// It is not worth a transaction of its own a few milliseconds after another change. The first
+    /// is: what takes a job must be there if the job ends the process.
     bool patient = false;
     /// It leaves something to tidy up.
     bool untidy = false;
@@ -86,8 +87,8 @@ class QueryThread {
   const Clock& clock_;
   // True while `tidy_` may have something to do.
   bool untidy_ = true;
-  // Of the last transaction.
-  std::chrono::steady_clock::time_point last_begin_ = {};
+  // When the last change was sent; none before the first.
+  std::optional<std::chrono::steady_clock::time_point> last_change_;
   // Why there is no connection, and since when.
   absl::Status lost_;
   std::chrono::steady_clock::time_point lost_since_;

@@ -93,30 +93,34 @@ TEST_F(PostgresStoreTest, ChangeIsRecalledBeforeItIsSentAndNotAfter) {
   EXPECT_FALSE(store_->Recall(change));
 }
 
-TEST_F(PostgresStoreTest, TakeSoonAfterATransactionWaitsForTheNextOrAWhile) {
+TEST_F(PostgresStoreTest, TakeSoonAfterAnotherChangeWaitsForTheNextOrAWhile) {
   FakeClock clock;
   Open({.clock = &clock});
-  const v1::Job job = MakeJob("jobs/a");
-  ASSERT_TRUE(Create(job).ok());  // A transaction has begun.
-  v1::Job running = job;
-  running.set_state(v1::Job::RUNNING);
+  v1::Job job = MakeJob("jobs/a");
+  ASSERT_TRUE(Create(job).ok());
+  job.set_state(v1::Job::RUNNING);
+  const std::string name = job.name();
   const std::vector<v1::Event> events = {LogEvent("x")};
-  const auto take =
-      Store::Encode({.name = running.name(), .take = true, .job = &running, .events = events});
-  store_->Update(take, 0, [](const auto&) { ADD_FAILURE(); });
-  EXPECT_TRUE(store_->Recall(take)) << "nothing else is to be sent";
+  const auto take = [&] {
+    return Store::Encode({.name = name, .take = true, .job = &job, .events = events});
+  };
+  Await<absl::StatusOr<std::uint64_t>> at_once;
+  store_->Update(take(), 0, at_once.callback());
+  EXPECT_EQ(at_once.Get().value(), 2U) << "a job that ends the process has been taken";
+
+  const auto recalled = take();
+  store_->Update(recalled, 1, [](const auto&) { ADD_FAILURE(); });
+  EXPECT_TRUE(store_->Recall(recalled)) << "nothing else is to be sent";
 
   Await<absl::StatusOr<std::uint64_t>> after_a_while;
-  store_->Update(take, 0, after_a_while.callback());
+  store_->Update(take(), 1, after_a_while.callback());
   clock.Advance(std::chrono::milliseconds(5));
-  EXPECT_EQ(after_a_while.Get().value(), 2U);
+  EXPECT_EQ(after_a_while.Get().value(), 3U);
 
-  const auto again =
-      Store::Encode({.name = running.name(), .take = true, .job = &running, .events = events});
   Await<absl::StatusOr<std::uint64_t>> with_the_next;
-  store_->Update(again, 1, with_the_next.callback());
+  store_->Update(take(), 2, with_the_next.callback());
   ASSERT_TRUE(Create(MakeJob("jobs/b")).ok());
-  EXPECT_EQ(with_the_next.Get().value(), 3U);
+  EXPECT_EQ(with_the_next.Get().value(), 4U);
 }
 
 // As many wait that have come since the database has last looked how many there are.
