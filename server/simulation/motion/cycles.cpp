@@ -71,8 +71,9 @@ void Cycles::StartPushed(int collision, CycleHost& host) {
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     ContactState& contact = system_.contacts[At(c)];
     const Sides& sides = system_.equations.sides(c);
-    if (contact.phase != Phase::kOpen || !system_.equations.sides(collision).Pushes(sides))
+    if (contact.phase != Phase::kOpen || !system_.equations.sides(collision).Pushes(sides)) {
       continue;
+    }
     const double* y = system_.rk.y0.data();  // Which a cycle that starts may move.
     const bool at_rest = system_.Deformation(c, y) == 0 && sides.Relative(y + n) == 0;
     if (!at_rest || sides.Relative(system_.rk.slope0.data() + n) < 0) continue;

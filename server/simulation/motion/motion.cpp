@@ -38,8 +38,9 @@ State Motion::Save() const {
     ContactState& contact = state.contacts[At(c)];
     contact.gap = -system_.Deformation(c, system_.rk.y0.data());
     contact.work = system_.rk.y0[system_.equations.work(c)];
-    if (system_.equations.recording)
+    if (system_.equations.recording) {
       contact.external_work = system_.rk.y0[system_.equations.external_work(c)];
+    }
   }
   if (system_.equations.recording) {
     state.load_work += system_.rk.y0[system_.equations.load_work()];
@@ -53,8 +54,9 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
                               const std::stop_token& stop, std::int64_t step_limit) {
   cycles_.Start(host, false);
   const bool busy = cycles_.Run();
-  if (system_.equations.active.empty())
+  if (system_.equations.active.empty()) {
     system_.next_step = 0;  // That of the cycles before tells nothing.
+  }
   int events_at_once = 0;
   while (true) {
     if (system_.time >= until) return Pause::kTimeUp;
@@ -66,8 +68,9 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     StepEvents::Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone && !stepper_.Land(found)) found.contact = kNone;
-    if (moves && !system_.rk.y1.head(2 * system_.equations.bodies()).allFinite())
+    if (moves && !system_.rk.y1.head(2 * system_.equations.bodies()).allFinite()) {
       return Pause::kNumeric;
+    }
     if (moves) {
       Accept(listener);
     } else {
