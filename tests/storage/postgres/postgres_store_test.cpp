@@ -123,7 +123,7 @@ TEST_F(PostgresStoreTest, TakeSoonAfterAnotherChangeWaitsForTheNextOrAWhile) {
   EXPECT_EQ(with_the_next.Get().value(), 4U);
 }
 
-// As many wait that have come since the database has last looked how many there are.
+// Two hundred jobs wait of which the planner knows nothing: it saw the table when all had ended.
 TEST_F(PostgresStoreTest, ChangeReadsNoOtherJob) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
