@@ -186,9 +186,8 @@ double Cycles::FirstStep(int contact) const {
 // Three times the largest δ − δ_s over the largest |δ̇|: Hertz's elastic impact takes 2.94 of these,
 // a swing about the load's equilibrium π. Damping makes it longer.
 double Cycles::ExpectedDuration(int contact) const {
-  const double length = system_.scales[At(contact)].length,
-               speed = system_.scales[At(contact)].speed;
-  return length > 0 && speed > 0 ? 3 * length / speed : 0;
+  const MovingSystem::Scale& scale = system_.scales[At(contact)];
+  return scale.length > 0 && scale.speed > 0 ? 3 * scale.length / scale.speed : 0;
 }
 
 void Cycles::Apply(const StepEvents::Found& found, CycleHost& host) {
