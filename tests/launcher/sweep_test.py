@@ -19,10 +19,10 @@ def has_workers():
 
 
 def long_sweep():
-    """Cells that take a minute or two on two cores."""
+    """Cells that take two minutes or more on two cores."""
     base = three_ball_chain()
     base.solver.method = scenario_pb2.Solver.RK4
-    base.solver.step_s = 3e-8
+    base.solver.step_s = 1e-8
     base.solver.max_steps = 10**9
     axis = scenario_pb2.Sweep.Axis(
         field="contacts[0].restitution",
@@ -56,9 +56,12 @@ class SweepTest(SlurmLauncherTest):
             job_service_pb2.CreateJobRequest(job=Job(sweep=long_sweep())), timeout=60).name
 
     def launch_workers(self):
+        """Workers that leave after 60 s of the two minutes that they may take. Slurm looks for jobs
+        near their limit twice a minute, so that its notice may come half a minute early: 85 s
+        after their start, and not while --stop-after waits."""
         self.worker = BINARY
         self.launch("--max-workers=2", "--worker-threads=2", "--launch-interval=2s",
-                    "--slurm-time=1m", "--exit-when-idle=5s",
+                    "--slurm-time=2m", "--slurm-option=--signal=B:TERM@5", "--exit-when-idle=5s",
                     *(f"--worker-option={flag}" for flag in (*UNLIMITED, "--lease=3s")))
 
     def watch_first_cell(self, front, name, start):
