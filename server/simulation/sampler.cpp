@@ -158,6 +158,7 @@ void Sampler::Release() {
     if (cut_short_) break;
     observer_.OnSamples(samples);
   }
+  if (cut_short_) samples_.values.clear();  // They would follow a hole.
   held_.clear();
 }
 

@@ -152,6 +152,26 @@ TEST(Sampler, WhatIsHeldComesInOrderWhenReleased) {
   ExpectSameAtTheEnd(flight, straight, 0.9);
 }
 
+// Expects that each chunk begins where the one before it ends, and the first at 0.
+void ExpectNoHole(const std::vector<Samples>& chunks) {
+  std::int64_t next = 0;
+  for (const Samples& chunk : chunks) {
+    EXPECT_EQ(chunk.first, next);
+    next += chunk.rows();
+  }
+}
+
+TEST(Sampler, OfWhatIsHeldNothingFollowsAHoleOnceTheRunIsStopped) {
+  Flight flight(1e-3);
+  flight.sampler.Hold();
+  flight.FlyUntil(0.9);
+  flight.stop.request_stop();
+  flight.sampler.Release();
+  flight.sampler.Flush();
+  EXPECT_TRUE(flight.sampler.cut_short());
+  ExpectNoHole(flight.observer.chunks);
+}
+
 TEST(Sampler, AnotherOneGoesOnWithWhatWasPending) {
   Flight flight(1e-3), later(1e-3);
   flight.FlyUntil(0.4);
@@ -192,6 +212,33 @@ TEST(Sampler, AStopEndsAStepOfManySamplesAfterAChunk) {
   EXPECT_TRUE(flight.sampler.cut_short());
   ASSERT_EQ(flight.observer.chunks.size(), 1u);
   EXPECT_EQ(flight.observer.chunks[0].rows(), kSamplesPerChunk);
+}
+
+// Asks its run to stop before the given step.
+struct Stopping final : Observer {
+  std::int64_t steps = 0;
+  std::stop_source stop;
+  Chunks chunks;
+  explicit Stopping(std::int64_t before) : steps(before) {}
+  void OnStep() override {
+    if (steps-- == 0) stop.request_stop();
+  }
+  void OnSamples(const Samples& samples) override { chunks.OnSamples(samples); }
+};
+
+TEST(Sampler, ARunStoppedBeforeAnyOfItsStepsHasNoHole) {
+  Scenario chain = testing::TripleChain();
+  chain.sample_interval = chain.end_time / 1000;
+  Stopping whole(-1);
+  contact::Run(chain, whole, whole.stop.get_token());
+  EXPECT_EQ(whole.chunks.Values().size(), 1001u * (1 + 2 * 3 + 4 * 2));
+  const std::int64_t count = -1 - whole.steps;
+  ASSERT_GT(count, 50);
+  for (std::int64_t step = 0; step < count; ++step) {
+    Stopping stopped(step);
+    contact::Run(chain, stopped, stopped.stop.get_token());
+    ExpectNoHole(stopped.chunks.chunks);
+  }
 }
 
 // Samples in cycles: of runs, for a flight has none.
