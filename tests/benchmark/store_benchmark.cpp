@@ -95,6 +95,7 @@ class Raw {
  public:
   explicit Raw(const std::string& address) : connection_(PQconnectdb(address.c_str())) {
     PQclear(PQexec(connection_, "SET synchronous_commit = on"));
+    PQclear(PQexec(connection_, "SET plan_cache_mode = force_generic_plan"));
   }
   ~Raw() { PQfinish(connection_); }
   Raw(const Raw&) = delete;
