@@ -63,7 +63,7 @@ struct Fixture {
 void Create(benchmark::State& state, bool use_postgres) {
   const Fixture fixture(use_postgres);
   const std::vector<v1::Event> events(1);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     for (int i = 0; i < kAtOnce; ++i) {
       fixture.store->Create({NextJob(), "", events}, [](const auto& stored) {
         if (!stored.ok()) std::abort();
@@ -79,7 +79,7 @@ void Append(benchmark::State& state, bool use_postgres) {
   const v1::Job job = NextJob();
   fixture.store->Create({job, "", {}}, [](const auto&) {});
   const std::vector<v1::Event> events = Log(200);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     for (int i = 0; i < kAtOnce; ++i) {
       fixture.store->Update({.name = job.name(), .events = events}, [](const auto& first) {
         if (!first.ok()) std::abort();
@@ -132,7 +132,7 @@ void CreateRaw(benchmark::State& state) {
   Raw raw(fixture.database->address());
   const std::vector<v1::Event> events(1);
   raw.Prepare(postgres::CreateJob(ToInsert({NextJob(), "", events})).sql);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     std::vector<postgres::Statement> statements;
     for (int i = 0; i < kAtOnce; ++i) {
       statements.push_back(postgres::CreateJob(ToInsert({NextJob(), "", events})));
@@ -150,7 +150,7 @@ void AppendRaw(benchmark::State& state) {
   Raw raw(fixture.database->address());
   const std::vector<v1::Event> events = Log(200);
   raw.Prepare(postgres::ChangeJob({}, 0).sql);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     std::vector<postgres::Statement> statements;
     for (int i = 0; i < kAtOnce; ++i) {
       statements.push_back(
