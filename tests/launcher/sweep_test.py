@@ -57,8 +57,8 @@ class SweepTest(SlurmLauncherTest):
 
     def launch_workers(self):
         """Workers that leave after 60 s of the two minutes that they may take. Slurm looks for jobs
-        near their limit twice a minute, so that its notice may come half a minute early: 85 s
-        after their start, and not while --stop-after waits."""
+        near their limit twice a minute, so that its notice comes half a minute early at most: 85 s
+        after their start, when --stop-after is over."""
         self.worker = BINARY
         self.launch("--max-workers=2", "--worker-threads=2", "--launch-interval=2s",
                     "--slurm-time=2m", "--slurm-option=--signal=B:TERM@5", "--exit-when-idle=5s",
