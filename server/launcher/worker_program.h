@@ -16,8 +16,8 @@ Program WorkerProgram(const LauncherOptions& options, const std::string& store,
 /// The environment of this process.
 std::vector<std::string> OwnEnvironment();
 
-/// When a worker leaves that Slurm ends after `limit`. From a limit of four minutes on this is
-/// before Slurm's notice, which may come a minute early. 0: it has no limit.
+/// When a worker leaves that Slurm ends after `limit`. From a limit of four minutes on Slurm's
+/// notice, which may come a minute early, is not before this. 0: it has no limit.
 std::chrono::seconds StopAfter(std::chrono::seconds limit);
 
 }  // namespace contact::launcher

@@ -45,7 +45,8 @@ class Sampler final : public StepListener {
 
   /// Keeps the samples from now on until they are released or taken back.
   void Hold();
-  /// Hands out what was kept, if anything, and from now on at once again.
+  /// Hands out what was kept, if anything, and from now on at once again. Once `stop` is requested
+  /// the samples end with the last chunk that was handed out before.
   void Release();
   /// Forgets what was kept: goes on from where Hold was called.
   void TakeBack();

@@ -19,7 +19,7 @@ def has_workers():
 
 
 def long_sweep():
-    """Cells that take two minutes or more on two cores."""
+    """Cells that take about two minutes on two cores."""
     base = three_ball_chain()
     base.solver.method = scenario_pb2.Solver.RK4
     base.solver.step_s = 1e-8
