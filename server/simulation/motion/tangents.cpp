@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "simulation/motion/rows.h"
 
@@ -17,15 +16,11 @@ constexpr double kTable[2][2] = {{0.25, 0.25 - std::numbers::sqrt3 / 6},
 // Damping and swing of a link in a part of a step, by its own masses. Of what decays to e⁻⁸ the
 // method leaves a quarter, until the next part, and after a swing of 1 it is late by 1e-3.
 constexpr double kDecay = 8, kSwing = 1;
-// Bodies further apart, in places, are not coupled in the system of a part: the band stays narrow.
-constexpr std::ptrdiff_t kFar = 8;
-
-std::size_t At(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
 Tangents::Tangents(const Scenario& scenario, const Equations& equations)
-    : scenario_(scenario), equations_(equations), place_(scenario.bodies.size(), kNone) {
+    : scenario_(scenario), equations_(equations), linked_(scenario, equations) {
   Clear();
 }
 
@@ -42,49 +37,12 @@ void Tangents::Add() {
   }
 }
 
-// A wall takes the place of the body that touches it, and adds nothing there: it counts 0.
-void Tangents::Connect(const Sides& sides, int column) {
-  Link& link = links_.emplace_back(Link{sides, column});
-  if (link.left_counts == 0) link.left = link.right;
-  if (link.right_counts == 0) link.right = link.left;
-}
-
-// In their order on the line neighbours touch, so that the band of the system is narrow.
-void Tangents::CountMoved() {
-  std::ranges::fill(place_, kNone);
-  moved_.clear();
-  for (const Link& link : links_) {
-    for (const std::ptrdiff_t body : {link.left, link.right}) {
-      if (std::exchange(place_[At(body)], 0) == kNone) moved_.push_back(body);
-    }
-  }
-  std::ranges::sort(moved_, {}, [&](std::ptrdiff_t body) { return equations_.base[At(body)]; });
-  for (std::ptrdiff_t i = 0; i < std::ssize(moved_); ++i) place_[At(moved_[At(i)])] = i;
-  std::ptrdiff_t reach = 0;
-  for (Link& link : links_) {
-    link.left = place_[At(link.left)];
-    link.right = place_[At(link.right)];
-    link.couples = std::abs(link.left - link.right) <= kFar;
-    if (link.couples) reach = std::max(reach, std::abs(link.left - link.right));
-  }
-  system_.Resize(std::ssize(moved_), reach);
-}
-
-void Tangents::Prepare() {
-  links_.clear();
-  for (const ActiveContact& contact : equations_.active) Connect(contact, contact.column);
-  for (const Support& support : scenario_.supports) {
-    Connect(equations_.SidesOf(support.body, support.other), kNone);
-  }
-  CountMoved();
-}
-
 void Tangents::Gather() {
-  const auto bodies = std::ssize(moved_);
+  const auto bodies = linked_.size();
   x_.resize(count(), 2 * bodies + std::ssize(equations_.active));
   for (std::ptrdiff_t i = 0; i < bodies; ++i) {
-    x_.col(i) = u_.col(moved_[At(i)]);
-    x_.col(bodies + i) = v_.col(moved_[At(i)]);
+    x_.col(i) = u_.col(linked_.body(i));
+    x_.col(bodies + i) = v_.col(linked_.body(i));
   }
   std::ptrdiff_t place = 2 * bodies;
   for (const ActiveContact& c : equations_.active) x_.col(place++) = work_.col(c.contact);
@@ -93,10 +51,10 @@ void Tangents::Gather() {
 }
 
 void Tangents::Scatter() {
-  const auto bodies = std::ssize(moved_);
+  const auto bodies = linked_.size();
   for (std::ptrdiff_t i = 0; i < bodies; ++i) {
-    u_.col(moved_[At(i)]) = x_.col(i);
-    v_.col(moved_[At(i)]) = x_.col(bodies + i);
+    u_.col(linked_.body(i)) = x_.col(i);
+    v_.col(linked_.body(i)) = x_.col(bodies + i);
   }
   std::ptrdiff_t place = 2 * bodies;
   for (const ActiveContact& c : equations_.active) work_.col(c.contact) = x_.col(place++);
@@ -125,8 +83,8 @@ void Tangents::Evaluate(const StepTime& step, const std::vector<DeformationPath>
 double Tangents::Parts() const {
   double parts = 1;
   for (std::size_t j = 0; j < 2; ++j) {
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const double inverse = links_[i].left_inverse + links_[i].right_inverse;
+    for (std::size_t i = 0; i < linked_.links().size(); ++i) {
+      const double inverse = linked_.links()[i].left_inverse + linked_.links()[i].right_inverse;
       const Law& law = stages_.laws[j][i];
       const double swing = std::max(0.0, law.by_deformation * inverse * stages_.pace[j]);
       parts = std::max({parts, law.by_rate * inverse / kDecay, std::sqrt(swing) / kSwing});
@@ -138,9 +96,18 @@ double Tangents::Parts() const {
 // With the stages V_j = v + Σ a_jk A_k and U_j = u + Σ a_jk p_k V_k the force of a link is
 // F_j = K_j ΔU_j + D_j ΔV_j, linear in the accelerations A_k of its bodies.
 void Tangents::Assemble() {
+  system_.Resize(2 * linked_.size(), 2 * linked_.reach() + 1);
   system_.Reset();
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Link& link = links_[i];
+  const auto add = [&](std::ptrdiff_t body, std::ptrdiff_t other, double factor,
+                       const double(&block)[2][2]) {
+    for (std::ptrdiff_t j = 0; j < 2; ++j) {
+      for (std::ptrdiff_t k = 0; k < 2; ++k) {
+        system_.Add(2 * body + j, 2 * other + k, factor * block[j][k]);
+      }
+    }
+  };
+  for (std::size_t i = 0; i < linked_.links().size(); ++i) {
+    const Link& link = linked_.links()[i];
     if (!link.couples) continue;
     double block[2][2];
     for (std::size_t j = 0; j < 2; ++j) {
@@ -152,22 +119,23 @@ void Tangents::Assemble() {
       }
     }
     const double left = link.left_inverse, right = link.right_inverse;
-    system_.Add(link.left, link.left, left * link.left_counts, block);
-    system_.Add(link.left, link.right, -left * link.right_counts, block);
-    system_.Add(link.right, link.left, -right * link.left_counts, block);
-    system_.Add(link.right, link.right, right * link.right_counts, block);
+    add(link.left, link.left, left * link.left_counts, block);
+    add(link.left, link.right, -left * link.right_counts, block);
+    add(link.right, link.left, -right * link.left_counts, block);
+    add(link.right, link.right, right * link.right_counts, block);
   }
+  system_.Factor();
 }
 
 // (S1): v' = f_u u + f_v v + f_μ at the stages, where u and v would be without accelerations.
 template <class Count>
 void Tangents::AddForces(Count count) {
   sides_.setZero();
-  const std::ptrdiff_t half = count * std::ssize(moved_);
+  const std::ptrdiff_t half = count * linked_.size();
   for (std::size_t j = 0; j < 2; ++j) {
     const double time = kTable[j][0] * stages_.pace[0] + kTable[j][1] * stages_.pace[1];
-    for (std::size_t l = 0; l < links_.size(); ++l) {
-      const Link link = links_[l];  // Copies, which no store can change.
+    for (std::size_t l = 0; l < linked_.links().size(); ++l) {
+      const Link link = linked_.links()[l];  // Copies, which no store can change.
       const Law law = stages_.laws[j][l];
       const double by_rate = law.by_rate + time * law.by_deformation;
       const double* left = x_.data() + count * link.left;
@@ -192,7 +160,7 @@ void Tangents::AddForces(Count count) {
 
 template <class Count>
 void Tangents::Move(Count count) {
-  const std::ptrdiff_t bodies = std::ssize(moved_), half = count * bodies;
+  const std::ptrdiff_t bodies = linked_.size(), half = count * bodies;
   const double* pace = stages_.pace;
   for (std::ptrdiff_t body = 0; body < bodies; ++body) {
     double* u = x_.data() + count * body;
@@ -217,11 +185,11 @@ void Tangents::Move(Count count) {
 // (S2): W' = F δ̇ differentiated by each μ.
 template <class Count>
 void Tangents::AddWorks(Count count) {
-  const std::ptrdiff_t half = count * std::ssize(moved_);
+  const std::ptrdiff_t half = count * linked_.size();
   for (std::size_t j = 0; j < 2; ++j) {
     double* work = x_.data() + 2 * half;
     for (std::size_t l = 0; l < equations_.active.size(); ++l, work += count) {
-      const Link link = links_[l];
+      const Link link = linked_.links()[l];
       const Law law = stages_.laws[j][l];
       const double* left = at_[j].data() + count * link.left;
       const double* right = at_[j].data() + count * link.right;
@@ -255,9 +223,8 @@ void Tangents::Follow(const StepTime& step, const std::vector<DeformationPath>& 
     });
   }
   const double time = step.Offset(to) - step.Offset(from);
-  for (std::size_t body = 0; body < place_.size(); ++body) {  // Free flight.
-    const auto i = static_cast<Eigen::Index>(body);
-    if (place_[body] == kNone) u_.col(i) += time * v_.col(i);
+  for (Eigen::Index body = 0; body < u_.cols(); ++body) {  // Free flight.
+    if (linked_.place(body) == kNone) u_.col(body) += time * v_.col(body);
   }
   Scatter();
 }

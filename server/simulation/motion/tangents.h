@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "simulation/model/scenario.h"
+#include "simulation/motion/banded_system.h"
 #include "simulation/motion/contact_events.h"
 #include "simulation/motion/equations.h"
+#include "simulation/motion/linked_bodies.h"
 #include "simulation/motion/runge_kutta.h"
-#include "simulation/motion/stage_system.h"
 
 namespace contact {
 
@@ -33,7 +34,7 @@ class Tangents {
   /// How many μ there are.
   Eigen::Index count() const { return u_.rows(); }
   /// Call when the equations' active contacts have changed, and after the first μ.
-  void Prepare();
+  void Prepare() { linked_.Count(); }
 
   /// Follows a step of the motion from θ = `from` to `to`. `paths` are the deformations of the
   /// active contacts, in their order.
@@ -48,14 +49,7 @@ class Tangents {
   Eigen::ArrayXd Work(int contact) const { return work_.col(contact); }
 
  private:
-  /// A contact or support between bodies that are counted among those that a force moves.
-  struct Link : Sides {
-    /// The μ of a contact, or kNone.
-    int column = kNone;
-    /// Whether its force in a part depends on the accelerations in it; else to first order only, as
-    /// of a spring between the ends of a long row.
-    bool couples = true;
-  };
+  using Link = LinkedBodies::Link;
   /// A force and its derivatives by δ, δ̇ and μ, by the clock of a part, and δ̇ itself [m/s].
   struct Law {
     double force = 0, by_deformation = 0, by_rate = 0, damping = 0, rate = 0;
@@ -67,21 +61,17 @@ class Tangents {
     std::vector<Law> laws[2];
   };
 
-  /// Adds a link between the bodies of `sides`.
-  void Connect(const Sides& sides, int column);
-  /// Counts the bodies of all links, in their order on the line.
-  void CountMoved();
   /// The stages of a part from θ = `from` to `to`.
   void Evaluate(const StepTime& step, const std::vector<DeformationPath>& paths, double from,
                 double to);
   /// In how many parts that of the stages must be taken.
   double Parts() const;
-  /// Sets up the linear system of the stages' accelerations.
+  /// Sets up and decomposes the linear system of the stages' accelerations.
   void Assemble();
   /// The forces of the stages if nothing were accelerated, as the right sides of that system.
   template <class Count>
   void AddForces(Count count);
-  /// ∂u/∂μ and ∂v/∂μ of the moved bodies at the stages, by the accelerations.
+  /// ∂u/∂μ and ∂v/∂μ of the linked bodies at the stages, by the accelerations.
   template <class Count>
   void Move(Count count);
   /// ∂W/∂μ at the end of a part.
@@ -95,17 +85,15 @@ class Tangents {
   const Equations& equations_;
   // ∂u/∂μ and ∂v/∂μ: a row for each μ, a column for each body; ∂W/∂μ: a column for each contact.
   Eigen::ArrayXXd u_, v_, work_;
-  // The bodies that a force moves, and the place of each body among them, or kNone.
-  std::vector<std::ptrdiff_t> moved_, place_;
-  // The active contacts, then the supports.
-  std::vector<Link> links_;
+  LinkedBodies linked_;
   Stages stages_;
-  StageSystem system_;
-  // ∂u/∂μ and ∂v/∂μ of the moved bodies and ∂W/∂μ of the active contacts, a column each.
+  // Of the accelerations at both stages, those of a body beside each other.
+  BandedSystem system_;
+  // ∂u/∂μ and ∂v/∂μ of the linked bodies and ∂W/∂μ of the active contacts, a column each.
   Eigen::ArrayXXd x_;
-  // Accelerations at both stages of each moved body, by the clock of the part; right sides before.
+  // Accelerations at both stages of each linked body, by the clock of the part; right sides before.
   Eigen::ArrayXXd sides_;
-  // u and v of the moved bodies at each stage.
+  // u and v of the linked bodies at each stage.
   Eigen::ArrayXXd at_[2];
 };
 
