@@ -324,6 +324,36 @@ TEST(Motion, ACycleThatStartsAtRestHearsOfItsExternalForce) {
   EXPECT_EQ(host.started[1].start_deformation, host.ended[0].cycle.end_deformation);
 }
 
+// In a step as short as what is left of δ of the first contact, that of the second is round-off.
+TEST(Motion, ASeparationWithinRoundOffIsNow) {
+  const Scenario s = testing::TripleChain();
+  State state = InitialState(s);
+  state.velocities = {-1, 0, 1e-2};
+  for (ContactState& c : state.contacts) {
+    c.phase = Phase::kRestitution;
+    c.cycles = 1;
+    c.duration = 1e-3;
+    c.cycle.number = 1;
+    c.cycle.mu = 1e6;
+    c.cycle.max_deformation = 1e-4;
+    c.cycle.work_compression = 0.25;
+    c.cycle.approach_velocity = 1;
+  }
+  state.contacts[0].gap = -1e-20;
+  state.contacts[1].gap = -1e-5;
+  Motion motion(s);
+  motion.Begin(state, true);
+  Host host({1e6, 1e6});
+  host.most_steps = 1000;
+  ASSERT_EQ(Advance(motion, host), Motion::Pause::kQuiet);
+  EXPECT_TRUE(host.started.empty());
+  ASSERT_EQ(host.ended.size(), 2u);
+  EXPECT_EQ(host.ended[0].cycle.contact, 0);
+  EXPECT_EQ(host.ended[0].cycle.end, Cycle::End::kSeparation);
+  EXPECT_LT(host.ended[0].cycle.end_time, 1e-12);
+  EXPECT_GT(host.ended[1].cycle.end_time, 5e-4);  // δ/δ̇ is 1 ms.
+}
+
 TEST(Motion, SaysWhyItPauses) {
   const Scenario s = testing::TripleChain();
   const State start = InitialState(s);

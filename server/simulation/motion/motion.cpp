@@ -73,7 +73,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     }
     if (moves) {
       Accept(listener);
-    } else {
+    } else if (stepper_.separating() != found.contact) {
       system_.next_step = system_.step.h;  // The same again, but for what begins.
     }
     if (found.contact != kNone) cycles_.Apply(found, host);

@@ -11,6 +11,9 @@ namespace {
 constexpr double kResolved = 100;
 // A step meant to end in a separation has found it when so little of δ is left.
 constexpr double kShort = 1e-3;
+// A separation that is this part of its cycle away is now: in a step that short round-off of δ
+// decides what happens to other contacts.
+constexpr double kInstant = 1e-10;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -43,6 +46,10 @@ double StepEvents::Noise(int contact) const {
 
 StepEvents::Found StepEvents::First(int separating) const {
   Found first;
+  if (separating != kNone &&
+      system_.step.h < kInstant * system_.contacts[At(separating)].duration) {
+    return {separating, {EventKind::kSeparation, 0}};
+  }
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     const Phase phase = system_.contacts[At(c)].phase;
     const auto [start, end] = system_.PathEnds(c);
