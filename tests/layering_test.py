@@ -15,7 +15,7 @@ ORDER = {
     "server": ["base", "identity", "simulation", "wire", "storage", "launcher", "jobs", "rpc",
                "gateway", "."],
     "server/wire": ["rules", "scenario", "sweep", "."],
-    "server/simulation": ["laws", "model", "motion", "episode", "forecast", "."],
+    "server/simulation": ["laws", "model", "methods", "motion", "episode", "forecast", "."],
     "server/storage": [".", "sqlite", "postgres"],
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "cluster", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],

@@ -1,4 +1,4 @@
-#include "simulation/motion/banded_system.h"
+#include "simulation/methods/banded_system.h"
 
 #include <gtest/gtest.h>
 

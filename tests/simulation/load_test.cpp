@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/methods/runge_kutta.h"
 #include "simulation/motion/equations.h"
-#include "simulation/motion/runge_kutta.h"
 #include "testing/cases.h"
 
 namespace contact {

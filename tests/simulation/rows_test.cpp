@@ -1,4 +1,4 @@
-#include "simulation/motion/rows.h"
+#include "simulation/methods/rows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulation/motion/runge_kutta.h"
+#include "simulation/methods/runge_kutta.h"
 
 #include <gtest/gtest.h>
 

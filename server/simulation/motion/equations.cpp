@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "simulation/methods/rows.h"
 #include "simulation/model/derived.h"
-#include "simulation/motion/rows.h"
 
 namespace contact {
 namespace {

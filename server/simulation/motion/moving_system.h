@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "simulation/methods/runge_kutta.h"
 #include "simulation/motion/equations.h"
-#include "simulation/motion/runge_kutta.h"
 #include "simulation/motion/state.h"
 #include "simulation/motion/tangents.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulation/motion/rows.h"
+#include "simulation/methods/rows.h"
 
 namespace contact {
 namespace {

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "simulation/methods/banded_system.h"
+#include "simulation/methods/runge_kutta.h"
 #include "simulation/model/scenario.h"
-#include "simulation/motion/banded_system.h"
 #include "simulation/motion/contact_events.h"
 #include "simulation/motion/equations.h"
 #include "simulation/motion/linked_bodies.h"
-#include "simulation/motion/runge_kutta.h"
 
 namespace contact {
 

@@ -118,4 +118,4 @@ class RungeKutta {
 
 }  // namespace contact
 
-#include "simulation/motion/runge_kutta_steps.h"  // IWYU pragma: export
+#include "simulation/methods/runge_kutta_steps.h"  // IWYU pragma: export

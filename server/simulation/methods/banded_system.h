@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "simulation/motion/rows.h"
+#include "simulation/methods/rows.h"
 
 namespace contact {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "simulation/motion/rows.h"
+#include "simulation/methods/rows.h"
 
 namespace contact {
 
