@@ -9,12 +9,15 @@
 namespace contact {
 namespace {
 
-// The method of Gauss with two stages: its nodes and table. Its weights are 1/2.
-constexpr double kNode[2] = {0.5 - std::numbers::sqrt3 / 6, 0.5 + std::numbers::sqrt3 / 6};
-constexpr double kTable[2][2] = {{0.25, 0.25 - std::numbers::sqrt3 / 6},
-                                 {0.25 + std::numbers::sqrt3 / 6, 0.25}};
+constexpr double kOffset = std::numbers::sqrt3 / 6;
+// The method of Gauss, of order 4.
+constexpr Tangents::Method kGauss = {
+    {0.5 - kOffset, 0.5 + kOffset}, {{0.25, 0.25 - kOffset}, {0.25 + kOffset, 0.25}}, {0.5, 0.5}};
+// Radau IIA, of order 3: it leaves nothing of what is damped away at once.
+constexpr Tangents::Method kRadau = {
+    {1.0 / 3, 1}, {{5.0 / 12, -1.0 / 12}, {0.75, 0.25}}, {0.75, 0.25}};
 // Damping and swing of a link in a part of a step, by its own masses. Of what decays to e⁻⁸ the
-// method leaves a quarter, until the next part, and after a swing of 1 it is late by 1e-3.
+// method of Gauss leaves a quarter, until the next part, and after a swing of 1 it is late by 1e-3.
 constexpr double kDecay = 8, kSwing = 1;
 
 }  // namespace
@@ -63,7 +66,7 @@ void Tangents::Scatter() {
 void Tangents::Evaluate(const StepTime& step, const std::vector<DeformationPath>& paths,
                         double from, double to) {
   for (std::size_t j = 0; j < 2; ++j) {
-    const double theta = from + kNode[j] * (to - from), slow = step.h * step.Rate(theta);
+    const double theta = from + method_->node[j] * (to - from), slow = step.h * step.Rate(theta);
     const double pace = slow * (to - from);
     std::vector<Law>& laws = stages_.laws[j];
     stages_.pace[j] = pace;
@@ -80,16 +83,22 @@ void Tangents::Evaluate(const StepTime& step, const std::vector<DeformationPath>
   }
 }
 
-double Tangents::Parts() const {
+double Tangents::Plan() {
   double parts = 1;
+  bool decays = false;
   for (std::size_t j = 0; j < 2; ++j) {
     for (std::size_t i = 0; i < linked_.links().size(); ++i) {
       const double inverse = linked_.links()[i].left_inverse + linked_.links()[i].right_inverse;
       const Law& law = stages_.laws[j][i];
-      const double swing = std::max(0.0, law.by_deformation * inverse * stages_.pace[j]);
-      parts = std::max({parts, law.by_rate * inverse / kDecay, std::sqrt(swing) / kSwing});
+      const double damping = law.by_rate * inverse;
+      const double swing = std::sqrt(std::max(0.0, law.by_deformation * inverse * stages_.pace[j]));
+      // With so much damping a link does not swing. It creeps.
+      const double motion = damping > kDecay ? std::min(swing, swing * swing / damping) : swing;
+      parts = std::max(parts, motion / kSwing);
+      decays = decays || damping > kDecay;
     }
   }
+  if (decays) method_ = &kRadau;
   return std::ceil(parts);
 }
 
@@ -113,9 +122,9 @@ void Tangents::Assemble() {
     for (std::size_t j = 0; j < 2; ++j) {
       const Law& law = stages_.laws[j][i];
       for (std::size_t k = 0; k < 2; ++k) {
-        const double lever = kTable[j][0] * stages_.pace[0] * kTable[0][k] +
-                             kTable[j][1] * stages_.pace[1] * kTable[1][k];
-        block[j][k] = law.by_deformation * lever + law.by_rate * kTable[j][k];
+        const double lever = method_->table[j][0] * stages_.pace[0] * method_->table[0][k] +
+                             method_->table[j][1] * stages_.pace[1] * method_->table[1][k];
+        block[j][k] = law.by_deformation * lever + law.by_rate * method_->table[j][k];
       }
     }
     const double left = link.left_inverse, right = link.right_inverse;
@@ -133,7 +142,8 @@ void Tangents::AddForces(Count count) {
   sides_.setZero();
   const std::ptrdiff_t half = count * linked_.size();
   for (std::size_t j = 0; j < 2; ++j) {
-    const double time = kTable[j][0] * stages_.pace[0] + kTable[j][1] * stages_.pace[1];
+    const double time =
+        method_->table[j][0] * stages_.pace[0] + method_->table[j][1] * stages_.pace[1];
     for (std::size_t l = 0; l < linked_.links().size(); ++l) {
       const Link link = linked_.links()[l];  // Copies, which no store can change.
       const Law law = stages_.laws[j][l];
@@ -161,7 +171,7 @@ void Tangents::AddForces(Count count) {
 template <class Count>
 void Tangents::Move(Count count) {
   const std::ptrdiff_t bodies = linked_.size(), half = count * bodies;
-  const double* pace = stages_.pace;
+  const double *pace = stages_.pace, *weight = method_->weight;
   for (std::ptrdiff_t body = 0; body < bodies; ++body) {
     double* u = x_.data() + count * body;
     double* u1 = at_[0].data() + count * body;
@@ -170,14 +180,14 @@ void Tangents::Move(Count count) {
     InRows(count, [&](auto rows, std::ptrdiff_t i) {
       using Array = typename decltype(rows)::Array;
       const Array a1 = rows(a + i), a2 = rows(a + count + i), v = rows(u + half + i);
-      const Array v1 = v + kTable[0][0] * a1 + kTable[0][1] * a2;
-      const Array v2 = v + kTable[1][0] * a1 + kTable[1][1] * a2;
+      const Array v1 = v + method_->table[0][0] * a1 + method_->table[0][1] * a2;
+      const Array v2 = v + method_->table[1][0] * a1 + method_->table[1][1] * a2;
       const Array u0 = rows(u + i), d1 = pace[0] * v1, d2 = pace[1] * v2;
       rows(u1 + half + i) = v1, rows(u2 + half + i) = v2;
-      rows(u1 + i) = u0 + kTable[0][0] * d1 + kTable[0][1] * d2;
-      rows(u2 + i) = u0 + kTable[1][0] * d1 + kTable[1][1] * d2;
-      rows(u + i) = u0 + 0.5 * (d1 + d2);
-      rows(u + half + i) = v + 0.5 * (a1 + a2);
+      rows(u1 + i) = u0 + method_->table[0][0] * d1 + method_->table[0][1] * d2;
+      rows(u2 + i) = u0 + method_->table[1][0] * d1 + method_->table[1][1] * d2;
+      rows(u + i) = u0 + (weight[0] * d1 + weight[1] * d2);
+      rows(u + half + i) = v + (weight[0] * a1 + weight[1] * a2);
     });
   }
 }
@@ -193,15 +203,16 @@ void Tangents::AddWorks(Count count) {
       const Law law = stages_.laws[j][l];
       const double* left = at_[j].data() + count * link.left;
       const double* right = at_[j].data() + count * link.right;
-      const double by_deformation = 0.5 * law.rate * law.by_deformation;
-      const double by_rate = 0.5 * (law.rate * law.by_rate + law.force);
+      const double weight = method_->weight[j];
+      const double by_deformation = weight * law.rate * law.by_deformation;
+      const double by_rate = weight * (law.rate * law.by_rate + law.force);
       InRows(count, [&](auto rows, std::ptrdiff_t i) {
         rows(work + i) += by_deformation * (link.left_counts * rows(left + i) -
                                             link.right_counts * rows(right + i)) +
                           by_rate * (link.left_counts * rows(left + half + i) -
                                      link.right_counts * rows(right + half + i));
       });
-      if (link.column != kNone) work[link.column] += 0.5 * law.rate * law.damping;
+      if (link.column != kNone) work[link.column] += weight * law.rate * law.damping;
     }
   }
 }
@@ -209,11 +220,13 @@ void Tangents::AddWorks(Count count) {
 void Tangents::Follow(const StepTime& step, const std::vector<DeformationPath>& paths, double from,
                       double to) {
   if (count() == 0 || !(to > from)) return;
+  method_ = &kGauss;
   Evaluate(step, paths, from, to);
-  const double parts = Parts(), length = (to - from) / parts;
+  const double parts = Plan(), length = (to - from) / parts;
+  const bool anew = parts > 1 || method_ != &kGauss;
   Gather();
   for (double part = 0; part < parts; ++part) {
-    if (parts > 1) Evaluate(step, paths, from + part * length, from + (part + 1) * length);
+    if (anew) Evaluate(step, paths, from + part * length, from + (part + 1) * length);
     Assemble();
     WithCount<1, 2, 3, 4>(count(), [&](auto n) {
       AddForces(n);

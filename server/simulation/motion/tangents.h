@@ -19,11 +19,17 @@ namespace contact {
 /// Along a motion that is known they obey linear equations and steer no step. So each step of the
 /// motion is taken first, and they follow it with the Gauss method of order 4, in as many parts as
 /// their own rates demand: slopes are for Newton's method and need far fewer digits than the
-/// motion. The method is implicit, so that parts need not be short where damping is strong, and of
-/// linear equations its stages are one linear system, the same for every μ. Source: Hairer, Wanner,
-/// Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, IV.5.
+/// motion. Where damping within the step is strong, Radau IIA of order 3 takes its place. Both are
+/// implicit, so that parts need not be short there, and of linear equations their stages are one
+/// linear system, the same for every μ. Source: Hairer, Wanner, Solving Ordinary Differential
+/// Equations II, 2nd ed., Springer 1996, IV.5.
 class Tangents {
  public:
+  /// An implicit method with two stages: its nodes, its table and its weights.
+  struct Method {
+    double node[2], table[2][2], weight[2];
+  };
+
   /// Both must outlive the tangents.
   Tangents(const Scenario& scenario, const Equations& equations);
 
@@ -64,8 +70,8 @@ class Tangents {
   /// The stages of a part from θ = `from` to `to`.
   void Evaluate(const StepTime& step, const std::vector<DeformationPath>& paths, double from,
                 double to);
-  /// In how many parts that of the stages must be taken.
-  double Parts() const;
+  /// In how many parts that of the stages must be taken; chooses the method.
+  double Plan();
   /// Sets up and decomposes the linear system of the stages' accelerations.
   void Assemble();
   /// The forces of the stages if nothing were accelerated, as the right sides of that system.
@@ -86,6 +92,7 @@ class Tangents {
   // ∂u/∂μ and ∂v/∂μ: a row for each μ, a column for each body; ∂W/∂μ: a column for each contact.
   Eigen::ArrayXXd u_, v_, work_;
   LinkedBodies linked_;
+  const Method* method_ = nullptr;
   Stages stages_;
   // Of the accelerations at both stages, those of a body beside each other.
   BandedSystem system_;
