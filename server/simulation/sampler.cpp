@@ -50,7 +50,7 @@ void Sampler::OnStep(const StepTime& step) {
     if (!prepared) motion_.PrepareInterpolation();
     prepared = true;
     const double time = in_cycle ? planned : regular;
-    motion_.integrator().Interpolate(std::clamp(step.Theta(time), 0.0, 1.0), &y_);
+    motion_.Interpolate(std::clamp(step.Theta(time), 0.0, 1.0), &y_);
     if (!in_cycle) ++regular_;
     Record(std::min(time, scenario_.end_time), y_);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -117,9 +118,10 @@ TEST(LongRowSearch, AGroupThatTheRunCutsByTurnsGrows) {
   EXPECT_TRUE(RunOf({Kind::kRattler, 33, 1'000'000}).outcome.all_converged);
 }
 
-// From 0.45 s on the ball rattles: a group needs more than three times the μ that stops what
-// no load moves.
-TEST(DrivenWall, IsFullInFewStepsWhereTheBallRattles) {
+// From 0.45 s on the ball rattles and stays closed. What the load drives moves however large μ is:
+// two or three groups give back at least 0.8087 with every μ. They are told as that, and all others
+// have their answer.
+TEST(DrivenWall, IsAnsweredInFewStepsWhereTheBallRattles) {
   if (!testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
   Scenario scenario = testing::SpringWall();
   scenario.contacts[0].restitution = 0.8;
@@ -127,7 +129,16 @@ TEST(DrivenWall, IsFullInFewStepsWhereTheBallRattles) {
   scenario.solver.max_steps = 7'000'000;
   const Record r = RunAndRecord(scenario);
   ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << r.outcome.message;
-  EXPECT_TRUE(r.outcome.all_converged);
+  int infeasible = 0;
+  for (const Group& g : r.groups) {
+    EXPECT_NE(g.status, Cycle::Status::kNotConverged) << g.number;
+    if (g.status != Cycle::Status::kInfeasible) continue;
+    ++infeasible;
+    EXPECT_GT(g.start_time, 0.45);
+    EXPECT_NEAR(g.too_much.restitution, 0.8087, 1e-3);
+    EXPECT_TRUE(std::isnan(g.too_little.mu));
+  }
+  EXPECT_LE(infeasible, 3);
 }
 
 }  // namespace

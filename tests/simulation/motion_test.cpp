@@ -4,6 +4,7 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -165,7 +166,7 @@ class Quadrature final : public StepListener {
   double Integrate(const StepTime& step, double from, double to) {
     const auto power = [&](double theta) {
       Eigen::ArrayXd y;
-      motion_.integrator().Interpolate(theta, &y);
+      motion_.Interpolate(theta, &y);
       const double deformation = std::max(0.0, motion_.Deformation(0, y.data()));
       const double rate = motion_.equations().Relative(0, y.data() + motion_.equations().bodies());
       const double elastic = std::pow(deformation, contact_.exponent);
@@ -243,6 +244,116 @@ TEST(Motion, GradientsOutlastFlight) {
   s.bodies[2].position += 2e-4;
   s.supports = {{.body = 2, .stiffness = 2e6, .rest_position = s.bodies[2].position + 2e-5}};
   ExpectGradientsAreDifferences(s, {2e8, 4e8});
+}
+
+// A body is pressed against a wall by F₀ + A sin ω t, where a damper c makes it creep. With
+// c ω = k, λ is a million times ω: F = k δ + c δ̇, linear, has a closed form.
+class Creep {
+ public:
+  static constexpr double kMass = 0.3, kStiffness = 5e7, kSpeed = 1e-5, kLoad = 1000, kSwing = 500;
+  static constexpr double kDamping = 4e6, kOmega = kStiffness / kDamping;
+
+  Creep() {
+    const double mean = kDamping / (2 * kMass);
+    fast_ = -mean - std::sqrt(mean * mean - kStiffness / kMass);
+    slow_ = kStiffness / kMass / fast_;
+    const double d = -kLoad / kStiffness - swing_.imag(), v = kSpeed - kOmega * swing_.real();
+    of_fast_ = (v - slow_ * d) / (fast_ - slow_);
+    of_slow_ = d - of_fast_;
+  }
+
+  Scenario scenario() const {
+    Scenario s = testing::Collision(kMass, kSpeed, kStiffness, 1, 1);
+    s.contacts[0].damping = DampingLaw::kKelvinVoigt;
+    s.loads = {{.body = 0, .constant = kLoad, .amplitude = kSwing, .angular_frequency = kOmega}};
+    return s;
+  }
+  double Deformation(double t) const {
+    return kLoad / kStiffness + std::imag(swing_ * Turned(t)) + of_fast_ * std::exp(fast_ * t) +
+           of_slow_ * std::exp(slow_ * t);
+  }
+  double Rate(double t) const {
+    return kOmega * std::real(swing_ * Turned(t)) + fast_ * of_fast_ * std::exp(fast_ * t) +
+           slow_ * of_slow_ * std::exp(slow_ * t);
+  }
+  double Force(double t) const { return kStiffness * Deformation(t) + kDamping * Rate(t); }
+  // Of the first approach, which lasts some 1/λ, apart.
+  double Work(double from, double to) const {
+    const auto power = [&](double t) { return Force(t) * Rate(t); };
+    const auto integral = [&](double a, double b) {
+      return boost::math::quadrature::gauss<double, 30>::integrate(power, a, b);
+    };
+    const double calm = from == 0 ? -60 / fast_ : from;
+    return integral(from, calm) + integral(calm, to);
+  }
+  // Where δ̇ changes its sign between two instants.
+  double Turn(double a, double b) const {
+    for (int i = 0; i < 100; ++i) {
+      const double middle = (a + b) / 2;
+      ((Rate(middle) > 0) == (Rate(a) > 0) ? a : b) = middle;
+    }
+    return a;
+  }
+
+ private:
+  static std::complex<double> Turned(double t) { return std::polar(1.0, kOmega * t); }
+
+  const std::complex<double> swing_ =
+      kSwing / std::complex<double>(kStiffness - kMass * kOmega * kOmega, kDamping* kOmega);
+  double fast_ = 0, slow_ = 0, of_fast_ = 0, of_slow_ = 0;
+};
+
+// Holds the dense output of every step against the closed form.
+class CreepWatch final : public StepListener {
+ public:
+  CreepWatch(Motion& motion, const Creep& creep) : motion_(motion), creep_(creep) {}
+
+  void OnStep(const StepTime& step) override {
+    motion_.PrepareInterpolation();
+    for (const double theta : {0.1, 0.5, 0.8}) {
+      motion_.Interpolate(theta, &y_);
+      const double t = step.At(theta);
+      EXPECT_NEAR(y_[0], creep_.Deformation(t), 1e-10 * Creep::kLoad / Creep::kStiffness) << t;
+      EXPECT_NEAR(y_[1], creep_.Rate(t), 1e-8 * Creep::kLoad / Creep::kDamping) << t;
+    }
+  }
+
+ private:
+  Motion& motion_;
+  const Creep& creep_;
+  Eigen::ArrayXd y_;
+};
+
+TEST(Motion, ACreepingContactIsFollowedInLongSteps) {
+  const Creep creep;
+  const Scenario s = creep.scenario();
+  Motion motion(s);
+  motion.Begin(InitialState(s), true);
+  Host host({Creep::kDamping});
+  CreepWatch watch(motion, creep);
+  ASSERT_EQ(Advance(motion, host, kForever, &watch), Motion::Pause::kQuiet);
+  const Cycle& c = host.ended.at(0).cycle;
+  const double period = 2 * std::numbers::pi / Creep::kOmega;
+  const double turn = creep.Turn(0.1 * period, 0.7 * period);
+  const double end = creep.Turn(turn + 0.1 * period, turn + 0.7 * period);
+  EXPECT_NEAR(c.turn_time / turn, 1, 1e-7);
+  EXPECT_NEAR(c.end_time / end, 1, 1e-7);
+  EXPECT_NEAR(c.max_deformation / creep.Deformation(turn), 1, 1e-9);
+  EXPECT_NEAR(c.end_deformation / creep.Deformation(end), 1, 1e-9);
+  EXPECT_NEAR(c.work_compression / creep.Work(0, turn), 1, 1e-7);
+  EXPECT_NEAR(c.work_restitution / creep.Work(turn, end), 1, 1e-7);
+  EXPECT_LT(c.identity_residual, 1e-9);
+  double peak = 0;
+  for (double t = 0; t < turn; t += 1e-4 * turn) peak = std::max(peak, creep.Force(t));
+  EXPECT_NEAR(c.peak_force / peak, 1, 1e-8);
+  EXPECT_LT(motion.steps(), 2000);  // Explicit steps, of λ h ≤ 6, would be a million.
+}
+
+// (S1), (S2) along implicit steps.
+TEST(Motion, GradientsFollowACreepingContact) {
+  Scenario s = testing::Collision(0.3, 1e-3, 5e7, 1.5, 0.5);
+  s.loads = {{.body = 0, .constant = 1000, .amplitude = 500, .angular_frequency = 300}};
+  ExpectGradientsAreDifferences(s, {3e9});
 }
 
 // Energy and momentum of an undamped row at the end of every step.

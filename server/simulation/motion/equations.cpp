@@ -82,6 +82,14 @@ double Equations::LoadForce(const Load& load, double t) {
   return force;
 }
 
+void Equations::AddLoadChange(double from, double to, double* accelerations) const {
+  for (const Load& load : acting_) {
+    if (load.slope == 0 && load.amplitude == 0) continue;
+    accelerations[load.body] +=
+        (LoadForce(load, to) - LoadForce(load, from)) * inverse_mass_[At(load.body)];
+  }
+}
+
 double Equations::Stretch(const Support& s, const double* u) const {
   double x = base[At(s.body)] + u[s.body];
   if (s.other != kNone) x -= base[At(s.other)] + u[s.other];

@@ -135,6 +135,9 @@ class Equations : public StateLayout {
   /// two plain contacts of at most three bodies, for which there is a shorter way.
   void Prepare();
 
+  /// Adds to accelerations by how much those of the selected loads differ between two instants.
+  void AddLoadChange(double from, double to, double* accelerations) const;
+
   /// Shortest time in which a selected load or a support changes [s]; infinite without any.
   double ForcingTime() const;
 

@@ -31,9 +31,15 @@ void ForceWatch::Observe(const ActiveContact& active) {
   double where = last.force > first.force ? 1 : 0;
   double largest = std::max(first.force, last.force);
   if (pulls || peaks) {
+    if (system_.implicit) system_.PrepareInterpolation();
     const auto ends = system_.PathEnds(active.contact);
     const DeformationPath path(ends.first, ends.second);
     const auto force = [&](double theta) {
+      if (system_.implicit) {  // The path of such a step is a cubic, too coarse for its force.
+        system_.Interpolate(theta, &inside_);
+        return law.At(law.Relative(inside_.data()) - law.gap, law.Relative(inside_.data() + n))
+            .force;
+      }
       const double dt = system_.step.h * system_.step.Rate(theta);
       return law.At(path.Value(theta), dt > 0 ? path.Slope(theta) / dt : 0).force;
     };
@@ -56,7 +62,7 @@ void ForceWatch::Observe(const ActiveContact& active) {
 void ForceWatch::KeepPeak(int contact, double theta) {
   const int n = system_.equations.bodies();
   system_.PrepareInterpolation();
-  system_.rk.Interpolate(theta, &inside_);
+  system_.Interpolate(theta, &inside_);
   system_.contacts[At(contact)].peak = {
       .time = system_.step.At(theta),
       .deformation = system_.Deformation(contact, inside_.data()),

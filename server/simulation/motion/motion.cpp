@@ -1,7 +1,9 @@
 #include "simulation/motion/motion.h"
 
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <cstdint>
 
 namespace contact {
 namespace {
@@ -104,21 +106,38 @@ StepEvents::Found Motion::PassTurns() {
 }
 
 void Motion::PassTurn(int contact, double theta) {
-  const int n = system_.equations.bodies();
   const Sides& sides = system_.equations.sides(contact);
+  theta = system_.implicit ? SearchTurn(sides, theta) : CorrectTurn(sides, theta);
+  system_.Interpolate(theta, &inside_);
+  events_.Pass(contact, theta);
+  turns_.emplace_back(contact, system_.step.At(theta));
+  cycles_.Turn(contact, system_.step.At(theta), inside_);
+}
+
+double Motion::CorrectTurn(const Sides& sides, double theta) {
+  const int n = system_.equations.bodies();
   const StepTime& step = system_.step;
-  system_.rk.Interpolate(theta, &inside_);
+  system_.Interpolate(theta, &inside_);
   // One step of Newton from the quintic's turn to the solution's.
   const double acceleration = sides.Relative(system_.rk.slope0.data() + n) * (1 - theta) +
                               sides.Relative(system_.rk.slope1.data() + n) * theta;
   const double late = acceleration == 0  // As where a cycle from rest turns at once.
                           ? 0
                           : sides.Relative(inside_.data() + n) / acceleration;
-  theta = std::clamp(step.Theta(step.At(theta) - late), 0.0, 1.0);
-  system_.rk.Interpolate(theta, &inside_);
-  events_.Pass(contact, theta);
-  turns_.emplace_back(contact, step.At(theta));
-  cycles_.Turn(contact, step.At(theta), inside_);
+  return std::clamp(step.Theta(step.At(theta) - late), 0.0, 1.0);
+}
+
+double Motion::SearchTurn(const Sides& sides, double theta) {
+  const auto rate = [&](double at) {
+    system_.Interpolate(at, &inside_);
+    return sides.Relative(inside_.data() + system_.equations.bodies());
+  };
+  const double first = rate(0), last = rate(1);
+  if (!(first > 0 && last < 0)) return theta;
+  std::uintmax_t trials = 30;
+  const auto bracket = boost::math::tools::toms748_solve(
+      rate, 0.0, 1.0, first, last, boost::math::tools::eps_tolerance<double>(30), trials);
+  return bracket.first;
 }
 
 void Motion::FollowStep() {

@@ -67,10 +67,11 @@ class Motion {
   /// The equations as they are now: base, active contacts and layout of y.
   const Equations& equations() const { return system_.equations; }
   /// The step that the listener hears of, else the instant time() at y0.
-  RungeKutta& integrator() { return system_.rk; }
   const RungeKutta& integrator() const { return system_.rk; }
-  /// Prepares integrator().Interpolate for the step that the listener hears of.
+  /// Prepares Interpolate for the step that the listener hears of.
   void PrepareInterpolation() { system_.PrepareInterpolation(); }
+  /// y at θ in the step that the listener hears of.
+  void Interpolate(double theta, Eigen::ArrayXd* y) const { system_.Interpolate(theta, y); }
   /// In order of Scenario::contacts. Gaps are those at Begin; Save has those of now.
   const std::vector<ContactState>& contacts() const { return system_.contacts; }
   /// δ [m] of a contact for the displacements in y.
@@ -81,6 +82,10 @@ class Motion {
   StepEvents::Found PassTurns();
   /// Ends the compression of a contact at about θ in the step.
   void PassTurn(int contact, double theta);
+  /// The turn near the quintic's at θ, in an explicit step; uses inside_.
+  double CorrectTurn(const Sides& sides, double theta);
+  /// The turn in an implicit step, of which δ̈ is not good enough to correct θ; uses inside_.
+  double SearchTurn(const Sides& sides, double theta);
   /// Takes the tangents along the step, and to the turns in it.
   void FollowStep();
   /// Makes the end of the step the state, and tells the listener before.

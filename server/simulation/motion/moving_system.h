@@ -6,6 +6,7 @@
 
 #include "simulation/methods/runge_kutta.h"
 #include "simulation/motion/equations.h"
+#include "simulation/motion/extrapolated_euler.h"
 #include "simulation/motion/state.h"
 #include "simulation/motion/tangents.h"
 
@@ -37,12 +38,20 @@ struct MovingSystem {
   void RefreshActive();
   /// Takes the loads that act from this instant on into the equations.
   void SelectLoads();
-  /// Prepares rk.Interpolate for the step.
+  /// Computes y1 of the step by one of the two methods.
+  void TakeStep(bool implicitly);
+  /// Computes the slopes at y1. Call after TakeStep.
+  void FinishStep();
+  /// Prepares Interpolate for the step.
   void PrepareInterpolation();
+  /// y at θ in the step, from the dense output of its method.
+  void Interpolate(double theta, Eigen::ArrayXd* y) const;
 
   const Scenario& scenario;
   Equations equations;
+  /// The step, whichever method has taken it.
   RungeKutta rk;
+  ExtrapolatedEuler euler;
   Tangents tangents;
   /// In order of Scenario::contacts. Gaps are those at the last State.
   std::vector<ContactState> contacts;
@@ -56,10 +65,14 @@ struct MovingSystem {
   double time = 0;
   /// The step in the integrator.
   StepTime step;
+  /// Whether `euler` has taken it.
+  bool implicit = false;
   /// Step to try next [s]; 0: find one.
   double next_step = 0;
   /// Relative tolerance of a step.
   double tolerance;
+  /// Order of implicit steps.
+  int implicit_order = 0;
   /// When the latest collision began [s]; NaN before the first since the last State.
   double touch_time = kNaN;
   /// The next instant at which a load begins or ends [s].

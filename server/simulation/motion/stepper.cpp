@@ -19,6 +19,8 @@ constexpr double kApproach = 0.8;
 constexpr double kTrapezoid = 0.1;
 constexpr double kSafety = 0.8;  // Of the next step.
 constexpr double kEarly = 10;    // Tolerances a step may miss by in a pass that is not exact.
+constexpr double kMostGrowth = 6;
+constexpr double kStable = 4;  // λ h of the first explicit step after implicit ones.
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -66,6 +68,7 @@ Stepper::Stepper(MovingSystem& system)
 void Stepper::Begin() {
   flight_length_ = flight_speed_ = 0;
   cruise_ = 0;
+  choice_.Begin();
 }
 
 void Stepper::Widen() {
@@ -122,6 +125,7 @@ StepTime Stepper::Plan(double until) {
   double h = std::min({system_.next_step, left, 0.5 * system_.forcing_time});
   if (left - h < 1e-3 * h) h = left;  // Leave no sliver.
   separating_ = kNone;
+  if (choice_.implicit()) return {.start = system_.time, .h = h};
   double parting = kForever;
   const ActiveContact* first = nullptr;
   for (const ActiveContact& active : system_.equations.active) {
@@ -164,42 +168,59 @@ bool Stepper::Take(double until) {
   const double most = system_.tolerance > system_.scenario.solver.relative_tolerance ? kEarly : 1;
   for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
     system_.step = Plan(until);
-    system_.rk.Step(system_.equations, system_.step);
-    ++system_.steps;
-    system_.evaluations += 11;
-    double error = 0;
-    WithCount<1, 2, 3>(n, [&](auto count) { error = ErrorNorm(count, system_.step.h); });
-    const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
-    const double factor = error > 0 ? kSafety / eighth_root : 6;
+    system_.TakeStep(choice_.implicit());
+    const double error = Error();
+    const double growth = Growth(error);
     if (error <= most) {
-      system_.rk.FinishStep(system_.equations, system_.step);
-      ++system_.evaluations;
-      const double growth = std::clamp(factor, 0.3, rejections > 0 ? 1.0 : 6.0);
-      const double next = separating_ == kNone
-                              ? std::max(system_.step.Next(growth), 0.1 * system_.step.h)
-                              : system_.step.h * growth;
-      system_.next_step =
-          system_.step.h < system_.next_step ? std::max(next, system_.next_step) : next;
+      system_.FinishStep();
+      Adapt(growth, rejections > 0);
       return true;
     }
-    const double shorter = std::isfinite(error) ? std::clamp(factor, 0.1, 0.9) : 0.1;
+    const double shorter = std::isfinite(error) ? std::clamp(growth, 0.1, 0.9) : 0.1;
     // What was to end in a separation was not near enough to it yet.
-    system_.next_step = system_.step.Offset(separating_ == kNone ? shorter : 0.6);
+    GoOn(system_.step.Offset(separating_ == kNone ? shorter : 0.6));
   }
   return false;
 }
 
-// Largest local error, in units of what the tolerance allows: that of each contact relative to
-// the scale of its own cycle, that of each body relative to the largest motion of all. An error of
-// δ̇ that damping ends within 1/λ leaves no more than an error of δ, λ = μ δᵖ/m_e times smaller.
+double Stepper::Growth(double error) const {
+  if (error == 0) return kMostGrowth;
+  if (system_.implicit) return kSafety * std::pow(error, -1.0 / system_.implicit_order);
+  return kSafety / std::sqrt(std::sqrt(std::sqrt(error)));
+}
+
+void Stepper::Adapt(double growth, bool repeated) {
+  const StepTime& step = system_.step;
+  if (!system_.implicit) choice_.AfterExplicit(decay_ * step.h);
+  growth = std::clamp(growth, 0.3, repeated ? 1.0 : kMostGrowth);
+  const double next =
+      separating_ == kNone ? std::max(step.Next(growth), 0.1 * step.h) : step.h * growth;
+  GoOn(step.h < system_.next_step ? std::max(next, system_.next_step) : next);
+}
+
+void Stepper::GoOn(double h) {
+  system_.next_step = h;
+  if (!system_.implicit) return;
+  choice_.AfterImplicit(decay_ * h);
+  if (!choice_.implicit()) system_.next_step = std::min(h, kStable / decay_);
+}
+
+double Stepper::Error() {
+  const int n = system_.equations.bodies();
+  if (system_.implicit) {
+    std::copy_n(system_.euler.error().data(), 2 * n, error5_.begin());
+    std::ranges::fill(error3_, 0.0);
+  } else {
+    system_.rk.Errors(2 * n, error5_.data(), error3_.data());
+  }
+  double error = 0;
+  WithCount<1, 2, 3>(n, [&](auto count) { error = ErrorNorm(count, system_.step.h); });
+  return error;
+}
+
+// The largest motions of contacts and of all bodies, by which errors are measured.
 template <class Count>
-double Stepper::ErrorNorm(Count n, double h) const {
-  system_.rk.Errors(2 * n, error5_.data(), error3_.data());
-  const double* e5 = error5_.data();
-  const double* e3 = error3_.data();
-  double sum = 0;
-  for (std::ptrdiff_t i = 0; i < 2 * n; ++i) sum += e5[i] + e3[i];
-  if (!std::isfinite(sum)) return kForever;  // And only then y1 is not finite.
+Stepper::Extent Stepper::Measure(Count n, double h) const {
   const double* y = system_.rk.y1.data();
   double length = 0, speed = 0;
   for (const ActiveContact& active : system_.equations.active) {
@@ -210,28 +231,46 @@ double Stepper::ErrorNorm(Count n, double h) const {
     length = Largest(length, system_.scales[c].length, std::abs(moved), rate * h);
     speed = Largest(speed, system_.scales[c].speed, rate);
   }
-  // Bodies are held to the largest motion of all, contacts to that of contacts.
   const double body_speed = Largest(speed, flight_speed_, LargestOf(n, y + n));
-  const double body_length = Largest(length, flight_length_, LargestOf(n, y), body_speed * h);
-  double norm = Square({LargestOf(n, e5), LargestOf(n, e5 + n)},
-                       {LargestOf(n, e3), LargestOf(n, e3 + n)}, {body_length, body_speed});
+  return {length, speed, Largest(length, flight_length_, LargestOf(n, y), body_speed * h),
+          body_speed};
+}
+
+// Largest local error, in units of what the tolerance allows: that of each contact relative to
+// the scale of its own cycle, that of each body relative to the largest motion of all. An error of
+// δ̇ that damping ends within 1/λ leaves no more than an error of δ, λ = μ δᵖ/m_e times smaller.
+template <class Count>
+double Stepper::ErrorNorm(Count n, double h) {
+  const double* e5 = error5_.data();
+  const double* e3 = error3_.data();
+  double sum = 0;
+  for (std::ptrdiff_t i = 0; i < 2 * n; ++i) sum += e5[i] + e3[i];
+  if (!std::isfinite(sum)) return kForever;  // And only then y1 is not finite.
+  const double* y = system_.rk.y1.data();
+  const Extent extent = Measure(n, h);
   // What the round-off of velocities makes of lengths in a step is no error of the step.
-  const double round_off = 1e-15 * body_speed * h / system_.scenario.solver.relative_tolerance;
-  const double least_length = Largest(1e-3 * length, round_off), least_speed = 1e-3 * speed;
+  const double round_off =
+      1e-15 * extent.body_speed * h / system_.scenario.solver.relative_tolerance;
+  const double least_length = Largest(1e-3 * extent.length, round_off);
+  double norm = 0;
+  decay_ = 0;
   for (const ActiveContact& active : system_.equations.active) {
-    const auto c = At(active.contact);
+    const MovingSystem::Scale& own = system_.scales[At(active.contact)];
     const Motions five{active.Relative(e5), active.Relative(e5 + n)};
     const Motions three{active.Relative(e3), active.Relative(e3 + n)};
     // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
     const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
-    const double scale_length = Largest(system_.scales[c].length, least_length);
+    const double length = Largest(own.length, least_length);
     const double damping = kink ? 0 : active.DampingAt(active.Relative(y) - active.gap);
     const double decay = damping * (active.left_inverse + active.right_inverse);
-    const Motions scale{scale_length,
-                        Largest(system_.scales[c].speed, least_speed) + decay * scale_length};
+    const Motions scale{length, Largest(own.speed, 1e-3 * extent.speed) + decay * length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
+    decay_ = Largest(decay_, decay);
   }
-  return h * std::sqrt(norm) / system_.tolerance;
+  const double of_bodies =
+      Square({LargestOf(n, e5), LargestOf(n, e5 + n)}, {LargestOf(n, e3), LargestOf(n, e3 + n)},
+             {extent.body_length, extent.body_speed});
+  return h * std::sqrt(Largest(norm, of_bodies)) / system_.tolerance;
 }
 
 // Makes the step end on the event: Newton on its length with the true solution, started from the
@@ -242,8 +281,9 @@ bool Stepper::Land(const StepEvents::Found& found) {
   const StepTime planned = system_.step;
   const double left = system_.breakpoint - system_.time;
   // What the trapezoidal rule leaves is of third order in time.
+  const bool shifts = shifts_ && !system_.implicit;
   const double nearby =
-      shifts_ ? kTrapezoid * std::cbrt(system_.tolerance) * (system_.time - system_.touch_time) : 0;
+      shifts ? kTrapezoid * std::cbrt(system_.tolerance) * (system_.time - system_.touch_time) : 0;
   const double event = system_.step.Offset(found.event.theta);
   if (separating_ == found.contact && system_.step.h - event <= nearby) {
     if (found.event.theta < 1) Shift(event - system_.step.h, false);
@@ -278,21 +318,18 @@ void Stepper::Shift(double time, bool tangent) {
   system_.rk.y1 += time * system_.rk.slope1;
   if (!tangent) {
     slope_ = system_.rk.slope1;
-    system_.rk.FinishStep(system_.equations, system_.step);
-    ++system_.evaluations;
+    system_.FinishStep();
     system_.rk.y1 += 0.5 * time * (system_.rk.slope1 - slope_);
   }
-  system_.rk.FinishStep(system_.equations, system_.step);
-  ++system_.evaluations;
+  system_.FinishStep();
 }
 
 void Stepper::Compute(double h, bool parting) {
-  system_.step = {
-      .start = system_.time, .h = h, .warp = parting && system_.fixed_step() == 0 ? 2 : Warp(h)};
-  system_.rk.Step(system_.equations, system_.step);
-  system_.rk.FinishStep(system_.equations, system_.step);
-  ++system_.steps;
-  system_.evaluations += system_.fixed_step() > 0 ? 4 : 12;
+  const bool plain = system_.fixed_step() > 0 || system_.implicit;
+  const double warp = parting ? 2 : Warp(h);
+  system_.step = {.start = system_.time, .h = h, .warp = plain ? 1 : warp};
+  system_.TakeStep(system_.implicit);
+  system_.FinishStep();
 }
 
 // By how much the step must be longer to end on the event, to first order.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "simulation/motion/method_choice.h"
 #include "simulation/motion/moving_system.h"
 #include "simulation/motion/step_events.h"
 
@@ -39,9 +40,23 @@ class Stepper {
   double Warp(double h, double parting = std::numeric_limits<double>::infinity()) const;
   /// Time until a contact in restitution is expected to separate [s]; infinite: not in sight.
   double TimeToSeparation(const ActiveContact& active) const;
-  /// Local error of a step of h [s] with n bodies, in units of what the tolerance allows.
+  /// Local error of the step, in units of what the tolerance allows.
+  double Error();
+  /// By what factor the step may be longer for an error of 1.
+  double Growth(double error) const;
+  /// The largest lengths [m] and speeds [m/s], of contacts and of all bodies, in a step of h [s].
+  struct Extent {
+    double length, speed, body_length, body_speed;
+  };
   template <class Count>
-  double ErrorNorm(Count n, double h) const;
+  Extent Measure(Count n, double h) const;
+  /// Error() of a step of h [s] with n bodies, from the error estimates of every u and v.
+  template <class Count>
+  double ErrorNorm(Count n, double h);
+  /// The step is accepted: how long the next is to be, and by which method.
+  void Adapt(double growth, bool repeated);
+  /// Sets the length of the next step, and its method: that of an implicit step may end its use.
+  void GoOn(double h);
   /// By how much the step must be longer to end on an event [s], to first order.
   double Correction(const StepEvents::Found& found) const;
   /// Moves the end of the step by a short time [s].
@@ -52,8 +67,11 @@ class Stepper {
   MovingSystem& system_;
   // Whether a step that misses its event by little is shifted there instead of repeated.
   const bool shifts_;
-  // Error estimates of every u and v; scratch of ErrorNorm.
-  mutable std::vector<double> error5_, error3_;
+  // Error estimates of every u and v, of order 5 and 3; of an implicit step one estimate and 0.
+  std::vector<double> error5_, error3_;
+  MethodChoice choice_;
+  // The largest μ δᵖ/m_e of a contact at the end of the step [1/s].
+  double decay_ = 0;
   // Largest |u| [m] and |v| [m/s] while no contact was in touch.
   double flight_length_ = 0, flight_speed_ = 0;
   int separating_ = kNone;

@@ -1,0 +1,129 @@
+#include "simulation/motion/extrapolated_euler.h"
+
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+
+namespace contact {
+
+void ExtrapolatedEuler::Step(const Vector& y0, const Vector& slope0, double time, double h, int k,
+                             Vector* y1) {
+  table_.resize(y0.size(), k);
+  Linearize(y0);
+  for (int parts = 1; parts <= k; ++parts) {
+    Integrate(y0, slope0, time, h, parts);
+    Extrapolate(parts);
+  }
+  error_ = (table_.col(0) - table_.col(1)) / h;
+  *y1 = y0 + table_.col(0);
+}
+
+// The Chebyshev points of the second kind, at which a polynomial does not swing between.
+double ExtrapolatedEuler::Node(int i) {
+  return 0.5 - 0.5 * std::cos(std::numbers::pi * i / (kNodes + 1));
+}
+
+void ExtrapolatedEuler::PrepareInterpolation(const Vector& y0, const Vector& slope0, double time,
+                                             double h, int k, const Vector& y1) {
+  nodes_[0] = y0;
+  for (int i = 1; i <= kNodes; ++i) Step(y0, slope0, time, h * Node(i), k, &nodes_[i]);
+  nodes_[kNodes + 1] = y1;
+}
+
+// The barycentric formula.
+void ExtrapolatedEuler::Interpolate(double theta, Vector* y) const {
+  y->setZero(nodes_[0].size());
+  double sum = 0;
+  for (int i = 0; i <= kNodes + 1; ++i) {
+    const double distance = theta - Node(i);
+    if (distance == 0) {
+      *y = nodes_[i];
+      return;
+    }
+    const double half = i == 0 || i == kNodes + 1 ? 0.5 : 1;
+    const double weight = (i % 2 == 0 ? half : -half) / distance;
+    *y += weight * nodes_[i];
+    sum += weight;
+  }
+  *y /= sum;
+}
+
+void ExtrapolatedEuler::Linearize(const Vector& y0) {
+  laws_.clear();
+  for (const ActiveContact& c : equations_.active) {
+    const double rate = c.Relative(y0.data() + equations_.bodies());
+    const ActiveContact::Force f = c.At(c.Relative(y0.data()) - c.gap, rate);
+    laws_.push_back({f.by_deformation, f.by_rate});
+  }
+  for (const Support& s : scenario_.supports) laws_.push_back({s.stiffness, s.damping});  // (M4)
+}
+
+// The motion is kept apart from y0, so that its digits are not lost beside those of y0. Quadratures
+// take the slopes at the end of a part: of the forces at its start, strong damping makes of small
+// errors of δ̇ large ones, which the part ends.
+void ExtrapolatedEuler::Integrate(const Vector& y0, const Vector& slope0, double time, double h,
+                                  int parts) {
+  const std::ptrdiff_t n = equations_.bodies(), quadratures = y0.size() - 2 * n;
+  const double part = h / parts;
+  auto moved = table_.col(parts - 1);
+  Assemble(part);
+  slope_ = slope0;
+  moved.setZero();
+  for (int i = 1; i <= parts; ++i) {
+    // Loads are those at the end of the part, as what answers to them is.
+    equations_.AddLoadChange(time + (i - 1) * part, time + i * part, slope_.data() + n);
+    Accelerate(part);
+    moved.head(2 * n) += part * slope_.head(2 * n);
+    moved.head(n) += part * part * slope_.segment(n, n);  // u by v at the end of the part.
+    y_ = y0 + moved;
+    equations_(time + i * part, y_.data(), slope_.data());
+    moved.tail(quadratures) += part * slope_.tail(quadratures);
+  }
+}
+
+// v' = v + p a' and u' = u + p v', where the forces that make a' are those of u' and v', linear in
+// them: (I + p D/m + p² K/m) a' = a − p K v/m.
+void ExtrapolatedEuler::Assemble(double part) {
+  system_.Resize(linked_.size(), linked_.reach());
+  system_.Reset();
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    const LinkedBodies::Link& link = linked_.links()[i];
+    if (!link.couples) continue;
+    const double growth = part * (laws_[i].by_rate + part * laws_[i].by_deformation);
+    const double left = growth * link.left_inverse, right = growth * link.right_inverse;
+    system_.Add(link.left, link.left, left * link.left_counts);
+    system_.Add(link.left, link.right, -left * link.right_counts);
+    system_.Add(link.right, link.left, -right * link.left_counts);
+    system_.Add(link.right, link.right, right * link.right_counts);
+  }
+  system_.Factor();
+}
+
+void ExtrapolatedEuler::Accelerate(double part) {
+  double* v = slope_.data();  // u̇ = v
+  double* a = v + equations_.bodies();
+  sides_.resize(linked_.size());
+  for (std::ptrdiff_t i = 0; i < linked_.size(); ++i) sides_[i] = a[linked_.body(i)];
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    const LinkedBodies::Link& link = linked_.links()[i];
+    if (!link.couples) continue;
+    const double rate = link.left_counts * v[linked_.body(link.left)] -
+                        link.right_counts * v[linked_.body(link.right)];
+    const double force = part * laws_[i].by_deformation * rate;
+    sides_[link.left] -= link.left_inverse * force;
+    sides_[link.right] += link.right_inverse * force;
+  }
+  system_.Solve(std::integral_constant<std::ptrdiff_t, 1>(), sides_.data());
+  for (std::ptrdiff_t i = 0; i < linked_.size(); ++i) a[linked_.body(i)] = sides_[i];
+}
+
+// Neville's scheme on the polynomial in the length of a part, at 0.
+void ExtrapolatedEuler::Extrapolate(int parts) {
+  for (int m = 1; m < parts; ++m) {
+    const auto better = table_.col(parts - m);
+    auto last = table_.col(parts - m - 1);
+    last = better + (better - last) * (static_cast<double>(parts - m) / m);
+  }
+}
+
+}  // namespace contact
