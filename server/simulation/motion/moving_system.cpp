@@ -80,7 +80,8 @@ void MovingSystem::FinishStep() {
 void MovingSystem::PrepareInterpolation() {
   if (implicit) {
     euler.PrepareInterpolation(rk.y0, rk.slope0, time, step.h, implicit_order, rk.y1);
-    evaluations += ExtrapolatedEuler::kNodes * ExtrapolatedEuler::Evaluations(implicit_order);
+    evaluations +=
+        std::int64_t{ExtrapolatedEuler::kNodes} * ExtrapolatedEuler::Evaluations(implicit_order);
   } else {
     rk.PrepareInterpolation(equations, step);
     if (fixed_step() == 0) evaluations += 3;

@@ -206,7 +206,7 @@ void Stepper::GoOn(double h) {
 }
 
 double Stepper::Error() {
-  const int n = system_.equations.bodies();
+  const std::ptrdiff_t n = system_.equations.bodies();
   if (system_.implicit) {
     std::copy_n(system_.euler.error().data(), 2 * n, error5_.begin());
     std::ranges::fill(error3_, 0.0);
