@@ -117,5 +117,35 @@ TEST(Tangents, FollowStiffContactsInParts) {
   }
 }
 
+// A body creeps against a wall along δ = a + b t, F = k δ + c δ̇. Then m v̇ = −(k u + c v + b), of
+// which the slow part is −b/c e^(−k t/c) in v: c/m is a million times k/c, so that all is damped in
+// steps of which the slow motion is the only measure.
+TEST(Tangents, CreepWithOrderThreeInStepsOfStrongDamping) {
+  const double mass = 0.3, k = 5e7, c = 4e6, a = 2e-5, b = 1e-5, span = 2 * c / k;
+  Scenario s = testing::Collision(mass, 1, k, 1, 1);
+  s.contacts[0].damping = DampingLaw::kKelvinVoigt;
+  const auto work = [&](int steps) {
+    Equations equations(s);
+    Tangents tangents(s, equations);
+    equations.active.push_back(equations.Activate(0, 0, c, 0));
+    tangents.Add();
+    tangents.Prepare();
+    const double h = span / steps;
+    for (int i = 0; i < steps; ++i) {
+      const double start = a + b * i * h;
+      const std::vector<DeformationPath> path = {{{start, b * h, 0}, {start + b * h, b * h, 0}}};
+      tangents.Follow({.start = i * h, .h = h}, path, 0, 1);
+    }
+    return tangents.Work(0)[0];
+  };
+  // W_μ = ∫ b (k u + c v + b) + F v dt, where b (…) = −b m v̇ is nothing beside F v.
+  const double rate = k / c, end = std::exp(-rate * span);
+  const double ramp = (1 - end * (1 + rate * span)) / rate;  // rate ∫ t e^(−rate t) dt
+  const double exact = -b / c * ((k * a + c * b) * (1 - end) / rate + k * b * ramp / rate);
+  const auto error = [&](int steps) { return std::abs(work(steps) / exact - 1); };
+  EXPECT_LT(error(16), 1e-4);
+  EXPECT_NEAR(std::log2(error(4) / error(8)), 3, 0.4);
+}
+
 }  // namespace
 }  // namespace contact

@@ -1,10 +1,24 @@
 #include "simulation/motion/extrapolated_euler.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <type_traits>
 
 namespace contact {
+namespace {
+
+// The Chebyshev points of the second kind, at which a polynomial does not swing between: θ of the
+// places at which a step is known for Interpolate, its ends with them.
+const std::array<double, ExtrapolatedEuler::kNodes + 2> kTheta = [] {
+  std::array<double, ExtrapolatedEuler::kNodes + 2> theta{};
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    theta[i] = 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / (theta.size() - 1));
+  }
+  return theta;
+}();
+
+}  // namespace
 
 void ExtrapolatedEuler::Step(const Vector& y0, const Vector& slope0, double time, double h, int k,
                              Vector* y1) {
@@ -18,29 +32,24 @@ void ExtrapolatedEuler::Step(const Vector& y0, const Vector& slope0, double time
   *y1 = y0 + table_.col(0);
 }
 
-// The Chebyshev points of the second kind, at which a polynomial does not swing between.
-double ExtrapolatedEuler::Node(int i) {
-  return 0.5 - 0.5 * std::cos(std::numbers::pi * i / (kNodes + 1));
-}
-
 void ExtrapolatedEuler::PrepareInterpolation(const Vector& y0, const Vector& slope0, double time,
                                              double h, int k, const Vector& y1) {
-  nodes_[0] = y0;
-  for (int i = 1; i <= kNodes; ++i) Step(y0, slope0, time, h * Node(i), k, &nodes_[i]);
-  nodes_[kNodes + 1] = y1;
+  nodes_.front() = y0;
+  for (std::size_t i = 1; i <= kNodes; ++i) Step(y0, slope0, time, h * kTheta[i], k, &nodes_[i]);
+  nodes_.back() = y1;
 }
 
 // The barycentric formula.
 void ExtrapolatedEuler::Interpolate(double theta, Vector* y) const {
   y->setZero(nodes_[0].size());
   double sum = 0;
-  for (int i = 0; i <= kNodes + 1; ++i) {
-    const double distance = theta - Node(i);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const double distance = theta - kTheta[i];
     if (distance == 0) {
       *y = nodes_[i];
       return;
     }
-    const double half = i == 0 || i == kNodes + 1 ? 0.5 : 1;
+    const double half = i == 0 || i == nodes_.size() - 1 ? 0.5 : 1;
     const double weight = (i % 2 == 0 ? half : -half) / distance;
     *y += weight * nodes_[i];
     sum += weight;
@@ -90,11 +99,9 @@ void ExtrapolatedEuler::Assemble(double part) {
     const LinkedBodies::Link& link = linked_.links()[i];
     if (!link.couples) continue;
     const double growth = part * (laws_[i].by_rate + part * laws_[i].by_deformation);
-    const double left = growth * link.left_inverse, right = growth * link.right_inverse;
-    system_.Add(link.left, link.left, left * link.left_counts);
-    system_.Add(link.left, link.right, -left * link.right_counts);
-    system_.Add(link.right, link.left, -right * link.left_counts);
-    system_.Add(link.right, link.right, right * link.right_counts);
+    link.ForEntries([&](std::ptrdiff_t row, std::ptrdiff_t column, double factor) {
+      system_.Add(row, column, growth * factor);
+    });
   }
   system_.Factor();
 }

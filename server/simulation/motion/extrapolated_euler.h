@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "simulation/methods/banded_system.h"
@@ -48,8 +49,6 @@ class ExtrapolatedEuler {
     double by_deformation = 0, by_rate = 0;
   };
 
-  /// θ of the places at which a step is known for Interpolate; 0 and kNodes + 1 are its ends.
-  static double Node(int i);
   /// The laws of all links at y0.
   void Linearize(const Vector& y0);
   /// T of so many parts, as the motion from y0, into its column of the table.
@@ -75,7 +74,7 @@ class ExtrapolatedEuler {
   Vector sides_;
   Vector error_;
   // y at both ends of the step and at the places inside it.
-  Vector nodes_[kNodes + 2];
+  std::array<Vector, kNodes + 2> nodes_;
 };
 
 }  // namespace contact

@@ -19,6 +19,16 @@ class LinkedBodies {
     /// Whether it is part of linear systems; not if it joins bodies far apart, as a spring between
     /// the ends of a long row.
     bool couples = true;
+
+    /// Calls add(row, column, factor) for the entries of a linear system of accelerations in which
+    /// a force pushes both bodies apart, linear in the difference left − right of their motions.
+    template <class Add>
+    void ForEntries(Add&& add) const {
+      add(left, left, left_inverse * left_counts);
+      add(left, right, -left_inverse * right_counts);
+      add(right, left, -right_inverse * left_counts);
+      add(right, right, right_inverse * right_counts);
+    }
   };
 
   /// Both must outlive this.

@@ -11,6 +11,7 @@ constexpr double kDamped = 1;
 constexpr double kWorth = 5;
 // After so many steps in a row the implicit method has been worth its trial.
 constexpr int kProven = 3;
+// At most so many steps before the next trial: a trial costs a few of them.
 constexpr int kMostPatience = 160;
 
 }  // namespace

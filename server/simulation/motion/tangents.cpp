@@ -16,8 +16,9 @@ constexpr Tangents::Method kGauss = {
 // Radau IIA, of order 3: it leaves nothing of what is damped away at once.
 constexpr Tangents::Method kRadau = {
     {1.0 / 3, 1}, {{5.0 / 12, -1.0 / 12}, {0.75, 0.25}}, {0.75, 0.25}};
-// Damping and swing of a link in a part of a step, by its own masses. Of what decays to e⁻⁸ the
-// method of Gauss leaves a quarter, until the next part, and after a swing of 1 it is late by 1e-3.
+// Damping of a link in a step, by its own masses, from which on Radau takes the place of Gauss,
+// which leaves a quarter of what decays to e⁻⁸; and the most that a link swings in a part, after
+// which Gauss is late by 1e-3.
 constexpr double kDecay = 8, kSwing = 1;
 
 }  // namespace
@@ -107,14 +108,6 @@ double Tangents::Plan() {
 void Tangents::Assemble() {
   system_.Resize(2 * linked_.size(), 2 * linked_.reach() + 1);
   system_.Reset();
-  const auto add = [&](std::ptrdiff_t body, std::ptrdiff_t other, double factor,
-                       const double(&block)[2][2]) {
-    for (std::ptrdiff_t j = 0; j < 2; ++j) {
-      for (std::ptrdiff_t k = 0; k < 2; ++k) {
-        system_.Add(2 * body + j, 2 * other + k, factor * block[j][k]);
-      }
-    }
-  };
   for (std::size_t i = 0; i < linked_.links().size(); ++i) {
     const Link& link = linked_.links()[i];
     if (!link.couples) continue;
@@ -127,11 +120,13 @@ void Tangents::Assemble() {
         block[j][k] = law.by_deformation * lever + law.by_rate * method_->table[j][k];
       }
     }
-    const double left = link.left_inverse, right = link.right_inverse;
-    add(link.left, link.left, left * link.left_counts, block);
-    add(link.left, link.right, -left * link.right_counts, block);
-    add(link.right, link.left, -right * link.left_counts, block);
-    add(link.right, link.right, right * link.right_counts, block);
+    link.ForEntries([&](std::ptrdiff_t body, std::ptrdiff_t other, double factor) {
+      for (std::ptrdiff_t j = 0; j < 2; ++j) {
+        for (std::ptrdiff_t k = 0; k < 2; ++k) {
+          system_.Add(2 * body + j, 2 * other + k, factor * block[j][k]);
+        }
+      }
+    });
   }
   system_.Factor();
 }
