@@ -127,7 +127,7 @@ void serialize(Archive& archive, Outcome& o) {
   archive(o.end, o.message, o.time, o.all_converged, o.positions, o.velocities);
   archive(o.steps, o.evaluations, o.iterations, o.episodes);
   archive(o.worst_identity_residual, o.momentum_residual, o.energy_residual, o.kinetic_energy);
-  archive(o.growths, o.growths_no_progress);
+  archive(o.growths, o.growths_no_progress, o.cut_cycles);
 }
 
 template <class Archive>

@@ -31,7 +31,10 @@ struct Cycle {
     kSettled,       ///< Its work is too small to iterate, or it is a contact's rest.
     kNotConverged,  ///< The iteration ended without any of these.
     kJump,          ///< As μ changes, ε_out jumps over ε_in; Group tells both sides.
-    kUnfinished,    ///< Its group does not end in the run, at no lower μ either.
+    kUnfinished,    ///< The end of the run cuts it, and no μ was found for its group: it has a guess.
+    kReleased,      ///< A restitution without compression: it gives back what was stored before.
+    kLimited,       ///< Its group gives back too much for every μ, and those before it are final.
+    kCut,           ///< The end of the run cuts it; μ is that of a look beyond the end.
   };
 
   int contact = 0;  ///< Index in Scenario::contacts.
@@ -149,6 +152,8 @@ struct Progress {
   std::int64_t steps = 0;       ///< Steps tried so far, in all passes.
   std::int64_t cycles = 0;      ///< Cycles in the ledger so far.
   std::int64_t iterations = 0;  ///< Corrections of μ so far.
+  /// What keeps a run of many steps busy, for people: contact, δ, λh, work; empty before.
+  std::string busy_with = {};
 };
 
 /// How a run ended, and its balances.
@@ -165,6 +170,7 @@ struct Outcome {
   std::string message;             ///< Where and why, for every end but kFinished.
   double time = 0;                 ///< Simulated time reached [s].
   bool all_converged = true;       ///< No cycle is kNotConverged or kInfeasible.
+  std::int64_t cut_cycles = 0;     ///< Cycles that the end of the run cuts: kCut and kUnfinished.
   std::vector<double> positions;   ///< At the end, or the last finite ones [m], for each body.
   std::vector<double> velocities;  ///< At the end, or the last finite ones [m/s], for each body.
 
