@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "simulation/kinds/catalogue.h"
+#include "simulation/proof/independent.h"
 #include "simulation/proof/promises.h"
 
 namespace contact::campaign {
@@ -18,6 +19,10 @@ struct Ledger final : testing::Record {
   void OnIteration(const Iteration&) override { ++passes; }
   void OnGrowth(const Group&) override {}
 };
+
+// How far an independent integration may be from the ledger, and with tension CLIP, whose kink the
+// run does not land on.
+constexpr double kAgreement = 1e-8, kClipped = 1e-6;
 
 constexpr const char* kEnds[] = {"FINISHED", "STOPPED", "NUMERIC", "BUDGET_STEPS", "NOT_CONVERGED"};
 constexpr const char* kCycleStatuses[] = {"CONVERGED",     "GIVEN_LAW", "INFEASIBLE", "SETTLED",
@@ -69,6 +74,22 @@ void Copy(const Outcome& outcome, Result& result) {
   result.energy = outcome.energy_residual;
 }
 
+Check Certify(const Scenario& scenario, const testing::Record& run) {
+  if (run.outcome.end != Outcome::End::kFinished) {
+    return {Check::Verdict::kNotChecked, 0, "it did not finish"};
+  }
+  const testing::Disagreement miss = testing::CompareWithIndependent(scenario, run);
+  const double bound = scenario.solver.clip_tension ? kClipped : kAgreement;
+  Check check{Check::Verdict::kAgrees, miss.Worst(), miss.where};
+  if (!(check.worst <= bound)) {
+    check.verdict = Check::Verdict::kDisagrees;
+  } else if (miss.checked_until < run.outcome.time) {
+    check.verdict = Check::Verdict::kNotChecked;
+    check.what = "from " + std::to_string(miss.checked_until) + " s on: too many steps";
+  }
+  return check;
+}
+
 }  // namespace
 
 Scenario ScenarioOf(int kind, unsigned seed, const Options& options) {
@@ -93,6 +114,7 @@ Result RunOne(int kind, unsigned seed, const Options& options) {
   Count(run, result);
   result.passes = run.passes;
   result.broken = testing::BrokenPromises(scenario, run);
+  if (options.certify) result.certificate = Certify(scenario, run);
   return result;
 }
 

@@ -1,0 +1,239 @@
+#include "simulation/proof/independent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "simulation/proof/plain_motion.h"
+
+namespace contact::testing {
+namespace {
+
+using Status = Cycle::Status;
+
+// Works and velocities are stationary at instants, where F δ̇ = 0: what is off there by a hundred
+// times as much changes nothing else.
+constexpr double kInstants = 0.01;
+
+class Independent {
+ public:
+  Independent(const Scenario& scenario, const Record& run)
+      : s_(scenario), run_(run), speed_(LargestSpeed()), motion_(scenario, speed_) {
+    for (const Cycle& c : run.cycles) {
+      deepest_ = std::max(deepest_, c.max_deformation);
+      hardest_ = std::max(hardest_, c.work_compression);
+      double& deepest = depths_[c.contact];
+      deepest = std::max(deepest, c.max_deformation);
+      Note(c);
+    }
+    std::ranges::stable_sort(marks_, {}, [](const Mark& m) { return std::pair(m.time, m.kind); });
+  }
+
+  Disagreement Compare(int most_steps) {
+    bool arrived = true;
+    for (const Mark& mark : marks_) {
+      arrived = arrived && motion_.Advance(mark.time, most_steps);
+      if (arrived) Apply(mark);
+    }
+    arrived = arrived && motion_.Advance(run_.outcome.time, most_steps);
+    miss_.checked_until = arrived ? run_.outcome.time : motion_.time();
+    miss_.steps = motion_.steps();
+    for (const Group& g : run_.groups) Restitution(g);
+    if (!arrived) return miss_;
+    Overlaps();
+    Velocities();
+    return miss_;
+  }
+
+ private:
+  // In this order where they are at one instant.
+  struct Mark {
+    enum class Kind { kTurn, kEnd, kStart } kind;
+    double time;
+    const Cycle* cycle;
+  };
+  struct Works {
+    double compression = 0, restitution = 0;
+    int cycles = 0;
+  };
+
+  const Contact& Of(const Cycle& c) const {
+    return s_.contacts[static_cast<std::size_t>(c.contact)];
+  }
+  // Whether it is an answer of a cycle that moves.
+  static bool Counts(const Cycle& c) {
+    return c.status != Status::kSettled && c.status != Status::kNotConverged &&
+           c.status != Status::kInfeasible;
+  }
+  // The largest change of its deformation.
+  static double Swing(const Cycle& c) {
+    return c.max_deformation - std::min(c.start_deformation, c.end_deformation);
+  }
+
+  void Note(const Cycle& c) {
+    marks_.push_back({Mark::Kind::kStart, c.start_time, &c});
+    if (c.turn_time > c.start_time) marks_.push_back({Mark::Kind::kTurn, c.turn_time, &c});
+    if (c.end != Cycle::End::kRunEnd) marks_.push_back({Mark::Kind::kEnd, c.end_time, &c});
+  }
+
+  void Miss(double Disagreement::*which, double value, const Cycle* cycle, const char* what) {
+    const bool instant = which == &Disagreement::time || which == &Disagreement::overlap;
+    if (!((instant ? kInstants : 1) * value <= miss_.Worst())) {
+      miss_.where = what;
+      if (cycle != nullptr) {
+        miss_.where += " of " + Of(*cycle).name + ' ' + std::to_string(cycle->number);
+      }
+    }
+    if (!(value <= miss_.*which)) miss_.*which = value;
+  }
+
+  double LargestSpeed() const {
+    double largest = 1e-12;  // Of what never moves.
+    for (const Body& b : s_.bodies) largest = std::max(largest, std::abs(b.velocity));
+    for (const double v : run_.outcome.velocities) largest = std::max(largest, std::abs(v));
+    for (const Cycle& c : run_.cycles) largest = std::max(largest, SwingSpeed(c));
+    return largest;
+  }
+
+  // δ̇⁻, or of the linear swing from δ_s to δ_m.
+  double SwingSpeed(const Cycle& c) const {
+    const Contact& contact = Of(c);
+    const double n = contact.exponent, k = contact.stiffness;
+    const double omega =
+        std::sqrt(n * k * std::pow(c.max_deformation, n - 1) / EffectiveMass(contact));
+    return std::max(c.approach_velocity, omega * Swing(c));
+  }
+
+  double EffectiveMass(const Contact& c) const {
+    double inverse = 0;
+    for (const int body : {c.left, c.right}) {
+      const Body* b = body == kNone ? nullptr : &s_.bodies[static_cast<std::size_t>(body)];
+      if (b != nullptr && !b->fixed) inverse += 1 / b->mass;
+    }
+    return 1 / inverse;
+  }
+
+  // Of a cycle, but not of round-off where it does next to nothing.
+  PlainMotion::Scale ScaleOf(const Cycle& c) const {
+    const double swing = std::max(Swing(c), 1e-9 * deepest_);
+    return {swing, std::max(SwingSpeed(c), 1e-9 * speed_),
+            std::max(c.work_compression, 1e-12 * hardest_)};
+  }
+
+  void Apply(const Mark& mark) {
+    const Cycle& c = *mark.cycle;
+    const PlainMotion::Scale scale = ScaleOf(c);
+    if (mark.kind == Mark::Kind::kStart) return Start(c, scale);
+    if (mark.kind == Mark::Kind::kTurn) return Turn(c, scale);
+    const double rate = std::abs(motion_.Rate(c.contact)) / scale.speed;
+    const double depth = std::abs(motion_.Deformation(c.contact)) / scale.deformation;
+    if (Counts(c)) {
+      Miss(&Disagreement::time, c.end == Cycle::End::kSeparation ? depth : rate, &c, "end");
+    }
+    Works& works = works_[{c.contact, c.group}];
+    works.restitution += motion_.Work(c.contact) - compression_[c.contact];
+    ++works.cycles;
+    motion_.Disengage(c.contact);
+  }
+
+  void Start(const Cycle& c, const PlainMotion::Scale& scale) {
+    if (Counts(c)) {
+      const double path = std::max(c.max_deformation, c.approach_velocity * c.start_time);
+      Miss(&Disagreement::time,
+           std::abs(motion_.Deformation(c.contact) - c.start_deformation) / path, &c,
+           "deformation at the start");
+    }
+    const double rate = motion_.Rate(c.contact);
+    const double miss = std::abs(rate - c.approach_velocity) / scale.speed;
+    if (Counts(c)) {
+      const bool collides = c.kind == Cycle::Kind::kCollision;
+      Miss(&Disagreement::start, collides ? miss : miss * miss, &c, "speed at the start");
+    }
+    Law(c, rate);
+    compression_[c.contact] = 0;
+    motion_.Engage(c.contact, c.mu, scale);
+  }
+
+  void Law(const Cycle& c, double rate) {
+    const Contact& contact = Of(c);
+    if (contact.damping == DampingLaw::kEnergyRestitution || !Counts(c)) return;
+    double mu = contact.mu;
+    if (NeedsNoVelocity(contact.damping)) {
+      mu = DampingFactor(contact.damping, contact.restitution, contact.stiffness,
+                         EffectiveMass(contact));
+    } else if (contact.damping != DampingLaw::kGiven) {
+      const bool collides = c.kind == Cycle::Kind::kCollision;
+      if (!collides && contact.reference_velocity == 0) return;  // It keeps its last μ.
+      const double v = contact.reference_velocity > 0 ? contact.reference_velocity : rate;
+      mu = DampingCoefficient(contact.damping, contact.restitution) * contact.stiffness / v;
+    }
+    Miss(&Disagreement::law, mu == c.mu ? 0 : std::abs(c.mu / mu - 1), &c, "μ of the law");
+  }
+
+  void Turn(const Cycle& c, const PlainMotion::Scale& scale) {
+    if (Counts(c)) {
+      Miss(&Disagreement::time, std::abs(motion_.Rate(c.contact)) / scale.speed, &c, "turn");
+    }
+    compression_[c.contact] = motion_.Work(c.contact);
+    works_[{c.contact, c.group}].compression += compression_[c.contact];
+  }
+
+  // Of groups that were integrated from their start to their end.
+  void Restitution(const Group& g) {
+    const bool answered = g.status == Status::kConverged || g.status == Status::kGivenLaw;
+    if (!answered || g.end == Cycle::End::kRunEnd || !(g.work_compression > 0)) return;
+    const Works& works = works_[{g.contact, g.number}];
+    if (works.cycles < g.cycles) return;
+    const double squared = -works.restitution / works.compression;
+    if (g.status == Status::kGivenLaw && !(g.restitution_out > 0)) return;  // It may pull.
+    const auto first = std::ranges::find_if(run_.cycles, [&](const Cycle& c) {
+      return c.contact == g.contact && c.number == g.first_cycle;
+    });
+    Miss(&Disagreement::restitution, std::abs(std::sqrt(squared) / g.restitution_out - 1),
+         first == run_.cycles.end() ? nullptr : &*first, "ε");
+  }
+
+  void Overlaps() {
+    double size = 0;
+    for (const Body& b : s_.bodies) size = std::max(size, std::abs(b.position) + b.radius);
+    for (int c = 0; c < std::ssize(s_.contacts); ++c) {
+      const double depth = depths_[c] > 0 ? depths_[c] : deepest_ > 0 ? deepest_ : 1e-6 * size;
+      if (motion_.Overlap(c) <= 0) continue;
+      const Contact& contact = s_.contacts[static_cast<std::size_t>(c)];
+      Miss(&Disagreement::overlap, std::pow(motion_.Overlap(c) / depth, contact.exponent), nullptr,
+           ("overlap outside cycles of " + contact.name).c_str());
+    }
+  }
+
+  void Velocities() {
+    const double largest = std::max(motion_.fastest(), 1e-12);
+    for (int i = 0; i < std::ssize(s_.bodies); ++i) {
+      const double v = run_.outcome.velocities[static_cast<std::size_t>(i)];
+      Miss(&Disagreement::velocity, std::abs(motion_.Velocity(i) - v) / largest, nullptr,
+           ("velocity of " + s_.bodies[static_cast<std::size_t>(i)].name).c_str());
+    }
+  }
+
+  const Scenario& s_;
+  const Record& run_;
+  double speed_;
+  PlainMotion motion_;
+  std::vector<Mark> marks_;
+  std::map<int, double> depths_, compression_;  // Of contacts: δ_m of all; W_c of the cycle.
+  double deepest_ = 0, hardest_ = 0;
+  std::map<std::pair<int, int>, Works> works_;  // Of the group of a contact.
+  Disagreement miss_;
+};
+
+}  // namespace
+
+double Disagreement::Worst() const {
+  return std::max({velocity, restitution, start, law, kInstants * time, kInstants * overlap});
+}
+
+Disagreement CompareWithIndependent(const Scenario& scenario, const Record& run, int most_steps) {
+  return Independent(scenario, run).Compare(most_steps);
+}
+
+}  // namespace contact::testing
