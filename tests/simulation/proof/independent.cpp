@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulation/proof/plain_motion.h"
+#include "simulation/proof/promises.h"
 
 namespace contact::testing {
 namespace {
@@ -101,17 +102,8 @@ class Independent {
     const Contact& contact = Of(c);
     const double n = contact.exponent, k = contact.stiffness;
     const double omega =
-        std::sqrt(n * k * std::pow(c.max_deformation, n - 1) / EffectiveMass(contact));
+        std::sqrt(n * k * std::pow(c.max_deformation, n - 1) / EffectiveMass(s_, contact));
     return std::max(c.approach_velocity, omega * Swing(c));
-  }
-
-  double EffectiveMass(const Contact& c) const {
-    double inverse = 0;
-    for (const int body : {c.left, c.right}) {
-      const Body* b = body == kNone ? nullptr : &s_.bodies[static_cast<std::size_t>(body)];
-      if (b != nullptr && !b->fixed) inverse += 1 / b->mass;
-    }
-    return 1 / inverse;
   }
 
   // Of a cycle, but not of round-off where it does next to nothing.
@@ -161,7 +153,7 @@ class Independent {
     double mu = contact.mu;
     if (NeedsNoVelocity(contact.damping)) {
       mu = DampingFactor(contact.damping, contact.restitution, contact.stiffness,
-                         EffectiveMass(contact));
+                         EffectiveMass(s_, contact));
     } else if (contact.damping != DampingLaw::kGiven) {
       const bool collides = c.kind == Cycle::Kind::kCollision;
       if (!collides && contact.reference_velocity == 0) return;  // It keeps its last μ.
