@@ -48,6 +48,9 @@ class ExtrapolatedMidpoint {
       for (std::size_t i = 0; i < y.size(); ++i) before_[i] += 2 * part * slope_[i];
       before_.swap(to);
     }
+    // Gragg's smoothing: without it nothing looks at the end of the step.
+    slopes(to, slope_, t + h);
+    for (std::size_t i = 0; i < y.size(); ++i) to[i] = (before_[i] + to[i] + part * slope_[i]) / 2;
   }
 
   std::array<std::vector<double>, kRows> table_;
