@@ -20,10 +20,9 @@ constexpr double kInstants = 0.01;
 class Independent {
  public:
   Independent(const Scenario& scenario, const Record& run)
-      : s_(scenario), run_(run), speed_(LargestSpeed()), motion_(scenario, speed_) {
+      : s_(scenario), run_(run), motion_(scenario, LargestSpeed()) {
     for (const Cycle& c : run.cycles) {
       deepest_ = std::max(deepest_, c.max_deformation);
-      hardest_ = std::max(hardest_, c.work_compression);
       double& deepest = depths_[c.contact];
       deepest = std::max(deepest, c.max_deformation);
       Note(c);
@@ -93,24 +92,30 @@ class Independent {
     double largest = 1e-12;  // Of what never moves.
     for (const Body& b : s_.bodies) largest = std::max(largest, std::abs(b.velocity));
     for (const double v : run_.outcome.velocities) largest = std::max(largest, std::abs(v));
-    for (const Cycle& c : run_.cycles) largest = std::max(largest, SwingSpeed(c));
+    for (const Cycle& c : run_.cycles) {
+      const double swing = Frequency(Of(c), c.max_deformation) * Swing(c);
+      largest = std::max({largest, c.approach_velocity, swing});
+    }
     return largest;
   }
 
-  // δ̇⁻, or of the linear swing from δ_s to δ_m.
-  double SwingSpeed(const Cycle& c) const {
-    const Contact& contact = Of(c);
-    const double n = contact.exponent, k = contact.stiffness;
-    const double omega =
-        std::sqrt(n * k * std::pow(c.max_deformation, n - 1) / EffectiveMass(s_, contact));
-    return std::max(c.approach_velocity, omega * Swing(c));
+  // ω of the linear swing about a deformation [rad/s].
+  double Frequency(const Contact& contact, double depth) const {
+    const double n = contact.exponent;
+    return std::sqrt(n * contact.stiffness * std::pow(depth, n - 1) / EffectiveMass(s_, contact));
   }
 
-  // Of a cycle, but not of round-off where it does next to nothing.
+  // Of a cycle; but not of round-off where it hardly swings, nor where its row tells next to
+  // nothing of its swing.
   PlainMotion::Scale ScaleOf(const Cycle& c) const {
-    const double swing = std::max(Swing(c), 1e-9 * deepest_);
-    return {swing, std::max(SwingSpeed(c), 1e-9 * speed_),
-            std::max(c.work_compression, 1e-12 * hardest_)};
+    const Contact& contact = Of(c);
+    const double depth =
+        Counts(c) ? c.max_deformation : std::max(c.max_deformation, 0.1 * depths_.at(c.contact));
+    const double least = (Counts(c) ? 1e-6 : 1e-4) * depth;
+    const double swing = std::max({Swing(c), least, 1e-9 * deepest_});
+    const double force = contact.stiffness * std::pow(depth, contact.exponent);
+    return {swing, std::max(c.approach_velocity, Frequency(contact, depth) * swing),
+            std::max(c.work_compression, force * swing)};
   }
 
   void Apply(const Mark& mark) {
@@ -137,14 +142,31 @@ class Independent {
            "deformation at the start");
     }
     const double rate = motion_.Rate(c.contact);
-    const double miss = std::abs(rate - c.approach_velocity) / scale.speed;
     if (Counts(c)) {
       const bool collides = c.kind == Cycle::Kind::kCollision;
-      Miss(&Disagreement::start, collides ? miss : miss * miss, &c, "speed at the start");
+      Miss(&Disagreement::start,
+           collides ? std::abs(rate - c.approach_velocity) / scale.speed
+                    : StartEnergy(c, rate) / (scale.speed * scale.speed),
+           &c, "speed at the start");
     }
     Law(c, rate);
+    if (c.status == Status::kSettled) rests_[c.contact] = &c;
     compression_[c.contact] = 0;
     motion_.Engage(c.contact, c.mu, scale);
+  }
+
+  // What a NIRV cycle begins with, twice over m_e; but not the rest of a swing that lets it settle.
+  double StartEnergy(const Cycle& c, double rate) {
+    const auto before = rests_.find(c.contact);
+    if (before == rests_.end() || before->second->number + 1 != c.number) return rate * rate;
+    double largest = 0;
+    for (const Cycle& other : run_.cycles) {
+      if (other.contact == c.contact && other.number < c.number) {
+        largest = std::max(largest, other.work_compression);
+      }
+    }
+    const double rest = s_.solver.settled_nirv_fraction * largest;
+    return std::max(0.0, rate * rate - 2 * rest / EffectiveMass(s_, Of(c)));
   }
 
   void Law(const Cycle& c, double rate) {
@@ -209,11 +231,11 @@ class Independent {
 
   const Scenario& s_;
   const Record& run_;
-  double speed_;
   PlainMotion motion_;
   std::vector<Mark> marks_;
   std::map<int, double> depths_, compression_;  // Of contacts: δ_m of all; W_c of the cycle.
-  double deepest_ = 0, hardest_ = 0;
+  std::map<int, const Cycle*> rests_;           // The last row of a contact that is SETTLED.
+  double deepest_ = 0;
   std::map<std::pair<int, int>, Works> works_;  // Of the group of a contact.
   Disagreement miss_;
 };

@@ -11,14 +11,15 @@ namespace contact::testing {
 
 /// How far the ledger of a run is from what an independent method finds, relative. Of times: the
 /// rest of the speed that shall be 0 there, or of the deformation, over the largest of the cycle.
+/// A NIRV cycle shall begin with δ̇ = 0; after a rest with no more than may settle.
 struct Disagreement {
-  double velocity = 0;     ///< Of the bodies at the end, over the largest speed.
-  double restitution = 0;  ///< Of the groups that are CONVERGED or follow a law, and have ended.
-  double time = 0;         ///< Of starts, turns and ends of cycles that did not rest.
-  double start = 0;    ///< Of δ̇⁻; of NIRV cycles the energy at their start, which shall be 0.
-  double overlap = 0;  ///< Elastic force outside cycles, over the largest of the contact.
-  double law = 0;      ///< Of μ of a named law, by its α and δ̇⁻.
-  std::string where;   ///< The contact and cycle of the worst of these.
+  double velocity = 0;       ///< Of the bodies at the end, over the largest speed.
+  double restitution = 0;    ///< Of the groups that are CONVERGED or follow a law, and have ended.
+  double time = 0;           ///< Of starts, turns and ends of cycles that did not rest.
+  double start = 0;          ///< Of δ̇⁻; of NIRV cycles the energy at their start.
+  double overlap = 0;        ///< Elastic force outside cycles, over the largest of the contact.
+  double law = 0;            ///< Of μ of a named law, by its α and δ̇⁻.
+  std::string where;         ///< The contact and cycle of the worst of these.
   double checked_until = 0;  ///< Where the integration ended [s]: too many steps, or the run's end.
   int steps = 0;             ///< Of the integration.
 
