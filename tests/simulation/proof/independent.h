@@ -15,15 +15,17 @@ namespace contact::testing {
 struct Disagreement {
   double velocity = 0;       ///< Of the bodies at the end, over the largest speed.
   double restitution = 0;    ///< Of the groups that are CONVERGED or follow a law, and have ended.
+  double work = 0;           ///< Of W_c of these groups.
   double time = 0;           ///< Of starts, turns and ends of cycles that did not rest.
-  double start = 0;          ///< Of δ̇⁻; of NIRV cycles the energy at their start.
+  double approach = 0;       ///< Of δ̇⁻ of collisions.
+  double rest = 0;           ///< Energy with which NIRV cycles begin, over that of their swing.
   double overlap = 0;        ///< Elastic force outside cycles, over the largest of the contact.
   double law = 0;            ///< Of μ of a named law, by its α and δ̇⁻.
   std::string where;         ///< The contact and cycle of the worst of these.
   double checked_until = 0;  ///< Where the integration ended [s]: too many steps, or the run's end.
   int steps = 0;             ///< Of the integration.
 
-  /// The largest, of which times and overlap count a hundredth.
+  /// The largest, of which times and overlap count a hundredth, works and δ̇⁻ a tenth.
   double Worst() const;
 };
 
