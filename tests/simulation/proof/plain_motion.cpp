@@ -187,7 +187,7 @@ double PlainMotion::Stiffest() const {
 
 // Relative to what is allowed: the tolerance, and what round-off makes in a step.
 double PlainMotion::Error(const Vector& e, double step) const {
-  constexpr double kRound = 8 * std::numeric_limits<double>::epsilon();
+  constexpr double kRound = 64 * std::numeric_limits<double>::epsilon();
   double worst = 0;
   const auto take = [&](double error, double allowed) {
     worst = std::max(worst, std::isfinite(error) ? std::abs(error) / allowed : kTooFar);
@@ -204,7 +204,11 @@ double PlainMotion::Error(const Vector& e, double step) const {
     for (const int body : {c.left, c.right}) {
       if (body != kNone) fast = std::max(fast, std::abs(state_[bodies_ + At(body)]));
     }
-    take(Difference(c.left, c.right, e, bodies_), tolerance_ * scales_[i].speed + kRound * fast);
+    // Also the forces in equilibrium have digits to lose.
+    const double pull = step * c.stiffness * std::pow(std::max(0.0, -gaps_[i]), c.exponent) *
+                        (InverseMass(c.left) + InverseMass(c.right));
+    const double v = tolerance_ * scales_[i].speed + kRound * (fast + pull);
+    take(Difference(c.left, c.right, e, bodies_), v);
     take(Difference(c.left, c.right, e, 0),
          tolerance_ * scales_[i].deformation + kRound * (fast * step + std::abs(gaps_[i])));
     take(e[2 * bodies_ + i], tolerance_ * scales_[i].work);
