@@ -11,8 +11,8 @@ namespace {
 
 // A counterpart has as many cycles, and begins and ends at the times of a group, to these parts of
 // its duration. A contact in a row of touching balls begins when its deformation is more than
-// round-off, which the tolerance decides.
-constexpr double kSameStart = 0.1, kSameEnd = 1e-3;
+// round-off, which the tolerance decides; one that creeps ends when its speed is less than that.
+constexpr double kSameStart = 0.1, kSameEnd = 0.25;
 
 class Comparison {
  public:
