@@ -68,13 +68,11 @@ TEST(Machines, AreSolvedInNinetyNineOfAHundred) {
 
 TEST(Machines, HaveTheSameAnswersInOtherWords) {
   for (const Machine& machine : Machines()) {
-    for (unsigned seed = kFirst; seed < kFirst + (kOptimized ? 2 : 1); ++seed) {
-      const Scenario s = Rolled(machine, seed);
-      const Ledger run = RunForLedger(s);
-      if (!IsFull(run) || (!kOptimized && run.outcome.steps > 2'000)) continue;
-      const Difference found = CompareWithOtherWords(s, run);
-      EXPECT_LT(found.worst, 1e-6) << NameOf(machine, seed) << ": " << found.where;
-    }
+    const Scenario s = Rolled(machine, kFirst);
+    const Ledger run = RunForLedger(s);
+    if (!IsFull(run) || (!kOptimized && run.outcome.steps > 2'000)) continue;
+    const Difference found = CompareWithOtherWords(s, run);
+    EXPECT_LT(found.worst, 1e-6) << NameOf(machine, kFirst) << ": " << found.where;
   }
 }
 
