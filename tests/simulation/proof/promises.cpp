@@ -102,11 +102,13 @@ class Judge {
 
   // A guess may stay where the end of the run cuts its group, if it is one that lets go.
   void Unfinished(const Group& g) {
-    if (!full() || g.status != Cycle::Status::kUnfinished) return;
-    const auto& contact = s_.contacts[static_cast<std::size_t>(g.contact)];
+    const bool unfinished = g.status == Cycle::Status::kUnfinished;
+    if (!full() || !(unfinished || g.status == Cycle::Status::kCut)) return;
+    const Contact& contact = s_.contacts[static_cast<std::size_t>(g.contact)];
     const double most =
         std::ranges::max_element(run_.groups, {}, &Group::work_compression)->work_compression;
-    if (g.end != Cycle::End::kRunEnd && g.work_compression > promised_.negligible * most) {
+    if (unfinished && g.end != Cycle::End::kRunEnd &&
+        g.work_compression > promised_.negligible * most) {
       BreakOnce("unfinished", contact.name, " group ", g.number);
     }
     const double blow = MuOfBlow(contact, Hardest(g));

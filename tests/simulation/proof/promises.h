@@ -13,7 +13,7 @@ struct Promised {
   double identity = 1e-7;     ///< Largest residual of (W4) of a FULL run.
   double balance = 1e-8;      ///< Residuals of (B1) and (B2).
   double negligible = 1e-9;   ///< Of the largest W_c of the run: what may be UNFINISHED inside it.
-  double glue = 1e5;          ///< μ of an UNFINISHED group over that of a blow as hard as it felt.
+  double glue = 1e5;  ///< μ of a group without an end over that of a blow as hard as it felt.
 };
 
 /// A few words for each promise that the ledger of a run breaks; empty: none. A run that ended
