@@ -105,7 +105,7 @@ void Sampler::Record(double time, const Eigen::ArrayXd& y) {
   auto& row = samples_.values;
   row.push_back(time);
   for (int i = 0; i < n; ++i) {
-    row.push_back(equations.base[static_cast<std::size_t>(i)] + y[i]);
+    row.push_back(equations.base()[static_cast<std::size_t>(i)] + y[i]);
     row.push_back(y[n + i]);
   }
   auto active = equations.active.begin();  // In the order of the contacts, as this loop.

@@ -13,8 +13,9 @@ namespace {
 
 // A resting contact is awake when its work is this many times what lets it settle.
 constexpr double kWakeFactor = 4;
-// The scale to which a resting contact is integrated, relative to its deformation.
-constexpr double kRestingScale = 1e-3;
+// The scale to which a resting contact is integrated, relative to its deformation; and that to which
+// any is that begins compressed: what swings less is negligible, or soon will be.
+constexpr double kRestingScale = 1e-3, kLeastScale = 1e-5;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -38,7 +39,7 @@ void Cycles::Begin() {
     turn_gradient_[At(c)].resize(0);
     system_.scales[At(c)] = {std::abs(contact.gap + contact.cycle.start_deformation),
                              contact.cycle.approach_velocity};
-    if (contact.phase == Phase::kResting) SetRestingScale(c);
+    if (contact.phase == Phase::kResting) RaiseScale(c, kRestingScale);
   }
 }
 
@@ -104,7 +105,7 @@ void Cycles::StartCycle(int contact, CycleHost& host) {
   if (state.cycle.kind == Cycle::Kind::kCollision) system_.touch_time = system_.time;
   ShiftAtJump(contact, 1);
   state.duration = ExpectedDuration(contact);
-  if (state.settled) SetRestingScale(contact);
+  if (state.settled) RaiseScale(contact, kRestingScale);
   const double first = FirstStep(contact);
   system_.next_step = system_.next_step == 0 ? first : std::min(system_.next_step, first);
 }
@@ -146,20 +147,22 @@ void Cycles::SetScale(int contact, const CycleHost::Factor& factor) {
   const double approach = cycle.approach_velocity;
   MovingSystem::Scale& scale = system_.scales[At(contact)];
   scale = {factor.length, std::max(factor.speed, approach)};
-  if (factor.length != 0 || cycle.kind != Cycle::Kind::kCollision) return;
+  if (cycle.kind == Cycle::Kind::kNirv) return RaiseScale(contact, kLeastScale);
+  if (factor.length != 0) return;
   const double alpha = NeedsNoVelocity(c.damping) ? 0 : factor.mu * approach / c.stiffness;
   scale.length = MaximumDeformation(system_.equations.effective_mass(contact), approach,
                                     c.stiffness, c.exponent, alpha);
 }
 
-void Cycles::SetRestingScale(int contact) {
+// The scale of a swing by this part of the deformation with which the cycle began.
+void Cycles::RaiseScale(int contact, double part) {
   const Contact& c = system_.scenario.contacts[At(contact)];
   const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
   const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
-  system_.scales[At(contact)].length = kRestingScale * deformation;
-  system_.scales[At(contact)].speed =
-      kRestingScale * deformation *
-      std::sqrt(stiffness / system_.equations.effective_mass(contact));
+  const double rate = std::sqrt(stiffness / system_.equations.effective_mass(contact));
+  MovingSystem::Scale& scale = system_.scales[At(contact)];
+  scale.length = std::max(scale.length, part * deformation);
+  scale.speed = std::max(scale.speed, part * deformation * rate);
 }
 
 // A small part of the cycle's duration, from the law's own scales.

@@ -33,7 +33,7 @@ State Motion::Save() const {
   state.time = system_.time;
   state.step = system_.next_step;
   state.contacts = system_.contacts;
-  state.positions = system_.equations.base;
+  state.positions = system_.equations.base();
   for (int i = 0; i < n; ++i) state.positions[At(i)] += system_.rk.y0[i];
   state.velocities.assign(system_.rk.y0.begin() + n, system_.rk.y0.begin() + n + n);
   for (int c = 0; c < system_.equations.contacts(); ++c) {

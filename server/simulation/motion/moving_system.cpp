@@ -36,7 +36,7 @@ void MovingSystem::Begin(const State& state, bool is_recording, double own_toler
   contact_loss = state.contact_loss;
   touch_time = kNaN;
 
-  equations.base = state.positions;
+  equations.Rebase(state.positions);
   equations.recording = is_recording;
   tangents.Clear();
   SelectLoads();

@@ -38,10 +38,15 @@ double StepEvents::Noise(int contact) const {
   for (const int body : {c.left, c.right}) {
     if (body == kNone) continue;
     noise += 1e-12 * std::max(std::abs(system_.rk.y0[body]), std::abs(system_.rk.y1[body])) +
-             1e-15 * (std::abs(system_.equations.base[At(body)]) +
+             1e-15 * (std::abs(system_.equations.base()[At(body)]) +
                       system_.scenario.bodies[At(body)].radius);
   }
   return noise;
+}
+
+double StepEvents::Drift(int contact) const {
+  const double* v = system_.rk.y0.data() + system_.equations.bodies();
+  return system_.step.h * system_.equations.Relative(contact, v);
 }
 
 StepEvents::Found StepEvents::First(int separating) const {
@@ -55,7 +60,7 @@ StepEvents::Found StepEvents::First(int separating) const {
     const auto [start, end] = system_.PathEnds(c);
     if (DeformationPath::IsPlain(phase, start, end)) continue;
     const double noise = phase == Phase::kOpen ? Noise(c) : 0;
-    const auto event = FirstEvent(phase, {start, end}, passed_[At(c)], noise);
+    const auto event = FirstEvent(phase, {start, end, Drift(c)}, passed_[At(c)], noise);
     if (!event) continue;
     if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
   }

@@ -21,6 +21,9 @@ constexpr double kSafety = 0.8;  // Of the next step.
 constexpr double kEarly = 10;    // Tolerances a step may miss by in a pass that is not exact.
 constexpr double kMostGrowth = 6;
 constexpr double kStable = 4;  // λ h of the first explicit step after implicit ones.
+// The scale of a contact, in that of the largest: with 1e-3 the ε of weak contacts was off by 3e-6.
+constexpr double kWeakest = 1e-6;
+constexpr double kRoundOff = 1e-15;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -155,6 +158,7 @@ void Stepper::TakeFixed(double until) {
 }
 
 bool Stepper::Take(double until) {
+  until_ = until;
   const int n = system_.equations.bodies();
   if (system_.fixed_step() > 0) {
     TakeFixed(until);
@@ -248,10 +252,7 @@ double Stepper::ErrorNorm(Count n, double h) {
   if (!std::isfinite(sum)) return kForever;  // And only then y1 is not finite.
   const double* y = system_.rk.y1.data();
   const Extent extent = Measure(n, h);
-  // What the round-off of velocities makes of lengths in a step is no error of the step.
-  const double round_off =
-      1e-15 * extent.body_speed * h / system_.scenario.solver.relative_tolerance;
-  const double least_length = Largest(1e-3 * extent.length, round_off);
+  const double digits = kRoundOff / system_.scenario.solver.relative_tolerance;
   double norm = 0;
   decay_ = 0;
   for (const ActiveContact& active : system_.equations.active) {
@@ -260,10 +261,18 @@ double Stepper::ErrorNorm(Count n, double h) {
     const Motions three{active.Relative(e3), active.Relative(e3 + n)};
     // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
     const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
-    const double length = Largest(own.length, least_length);
-    const double damping = kink ? 0 : active.DampingAt(active.Relative(y) - active.gap);
-    const double decay = damping * (active.left_inverse + active.right_inverse);
-    const Motions scale{length, Largest(own.speed, 1e-3 * extent.speed) + decay * length};
+    // What round-off of positions and velocities makes of a step is no error of the step.
+    const double deformation = active.Relative(y) - active.gap;
+    const double inverse_mass = active.left_inverse + active.right_inverse;
+    const double moved = Largest(active.left_counts * std::abs(y[active.left]),
+                                 active.right_counts * std::abs(y[active.right]));
+    const double stiffness = active.StiffnessAt(deformation) * inverse_mass;
+    const double rate = stiffness + system_.equations.SupportRate(active);
+    const double length = Largest(own.length, kWeakest * extent.length,
+                                  digits * (moved + extent.body_speed * h));
+    const double speed = Largest(own.speed, kWeakest * extent.speed, digits * moved * rate * h);
+    const double decay = kink ? 0 : active.DampingAt(deformation) * inverse_mass;
+    const Motions scale{length, speed + decay * length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
     decay_ = Largest(decay_, decay);
   }
@@ -279,7 +288,7 @@ double Stepper::ErrorNorm(Count n, double h) {
 bool Stepper::Land(const StepEvents::Found& found) {
   const bool parting = found.event.kind == EventKind::kSeparation;
   const StepTime planned = system_.step;
-  const double left = system_.breakpoint - system_.time;
+  const double left = std::min(until_, system_.breakpoint) - system_.time;
   // What the trapezoidal rule leaves is of third order in time.
   const bool shifts = shifts_ && !system_.implicit;
   const double nearby =
@@ -294,7 +303,7 @@ bool Stepper::Land(const StepEvents::Found& found) {
     const double correction = Correction(found);
     const double h = system_.step.h + correction;
     if (!(h > 0) || h > 2 * planned.h) break;
-    if (h > left) {  // The event is past a load's breakpoint, after which all is different.
+    if (h > left) {  // The event is past the end, or past a breakpoint, after which all differs.
       Compute(left, false);
       return false;
     }

@@ -75,6 +75,8 @@ class Stepper {
   // Largest |u| [m] and |v| [m/s] while no contact was in touch.
   double flight_length_ = 0, flight_speed_ = 0;
   int separating_ = kNone;
+  // No step goes further [s].
+  double until_ = 0;
   // The last step that no separation near has shortened [s].
   double cruise_ = 0;
   // Slopes before a Shift.
