@@ -9,7 +9,6 @@
 namespace contact {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 // Steps of a cycle whose duration is not known.
 constexpr double kSteps = 30;
 // Samples nearer than this part of their spacing are one.

@@ -2,6 +2,7 @@
 
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/string.hpp>
+#include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -101,7 +102,7 @@ void serialize(Archive& archive, Group& g) {
 
 template <class Archive>
 void serialize(Archive& archive, ContactState::Membership& m) {
-  archive(m.open, m.place, m.lasts, m.groups, m.iterations, m.imbalance, m.group);
+  archive(m.open, m.released, m.after_rest, m.place, m.lasts, m.groups, m.iterations, m.imbalance, m.group);
 }
 
 template <class Archive>
@@ -114,6 +115,7 @@ void serialize(Archive& archive, ContactState& c) {
   archive(c.phase, c.gap, c.cycles, c.last_mu, c.largest_work, c.settled, c.duration);
   archive(c.work, c.external_work, c.column, c.peak, c.cycle);
   archive(c.encounter, c.member);
+  archive(c.woken, c.start_velocity, c.rest_until, c.rest_mark);
 }
 
 template <class Archive>
@@ -157,7 +159,7 @@ template <class Archive>
 void serialize(Archive& archive, RunState& s) {
   archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
   archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
-  archive(s.growths, s.growths_no_progress, s.solved_until);
+  archive(s.growths, s.growths_no_progress, s.solved_until, s.rest_ends);
   archive(s.unknowns, s.warned, s.missed, s.sampling);
 }
 

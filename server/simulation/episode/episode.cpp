@@ -89,6 +89,8 @@ void EpisodeSolver::Save(RunState* state) const {
   state->solved_until = solved_until_;
   state->unknowns.clear();
   for (const auto& [id, unknown] : problem_.groups.known()) state->unknowns.push_back(unknown);
+  const auto& ends = problem_.groups.rest_ends();
+  state->rest_ends.assign(ends.begin(), ends.end());
   recorder_.Save(state);
 }
 
@@ -98,6 +100,7 @@ void EpisodeSolver::Restore(const RunState& state) {
   log_.growths_no_progress = state.growths_no_progress;
   solved_until_ = state.solved_until;
   for (const Unknown& unknown : state.unknowns) problem_.groups.At(unknown.id) = unknown;
+  for (const auto& [id, time] : state.rest_ends) problem_.groups.NoteRestEnd(id, time);
   recorder_.Restore(state);
   episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "simulation/laws/isolated_collision.h"
+
 namespace contact {
 namespace {
 
@@ -47,6 +49,15 @@ double FirstGuess::Factor(const ContactState& state, double effective_mass,
     return Sought(state, alpha, own, effective_mass, external_force);
   }
   return own > 0 ? alpha * contact.stiffness / own : kNaN;
+}
+
+double FirstGuess::Released(const ContactState& state, double effective_mass) const {
+  const Contact& c = scenario_.contacts[At(state.cycle.contact)];
+  if (c.damping == DampingLaw::kGiven || NeedsNoVelocity(c.damping)) return state.cycle.mu;
+  const double alpha = DampingCoefficient(c.damping, c.restitution);
+  return alpha * c.stiffness /
+         ApproachVelocity(effective_mass, state.cycle.start_deformation, c.stiffness, c.exponent,
+                          alpha);
 }
 
 double FirstGuess::Sought(const ContactState& state, double alpha, double own,

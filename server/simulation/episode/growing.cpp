@@ -31,7 +31,7 @@ bool Growing::TakeNext(const GroupId& id, Growth why) {
   const GroupSight* here = sight.Find(id);
   const GroupSight* there = sight.Find(next);
   if (here == nullptr || !here->ended || here->separated) return false;
-  if (there == nullptr) return false;
+  if (there == nullptr || there->after_rest) return false;
   GroupSight taken = *there;
   // Of one that does not end in sight the group takes what there is: it is unfinished then.
   if (taken.cycles == 0) taken.last_turn = (taken.start_time + sight.time) / 2;
@@ -47,6 +47,7 @@ bool Growing::JoinPrevious(const GroupId& id, Growth why) {
   const GroupSight* here = sight.Find(id);
   const GroupSight* there = sight.Find(before);
   if (here == nullptr || here->cycles == 0 || there == nullptr || !there->sought) return false;
+  if (here->after_rest) return false;
   problem_.groups.Merge(*there, *here, why);
   log_.Grow(sight, before, problem_.groups.At(before));
   return true;

@@ -109,6 +109,7 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
     if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
     made.first_cycle = cycle.number;
     made.start_time = cycle.start_time;
+    made.after_rest = state.member.after_rest;
     if (unknown.weak && mu == state.last_mu) {  // It keeps that μ, and so its column.
       made.column = state.column;
     } else if (made.sought && mu > 0 && WantsColumn(made.id)) {
@@ -120,6 +121,27 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
   if (seen == nullptr) return {.mu = mu};
   const Unknown& unknown = *groups_.Find(seen->id);
   return {.mu = mu, .column = seen->column, .length = unknown.length, .speed = unknown.speed};
+}
+
+double Pass::OnRelease(ContactState& state, double effective_mass) {
+  const double mu = membership_.Release(state, effective_mass);
+  if (GroupSight* seen = Seen(state); seen != nullptr) {
+    seen->mu = mu;
+    seen->released = true;
+    seen->sought = false;
+    seen->column = kNone;
+  }
+  return mu;
+}
+
+double Pass::RestEnds(const ContactState& state) { return membership_.RestEnd(state); }
+
+// Notes when the rest ends: the pass shows nothing, and is to begin anew.
+bool Pass::OnDisturbed(const ContactState& state, double cause) {
+  if (!plan_.retries) return true;
+  groups_.NoteRestEnd(LastGroup(state), cause);
+  enough_ = sight_.disturbed = true;
+  return false;
 }
 
 void Pass::OnCancel(ContactState& state) {

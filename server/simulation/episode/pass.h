@@ -20,6 +20,7 @@ class Pass final : public CycleHost {
     int most_cycles = 1;              ///< It ends when so many have begun.
     bool first_quiet = false;         ///< It ends at the first instant at which no cycle runs.
     bool guess = false;               ///< It guesses anew what was only guessed.
+    bool retries = true;              ///< It may end because a rest should have ended earlier.
     bool sensitive = false;           ///< It differentiates by the μ of these groups:
     std::vector<GroupId> front = {};  ///< it ends when all have ended. Empty: by what a scan needs.
   };
@@ -43,6 +44,9 @@ class Pass final : public CycleHost {
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
              const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
   void OnCancel(ContactState& state) override;
+  double OnRelease(ContactState& state, double effective_mass) override;
+  double RestEnds(const ContactState& state) override;
+  bool OnDisturbed(const ContactState& state, double cause) override;
   bool OnStep() override;
 
  private:

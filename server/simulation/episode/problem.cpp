@@ -20,6 +20,8 @@ constexpr double kFelt = 3000, kFeltWhenDriven = 1e5, kFeltAtFirst = 1e6;
 // Part of a scan that passes have to be spared for a state to be kept, and how long before the
 // front it is taken.
 constexpr double kWorth = 0.1, kShortly = 1e-3;
+// So often a pass is made again because a rest in it should have ended earlier.
+constexpr int kMostRetries = 30;
 // Coarser passes miss events.
 constexpr double kCoarsest = 1e-6;
 
@@ -41,6 +43,11 @@ Sight Problem::Look(const State& from, Pass::Plan plan) {
   plan.end = end_;
   plan.until = std::min(plan.until, horizon_);
   Sight sight = pass_.Look(from, plan, stop_, step_limit_);
+  for (int i = 1; sight.disturbed; ++i) {  // From the start: the state kept may have been at rest.
+    near_ = {};
+    plan.retries = i < kMostRetries;
+    sight = pass_.Look(*start_, plan, stop_, step_limit_);
+  }
   pause_ = sight.pause;
   aborted_ = pause_ == Motion::Pause::kStopped || pause_ == Motion::Pause::kStepLimit;
   return sight;

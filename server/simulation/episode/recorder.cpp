@@ -67,6 +67,15 @@ CycleHost::Factor Recorder::OnStart(ContactState& state, double effective_mass,
   return {.mu = mu, .length = unknown->length, .speed = unknown->speed};
 }
 
+double Recorder::OnRelease(ContactState& state, double effective_mass) {
+  Group& group = state.member.group;
+  const bool iterated =
+      scenario_.contacts[At(state.cycle.contact)].damping == DampingLaw::kEnergyRestitution;
+  if (iterated) group.status = Cycle::Status::kReleased;
+  if (group.number == 0) group.number = ++state.member.groups;
+  return membership_.Release(state, effective_mass);
+}
+
 void Recorder::OnCancel(ContactState& state) {
   const bool numbered = state.member.group.number > 0;
   if (membership_.Cancel(state) && numbered) --state.member.groups;

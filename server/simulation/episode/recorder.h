@@ -23,6 +23,8 @@ class Recorder final : public CycleHost {
   Factor OnStart(ContactState& state, double effective_mass, double external_force) override;
   void OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::ArrayXd&, double,
              double) override;
+  double OnRelease(ContactState& state, double effective_mass) override;
+  double RestEnds(const ContactState& state) override { return membership_.RestEnd(state); }
   void OnCancel(ContactState& state) override;
   bool OnStep() override;
 

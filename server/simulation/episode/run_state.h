@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "simulation/episode/unknown.h"
@@ -29,6 +30,7 @@ struct RunState {
   double energy_scale = 0, momentum_scale = 0;
   double solved_until = 0;        ///< All that begins before has its answer [s].
   std::vector<Unknown> unknowns;  ///< What is known of groups that begin later.
+  std::vector<std::pair<GroupId, double>> rest_ends;  ///< Groups::rest_ends.
   std::vector<bool> warned;       ///< Contacts of which a warning was given.
   std::vector<bool> missed;       ///< Laws of which a miss was told.
   Sampling sampling;

@@ -64,6 +64,8 @@ struct GroupSight {
   bool ended = false;      ///< In the pass.
   bool separated = false;  ///< How it ended.
   bool weak = false;       ///< Negligible work.
+  bool released = false;   ///< A restitution without compression before it; not sought.
+  bool after_rest = false;  ///< Before it the contact has rested: it joins none before.
   int first_cycle = 1, cycles = 0;
   double start_time = 0, end_time = 0, last_turn = 0;
   double work_compression = 0, work_restitution = 0;
@@ -91,6 +93,7 @@ struct Sight {
   Motion::Pause pause = Motion::Pause::kQuiet;
   double time = 0;       ///< Reached [s].
   bool crowded = false;  ///< It saw as many cycles as it was to see, and there are more.
+  bool disturbed = false;  ///< A rest in it should have ended earlier: it shows nothing.
   bool exact = true;     ///< It was as exact as the scenario asks.
 
   const GroupSight* Find(const GroupId& id) const;

@@ -22,6 +22,7 @@ enum class EventKind {
   kRestTouch,      ///< Open, touching at rest, δ begins to rise: a NIRV cycle begins.
   kTurn,           ///< Compression, δ̇ falls through 0.
   kSeparation,     ///< Restitution, δ falls through 0.
+  kRelease,        ///< A contact that rested falls apart: a restitution without compression begins.
   kNonSeparation,  ///< Restitution, δ̇ rises through 0 with δ > 0.
 };
 

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/laws/isolated_collision.h"
 #include "simulation/model/derived.h"
 #include "simulation/motion/cycle_works.h"
 
 namespace contact {
 namespace {
 
-// A resting contact is awake when its work is this many times what lets it settle.
-constexpr double kWakeFactor = 4;
+// A contact that is let go with a force this part of its own less than before falls at once.
+constexpr double kLetGo = 0.05;
 // The scale to which a resting contact is integrated, relative to its deformation; and that to which
 // any is that begins compressed: what swings less is negligible, or soon will be.
 constexpr double kRestingScale = 1e-3, kLeastScale = 1e-5;
@@ -31,7 +32,7 @@ bool DoesNothing(const ContactState& state, double time) {
 }  // namespace
 
 Cycles::Cycles(MovingSystem& system)
-    : system_(system), turn_gradient_(system.scenario.contacts.size()) {}
+    : system_(system), rest_(system), turn_gradient_(system.scenario.contacts.size()) {}
 
 void Cycles::Begin() {
   for (int c = 0; c < system_.equations.contacts(); ++c) {
@@ -56,12 +57,20 @@ void Cycles::KeepTurnGradient(int contact) {
 
 void Cycles::Start(CycleHost& host, bool resting_only) {
   bool any = false;
-  for (int c = 0; c < system_.equations.contacts(); ++c) {
-    const ContactState& contact = system_.contacts[At(c)];
-    if (contact.phase != Phase::kStarting || (resting_only && !contact.settled)) continue;
-    StartCycle(c, host);
-    any = true;
-    if (contact.cycle.kind == Cycle::Kind::kCollision) StartPushed(c, host);
+  for (bool more = true; more;) {  // A collision may end the rest of others.
+    more = false;
+    for (int c = 0; c < system_.equations.contacts(); ++c) {
+      const ContactState& contact = system_.contacts[At(c)];
+      if (contact.phase != Phase::kStarting || (resting_only && !contact.settled)) continue;
+      StartCycle(c, host);
+      any = true;
+      if (contact.cycle.kind != Cycle::Kind::kCollision) continue;
+      StartPushed(c, host);
+      for (const int disturbed : rest_.DisturbedBy(c)) {
+        Wake(disturbed, host);
+        more = true;
+      }
+    }
   }
   if (any) system_.RefreshActive();
 }
@@ -95,6 +104,7 @@ void Cycles::StartCycle(int contact, CycleHost& host) {
   state.cycle.mu = factor.mu;
   state.column = factor.column;
   state.phase = state.settled ? Phase::kResting : Phase::kCompression;
+  if (state.settled) rest_.Begin(state, host);
 
   if (factor.column >= system_.tangents.count() && !system_.equations.recording) {
     system_.tangents.Add();
@@ -105,6 +115,7 @@ void Cycles::StartCycle(int contact, CycleHost& host) {
   if (state.cycle.kind == Cycle::Kind::kCollision) system_.touch_time = system_.time;
   ShiftAtJump(contact, 1);
   state.duration = ExpectedDuration(contact);
+  if (state.woken && IsLetGo(contact)) Release(contact, host);
   if (state.settled) RaiseScale(contact, kRestingScale);
   const double first = FirstStep(contact);
   system_.next_step = system_.next_step == 0 ? first : std::min(system_.next_step, first);
@@ -124,7 +135,28 @@ void Cycles::DescribeStart(int contact) {
                  .start_deformation = deformation,
                  .max_deformation = deformation,
                  .approach_velocity = approach};
+  state.start_velocity = system_.equations.Relative(contact, y + n);
   state.peak = {};
+}
+
+// Whether what pressed a contact that rested has plainly weakened.
+bool Cycles::IsLetGo(int contact) const {
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
+  const double force = c.stiffness * Power(deformation, c.exponent).value;
+  return ExternalForce(contact) < (1 - kLetGo) * force;
+}
+
+// The cycle gives back what was stored before it began: a restitution without compression.
+void Cycles::Release(int contact, CycleHost& host) {
+  ContactState& state = system_.contacts[At(contact)];
+  const double mass = system_.equations.effective_mass(contact);
+  state.cycle.mu = host.OnRelease(state, mass);
+  state.column = kNone;
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const double length = state.cycle.start_deformation;
+  system_.scales[At(contact)] = {length, ApproachVelocity(mass, length, c.stiffness, c.exponent, 0)};
+  system_.RefreshActive();
 }
 
 double Cycles::ExternalForce(int contact) const {
@@ -201,6 +233,9 @@ void Cycles::Apply(const StepEvents::Found& found, CycleHost& host) {
     state.phase = Phase::kStarting;
     state.settled = false;
     state.cycle.kind = kind == EventKind::kTouch ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
+  } else if (kind == EventKind::kRelease) {
+    Release(found.contact, host);
+    Turn(found.contact, system_.time, system_.rk.y0);
   } else if (DoesNothing(state, system_.time)) {
     CancelCycle(state, host);
   } else {
@@ -209,25 +244,37 @@ void Cycles::Apply(const StepEvents::Found& found, CycleHost& host) {
   }
 }
 
-// A resting contact whose work has become worth a cycle of its own ends its rest.
-void Cycles::WakeResting(CycleHost& host) {
+// Ends the rest of a contact; its cycle is starting.
+void Cycles::Wake(int contact, CycleHost& host) {
+  ContactState& state = system_.contacts[At(contact)];
+  EndCycle(state, Cycle::End::kNonSeparation, host);
+  state.settled = false;
+  state.woken = true;
+}
+
+void Cycles::AskRests(CycleHost& host) {
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     ContactState& state = system_.contacts[At(c)];
     if (state.phase != Phase::kResting) continue;
-    const Contact& contact = system_.scenario.contacts[At(c)];
-    const double deformation = system_.Deformation(c, system_.rk.y0.data());
-    const double work = contact.stiffness * Power(deformation, contact.exponent).value *
-                        std::abs(deformation - state.cycle.start_deformation);
-    if (work > kWakeFactor * system_.scenario.solver.settled_nirv_fraction * state.largest_work) {
-      EndCycle(state, Cycle::End::kNonSeparation, host);
-      state.settled = false;
+    state.rest_until = host.RestEnds(state);
+    if (state.rest_until <= system_.time) Wake(c, host);
+  }
+}
+
+void Cycles::WakeDisturbed(bool at_breakpoint, CycleHost& host) {
+  for (int c = 0; c < system_.equations.contacts(); ++c) {
+    if (system_.contacts[At(c)].phase == Phase::kResting && rest_.Ends(c, at_breakpoint, host)) {
+      Wake(c, host);
     }
   }
+  if (!at_breakpoint) return;
+  for (const int contact : rest_.DisturbedByLoads()) Wake(contact, host);
 }
 
 void Cycles::Turn(int contact, double time, const Eigen::ArrayXd& y) {
   ContactState& state = system_.contacts[At(contact)];
   state.phase = Phase::kRestitution;
+  state.woken = false;
   state.cycle.turn_time = time;
   state.cycle.max_deformation = system_.Deformation(contact, y.data());
   SetCompression(system_.scenario.contacts[At(contact)], state.cycle.max_deformation,
@@ -250,6 +297,7 @@ void Cycles::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   turn.conservativeResizeLike(Eigen::ArrayXd::Zero(gradient.size()));
   if (separates) ShiftAtJump(contact, -1);
   state.phase = separates ? Phase::kOpen : Phase::kStarting;
+  state.woken = false;
   state.last_mu = state.cycle.mu;
   const MovingSystem::Scale& scale = system_.scales[At(contact)];
   host.OnEnd(state, turn, gradient - turn, scale.length, scale.speed);
@@ -280,14 +328,16 @@ void Cycles::DescribeEnd(ContactState& state) {
                  &cycle);
   const double ratio = -cycle.work_restitution / cycle.work_compression;
   cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
-  if (system_.equations.recording) Balance(at_force ? peak.velocity : 0, &cycle);
+  if (system_.equations.recording) {
+    Balance(state.start_velocity, at_force ? peak.velocity : 0, &cycle);
+  }
 }
 
 // (W4), and what the cycle has dissipated.
-void Cycles::Balance(double split_velocity, Cycle* cycle) {
+void Cycles::Balance(double start_velocity, double split_velocity, Cycle* cycle) {
   const double kinetic =
       0.5 * system_.equations.effective_mass(cycle->contact) *
-      (cycle->approach_velocity * cycle->approach_velocity - split_velocity * split_velocity);
+      (start_velocity * start_velocity - split_velocity * split_velocity);
   cycle->identity_residual =
       std::abs(cycle->work_compression - kinetic - cycle->external_compression) /
       cycle->work_compression;

@@ -140,6 +140,8 @@ class Equations : public StateLayout {
   /// two plain contacts of at most three bodies, for which there is a shorter way.
   void Prepare();
 
+  /// Force of a load at t [s] by its formula [N].
+  static double LoadForce(const Load& load, double t);
   /// Adds to accelerations by how much those of the selected loads differ between two instants.
   void AddLoadChange(double from, double to, double* accelerations) const;
 
@@ -176,8 +178,6 @@ class Equations : public StateLayout {
   static void EvaluateFew(const Equations& of, const double* y, double* dy, double pace);
   /// Adds the quadratures that only a recording has.
   void AddRecord(double t, const double* y, double* dy, double pace) const;
-  /// Force of a load that acts [N].
-  static double LoadForce(const Load& load, double t);
   /// Force of the support with this index on its first body [N], (M4).
   double SupportForce(std::size_t support, const double* u, const double* v) const;
   /// By how much the support with this index is longer than without force [m].

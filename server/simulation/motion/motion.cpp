@@ -54,6 +54,7 @@ State Motion::Save() const {
 
 Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* listener,
                               const std::stop_token& stop, std::int64_t step_limit) {
+  cycles_.AskRests(host);
   cycles_.Start(host, false);
   const bool busy = cycles_.Run();
   if (system_.equations.active.empty()) {
@@ -66,15 +67,16 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (system_.steps >= step_limit) return Pause::kStepLimit;
     if (!host.OnStep()) return Pause::kEnough;
     events_.Restart();
-    if (!stepper_.Take(until)) return Pause::kNumeric;
+    if (!stepper_.Take(std::min(until, cycles_.NextWake()))) return Pause::kNumeric;
     StepEvents::Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone && !stepper_.Land(found)) found.contact = kNone;
     if (moves && !system_.rk.y1.head(2 * system_.equations.bodies()).allFinite()) {
       return Pause::kNumeric;
     }
+    bool breaks = false;
     if (moves) {
-      Accept(listener);
+      breaks = Accept(listener);
     } else if (stepper_.separating() != found.contact) {
       system_.next_step = system_.step.h;  // The same again, but for what begins.
     }
@@ -82,7 +84,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     const bool separates = found.event.kind == EventKind::kSeparation;
     if (found.contact != kNone && separates) stepper_.Separated();
     const bool changes = found.contact != kNone || system_.resting;
-    if (system_.resting) cycles_.WakeResting(host);
+    if (system_.resting) cycles_.WakeDisturbed(breaks, host);
     events_at_once = moves ? 0 : events_at_once + 1;
     if (events_at_once > kMaxEventsAtOnce) return Pause::kNumeric;
     if (changes) {
@@ -156,12 +158,13 @@ void Motion::FollowStep() {
   system_.tangents.Follow(system_.step, paths_, from, 1);
 }
 
-void Motion::Accept(StepListener* listener) {
+bool Motion::Accept(StepListener* listener) {
   if (system_.equations.recording || system_.splits_at_force()) {
     for (const ActiveContact& active : system_.equations.active) forces_.Observe(active);
   }
   if (system_.tangents.count() > 0) FollowStep();
   if (listener != nullptr) listener->OnStep(system_.step);
+  if (system_.resting) cycles_.FollowRests();
   const bool breaks = system_.step.h >= system_.breakpoint - system_.time;
   system_.time = breaks ? system_.breakpoint : system_.time + system_.step.h;
   system_.rk.Advance();
@@ -170,6 +173,7 @@ void Motion::Accept(StepListener* listener) {
     system_.RefreshActive();
   }
   stepper_.Widen();
+  return breaks;
 }
 
 }  // namespace contact

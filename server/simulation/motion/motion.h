@@ -88,8 +88,9 @@ class Motion {
   double SearchTurn(const Sides& sides, double theta);
   /// Takes the tangents along the step, and to the turns in it.
   void FollowStep();
-  /// Makes the end of the step the state, and tells the listener before.
-  void Accept(StepListener* listener);
+  /// Makes the end of the step the state, and tells the listener before. Returns whether a load
+  /// begins or ends there.
+  bool Accept(StepListener* listener);
 
   MovingSystem system_;
   Stepper stepper_;
