@@ -268,9 +268,12 @@ double Stepper::ErrorNorm(Count n, double h) {
                                  active.right_counts * std::abs(y[active.right]));
     const double stiffness = active.StiffnessAt(deformation) * inverse_mass;
     const double rate = stiffness + system_.equations.SupportRate(active);
-    const double length = Largest(own.length, kWeakest * extent.length,
+    const double own_length =
+        std::abs(deformation - system_.contacts[At(active.contact)].cycle.start_deformation);
+    const double length = Largest(own.length, own_length, kWeakest * extent.length,
                                   digits * (moved + extent.body_speed * h));
-    const double speed = Largest(own.speed, kWeakest * extent.speed, digits * moved * rate * h);
+    const double speed = Largest(own.speed, std::abs(active.Relative(y + n)),
+                                 kWeakest * extent.speed, digits * moved * rate * h);
     const double decay = kink ? 0 : active.DampingAt(deformation) * inverse_mass;
     const Motions scale{length, speed + decay * length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
