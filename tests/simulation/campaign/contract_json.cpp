@@ -1,0 +1,102 @@
+#include "simulation/campaign/contract_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace contact::campaign {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json JsonOf(const Body& b) {
+  Json json = {{"name", b.name}, {"mass_kg", b.mass}, {"radius_m", b.radius}};
+  json.update({{"position_m", b.position}, {"velocity_m_per_s", b.velocity}});
+  if (b.fixed) json["fixed"] = true;
+  return json;
+}
+
+Json JsonOf(const Scenario& s, const Contact& c) {
+  Json json = {{"name", c.name}, {"between", Json::array()}, {"stiffness", c.stiffness}};
+  for (const int body : {c.left, c.right}) {
+    if (body != kNone) json["between"].push_back(s.bodies[static_cast<std::size_t>(body)].name);
+  }
+  if (c.left == kNone || c.right == kNone) {
+    json["wall"] = {{"position_m", c.wall_position}, {"side", c.left == kNone ? "LEFT" : "RIGHT"}};
+  }
+  json["exponent"] = c.exponent;
+  if (c.damping == DampingLaw::kGiven) {
+    json["mu"] = c.mu;
+  } else {
+    json["restitution"] = c.restitution;
+  }
+  if (c.damping != DampingLaw::kEnergyRestitution) json["damping"] = RowOf(c.damping).name;
+  if (c.reference_velocity > 0) json["reference_velocity_m_per_s"] = c.reference_velocity;
+  return json;
+}
+
+Json JsonOf(const Scenario& s, const Support& p) {
+  const auto name = [&](int body) { return s.bodies[static_cast<std::size_t>(body)].name; };
+  Json json = {{"body", name(p.body)}, {"stiffness_n_per_m", p.stiffness}};
+  if (p.other != kNone) json["other"] = name(p.other);
+  json.update({{"damping_n_s_per_m", p.damping}, {"rest_position_m", p.rest_position}});
+  return json;
+}
+
+// A smooth piece as the contract has it: a sine with others has a line of its own, see Add.
+Json Straight(const Load& l) {
+  if (l.slope != 0) {
+    const double end = l.constant + l.slope * (l.end - l.begin);
+    const Json from = {{"time_s", l.begin}, {"force_n", l.constant}};
+    return {{"table", {{"points", {from, {{"time_s", l.end}, {"force_n", end}}}}}}};
+  }
+  if (!std::isinf(l.end)) {
+    return {
+        {"rectangular_pulse",
+         {{"force_n", l.constant}, {"start_time_s", l.begin}, {"duration_s", l.end - l.begin}}}};
+  }
+  if (l.begin > 0) return {{"step", {{"force_n", l.constant}, {"start_time_s", l.begin}}}};
+  return {{"constant", {{"force_n", l.constant}}}};
+}
+
+Json Swinging(const Load& l) {
+  if (!std::isinf(l.end)) {
+    return {{"half_sine_pulse",
+             {{"amplitude_n", l.amplitude},
+              {"start_time_s", l.begin},
+              {"duration_s", l.end - l.begin}}}};
+  }
+  return {{"sine",
+           {{"amplitude_n", l.amplitude},
+            {"angular_frequency_rad_per_s", l.angular_frequency},
+            {"phase_rad", l.phase}}}};
+}
+
+void Add(const Scenario& s, const Load& l, Json& loads) {
+  const std::string& body = s.bodies[static_cast<std::size_t>(l.body)].name;
+  for (Json load : {Straight(l), Swinging(l)}) {
+    const bool swings = load.contains("sine") || load.contains("half_sine_pulse");
+    if (swings ? l.amplitude == 0 : l.constant == 0 && l.slope == 0) continue;
+    load["body"] = body;
+    loads.push_back(load);
+  }
+}
+
+}  // namespace
+
+std::string ContractJson(const Scenario& s, const std::string& title) {
+  Json json = {{"title", title}};
+  for (const char* list : {"bodies", "contacts", "supports", "loads"}) json[list] = Json::array();
+  for (const Body& b : s.bodies) json["bodies"].push_back(JsonOf(b));
+  for (const Contact& c : s.contacts) json["contacts"].push_back(JsonOf(s, c));
+  for (const Support& p : s.supports) json["supports"].push_back(JsonOf(s, p));
+  for (const Load& l : s.loads) Add(s, l, json["loads"]);
+  constexpr const char* kScopes[] = {"AUTO", "CYCLE", "ENCOUNTER"};
+  json["solver"] = {{"restitution_scope", kScopes[static_cast<int>(s.solver.restitution_scope)]},
+                    {"max_steps", s.solver.max_steps}};
+  if (s.solver.clip_tension) json["solver"]["tension"] = "CLIP";
+  json["end_time_s"] = s.end_time;
+  json["output"] = {{"ledger_only", true}};
+  return json.dump();
+}
+
+}  // namespace contact::campaign
