@@ -215,7 +215,7 @@ class Runner {
         momentum += scenario_.bodies[i].mass * std::abs(run_.state.velocities[i]);
       }
     }
-    run_.momentum_scale = std::max(run_.momentum_scale, momentum);
+    run_.momentum_scale = std::max({run_.momentum_scale, momentum, motion_.momentum_scale()});
     run_.energy_scale = std::max({run_.energy_scale, Energy(), std::abs(run_.state.load_work)});
   }
 

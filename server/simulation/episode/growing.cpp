@@ -99,7 +99,10 @@ void Growing::Decide(const GroupId& id, Root root) const {
   const bool alone = problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle;
   const bool opens = root == Root::kTooMuch && !std::isnan(unknown.too_little.mu);  // Does not end.
   const bool jumps = !alone && (root == Root::kJump || opens);
-  unknown.status = jumps ? Cycle::Status::kJump : Cycle::Status::kInfeasible;
+  const bool limited = !alone && root == Root::kTooMuch && !opens;
+  unknown.status = jumps     ? Cycle::Status::kJump
+                   : limited ? Cycle::Status::kLimited
+                             : Cycle::Status::kInfeasible;
   if (root == Root::kTooLittle) unknown.mu = 0;
   if (root == Root::kTooMuch) unknown.mu = opens ? unknown.too_much.mu : unknown.first_mu;
   if (root == Root::kJump && alone) unknown.mu = unknown.too_much.mu;
@@ -147,8 +150,9 @@ bool Growing::Reopen(const Sight& scan, double before) {
   for (const GroupSight& g : scan.groups) {
     if (g.start_time >= before) break;
     Unknown& unknown = problem_.groups.At(g.id);
-    const bool without =
-        unknown.status == Cycle::Status::kJump || unknown.status == Cycle::Status::kInfeasible;
+    const bool without = unknown.status == Cycle::Status::kJump ||
+                         unknown.status == Cycle::Status::kLimited ||
+                         unknown.status == Cycle::Status::kInfeasible;
     // One that was given up may have its answer now: what overlaps it has been solved since.
     if (unknown.given_up && unknown.reopened == 0 && g.ended && !g.weak &&
         !(std::abs(g.Miss()) <= problem_.tolerance())) {

@@ -60,7 +60,6 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
   member.place =
       member.group.encounter == state.encounter && member.place > 0 ? member.place + 1 : 1;
   member.open = true;
-  member.released = false;
   member.after_rest = state.woken;
   member.group = {};
   member.group.contact = cycle.contact;
@@ -94,7 +93,6 @@ void Membership::Guess(Unknown& unknown, double mu) const {
 }
 
 double Membership::Release(ContactState& state, double effective_mass) const {
-  state.member.released = true;
   state.member.lasts = 0;
   return state.member.group.mu = guess_.Released(state, effective_mass);
 }
@@ -125,7 +123,7 @@ bool Membership::End(ContactState& state) {
   const bool weak = IsWeak(state), one = weak || groups_.At(IdOf(state)).weak;
   const bool lasts = cycle.end_time - group.start_time < member.lasts ||
                      (group.cycles < least && !one) || IsUndamped(scenario_, cycle.contact);
-  member.open = cycle.end == Cycle::End::kNonSeparation && lasts && !member.released;
+  member.open = cycle.end == Cycle::End::kNonSeparation && lasts && !state.released;
   const double soon = cycle.end_time + kSoon * (cycle.end_time - cycle.start_time);
   state.settled = !member.open && weak && RestEnd(state) > soon;
   return !member.open;

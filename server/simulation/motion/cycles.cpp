@@ -136,6 +136,7 @@ void Cycles::DescribeStart(int contact) {
                  .max_deformation = deformation,
                  .approach_velocity = approach};
   state.start_velocity = system_.equations.Relative(contact, y + n);
+  state.released = false;
   state.peak = {};
 }
 
@@ -152,6 +153,7 @@ void Cycles::Release(int contact, CycleHost& host) {
   ContactState& state = system_.contacts[At(contact)];
   const double mass = system_.equations.effective_mass(contact);
   state.cycle.mu = host.OnRelease(state, mass);
+  state.released = true;
   state.column = kNone;
   const Contact& c = system_.scenario.contacts[At(contact)];
   const double length = state.cycle.start_deformation;
@@ -286,11 +288,12 @@ void Cycles::Turn(int contact, double time, const Eigen::ArrayXd& y) {
 void Cycles::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   const int contact = state.cycle.contact;
   const bool separates = end == Cycle::End::kSeparation;
-  if (state.phase == Phase::kResting) {
-    Turn(contact, system_.time, system_.rk.y0);  // Its works count as one compression.
-  }
   state.cycle.end = end;
-  DescribeEnd(state);
+  if (state.phase == Phase::kResting) {
+    DescribeRest(state);
+  } else {
+    DescribeEnd(state);
+  }
   const Eigen::ArrayXd gradient = system_.tangents.Work(contact);
   // It has the μ that there were then; later ones begin at 0.
   Eigen::ArrayXd& turn = turn_gradient_[At(contact)];
@@ -305,6 +308,17 @@ void Cycles::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
   ResetWorks(contact);
   system_.RefreshActive();
+}
+
+// The row of a rest tells the sum of its works, as those of one compression or restitution.
+void Cycles::DescribeRest(ContactState& state) {
+  const Eigen::ArrayXd& y = system_.rk.y0;
+  const int contact = state.cycle.contact;
+  const double deformation = std::max(0.0, system_.Deformation(contact, y.data()));
+  SetRest(system_.scenario.contacts[At(contact)], system_.time, deformation,
+          y[system_.equations.work(contact)], system_.ExternalWork(contact, y), &state.cycle);
+  if (!system_.equations.recording) return;
+  system_.contact_loss += state.cycle.dissipated_compression + state.cycle.dissipated_restitution;
 }
 
 void Cycles::DescribeEnd(ContactState& state) {
@@ -328,19 +342,22 @@ void Cycles::DescribeEnd(ContactState& state) {
                  &cycle);
   const double ratio = -cycle.work_restitution / cycle.work_compression;
   cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
-  if (system_.equations.recording) {
-    Balance(state.start_velocity, at_force ? peak.velocity : 0, &cycle);
-  }
+  if (system_.equations.recording) Balance(state, at_force ? peak.velocity : 0, &cycle);
 }
 
-// (W4), and what the cycle has dissipated.
-void Cycles::Balance(double start_velocity, double split_velocity, Cycle* cycle) {
-  const double kinetic =
-      0.5 * system_.equations.effective_mass(cycle->contact) *
-      (start_velocity * start_velocity - split_velocity * split_velocity);
-  cycle->identity_residual =
-      std::abs(cycle->work_compression - kinetic - cycle->external_compression) /
-      cycle->work_compression;
+// (W4), of a release in its restitution, and what the cycle has dissipated.
+void Cycles::Balance(const ContactState& state, double split_velocity, Cycle* cycle) {
+  const double mass = system_.equations.effective_mass(cycle->contact);
+  const auto kinetic = [&](double v) { return 0.5 * mass * v * v; };
+  const double end = system_.equations.Relative(
+      cycle->contact, system_.rk.y0.data() + system_.equations.bodies());
+  const double compressed = cycle->work_compression - kinetic(state.start_velocity) +
+                            kinetic(split_velocity) - cycle->external_compression;
+  const double restored = cycle->work_restitution - kinetic(split_velocity) + kinetic(end) -
+                          cycle->external_restitution;
+  cycle->identity_residual = state.released
+                                 ? std::abs(restored / cycle->work_restitution)
+                                 : std::abs(compressed / cycle->work_compression);
   system_.contact_loss += cycle->dissipated_compression + cycle->dissipated_restitution;
 }
 

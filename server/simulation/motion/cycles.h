@@ -65,11 +65,12 @@ class Cycles {
   void Release(int contact, CycleHost& host);
   /// Ends the cycle of a contact at this instant.
   void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
+  /// What is known of a rest as it ends.
+  void DescribeRest(ContactState& state);
   /// What is known of a cycle as it ends.
   void DescribeEnd(ContactState& state);
-  /// Residual and losses of a cycle; the velocities are δ̇ where it has begun and where its
-  /// compression has ended [m/s].
-  void Balance(double start_velocity, double split_velocity, Cycle* cycle);
+  /// Residual and losses of a cycle; `split_velocity`: δ̇ where its compression has ended [m/s].
+  void Balance(const ContactState& state, double split_velocity, Cycle* cycle);
   /// Takes back a cycle that has no duration or did no work.
   void CancelCycle(ContactState& state, CycleHost& host);
   /// Changes the sensitivities where a force begins (sign 1) or ends (−1) with a jump, (S3).

@@ -287,6 +287,14 @@ double Equations::Momentum(const double* y) const {
   return momentum;
 }
 
+double Equations::MomentumScale(const double* y) const {
+  double sum = 0;
+  for (int i = 0; i < bodies(); ++i) {
+    if (inverse_mass_[At(i)] != 0) sum += std::abs(y[bodies() + i]) / inverse_mass_[At(i)];
+  }
+  return sum;
+}
+
 double ElasticEnergy(const Contact& contact, double deformation) {
   return ElasticEnergy(contact.stiffness, contact.exponent, deformation);
 }

@@ -132,6 +132,9 @@ class Equations : public StateLayout {
   /// Momentum of the bodies that are not fixed [N·s], (B2).
   double Momentum(const double* y) const;
 
+  /// Σ|m v| of the bodies that are not fixed [N·s].
+  double MomentumScale(const double* y) const;
+
   /// Takes the loads that act from `time` on, until the instant returned, the next at which one
   /// begins or ends; infinite if none does. Each goes on as its formula does past that instant.
   double SelectLoads(double time);

@@ -159,6 +159,10 @@ void Motion::FollowStep() {
 }
 
 bool Motion::Accept(StepListener* listener) {
+  if (system_.equations.recording) {
+    system_.momentum_scale = std::max(system_.momentum_scale,
+                                      system_.equations.MomentumScale(system_.rk.y1.data()));
+  }
   if (system_.equations.recording || system_.splits_at_force()) {
     for (const ActiveContact& active : system_.equations.active) forces_.Observe(active);
   }
@@ -166,7 +170,10 @@ bool Motion::Accept(StepListener* listener) {
   if (listener != nullptr) listener->OnStep(system_.step);
   if (system_.resting) cycles_.FollowRests();
   const bool breaks = system_.step.h >= system_.breakpoint - system_.time;
-  system_.time = breaks ? system_.breakpoint : system_.time + system_.step.h;
+  const bool ends = system_.step.h >= stepper_.until() - system_.time;
+  system_.time = breaks ? system_.breakpoint
+                 : ends ? stepper_.until()
+                        : system_.time + system_.step.h;
   system_.rk.Advance();
   if (breaks) {
     system_.SelectLoads();

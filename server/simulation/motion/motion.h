@@ -55,6 +55,8 @@ class Motion {
 
   /// Simulated time [s].
   double time() const { return system_.time; }
+  /// Largest Σ|m v| of the recording since Begin [N·s].
+  double momentum_scale() const { return system_.momentum_scale; }
   /// Steps tried since construction, rejected ones included.
   std::int64_t steps() const { return system_.steps; }
   /// Evaluations of the equations of motion since construction.

@@ -27,6 +27,8 @@ struct ContactState {
   bool settled = false;
   /// Whether the running cycle has ended a rest and has not moved since.
   bool woken = false;
+  /// Whether the running cycle gives back what was stored before it.
+  bool released = false;
   /// δ̇ where the running cycle began [m/s]; of what rested before the rest of its swing.
   double start_velocity = 0;
   /// Of a contact that rests: when its rest ends at the latest, and the last instant at which one
@@ -56,7 +58,6 @@ struct ContactState {
   /// The group of the running cycle, and what decides where it ends. CycleHost keeps it.
   struct Membership {
     bool open = false;     ///< The next cycle of the encounter belongs to it too.
-    bool released = false;  ///< It gives back what was stored before it.
     bool after_rest = false;  ///< Before it the contact has rested.
     int place = 0;         ///< Among the groups of the encounter, from 1.
     double lasts = 0;      ///< It does not end earlier after its start [s].

@@ -28,6 +28,8 @@ class Stepper {
   /// A contact has separated at the end of the step: the next is as long as those before.
   void Separated();
 
+  /// No step goes further [s].
+  double until() const { return until_; }
   /// The contact whose predicted separation ends the step, or kNone.
   int separating() const { return separating_; }
 
@@ -75,7 +77,6 @@ class Stepper {
   // Largest |u| [m] and |v| [m/s] while no contact was in touch.
   double flight_length_ = 0, flight_speed_ = 0;
   int separating_ = kNone;
-  // No step goes further [s].
   double until_ = 0;
   // The last step that no separation near has shortened [s].
   double cruise_ = 0;
