@@ -102,7 +102,7 @@ void serialize(Archive& archive, Group& g) {
 
 template <class Archive>
 void serialize(Archive& archive, ContactState::Membership& m) {
-  archive(m.open, m.after_rest, m.place, m.lasts, m.groups, m.iterations, m.imbalance, m.group);
+  archive(m.open, m.after_rest, m.disproved, m.place, m.lasts, m.groups, m.iterations, m.imbalance, m.group);
 }
 
 template <class Archive>
@@ -115,7 +115,7 @@ void serialize(Archive& archive, ContactState& c) {
   archive(c.phase, c.gap, c.cycles, c.last_mu, c.largest_work, c.settled, c.duration);
   archive(c.work, c.external_work, c.column, c.peak, c.cycle);
   archive(c.encounter, c.member);
-  archive(c.woken, c.released, c.start_velocity, c.rest_until, c.rest_mark);
+  archive(c.largest_motion, c.largest_speed, c.woken, c.released, c.start_velocity, c.rest_until, c.rest_mark);
 }
 
 template <class Archive>
@@ -160,7 +160,7 @@ void serialize(Archive& archive, RunState& s) {
   archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
   archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
   archive(s.growths, s.growths_no_progress, s.solved_until, s.rest_ends);
-  archive(s.unknowns, s.warned, s.missed, s.sampling);
+  archive(s.unknowns, s.warned, s.missed, s.unproven, s.sampling);
 }
 
 namespace {

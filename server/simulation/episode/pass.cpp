@@ -262,8 +262,11 @@ double Pass::SlowestTurn() const {
   return slowest;
 }
 
-// Whether nothing has begun or ended for longer than the contacts would take to turn.
+// Whether nothing has begun or ended for longer than the contacts would take to turn. A ramp may
+// turn them where it ends.
 bool Pass::Creeps() const {
+  const auto ramps = [](const Load& load) { return load.slope != 0 && load.end < kNever; };
+  if (std::ranges::any_of(motion_.equations().acting(), ramps)) return false;
   const double patience = plan_.front.empty() ? kPatienceOfAScan : kPatience;
   return motion_.time() - idle_since_ > patience * SlowestTurn() + kPeriods * longest_period_;
 }

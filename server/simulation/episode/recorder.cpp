@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "simulation/episode/run_state.h"
 
@@ -12,6 +13,10 @@ constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
 // What the recorded pass may miss by beyond the tolerance, in units of it: its cuts differ from
 // those of the search, and so does its round-off.
 constexpr double kRecorded = 2;
+// What the proof of a row allows. Of its identity (W4): ten tolerances, or what events located to
+// round-off leave in weak cycles. Of δ̇ at a start or end where it is 0, relative to the largest:
+// the cycle before ends there.
+constexpr double kIdentity = 10, kLeastIdentity = 1e-7, kAtRest = 1e-4;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -29,7 +34,8 @@ Recorder::Recorder(const Scenario& scenario, const Motion& motion, Observer& obs
       known_(known),
       membership_(scenario, motion, known),
       warned_(scenario.contacts.size()),
-      missed_(kDampingLaws) {}
+      missed_(kDampingLaws),
+      unproven_(scenario.contacts.size()) {}
 
 void Recorder::Begin(int episode) {
   episode_ = episode;
@@ -42,12 +48,14 @@ void Recorder::Begin(int episode) {
 void Recorder::Save(RunState* state) const {
   state->warned = warned_;
   state->missed = missed_;
+  state->unproven = unproven_;
 }
 
 void Recorder::Restore(const RunState& state) {
   episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
   warned_ = state.warned;
   missed_ = state.missed;
+  unproven_ = state.unproven;
 }
 
 bool Recorder::OnStep() {
@@ -142,13 +150,18 @@ void Recorder::Label(const ContactState& state, Cycle& cycle) const {
 }
 
 void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::ArrayXd&, double,
-                     double) {
+                     double speed) {
   Cycle& cycle = state.cycle;
   const bool rested = !state.member.open;
   const bool ended = membership_.End(state);
-  state.member.imbalance += cycle.identity_residual * cycle.work_compression;
+  state.member.imbalance +=
+      cycle.identity_residual * std::max(cycle.work_compression, -cycle.work_restitution);
   Label(state, cycle);
-  if (rested) cycle.group = 0, cycle.status = Cycle::Status::kSettled, cycle.restitution_out = kNaN;
+  if (rested) cycle.group = 0, cycle.status = Cycle::Status::kSettled;
+  if (cycle.status == Cycle::Status::kSettled) cycle.restitution_out = kNaN;
+  if (!rested && !membership_.IsWeak(state)) {
+    if (const std::string fault = Fault(state, speed); !fault.empty()) Disprove(state, fault);
+  }
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   if (cycle.status == Cycle::Status::kGivenLaw && contact.damping != DampingLaw::kGiven) {
     WarnOfMiss(contact, cycle);
@@ -157,11 +170,42 @@ void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::Ar
   if (ended) Close(state);
 }
 
+// What the recorded motion denies of a cycle that is not negligible; empty: nothing.
+std::string Recorder::Fault(const ContactState& state, double speed) const {
+  const Cycle& cycle = state.cycle;
+  const double bound =
+      std::max(kLeastIdentity, kIdentity * scenario_.solver.restitution_tolerance);
+  std::ostringstream text;
+  const bool ordered = cycle.start_time <= cycle.turn_time && cycle.turn_time <= cycle.end_time;
+  const bool woken = state.member.after_rest && cycle.number == state.member.group.first_cycle;
+  if (!ordered) {
+    text << "its instants are out of order";
+  } else if (!(cycle.identity_residual <= bound)) {
+    text << "its identity residual is " << cycle.identity_residual << ", above " << bound;
+  } else if (cycle.kind == Cycle::Kind::kNirv && !woken &&
+             std::abs(state.start_velocity) > kAtRest * speed) {
+    text << "it begins with " << state.start_velocity << " m/s and not at rest";
+  }
+  return text.str();
+}
+
+// A group of which a row fails its proof is not called anything else, whatever the search believed.
+void Recorder::Disprove(ContactState& state, const std::string& fault) {
+  state.member.disproved = true;
+  const auto contact = At(state.cycle.contact);
+  if (unproven_[contact]) return;
+  unproven_[contact] = true;
+  observer_.OnWarning("contact " + scenario_.contacts[contact].name + ", cycle " +
+                      std::to_string(state.cycle.number) + " is not proven: " + fault +
+                      "; it is told once for each contact");
+}
+
 // The group of the cycle that has ended ends with it: sees what it has become.
 void Recorder::Close(ContactState& state) {
   Group& group = state.member.group;
   group.restitution_out = Ratio(group.work_compression, group.work_restitution);
-  group.residual = state.member.imbalance / group.work_compression;
+  group.residual =
+      state.member.imbalance / std::max(group.work_compression, -group.work_restitution);
   state.member.imbalance = 0;
   const Unknown* unknown = known_.Find(Membership::IdOf(state));
   const bool weak = group.cycles == 1 && membership_.IsWeak(state);
@@ -176,6 +220,7 @@ void Recorder::Close(ContactState& state) {
   if (status == Cycle::Status::kConverged && !(miss <= kRecorded * allowed)) {
     status = Cycle::Status::kNotConverged;
   }
+  if (state.member.disproved) status = Cycle::Status::kNotConverged;
   if (status == Cycle::Status::kNotConverged && weak) status = Cycle::Status::kSettled;
   group.status = status;
   const bool answered = unknown == nullptr || unknown->given_up;
@@ -190,9 +235,12 @@ void Recorder::Close(ContactState& state) {
 void Recorder::FinishCut(ContactState& state) {
   Cycle& cycle = state.cycle;
   Label(state, cycle);
-  if (state.phase == Phase::kResting || state.member.group.number == 0) return;
+  if (state.phase == Phase::kResting) return;
   Group& group = state.member.group;
-  cycle.restitution_out = group.cycles == 1 ? group.restitution_out : kNaN;
+  const bool guessed = group.status == Cycle::Status::kUnfinished ||
+                       group.status == Cycle::Status::kNotConverged;
+  cycle.status = group.status = guessed ? Cycle::Status::kUnfinished : Cycle::Status::kCut;
+  if (group.number == 0) return;
   group.end = Cycle::End::kRunEnd;
   group.end_time = cycle.end_time;
   group.work_compression += cycle.work_compression;

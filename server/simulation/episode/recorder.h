@@ -40,6 +40,8 @@ class Recorder final : public CycleHost {
  private:
   void Open(ContactState& state, const Unknown& unknown) const;
   void Label(const ContactState& state, Cycle& cycle) const;
+  std::string Fault(const ContactState& state, double speed) const;
+  void Disprove(ContactState& state, const std::string& fault);
   void Close(ContactState& state);
   void WarnWithoutVelocity(const ContactState& state);
   void WarnOfMiss(const Contact& contact, const Cycle& cycle);
@@ -52,6 +54,7 @@ class Recorder final : public CycleHost {
   bool sound_ = true;
   std::vector<bool> warned_;  // Per contact.
   std::vector<bool> missed_;  // Per law.
+  std::vector<bool> unproven_;  // Contacts of which it was told that a row fails its proof.
 };
 
 }  // namespace contact

@@ -33,6 +33,7 @@ struct RunState {
   std::vector<std::pair<GroupId, double>> rest_ends;  ///< Groups::rest_ends.
   std::vector<bool> warned;       ///< Contacts of which a warning was given.
   std::vector<bool> missed;       ///< Laws of which a miss was told.
+  std::vector<bool> unproven;     ///< Contacts of which it was told that a row fails its proof.
   Sampling sampling;
 };
 

@@ -38,8 +38,7 @@ void Cycles::Begin() {
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     const ContactState& contact = system_.contacts[At(c)];
     turn_gradient_[At(c)].resize(0);
-    system_.scales[At(c)] = {std::abs(contact.gap + contact.cycle.start_deformation),
-                             contact.cycle.approach_velocity};
+    system_.scales[At(c)] = {contact.largest_motion, contact.largest_speed};
     if (contact.phase == Phase::kResting) RaiseScale(c, kRestingScale);
   }
 }
@@ -302,8 +301,10 @@ void Cycles::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   state.phase = separates ? Phase::kOpen : Phase::kStarting;
   state.woken = false;
   state.last_mu = state.cycle.mu;
-  const MovingSystem::Scale& scale = system_.scales[At(contact)];
-  host.OnEnd(state, turn, gradient - turn, scale.length, scale.speed);
+  const Cycle& cycle = state.cycle;  // Its scale may have been less than expected.
+  const double length = std::max(cycle.max_deformation, cycle.start_deformation) -
+                        std::min(cycle.start_deformation, cycle.end_deformation);
+  host.OnEnd(state, turn, gradient - turn, length, system_.scales[At(contact)].speed);
   state.largest_work = std::max(state.largest_work, state.cycle.work_compression);
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
   ResetWorks(contact);
@@ -345,7 +346,7 @@ void Cycles::DescribeEnd(ContactState& state) {
   if (system_.equations.recording) Balance(state, at_force ? peak.velocity : 0, &cycle);
 }
 
-// (W4), of a release in its restitution, and what the cycle has dissipated.
+// (W4), of a release to its end, and what the cycle has dissipated.
 void Cycles::Balance(const ContactState& state, double split_velocity, Cycle* cycle) {
   const double mass = system_.equations.effective_mass(cycle->contact);
   const auto kinetic = [&](double v) { return 0.5 * mass * v * v; };
@@ -353,11 +354,10 @@ void Cycles::Balance(const ContactState& state, double split_velocity, Cycle* cy
       cycle->contact, system_.rk.y0.data() + system_.equations.bodies());
   const double compressed = cycle->work_compression - kinetic(state.start_velocity) +
                             kinetic(split_velocity) - cycle->external_compression;
-  const double restored = cycle->work_restitution - kinetic(split_velocity) + kinetic(end) -
-                          cycle->external_restitution;
-  cycle->identity_residual = state.released
-                                 ? std::abs(restored / cycle->work_restitution)
-                                 : std::abs(compressed / cycle->work_compression);
+  const double released = compressed - kinetic(split_velocity) + kinetic(end) +
+                          cycle->work_restitution - cycle->external_restitution;
+  cycle->identity_residual = state.released ? std::abs(released / cycle->work_restitution)
+                                            : std::abs(compressed / cycle->work_compression);
   system_.contact_loss += cycle->dissipated_compression + cycle->dissipated_restitution;
 }
 

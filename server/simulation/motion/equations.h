@@ -145,6 +145,8 @@ class Equations : public StateLayout {
 
   /// Force of a load at t [s] by its formula [N].
   static double LoadForce(const Load& load, double t);
+  /// The loads that act.
+  const std::vector<Load>& acting() const { return acting_; }
   /// Adds to accelerations by how much those of the selected loads differ between two instants.
   void AddLoadChange(double from, double to, double* accelerations) const;
 

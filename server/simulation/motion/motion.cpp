@@ -40,6 +40,8 @@ State Motion::Save() const {
     ContactState& contact = state.contacts[At(c)];
     contact.gap = -system_.Deformation(c, system_.rk.y0.data());
     contact.work = system_.rk.y0[system_.equations.work(c)];
+    contact.largest_motion = system_.scales[At(c)].length;
+    contact.largest_speed = system_.scales[At(c)].speed;
     if (system_.equations.recording) {
       contact.external_work = system_.rk.y0[system_.equations.external_work(c)];
     }

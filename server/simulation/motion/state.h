@@ -36,6 +36,8 @@ struct ContactState {
   double rest_until = kNever, rest_mark = 0;
   /// Expected duration of the running cycle [s]; 0: unknown.
   double duration = 0;
+  /// Largest |δ − δ_s| [m] and |δ̇| [m/s] of the running cycle.
+  double largest_motion = 0, largest_speed = 0;
   /// W since the start of the running cycle [J], (W1).
   double work = 0;
   /// E since the start of the running cycle [J], (W3); only of a recording.
@@ -59,6 +61,7 @@ struct ContactState {
   struct Membership {
     bool open = false;     ///< The next cycle of the encounter belongs to it too.
     bool after_rest = false;  ///< Before it the contact has rested.
+    bool disproved = false;   ///< One of its rows fails its proof.
     int place = 0;         ///< Among the groups of the encounter, from 1.
     double lasts = 0;      ///< It does not end earlier after its start [s].
     int groups = 0;        ///< Group::number of the last group that has one.

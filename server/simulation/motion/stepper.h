@@ -44,6 +44,10 @@ class Stepper {
   double TimeToSeparation(const ActiveContact& active) const;
   /// Local error of the step, in units of what the tolerance allows.
   double Error();
+  /// The square of the relative error of a contact's work, in units of 1/h.
+  double WorkError(const ActiveContact& active, double length) const;
+  /// Whether a collision begins and turns in the step.
+  bool TurnsAtOnce() const;
   /// By what factor the step may be longer for an error of 1.
   double Growth(double error) const;
   /// The largest lengths [m] and speeds [m/s], of contacts and of all bodies, in a step of h [s].
