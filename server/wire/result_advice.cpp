@@ -65,13 +65,13 @@ std::string AndOthers(std::size_t others, std::string_view one, std::string_view
 void AdviseOnDepth(const Scenario& scenario, const v1::Job& result,
                    std::vector<Violation>* advice) {
   const auto deepest = DeepCycles(scenario, result);
-  if (deepest.empty()) return;
   const Deep* most = nullptr;
   for (const Contact& contact : scenario.contacts) {  // In their order, so that ties are settled.
     const auto found = deepest.find(contact.name);
     if (found == deepest.end()) continue;
     if (most == nullptr || found->second.share() > most->share()) most = &found->second;
   }
+  if (most == nullptr) return;
   advice->push_back(
       {fmt::format("contacts[{}]", most->cycle->contact()),
        fmt::format("is {:.3g} m deep in cycle {}, more than {}the radius of {}, {:g} m{}",
