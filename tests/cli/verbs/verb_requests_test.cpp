@@ -252,7 +252,7 @@ TEST_F(VerbRequestsTest, RunShowsTheResultAndSubmitDoesNotWait) {
   const std::size_t watches = server_.Asked<v1::WatchJobRequest>().size();
   const End submit = Run({"submit", "-t", "two-balls"});
   EXPECT_THAT(submit.printed, HasSubstr("QUEUED"));
-  EXPECT_EQ(submit.said, "Next:  contactctl watch new\n");
+  EXPECT_EQ(submit.said, "Next:  contactctl watch new2\n");
   EXPECT_EQ(server_.Asked<v1::WatchJobRequest>().size(), watches);
 }
 
