@@ -61,6 +61,13 @@ class SweepTest(unittest.TestCase):
         sweep = swept(Cell.RESULT, Cell.CUT, Cell.NO_CONTACT, Cell.SOURCE_UNSPECIFIED)
         self.assertEqual(list(sweep.unknown[METRIC]), ["", "CUT", "no contact", ""])
         self.assertEqual(list(sweep.frame[METRIC].isna()), [False, True, True, False])
+        self.assertEqual(list(sweep.frame.message), ["", f"{METRIC}: CUT", f"{METRIC}: no contact", ""])
+
+    def test_cell_without_a_cycle_says_so(self):
+        job = swept().job
+        for cycles, message in ((0, "no contact"), (1, "")):
+            cell = Cell(values=[1, 1], metrics=[5], cycles=cycles, state=job_pb2.Job.SUCCEEDED)
+            self.assertEqual(list(SweepResult(job, [cell]).frame.message), [message])
 
     def test_heat_map_has_a_legend_for_them(self):
         self.addCleanup(plt.close, "all")

@@ -472,6 +472,14 @@ TEST(SweepMetrics, WhatTheEndCutsIsToldByStatusOrEnd) {
   }
 }
 
+TEST(SweepMetrics, OfASearchWithoutACycleSaySo) {
+  for (const auto* metric : {"iterations", "convergence", "worst_identity_residual"}) {
+    EXPECT_EQ(SourceOf(metric, v1::Job()), v1::SweepCell::NO_CONTACT) << metric;
+    EXPECT_EQ(SourceOf(metric, FourCycles()), v1::SweepCell::RESULT) << metric;
+  }
+  EXPECT_EQ(SourceOf("kinetic_energy_j", v1::Job()), v1::SweepCell::RESULT);
+}
+
 TEST(SweepMetrics, OfAContactThatWasNotTouchedSaySo) {
   const v1::Job job = FourCycles();
   for (const auto* metric : {"cycles[C-D].mu", "groups[A-B].mu", "cycles[C-D].max.peak_force_n"}) {

@@ -164,7 +164,15 @@ class SweepResult:
         metrics += [float("nan")] * (len(self.metrics) - len(metrics))
         values = [_shown(value, field) for value, field in zip(cell.values, self._fields())]
         return [*values, *metrics, job_pb2.Job.State.Name(cell.state),
-                "" if failed else job_pb2.Job.Convergence.Name(cell.convergence), cell.message]
+                "" if failed else job_pb2.Job.Convergence.Name(cell.convergence),
+                cell.message or self._remark(cell)]
+
+    def _remark(self, cell: event_pb2.SweepCell) -> str:
+        """What a cell that did not fail cannot know."""
+        if cell.HasField("cycles") and cell.cycles == 0:
+            return _UNTOUCHED
+        named = zip(self.metrics, self._words(cell))
+        return "; ".join(f"{metric}: {word}" for metric, word in named if word)
 
     def _fields(self) -> list[FieldDescriptor | None]:
         """The field of each axis."""

@@ -24,6 +24,15 @@ using google::protobuf::Message;
 constexpr std::array<std::string_view, 5> kRoots{"cycles", "groups", "final_bodies", "summary",
                                                  "convergence"};
 
+// Numbers of a result that say nothing of a run without a cycle: those of the search for μ.
+constexpr std::array<std::string_view, 6> kOfCycles{
+    "convergence", "iterations",          "episodes",
+    "growths",     "growths_no_progress", "worst_identity_residual"};
+
+bool IsOfCycles(const FieldDescriptor& field) {
+  return std::ranges::find(kOfCycles, field.name()) != kOfCycles.end();
+}
+
 // What names an entry: its body or its contact.
 const FieldDescriptor* NameField(const Descriptor& entry) {
   const FieldDescriptor* name = entry.FindFieldByName("name");
@@ -140,7 +149,12 @@ void SweepMetrics::CheckNames(const Scenario& scenario, std::vector<Violation>* 
 std::vector<SweepMetrics::Metric> SweepMetrics::Of(const v1::Job& result) const {
   std::vector<Metric> metrics;
   metrics.reserve(paths_.size());
-  for (const Path& path : paths_) metrics.push_back(Value(path, result));
+  for (const Path& path : paths_) {
+    metrics.push_back(Value(path, result));
+    if (result.cycles().empty() && IsOfCycles(*path.back().field)) {
+      metrics.back().source = v1::SweepCell::NO_CONTACT;
+    }
+  }
   return metrics;
 }
 
