@@ -350,6 +350,16 @@ TEST_F(VerbRequestsTest, DoctorTakesAnyPatchOfTheSameVersion) {
   EXPECT_NE(end.code, ExitCode::kOk);
 }
 
+TEST_F(VerbRequestsTest, DoctorTellsWhatKeepsLongRunsBusy) {
+  server_.Add("jobs/quick", v1::Job::RUNNING);
+  EXPECT_TRUE(Finding(Run({"doctor", "-o", "json"}), "busy").is_null());
+  server_.Add("jobs/long", v1::Job::RUNNING).mutable_progress()->set_busy_with("a-b, λh 2e4");
+  const json busy = Finding(Run({"doctor", "-o", "json"}), "busy");
+  EXPECT_EQ(busy["found"], "jobs/long: a-b, λh 2e4");
+  EXPECT_TRUE(busy["ok"]);
+  EXPECT_THAT(server_.Asked<v1::ListJobsRequest>().back().states(), ElementsAre(v1::Job::RUNNING));
+}
+
 TEST_F(VerbRequestsTest, DoctorFindsAServerThatStartedInTheFuture) {
   server_.info.set_version(kVersion);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
