@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "simulation/independent.h"
 #include "simulation/kinds.h"
+#include "simulation/proof/independent.h"
 
 namespace contact {
 namespace {
@@ -17,12 +17,14 @@ TEST_P(EveryKind, IsConfirmedByAnIndependentIntegration) {
   for (unsigned seed = 2000; seed < 2000 + (testing::kOptimized ? 24 : 4); ++seed) {
     const Scenario scenario = testing::Dice(seed, static_cast<Kind>(GetParam())).Roll();
     const testing::Record run = testing::RunAndRecord(scenario);
-    const testing::Disagreement miss = testing::Independent(scenario).Compare(run);
+    const testing::Disagreement miss = testing::CompareWithIndependent(scenario, run);
     SCOPED_TRACE(seed);
     EXPECT_LT(miss.velocity, 1e-8);
     EXPECT_LT(miss.restitution, 1e-8);
     EXPECT_LT(miss.time, 1e-8);
+    EXPECT_LT(miss.Worst(), 1e-8) << miss.where;
     EXPECT_LT(miss.overlap, 1e-8);
+    EXPECT_EQ(miss.checked_until, scenario.end_time);
   }
 }
 

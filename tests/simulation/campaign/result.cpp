@@ -5,6 +5,9 @@
 #include <ctime>
 
 #include "simulation/kinds/catalogue.h"
+#include "simulation/proof/independent.h"
+#include "simulation/proof/ledger.h"
+#include "simulation/proof/metamorphic.h"
 #include "simulation/proof/promises.h"
 
 namespace contact::campaign {
@@ -12,12 +15,11 @@ namespace {
 
 using Status = Result::Status;
 
-// A ledger without the iterations, which would fill the memory of a run of millions of steps.
-struct Ledger final : testing::Record {
-  std::int64_t passes = 0;
-  void OnIteration(const Iteration&) override { ++passes; }
-  void OnGrowth(const Group&) override {}
-};
+// How far an independent integration may be from the ledger, and with tension CLIP, whose kink the
+// run does not land on.
+constexpr double kAgreement = 1e-8, kClipped = 1e-6;
+// How far answers may differ when the scenario is said in other words.
+constexpr double kSameAnswer = 1e-6;
 
 constexpr const char* kEnds[] = {"FINISHED", "STOPPED", "NUMERIC", "BUDGET_STEPS", "NOT_CONVERGED"};
 constexpr const char* kCycleStatuses[] = {"CONVERGED",     "GIVEN_LAW", "INFEASIBLE", "SETTLED",
@@ -37,7 +39,7 @@ Status StatusOf(const Outcome& outcome) {
   return outcome.all_converged ? Status::kFull : Status::kPartial;
 }
 
-void Count(const Ledger& run, Result& result) {
+void Count(const testing::Record& run, Result& result) {
   int counts[std::size(kCycleStatuses)] = {};
   for (const Cycle& c : run.cycles) ++counts[static_cast<int>(c.status)];
   for (std::size_t i = 0; i < std::size(kCycleStatuses); ++i) {
@@ -69,6 +71,31 @@ void Copy(const Outcome& outcome, Result& result) {
   result.energy = outcome.energy_residual;
 }
 
+Check Certify(const Scenario& scenario, const testing::Record& run) {
+  if (run.outcome.end != Outcome::End::kFinished) {
+    return {Check::Verdict::kNotChecked, 0, "it did not finish"};
+  }
+  const testing::Disagreement miss = testing::CompareWithIndependent(scenario, run);
+  const double bound = scenario.solver.clip_tension ? kClipped : kAgreement;
+  Check check{Check::Verdict::kAgrees, miss.Worst(), miss.where};
+  if (!(check.worst <= bound)) {
+    check.verdict = Check::Verdict::kDisagrees;
+  } else if (miss.checked_until < run.outcome.time) {
+    check.verdict = Check::Verdict::kNotChecked;
+    check.what = "from " + std::to_string(miss.checked_until) + " s on: too many steps";
+  }
+  return check;
+}
+
+Check InOtherWords(const Scenario& scenario, const testing::Record& run) {
+  if (StatusOf(run.outcome) != Status::kFull) {
+    return {Check::Verdict::kNotChecked, 0, "it is not FULL"};
+  }
+  const testing::Difference found = testing::CompareWithOtherWords(scenario, run);
+  const bool same = found.worst <= kSameAnswer;
+  return {same ? Check::Verdict::kAgrees : Check::Verdict::kDisagrees, found.worst, found.where};
+}
+
 }  // namespace
 
 Scenario ScenarioOf(int kind, unsigned seed, const Options& options) {
@@ -85,14 +112,15 @@ Result RunOne(int kind, unsigned seed, const Options& options) {
   result.seed = seed;
   result.end_time = scenario.end_time;
   result.bodies = static_cast<int>(scenario.bodies.size());
-  Ledger run;
   const double start = ProcessorMs();
-  run.outcome = Run(scenario, run);
+  const testing::Ledger run = testing::RunForLedger(scenario);
   result.ms = ProcessorMs() - start;
   Copy(run.outcome, result);
   Count(run, result);
   result.passes = run.passes;
   result.broken = testing::BrokenPromises(scenario, run);
+  if (options.certify) result.certificate = Certify(scenario, run);
+  if (options.metamorphic) result.metamorphic = InOtherWords(scenario, run);
   return result;
 }
 

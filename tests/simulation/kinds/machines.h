@@ -2,6 +2,7 @@
 // one instant, stand beside stiff springs, creep, and end inside a contact.
 #pragma once
 
+#include <ostream>
 #include <span>
 #include <string_view>
 
@@ -15,6 +16,10 @@ struct Machine {
   void (*build)(Maker&);
   std::string_view shows;  ///< What it is, in a line.
 };
+
+inline std::ostream& operator<<(std::ostream& out, const Machine& machine) {
+  return out << machine.name;
+}
 
 /// Every kind. Order and names do not change what a kind rolls.
 std::span<const Machine> Machines();

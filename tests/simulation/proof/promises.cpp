@@ -20,7 +20,10 @@ class Judge {
       Instants(c);
       Values(c);
     }
-    for (const Group& g : run_.groups) Restitution(g);
+    for (const Group& g : run_.groups) {
+      Restitution(g);
+      Unfinished(g);
+    }
     return broken_;
   }
 
@@ -52,7 +55,8 @@ class Judge {
       }
     }
     if (o.end != Outcome::End::kFinished) return;
-    if (o.time != s_.end_time) Break("end time ", o.time, " of ", s_.end_time);
+    if (!(std::abs(o.time - s_.end_time) <= 1e-12 * s_.end_time))
+      Break("end time ", o.time, " of ", s_.end_time);
     if (!(o.energy_residual <= promised_.balance)) Break("energy ", o.energy_residual);
     if (!(o.momentum_residual <= promised_.balance)) Break("momentum ", o.momentum_residual);
     if (full() && !(o.worst_identity_residual <= promised_.identity)) {
@@ -96,6 +100,37 @@ class Judge {
               g.number, " misses by ", miss);
   }
 
+  // A guess may stay where the end of the run cuts its group, if it is one that lets go.
+  void Unfinished(const Group& g) {
+    if (!full() || g.status != Cycle::Status::kUnfinished) return;
+    const auto& contact = s_.contacts[static_cast<std::size_t>(g.contact)];
+    const double most =
+        std::ranges::max_element(run_.groups, {}, &Group::work_compression)->work_compression;
+    if (g.end != Cycle::End::kRunEnd && g.work_compression > promised_.negligible * most) {
+      BreakOnce("unfinished", contact.name, " group ", g.number);
+    }
+    const double blow = MuOfBlow(contact, Hardest(g));
+    if (blow > 0 && g.mu > promised_.glue * blow) {
+      BreakOnce("glued", contact.name, " group ", g.number, ": ", g.mu / blow, " times");
+    }
+  }
+
+  double Hardest(const Group& g) const {
+    double force = 0;
+    for (const Cycle& c : run_.cycles) {
+      if (c.contact == g.contact && c.group == g.number) force = std::max(force, c.peak_force);
+    }
+    return force;
+  }
+
+  // Of an isolated collision that needs the force in an elastic contact.
+  double MuOfBlow(const Contact& contact, double force) const {
+    const double n = contact.exponent, k = contact.stiffness;
+    const double work = force * std::pow(force / k, 1 / n) / (n + 1);
+    const double v = std::sqrt(2 * work / EffectiveMass(s_, contact));
+    return DampingCoefficient(DampingLaw::kExact, contact.restitution) * k / v;
+  }
+
   const Scenario& s_;
   const Record& run_;
   Promised promised_;
@@ -110,6 +145,16 @@ class Judge {
 std::vector<std::string> BrokenPromises(const Scenario& scenario, const Record& run,
                                         const Promised& promised) {
   return Judge(scenario, run, promised).Judgement();
+}
+
+double EffectiveMass(const Scenario& scenario, const Contact& contact) {
+  double inverse = 0;
+  for (const int body : {contact.left, contact.right}) {
+    if (body == kNone) continue;
+    const Body& b = scenario.bodies[static_cast<std::size_t>(body)];
+    if (!b.fixed) inverse += 1 / b.mass;
+  }
+  return 1 / inverse;
 }
 
 double MissOf(const Group& group) {

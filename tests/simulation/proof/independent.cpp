@@ -1,0 +1,257 @@
+#include "simulation/proof/independent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "simulation/proof/plain_motion.h"
+#include "simulation/proof/promises.h"
+
+namespace contact::testing {
+namespace {
+
+using Status = Cycle::Status;
+
+// Works and velocities are stationary at instants, where F δ̇ = 0: what is off there by a hundred
+// times as much changes nothing else. Of a weak collision a part of its own speed is ten times that
+// of the bodies' at least, and cancels in ε.
+constexpr double kInstants = 0.01, kWorks = 0.1;
+
+class Independent {
+ public:
+  Independent(const Scenario& scenario, const Record& run)
+      : s_(scenario), run_(run), motion_(scenario, LargestSpeed()) {
+    for (const Cycle& c : run.cycles) {
+      deepest_ = std::max(deepest_, c.max_deformation);
+      double& deepest = depths_[c.contact];
+      deepest = std::max(deepest, c.max_deformation);
+      Note(c);
+    }
+    std::ranges::stable_sort(marks_, {}, [](const Mark& m) { return std::pair(m.time, m.kind); });
+  }
+
+  Disagreement Compare(int most_steps) {
+    bool arrived = true;
+    for (const Mark& mark : marks_) {
+      arrived = arrived && motion_.Advance(mark.time, most_steps);
+      if (arrived) Apply(mark);
+    }
+    arrived = arrived && motion_.Advance(run_.outcome.time, most_steps);
+    miss_.checked_until = arrived ? run_.outcome.time : motion_.time();
+    miss_.steps = motion_.steps();
+    for (const Group& g : run_.groups) Restitution(g);
+    if (!arrived) return miss_;
+    Overlaps();
+    Velocities();
+    return miss_;
+  }
+
+ private:
+  // In this order where they are at one instant.
+  struct Mark {
+    enum class Kind { kTurn, kEnd, kStart } kind;
+    double time;
+    const Cycle* cycle;
+  };
+  struct Works {
+    double compression = 0, restitution = 0;
+    int cycles = 0;
+  };
+
+  const Contact& Of(const Cycle& c) const {
+    return s_.contacts[static_cast<std::size_t>(c.contact)];
+  }
+  // Whether it is an answer of a cycle that moves.
+  static bool Counts(const Cycle& c) {
+    return c.status != Status::kSettled && c.status != Status::kNotConverged &&
+           c.status != Status::kInfeasible;
+  }
+  // The largest change of its deformation.
+  static double Swing(const Cycle& c) {
+    return c.max_deformation - std::min(c.start_deformation, c.end_deformation);
+  }
+
+  void Note(const Cycle& c) {
+    marks_.push_back({Mark::Kind::kStart, c.start_time, &c});
+    if (c.turn_time > c.start_time) marks_.push_back({Mark::Kind::kTurn, c.turn_time, &c});
+    if (c.end != Cycle::End::kRunEnd) marks_.push_back({Mark::Kind::kEnd, c.end_time, &c});
+  }
+
+  void Miss(double Disagreement::*which, double value, const Cycle* cycle, const char* what) {
+    if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
+    const double before = miss_.Worst();
+    miss_.*which = std::max(miss_.*which, value);
+    if (miss_.Worst() > before) {
+      miss_.where = what;
+      if (cycle != nullptr) {
+        miss_.where += " of " + Of(*cycle).name + ' ' + std::to_string(cycle->number);
+      }
+    }
+  }
+
+  double LargestSpeed() const {
+    double largest = 1e-12;  // Of what never moves.
+    for (const Body& b : s_.bodies) largest = std::max(largest, std::abs(b.velocity));
+    for (const double v : run_.outcome.velocities) largest = std::max(largest, std::abs(v));
+    for (const Cycle& c : run_.cycles) {
+      const double swing = Frequency(Of(c), c.max_deformation) * Swing(c);
+      largest = std::max({largest, c.approach_velocity, swing});
+    }
+    return largest;
+  }
+
+  // ω of the linear swing about a deformation [rad/s].
+  double Frequency(const Contact& contact, double depth) const {
+    const double n = contact.exponent;
+    return std::sqrt(n * contact.stiffness * std::pow(depth, n - 1) / EffectiveMass(s_, contact));
+  }
+
+  // Of a cycle; but not of round-off where it hardly swings, nor where its row tells next to
+  // nothing of its swing.
+  PlainMotion::Scale ScaleOf(const Cycle& c) const {
+    const Contact& contact = Of(c);
+    const double depth =
+        Counts(c) ? c.max_deformation : std::max(c.max_deformation, 0.1 * depths_.at(c.contact));
+    const double least = (Counts(c) ? 1e-6 : 1e-4) * depth;
+    const double swing = std::max({Swing(c), least, 1e-9 * deepest_});
+    const double force = contact.stiffness * std::pow(depth, contact.exponent);
+    return {swing, std::max(c.approach_velocity, Frequency(contact, depth) * swing),
+            std::max(c.work_compression, force * swing)};
+  }
+
+  void Apply(const Mark& mark) {
+    const Cycle& c = *mark.cycle;
+    const PlainMotion::Scale scale = ScaleOf(c);
+    if (mark.kind == Mark::Kind::kStart) return Start(c, scale);
+    if (mark.kind == Mark::Kind::kTurn) return Turn(c, scale);
+    const double rate = std::abs(motion_.Rate(c.contact)) / scale.speed;
+    const double depth = std::abs(motion_.Deformation(c.contact)) / scale.deformation;
+    if (Counts(c)) {
+      Miss(&Disagreement::time, c.end == Cycle::End::kSeparation ? depth : rate, &c, "end");
+    }
+    Works& works = works_[{c.contact, c.group}];
+    works.restitution += motion_.Work(c.contact) - compression_[c.contact];
+    ++works.cycles;
+    motion_.Disengage(c.contact);
+  }
+
+  void Start(const Cycle& c, const PlainMotion::Scale& scale) {
+    if (Counts(c)) {
+      const double path = std::max(c.max_deformation, c.approach_velocity * c.start_time);
+      Miss(&Disagreement::time,
+           std::abs(motion_.Deformation(c.contact) - c.start_deformation) / path, &c,
+           "deformation at the start");
+    }
+    const double rate = motion_.Rate(c.contact);
+    if (Counts(c) && c.kind == Cycle::Kind::kCollision) {
+      Miss(&Disagreement::approach, std::abs(rate - c.approach_velocity) / scale.speed, &c, "δ̇⁻");
+    } else if (Counts(c)) {
+      Miss(&Disagreement::rest, StartEnergy(c, rate) / (scale.speed * scale.speed), &c,
+           "motion at the start");
+    }
+    Law(c, rate);
+    if (c.status == Status::kSettled) rests_[c.contact] = &c;
+    compression_[c.contact] = 0;
+    motion_.Engage(c.contact, c.mu, scale);
+  }
+
+  // What a NIRV cycle begins with, twice over m_e; but not the rest of a swing that lets it settle.
+  double StartEnergy(const Cycle& c, double rate) {
+    const auto before = rests_.find(c.contact);
+    if (before == rests_.end() || before->second->number + 1 != c.number) return rate * rate;
+    double largest = 0;
+    for (const Cycle& other : run_.cycles) {
+      if (other.contact == c.contact && other.number < c.number) {
+        largest = std::max(largest, other.work_compression);
+      }
+    }
+    const double rest = s_.solver.settled_nirv_fraction * largest;
+    return std::max(0.0, rate * rate - 2 * rest / EffectiveMass(s_, Of(c)));
+  }
+
+  void Law(const Cycle& c, double rate) {
+    const Contact& contact = Of(c);
+    if (contact.damping == DampingLaw::kEnergyRestitution || !Counts(c)) return;
+    double mu = contact.mu;
+    if (NeedsNoVelocity(contact.damping)) {
+      mu = DampingFactor(contact.damping, contact.restitution, contact.stiffness,
+                         EffectiveMass(s_, contact));
+    } else if (contact.damping != DampingLaw::kGiven) {
+      const bool collides = c.kind == Cycle::Kind::kCollision;
+      if (!collides && contact.reference_velocity == 0) return;  // It keeps its last μ.
+      const double v = contact.reference_velocity > 0 ? contact.reference_velocity : rate;
+      mu = DampingCoefficient(contact.damping, contact.restitution) * contact.stiffness / v;
+    }
+    Miss(&Disagreement::law, mu == c.mu ? 0 : std::abs(c.mu / mu - 1), &c, "μ of the law");
+  }
+
+  void Turn(const Cycle& c, const PlainMotion::Scale& scale) {
+    if (Counts(c)) {
+      Miss(&Disagreement::time, std::abs(motion_.Rate(c.contact)) / scale.speed, &c, "turn");
+    }
+    compression_[c.contact] = motion_.Work(c.contact);
+    works_[{c.contact, c.group}].compression += compression_[c.contact];
+  }
+
+  // Of groups that were integrated from their start to their end.
+  void Restitution(const Group& g) {
+    const bool answered = g.status == Status::kConverged || g.status == Status::kGivenLaw;
+    if (!answered || g.end == Cycle::End::kRunEnd || !(g.work_compression > 0)) return;
+    const Works& works = works_[{g.contact, g.number}];
+    if (works.cycles < g.cycles) return;
+    const auto found = std::ranges::find_if(run_.cycles, [&](const Cycle& c) {
+      return c.contact == g.contact && c.number == g.first_cycle;
+    });
+    const Cycle* first = found == run_.cycles.end() ? nullptr : &*found;
+    Miss(&Disagreement::work, std::abs(works.compression / g.work_compression - 1), first, "W_c");
+    if (g.status == Status::kGivenLaw && !(g.restitution_out > 0)) return;  // It may pull.
+    const double out = std::sqrt(-works.restitution / works.compression);
+    Miss(&Disagreement::restitution, std::abs(out / g.restitution_out - 1), first, "ε");
+  }
+
+  void Overlaps() {
+    double size = 0;
+    for (const Body& b : s_.bodies) size = std::max(size, std::abs(b.position) + b.radius);
+    for (int c = 0; c < std::ssize(s_.contacts); ++c) {
+      const double depth = depths_[c] > 0 ? depths_[c] : deepest_ > 0 ? deepest_ : 1e-6 * size;
+      if (motion_.Overlap(c) <= 0) continue;
+      const Contact& contact = s_.contacts[static_cast<std::size_t>(c)];
+      Miss(&Disagreement::overlap, std::pow(motion_.Overlap(c) / depth, contact.exponent), nullptr,
+           ("overlap outside cycles of " + contact.name).c_str());
+    }
+  }
+
+  void Velocities() {
+    const double largest = std::max(motion_.fastest(), 1e-12);
+    for (int i = 0; i < std::ssize(s_.bodies); ++i) {
+      const double v = run_.outcome.velocities[static_cast<std::size_t>(i)];
+      Miss(&Disagreement::velocity, std::abs(motion_.Velocity(i) - v) / largest, nullptr,
+           ("velocity of " + s_.bodies[static_cast<std::size_t>(i)].name).c_str());
+    }
+  }
+
+  const Scenario& s_;
+  const Record& run_;
+  PlainMotion motion_;
+  std::vector<Mark> marks_;
+  std::map<int, double> depths_, compression_;  // Of contacts: δ_m of all; W_c of the cycle.
+  std::map<int, const Cycle*> rests_;           // The last row of a contact that is SETTLED.
+  double deepest_ = 0;
+  std::map<std::pair<int, int>, Works> works_;  // Of the group of a contact.
+  Disagreement miss_;
+};
+
+}  // namespace
+
+double Disagreement::Worst() const {
+  return std::max({velocity, restitution, kWorks * work, kWorks * approach, rest, law,
+                   kInstants * time, kInstants * overlap});
+}
+
+Disagreement CompareWithIndependent(const Scenario& scenario, const Record& run, int most_steps) {
+  return Independent(scenario, run).Compare(most_steps);
+}
+
+}  // namespace contact::testing
