@@ -196,15 +196,16 @@ bool Stepper::Take(double until) {
   return false;
 }
 
-// The square of the error of a contact's work, relative to what it stores with a deformation of
-// `length` [m]. The force of a contact that other forces drive hardly shows in its motion, by which
+// The square of the error of a contact's work, relative to the work, or to what the contact stores
+// with a deformation of `length` [m]. The force of a contact that other forces drive hardly shows in its motion, by which
 // steps are measured.
 double Stepper::WorkError(const ActiveContact& active, double length) const {
   if (system_.implicit) return 0;
   Motions five, three;
-  system_.rk.Errors(system_.equations.work(active.contact), 1, &five.length, &three.length);
+  const std::ptrdiff_t work = system_.equations.work(active.contact);
+  system_.rk.Errors(work, 1, &five.length, &three.length);
   const double stored = ElasticEnergy(active.stiffness, active.exponent, length);
-  return Square(five, three, {stored, 1});
+  return Square(five, three, {Largest(stored, std::abs(system_.rk.y1[work])), 1});
 }
 
 // Whether a collision that begins with the step also turns in it, so that nothing has measured it:
