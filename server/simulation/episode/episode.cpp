@@ -21,8 +21,6 @@ constexpr int kRounds = 500;
 constexpr double kAtOnce = 1e-9;
 // A group found unfinished that others let end after all is sought again, so often at most.
 constexpr int kReopened = 3;
-// Part by which the scale of a group must differ from that of an earlier pass to be taken anew.
-constexpr double kOther = 0.5;
 // Scans in a row in which negligible groups come and go.
 constexpr int kRescans = 5;
 // A miss by which a guess is poor, so that the search begins with the earliest part of the front,
@@ -148,13 +146,14 @@ Sight EpisodeSolver::Scan(bool coarse) {
     bool changed = false;
     for (const GroupSight& g : sight.groups) {
       Unknown& unknown = problem_.groups.At(g.id);
+      unknown.cut = !g.ended || g.end_time > problem_.end();
       if (!g.ended) continue;
       const bool flips = g.sought && unknown.weak != g.weak;
       changed |= flips;
       unknown.flips += flips;
       unknown.weak = g.weak;
       unknown.restitution_out = std::sqrt(std::max(g.squared, 0.0));
-      const bool other = g.length < kOther * unknown.length || kOther * g.length > unknown.length;
+      const bool other = unknown.length == 0;
       if (other) unknown.length = g.length, unknown.speed = g.speed;
       const bool ends_after_all = unknown.status == Cycle::Status::kUnfinished &&
                                   g.end_time <= problem_.end() && unknown.reopened < kReopened;

@@ -25,6 +25,13 @@ double Ratio(double work_compression, double work_restitution) {
   return work_compression > 0 && squared >= 0 ? std::sqrt(squared) : kNaN;
 }
 
+// What a group is called that the end of the run cuts, by what the search has found beyond it.
+Cycle::Status OfCut(Cycle::Status found) {
+  const bool guessed =
+      found == Cycle::Status::kUnfinished || found == Cycle::Status::kNotConverged;
+  return guessed ? Cycle::Status::kUnfinished : Cycle::Status::kCut;
+}
+
 }  // namespace
 
 Recorder::Recorder(const Scenario& scenario, const Motion& motion, Observer& observer,
@@ -97,6 +104,7 @@ void Recorder::Open(ContactState& state, const Unknown& unknown) const {
   group.status = unknown.status;
   if (contact.damping != DampingLaw::kEnergyRestitution) group.status = Cycle::Status::kGivenLaw;
   if (IsUndamped(scenario_, state.cycle.contact)) group.status = Cycle::Status::kConverged;
+  if (unknown.cut) group.status = OfCut(group.status);
   if (contact.damping != DampingLaw::kGiven) group.restitution_in = contact.restitution;
   group.restitution_out = unknown.restitution_out;
   group.growth = unknown.growth;
@@ -215,7 +223,8 @@ void Recorder::Close(ContactState& state) {
   const double allowed = scenario_.solver.restitution_tolerance * group.restitution_in;
   const double miss = std::abs(group.restitution_out - group.restitution_in);
   Cycle::Status status = group.status;
-  if (status == Cycle::Status::kUnfinished) status = Cycle::Status::kNotConverged;  // It has ended.
+  const bool cut = status == Cycle::Status::kUnfinished || status == Cycle::Status::kCut;
+  if (cut) status = Cycle::Status::kNotConverged;  // It has ended.
   if (status == Cycle::Status::kNotConverged && miss <= allowed) status = Cycle::Status::kConverged;
   if (status == Cycle::Status::kConverged && !(miss <= kRecorded * allowed)) {
     status = Cycle::Status::kNotConverged;
@@ -237,9 +246,7 @@ void Recorder::FinishCut(ContactState& state) {
   Label(state, cycle);
   if (state.phase == Phase::kResting) return;
   Group& group = state.member.group;
-  const bool guessed = group.status == Cycle::Status::kUnfinished ||
-                       group.status == Cycle::Status::kNotConverged;
-  cycle.status = group.status = guessed ? Cycle::Status::kUnfinished : Cycle::Status::kCut;
+  cycle.status = group.status = OfCut(group.status);
   if (group.number == 0) return;
   group.end = Cycle::End::kRunEnd;
   group.end_time = cycle.end_time;

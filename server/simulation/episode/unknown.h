@@ -40,6 +40,7 @@ struct Unknown {
   bool weak = false;              ///< Its work was negligible in the last pass.
   int reopened = 0;               ///< How often it ended after all, once it was found unfinished.
   int flips = 0;                  ///< How often it became negligible, or was no more.
+  bool cut = false;               ///< It does not end before the end of the run.
   bool given_up = false;          ///< As many corrections as are allowed did not solve it.
   bool lowered = false;           ///< It did not end, and its μ was lowered until it did.
   int iterations = 0;             ///< Corrections of μ by the search that found it.

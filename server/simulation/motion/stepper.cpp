@@ -22,9 +22,9 @@ constexpr double kEarly = 10;    // Tolerances a step may miss by in a pass that
 constexpr double kMostGrowth = 6;
 constexpr double kStable = 4;  // λ h of the first explicit step after implicit ones.
 // The scale of a contact, in that of the largest: with 1e-3 the ε of weak contacts was off by 3e-6.
-constexpr double kWeakest = 1e-6;
+constexpr double kWeakest = 1e-3;
 constexpr double kRoundOff = 1e-15;
-// Part of the acceleration of a contact below which its own force is faint.
+// Part of the acceleration of a contact below which its own force is faint, where it is largest.
 constexpr double kFaint = 0.1;
 // Part of a step that is left of one in which a collision would begin and turn; not below this part
 // of its duration.
@@ -312,7 +312,10 @@ double Stepper::ErrorNorm(Count n, double h) {
     const Motions scale{length, speed + decay * length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
     const double driven = std::abs(active.Relative(system_.rk.slope0.data() + n));
-    if (stiffness * deformation < kFaint * driven) norm = Largest(norm, WorkError(active, length));
+    const double strongest = active.StiffnessAt(length) * inverse_mass * length;
+    if (own.length > 0 && strongest < kFaint * driven) {
+      norm = Largest(norm, WorkError(active, length));
+    }
     decay_ = Largest(decay_, decay);
   }
   const double of_bodies =
