@@ -22,7 +22,7 @@ TEST_P(EveryKind, IsConfirmedByAnIndependentIntegration) {
     EXPECT_LT(miss.velocity, 1e-8);
     EXPECT_LT(miss.restitution, 1e-8);
     EXPECT_LT(miss.time, 1e-8);
-    EXPECT_LT(miss.Worst(), 1e-8) << miss.where;
+    EXPECT_LT(miss.worst, 1e-8) << miss.where;
     EXPECT_LT(miss.overlap, 1e-8);
     EXPECT_EQ(miss.checked_until, scenario.end_time);
   }

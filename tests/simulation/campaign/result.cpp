@@ -77,9 +77,12 @@ Check Certify(const Scenario& scenario, const testing::Record& run) {
   }
   const testing::Disagreement miss = testing::CompareWithIndependent(scenario, run);
   const double bound = scenario.solver.clip_tension ? kClipped : kAgreement;
-  Check check{Check::Verdict::kAgrees, miss.Worst(), miss.where};
-  if (!(check.worst <= bound)) {
+  Check check{Check::Verdict::kAgrees, miss.worst, miss.where};
+  if (miss.sure > bound) {
     check.verdict = Check::Verdict::kDisagrees;
+  } else if (!(check.worst <= bound)) {
+    check.verdict = Check::Verdict::kNotChecked;
+    check.what = "too sensitive to tell";
   } else if (miss.checked_until < run.outcome.time) {
     check.verdict = Check::Verdict::kNotChecked;
     check.what = "from " + std::to_string(miss.checked_until) + " s on: too many steps";

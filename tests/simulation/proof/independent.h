@@ -21,12 +21,12 @@ struct Disagreement {
   double rest = 0;           ///< Energy with which NIRV cycles begin, over that of their swing.
   double overlap = 0;        ///< Elastic force outside cycles, over the largest of the contact.
   double law = 0;            ///< Of μ of a named law, by its α and δ̇⁻.
-  std::string where;         ///< The contact and cycle of the worst of these.
+  double worst = 0;          ///< Largest, of which times and overlap count a hundredth, works and
+                             ///< δ̇⁻ a tenth.
+  double sure = 0;           ///< The same, less what the integration itself may be off by there.
+  std::string where;         ///< Where that is: what, and the contact and cycle; empty if it is 0.
   double checked_until = 0;  ///< Where the integration ended [s]: too many steps, or the run's end.
   int steps = 0;             ///< Of the integration.
-
-  /// The largest, of which times and overlap count a hundredth, works and δ̇⁻ a tenth.
-  double Worst() const;
 };
 
 /// Integrates a run that finished again, in `most_steps` at most; what it does not reach is not

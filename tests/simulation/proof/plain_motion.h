@@ -20,8 +20,9 @@ class PlainMotion {
     double deformation, speed, work;
   };
 
-  /// `speed`: of the fastest body, > 0; what the errors of all bodies are relative to.
-  PlainMotion(const Scenario& scenario, double speed);
+  /// `speed`: of the fastest body, > 0; what the errors of all bodies are relative to. `tolerance`:
+  /// of a step.
+  PlainMotion(const Scenario& scenario, double speed, double tolerance);
 
   void Engage(int contact, double mu, const Scale& scale);
   void Disengage(int contact);
@@ -69,7 +70,7 @@ class PlainMotion {
 
   const Scenario& s_;
   std::size_t bodies_;
-  double speed_;
+  double speed_, tolerance_;
   std::vector<double> exponents_;  // p of each contact.
   std::vector<double> mu_;         // NaN: not engaged.
   std::vector<Scale> scales_;
