@@ -2,7 +2,6 @@
 
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/string.hpp>
-#include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -153,6 +152,11 @@ void serialize(Archive& archive, Unknown& u) {
   archive(u.length, u.speed, u.corrected, u.kept, u.guesses, u.weak, u.reopened, u.flips,
           u.cut, u.given_up, u.lowered, u.iterations);
   archive(u.growth, u.status, u.too_much, u.too_little);
+}
+
+template <class Archive>
+void serialize(Archive& archive, RestEnd& r) {
+  archive(r.before, r.time);
 }
 
 template <class Archive>

@@ -89,8 +89,8 @@ void EpisodeSolver::Save(RunState* state) const {
   state->solved_until = solved_until_;
   state->unknowns.clear();
   for (const auto& [id, unknown] : problem_.groups.known()) state->unknowns.push_back(unknown);
-  const auto& ends = problem_.groups.rest_ends();
-  state->rest_ends.assign(ends.begin(), ends.end());
+  state->rest_ends.clear();
+  for (const auto& [id, time] : problem_.groups.rest_ends()) state->rest_ends.push_back({id, time});
   recorder_.Save(state);
 }
 

@@ -30,6 +30,7 @@ class FirstGuess {
  private:
   double Sought(const ContactState& state, double alpha, double own_speed, double effective_mass,
                 double external_force) const;
+  double SpeedAround(const Cycle& cycle, double effective_mass) const;
   double Paper(const ContactState& state, double own_speed) const;
   int Neighbour(int contact, int except) const;
   double NeighbourSpeed(int contact) const;

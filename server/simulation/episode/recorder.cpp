@@ -230,7 +230,9 @@ void Recorder::Close(ContactState& state) {
     status = Cycle::Status::kNotConverged;
   }
   if (state.member.disproved) status = Cycle::Status::kNotConverged;
-  if (status == Cycle::Status::kNotConverged && weak) status = Cycle::Status::kSettled;
+  const bool answerless =
+      status == Cycle::Status::kNotConverged || status == Cycle::Status::kReleased;
+  if (answerless && weak) status = Cycle::Status::kSettled;
   group.status = status;
   const bool answered = unknown == nullptr || unknown->given_up;
   if (status == Cycle::Status::kNotConverged && !answered) sound_ = false;

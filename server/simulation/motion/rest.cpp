@@ -49,10 +49,18 @@ double Rest::Disturbance(int contact, double deformation) const {
   const double start = state.cycle.start_deformation;
   const double force = Stress(c, deformation).value;
   const double work = force * std::abs(deformation - start);
-  const double limit =
-      kWakeFactor * system_.scenario.solver.settled_nirv_fraction * state.largest_work;
-  const double gone = 1 - force / Stress(c, start).value;
-  return std::max(limit > 0 ? work / limit : 0.0, gone / kGone);
+  const double limit = WakingWork(state);
+  return limit > 0 ? work / limit : 0;
+}
+
+double Rest::WakingWork(const ContactState& state) const {
+  return kWakeFactor * system_.scenario.solver.settled_nirv_fraction * state.largest_work;
+}
+
+bool Rest::IsLeft(int contact, double deformation) const {
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const double start = system_.contacts[At(contact)].cycle.start_deformation;
+  return Stress(c, deformation).value < kGone * Stress(c, start).value;
 }
 
 // Where δ̇ changes its sign, as long as what has happened since the rest began is negligible.
@@ -76,7 +84,8 @@ bool Rest::Ends(int contact, bool at_breakpoint, CycleHost& host) {
   const double deformation = system_.Deformation(contact, system_.rk.y0.data());
   const double disturbance = Disturbance(contact, deformation);
   if (at_breakpoint && disturbance <= kNegligible) state.rest_mark = system_.time;
-  return disturbance > 1 && host.OnDisturbed(state, state.rest_mark);
+  return disturbance > 1 ? host.OnDisturbed(state, state.rest_mark)
+                         : IsLeft(contact, deformation);
 }
 
 std::vector<double> Rest::Spread(std::vector<double> of_bodies) const {
@@ -112,10 +121,11 @@ std::vector<int> Rest::Disturbed(const std::vector<double>& of_bodies, Displacem
     const double cause =
         std::max(sides.left_counts * of_bodies[static_cast<std::size_t>(sides.left)],
                  sides.right_counts * of_bodies[static_cast<std::size_t>(sides.right)]);
-    const double deformation = state.cycle.start_deformation;
-    const double moved = by(cause, Stress(system_.scenario.contacts[At(c)], deformation).slope);
-    const double least = kWakeFactor * system_.scenario.solver.settled_nirv_fraction;
-    if (moved > least * deformation) disturbed.push_back(c);
+    const Power stress =
+        Stress(system_.scenario.contacts[At(c)], state.cycle.start_deformation);
+    const double moved = by(cause, stress.slope);
+    const double work = (stress.value + 0.5 * stress.slope * moved) * moved;
+    if (work > WakingWork(state)) disturbed.push_back(c);
   }
   return disturbed;
 }

@@ -33,12 +33,15 @@ class Rest {
   std::vector<int> DisturbedByLoads() const;
 
  private:
-  /// How much a contact that rests is disturbed with this deformation, in units of what ends its
-  /// rest: its work, or all of what keeps it closed.
+  /// The work of a contact that rests with this deformation, in units of what ends its rest.
   double Disturbance(int contact, double deformation) const;
+  /// The work that ends the rest of a contact [J].
+  double WakingWork(const ContactState& state) const;
+  /// Whether what pressed it is gone, however little that stored: it is let go at once.
+  bool IsLeft(int contact, double deformation) const;
   /// A quantity of each body, summed over those that closed contacts and supports join.
   std::vector<double> Spread(std::vector<double> of_bodies) const;
-  /// Those resting contacts that a displacement disturbs, by the stiffness of the contact [m].
+  /// Those resting contacts that a displacement [m], by the stiffness of the contact, disturbs.
   template <class Displacement>
   std::vector<int> Disturbed(const std::vector<double>& of_bodies, Displacement by) const;
 

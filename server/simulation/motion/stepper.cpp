@@ -23,6 +23,7 @@ constexpr double kMostGrowth = 6;
 constexpr double kStable = 4;  // λ h of the first explicit step after implicit ones.
 // The scale of a contact, in that of the largest: with 1e-3 the ε of weak contacts was off by 3e-6.
 constexpr double kWeakest = 1e-3;
+// Round-off of what a step sums.
 constexpr double kRoundOff = 1e-15;
 // Part of the acceleration of a contact below which its own force is faint, where it is largest.
 constexpr double kFaint = 0.1;
