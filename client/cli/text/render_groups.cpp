@@ -73,8 +73,8 @@ std::string NoSolution(const v1::Group& group) {
 
 std::string Released(const v1::Group& group) {
   const double given = -group.work_restitution_j();
-  return fmt::format("it gives back {} that was stored before",
-                     std::isnan(given) ? "what" : Digits(given, 6) + " J");
+  return fmt::format("it gives back {} was stored before",
+                     std::isnan(given) ? "what" : Digits(given, 6) + " J that");
 }
 
 // What the search reached of a group that no μ solves.

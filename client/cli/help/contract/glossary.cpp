@@ -14,14 +14,13 @@ namespace contact::cli {
 namespace {
 
 // The enums with words that need an explanation: message and enum.
-constexpr std::array<std::array<const char*, 2>, 8> kEnums = {{{"Cycle", "Kind"},
+constexpr std::array<std::array<const char*, 2>, 7> kEnums = {{{"Cycle", "Kind"},
                                                                {"Cycle", "End"},
                                                                {"Cycle", "Status"},
                                                                {"Group", "Growth"},
                                                                {"Solver", "RestitutionScope"},
                                                                {"Job", "State"},
-                                                               {"Job", "Convergence"},
-                                                               {"SweepCell", "Source"}}};
+                                                               {"Job", "Convergence"}}};
 
 WordList ListOf(const google::protobuf::EnumDescriptor& type) {
   WordList list{
