@@ -101,7 +101,7 @@ void serialize(Archive& archive, Group& g) {
 
 template <class Archive>
 void serialize(Archive& archive, ContactState::Membership& m) {
-  archive(m.open, m.after_rest, m.disproved, m.place, m.lasts, m.groups, m.iterations, m.imbalance, m.group);
+  archive(m.open, m.after_rest, m.disproved, m.nothing, m.place, m.lasts, m.groups, m.iterations, m.imbalance, m.group);
 }
 
 template <class Archive>

@@ -56,6 +56,7 @@ bool Growing::JoinPrevious(const GroupId& id, Growth why) {
 bool Growing::Grow(const GroupId& id, Growth why) {
   if (problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle) return false;
   if (why == Growth::kTooMuch && JoinPrevious(id, why)) return true;
+  if (why == Growth::kTooMuch && id.place > 1) return false;  // What is before it is final.
   // The trough that ends the group may be there on one side of what was sought only.
   Unknown& unknown = problem_.groups.At(id);
   const double here = unknown.mu;

@@ -61,7 +61,7 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
       member.group.encounter == state.encounter && member.place > 0 ? member.place + 1 : 1;
   member.open = true;
   member.after_rest = state.woken;
-  member.disproved = false;
+  member.disproved = member.nothing = false;
   member.group = {};
   member.group.contact = cycle.contact;
   member.group.encounter = state.encounter;

@@ -14,9 +14,9 @@ constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
 // those of the search, and so does its round-off.
 constexpr double kRecorded = 2;
 // What the proof of a row allows. Of its identity (W4): ten tolerances, or what events located to
-// round-off leave in weak cycles. Of δ̇ at a start or end where it is 0, relative to the largest:
-// the cycle before ends there.
-constexpr double kIdentity = 10, kLeastIdentity = 1e-7, kAtRest = 1e-4;
+// round-off leave in weak cycles. Of the kinetic energy where a cycle begins at rest, relative to
+// W_c. A work of this part of the largest of all contacts is nothing: its row proves nothing.
+constexpr double kIdentity = 10, kLeastIdentity = 1e-7, kAtRest = 1e-8, kNothing = 1e-10;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -37,6 +37,7 @@ Cycle::Status OfCut(Cycle::Status found) {
 Recorder::Recorder(const Scenario& scenario, const Motion& motion, Observer& observer,
                    Groups& known)
     : scenario_(scenario),
+      motion_(motion),
       observer_(observer),
       known_(known),
       membership_(scenario, motion, known),
@@ -158,7 +159,7 @@ void Recorder::Label(const ContactState& state, Cycle& cycle) const {
 }
 
 void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::ArrayXd&, double,
-                     double speed) {
+                     double) {
   Cycle& cycle = state.cycle;
   const bool rested = !state.member.open;
   const bool ended = membership_.End(state);
@@ -168,7 +169,7 @@ void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::Ar
   if (rested) cycle.group = 0, cycle.status = Cycle::Status::kSettled;
   if (cycle.status == Cycle::Status::kSettled) cycle.restitution_out = kNaN;
   if (!rested && !membership_.IsWeak(state)) {
-    if (const std::string fault = Fault(state, speed); !fault.empty()) Disprove(state, fault);
+    if (const std::string fault = Fault(state); !fault.empty()) Disprove(state, fault);
   }
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   if (cycle.status == Cycle::Status::kGivenLaw && contact.damping != DampingLaw::kGiven) {
@@ -179,8 +180,9 @@ void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::Ar
 }
 
 // What the recorded motion denies of a cycle that is not negligible; empty: nothing.
-std::string Recorder::Fault(const ContactState& state, double speed) const {
+std::string Recorder::Fault(const ContactState& state) const {
   const Cycle& cycle = state.cycle;
+  const double mass = 0.5 * motion_.equations().effective_mass(cycle.contact);
   const double bound =
       std::max(kLeastIdentity, kIdentity * scenario_.solver.restitution_tolerance);
   std::ostringstream text;
@@ -191,7 +193,7 @@ std::string Recorder::Fault(const ContactState& state, double speed) const {
   } else if (!(cycle.identity_residual <= bound)) {
     text << "its identity residual is " << cycle.identity_residual << ", above " << bound;
   } else if (cycle.kind == Cycle::Kind::kNirv && !woken &&
-             std::abs(state.start_velocity) > kAtRest * speed) {
+             mass * state.start_velocity * state.start_velocity > kAtRest * cycle.work_compression) {
     text << "it begins with " << state.start_velocity << " m/s and not at rest";
   }
   return text.str();
@@ -199,7 +201,13 @@ std::string Recorder::Fault(const ContactState& state, double speed) const {
 
 // A group of which a row fails its proof is not called anything else, whatever the search believed.
 void Recorder::Disprove(ContactState& state, const std::string& fault) {
+  double largest = 0;
+  for (const ContactState& other : motion_.contacts()) {
+    largest = std::max({largest, other.largest_work, other.cycle.work_compression});
+  }
+  state.member.nothing = state.cycle.work_compression <= kNothing * largest;
   state.member.disproved = true;
+  if (state.member.nothing) return;
   const auto contact = At(state.cycle.contact);
   if (unproven_[contact]) return;
   unproven_[contact] = true;
@@ -232,7 +240,7 @@ void Recorder::Close(ContactState& state) {
   if (state.member.disproved) status = Cycle::Status::kNotConverged;
   const bool answerless =
       status == Cycle::Status::kNotConverged || status == Cycle::Status::kReleased;
-  if (answerless && weak) status = Cycle::Status::kSettled;
+  if (answerless && (weak || state.member.nothing)) status = Cycle::Status::kSettled;
   group.status = status;
   const bool answered = unknown == nullptr || unknown->given_up;
   if (status == Cycle::Status::kNotConverged && !answered) sound_ = false;

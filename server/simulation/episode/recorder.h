@@ -40,13 +40,14 @@ class Recorder final : public CycleHost {
  private:
   void Open(ContactState& state, const Unknown& unknown) const;
   void Label(const ContactState& state, Cycle& cycle) const;
-  std::string Fault(const ContactState& state, double speed) const;
+  std::string Fault(const ContactState& state) const;
   void Disprove(ContactState& state, const std::string& fault);
   void Close(ContactState& state);
   void WarnWithoutVelocity(const ContactState& state);
   void WarnOfMiss(const Contact& contact, const Cycle& cycle);
 
   const Scenario& scenario_;
+  const Motion& motion_;
   Observer& observer_;
   Groups& known_;
   Membership membership_;
