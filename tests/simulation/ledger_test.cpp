@@ -82,7 +82,7 @@ void ExpectThatEveryCycleLastsAndDoesWork(const Scenario& scenario) {
   for (const Cycle& c : r.cycles) {
     EXPECT_GT(c.end_time, c.start_time) << c.contact << " #" << c.number;
     const bool rested = c.status == Cycle::Status::kSettled;  // Or negligible.
-    const bool hidden = std::isnan(c.work_compression);        // By the end of the run.
+    const bool hidden = std::isnan(c.work_compression);       // By the end of the run.
     if (!rested && !hidden && c.status != Cycle::Status::kReleased) {
       EXPECT_GT(c.work_compression, 0) << c.contact << " #" << c.number << " at " << c.start_time;
     }

@@ -66,8 +66,8 @@ double FirstGuess::Sought(const ContactState& state, double alpha, double own,
                           double effective_mass, double external_force) const {
   const Contact& contact = scenario_.contacts[At(state.cycle.contact)];
   if (own == 0 && state.last_mu > 0 && !state.woken) return state.last_mu;
-  double speed = std::max({own, NeighbourSpeed(state.cycle.contact),
-                           SpeedAround(state.cycle, effective_mass)});
+  double speed = std::max(
+      {own, NeighbourSpeed(state.cycle.contact), SpeedAround(state.cycle, effective_mass)});
   if (speed == 0) speed = fastest_;
   const double swing = SwingSpeed(contact, effective_mass, external_force);
   speed = speed > 0 ? std::max(speed, kSwing * swing) : swing;
@@ -81,8 +81,7 @@ double FirstGuess::SpeedAround(const Cycle& cycle, double effective_mass) const 
   const double own = cycle.approach_velocity;
   if (own == 0) return 0;
   const Contact& here = scenario_.contacts[At(cycle.contact)];
-  const double depth =
-      MaximumDeformation(effective_mass, own, here.stiffness, here.exponent, 0);
+  const double depth = MaximumDeformation(effective_mass, own, here.stiffness, here.exponent, 0);
   const double* y = motion_.integrator().y0.data();
   const Equations& equations = motion_.equations();
   double largest = 0;

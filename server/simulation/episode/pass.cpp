@@ -9,9 +9,9 @@
 namespace contact {
 namespace {
 
-// A contact creeps if it has not turned in so many of the times in which it swings, or in which what
-// its damping holds back fades: e⁻⁴⁰ is round-off. Scans have a little less patience, so that what
-// they see to end is seen to end by all.
+// A contact creeps if it has not turned in so many of the times in which it swings, or in which
+// what its damping holds back fades: e⁻⁴⁰ is round-off. Scans have a little less patience, so that
+// what they see to end is seen to end by all.
 constexpr double kPatience = 40, kPatienceOfAScan = 32;
 // Periods of a sine that may turn a contact.
 constexpr double kPeriods = 2;

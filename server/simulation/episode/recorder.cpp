@@ -15,7 +15,7 @@ constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
 constexpr double kRecorded = 2;
 // What the proof of a row allows. Of its identity (W4): ten tolerances, or what events located to
 // round-off leave in weak cycles. Of the kinetic energy where a cycle begins at rest, relative to
-// W_c. A work of this part of the largest of all contacts is nothing: its row proves nothing.
+// W_c. A work of this part of the energy of all is nothing: its row proves nothing.
 constexpr double kIdentity = 10, kLeastIdentity = 1e-7, kAtRest = 1e-8, kNothing = 1e-10;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -27,8 +27,7 @@ double Ratio(double work_compression, double work_restitution) {
 
 // What a group is called that the end of the run cuts, by what the search has found beyond it.
 Cycle::Status OfCut(Cycle::Status found) {
-  const bool guessed =
-      found == Cycle::Status::kUnfinished || found == Cycle::Status::kNotConverged;
+  const bool guessed = found == Cycle::Status::kUnfinished || found == Cycle::Status::kNotConverged;
   return guessed ? Cycle::Status::kUnfinished : Cycle::Status::kCut;
 }
 
@@ -183,8 +182,7 @@ void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::Ar
 std::string Recorder::Fault(const ContactState& state) const {
   const Cycle& cycle = state.cycle;
   const double mass = 0.5 * motion_.equations().effective_mass(cycle.contact);
-  const double bound =
-      std::max(kLeastIdentity, kIdentity * scenario_.solver.restitution_tolerance);
+  const double bound = std::max(kLeastIdentity, kIdentity * scenario_.solver.restitution_tolerance);
   std::ostringstream text;
   const bool ordered = cycle.start_time <= cycle.turn_time && cycle.turn_time <= cycle.end_time;
   const bool woken = state.member.after_rest && cycle.number == state.member.group.first_cycle;
@@ -193,7 +191,8 @@ std::string Recorder::Fault(const ContactState& state) const {
   } else if (!(cycle.identity_residual <= bound)) {
     text << "its identity residual is " << cycle.identity_residual << ", above " << bound;
   } else if (cycle.kind == Cycle::Kind::kNirv && !woken &&
-             mass * state.start_velocity * state.start_velocity > kAtRest * cycle.work_compression) {
+             mass * state.start_velocity * state.start_velocity >
+                 kAtRest * cycle.work_compression) {
     text << "it begins with " << state.start_velocity << " m/s and not at rest";
   }
   return text.str();
@@ -201,11 +200,8 @@ std::string Recorder::Fault(const ContactState& state) const {
 
 // A group of which a row fails its proof is not called anything else, whatever the search believed.
 void Recorder::Disprove(ContactState& state, const std::string& fault) {
-  double largest = 0;
-  for (const ContactState& other : motion_.contacts()) {
-    largest = std::max({largest, other.largest_work, other.cycle.work_compression});
-  }
-  state.member.nothing = state.cycle.work_compression <= kNothing * largest;
+  const double energy = motion_.equations().Energy(motion_.integrator().y0.data());
+  state.member.nothing = state.cycle.work_compression <= kNothing * energy;
   state.member.disproved = true;
   if (state.member.nothing) return;
   const auto contact = At(state.cycle.contact);

@@ -53,8 +53,8 @@ class Recorder final : public CycleHost {
   Membership membership_;
   int episode_ = 0;
   bool sound_ = true;
-  std::vector<bool> warned_;  // Per contact.
-  std::vector<bool> missed_;  // Per law.
+  std::vector<bool> warned_;    // Per contact.
+  std::vector<bool> missed_;    // Per law.
   std::vector<bool> unproven_;  // Contacts of which it was told that a row fails its proof.
 };
 

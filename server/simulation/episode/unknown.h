@@ -61,11 +61,11 @@ struct GroupSight {
   GroupId id;
   double mu = 0;
   double restitution_in = kNaN;
-  bool sought = false;     ///< Its μ is to be found; else a law gives it.
-  bool ended = false;      ///< In the pass.
-  bool separated = false;  ///< How it ended.
-  bool weak = false;       ///< Negligible work.
-  bool released = false;   ///< A restitution without compression before it; not sought.
+  bool sought = false;      ///< Its μ is to be found; else a law gives it.
+  bool ended = false;       ///< In the pass.
+  bool separated = false;   ///< How it ended.
+  bool weak = false;        ///< Negligible work.
+  bool released = false;    ///< A restitution without compression before it; not sought.
   bool after_rest = false;  ///< Before it the contact has rested: it joins none before.
   int first_cycle = 1, cycles = 0;
   double start_time = 0, end_time = 0, last_turn = 0;
@@ -92,10 +92,10 @@ struct Sight {
   std::vector<GroupSight> groups;  ///< In order of start.
   std::vector<double> quiet;       ///< Instants at which no cycle ran [s].
   Motion::Pause pause = Motion::Pause::kQuiet;
-  double time = 0;       ///< Reached [s].
-  bool crowded = false;  ///< It saw as many cycles as it was to see, and there are more.
+  double time = 0;         ///< Reached [s].
+  bool crowded = false;    ///< It saw as many cycles as it was to see, and there are more.
   bool disturbed = false;  ///< A rest in it should have ended earlier: it shows nothing.
-  bool exact = true;     ///< It was as exact as the scenario asks.
+  bool exact = true;       ///< It was as exact as the scenario asks.
 
   const GroupSight* Find(const GroupId& id) const;
 };

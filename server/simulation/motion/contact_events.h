@@ -42,8 +42,8 @@ class DeformationPath {
     double value, slope, curvature;
   };
   DeformationPath(End from, End to) : DeformationPath(from, to, from.slope) {}
-  /// `drift_of_step`: δ̇ at the start times the length of the step [m]. The slope of a path is no measure of
-  /// rest, for that of a warped step may begin with 0.
+  /// `drift_of_step`: δ̇ at the start times the length of the step [m]. The slope of a path is no
+  /// measure of rest, for that of a warped step may begin with 0.
   DeformationPath(End from, End to, double drift_of_step);
 
   /// δ at θ [m].

@@ -28,8 +28,8 @@ void SetRest(const Contact& contact, double time, double deformation, double wor
   cycle->turn_time = cycle->end_time = time;
   cycle->end_deformation = deformation;
   cycle->max_deformation = std::max(cycle->start_deformation, deformation);
-  const double dissipated = work - ElasticEnergy(contact, deformation) +
-                            ElasticEnergy(contact, cycle->start_deformation);
+  const double dissipated =
+      work - ElasticEnergy(contact, deformation) + ElasticEnergy(contact, cycle->start_deformation);
   const bool pressed = work > 0;
   cycle->work_compression = pressed ? work : 0;
   cycle->work_restitution = pressed ? 0 : work;

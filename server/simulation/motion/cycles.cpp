@@ -14,8 +14,8 @@ namespace {
 
 // A contact that is let go with a force this part of its own less than before falls at once.
 constexpr double kLetGo = 0.05;
-// The scale to which a resting contact is integrated, relative to its deformation; and that to which
-// any is that begins compressed: what swings less is negligible, or soon will be.
+// The scale to which a resting contact is integrated, relative to its deformation; and that to
+// which any is that begins compressed: what swings less is negligible, or soon will be.
 constexpr double kRestingScale = 1e-3, kLeastScale = 1e-5;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -156,7 +156,8 @@ void Cycles::Release(int contact, CycleHost& host) {
   state.column = kNone;
   const Contact& c = system_.scenario.contacts[At(contact)];
   const double length = state.cycle.start_deformation;
-  system_.scales[At(contact)] = {length, ApproachVelocity(mass, length, c.stiffness, c.exponent, 0)};
+  system_.scales[At(contact)] = {length,
+                                 ApproachVelocity(mass, length, c.stiffness, c.exponent, 0)};
   system_.RefreshActive();
 }
 
@@ -350,8 +351,8 @@ void Cycles::DescribeEnd(ContactState& state) {
 void Cycles::Balance(const ContactState& state, double split_velocity, Cycle* cycle) {
   const double mass = system_.equations.effective_mass(cycle->contact);
   const auto kinetic = [&](double v) { return 0.5 * mass * v * v; };
-  const double end = system_.equations.Relative(
-      cycle->contact, system_.rk.y0.data() + system_.equations.bodies());
+  const double end =
+      system_.equations.Relative(cycle->contact, system_.rk.y0.data() + system_.equations.bodies());
   const double compressed = cycle->work_compression - kinetic(state.start_velocity) +
                             kinetic(split_velocity) - cycle->external_compression;
   const double released = compressed - kinetic(split_velocity) + kinetic(end) +

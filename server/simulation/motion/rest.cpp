@@ -84,8 +84,7 @@ bool Rest::Ends(int contact, bool at_breakpoint, CycleHost& host) {
   const double deformation = system_.Deformation(contact, system_.rk.y0.data());
   const double disturbance = Disturbance(contact, deformation);
   if (at_breakpoint && disturbance <= kNegligible) state.rest_mark = system_.time;
-  return disturbance > 1 ? host.OnDisturbed(state, state.rest_mark)
-                         : IsLeft(contact, deformation);
+  return disturbance > 1 ? host.OnDisturbed(state, state.rest_mark) : IsLeft(contact, deformation);
 }
 
 std::vector<double> Rest::Spread(std::vector<double> of_bodies) const {
@@ -121,8 +120,7 @@ std::vector<int> Rest::Disturbed(const std::vector<double>& of_bodies, Displacem
     const double cause =
         std::max(sides.left_counts * of_bodies[static_cast<std::size_t>(sides.left)],
                  sides.right_counts * of_bodies[static_cast<std::size_t>(sides.right)]);
-    const Power stress =
-        Stress(system_.scenario.contacts[At(c)], state.cycle.start_deformation);
+    const Power stress = Stress(system_.scenario.contacts[At(c)], state.cycle.start_deformation);
     const double moved = by(cause, stress.slope);
     const double work = (stress.value + 0.5 * stress.slope * moved) * moved;
     if (work > WakingWork(state)) disturbed.push_back(c);
@@ -139,9 +137,8 @@ std::vector<int> Rest::DisturbedBy(int collision) const {
   for (const int body : {c.left, c.right}) {
     if (body != kNone) speeds[At(body)] = speed;
   }
-  return Disturbed(Spread(std::move(speeds)), [&](double v, double stiffness) {
-    return v * std::sqrt(mass / stiffness);
-  });
+  return Disturbed(Spread(std::move(speeds)),
+                   [&](double v, double stiffness) { return v * std::sqrt(mass / stiffness); });
 }
 
 std::vector<int> Rest::DisturbedByLoads() const {

@@ -59,15 +59,15 @@ struct ContactState {
   int encounter = 0;
   /// The group of the running cycle, and what decides where it ends. CycleHost keeps it.
   struct Membership {
-    bool open = false;     ///< The next cycle of the encounter belongs to it too.
+    bool open = false;        ///< The next cycle of the encounter belongs to it too.
     bool after_rest = false;  ///< Before it the contact has rested.
     bool disproved = false;   ///< One of its rows fails its proof,
     bool nothing = false;     ///< whose work is nothing beside that of others.
-    int place = 0;         ///< Among the groups of the encounter, from 1.
-    double lasts = 0;      ///< It does not end earlier after its start [s].
-    int groups = 0;        ///< Group::number of the last group that has one.
-    int iterations = 0;    ///< Corrections of its μ.
-    double imbalance = 0;  ///< Sum of |(W4)| over its cycles [J].
+    int place = 0;            ///< Among the groups of the encounter, from 1.
+    double lasts = 0;         ///< It does not end earlier after its start [s].
+    int groups = 0;           ///< Group::number of the last group that has one.
+    int iterations = 0;       ///< Corrections of its μ.
+    double imbalance = 0;     ///< Sum of |(W4)| over its cycles [J].
     Group group;
   } member;
 };

@@ -198,8 +198,8 @@ bool Stepper::Take(double until) {
 }
 
 // The square of the error of a contact's work, relative to the work, or to what the contact stores
-// with a deformation of `length` [m]. The force of a contact that other forces drive hardly shows in its motion, by which
-// steps are measured.
+// with a deformation of `length` [m]. The force of a contact that other forces drive hardly shows
+// in its motion, by which steps are measured.
 double Stepper::WorkError(const ActiveContact& active, double length) const {
   if (system_.implicit) return 0;
   Motions five, three;

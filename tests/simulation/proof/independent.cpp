@@ -134,8 +134,7 @@ class Independent {
   // nothing of its swing.
   PlainMotion::Scale ScaleOf(const Cycle& c) const {
     const Contact& contact = Of(c);
-    const double depth =
-        Counts(c) ? Deepest(c) : std::max(Deepest(c), 0.1 * depths_.at(c.contact));
+    const double depth = Counts(c) ? Deepest(c) : std::max(Deepest(c), 0.1 * depths_.at(c.contact));
     const double least = (Counts(c) ? 1e-6 : 1e-4) * depth;
     const double swing = std::max({Swing(c), least, 1e-9 * deepest_});
     const double force = contact.stiffness * std::pow(depth, contact.exponent);
