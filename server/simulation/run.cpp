@@ -141,6 +141,8 @@ class Runner {
     const bool missed =
         cycle.status == Cycle::Status::kNotConverged || cycle.status == Cycle::Status::kInfeasible;
     if (missed) run_.outcome.all_converged = false;
+    run_.outcome.cut_cycles +=
+        cycle.status == Cycle::Status::kCut || cycle.status == Cycle::Status::kUnfinished;
     if (cycle.end != Cycle::End::kRunEnd && cycle.status != Cycle::Status::kSettled) {
       run_.outcome.worst_identity_residual =
           std::max(run_.outcome.worst_identity_residual, cycle.identity_residual);
@@ -188,14 +190,29 @@ class Runner {
           motion_.equations().Relative(cycle.contact, y + motion_.equations().bodies());
       CloseWorks(contact);
       solver_.recorder().FinishCut(contact);
-      Emit(cycle);
+      Emit(contact.phase == Phase::kResting ? cycle : Cut(cycle));
     }
     EmitGroups();
+  }
+
+  // What the end of the run hides of a cycle is not told as if it were known.
+  static Cycle Cut(Cycle cycle) {
+    cycle.separation_velocity = cycle.work_restitution = cycle.dissipated_restitution =
+        cycle.external_restitution = cycle.restitution_out = cycle.identity_residual = kNaN;
+    if (!std::isnan(cycle.turn_time)) return cycle;
+    cycle.max_deformation = cycle.peak_force = cycle.work_compression =
+        cycle.dissipated_compression = cycle.external_compression = kNaN;
+    return cycle;
   }
 
   void CloseWorks(ContactState& contact) const {
     Cycle& cycle = contact.cycle;
     const Contact& law = scenario_.contacts[static_cast<std::size_t>(cycle.contact)];
+    if (contact.phase == Phase::kResting) {
+      SetRest(law, run_.state.time, cycle.end_deformation, contact.work, contact.external_work,
+              &cycle);
+      return;
+    }
     if (contact.phase == Phase::kRestitution) {
       SetRestitution(law, cycle.max_deformation, contact.work, contact.external_work, &cycle);
     } else {
@@ -215,7 +232,7 @@ class Runner {
         momentum += scenario_.bodies[i].mass * std::abs(run_.state.velocities[i]);
       }
     }
-    run_.momentum_scale = std::max(run_.momentum_scale, momentum);
+    run_.momentum_scale = std::max({run_.momentum_scale, momentum, motion_.momentum_scale()});
     run_.energy_scale = std::max({run_.energy_scale, Energy(), std::abs(run_.state.load_work)});
   }
 

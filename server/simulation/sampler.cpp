@@ -9,7 +9,6 @@
 namespace contact {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 // Steps of a cycle whose duration is not known.
 constexpr double kSteps = 30;
 // Samples nearer than this part of their spacing are one.
@@ -105,7 +104,7 @@ void Sampler::Record(double time, const Eigen::ArrayXd& y) {
   auto& row = samples_.values;
   row.push_back(time);
   for (int i = 0; i < n; ++i) {
-    row.push_back(equations.base[static_cast<std::size_t>(i)] + y[i]);
+    row.push_back(equations.base()[static_cast<std::size_t>(i)] + y[i]);
     row.push_back(y[n + i]);
   }
   auto active = equations.active.begin();  // In the order of the contacts, as this loop.

@@ -11,13 +11,15 @@
 #include <utility>
 
 #include "simulation/forecast/missing_contacts.h"
+#include "simulation/model/derived.h"
 #include "wire/column_bytes.h"
 
 namespace contact {
 namespace {
 
 constexpr double kHertz = 1.5;      // Exponent of Hertz's law.
-constexpr double kDeep = 0.1;       // δ/R above which there is advice.
+constexpr double kDeep = 0.1;       // δ/R above which Hertz's law does not hold.
+constexpr double kDeepest = 1;      // δ/R above which no law of spheres does.
 constexpr double kRounding = 1e-9;  // Of places, relative to their size.
 constexpr int kColumnsOfABody = 2;  // Position and velocity, after the time.
 
@@ -29,34 +31,26 @@ const Body& BodyAt(const Scenario& scenario, int index) {
 struct Deep {
   const v1::Cycle* cycle = nullptr;
   const Body* body = nullptr;
+  bool hertz = false;
   double share() const { return cycle == nullptr ? 0 : cycle->delta_max_m() / body->radius; }
+  bool too_deep() const { return share() > (hertz ? kDeep : kDeepest); }
 };
-
-// The smaller sphere of a contact by Hertz's law; null if there is none.
-const Body* SmallerSphere(const Scenario& scenario, const Contact& contact) {
-  if (contact.exponent != kHertz) return nullptr;
-  const Body* smaller = nullptr;
-  for (const int index : {contact.left, contact.right}) {
-    if (index == kNone || BodyAt(scenario, index).radius == 0) continue;
-    const Body& body = BodyAt(scenario, index);
-    if (smaller == nullptr || body.radius < smaller->radius) smaller = &body;
-  }
-  return smaller;
-}
 
 // The deepest of the cycles that are too deep of each contact.
 std::unordered_map<std::string_view, Deep> DeepCycles(const Scenario& scenario,
                                                       const v1::Job& result) {
-  std::unordered_map<std::string_view, const Body*> spheres;
+  std::unordered_map<std::string_view, Deep> spheres;
   for (const Contact& contact : scenario.contacts) {
-    spheres[contact.name] = SmallerSphere(scenario, contact);
+    spheres[contact.name] = {.body = SmallerSphere(scenario, contact),
+                             .hertz = contact.exponent == kHertz};
   }
   std::unordered_map<std::string_view, Deep> deepest;
   for (const v1::Cycle& cycle : result.cycles()) {
     const auto sphere = spheres.find(cycle.contact());
-    if (sphere == spheres.end() || sphere->second == nullptr) continue;
-    const Deep deep{&cycle, sphere->second};
-    if (!(deep.share() > kDeep)) continue;
+    if (sphere == spheres.end() || sphere->second.body == nullptr) continue;
+    Deep deep = sphere->second;
+    deep.cycle = &cycle;
+    if (!deep.too_deep()) continue;
     Deep& most = deepest[cycle.contact()];
     if (deep.share() > most.share()) most = deep;
   }
@@ -71,19 +65,21 @@ std::string AndOthers(std::size_t others, std::string_view one, std::string_view
 void AdviseOnDepth(const Scenario& scenario, const v1::Job& result,
                    std::vector<Violation>* advice) {
   const auto deepest = DeepCycles(scenario, result);
-  if (deepest.empty()) return;
   const Deep* most = nullptr;
   for (const Contact& contact : scenario.contacts) {  // In their order, so that ties are settled.
     const auto found = deepest.find(contact.name);
     if (found == deepest.end()) continue;
     if (most == nullptr || found->second.share() > most->share()) most = &found->second;
   }
+  if (most == nullptr) return;
   advice->push_back(
       {fmt::format("contacts[{}]", most->cycle->contact()),
-       fmt::format("is {:.3g} m deep in cycle {}, more than a tenth of the radius of {}, {:g} m{}",
-                   most->cycle->delta_max_m(), most->cycle->number(), most->body->name,
-                   most->body->radius, AndOthers(deepest.size() - 1, "contact", "contacts")),
-       "Hertz's law is of deformations far below the radius; is the stiffness right?"});
+       fmt::format("is {:.3g} m deep in cycle {}, more than {}the radius of {}, {:g} m{}",
+                   most->cycle->delta_max_m(), most->cycle->number(),
+                   most->hertz ? "a tenth of " : "", most->body->name, most->body->radius,
+                   AndOthers(deepest.size() - 1, "contact", "contacts")),
+       most->hertz ? "Hertz's law is of deformations far below the radius; is the stiffness right?"
+                   : "a sphere ends there; is the stiffness right?"});
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ class Passings {
 };
 
 /// Advice on the result of a run that reached its end: no contact was touched, neighbours passed
-/// through each other, deformations are too large for Hertz's law. `result` has the whole ledger
-/// and the bodies at the end.
+/// through each other, deformations are too large for Hertz's law or for a sphere. `result` has the
+/// whole ledger and the bodies at the end.
 std::vector<Violation> AdviseOnResult(const Scenario& scenario, const v1::Job& result,
                                       Passings passings);
 

@@ -99,6 +99,7 @@ v1::Progress Encode(const Scenario& scenario, const Progress& progress) {
   message.set_steps(progress.steps);
   message.set_cycles(progress.cycles);
   message.set_iterations(progress.iterations);
+  message.set_busy_with(progress.busy_with);
   return message;
 }
 
@@ -126,6 +127,7 @@ void EncodeOutcome(const Scenario& scenario, const Outcome& outcome, v1::Job* jo
   summary.set_cycles(job->cycles_size());
   summary.set_cycles_not_converged(CountCycles(*job, v1::Cycle::NOT_CONVERGED));
   summary.set_cycles_infeasible(CountCycles(*job, v1::Cycle::INFEASIBLE));
+  summary.set_cycles_cut(outcome.cut_cycles);
 }
 
 }  // namespace contact

@@ -10,6 +10,7 @@
 
 #include "simulation/forecast/first_meeting.h"
 #include "simulation/forecast/missing_contacts.h"
+#include "simulation/model/derived.h"
 #include "wire/scenario/contact_codec.h"
 #include "wire/scenario/law_catalogue.h"
 #include "wire/sweep/sweep_fields.h"
@@ -23,6 +24,7 @@ constexpr double kFewestSamples = 20;    // Samples in a contact, below which th
 constexpr double kManySteps = 1e9;       // Steps of a run, above which there is advice.
 constexpr double kManySamples = 1e6;     // Most samples that advice asks for.
 constexpr double kLowRestitution = 0.3;  // Restitution below which laws and updates may fail.
+constexpr double kShallow = 0.1;         // δ/R that advice asks for.
 constexpr double kMiss = 0.01;           // Relative error of the restitution that a run warns of.
 
 // The contact of shortest duration, among those whose duration is known.
@@ -50,12 +52,15 @@ double Rounded(double value) {
   return std::floor(value / power * (1 + 1e-12)) * power;
 }
 
+std::string Cause(const FirstMeeting& meeting) {
+  return meeting.speed > 0 ? fmt::format("at {:.3g} m/s", meeting.speed) : "under its load";
+}
+
 std::string Describe(const Shortest& shortest, double interval, const char* what) {
   const FirstMeeting& meeting = shortest.meeting;
   return fmt::format("gives a contact of {} {:.3g} {}; it lasts about {:.2g} s {}",
                      shortest.contact->name, meeting.duration / interval, what, meeting.duration,
-                     meeting.speed > 0 ? fmt::format("at {:.3g} m/s", meeting.speed)
-                                       : std::string("under its load"));
+                     Cause(meeting));
 }
 
 void AdviseOnStep(const Scenario& scenario, const Shortest& shortest,
@@ -182,6 +187,43 @@ Violation Describe(const Scenario& scenario, const Contact& pair, const FirstMee
           fmt::format("add one with between: [{}, {}]", name(pair.left), name(pair.right))};
 }
 
+// A contact whose first meeting goes deep for the radius of a body.
+struct Deep {
+  std::size_t contact = 0;  // In Scenario::contacts.
+  const Body* body = nullptr;
+  FirstMeeting meeting;
+  double share() const { return body == nullptr ? 0 : meeting.deformation / body->radius; }
+};
+
+Deep FindDeepest(const Scenario& scenario) {
+  Deep deepest;
+  const auto meetings = ForecastFirstMeetings(scenario);
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    if (!meetings[i]) continue;
+    const Deep deep{i, SmallerSphere(scenario, scenario.contacts[i]), *meetings[i]};
+    if (deep.share() > deepest.share()) deepest = deep;
+  }
+  return deepest;
+}
+
+// The stiffness that brings the deformation of an impact to a share of what it is, rounded up;
+// k δⁿ⁺¹ stays. Under a load less is enough.
+double StiffnessFor(const Contact& contact, double share) {
+  const double stiffness = contact.stiffness * std::pow(share, -contact.exponent - 1);
+  const double power = std::pow(10, std::floor(std::log10(stiffness)));
+  return std::ceil(stiffness / power * (1 - 1e-12)) * power;
+}
+
+// The field that says how stiff a contact of the scenario is.
+std::string StiffnessField(const v1::Scenario& message, std::size_t contact) {
+  int entry = 0;
+  for (auto left = static_cast<int>(contact); left >= ContactsOf(message.contacts(entry));) {
+    left -= ContactsOf(message.contacts(entry++));
+  }
+  return fmt::format("contacts[{}]{}", entry,
+                     message.contacts(entry).has_stiffness() ? ".stiffness" : "");
+}
+
 // Advice on the base with paths from the sweep, without the fields that axes set.
 std::vector<Violation> OfBase(const v1::Sweep& sweep, std::vector<Violation> advice) {
   std::vector<Violation> broken;
@@ -226,8 +268,21 @@ std::vector<Violation> AdviseOnPlaces(const Scenario& scenario) {
   return {Describe(touching, *first, *soonest)};
 }
 
+std::vector<Violation> AdviseOnDepth(const v1::Scenario& message, const Scenario& scenario) {
+  const Deep deep = FindDeepest(scenario);
+  if (!(deep.share() > 1)) return {};
+  const Contact& contact = scenario.contacts[deep.contact];
+  return {{StiffnessField(message, deep.contact),
+           fmt::format("makes {} about {:.2g} m deep {}, more than the radius of {}, {:g} m",
+                       contact.name, deep.meeting.deformation, Cause(deep.meeting), deep.body->name,
+                       deep.body->radius),
+           fmt::format("a stiffness of {:g} keeps it below a tenth of the radius",
+                       StiffnessFor(contact, kShallow / deep.share()))}};
+}
+
 std::vector<Violation> Advise(const v1::Scenario& message, const Scenario& scenario) {
   std::vector<Violation> advice = AdviseOnLaws(message);
+  std::ranges::move(AdviseOnDepth(message, scenario), std::back_inserter(advice));
   std::ranges::move(AdviseOnPlaces(scenario), std::back_inserter(advice));
   std::ranges::move(AdviseOnTime(scenario), std::back_inserter(advice));
   return advice;
@@ -241,6 +296,8 @@ std::vector<Violation> AdviseOnTime(const v1::Sweep& sweep, const DecodedSweep& 
 
 std::vector<Violation> Advise(const v1::Sweep& sweep, const DecodedSweep& plan) {
   std::vector<Violation> advice = OfBase(sweep, AdviseOnLaws(sweep.base()));
+  std::ranges::move(OfBase(sweep, AdviseOnDepth(sweep.base(), plan.first)),
+                    std::back_inserter(advice));
   std::ranges::move(OfBase(sweep, AdviseOnPlaces(plan.first)), std::back_inserter(advice));
   std::ranges::move(AdviseOnTime(sweep, plan), std::back_inserter(advice));
   return advice;

@@ -110,6 +110,30 @@ TEST_F(SweepTest, CellEqualsAJobOfItsScenario) {
   const v1::Job job = Ended(Create(scenario));
   EXPECT_THAT(cell.metrics(), ElementsAre(job.summary().iterations(), job.cycles(0).mu(),
                                           job.final_bodies(0).velocity_m_per_s()));
+  EXPECT_THAT(cell.sources(), testing::Each(v1::SweepCell::RESULT));
+  EXPECT_EQ(cell.cycles(), job.cycles_size());
+}
+
+TEST_F(SweepTest, CellTellsOfWhatTheEndCutsAndOfContactsThatItDoesNotTouch) {
+  JobOptions options{.workers = 1};
+  options.run = [](const Scenario& scenario, Observer& observer, const std::stop_token&) {
+    if (scenario.contacts[0].restitution == 0.3) return Outcome{};
+    observer.OnCycle({.status = Cycle::Status::kCut, .mu = 5});
+    Outcome outcome;
+    outcome.cut_cycles = 1;
+    return outcome;
+  };
+  Open(std::move(options));
+  const auto cells = Cells(Create(Study(1, 2)).value().name());
+  v1::SweepCell cell;
+  cell.ParseFromString(cells.at(0));
+  EXPECT_EQ(cell.sources(1), v1::SweepCell::NO_CONTACT);
+  EXPECT_TRUE(cell.has_cycles());
+  EXPECT_EQ(cell.cycles(), 0);
+  cell.ParseFromString(cells.at(1));
+  EXPECT_EQ(cell.sources(1), v1::SweepCell::CUT);
+  EXPECT_EQ(cell.metrics(1), 5);
+  EXPECT_EQ(cell.cycles_cut(), 1);
 }
 
 TEST_F(SweepTest, IdleWorkersHelp) {

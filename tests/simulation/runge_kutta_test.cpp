@@ -131,7 +131,7 @@ TEST(RungeKutta, ErrorEstimatesFollowTheError) {
     rk.Step(kPendulum, {.start = 0, .h = h});
     const double error = std::abs(rk.y1[1] - Integrate(100, h)[1]);
     double error5[2], error3[2];
-    rk.Errors(2, error5, error3);
+    rk.Errors(0, 2, error5, error3);
     EXPECT_GT(h * std::abs(error5[1]), error);
     EXPECT_LT(h * std::abs(error5[1]), 1e5 * error);
     EXPECT_GT(std::abs(error3[1]), std::abs(error5[1]));

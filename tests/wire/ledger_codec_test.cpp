@@ -130,13 +130,14 @@ TEST(Encode, EveryWordOfACycleHasItsOwn) {
   using S = Cycle::Status;
   std::vector<int> statuses;
   for (const S status : {S::kConverged, S::kGivenLaw, S::kInfeasible, S::kSettled, S::kNotConverged,
-                         S::kJump, S::kUnfinished}) {
+                         S::kJump, S::kUnfinished, S::kReleased, S::kLimited, S::kCut}) {
     statuses.push_back(Encode(TwoContacts(), Cycle{.status = status}).status());
   }
-  EXPECT_THAT(statuses,
-              ElementsAre(v1::Cycle::CONVERGED, v1::Cycle::GIVEN_LAW, v1::Cycle::INFEASIBLE,
-                          v1::Cycle::SETTLED, v1::Cycle::NOT_CONVERGED, v1::Cycle::JUMP,
-                          v1::Cycle::UNFINISHED));
+  EXPECT_THAT(
+      statuses,
+      ElementsAre(v1::Cycle::CONVERGED, v1::Cycle::GIVEN_LAW, v1::Cycle::INFEASIBLE,
+                  v1::Cycle::SETTLED, v1::Cycle::NOT_CONVERGED, v1::Cycle::JUMP,
+                  v1::Cycle::UNFINISHED, v1::Cycle::RELEASED, v1::Cycle::LIMITED, v1::Cycle::CUT));
   using E = Cycle::End;
   std::vector<int> ends;
   for (const E end : {E::kSeparation, E::kNonSeparation, E::kRunEnd}) {

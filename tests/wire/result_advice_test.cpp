@@ -74,6 +74,9 @@ TEST(ResultAdvice, TellsOfADeformationTooLargeForTheSmallerSphere) {
               ElementsAre(HasSubstr("of B2, 0.05 m")));
   scenario.contacts[0].exponent = 1;
   EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {}, 6e-3)), IsEmpty());
+  EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {}, 0.06)),
+              ElementsAre("contacts[B1-B2]: is 0.06 m deep in cycle 1, more than the radius of B2, "
+                          "0.05 m — a sphere ends there; is the stiffness right?"));
 }
 
 TEST(ResultAdvice, NamesTheDeepestCycleAndCountsTheOtherContacts) {

@@ -87,16 +87,19 @@ TEST(Encode, ColumnsAreLittleEndianDoubles) {
             std::string("\0\0\0\0\0\0\xF0\x3F", 8));
 }
 
-TEST(Encode, ProgressKnowsWhereTheRunEnds) {
-  const Progress progress{.time = 1, .steps = 2, .cycles = 3, .iterations = 4};
+TEST(Encode, ProgressKnowsWhereTheRunEndsAndWhatKeepsItBusy) {
+  const Progress progress{
+      .time = 1, .steps = 2, .cycles = 3, .iterations = 4, .busy_with = "contact a-b"};
   EXPECT_EQ(Encode(TwoContacts(), progress).ShortDebugString(),
-            "time_s: 1 end_time_s: 8 steps: 2 cycles: 3 iterations: 4");
+            "time_s: 1 end_time_s: 8 steps: 2 cycles: 3 iterations: 4 "
+            "busy_with: \"contact a-b\"");
 }
 
 TEST(Encode, OutcomeFillsItsFieldsOfTheJobAndNoOthers) {
   const Outcome outcome{.message = {},
                         .time = 8,
                         .all_converged = false,
+                        .cut_cycles = 16,
                         .positions = {1, 2},
                         .velocities = {3, 4},
                         .steps = 5,
@@ -119,7 +122,8 @@ TEST(Encode, OutcomeFillsItsFieldsOfTheJobAndNoOthers) {
             "final_bodies { name: \"b\" position_m: 2 velocity_m_per_s: 4 } "
             "summary { steps: 5 evaluations: 6 iterations: 7 episodes: 8 wall_time_s: 13 "
             "worst_identity_residual: 9 momentum_residual: 10 energy_residual: 11 "
-            "kinetic_energy_j: 12 time_reached_s: 8 growths: 14 growths_no_progress: 15 }");
+            "kinetic_energy_j: 12 time_reached_s: 8 growths: 14 growths_no_progress: 15 "
+            "cycles_cut: 16 }");
 }
 
 TEST(Encode, OutcomeCountsTheCyclesThatMissTheirRestitution) {

@@ -58,6 +58,23 @@ TEST(FirstMeeting, SwingAboutALoadOfALinearContactIsItsPeriod) {
   EXPECT_NEAR(SwingPeriod(0.5, 30, 2e6, 1), 2 * M_PI * std::sqrt(0.5 / 2e6), 1e-12);
 }
 
+TEST(FirstMeeting, DeformationUnderALoadIsThatOfItsEnergyOrTwiceThatOfRest) {
+  EXPECT_NEAR(PressedDeformation(2, 0, 1e6, 1), std::sqrt(2 * 2 / 1e6), 1e-15);
+  EXPECT_NEAR(PressedDeformation(0, 30, 1e6, 1), 2 * 30 / 1e6, 1e-17);
+  EXPECT_NEAR(PressedDeformation(0, 30, 1e6, 3), std::cbrt(4 * 30 / 1e6), 1e-15);
+  const double both = PressedDeformation(2, 30, 1e6, 1.5);
+  EXPECT_NEAR(1e6 * std::pow(both, 2.5) / 2.5, 2 + 30 * both, 1e-12);
+}
+
+TEST(FirstMeeting, DeformationIsLessWhereDampingTakesEnergy) {
+  v1::Scenario scenario = TwoBalls();
+  scenario.mutable_contacts(0)->set_restitution(1);
+  const double elastic = FirstMeetingOf(scenario)->deformation;
+  EXPECT_NEAR(elastic, std::pow(2.5 / 2 * 0.25 * 0.04 / 1e8, 0.4), 1e-12);
+  scenario.mutable_contacts(0)->set_restitution(0.5);
+  EXPECT_LT(FirstMeetingOf(scenario)->deformation, 0.9 * elastic);
+}
+
 TEST(FirstMeeting, OfAFallingBallIsKnown) {
   const auto meeting = FirstMeetingOf(FallingBall());
   ASSERT_TRUE(meeting);
@@ -257,6 +274,44 @@ TEST(ScenarioAdvice, IsNoneWhereAWallStandsBetweenNeighbours) {
   wall.mutable_wall()->set_side(v1::Wall::LEFT);
   wall.mutable_wall()->set_position_m(0.151);
   EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+}
+
+TEST(ScenarioAdvice, TellsOfAContactThatGoesDeeperThanTheRadius) {
+  v1::Scenario scenario = FallingBall();
+  v1::Contact& contact = *scenario.mutable_contacts(0);
+  contact.set_exponent(1);
+  contact.set_restitution(1);
+  contact.set_stiffness(100);
+  EXPECT_THAT(AdviceOn(scenario),
+              ElementsAre("contacts[0].stiffness: makes ball-wall about 0.36 m deep at 4.32 m/s, "
+                          "more than the radius of ball, 0.05 m — a stiffness of 600000 keeps it "
+                          "below a tenth of the radius"));
+  contact.set_stiffness(6e5);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+  EXPECT_LT(FirstMeetingOf(scenario)->deformation, 0.1 * 0.05);
+  scenario.mutable_bodies(0)->set_radius_m(0);  // A point has no radius to compare with.
+  contact.set_stiffness(100);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
+}
+
+TEST(ScenarioAdvice, NamesTheEntryOfTheDeepestContactAndTheSmallerSphere) {
+  v1::Scenario scenario = TwoBallsAndOne(0.3, 0);
+  *scenario.add_contacts() = scenario.contacts(0);
+  v1::Contact& soft = *scenario.mutable_contacts(1);
+  soft.set_name("soft");
+  soft.set_between(0, "B3");
+  soft.set_between(1, "B4");
+  soft.set_stiffness(1);
+  v1::Body& fourth = *scenario.add_bodies();
+  fourth = scenario.bodies(2);
+  fourth.set_name("B4");
+  fourth.set_radius_m(0.01);
+  fourth.set_position_m(0.36);
+  fourth.set_velocity_m_per_s(-0.5);
+  scenario.mutable_contacts(0)->add_between("B3");
+  EXPECT_THAT(AdviceOn(scenario),
+              ElementsAre(testing::AllOf(HasSubstr("contacts[1].stiffness: makes soft about"),
+                                         HasSubstr("the radius of B4, 0.01 m"))));
 }
 
 TEST(ScenarioAdvice, OfASweepIsThatOfItsBaseButForWhatAxesSet) {

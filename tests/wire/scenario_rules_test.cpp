@@ -313,6 +313,14 @@ std::vector<Case> Cases() {
        [&](S& s) { contact(s).mutable_wall()->set_side(v1::Wall::LEFT); },
        {"contacts[0].between: names 2 bodies beside a wall; must name one — remove wall, or all "
         "names but one"}},
+      {"WallAsTheSecondName",
+       [](S& s) { s.mutable_contacts(1)->add_between("wall"); },
+       {"contacts[1].between: names 'wall' beside 'B3'; must name the body alone — between: [B3] "
+        "names the body; the wall is only in wall"}},
+      {"WallAsAName",
+       [&](S& s) { contact(s).set_between(0, "wall"); },
+       {"contacts[0].between: names 'wall' beside 'B2'; must name the body alone — between: [B2] "
+        "names the body; the wall is only in wall: {side: LEFT or RIGHT}"}},
       {"WallWithoutASide",
        [](S& s) { s.mutable_contacts(1)->mutable_wall()->clear_side(); },
        {"contacts[1].wall.side: is missing — LEFT or RIGHT of the body"}},

@@ -203,7 +203,8 @@ TEST(SweepAxes, MistakesAreToldTogether) {
           "metrics[3]: 'title': unknown field 'title' — fields are steps, evaluations, iterations, "
           "episodes, wall_time_s, worst_identity_residual, momentum_residual, energy_residual, "
           "kinetic_energy_j, time_reached_s, growths, growths_no_progress, cycles, "
-          "cycles_not_converged, cycles_infeasible"));
+          "cycles_not_converged, cycles_infeasible, "
+          "cycles_cut"));
 }
 
 TEST(SweepBase, IsCheckedWithTheFirstCell) {
@@ -364,7 +365,8 @@ TEST(SweepMetrics, ReadNumbersOfAResult) {
   v1::FinalBody& body = *job.add_final_bodies();
   body.set_name("B.2");
   body.set_velocity_m_per_s(0.25);
-  const std::vector<double> values = metrics.Of(job);
+  std::vector<double> values;
+  for (const auto& metric : metrics.Of(job)) values.push_back(metric.value);
   EXPECT_THAT(std::vector(values.begin(), values.end() - 1),
               ElementsAre(12, 1e-9, 2, 400, 4, 4, 20, 7, 3, 0.25));
   EXPECT_TRUE(std::isnan(values.back()));
@@ -384,13 +386,18 @@ v1::Job FourCycles() {
   return job;
 }
 
-double MetricOf(const std::string& metric, const v1::Job& job) {
+SweepMetrics::Metric Of(const std::string& metric, const v1::Job& job) {
   v1::Sweep sweep;
   sweep.add_metrics(metric);
   std::vector<Violation> violations;
   const SweepMetrics metrics(sweep, &violations);
   EXPECT_TRUE(violations.empty()) << metric;
   return metrics.Of(job).front();
+}
+
+double MetricOf(const std::string& metric, const v1::Job& job) { return Of(metric, job).value; }
+v1::SweepCell::Source SourceOf(const std::string& metric, const v1::Job& job) {
+  return Of(metric, job).source;
 }
 
 TEST(SweepMetrics, ChooseAmongAllEntriesOrThoseOfAName) {
@@ -417,6 +424,69 @@ TEST(SweepMetrics, OfNoEntryCountIsZeroAndNumbersAreUnknown) {
   EXPECT_EQ(MetricOf("groups[A-B].count", FourCycles()), 0);
   for (const auto* metric : {"cycles.last.mu", "cycles.max.mu", "groups.min.mu"}) {
     EXPECT_TRUE(std::isnan(MetricOf(metric, v1::Job()))) << metric;
+  }
+}
+
+// FourCycles, of which B-C's last is cut in compression: its force is not known.
+v1::Job CutRun() {
+  v1::Job job = FourCycles();
+  v1::Cycle& last = *job.mutable_cycles(3);
+  last.set_end(v1::Cycle::RUN_END);
+  last.set_status(v1::Cycle::CUT);
+  last.set_mu(4);
+  last.set_peak_force_n(std::nan(""));
+  return job;
+}
+
+TEST(SweepMetrics, OfACutCycleIsCutWhateverItsNumber) {
+  const v1::Job job = CutRun();
+  EXPECT_EQ(MetricOf("cycles[B-C].last.mu", job), 4);
+  for (const auto* metric : {"cycles[B-C].last.mu", "cycles[3].peak_force_n", "cycles.last.number",
+                             "cycles.max.peak_force_n", "cycles[B-C].min.restitution_out"}) {
+    EXPECT_EQ(SourceOf(metric, job), v1::SweepCell::CUT) << metric;
+  }
+  for (const auto* metric : {"cycles[A-B].last.mu", "cycles[0].peak_force_n", "cycles.count",
+                             "cycles[A-B].max.peak_force_n", "cycles.min.mu", "iterations"}) {
+    EXPECT_EQ(SourceOf(metric, job), v1::SweepCell::RESULT) << metric;
+  }
+}
+
+TEST(SweepMetrics, LargestIsCutOnlyIfACutCycleHasItOrMayExceedIt) {
+  v1::Job job = CutRun();
+  EXPECT_EQ(SourceOf("cycles.max.mu", job), v1::SweepCell::CUT);
+  job.mutable_cycles(0)->set_mu(5);
+  EXPECT_EQ(SourceOf("cycles.max.mu", job), v1::SweepCell::RESULT);
+}
+
+TEST(SweepMetrics, WhatTheEndCutsIsToldByStatusOrEnd) {
+  v1::Job job = CutRun();
+  v1::Cycle& last = *job.mutable_cycles(3);
+  for (const auto& [status, end, source] :
+       {std::tuple(v1::Cycle::UNFINISHED, v1::Cycle::NON_SEPARATION, v1::SweepCell::CUT),
+        std::tuple(v1::Cycle::GIVEN_LAW, v1::Cycle::RUN_END, v1::SweepCell::CUT),
+        std::tuple(v1::Cycle::SETTLED, v1::Cycle::RUN_END, v1::SweepCell::RESULT),
+        std::tuple(v1::Cycle::RELEASED, v1::Cycle::SEPARATION, v1::SweepCell::RESULT)}) {
+    last.set_status(status);
+    last.set_end(end);
+    EXPECT_EQ(SourceOf("cycles.last.mu", job), source) << last.ShortDebugString();
+  }
+}
+
+TEST(SweepMetrics, OfASearchWithoutACycleSaySo) {
+  for (const auto* metric : {"iterations", "convergence", "worst_identity_residual"}) {
+    EXPECT_EQ(SourceOf(metric, v1::Job()), v1::SweepCell::NO_CONTACT) << metric;
+    EXPECT_EQ(SourceOf(metric, FourCycles()), v1::SweepCell::RESULT) << metric;
+  }
+  EXPECT_EQ(SourceOf("kinetic_energy_j", v1::Job()), v1::SweepCell::RESULT);
+}
+
+TEST(SweepMetrics, OfAContactThatWasNotTouchedSaySo) {
+  const v1::Job job = FourCycles();
+  for (const auto* metric : {"cycles[C-D].mu", "groups[A-B].mu", "cycles[C-D].max.peak_force_n"}) {
+    EXPECT_EQ(SourceOf(metric, job), v1::SweepCell::NO_CONTACT) << metric;
+  }
+  for (const auto* metric : {"cycles[9].mu", "cycles[C-D].count", "final_bodies[0].position_m"}) {
+    EXPECT_EQ(SourceOf(metric, job), v1::SweepCell::RESULT) << metric;
   }
 }
 

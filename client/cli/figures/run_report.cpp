@@ -37,17 +37,15 @@ std::string Ledger(const v1::Job& job) {
   std::vector<HtmlRow> rows;
   for (const v1::Cycle& cycle : job.cycles()) {
     if (rows.size() == kMostRows) break;
-    rows.push_back(
-        {{cycle.contact(), fmt::to_string(cycle.number()),
-          cycle.group() == 0 ? "-" : fmt::to_string(cycle.group()),
-          v1::Cycle::Kind_Name(cycle.kind()), v1::Cycle::End_Name(cycle.end()),
-          v1::Cycle::Status_Name(cycle.status()), fmt::to_string(cycle.iterations()),
-          Digits(cycle.mu(), 7), AlphaOrRatio(cycle), Digits(cycle.restitution_in(), 6),
-          Digits(cycle.restitution_out(), 8),
-          RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in())),
-          Digits(cycle.peak_force_n(), 7), Digits(cycle.start_time_s(), 7),
-          Digits(cycle.end_time_s(), 7)},
-         Missed(cycle.status())});
+    rows.push_back({{cycle.contact(), fmt::to_string(cycle.number()),
+                     cycle.group() == 0 ? "-" : fmt::to_string(cycle.group()),
+                     v1::Cycle::Kind_Name(cycle.kind()), v1::Cycle::End_Name(cycle.end()),
+                     v1::Cycle::Status_Name(cycle.status()), fmt::to_string(cycle.iterations()),
+                     Digits(cycle.mu(), 7), AlphaOrRatio(cycle), Digits(cycle.restitution_in(), 6),
+                     Digits(RestitutionOf(cycle), 8), RelativeError(RestitutionError(cycle)),
+                     Digits(cycle.peak_force_n(), 7), Digits(cycle.start_time_s(), 7),
+                     Digits(cycle.end_time_s(), 7)},
+                    Missed(cycle.status())});
   }
   return HtmlTable({"Contact", "#", "Group", "Kind", "End", "Status", "n", "μ", "α, or μ/k", "ε in",
                     "ε out", "Error", "Peak force [N]", "Start [s]", "End [s]"},

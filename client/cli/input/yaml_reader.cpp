@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/spelling.h"
@@ -42,6 +43,35 @@ std::string EnumName(std::string text) {
     return c == '-' ? '_' : static_cast<char>(std::toupper(c));
   });
   return text;
+}
+
+constexpr char kPoint[] = "decimals are written with a point";
+
+bool IsDigits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// The last entry of a mapping, if its value may be what stands before a decimal comma: YAML takes
+// `{stiffness: 1,0e8}` for two entries, the second with the key `0e8` and no value.
+struct Whole {
+  YAML::Mark mark;
+  std::string path;
+  std::string digits;  // The value with its sign; empty: it is no whole number.
+  bool told = false;   // Whether a decimal comma after it was reported.
+};
+
+Whole WholeOf(const YAML::Node& value, std::string path) {
+  if (!value.IsScalar()) return {};
+  std::string_view digits = value.Scalar();
+  if (digits.starts_with('-') || digits.starts_with('+')) digits.remove_prefix(1);
+  return {value.Mark(), std::move(path), IsDigits(digits) ? value.Scalar() : std::string()};
+}
+
+// Whether an entry is what stands after a decimal comma, such as `5` or `0e8`.
+bool AreDecimals(const YAML::Node& key, const YAML::Node& value) {
+  const std::string& text = key.Scalar();
+  return value.IsNull() && IsDigits(text.substr(0, text.find_first_of("eE"))) &&
+         ParseNumber(text).has_value();
 }
 
 // The field of the same oneof that is set already; null if there is none.
@@ -81,12 +111,20 @@ void YamlReader::ReadMessage(const YAML::Node& node, const std::string& path,
   if (node.IsNull()) return;
   if (!node.IsMap()) return Refuse(node, path, "a mapping");
   std::map<std::string, int> lines;
+  Whole before;
   for (const auto& entry : node) {
     if (!entry.first.IsScalar()) {
       Refuse(entry.first, path, "the name of a field");
       continue;
     }
     const std::string& name = entry.first.Scalar();
+    if (!before.digits.empty() && AreDecimals(entry.first, entry.second)) {
+      if (std::exchange(before.told, true)) continue;  // Thousands, as in 1,000,000.
+      report_(before.mark, before.path,
+              fmt::format("expected a number, got {}", Quoted(before.digits + "," + name)), kPoint);
+      continue;
+    }
+    before = WholeOf(entry.second, Join(path, name));
     const auto [first, is_new] = lines.emplace(name, entry.first.Mark().line + 1);
     if (is_new) {
       ReadEntry(entry.first, entry.second, path, message);
@@ -151,8 +189,7 @@ void YamlReader::ReadScalar(const YAML::Node& node, const std::string& path,
   const auto store = [&](const auto& value, const char* expected, auto set, auto add) {
     const bool comma =
         field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE && text.find(',') != std::string::npos;
-    if (!value)
-      return Refuse(node, path, expected, comma ? "decimals are written with a point" : "");
+    if (!value) return Refuse(node, path, expected, comma ? kPoint : "");
     Store(field, message, *value, set, add);
   };
   switch (field.cpp_type()) {

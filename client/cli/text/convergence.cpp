@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <functional>
 
+#include "base/spelling.h"
+
 namespace contact::cli {
 namespace {
 
@@ -17,6 +19,16 @@ struct Parts {
 };
 
 bool Missed(const v1::Cycle& cycle) { return Misses(cycle.status()); }
+
+bool CutByTheEnd(const v1::Cycle& cycle) {
+  return cycle.status() == v1::Cycle::CUT || cycle.status() == v1::Cycle::UNFINISHED;
+}
+
+// Earlier servers do not count these; their ledger may be at hand.
+std::int64_t CutCount(const v1::Job& job) {
+  return std::max<std::int64_t>(job.summary().cycles_cut(),
+                                std::ranges::count_if(job.cycles(), CutByTheEnd));
+}
 
 // Servers of earlier versions do not count; their ledger may be at hand.
 Parts PartsOf(const v1::Job& job) {
@@ -46,9 +58,12 @@ std::string MissedCount(const v1::Job& job) {
 std::string ConvergenceText(const v1::Job& job) {
   if (job.convergence() == v1::Job::CONVERGENCE_UNSPECIFIED) return "";
   const Parts parts = PartsOf(job);
-  const std::string& name = v1::Job::Convergence_Name(job.convergence());
-  if (parts.missed == 0) return name;
-  return fmt::format("{} ({} of {} {})", name, parts.missed, parts.all, parts.name);
+  std::string text = v1::Job::Convergence_Name(job.convergence());
+  if (parts.missed > 0) text += fmt::format(" ({} of {} {})", parts.missed, parts.all, parts.name);
+  if (const std::int64_t cut = CutCount(job); cut > 0) {
+    text += fmt::format(", {} cut by the end", Count(cut, "cycle", "cycles"));
+  }
+  return text;
 }
 
 void KeepMissed(v1::Job* job) {
@@ -56,6 +71,9 @@ void KeepMissed(v1::Job* job) {
   if (job->summary().cycles() == 0) {
     job->mutable_summary()->set_cycles(parts.all);
     job->mutable_summary()->set_cycles_not_converged(parts.missed);
+  }
+  if (const std::int64_t cut = CutCount(*job); cut > 0) {
+    job->mutable_summary()->set_cycles_cut(cut);
   }
   auto& cycles = *job->mutable_cycles();
   cycles.erase(std::remove_if(cycles.begin(), cycles.end(), std::not_fn(Missed)), cycles.end());

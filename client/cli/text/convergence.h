@@ -13,8 +13,9 @@ bool Misses(v1::Cycle::Status status);
 /// converge: `3`. `-` while that is not known.
 std::string MissedCount(const v1::Job& job);
 
-/// The convergence of a job with that count: `FULL`, or `PARTIAL (3 of 249 cycles)`. Empty while
-/// the job has not finished.
+/// The convergence of a job with that count, and that of cycles that the end of the run cuts:
+/// `FULL`, `FULL, 2 cycles cut by the end` or `PARTIAL (3 of 249 cycles)`. Empty while the job has
+/// not finished.
 std::string ConvergenceText(const v1::Job& job);
 
 /// Drops the cycles and groups that do not miss their restitution. The counts of the summary stay

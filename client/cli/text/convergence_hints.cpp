@@ -24,8 +24,19 @@ struct Causes {
   std::int64_t exhausted = 0;  // All corrections were used.
   std::int64_t near = 0;       // They miss by kNear at most.
   std::int64_t stuck = 0;      // Neither: no better μ was found.
+  std::int64_t unproved = 0;   // Their energy does not balance, whatever their μ.
   double worst_near = 1e-12;   // The least tolerance that there is.
+  double worst_residual = 0;   // Of those unproved.
 };
+
+// The residual that a row that proves itself has at most, see Cycle.identity_residual.
+double MostResidual(const v1::Solver& solver) {
+  const double tolerance =
+      solver.has_restitution_tolerance()
+          ? solver.restitution_tolerance()
+          : RuleOf<v1::Solver>(v1::Solver::kRestitutionToleranceFieldNumber).default_number();
+  return std::max(1e-7, 10 * tolerance);
+}
 
 const v1::FieldRule& RuleOfIterations() {
   return RuleOf<v1::Solver>(v1::Solver::kMaxIterationsFieldNumber);
@@ -66,6 +77,11 @@ Causes CausesOf(const v1::Job& job) {
   Causes causes;
   for (const v1::Cycle& cycle : job.cycles()) {
     if (cycle.status() != v1::Cycle::NOT_CONVERGED) continue;
+    if (cycle.identity_residual() > MostResidual(job.scenario().solver())) {
+      ++causes.unproved;
+      causes.worst_residual = std::max(causes.worst_residual, cycle.identity_residual());
+      continue;
+    }
     const auto group = misses.find({cycle.contact(), cycle.group()});
     const double miss = group != misses.end()
                             ? group->second
@@ -100,6 +116,12 @@ std::string AboutSearches(const v1::Job& job) {
     const double enough = std::pow(10, std::ceil(std::log10(causes.worst_near)));
     text += Try(fmt::format("restitution_tolerance={:.0e}", enough),
                 fmt::format("{} by less", Count(causes.near, "cycle misses", "cycles miss")));
+  }
+  if (causes.unproved > 0) {
+    text += fmt::format(
+        "       The energy of {} does not balance, by up to {} of its work; a smaller "
+        "solver.relative_tolerance may help\n",
+        Count(causes.unproved, "cycle", "cycles"), RelativeError(causes.worst_residual));
   }
   if (causes.stuck == 0) return text;
   const std::string stuck = Count(causes.stuck, "cycle", "cycles");

@@ -33,6 +33,7 @@ std::string ProgressJson(const v1::Progress& progress, const std::string& job, d
     json["steps"] = progress.steps();
     json["cycles"] = progress.cycles();
     json["iterations"] = progress.iterations();
+    json["busy_with"] = progress.busy_with();
   }
   const std::optional<double> left = TimeToGo(done, elapsed_s);
   json["eta_s"] = left ? nlohmann::ordered_json(*left) : nlohmann::ordered_json();

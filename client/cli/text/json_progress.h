@@ -39,8 +39,9 @@ class JsonProgress {
   std::optional<v1::Progress> pending_;       // The newest progress while no line has told it.
 };
 
-/// One line of JSON: kind, job, done; for a run time_s, end_time_s, steps, cycles, iterations, for
-/// a sweep cells, cells_done, cells_failed, cells_not_converged; eta_s, null while it is unknown.
+/// One line of JSON: kind, job, done; for a run time_s, end_time_s, steps, cycles, iterations,
+/// busy_with, for a sweep cells, cells_done, cells_failed, cells_not_converged; eta_s, null while
+/// it is unknown.
 std::string ProgressJson(const v1::Progress& progress, const std::string& job, double elapsed_s);
 
 }  // namespace contact::cli

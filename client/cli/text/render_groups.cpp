@@ -59,12 +59,34 @@ std::string At(double restitution, double mu) {
   return fmt::format("{} at μ = {}", Digits(restitution, 6), Digits(mu, 6));
 }
 
-// A line for a group that has no μ, else empty.
+// A line for a group of which no μ gives the ε asked for, else empty.
 std::string NoSolution(const v1::Group& group) {
   const std::string certificate = Certificate(group);
   if (certificate.empty()) return "";
-  return fmt::format("{} group {}: no μ gives a restitution of {}: {}\n", group.contact(),
-                     group.number(), Digits(group.restitution_in(), 6), certificate);
+  const bool asked = group.status() != v1::Cycle::RELEASED;
+  return fmt::format(
+      "{} group {}: {}{}\n", group.contact(), group.number(),
+      asked ? fmt::format("no μ gives a restitution of {}: ", Digits(group.restitution_in(), 6))
+            : "",
+      certificate);
+}
+
+std::string Released(const v1::Group& group) {
+  const double given = -group.work_restitution_j();
+  return fmt::format("it gives back {} was stored before",
+                     std::isnan(given) ? "what" : Digits(given, 6) + " J that");
+}
+
+// What the search reached of a group that no μ solves.
+std::string Reached(const v1::Group& group) {
+  const std::string much = At(group.too_much_restitution(), group.too_much_mu());
+  const std::string little = At(group.too_little_restitution(), group.too_little_mu());
+  if (!group.has_too_much_mu()) return "too little comes back at every μ: ε is " + little;
+  if (!group.has_too_little_mu()) return "too much comes back at every μ: ε is " + much;
+  if (group.too_little_restitution() > 0)
+    return fmt::format("it jumps from {} to {}", much, little);
+  return fmt::format("it is {}, and with μ = {} the contact stays closed", much,
+                     Digits(group.too_little_mu(), 6));
 }
 
 std::string WhyInWords(v1::Group::Growth why) {
@@ -83,8 +105,8 @@ std::string WhyInWords(v1::Group::Growth why) {
 }  // namespace
 
 bool IsNotable(const v1::Group& group) {
-  return group.cycles() > 1 || group.status() == v1::Cycle::JUMP ||
-         group.status() == v1::Cycle::INFEASIBLE || group.status() == v1::Cycle::UNFINISHED;
+  return group.cycles() > 1 || group.status() == v1::Cycle::UNFINISHED ||
+         !Certificate(group).empty();
 }
 
 std::string CyclesOf(const v1::Group& group) {
@@ -94,15 +116,17 @@ std::string CyclesOf(const v1::Group& group) {
 }
 
 std::string Certificate(const v1::Group& group) {
-  if (group.status() != v1::Cycle::JUMP && group.status() != v1::Cycle::INFEASIBLE) return "";
-  const std::string much = At(group.too_much_restitution(), group.too_much_mu());
-  const std::string little = At(group.too_little_restitution(), group.too_little_mu());
-  if (!group.has_too_much_mu()) return "too little comes back at every μ: ε is " + little;
-  if (!group.has_too_little_mu()) return "too much comes back at every μ: ε is " + much;
-  if (group.too_little_restitution() > 0)
-    return fmt::format("it jumps from {} to {}", much, little);
-  return fmt::format("it is {}, and with μ = {} the contact stays closed", much,
-                     Digits(group.too_little_mu(), 6));
+  switch (group.status()) {
+    case v1::Cycle::JUMP:
+    case v1::Cycle::INFEASIBLE:
+      return Reached(group);
+    case v1::Cycle::LIMITED:
+      return Reached(group) + ", and the groups before are final";
+    case v1::Cycle::RELEASED:
+      return Released(group);
+    default:
+      return "";
+  }
 }
 
 std::string GrowthLine(const v1::GroupGrowth& growth) {

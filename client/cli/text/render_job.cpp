@@ -55,6 +55,12 @@ std::string Title(const v1::Job& job, const Style& style) {
          (title.empty() ? "" : Wrap(OneLine(title) + "\n", style));
 }
 
+// A line with what keeps a run of many steps busy.
+std::string Busy(const v1::Job& job) {
+  const std::string& busy = job.progress().busy_with();
+  return busy.empty() || job.state() != v1::Job::RUNNING ? "" : "busy: " + OneLine(busy) + "\n";
+}
+
 double InSeconds(const google::protobuf::Duration& span) {
   return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
 }
@@ -109,7 +115,7 @@ std::string Balances(const v1::Job& job, const Style& style) {
 }  // namespace
 
 std::string RenderJob(const v1::Job& job, const Style& style) {
-  std::string text = Title(job, style) + Wrap(RequestedOptions(job), style) +
+  std::string text = Title(job, style) + Wrap(Busy(job) + RequestedOptions(job), style) +
                      ErrorLine(job, style) + RenderLedger(job, style) + RenderGroups(job, style) +
                      Bodies(job, style) + Balances(job, style);
   if (job.has_sweep()) {

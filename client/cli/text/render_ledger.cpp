@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -25,7 +26,7 @@ GroupNames LongerGroups(const v1::Job& job) {
 
 std::string ErrorText(const v1::Cycle& cycle, const GroupNames& longer) {
   if (longer.contains({cycle.contact(), cycle.group()})) return "-";
-  return RelativeError(RestitutionError(cycle.restitution_out(), cycle.restitution_in()));
+  return RelativeError(RestitutionError(cycle));
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ std::string RenderLedger(const v1::Job& job, const Style& style) {
                Digits(cycle.mu(), 7),
                AlphaOrRatio(cycle),
                Digits(cycle.restitution_in(), 6),
-               Digits(cycle.restitution_out(), 8),
+               Digits(RestitutionOf(cycle), 8),
                ErrorText(cycle, longer),
                Digits(cycle.start_time_s(), 7),
                Digits(cycle.end_time_s(), 7),
@@ -80,10 +81,21 @@ std::string RenderLedger(const v1::Job& job, const Style& style) {
 }
 
 Tone ToneOf(v1::Cycle::Status status) {
-  if (status == v1::Cycle::CONVERGED) return Tone::kGood;
-  if (status == v1::Cycle::NOT_CONVERGED) return Tone::kBad;
-  const bool told = status == v1::Cycle::INFEASIBLE || status == v1::Cycle::JUMP;
-  return told ? Tone::kWarning : Tone::kPlain;
+  switch (status) {
+    case v1::Cycle::CONVERGED:
+      return Tone::kGood;
+    case v1::Cycle::NOT_CONVERGED:
+      return Tone::kBad;
+    case v1::Cycle::INFEASIBLE:
+    case v1::Cycle::JUMP:
+    case v1::Cycle::LIMITED:  // Groups tell what was reached.
+      return Tone::kWarning;
+    case v1::Cycle::CUT:
+    case v1::Cycle::UNFINISHED:  // Much of them is not known.
+      return Tone::kFaint;
+    default:
+      return Tone::kPlain;
+  }
 }
 
 std::string AlphaOrRatio(const v1::Cycle& cycle) {
@@ -91,8 +103,17 @@ std::string AlphaOrRatio(const v1::Cycle& cycle) {
                                               : Digits(cycle.mu_over_k_s_per_m(), 5) + " s/m";
 }
 
+double RestitutionOf(const v1::Cycle& cycle) {
+  const bool says = cycle.status() != v1::Cycle::SETTLED && cycle.status() != v1::Cycle::RELEASED;
+  return says ? cycle.restitution_out() : std::numeric_limits<double>::quiet_NaN();
+}
+
 double RestitutionError(double restitution_out, double restitution_in) {
   return std::abs(restitution_out - restitution_in) / restitution_in;
+}
+
+double RestitutionError(const v1::Cycle& cycle) {
+  return RestitutionError(RestitutionOf(cycle), cycle.restitution_in());
 }
 
 }  // namespace contact::cli

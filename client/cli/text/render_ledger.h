@@ -22,7 +22,12 @@ Tone ToneOf(v1::Cycle::Status status);
 /// α of a collision [1]; μ/k [s/m] with its unit of a cycle that starts at rest, which has no α.
 std::string AlphaOrRatio(const v1::Cycle& cycle);
 
+/// ε_out of a cycle as people read it: NaN where ε says nothing, as of SETTLED and RELEASED cycles.
+double RestitutionOf(const v1::Cycle& cycle);
+
 /// |ε_out − ε_in|/ε_in; NaN if one of them is.
 double RestitutionError(double restitution_out, double restitution_in);
+/// The same of a cycle, see RestitutionOf.
+double RestitutionError(const v1::Cycle& cycle);
 
 }  // namespace contact::cli

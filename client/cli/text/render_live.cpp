@@ -98,7 +98,7 @@ void LiveView::ShowCycle(const v1::Cycle& cycle) {
                     Paint(v1::Cycle::Status_Name(cycle.status()), ToneOf(cycle.status()),
                           options_.rows_style),
                     Digits(cycle.start_time_s(), 7), Digits(cycle.end_time_s(), 7),
-                    Digits(cycle.restitution_out(), 8)));
+                    Digits(RestitutionOf(cycle), 8)));
 }
 
 void LiveView::ShowGrowth(const v1::GroupGrowth& growth) {

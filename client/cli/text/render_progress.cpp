@@ -29,10 +29,11 @@ std::string TimeLeft(double part_done, double elapsed_s) {
 
 std::string ProgressWords(const v1::Progress& progress, double elapsed_s) {
   const double done = PartDone(progress);
-  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s, {}, {}{}", 100 * done, progress.time_s(),
+  const std::string& busy = progress.busy_with();
+  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s, {}, {}{}{}", 100 * done, progress.time_s(),
                      progress.end_time_s(), Count(progress.cycles(), "cycle", "cycles"),
                      Count(progress.iterations(), "iteration", "iterations"),
-                     TimeLeft(done, elapsed_s));
+                     TimeLeft(done, elapsed_s), busy.empty() ? "" : "; busy: " + OneLine(busy));
 }
 
 std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width, bool utf8) {

@@ -17,7 +17,7 @@ std::optional<double> TimeToGo(double part_done, double elapsed_s);
 /// TimeToGo in words, such as `, 3.2 s left`; empty for none.
 std::string TimeLeft(double part_done, double elapsed_s);
 
-/// How far a run is and how long it will still take, in words.
+/// How far a run is, how long it will still take, and what keeps it busy, in words.
 std::string ProgressWords(const v1::Progress& progress, double elapsed_s);
 
 /// A bar with ProgressWords behind it, in at most `width` characters (0: no limit); the words alone

@@ -40,7 +40,21 @@ Finding ClockSkew(const v1::ServerInfo& info) {
           "set the clocks of both machines, such as with NTP", ExitCode::kLocal};
 }
 
-// Adds findings about the server, its version and its clock; without a server only the first.
+// Adds what keeps runs of many steps busy, of the newest that run. Nothing is wrong with them.
+void LookAtBusyRuns(Client& client, Findings* findings) {
+  constexpr int kMostRuns = 50;  // More would hide what else was found.
+  v1::ListJobsRequest request;
+  request.set_page_size(kMostRuns);
+  request.add_states(v1::Job::RUNNING);
+  const v1::ListJobsResponse running = client.Call(&Client::Stub::ListJobs, request);
+  for (const v1::Job& job : running.jobs()) {
+    const std::string& busy = job.progress().busy_with();
+    if (!busy.empty()) findings->push_back({"busy", job.name() + ": " + OneLine(busy)});
+  }
+}
+
+// Adds findings about the server, its version, its clock and its runs; without a server only the
+// first.
 void LookAtServer(const Settings& settings, Findings* findings) {
   try {
     Client client(settings.server, std::chrono::seconds(3), CredentialsOf(settings));
@@ -52,6 +66,7 @@ void LookAtServer(const Settings& settings, Findings* findings) {
                          fmt::format("contactctl {}, contactd {}", kVersion, info.version()),
                          same ? "" : "install the same version on both sides", ExitCode::kLocal});
     findings->push_back(ClockSkew(info));
+    LookAtBusyRuns(client, findings);
   } catch (const Failure& failure) {
     const std::string text = failure.what();
     findings->push_back({"server", text.substr(0, text.find('\n')),

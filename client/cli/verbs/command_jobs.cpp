@@ -26,8 +26,9 @@ constexpr char kAboutLedger[] =
     R"(Each row of the ledger is a cycle: a compression and the restitution that follows it. ε is the
 energy restitution coefficient √(−W_r/W_c), with W_c and W_r the work of the contact force in
 compression and in restitution; in an isolated collision it is the ratio of the velocities after
-and before. ERROR is |ε OUT − ε IN|/ε IN. contactctl explain says what the words below KIND, END
-and STATUS mean.)";
+and before. ERROR is |ε OUT − ε IN|/ε IN. A `-` is a number that is not known: the end of the run
+cuts the cycle, or ε says nothing of it. contactctl explain says what the words below KIND, END and
+STATUS mean.)";
 
 ExitCode Describe(const DescribeArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});

@@ -116,6 +116,12 @@ def _flat(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
         yield path, value
 
 
+def _restitution(cycle: job_pb2.Cycle) -> float:
+    """ε of a cycle; NaN where it says nothing, whatever an earlier server wrote."""
+    silent = cycle.status in (job_pb2.Cycle.SETTLED, job_pb2.Cycle.RELEASED)
+    return math.nan if silent else cycle.restitution_out
+
+
 def _results(job: job_pb2.Job) -> Iterator[tuple[str, str, Value, bool]]:
     """Name, unit, value of each result, and whether it is judged."""
     yield "state", "", job_pb2.Job.State.Name(job.state), True
@@ -126,7 +132,7 @@ def _results(job: job_pb2.Job) -> Iterator[tuple[str, str, Value, bool]]:
         yield f"{name} status", "", job_pb2.Cycle.Status.Name(cycle.status), True
         yield f"{name} end", "", job_pb2.Cycle.End.Name(cycle.end), True
         yield f"{name} μ", "N·s/m^(n+1)", cycle.mu, True
-        yield f"{name} ε out", "1", cycle.restitution_out, True
+        yield f"{name} ε out", "1", _restitution(cycle), True
         yield f"{name} peak force", "N", cycle.peak_force_n, True
         yield f"{name} δ max", "m", cycle.delta_max_m, True
         yield f"{name} t end", "s", cycle.end_time_s, True

@@ -60,5 +60,6 @@ def _words(progress: job_pb2.Progress) -> str:
     if progress.cells:
         return (f"{progress.cells_done} of {progress.cells} cells, "
                 f"{progress.cells_failed} failed")
+    busy = f"; busy: {progress.busy_with}" if progress.busy_with else ""
     return (f"{progress.time_s:.4g} of {progress.end_time_s:.4g} s, "
-            f"{progress.cycles} cycles")
+            f"{progress.cycles} cycles{busy}")

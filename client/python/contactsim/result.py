@@ -43,7 +43,8 @@ class Result:
 
     @property
     def converged(self) -> bool:
-        """True if every cycle has the restitution asked for."""
+        """True if no cycle misses the restitution asked for. Those that the end of the run cuts do
+        not count; `job.summary.cycles_cut` tells how many they are."""
         return self.job.convergence == job_pb2.Job.FULL
 
     @property
@@ -86,7 +87,8 @@ class Result:
 
     @functools.cached_property
     def cycles(self) -> pd.DataFrame:
-        """The ledger: a row a cycle. `mu` is in N·s/m^(n+1), n the exponent of its contact."""
+        """The ledger: a row a cycle. `mu` is in N·s/m^(n+1), n the exponent of its contact. What the
+        end of the run hides of a cut cycle is NaN."""
         return _frame(job_pb2.Cycle.DESCRIPTOR, self.job.cycles)
 
     @functools.cached_property
@@ -139,8 +141,10 @@ class Result:
         job = self.job
         convergence = job_pb2.Job.Convergence.Name(job.convergence)
         title = f" '{self.scenario.title}'" if self.scenario.title else ""
+        cut = f" ({job.summary.cycles_cut} cut by the end)" if job.summary.cycles_cut else ""
         return (f"{job.name}{title}: {job_pb2.Job.State.Name(job.state)}, convergence "
-                f"{convergence}, {len(job.cycles)} cycles, {job.summary.iterations} iterations")
+                f"{convergence}, {len(job.cycles)} cycles{cut}, "
+                f"{job.summary.iterations} iterations")
 
     def _repr_html_(self) -> str:
         ledger = self.cycles[list(_LEDGER)].to_html(index=False, max_rows=20)

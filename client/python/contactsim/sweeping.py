@@ -22,6 +22,11 @@ AxisValue = Union[float, str]
 
 _VARIABLE = "var:"
 
+_CUT = "CUT"
+_UNTOUCHED = "no contact"
+_WORDS = {event_pb2.SweepCell.CUT: _CUT, event_pb2.SweepCell.NO_CONTACT: _UNTOUCHED}
+_GREYS = {_CUT: "#b0b0b0", _UNTOUCHED: "#e8e8e8"}
+
 
 def make_sweep(scenario: ScenarioLike, grid: Mapping[str, Iterable[AxisValue]],
                metrics: Iterable[str], variables: Mapping[str, Any] | None,
@@ -81,12 +86,17 @@ class SweepResult:
         self.units = {name: unit_of(field) for name, field in zip(self.axes, self._fields())}
         self.units.update({metric: unit_of_metric(metric) for metric in self.metrics})
         by_index = {cell.index: cell for cell in cells}
+        ordered = [by_index[index] for index in sorted(by_index)]
+        index = pd.Index([cell.index for cell in ordered], name="cell")
         #: A row a cell: axes, metrics, `state`, `convergence`, `message`. Axes of an enum have its
-        #: words. Metrics of a cell that failed are NaN.
+        #: words. Metrics of a cell that failed are NaN, as are those that `unknown` has a word for.
         self.frame = pd.DataFrame(
-            [self._row(by_index[index]) for index in sorted(by_index)],
-            columns=[*self.axes, *self.metrics, "state", "convergence", "message"],
-            index=pd.Index(sorted(by_index), name="cell"))
+            [self._row(cell) for cell in ordered], index=index,
+            columns=[*self.axes, *self.metrics, "state", "convergence", "message"])
+        #: Why a metric is no known number, a row a cell: `CUT`, it comes from a cycle that the end
+        #: of the run cuts; `no contact`, the contact was not touched; empty, it is known.
+        self.unknown = pd.DataFrame([self._words(cell) for cell in ordered], index=index,
+                                    columns=self.metrics)
 
     @property
     def name(self) -> str:
@@ -104,7 +114,8 @@ class SweepResult:
     def heatmap(self, metric: str | None = None, ax: Axes | None = None) -> Axes:
         """A metric, by default the first, over the two axes of the sweep: the first one down.
 
-        Cells that did not converge are hatched, those that failed crossed.
+        Cells that did not converge are hatched, those that failed crossed; those that `unknown` has
+        a word for are grey, with a legend.
         """
         import matplotlib.pyplot as plt  # Only who plots needs matplotlib.
 
@@ -119,26 +130,49 @@ class SweepResult:
         ax.set_xticks(range(table.shape[1]), [_text(value) for value in table.columns])
         ax.set_yticks(range(table.shape[0]), [_text(value) for value in table.index])
         ax.set(xlabel=self.axes[1], ylabel=self.axes[0])
-        self._mark(ax, table)
+        self._mark(ax, table, metric)
         return ax
 
-    def _mark(self, ax: Axes, table: pd.DataFrame) -> None:
-        for _, cell in self.frame.iterrows():
+    def _mark(self, ax: Axes, table: pd.DataFrame, metric: str) -> None:
+        legend = {}
+        for index, cell in self.frame.iterrows():
             x = table.columns.get_loc(cell[self.axes[1]])
             y = table.index.get_loc(cell[self.axes[0]])
+            square = ([x - 0.5, x + 0.5, x + 0.5, x - 0.5], [y - 0.5, y - 0.5, y + 0.5, y + 0.5])
+            word = self.unknown.loc[index, metric]
             if cell.state == "FAILED":
                 ax.plot([x - 0.5, x + 0.5], [y - 0.5, y + 0.5], color="#b00020", lw=1.5)
                 ax.plot([x - 0.5, x + 0.5], [y + 0.5, y - 0.5], color="#b00020", lw=1.5)
+            elif word:
+                legend[word] = ax.fill(*square, facecolor=_GREYS[word], lw=0,
+                                       hatch="|" if word == _CUT else None)[0]
             elif cell.convergence != "FULL":
-                ax.fill([x - 0.5, x + 0.5, x + 0.5, x - 0.5], [y - 0.5, y - 0.5, y + 0.5, y + 0.5],
-                        fill=False, hatch="///", lw=0)
+                ax.fill(*square, fill=False, hatch="///", lw=0)
+        if legend:
+            ax.legend(list(legend.values()), list(legend), loc="lower right",
+                      bbox_to_anchor=(1, 1), ncols=len(legend), frameon=False)
+
+    def _words(self, cell: event_pb2.SweepCell) -> list[str]:
+        """Of each metric; servers of earlier versions do not tell where it comes from."""
+        words = [_WORDS.get(source, "") for source in cell.sources]
+        return words + [""] * (len(self.metrics) - len(words))
 
     def _row(self, cell: event_pb2.SweepCell) -> list[Any]:
         failed = cell.state == job_pb2.Job.FAILED
-        metrics = [float("nan")] * len(self.metrics) if failed else list(cell.metrics)
+        metrics = [value if not (failed or word) else float("nan")
+                   for value, word in zip(cell.metrics, self._words(cell))]
+        metrics += [float("nan")] * (len(self.metrics) - len(metrics))
         values = [_shown(value, field) for value, field in zip(cell.values, self._fields())]
         return [*values, *metrics, job_pb2.Job.State.Name(cell.state),
-                "" if failed else job_pb2.Job.Convergence.Name(cell.convergence), cell.message]
+                "" if failed else job_pb2.Job.Convergence.Name(cell.convergence),
+                cell.message or self._remark(cell)]
+
+    def _remark(self, cell: event_pb2.SweepCell) -> str:
+        """What a cell that did not fail cannot know."""
+        if cell.HasField("cycles") and cell.cycles == 0:
+            return _UNTOUCHED
+        named = zip(self.metrics, self._words(cell))
+        return "; ".join(f"{metric}: {word}" for metric, word in named if word)
 
     def _fields(self) -> list[FieldDescriptor | None]:
         """The field of each axis."""

@@ -100,7 +100,7 @@ bool CellSolver::Compute(RunControl& control, const Meanwhile& meanwhile, Solved
   if (!decoded.violations.empty()) {
     const Violation& first = decoded.violations.front();
     Fail(InfoOf(Reason::kScenarioInvalid).name, first.field + ": " + first.description, cell);
-    for (const double metric : plan_.metrics.Of({})) cell->add_metrics(metric);
+    for (const auto& metric : plan_.metrics.Of({})) cell->add_metrics(metric.value);
     return true;
   }
   const auto& kept = sweep_.keep_trajectories();
@@ -123,7 +123,12 @@ bool CellSolver::Run(const Scenario& scenario, RunControl& control, const Meanwh
   cell.set_state_reason(transition.state_reason);
   cell.set_message(transition.message);
   cell.set_convergence(result.convergence());
-  for (const double metric : plan_.metrics.Of(result)) cell.add_metrics(metric);
+  cell.set_cycles(result.summary().cycles());
+  cell.set_cycles_cut(result.summary().cycles_cut());
+  for (const auto& metric : plan_.metrics.Of(result)) {
+    cell.add_metrics(metric.value);
+    cell.add_sources(metric.source);
+  }
   return true;
 }
 

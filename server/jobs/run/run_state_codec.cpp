@@ -101,7 +101,8 @@ void serialize(Archive& archive, Group& g) {
 
 template <class Archive>
 void serialize(Archive& archive, ContactState::Membership& m) {
-  archive(m.open, m.place, m.lasts, m.groups, m.iterations, m.imbalance, m.group);
+  archive(m.open, m.after_rest, m.disproved, m.nothing, m.place, m.lasts, m.groups, m.iterations,
+          m.imbalance, m.group);
 }
 
 template <class Archive>
@@ -114,6 +115,8 @@ void serialize(Archive& archive, ContactState& c) {
   archive(c.phase, c.gap, c.cycles, c.last_mu, c.largest_work, c.settled, c.duration);
   archive(c.work, c.external_work, c.column, c.peak, c.cycle);
   archive(c.encounter, c.member);
+  archive(c.largest_motion, c.largest_speed, c.woken, c.released, c.start_velocity, c.rest_until,
+          c.rest_mark);
 }
 
 template <class Archive>
@@ -148,17 +151,22 @@ void serialize(Archive& archive, GroupId& id) {
 template <class Archive>
 void serialize(Archive& archive, Unknown& u) {
   archive(u.id, u.mu, u.first_mu, u.lasts, u.start_time, u.restitution_out, u.settled_mu);
-  archive(u.length, u.speed, u.corrected, u.kept, u.guesses, u.weak, u.reopened, u.flips,
+  archive(u.length, u.speed, u.corrected, u.kept, u.guesses, u.weak, u.reopened, u.flips, u.cut,
           u.given_up, u.lowered, u.iterations);
   archive(u.growth, u.status, u.too_much, u.too_little);
+}
+
+template <class Archive>
+void serialize(Archive& archive, RestEnd& r) {
+  archive(r.before, r.time);
 }
 
 template <class Archive>
 void serialize(Archive& archive, RunState& s) {
   archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
   archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
-  archive(s.growths, s.growths_no_progress, s.solved_until);
-  archive(s.unknowns, s.warned, s.missed, s.sampling);
+  archive(s.growths, s.growths_no_progress, s.solved_until, s.rest_ends);
+  archive(s.unknowns, s.warned, s.missed, s.unproven, s.sampling);
 }
 
 namespace {

@@ -89,6 +89,8 @@ void EpisodeSolver::Save(RunState* state) const {
   state->solved_until = solved_until_;
   state->unknowns.clear();
   for (const auto& [id, unknown] : problem_.groups.known()) state->unknowns.push_back(unknown);
+  state->rest_ends.clear();
+  for (const auto& [id, time] : problem_.groups.rest_ends()) state->rest_ends.push_back({id, time});
   recorder_.Save(state);
 }
 
@@ -98,6 +100,7 @@ void EpisodeSolver::Restore(const RunState& state) {
   log_.growths_no_progress = state.growths_no_progress;
   solved_until_ = state.solved_until;
   for (const Unknown& unknown : state.unknowns) problem_.groups.At(unknown.id) = unknown;
+  for (const auto& [id, time] : state.rest_ends) problem_.groups.NoteRestEnd(id, time);
   recorder_.Restore(state);
   episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
 }
@@ -143,13 +146,15 @@ Sight EpisodeSolver::Scan(bool coarse) {
     bool changed = false;
     for (const GroupSight& g : sight.groups) {
       Unknown& unknown = problem_.groups.At(g.id);
+      unknown.cut = !g.ended || g.end_time > problem_.end();
       if (!g.ended) continue;
       const bool flips = g.sought && unknown.weak != g.weak;
       changed |= flips;
       unknown.flips += flips;
       unknown.weak = g.weak;
       unknown.restitution_out = std::sqrt(std::max(g.squared, 0.0));
-      if (unknown.length == 0) unknown.length = g.length, unknown.speed = g.speed;
+      const bool other = unknown.length == 0;
+      if (other) unknown.length = g.length, unknown.speed = g.speed;
       const bool ends_after_all = unknown.status == Cycle::Status::kUnfinished &&
                                   g.end_time <= problem_.end() && unknown.reopened < kReopened;
       if (ends_after_all) ++unknown.reopened;

@@ -5,12 +5,16 @@
 #include <cmath>
 #include <utility>
 
+#include "simulation/laws/isolated_collision.h"
+
 namespace contact {
 namespace {
 
 // Part of the speed of a swing about the load that a guess reckons with at least: a μ that is too
 // large lets a loaded contact creep without end.
 constexpr double kSwing = 0.3;
+// How long a collision takes, in units of δ_m/v: three of them, and longer where it is damped.
+constexpr double kAlone = 6;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -49,15 +53,49 @@ double FirstGuess::Factor(const ContactState& state, double effective_mass,
   return own > 0 ? alpha * contact.stiffness / own : kNaN;
 }
 
+double FirstGuess::Released(const ContactState& state, double effective_mass) const {
+  const Contact& c = scenario_.contacts[At(state.cycle.contact)];
+  if (c.damping == DampingLaw::kGiven || NeedsNoVelocity(c.damping)) return state.cycle.mu;
+  const double alpha = DampingCoefficient(c.damping, c.restitution);
+  return alpha * c.stiffness /
+         ApproachVelocity(effective_mass, state.cycle.start_deformation, c.stiffness, c.exponent,
+                          alpha);
+}
+
 double FirstGuess::Sought(const ContactState& state, double alpha, double own,
                           double effective_mass, double external_force) const {
   const Contact& contact = scenario_.contacts[At(state.cycle.contact)];
-  if (own == 0 && state.last_mu > 0) return state.last_mu;
-  double speed = std::max(own, NeighbourSpeed(state.cycle.contact));
+  if (own == 0 && state.last_mu > 0 && !state.woken) return state.last_mu;
+  double speed = std::max(
+      {own, NeighbourSpeed(state.cycle.contact), SpeedAround(state.cycle, effective_mass)});
   if (speed == 0) speed = fastest_;
   const double swing = SwingSpeed(contact, effective_mass, external_force);
   speed = speed > 0 ? std::max(speed, kSwing * swing) : swing;
-  return alpha * contact.stiffness / (speed > 0 ? speed : 1);
+  const double mu = alpha * contact.stiffness / (speed > 0 ? speed : 1);
+  return state.woken && state.last_mu > 0 ? std::min(mu, state.last_mu) : mu;
+}
+
+// The largest speed with which the bodies of a collision meet others in the time that the collision
+// would take alone: what those push it by is no matter of its own speed.
+double FirstGuess::SpeedAround(const Cycle& cycle, double effective_mass) const {
+  const double own = cycle.approach_velocity;
+  if (own == 0) return 0;
+  const Contact& here = scenario_.contacts[At(cycle.contact)];
+  const double depth = MaximumDeformation(effective_mass, own, here.stiffness, here.exponent, 0);
+  const double* y = motion_.integrator().y0.data();
+  const Equations& equations = motion_.equations();
+  double largest = 0;
+  for (int c = 0; c < equations.contacts(); ++c) {
+    const Contact& there = scenario_.contacts[At(c)];
+    const bool shares = (here.left != kNone && here.left == there.right) ||
+                        (here.right != kNone && here.right == there.left);
+    const double speed = equations.Relative(c, y + equations.bodies());
+    const double gap = -motion_.Deformation(c, y);
+    if (shares && speed > own && gap * own <= kAlone * depth * speed) {
+      largest = std::max(largest, speed);
+    }
+  }
+  return largest;
 }
 
 // Paper (23); for a cycle from rest the last μ or paper (28), which hides a velocity of 1 m/s.

@@ -23,9 +23,14 @@ class FirstGuess {
   /// no approach velocity, and the contact keeps the μ it had.
   double Factor(const ContactState& state, double effective_mass, double external_force) const;
 
+  /// μ of a cycle that gives back what was stored before it: that of the isolated collision which
+  /// would have brought the contact to its δ_s.
+  double Released(const ContactState& state, double effective_mass) const;
+
  private:
   double Sought(const ContactState& state, double alpha, double own_speed, double effective_mass,
                 double external_force) const;
+  double SpeedAround(const Cycle& cycle, double effective_mass) const;
   double Paper(const ContactState& state, double own_speed) const;
   int Neighbour(int contact, int except) const;
   double NeighbourSpeed(int contact) const;

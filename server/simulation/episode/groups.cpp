@@ -29,6 +29,10 @@ bool HasBegun(const State& state, const GroupId& id) {
          (id.encounter == encounter && id.place <= contact.member.place);
 }
 
+GroupId LastGroup(const ContactState& contact) {
+  return {contact.cycle.contact, contact.member.group.encounter, contact.member.place};
+}
+
 Unknown& Groups::At(const GroupId& id) {
   Unknown& unknown = known_[id];
   unknown.id = id;
@@ -57,6 +61,11 @@ void Groups::Merge(const GroupSight& first, const GroupSight& next, Growth why) 
   grown.settled_mu = kNaN;
   grown.too_much = grown.too_little = {};
   known_.erase(next.id);
+  std::erase_if(rest_ends_, [&](const auto& entry) {  // Their places change.
+    const GroupId& id = entry.first;
+    return id.contact == first.id.contact && id.encounter == first.id.encounter &&
+           id.place >= first.id.place;
+  });
   for (GroupId id = next.id; known_.contains({id.contact, id.encounter, id.place + 1});
        ++id.place) {
     auto node = known_.extract({id.contact, id.encounter, id.place + 1});
@@ -65,8 +74,23 @@ void Groups::Merge(const GroupSight& first, const GroupSight& next, Growth why) 
   }
 }
 
+void Groups::NoteRestEnd(const GroupId& before, double time) {
+  const auto noted = rest_ends_.try_emplace(before, time).first;
+  noted->second = std::min(noted->second, time);
+}
+
+double Groups::RestEnd(const GroupId& before) const {
+  const auto noted = rest_ends_.find(before);
+  return noted == rest_ends_.end() ? kNever : noted->second;
+}
+
 void Groups::ForgetBegun(const State& state) {
   std::erase_if(known_, [&](const auto& entry) { return HasBegun(state, entry.first); });
+  std::erase_if(rest_ends_, [&](const auto& entry) {
+    const ContactState& contact = state.contacts[static_cast<std::size_t>(entry.first.contact)];
+    const bool rests = contact.phase == Phase::kResting && LastGroup(contact) == entry.first;
+    return HasBegun(state, entry.first) && !rests;
+  });
 }
 
 }  // namespace contact

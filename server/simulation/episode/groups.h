@@ -9,6 +9,8 @@ namespace contact {
 
 /// Whether a group has begun in this state, or is over.
 bool HasBegun(const State& state, const GroupId& id);
+/// The group of a contact that has begun last.
+GroupId LastGroup(const ContactState& contact);
 
 /// The groups into which the cycles fall, and what is known of each. Groups only grow: nothing
 /// parts what Merge has joined.
@@ -23,13 +25,21 @@ class Groups {
   /// the first guess of its first cycle.
   void Merge(const GroupSight& first, const GroupSight& next, Growth why);
 
-  /// Forgets the groups that have begun in this state.
+  /// The rest that follows a group ends at this instant [s], or earlier if that was noted before.
+  void NoteRestEnd(const GroupId& before, double time);
+  /// When the rest that follows a group ends [s]; infinite if nothing is known of that.
+  double RestEnd(const GroupId& before) const;
+  std::map<GroupId, double>& rest_ends() { return rest_ends_; }
+  const std::map<GroupId, double>& rest_ends() const { return rest_ends_; }
+
+  /// Forgets the groups that have begun in this state, and rests that are over.
   void ForgetBegun(const State& state);
   std::map<GroupId, Unknown>& known() { return known_; }
   const std::map<GroupId, Unknown>& known() const { return known_; }
 
  private:
   std::map<GroupId, Unknown> known_;
+  std::map<GroupId, double> rest_ends_;  // By the group before the rest.
 };
 
 }  // namespace contact

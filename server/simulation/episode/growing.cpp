@@ -31,7 +31,7 @@ bool Growing::TakeNext(const GroupId& id, Growth why) {
   const GroupSight* here = sight.Find(id);
   const GroupSight* there = sight.Find(next);
   if (here == nullptr || !here->ended || here->separated) return false;
-  if (there == nullptr) return false;
+  if (there == nullptr || there->after_rest) return false;
   GroupSight taken = *there;
   // Of one that does not end in sight the group takes what there is: it is unfinished then.
   if (taken.cycles == 0) taken.last_turn = (taken.start_time + sight.time) / 2;
@@ -47,6 +47,7 @@ bool Growing::JoinPrevious(const GroupId& id, Growth why) {
   const GroupSight* here = sight.Find(id);
   const GroupSight* there = sight.Find(before);
   if (here == nullptr || here->cycles == 0 || there == nullptr || !there->sought) return false;
+  if (here->after_rest) return false;
   problem_.groups.Merge(*there, *here, why);
   log_.Grow(sight, before, problem_.groups.At(before));
   return true;
@@ -55,6 +56,7 @@ bool Growing::JoinPrevious(const GroupId& id, Growth why) {
 bool Growing::Grow(const GroupId& id, Growth why) {
   if (problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle) return false;
   if (why == Growth::kTooMuch && JoinPrevious(id, why)) return true;
+  if (why == Growth::kTooMuch && id.place > 1) return false;  // What is before it is final.
   // The trough that ends the group may be there on one side of what was sought only.
   Unknown& unknown = problem_.groups.At(id);
   const double here = unknown.mu;
@@ -98,7 +100,10 @@ void Growing::Decide(const GroupId& id, Root root) const {
   const bool alone = problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle;
   const bool opens = root == Root::kTooMuch && !std::isnan(unknown.too_little.mu);  // Does not end.
   const bool jumps = !alone && (root == Root::kJump || opens);
-  unknown.status = jumps ? Cycle::Status::kJump : Cycle::Status::kInfeasible;
+  const bool limited = !alone && root == Root::kTooMuch && !opens;
+  unknown.status = jumps     ? Cycle::Status::kJump
+                   : limited ? Cycle::Status::kLimited
+                             : Cycle::Status::kInfeasible;
   if (root == Root::kTooLittle) unknown.mu = 0;
   if (root == Root::kTooMuch) unknown.mu = opens ? unknown.too_much.mu : unknown.first_mu;
   if (root == Root::kJump && alone) unknown.mu = unknown.too_much.mu;
@@ -146,8 +151,9 @@ bool Growing::Reopen(const Sight& scan, double before) {
   for (const GroupSight& g : scan.groups) {
     if (g.start_time >= before) break;
     Unknown& unknown = problem_.groups.At(g.id);
-    const bool without =
-        unknown.status == Cycle::Status::kJump || unknown.status == Cycle::Status::kInfeasible;
+    const bool without = unknown.status == Cycle::Status::kJump ||
+                         unknown.status == Cycle::Status::kLimited ||
+                         unknown.status == Cycle::Status::kInfeasible;
     // One that was given up may have its answer now: what overlaps it has been solved since.
     if (unknown.given_up && unknown.reopened == 0 && g.ended && !g.weak &&
         !(std::abs(g.Miss()) <= problem_.tolerance())) {

@@ -10,6 +10,8 @@ namespace {
 // what was solved with it is lost.
 constexpr double kPoor = 0.2;
 constexpr int kGuesses = 2;
+// A contact does not rest for less than this part of the cycle before.
+constexpr double kSoon = 0.1;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -58,6 +60,8 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
   member.place =
       member.group.encounter == state.encounter && member.place > 0 ? member.place + 1 : 1;
   member.open = true;
+  member.after_rest = state.woken;
+  member.disproved = member.nothing = false;
   member.group = {};
   member.group.contact = cycle.contact;
   member.group.encounter = state.encounter;
@@ -89,6 +93,11 @@ void Membership::Guess(Unknown& unknown, double mu) const {
   unknown.mu = unknown.first_mu = mu;
 }
 
+double Membership::Release(ContactState& state, double effective_mass) const {
+  state.member.lasts = 0;
+  return state.member.group.mu = guess_.Released(state, effective_mass);
+}
+
 bool Membership::Cancel(ContactState& state) {
   ContactState::Membership& member = state.member;
   if (!member.open || --member.group.cycles > 0) return false;
@@ -115,8 +124,9 @@ bool Membership::End(ContactState& state) {
   const bool weak = IsWeak(state), one = weak || groups_.At(IdOf(state)).weak;
   const bool lasts = cycle.end_time - group.start_time < member.lasts ||
                      (group.cycles < least && !one) || IsUndamped(scenario_, cycle.contact);
-  member.open = cycle.end == Cycle::End::kNonSeparation && lasts;
-  state.settled = !member.open && weak;
+  member.open = cycle.end == Cycle::End::kNonSeparation && lasts && !state.released;
+  const double soon = cycle.end_time + kSoon * (cycle.end_time - cycle.start_time);
+  state.settled = !member.open && weak && RestEnd(state) > soon;
   return !member.open;
 }
 

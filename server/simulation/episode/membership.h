@@ -31,6 +31,12 @@ class Membership {
   /// whether the contact comes to rest. Returns whether the group has ended.
   bool End(ContactState& state);
 
+  /// The cycle that started last gives back what was stored before it. Returns its μ.
+  double Release(ContactState& state, double effective_mass) const;
+
+  /// When the rest of a contact that follows its last group ends [s].
+  double RestEnd(const ContactState& state) const { return groups_.RestEnd(LastGroup(state)); }
+
   /// The cycle that started last is none after all. Returns whether its group is none either.
   bool Cancel(ContactState& state);
 

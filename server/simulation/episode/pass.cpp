@@ -2,17 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "simulation/episode/front.h"
 
 namespace contact {
 namespace {
 
-// A cycle of an explicit integrator takes some 20 steps, one of a stiff contact thousands: what
-// does not turn in so many creeps.
-constexpr int kPatience = 5'000;
-// Scans have a little less, so that what they see to end is seen to end by all.
-constexpr int kPatienceOfAScan = 4'000;
+// A contact creeps if it has not turned in so many of the times in which it swings, or in which
+// what its damping holds back fades: e⁻⁴⁰ is round-off. Scans have a little less patience, so that
+// what they see to end is seen to end by all.
+constexpr double kPatience = 40, kPatienceOfAScan = 32;
+// Periods of a sine that may turn a contact.
+constexpr double kPeriods = 2;
+// Cycles after the end of the run that may begin until a pass far beyond it sees no more: one
+// contact that creeps may be followed to its end, many that rattle would cost more than they tell.
+// Under ENCOUNTER as many for each cycle of a group.
+constexpr int kMostLate = 10;
+// Steps between two looks at these times; and the steps after which one that an adaptive method
+// takes is stuck.
+constexpr int kStride = 200, kStuck = 50'000;
 // A(ε_in) to which residuals are relative at least, for ε_in near 1.
 constexpr double kLeastGoal = 1e-6;
 // ε_out below this part of ε_in counts as this: A(0) is infinite.
@@ -46,11 +55,30 @@ double FrozenSlope(const Cycle& cycle) {
 
 }  // namespace
 
+Pass::Pass(const Scenario& scenario, Motion& motion, Observer& observer, Groups& groups)
+    : scenario_(scenario),
+      motion_(motion),
+      observer_(observer),
+      groups_(groups),
+      membership_(scenario, motion, groups),
+      most_late_(kMostLate) {
+  const SolverOptions& options = scenario.solver;
+  if (options.restitution_scope == RestitutionScope::kEncounter) {
+    most_late_ *= options.encounter_cycles;
+  }
+  for (const Load& load : scenario.loads) {
+    if (load.amplitude == 0 || load.angular_frequency == 0) continue;
+    const double period = 2 * std::numbers::pi / load.angular_frequency;
+    longest_period_ = std::max(longest_period_, std::min(period, load.end - load.begin));
+  }
+}
+
 Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& stop,
                  std::int64_t step_limit) {
   plan_ = plan;
   sight_ = {};
-  cycles_ = running_ = columns_ = idle_steps_ = 0;
+  cycles_ = late_cycles_ = running_ = columns_ = 0;
+  Stir(start.time);
   enough_ = false;
   membership_.Begin(plan.guess);
   motion_.Begin(start, false, plan.tolerance);
@@ -92,12 +120,12 @@ bool Pass::WantsColumn(const GroupId& id) const {
 }
 
 CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, double external_force) {
-  idle_steps_ = 0;
+  Stir(state.cycle.start_time);
   const bool opens = !state.member.open && !state.settled;
   const double mu = membership_.Start(state, effective_mass, external_force);
   if (state.settled) return {.mu = mu, .column = state.column};
   const Cycle& cycle = state.cycle;
-  cycles_ += Counts(cycle);
+  ++(Counts(cycle) ? cycles_ : late_cycles_);
   if (cycles_ >= plan_.most_cycles) enough_ = true;
   if (opens) {
     const Contact& contact = scenario_.contacts[At(cycle.contact)];
@@ -109,6 +137,7 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
     if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
     made.first_cycle = cycle.number;
     made.start_time = cycle.start_time;
+    made.after_rest = state.member.after_rest;
     if (unknown.weak && mu == state.last_mu) {  // It keeps that μ, and so its column.
       made.column = state.column;
     } else if (made.sought && mu > 0 && WantsColumn(made.id)) {
@@ -122,8 +151,29 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
   return {.mu = mu, .column = seen->column, .length = unknown.length, .speed = unknown.speed};
 }
 
+double Pass::OnRelease(ContactState& state, double effective_mass) {
+  const double mu = membership_.Release(state, effective_mass);
+  if (GroupSight* seen = Seen(state); seen != nullptr) {
+    seen->mu = mu;
+    seen->released = true;
+    seen->sought = false;
+    seen->column = kNone;
+  }
+  return mu;
+}
+
+double Pass::RestEnds(const ContactState& state) { return membership_.RestEnd(state); }
+
+// Notes when the rest ends: the pass shows nothing, and is to begin anew.
+bool Pass::OnDisturbed(const ContactState& state, double cause) {
+  if (!plan_.retries) return true;
+  groups_.NoteRestEnd(LastGroup(state), cause);
+  enough_ = sight_.disturbed = true;
+  return false;
+}
+
 void Pass::OnCancel(ContactState& state) {
-  cycles_ -= Counts(state.cycle);
+  --(Counts(state.cycle) ? cycles_ : late_cycles_);
   const GroupId id = Membership::IdOf(state);
   const Unknown* unknown = groups_.Find(id);
   if (!membership_.Cancel(state) || unknown == nullptr) return;
@@ -133,8 +183,8 @@ void Pass::OnCancel(ContactState& state) {
 
 void Pass::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
                  const Eigen::ArrayXd& restitution_gradient, double length, double speed) {
-  idle_steps_ = 0;
   const Cycle& cycle = state.cycle;
+  idle_steps_ = 0;
   GroupSight* seen = state.member.open ? Seen(state) : nullptr;
   const bool ended = membership_.End(state);
   if (seen == nullptr) return;
@@ -191,9 +241,42 @@ bool Pass::Enough() const {
   return FrontIsComplete(sight_, groups_, scenario_.solver.restitution_tolerance, plan_.end);
 }
 
+// A cycle begins or ends.
+void Pass::Stir(double time) {
+  idle_since_ = time;
+  idle_steps_ = 0;
+}
+
+// The longest of the times in which the contacts whose cycles run would turn alone.
+double Pass::SlowestTurn() const {
+  double slowest = 0;
+  const double* y = motion_.integrator().y0.data();
+  for (const ActiveContact& active : motion_.equations().active) {
+    if (!IsRunning(motion_.contacts()[At(active.contact)])) continue;
+    const double deformation = active.Relative(y) - active.gap;
+    const double stiffness = active.StiffnessAt(deformation);
+    const double inverse_mass = active.left_inverse + active.right_inverse;
+    const double swing = 2 * std::numbers::pi / std::sqrt(stiffness * inverse_mass);
+    slowest = std::max({slowest, swing, active.DampingAt(deformation) / stiffness});
+  }
+  return slowest;
+}
+
+// Whether nothing has begun or ended for longer than the contacts would take to turn. A ramp may
+// turn them where it ends.
+bool Pass::Creeps() const {
+  const auto ramps = [](const Load& load) { return load.slope != 0 && load.end < kNever; };
+  if (std::ranges::any_of(motion_.equations().acting(), ramps)) return false;
+  const double patience = plan_.front.empty() ? kPatienceOfAScan : kPatience;
+  return motion_.time() - idle_since_ > patience * SlowestTurn() + kPeriods * longest_period_;
+}
+
 bool Pass::OnStep() {
   observer_.OnStep();
-  if (++idle_steps_ > (plan_.front.empty() ? kPatienceOfAScan : kPatience)) enough_ = true;
+  if (++idle_steps_ % kStride != 0 || plan_.patient) return !enough_;
+  const bool stuck = scenario_.solver.fixed_step == 0 && idle_steps_ > kStuck;
+  const bool far = motion_.time() > plan_.far && late_cycles_ >= most_late_;
+  enough_ = enough_ || stuck || far || Creeps();
   return !enough_;
 }
 

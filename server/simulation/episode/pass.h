@@ -16,20 +16,18 @@ class Pass final : public CycleHost {
   struct Plan {
     double tolerance = 0;             ///< Relative, of the integration; 0: the scenario's.
     double end = 0;                   ///< Of the run: what begins later is no matter of the search.
+    double far = kNever;              ///< So far beyond that end it follows a few cycles only [s].
     double until = 1e300;             ///< It goes no further [s].
     int most_cycles = 1;              ///< It ends when so many have begun.
     bool first_quiet = false;         ///< It ends at the first instant at which no cycle runs.
     bool guess = false;               ///< It guesses anew what was only guessed.
+    bool patient = false;             ///< It goes on where nothing turns.
+    bool retries = true;              ///< It may end because a rest should have ended earlier.
     bool sensitive = false;           ///< It differentiates by the μ of these groups:
     std::vector<GroupId> front = {};  ///< it ends when all have ended. Empty: by what a scan needs.
   };
 
-  Pass(const Scenario& scenario, Motion& motion, Observer& observer, Groups& groups)
-      : scenario_(scenario),
-        motion_(motion),
-        observer_(observer),
-        groups_(groups),
-        membership_(scenario, motion, groups) {}
+  Pass(const Scenario& scenario, Motion& motion, Observer& observer, Groups& groups);
 
   /// Passes from `start`. A scan, without a front, ends when the earliest groups that miss have
   /// ended with all that overlap them, at the latest when the contacts are open.
@@ -43,6 +41,9 @@ class Pass final : public CycleHost {
   void OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient,
              const Eigen::ArrayXd& restitution_gradient, double length, double speed) override;
   void OnCancel(ContactState& state) override;
+  double OnRelease(ContactState& state, double effective_mass) override;
+  double RestEnds(const ContactState& state) override;
+  bool OnDisturbed(const ContactState& state, double cause) override;
   bool OnStep() override;
 
  private:
@@ -51,6 +52,9 @@ class Pass final : public CycleHost {
   GroupSight* Seen(const ContactState& state);
   bool WantsColumn(const GroupId& id) const;
   void Measure(GroupSight& group) const;
+  void Stir(double time);
+  double SlowestTurn() const;
+  bool Creeps() const;
   bool Enough() const;
   bool FrontHasEnded() const;
 
@@ -64,7 +68,11 @@ class Pass final : public CycleHost {
   int cycles_ = 0;   // Begun,
   int running_ = 0;  // and groups that run, of those that matter.
   int columns_ = 0;
-  int idle_steps_ = 0;  // Since a cycle began or ended.
+  int late_cycles_ = 0;        // Begun after the end of the run,
+  int most_late_;              // of which so many are followed far beyond it.
+  double idle_since_ = 0;      // When a cycle began or ended last [s],
+  int idle_steps_ = 0;         // and steps since then.
+  double longest_period_ = 0;  // Of the sines among the loads [s].
   bool enough_ = false;
 };
 

@@ -9,8 +9,7 @@ namespace {
 
 // A trial μ may break a motion into many cycles; what has not ended after so many is open.
 constexpr int kMostCyclesOfATrial = 400;
-// How far beyond the end of the run passes go for groups that it cuts: a part of the run, and of
-// what the episode may last in it.
+// What is far beyond the end of the run: a part of the run, and of what the episode may last in it.
 constexpr double kBeyond = 3, kOwn = 5;
 // μ δⁿ T/m_e, the damping in units of what stops the bodies within the group's duration T; an
 // isolated collision has some 3/ε. Of 2,700 groups of random scenarios one in a thousand needs
@@ -20,6 +19,8 @@ constexpr double kFelt = 3000, kFeltWhenDriven = 1e5, kFeltAtFirst = 1e6;
 // Part of a scan that passes have to be spared for a state to be kept, and how long before the
 // front it is taken.
 constexpr double kWorth = 0.1, kShortly = 1e-3;
+// So often a pass is made again because a rest in it should have ended earlier.
+constexpr int kMostRetries = 30;
 // Coarser passes miss events.
 constexpr double kCoarsest = 1e-6;
 
@@ -29,7 +30,7 @@ void Problem::Begin(const State& start, double end, const std::stop_token& stop,
                     std::int64_t step_limit) {
   start_ = &start;
   end_ = end;
-  horizon_ = end + std::max(kBeyond * end, kOwn * (end - start.time));
+  far_ = end + std::max(kBeyond * end, kOwn * (end - start.time));
   stop_ = stop;
   step_limit_ = step_limit;
   aborted_ = false;
@@ -39,8 +40,13 @@ void Problem::Begin(const State& start, double end, const std::stop_token& stop,
 Sight Problem::Look(const State& from, Pass::Plan plan) {
   ++passes_;
   plan.end = end_;
-  plan.until = std::min(plan.until, horizon_);
+  plan.far = far_;
   Sight sight = pass_.Look(from, plan, stop_, step_limit_);
+  for (int i = 1; sight.disturbed; ++i) {  // From the start: the state kept may have been at rest.
+    near_ = {};
+    plan.retries = i < kMostRetries;
+    sight = pass_.Look(*start_, plan, stop_, step_limit_);
+  }
   pause_ = sight.pause;
   aborted_ = pause_ == Motion::Pause::kStopped || pause_ == Motion::Pause::kStepLimit;
   return sight;
@@ -97,7 +103,8 @@ const State& Problem::Before(const std::vector<GroupId>& front) {
   };
   const bool keeps = near_.time > start_->time && !has_begun(near_) && held_ == HeldIn(near_);
   const State& from = keeps ? near_ : *start_;
-  double begin = horizon_;  // By the last pass that saw it: with other μ it may be another.
+  const auto kept = [&]() -> const State& { return near_.positions.empty() ? *start_ : from; };
+  double begin = kNever;  // By the last pass that saw it: with other μ it may be another.
   for (const GroupId& id : front) {
     begin = std::min(begin, groups.At(id).start_time);
     if (const auto known = begun_.find(id); known != begun_.end()) {
@@ -108,13 +115,13 @@ const State& Problem::Before(const std::vector<GroupId>& front) {
   const double until = begin - kShortly * (begin - start_->time);
   const Sight sight =
       Look(from, {.until = until, .most_cycles = kMostCyclesOfATrial, .front = {front.front()}});
-  if (sight.pause != Motion::Pause::kTimeUp) return from;
+  if (sight.pause != Motion::Pause::kTimeUp) return kept();
   State reached = motion_.Save();
   if (has_begun(reached)) {
     for (const GroupId& id : front) {
       if (HasBegun(reached, id)) begun_[id] = groups.At(id).start_time;
     }
-    return from;
+    return kept();
   }
   near_ = std::move(reached);
   held_ = HeldIn(near_);

@@ -70,8 +70,7 @@ class Problem {
   bool trusting_ = false;
   std::map<GroupId, double> begun_;  // Earlier starts [s] of groups than other passes have seen.
   double seen_ = 0;                  // How far the last scan went [s].
-  double end_ = 0;
-  double horizon_ = 0;  // Passes go no further.
+  double end_ = 0, far_ = 0;
   std::stop_token stop_;
   std::int64_t step_limit_ = 0;
   std::int64_t passes_ = 0;

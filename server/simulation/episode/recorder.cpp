@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "simulation/episode/run_state.h"
 
@@ -12,6 +13,10 @@ constexpr double kToldMiss = 0.01;  // Of a law's restitution, relative.
 // What the recorded pass may miss by beyond the tolerance, in units of it: its cuts differ from
 // those of the search, and so does its round-off.
 constexpr double kRecorded = 2;
+// What the proof of a row allows. Of its identity (W4): ten tolerances, or what events located to
+// round-off leave in weak cycles. Of the kinetic energy where a cycle begins at rest, relative to
+// W_c. A work of this part of the energy of all is nothing: its row proves nothing.
+constexpr double kIdentity = 10, kLeastIdentity = 1e-7, kAtRest = 1e-8, kNothing = 1e-10;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -20,16 +25,24 @@ double Ratio(double work_compression, double work_restitution) {
   return work_compression > 0 && squared >= 0 ? std::sqrt(squared) : kNaN;
 }
 
+// What a group is called that the end of the run cuts, by what the search has found beyond it.
+Cycle::Status OfCut(Cycle::Status found) {
+  const bool guessed = found == Cycle::Status::kUnfinished || found == Cycle::Status::kNotConverged;
+  return guessed ? Cycle::Status::kUnfinished : Cycle::Status::kCut;
+}
+
 }  // namespace
 
 Recorder::Recorder(const Scenario& scenario, const Motion& motion, Observer& observer,
                    Groups& known)
     : scenario_(scenario),
+      motion_(motion),
       observer_(observer),
       known_(known),
       membership_(scenario, motion, known),
       warned_(scenario.contacts.size()),
-      missed_(kDampingLaws) {}
+      missed_(kDampingLaws),
+      unproven_(scenario.contacts.size()) {}
 
 void Recorder::Begin(int episode) {
   episode_ = episode;
@@ -42,12 +55,14 @@ void Recorder::Begin(int episode) {
 void Recorder::Save(RunState* state) const {
   state->warned = warned_;
   state->missed = missed_;
+  state->unproven = unproven_;
 }
 
 void Recorder::Restore(const RunState& state) {
   episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
   warned_ = state.warned;
   missed_ = state.missed;
+  unproven_ = state.unproven;
 }
 
 bool Recorder::OnStep() {
@@ -67,6 +82,15 @@ CycleHost::Factor Recorder::OnStart(ContactState& state, double effective_mass,
   return {.mu = mu, .length = unknown->length, .speed = unknown->speed};
 }
 
+double Recorder::OnRelease(ContactState& state, double effective_mass) {
+  Group& group = state.member.group;
+  const bool iterated =
+      scenario_.contacts[At(state.cycle.contact)].damping == DampingLaw::kEnergyRestitution;
+  if (iterated) group.status = Cycle::Status::kReleased;
+  if (group.number == 0) group.number = ++state.member.groups;
+  return membership_.Release(state, effective_mass);
+}
+
 void Recorder::OnCancel(ContactState& state) {
   const bool numbered = state.member.group.number > 0;
   if (membership_.Cancel(state) && numbered) --state.member.groups;
@@ -80,6 +104,7 @@ void Recorder::Open(ContactState& state, const Unknown& unknown) const {
   group.status = unknown.status;
   if (contact.damping != DampingLaw::kEnergyRestitution) group.status = Cycle::Status::kGivenLaw;
   if (IsUndamped(scenario_, state.cycle.contact)) group.status = Cycle::Status::kConverged;
+  if (unknown.cut) group.status = OfCut(group.status);
   if (contact.damping != DampingLaw::kGiven) group.restitution_in = contact.restitution;
   group.restitution_out = unknown.restitution_out;
   group.growth = unknown.growth;
@@ -137,9 +162,14 @@ void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::Ar
   Cycle& cycle = state.cycle;
   const bool rested = !state.member.open;
   const bool ended = membership_.End(state);
-  state.member.imbalance += cycle.identity_residual * cycle.work_compression;
+  state.member.imbalance +=
+      cycle.identity_residual * std::max(cycle.work_compression, -cycle.work_restitution);
   Label(state, cycle);
-  if (rested) cycle.group = 0, cycle.status = Cycle::Status::kSettled, cycle.restitution_out = kNaN;
+  if (rested) cycle.group = 0, cycle.status = Cycle::Status::kSettled;
+  if (cycle.status == Cycle::Status::kSettled) cycle.restitution_out = kNaN;
+  if (!rested && !membership_.IsWeak(state)) {
+    if (const std::string fault = Fault(state); !fault.empty()) Disprove(state, fault);
+  }
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
   if (cycle.status == Cycle::Status::kGivenLaw && contact.damping != DampingLaw::kGiven) {
     WarnOfMiss(contact, cycle);
@@ -148,11 +178,46 @@ void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::Ar
   if (ended) Close(state);
 }
 
+// What the recorded motion denies of a cycle that is not negligible; empty: nothing.
+std::string Recorder::Fault(const ContactState& state) const {
+  const Cycle& cycle = state.cycle;
+  const double mass = 0.5 * motion_.equations().effective_mass(cycle.contact);
+  const double bound = std::max(kLeastIdentity, kIdentity * scenario_.solver.restitution_tolerance);
+  std::ostringstream text;
+  const bool ordered = cycle.start_time <= cycle.turn_time && cycle.turn_time <= cycle.end_time;
+  const bool woken = state.member.after_rest && cycle.number == state.member.group.first_cycle;
+  if (!ordered) {
+    text << "its instants are out of order";
+  } else if (!(cycle.identity_residual <= bound)) {
+    text << "its identity residual is " << cycle.identity_residual << ", above " << bound;
+  } else if (cycle.kind == Cycle::Kind::kNirv && !woken &&
+             mass * state.start_velocity * state.start_velocity >
+                 kAtRest * cycle.work_compression) {
+    text << "it begins with " << state.start_velocity << " m/s and not at rest";
+  }
+  return text.str();
+}
+
+// A group of which a row fails its proof is not called anything else, whatever the search believed.
+void Recorder::Disprove(ContactState& state, const std::string& fault) {
+  const double energy = motion_.equations().Energy(motion_.integrator().y0.data());
+  state.member.nothing = state.cycle.work_compression <= kNothing * energy;
+  state.member.disproved = true;
+  if (state.member.nothing) return;
+  const auto contact = At(state.cycle.contact);
+  if (unproven_[contact]) return;
+  unproven_[contact] = true;
+  observer_.OnWarning("contact " + scenario_.contacts[contact].name + ", cycle " +
+                      std::to_string(state.cycle.number) + " is not proven: " + fault +
+                      "; it is told once for each contact");
+}
+
 // The group of the cycle that has ended ends with it: sees what it has become.
 void Recorder::Close(ContactState& state) {
   Group& group = state.member.group;
   group.restitution_out = Ratio(group.work_compression, group.work_restitution);
-  group.residual = state.member.imbalance / group.work_compression;
+  group.residual =
+      state.member.imbalance / std::max(group.work_compression, -group.work_restitution);
   state.member.imbalance = 0;
   const Unknown* unknown = known_.Find(Membership::IdOf(state));
   const bool weak = group.cycles == 1 && membership_.IsWeak(state);
@@ -162,12 +227,16 @@ void Recorder::Close(ContactState& state) {
   const double allowed = scenario_.solver.restitution_tolerance * group.restitution_in;
   const double miss = std::abs(group.restitution_out - group.restitution_in);
   Cycle::Status status = group.status;
-  if (status == Cycle::Status::kUnfinished) status = Cycle::Status::kNotConverged;  // It has ended.
+  const bool cut = status == Cycle::Status::kUnfinished || status == Cycle::Status::kCut;
+  if (cut) status = Cycle::Status::kNotConverged;  // It has ended.
   if (status == Cycle::Status::kNotConverged && miss <= allowed) status = Cycle::Status::kConverged;
   if (status == Cycle::Status::kConverged && !(miss <= kRecorded * allowed)) {
     status = Cycle::Status::kNotConverged;
   }
-  if (status == Cycle::Status::kNotConverged && weak) status = Cycle::Status::kSettled;
+  if (state.member.disproved) status = Cycle::Status::kNotConverged;
+  const bool answerless =
+      status == Cycle::Status::kNotConverged || status == Cycle::Status::kReleased;
+  if (answerless && (weak || state.member.nothing)) status = Cycle::Status::kSettled;
   group.status = status;
   const bool answered = unknown == nullptr || unknown->given_up;
   if (status == Cycle::Status::kNotConverged && !answered) sound_ = false;
@@ -181,9 +250,10 @@ void Recorder::Close(ContactState& state) {
 void Recorder::FinishCut(ContactState& state) {
   Cycle& cycle = state.cycle;
   Label(state, cycle);
-  if (state.phase == Phase::kResting || state.member.group.number == 0) return;
+  if (state.phase == Phase::kResting) return;
   Group& group = state.member.group;
-  cycle.restitution_out = group.cycles == 1 ? group.restitution_out : kNaN;
+  cycle.status = group.status = OfCut(group.status);
+  if (group.number == 0) return;
   group.end = Cycle::End::kRunEnd;
   group.end_time = cycle.end_time;
   group.work_compression += cycle.work_compression;

@@ -23,6 +23,8 @@ class Recorder final : public CycleHost {
   Factor OnStart(ContactState& state, double effective_mass, double external_force) override;
   void OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::ArrayXd&, double,
              double) override;
+  double OnRelease(ContactState& state, double effective_mass) override;
+  double RestEnds(const ContactState& state) override { return membership_.RestEnd(state); }
   void OnCancel(ContactState& state) override;
   bool OnStep() override;
 
@@ -38,18 +40,22 @@ class Recorder final : public CycleHost {
  private:
   void Open(ContactState& state, const Unknown& unknown) const;
   void Label(const ContactState& state, Cycle& cycle) const;
+  std::string Fault(const ContactState& state) const;
+  void Disprove(ContactState& state, const std::string& fault);
   void Close(ContactState& state);
   void WarnWithoutVelocity(const ContactState& state);
   void WarnOfMiss(const Contact& contact, const Cycle& cycle);
 
   const Scenario& scenario_;
+  const Motion& motion_;
   Observer& observer_;
   Groups& known_;
   Membership membership_;
   int episode_ = 0;
   bool sound_ = true;
-  std::vector<bool> warned_;  // Per contact.
-  std::vector<bool> missed_;  // Per law.
+  std::vector<bool> warned_;    // Per contact.
+  std::vector<bool> missed_;    // Per law.
+  std::vector<bool> unproven_;  // Contacts of which it was told that a row fails its proof.
 };
 
 }  // namespace contact

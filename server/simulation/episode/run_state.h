@@ -16,6 +16,12 @@ struct Sampling {
   double last = 0;           ///< Time of the last sample [s].
 };
 
+/// When the rest that follows a group ends.
+struct RestEnd {
+  GroupId before;
+  double time = 0;  ///< [s].
+};
+
 /// All that a run needs to go on from an instant between two episodes as if it had never stopped.
 struct RunState {
   State state;
@@ -27,10 +33,12 @@ struct RunState {
   std::int64_t growths = 0, growths_no_progress = 0;
   double start_energy = 0, start_momentum = 0;
   double energy_scale = 0, momentum_scale = 0;
-  double solved_until = 0;        ///< All that begins before has its answer [s].
-  std::vector<Unknown> unknowns;  ///< What is known of groups that begin later.
-  std::vector<bool> warned;       ///< Contacts of which a warning was given.
-  std::vector<bool> missed;       ///< Laws of which a miss was told.
+  double solved_until = 0;         ///< All that begins before has its answer [s].
+  std::vector<Unknown> unknowns;   ///< What is known of groups that begin later.
+  std::vector<RestEnd> rest_ends;  ///< Groups::rest_ends.
+  std::vector<bool> warned;        ///< Contacts of which a warning was given.
+  std::vector<bool> missed;        ///< Laws of which a miss was told.
+  std::vector<bool> unproven;      ///< Contacts of which it was told that a row fails its proof.
   Sampling sampling;
 };
 

@@ -40,6 +40,7 @@ struct Unknown {
   bool weak = false;              ///< Its work was negligible in the last pass.
   int reopened = 0;               ///< How often it ended after all, once it was found unfinished.
   int flips = 0;                  ///< How often it became negligible, or was no more.
+  bool cut = false;               ///< It does not end before the end of the run.
   bool given_up = false;          ///< As many corrections as are allowed did not solve it.
   bool lowered = false;           ///< It did not end, and its μ was lowered until it did.
   int iterations = 0;             ///< Corrections of μ by the search that found it.
@@ -60,10 +61,12 @@ struct GroupSight {
   GroupId id;
   double mu = 0;
   double restitution_in = kNaN;
-  bool sought = false;     ///< Its μ is to be found; else a law gives it.
-  bool ended = false;      ///< In the pass.
-  bool separated = false;  ///< How it ended.
-  bool weak = false;       ///< Negligible work.
+  bool sought = false;      ///< Its μ is to be found; else a law gives it.
+  bool ended = false;       ///< In the pass.
+  bool separated = false;   ///< How it ended.
+  bool weak = false;        ///< Negligible work.
+  bool released = false;    ///< A restitution without compression before it; not sought.
+  bool after_rest = false;  ///< Before it the contact has rested: it joins none before.
   int first_cycle = 1, cycles = 0;
   double start_time = 0, end_time = 0, last_turn = 0;
   double work_compression = 0, work_restitution = 0;
@@ -89,9 +92,10 @@ struct Sight {
   std::vector<GroupSight> groups;  ///< In order of start.
   std::vector<double> quiet;       ///< Instants at which no cycle ran [s].
   Motion::Pause pause = Motion::Pause::kQuiet;
-  double time = 0;       ///< Reached [s].
-  bool crowded = false;  ///< It saw as many cycles as it was to see, and there are more.
-  bool exact = true;     ///< It was as exact as the scenario asks.
+  double time = 0;         ///< Reached [s].
+  bool crowded = false;    ///< It saw as many cycles as it was to see, and there are more.
+  bool disturbed = false;  ///< A rest in it should have ended earlier: it shows nothing.
+  bool exact = true;       ///< It was as exact as the scenario asks.
 
   const GroupSight* Find(const GroupId& id) const;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/laws/isolated_collision.h"
 #include "simulation/model/derived.h"
 
 namespace contact {
@@ -121,6 +122,8 @@ class Forecast {
     meeting.push = approach.acceleration;
     meeting.duration = SwingPeriod(1 / approach.inverse_mass, most / approach.inverse_mass,
                                    contact.stiffness, contact.exponent);
+    meeting.deformation =
+        PressedDeformation(0, most / approach.inverse_mass, contact.stiffness, contact.exponent);
     meeting.pressed = steady > 0 ? scenario_.end_time : approach.passing_time;
     return meeting;
   }
@@ -141,7 +144,20 @@ class Forecast {
     meeting.push = approach.acceleration - approach.stiffening * approach.gap;
     meeting.duration = ImpactDuration(1 / approach.inverse_mass, meeting.speed, contact.stiffness,
                                       contact.exponent);
+    const double load = std::max(0.0, meeting.push) / approach.inverse_mass;
+    meeting.deformation =
+        PressedDeformation(ImpactEnergy(contact, 1 / approach.inverse_mass, meeting.speed), load,
+                           contact.stiffness, contact.exponent);
     return meeting;
+  }
+
+  // The part of an impact's energy that compresses; all of it where no α of the law is known [J].
+  static double ImpactEnergy(const Contact& contact, double effective_mass, double speed) {
+    const bool known = RowOf(contact.damping).scale == DampingScale::kVelocity;
+    const double alpha = known ? DampingCoefficient(contact.damping, contact.restitution) : 0;
+    const double deformation =
+        MaximumDeformation(effective_mass, speed, contact.stiffness, contact.exponent, alpha);
+    return ElasticEnergy(contact.stiffness, contact.exponent, deformation);
   }
 
   const Scenario& scenario_;
@@ -155,6 +171,19 @@ double ImpactDuration(double effective_mass, double speed, double stiffness, dou
   const double deformation = MaximumDeformation(effective_mass, speed, stiffness, exponent, 0);
   return 2 * deformation / speed * std::sqrt(std::numbers::pi) * std::tgamma(1 + share) /
          std::tgamma(0.5 + share);
+}
+
+double PressedDeformation(double energy, double force, double stiffness, double exponent) {
+  const double power = exponent + 1;
+  // What either of the two does alone adds up to more than both do, from where Newton's steps on
+  // this convex function fall.
+  double deformation = std::pow(power * energy / stiffness, 1 / power) +
+                       std::pow(power * force / stiffness, 1 / exponent);
+  for (int i = 0; i < 20; ++i) {  // Six are enough for round-off.
+    const double spring = stiffness * std::pow(deformation, exponent);
+    deformation -= (spring * deformation / power - force * deformation - energy) / (spring - force);
+  }
+  return deformation;
 }
 
 double SwingPeriod(double effective_mass, double force, double stiffness, double exponent) {

@@ -69,6 +69,12 @@ double MaximumDeformation(double effective_mass, double velocity, double stiffne
                   1 / (exponent + 1));
 }
 
+double ApproachVelocity(double effective_mass, double max_deformation, double stiffness,
+                        double exponent, double alpha) {
+  const double loss = alpha == 0 ? 0.5 : Loss(alpha) / (alpha * alpha);
+  return std::sqrt(ElasticEnergy(stiffness, exponent, max_deformation) / (effective_mass * loss));
+}
+
 double ElasticEnergy(double stiffness, double exponent, double deformation) {
   return stiffness * Power(deformation, exponent).value * deformation / (exponent + 1);
 }

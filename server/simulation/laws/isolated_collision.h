@@ -27,4 +27,9 @@ double MaximumDeformation(double effective_mass, double velocity, double stiffne
 /// `stiffness` k [N/mⁿ], `exponent` n [-].
 double ElasticEnergy(double stiffness, double exponent, double deformation);
 
+/// The approach velocity of the isolated collision that brings a contact to the deformation δ_m,
+/// the inverse of MaximumDeformation [m/s]: v² = U α²/(m_e Loss(α)), U = k δ_mⁿ⁺¹/(n+1), (L3).
+double ApproachVelocity(double effective_mass, double max_deformation, double stiffness,
+                        double exponent, double alpha);
+
 }  // namespace contact

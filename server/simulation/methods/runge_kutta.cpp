@@ -56,9 +56,10 @@ void RungeKutta::Resize(Eigen::Index size, Eigen::Index coupled) {
   dense_.setZero(size, 7);
 }
 
-void RungeKutta::Errors(Eigen::Index rows_wanted, double* error5, double* error3) const {
+void RungeKutta::Errors(Eigen::Index first, Eigen::Index rows_wanted, double* error5,
+                        double* error3) const {
   const std::ptrdiff_t n = size();
-  const double* k = k_.data();
+  const double* k = k_.data() + first;
   const auto estimate = [=](auto rows, std::ptrdiff_t i) {
     const auto slope = [=](int stage) { return rows(k + stage * n + i); };
     rows(error5 + i) =

@@ -78,9 +78,9 @@ class RungeKutta {
   /// y at θ, to order 7; to order 3 with the classical method.
   void Interpolate(double theta, Vector* y) const;
 
-  /// The error estimates of order 5 and 3 of the first rows in units of h, to be combined. Call
-  /// after Step. Dormand and Prince only.
-  void Errors(Eigen::Index rows, double* error5, double* error3) const;
+  /// The error estimates of order 5 and 3 of so many rows from `first` on, in units of h, to be
+  /// combined. Call after Step. Dormand and Prince only.
+  void Errors(Eigen::Index first, Eigen::Index rows, double* error5, double* error3) const;
 
   /// y at both ends of the step.
   Vector y0, y1;

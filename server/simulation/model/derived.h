@@ -27,6 +27,17 @@ inline double InitialGap(const Scenario& scenario, const Contact& contact) {
   return std::abs(right - left) <= 1e-12 * size ? 0 : right - left;
 }
 
+/// The smaller sphere of a contact; null if neither side has a radius > 0.
+inline const Body* SmallerSphere(const Scenario& scenario, const Contact& contact) {
+  const Body* smaller = nullptr;
+  for (const int index : {contact.left, contact.right}) {
+    if (index == kNone) continue;
+    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    if (body.radius > 0 && (smaller == nullptr || body.radius < smaller->radius)) smaller = &body;
+  }
+  return smaller;
+}
+
 /// Fastest rate at which one of the loads, or a support, changes its force [1/s]: ω of a sine,
 /// √(k/m) or c/m of a support, for which the ground and fixed bodies count 1/m = 0. 0: none does.
 inline double ForcingRate(const Scenario& scenario, std::span<const Load> loads) {

@@ -31,10 +31,10 @@ struct Cycle {
     kSettled,       ///< Its work is too small to iterate, or it is a contact's rest.
     kNotConverged,  ///< The iteration ended without any of these.
     kJump,          ///< As μ changes, ε_out jumps over ε_in; Group tells both sides.
-    kUnfinished,    ///< The end of the run cuts it, and no μ was found for its group: it has a guess.
-    kReleased,      ///< A restitution without compression: it gives back what was stored before.
-    kLimited,       ///< Its group gives back too much for every μ, and those before it are final.
-    kCut,           ///< The end of the run cuts it; μ is that of a look beyond the end.
+    kUnfinished,  ///< The end of the run cuts it, and no μ was found for its group: it has a guess.
+    kReleased,    ///< A restitution without compression: it gives back what was stored before.
+    kLimited,     ///< Its group gives back too much for every μ, and those before it are final.
+    kCut,         ///< The end of the run cuts it; μ is that of a look beyond the end.
   };
 
   int contact = 0;  ///< Index in Scenario::contacts.

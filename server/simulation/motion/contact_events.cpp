@@ -52,12 +52,13 @@ double StartOfClosing(const DeformationPath& path) {
 
 std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise) {
   // What plainly moves apart is not at rest; it may come back in the step.
-  if (std::abs(path.start.value) <= noise && path.start.slope >= -noise) {
+  if (std::abs(path.start.value) <= noise && path.drift >= -noise && path.drift <= kFast * noise) {
     if (path.end.value <= noise) return std::nullopt;
     const double theta = StartOfClosing(path);
     const bool at_rest = path.Slope(theta) <= kFast * noise;
     return ContactEvent{at_rest ? EventKind::kRestTouch : EventKind::kTouch, theta};
   }
+  if (path.start.value > 0 && path.drift > 0) return ContactEvent{EventKind::kTouch, 0};  // A tie.
   const bool peaks = path.start.slope > 0 && path.end.slope < 0;
   if (path.end.value <= noise && !peaks) return std::nullopt;
   const auto value = [&](double theta) { return path.Value(theta); };
@@ -72,7 +73,8 @@ std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise
 
 }  // namespace
 
-DeformationPath::DeformationPath(End from, End to) : start(from), end(to) {
+DeformationPath::DeformationPath(End from, End to, double drift_of_step)
+    : start(from), end(to), drift(drift_of_step) {
   c_[0] = start.value;
   c_[1] = start.slope;
   c_[2] = start.curvature / 2;

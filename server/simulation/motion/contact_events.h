@@ -22,6 +22,7 @@ enum class EventKind {
   kRestTouch,      ///< Open, touching at rest, δ begins to rise: a NIRV cycle begins.
   kTurn,           ///< Compression, δ̇ falls through 0.
   kSeparation,     ///< Restitution, δ falls through 0.
+  kRelease,        ///< A contact that rested falls apart: a restitution without compression begins.
   kNonSeparation,  ///< Restitution, δ̇ rises through 0 with δ > 0.
 };
 
@@ -40,7 +41,10 @@ class DeformationPath {
   struct End {
     double value, slope, curvature;
   };
-  DeformationPath(End start, End end);
+  DeformationPath(End from, End to) : DeformationPath(from, to, from.slope) {}
+  /// `drift_of_step`: δ̇ at the start times the length of the step [m]. The slope of a path is no
+  /// measure of rest, for that of a warped step may begin with 0.
+  DeformationPath(End from, End to, double drift_of_step);
 
   /// δ at θ [m].
   double Value(double theta) const;
@@ -58,6 +62,8 @@ class DeformationPath {
 
   /// The ends that the path was made from.
   const End start, end;
+  /// How far the contact would close in the step at the δ̇ with which the step begins [m].
+  const double drift;
 
  private:
   /// Coefficients of the powers of θ, from θ⁰ to θ⁵ [m].
@@ -65,8 +71,8 @@ class DeformationPath {
 };
 
 /// The first event of a contact after `from` in a step, if any. It finds crossings between eighths
-/// of what is left and, for an open contact, a touch at any peak of δ. An open contact with |δ| up
-/// to `noise` [m] touches at rest: nothing below that can be told from round-off.
+/// of what is left and, for an open contact, a touch at any peak of δ. An open contact with |δ| and
+/// drift up to `noise` [m] touches at rest: nothing below that can be told from round-off.
 std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from = 0,
                                        double noise = 0);
 

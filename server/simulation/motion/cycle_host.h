@@ -31,6 +31,15 @@ class CycleHost {
   /// The cycle that OnStart heard of last for this contact has ended without duration or work: it
   /// counts as none, and the next cycle of the contact has its number.
   virtual void OnCancel(ContactState& /*state*/) {}
+  /// The cycle that OnStart heard of last for this contact gives back what was stored before its
+  /// start, without a compression before. Returns its μ.
+  virtual double OnRelease(ContactState& state, double /*effective_mass*/) {
+    return state.cycle.mu;
+  }
+  /// When the rest of a contact is known to end [s]: asked where the rest begins, or Advance does.
+  virtual double RestEnds(const ContactState& /*state*/) { return kNever; }
+  /// A contact rests no more, and its rest should have ended at `cause` [s]. True: it ends now.
+  virtual bool OnDisturbed(const ContactState& /*state*/, double /*cause*/) { return true; }
   /// A step begins; false: the host has seen enough.
   virtual bool OnStep() { return true; }
 };

@@ -1,5 +1,7 @@
 #include "simulation/motion/cycle_works.h"
 
+#include <algorithm>
+
 #include "simulation/motion/equations.h"
 
 namespace contact {
@@ -19,6 +21,22 @@ void SetRestitution(const Contact& contact, double deformation, double work, dou
   cycle->dissipated_restitution = cycle->work_restitution -
                                   ElasticEnergy(contact, cycle->end_deformation) +
                                   ElasticEnergy(contact, deformation);
+}
+
+void SetRest(const Contact& contact, double time, double deformation, double work,
+             double external_work, Cycle* cycle) {
+  cycle->turn_time = cycle->end_time = time;
+  cycle->end_deformation = deformation;
+  cycle->max_deformation = std::max(cycle->start_deformation, deformation);
+  const double dissipated =
+      work - ElasticEnergy(contact, deformation) + ElasticEnergy(contact, cycle->start_deformation);
+  const bool pressed = work > 0;
+  cycle->work_compression = pressed ? work : 0;
+  cycle->work_restitution = pressed ? 0 : work;
+  cycle->external_compression = pressed ? external_work : 0;
+  cycle->external_restitution = pressed ? 0 : external_work;
+  cycle->dissipated_compression = pressed ? dissipated : 0;
+  cycle->dissipated_restitution = pressed ? 0 : dissipated;
 }
 
 }  // namespace contact

@@ -20,4 +20,9 @@ void SetCompression(const Contact& contact, double deformation, double work, dou
 void SetRestitution(const Contact& contact, double deformation, double work, double external_work,
                     Cycle* cycle);
 
+/// Writes into `cycle`, whose δ_s is known, what a rest has come to that ends at `time` [s]: the
+/// sum of its works, in the phase that the sign of W gives.
+void SetRest(const Contact& contact, double time, double deformation, double work,
+             double external_work, Cycle* cycle);
+
 }  // namespace contact

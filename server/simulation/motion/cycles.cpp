@@ -5,16 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/laws/isolated_collision.h"
 #include "simulation/model/derived.h"
 #include "simulation/motion/cycle_works.h"
 
 namespace contact {
 namespace {
 
-// A resting contact is awake when its work is this many times what lets it settle.
-constexpr double kWakeFactor = 4;
-// The scale to which a resting contact is integrated, relative to its deformation.
-constexpr double kRestingScale = 1e-3;
+// A contact that is let go with a force this part of its own less than before falls at once.
+constexpr double kLetGo = 0.05;
+// The scale to which a resting contact is integrated, relative to its deformation; and that to
+// which any is that begins compressed: what swings less is negligible, or soon will be.
+constexpr double kRestingScale = 1e-3, kLeastScale = 1e-5;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -30,15 +32,14 @@ bool DoesNothing(const ContactState& state, double time) {
 }  // namespace
 
 Cycles::Cycles(MovingSystem& system)
-    : system_(system), turn_gradient_(system.scenario.contacts.size()) {}
+    : system_(system), rest_(system), turn_gradient_(system.scenario.contacts.size()) {}
 
 void Cycles::Begin() {
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     const ContactState& contact = system_.contacts[At(c)];
     turn_gradient_[At(c)].resize(0);
-    system_.scales[At(c)] = {std::abs(contact.gap + contact.cycle.start_deformation),
-                             contact.cycle.approach_velocity};
-    if (contact.phase == Phase::kResting) SetRestingScale(c);
+    system_.scales[At(c)] = {contact.largest_motion, contact.largest_speed};
+    if (contact.phase == Phase::kResting) RaiseScale(c, kRestingScale);
   }
 }
 
@@ -55,12 +56,20 @@ void Cycles::KeepTurnGradient(int contact) {
 
 void Cycles::Start(CycleHost& host, bool resting_only) {
   bool any = false;
-  for (int c = 0; c < system_.equations.contacts(); ++c) {
-    const ContactState& contact = system_.contacts[At(c)];
-    if (contact.phase != Phase::kStarting || (resting_only && !contact.settled)) continue;
-    StartCycle(c, host);
-    any = true;
-    if (contact.cycle.kind == Cycle::Kind::kCollision) StartPushed(c, host);
+  for (bool more = true; more;) {  // A collision may end the rest of others.
+    more = false;
+    for (int c = 0; c < system_.equations.contacts(); ++c) {
+      const ContactState& contact = system_.contacts[At(c)];
+      if (contact.phase != Phase::kStarting || (resting_only && !contact.settled)) continue;
+      StartCycle(c, host);
+      any = true;
+      if (contact.cycle.kind != Cycle::Kind::kCollision) continue;
+      StartPushed(c, host);
+      for (const int disturbed : rest_.DisturbedBy(c)) {
+        Wake(disturbed, host);
+        more = true;
+      }
+    }
   }
   if (any) system_.RefreshActive();
 }
@@ -94,6 +103,7 @@ void Cycles::StartCycle(int contact, CycleHost& host) {
   state.cycle.mu = factor.mu;
   state.column = factor.column;
   state.phase = state.settled ? Phase::kResting : Phase::kCompression;
+  if (state.settled) rest_.Begin(state, host);
 
   if (factor.column >= system_.tangents.count() && !system_.equations.recording) {
     system_.tangents.Add();
@@ -104,7 +114,8 @@ void Cycles::StartCycle(int contact, CycleHost& host) {
   if (state.cycle.kind == Cycle::Kind::kCollision) system_.touch_time = system_.time;
   ShiftAtJump(contact, 1);
   state.duration = ExpectedDuration(contact);
-  if (state.settled) SetRestingScale(contact);
+  if (state.woken && IsLetGo(contact)) Release(contact, host);
+  if (state.settled) RaiseScale(contact, kRestingScale);
   const double first = FirstStep(contact);
   system_.next_step = system_.next_step == 0 ? first : std::min(system_.next_step, first);
 }
@@ -123,7 +134,31 @@ void Cycles::DescribeStart(int contact) {
                  .start_deformation = deformation,
                  .max_deformation = deformation,
                  .approach_velocity = approach};
+  state.start_velocity = system_.equations.Relative(contact, y + n);
+  state.released = false;
   state.peak = {};
+}
+
+// Whether what pressed a contact that rested has plainly weakened.
+bool Cycles::IsLetGo(int contact) const {
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
+  const double force = c.stiffness * Power(deformation, c.exponent).value;
+  return ExternalForce(contact) < (1 - kLetGo) * force;
+}
+
+// The cycle gives back what was stored before it began: a restitution without compression.
+void Cycles::Release(int contact, CycleHost& host) {
+  ContactState& state = system_.contacts[At(contact)];
+  const double mass = system_.equations.effective_mass(contact);
+  state.cycle.mu = host.OnRelease(state, mass);
+  state.released = true;
+  state.column = kNone;
+  const Contact& c = system_.scenario.contacts[At(contact)];
+  const double length = state.cycle.start_deformation;
+  system_.scales[At(contact)] = {length,
+                                 ApproachVelocity(mass, length, c.stiffness, c.exponent, 0)};
+  system_.RefreshActive();
 }
 
 double Cycles::ExternalForce(int contact) const {
@@ -146,20 +181,22 @@ void Cycles::SetScale(int contact, const CycleHost::Factor& factor) {
   const double approach = cycle.approach_velocity;
   MovingSystem::Scale& scale = system_.scales[At(contact)];
   scale = {factor.length, std::max(factor.speed, approach)};
-  if (factor.length != 0 || cycle.kind != Cycle::Kind::kCollision) return;
+  if (cycle.kind == Cycle::Kind::kNirv) return RaiseScale(contact, kLeastScale);
+  if (factor.length != 0) return;
   const double alpha = NeedsNoVelocity(c.damping) ? 0 : factor.mu * approach / c.stiffness;
   scale.length = MaximumDeformation(system_.equations.effective_mass(contact), approach,
                                     c.stiffness, c.exponent, alpha);
 }
 
-void Cycles::SetRestingScale(int contact) {
+// The scale of a swing by this part of the deformation with which the cycle began.
+void Cycles::RaiseScale(int contact, double part) {
   const Contact& c = system_.scenario.contacts[At(contact)];
   const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
   const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
-  system_.scales[At(contact)].length = kRestingScale * deformation;
-  system_.scales[At(contact)].speed =
-      kRestingScale * deformation *
-      std::sqrt(stiffness / system_.equations.effective_mass(contact));
+  const double rate = std::sqrt(stiffness / system_.equations.effective_mass(contact));
+  MovingSystem::Scale& scale = system_.scales[At(contact)];
+  scale.length = std::max(scale.length, part * deformation);
+  scale.speed = std::max(scale.speed, part * deformation * rate);
 }
 
 // A small part of the cycle's duration, from the law's own scales.
@@ -198,6 +235,9 @@ void Cycles::Apply(const StepEvents::Found& found, CycleHost& host) {
     state.phase = Phase::kStarting;
     state.settled = false;
     state.cycle.kind = kind == EventKind::kTouch ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
+  } else if (kind == EventKind::kRelease) {
+    Release(found.contact, host);
+    Turn(found.contact, system_.time, system_.rk.y0);
   } else if (DoesNothing(state, system_.time)) {
     CancelCycle(state, host);
   } else {
@@ -206,25 +246,37 @@ void Cycles::Apply(const StepEvents::Found& found, CycleHost& host) {
   }
 }
 
-// A resting contact whose work has become worth a cycle of its own ends its rest.
-void Cycles::WakeResting(CycleHost& host) {
+// Ends the rest of a contact; its cycle is starting.
+void Cycles::Wake(int contact, CycleHost& host) {
+  ContactState& state = system_.contacts[At(contact)];
+  EndCycle(state, Cycle::End::kNonSeparation, host);
+  state.settled = false;
+  state.woken = true;
+}
+
+void Cycles::AskRests(CycleHost& host) {
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     ContactState& state = system_.contacts[At(c)];
     if (state.phase != Phase::kResting) continue;
-    const Contact& contact = system_.scenario.contacts[At(c)];
-    const double deformation = system_.Deformation(c, system_.rk.y0.data());
-    const double work = contact.stiffness * Power(deformation, contact.exponent).value *
-                        std::abs(deformation - state.cycle.start_deformation);
-    if (work > kWakeFactor * system_.scenario.solver.settled_nirv_fraction * state.largest_work) {
-      EndCycle(state, Cycle::End::kNonSeparation, host);
-      state.settled = false;
+    state.rest_until = host.RestEnds(state);
+    if (state.rest_until <= system_.time) Wake(c, host);
+  }
+}
+
+void Cycles::WakeDisturbed(bool at_breakpoint, CycleHost& host) {
+  for (int c = 0; c < system_.equations.contacts(); ++c) {
+    if (system_.contacts[At(c)].phase == Phase::kResting && rest_.Ends(c, at_breakpoint, host)) {
+      Wake(c, host);
     }
   }
+  if (!at_breakpoint) return;
+  for (const int contact : rest_.DisturbedByLoads()) Wake(contact, host);
 }
 
 void Cycles::Turn(int contact, double time, const Eigen::ArrayXd& y) {
   ContactState& state = system_.contacts[At(contact)];
   state.phase = Phase::kRestitution;
+  state.woken = false;
   state.cycle.turn_time = time;
   state.cycle.max_deformation = system_.Deformation(contact, y.data());
   SetCompression(system_.scenario.contacts[At(contact)], state.cycle.max_deformation,
@@ -236,24 +288,39 @@ void Cycles::Turn(int contact, double time, const Eigen::ArrayXd& y) {
 void Cycles::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   const int contact = state.cycle.contact;
   const bool separates = end == Cycle::End::kSeparation;
-  if (state.phase == Phase::kResting) {
-    Turn(contact, system_.time, system_.rk.y0);  // Its works count as one compression.
-  }
   state.cycle.end = end;
-  DescribeEnd(state);
+  if (state.phase == Phase::kResting) {
+    DescribeRest(state);
+  } else {
+    DescribeEnd(state);
+  }
   const Eigen::ArrayXd gradient = system_.tangents.Work(contact);
   // It has the μ that there were then; later ones begin at 0.
   Eigen::ArrayXd& turn = turn_gradient_[At(contact)];
   turn.conservativeResizeLike(Eigen::ArrayXd::Zero(gradient.size()));
   if (separates) ShiftAtJump(contact, -1);
   state.phase = separates ? Phase::kOpen : Phase::kStarting;
+  state.woken = false;
   state.last_mu = state.cycle.mu;
-  const MovingSystem::Scale& scale = system_.scales[At(contact)];
-  host.OnEnd(state, turn, gradient - turn, scale.length, scale.speed);
+  const Cycle& cycle = state.cycle;  // Its scale may have been less than expected.
+  const double length = std::max(cycle.max_deformation, cycle.start_deformation) -
+                        std::min(cycle.start_deformation, cycle.end_deformation);
+  host.OnEnd(state, turn, gradient - turn, length, system_.scales[At(contact)].speed);
   state.largest_work = std::max(state.largest_work, state.cycle.work_compression);
   state.cycle.kind = Cycle::Kind::kNirv;  // What follows a non-separation.
   ResetWorks(contact);
   system_.RefreshActive();
+}
+
+// The row of a rest tells the sum of its works, as those of one compression or restitution.
+void Cycles::DescribeRest(ContactState& state) {
+  const Eigen::ArrayXd& y = system_.rk.y0;
+  const int contact = state.cycle.contact;
+  const double deformation = std::max(0.0, system_.Deformation(contact, y.data()));
+  SetRest(system_.scenario.contacts[At(contact)], system_.time, deformation,
+          y[system_.equations.work(contact)], system_.ExternalWork(contact, y), &state.cycle);
+  if (!system_.equations.recording) return;
+  system_.contact_loss += state.cycle.dissipated_compression + state.cycle.dissipated_restitution;
 }
 
 void Cycles::DescribeEnd(ContactState& state) {
@@ -277,17 +344,21 @@ void Cycles::DescribeEnd(ContactState& state) {
                  &cycle);
   const double ratio = -cycle.work_restitution / cycle.work_compression;
   cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
-  if (system_.equations.recording) Balance(at_force ? peak.velocity : 0, &cycle);
+  if (system_.equations.recording) Balance(state, at_force ? peak.velocity : 0, &cycle);
 }
 
-// (W4), and what the cycle has dissipated.
-void Cycles::Balance(double split_velocity, Cycle* cycle) {
-  const double kinetic =
-      0.5 * system_.equations.effective_mass(cycle->contact) *
-      (cycle->approach_velocity * cycle->approach_velocity - split_velocity * split_velocity);
-  cycle->identity_residual =
-      std::abs(cycle->work_compression - kinetic - cycle->external_compression) /
-      cycle->work_compression;
+// (W4), of a release to its end, and what the cycle has dissipated.
+void Cycles::Balance(const ContactState& state, double split_velocity, Cycle* cycle) {
+  const double mass = system_.equations.effective_mass(cycle->contact);
+  const auto kinetic = [&](double v) { return 0.5 * mass * v * v; };
+  const double end =
+      system_.equations.Relative(cycle->contact, system_.rk.y0.data() + system_.equations.bodies());
+  const double compressed = cycle->work_compression - kinetic(state.start_velocity) +
+                            kinetic(split_velocity) - cycle->external_compression;
+  const double released = compressed - kinetic(split_velocity) + kinetic(end) +
+                          cycle->work_restitution - cycle->external_restitution;
+  cycle->identity_residual = state.released ? std::abs(released / cycle->work_restitution)
+                                            : std::abs(compressed / cycle->work_compression);
   system_.contact_loss += cycle->dissipated_compression + cycle->dissipated_restitution;
 }
 

@@ -27,9 +27,16 @@ Equations::Equations(const Scenario& scenario)
     : StateLayout(static_cast<int>(scenario.bodies.size()),
                   static_cast<int>(scenario.contacts.size())),
       scenario_(scenario) {
+  std::vector<double> positions;
   for (const Body& body : scenario.bodies) {
-    base.push_back(body.position);
+    positions.push_back(body.position);
     inverse_mass_.push_back(body.fixed ? 0 : 1 / body.mass);
+  }
+  Rebase(positions);
+  support_rates_.resize(positions.size());
+  for (const Support& s : scenario.supports) {
+    support_rates_[At(s.body)] += s.stiffness * inverse_mass_[At(s.body)];
+    if (s.other != kNone) support_rates_[At(s.other)] += s.stiffness * inverse_mass_[At(s.other)];
   }
   for (const Contact& c : scenario.contacts) sides_.push_back(SidesOf(c.left, c.right));
   for (const Load& load : scenario.loads) {
@@ -90,14 +97,17 @@ void Equations::AddLoadChange(double from, double to, double* accelerations) con
   }
 }
 
-double Equations::Stretch(const Support& s, const double* u) const {
-  double x = base[At(s.body)] + u[s.body];
-  if (s.other != kNone) x -= base[At(s.other)] + u[s.other];
-  return x - s.rest_position;
+void Equations::Rebase(const std::vector<double>& positions) {
+  base_ = positions;
+  stretches_.clear();
+  for (const Support& s : scenario_.supports) {
+    stretches_.push_back(Relative(s, base_.data()) - s.rest_position);
+  }
 }
 
-double Equations::SupportForce(const Support& s, const double* u, const double* v) const {
-  return -s.stiffness * Stretch(s, u) - s.damping * Relative(s, v);  // (M4)
+double Equations::SupportForce(std::size_t support, const double* u, const double* v) const {
+  const Support& s = scenario_.supports[support];
+  return -s.stiffness * Stretch(support, u) - s.damping * Relative(s, v);  // (M4)
 }
 
 ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
@@ -222,8 +232,9 @@ void Equations::EvaluateMany(double t, const double* y, double* dy, double pace)
 
 void Equations::AddSupports(const double* y, double* dy, double pace) const {
   const int n = bodies();
-  for (const Support& s : scenario_.supports) {
-    const double force = pace * SupportForce(s, y, y + n);
+  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
+    const Support& s = scenario_.supports[i];
+    const double force = pace * SupportForce(i, y, y + n);
     dy[n + s.body] += force * inverse_mass_[At(s.body)];
     if (s.other != kNone) dy[n + s.other] -= force * inverse_mass_[At(s.other)];
   }
@@ -243,10 +254,11 @@ void Equations::AddRecord(double t, const double* y, double* dy, double pace) co
     dy[load_work()] += force * v[load.body];
     dy[impulse()] += force * free(load.body);
   }
-  for (const Support& s : scenario_.supports) {
+  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
+    const Support& s = scenario_.supports[i];
     const double rate = Relative(s, v);
     dy[support_loss()] += pace * s.damping * rate * rate;
-    dy[impulse()] += pace * SupportForce(s, y, v) * (free(s.body) - free(s.other));
+    dy[impulse()] += pace * SupportForce(i, y, v) * (free(s.body) - free(s.other));
   }
 }
 
@@ -256,9 +268,9 @@ double Equations::Energy(const double* y) const {
   for (int i = 0; i < n; ++i) {
     if (inverse_mass_[At(i)] != 0) energy += 0.5 * y[n + i] * y[n + i] / inverse_mass_[At(i)];
   }
-  for (const Support& s : scenario_.supports) {
-    const double x = Stretch(s, y);
-    energy += 0.5 * s.stiffness * x * x;
+  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
+    const double x = Stretch(i, y);
+    energy += 0.5 * scenario_.supports[i].stiffness * x * x;
   }
   for (const ActiveContact& c : active) {
     energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap);
@@ -273,6 +285,14 @@ double Equations::Momentum(const double* y) const {
     if (inverse_mass_[At(i)] != 0) momentum += y[n + i] / inverse_mass_[At(i)];
   }
   return momentum;
+}
+
+double Equations::MomentumScale(const double* y) const {
+  double sum = 0;
+  for (int i = 0; i < bodies(); ++i) {
+    if (inverse_mass_[At(i)] != 0) sum += std::abs(y[bodies() + i]) / inverse_mass_[At(i)];
+  }
+  return sum;
 }
 
 double ElasticEnergy(const Contact& contact, double deformation) {

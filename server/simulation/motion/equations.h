@@ -78,6 +78,11 @@ struct ActiveContact : Sides {
     const double d = std::max(deformation, 0.0);
     return mu * (plain ? d * std::sqrt(d) : std::pow(d, damping_exponent));
   }
+  /// k n δⁿ⁻¹, the stiffness about δ without its damping [N/m].
+  double StiffnessAt(double deformation) const {
+    const double d = std::max(deformation, 0.0);
+    return stiffness * (plain ? 1.5 * std::sqrt(d) : exponent * std::pow(d, exponent - 1));
+  }
   /// At(…).force alone.
   double ForceAt(double deformation, double rate) const {
     if (!plain) return General(deformation, rate).force;
@@ -127,6 +132,9 @@ class Equations : public StateLayout {
   /// Momentum of the bodies that are not fixed [N·s], (B2).
   double Momentum(const double* y) const;
 
+  /// Σ|m v| of the bodies that are not fixed [N·s].
+  double MomentumScale(const double* y) const;
+
   /// Takes the loads that act from `time` on, until the instant returned, the next at which one
   /// begins or ends; infinite if none does. Each goes on as its formula does past that instant.
   double SelectLoads(double time);
@@ -135,14 +143,26 @@ class Equations : public StateLayout {
   /// two plain contacts of at most three bodies, for which there is a shorter way.
   void Prepare();
 
+  /// Force of a load at t [s] by its formula [N].
+  static double LoadForce(const Load& load, double t);
+  /// The loads that act.
+  const std::vector<Load>& acting() const { return acting_; }
   /// Adds to accelerations by how much those of the selected loads differ between two instants.
   void AddLoadChange(double from, double to, double* accelerations) const;
 
   /// Shortest time in which a selected load or a support changes [s]; infinite without any.
   double ForcingTime() const;
 
+  /// Measures u from these positions [m], one for each body, from now on.
+  void Rebase(const std::vector<double>& positions);
   /// Positions from which u is measured [m], one for each body.
-  std::vector<double> base;
+  const std::vector<double>& base() const { return base_; }
+  /// Σ k/m of the supports at the two sides of a contact [1/s²].
+  double SupportRate(const Sides& sides) const {
+    return sides.left_counts * support_rates_[static_cast<std::size_t>(sides.left)] +
+           sides.right_counts * support_rates_[static_cast<std::size_t>(sides.right)];
+  }
+
   /// The contacts that exert a force, in order of Scenario::contacts.
   std::vector<ActiveContact> active;
 
@@ -163,18 +183,23 @@ class Equations : public StateLayout {
   static void EvaluateFew(const Equations& of, const double* y, double* dy, double pace);
   /// Adds the quadratures that only a recording has.
   void AddRecord(double t, const double* y, double* dy, double pace) const;
-  /// Force of a load that acts [N].
-  static double LoadForce(const Load& load, double t);
-  /// Force of a support on its first body [N], (M4).
-  double SupportForce(const Support& s, const double* u, const double* v) const;
-  /// By how much a support is longer than without force [m].
-  double Stretch(const Support& s, const double* u) const;
+  /// Force of the support with this index on its first body [N], (M4).
+  double SupportForce(std::size_t support, const double* u, const double* v) const;
+  /// By how much the support with this index is longer than without force [m].
+  double Stretch(std::size_t support, const double* u) const {
+    return stretches_[support] + Relative(scenario_.supports[support], u);
+  }
   /// Difference of a per-body quantity between the bodies of a support; the ground counts 0.
   static double Relative(const Support& s, const double* of_bodies) {
     return of_bodies[s.body] - (s.other == kNone ? 0 : of_bodies[s.other]);
   }
 
   const Scenario& scenario_;
+  std::vector<double> base_;
+  // Stretch of each support at the base [m]: with u beside it forces keep their digits.
+  std::vector<double> stretches_;
+  // Σ k/m of the supports of each body [1/s²].
+  std::vector<double> support_rates_;
   // 1/m [1/kg]; 0 for a fixed body.
   std::vector<double> inverse_mass_;
   // One for every contact.

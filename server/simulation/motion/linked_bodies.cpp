@@ -34,7 +34,7 @@ void LinkedBodies::Count() {
       if (std::exchange(places_[At(body)], 0) == kNone) bodies_.push_back(body);
     }
   }
-  std::ranges::sort(bodies_, {}, [&](std::ptrdiff_t body) { return equations_.base[At(body)]; });
+  std::ranges::sort(bodies_, {}, [&](std::ptrdiff_t body) { return equations_.base()[At(body)]; });
   for (std::ptrdiff_t i = 0; i < std::ssize(bodies_); ++i) places_[At(bodies_[At(i)])] = i;
   reach_ = 0;
   for (Link& link : links_) {

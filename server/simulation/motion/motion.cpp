@@ -33,13 +33,15 @@ State Motion::Save() const {
   state.time = system_.time;
   state.step = system_.next_step;
   state.contacts = system_.contacts;
-  state.positions = system_.equations.base;
+  state.positions = system_.equations.base();
   for (int i = 0; i < n; ++i) state.positions[At(i)] += system_.rk.y0[i];
   state.velocities.assign(system_.rk.y0.begin() + n, system_.rk.y0.begin() + n + n);
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     ContactState& contact = state.contacts[At(c)];
     contact.gap = -system_.Deformation(c, system_.rk.y0.data());
     contact.work = system_.rk.y0[system_.equations.work(c)];
+    contact.largest_motion = system_.scales[At(c)].length;
+    contact.largest_speed = system_.scales[At(c)].speed;
     if (system_.equations.recording) {
       contact.external_work = system_.rk.y0[system_.equations.external_work(c)];
     }
@@ -54,6 +56,7 @@ State Motion::Save() const {
 
 Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* listener,
                               const std::stop_token& stop, std::int64_t step_limit) {
+  cycles_.AskRests(host);
   cycles_.Start(host, false);
   const bool busy = cycles_.Run();
   if (system_.equations.active.empty()) {
@@ -66,15 +69,16 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     if (system_.steps >= step_limit) return Pause::kStepLimit;
     if (!host.OnStep()) return Pause::kEnough;
     events_.Restart();
-    if (!stepper_.Take(until)) return Pause::kNumeric;
+    if (!stepper_.Take(std::min(until, cycles_.NextWake()))) return Pause::kNumeric;
     StepEvents::Found found = PassTurns();
     const bool moves = found.contact == kNone || found.event.theta > 0;
     if (moves && found.contact != kNone && !stepper_.Land(found)) found.contact = kNone;
     if (moves && !system_.rk.y1.head(2 * system_.equations.bodies()).allFinite()) {
       return Pause::kNumeric;
     }
+    bool breaks = false;
     if (moves) {
-      Accept(listener);
+      breaks = Accept(listener);
     } else if (stepper_.separating() != found.contact) {
       system_.next_step = system_.step.h;  // The same again, but for what begins.
     }
@@ -82,7 +86,7 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     const bool separates = found.event.kind == EventKind::kSeparation;
     if (found.contact != kNone && separates) stepper_.Separated();
     const bool changes = found.contact != kNone || system_.resting;
-    if (system_.resting) cycles_.WakeResting(host);
+    if (system_.resting) cycles_.WakeDisturbed(breaks, host);
     events_at_once = moves ? 0 : events_at_once + 1;
     if (events_at_once > kMaxEventsAtOnce) return Pause::kNumeric;
     if (changes) {
@@ -156,20 +160,29 @@ void Motion::FollowStep() {
   system_.tangents.Follow(system_.step, paths_, from, 1);
 }
 
-void Motion::Accept(StepListener* listener) {
+bool Motion::Accept(StepListener* listener) {
+  if (system_.equations.recording) {
+    system_.momentum_scale =
+        std::max(system_.momentum_scale, system_.equations.MomentumScale(system_.rk.y1.data()));
+  }
   if (system_.equations.recording || system_.splits_at_force()) {
     for (const ActiveContact& active : system_.equations.active) forces_.Observe(active);
   }
   if (system_.tangents.count() > 0) FollowStep();
   if (listener != nullptr) listener->OnStep(system_.step);
+  if (system_.resting) cycles_.FollowRests();
   const bool breaks = system_.step.h >= system_.breakpoint - system_.time;
-  system_.time = breaks ? system_.breakpoint : system_.time + system_.step.h;
+  const bool ends = system_.step.h >= stepper_.until() - system_.time;
+  system_.time = breaks ? system_.breakpoint
+                 : ends ? stepper_.until()
+                        : system_.time + system_.step.h;
   system_.rk.Advance();
   if (breaks) {
     system_.SelectLoads();
     system_.RefreshActive();
   }
   stepper_.Widen();
+  return breaks;
 }
 
 }  // namespace contact

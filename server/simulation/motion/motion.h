@@ -55,6 +55,8 @@ class Motion {
 
   /// Simulated time [s].
   double time() const { return system_.time; }
+  /// Largest Σ|m v| of the recording since Begin [N·s].
+  double momentum_scale() const { return system_.momentum_scale; }
   /// Steps tried since construction, rejected ones included.
   std::int64_t steps() const { return system_.steps; }
   /// Evaluations of the equations of motion since construction.
@@ -88,8 +90,9 @@ class Motion {
   double SearchTurn(const Sides& sides, double theta);
   /// Takes the tangents along the step, and to the turns in it.
   void FollowStep();
-  /// Makes the end of the step the state, and tells the listener before.
-  void Accept(StepListener* listener);
+  /// Makes the end of the step the state, and tells the listener before. Returns whether a load
+  /// begins or ends there.
+  bool Accept(StepListener* listener);
 
   MovingSystem system_;
   Stepper stepper_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "simulation/model/ledger.h"
@@ -7,6 +8,9 @@
 #include "simulation/motion/contact_events.h"
 
 namespace contact {
+
+/// An instant that never comes [s].
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Where a contact stands, and its running cycle.
 struct ContactState {
@@ -21,8 +25,19 @@ struct ContactState {
   double largest_work = 0;
   /// Whether the last cycle was too weak to iterate.
   bool settled = false;
+  /// Whether the running cycle has ended a rest and has not moved since.
+  bool woken = false;
+  /// Whether the running cycle gives back what was stored before it.
+  bool released = false;
+  /// δ̇ where the running cycle began [m/s]; of what rested before the rest of its swing.
+  double start_velocity = 0;
+  /// Of a contact that rests: when its rest ends at the latest, and the last instant at which one
+  /// that ends later would have had its cause [s].
+  double rest_until = kNever, rest_mark = 0;
   /// Expected duration of the running cycle [s]; 0: unknown.
   double duration = 0;
+  /// Largest |δ − δ_s| [m] and |δ̇| [m/s] of the running cycle.
+  double largest_motion = 0, largest_speed = 0;
   /// W since the start of the running cycle [J], (W1).
   double work = 0;
   /// E since the start of the running cycle [J], (W3); only of a recording.
@@ -44,12 +59,15 @@ struct ContactState {
   int encounter = 0;
   /// The group of the running cycle, and what decides where it ends. CycleHost keeps it.
   struct Membership {
-    bool open = false;     ///< The next cycle of the encounter belongs to it too.
-    int place = 0;         ///< Among the groups of the encounter, from 1.
-    double lasts = 0;      ///< It does not end earlier after its start [s].
-    int groups = 0;        ///< Group::number of the last group that has one.
-    int iterations = 0;    ///< Corrections of its μ.
-    double imbalance = 0;  ///< Sum of |(W4)| over its cycles [J].
+    bool open = false;        ///< The next cycle of the encounter belongs to it too.
+    bool after_rest = false;  ///< Before it the contact has rested.
+    bool disproved = false;   ///< One of its rows fails its proof,
+    bool nothing = false;     ///< whose work is nothing beside that of others.
+    int place = 0;            ///< Among the groups of the encounter, from 1.
+    double lasts = 0;         ///< It does not end earlier after its start [s].
+    int groups = 0;           ///< Group::number of the last group that has one.
+    int iterations = 0;       ///< Corrections of its μ.
+    double imbalance = 0;     ///< Sum of |(W4)| over its cycles [J].
     Group group;
   } member;
 };

@@ -38,14 +38,20 @@ double StepEvents::Noise(int contact) const {
   for (const int body : {c.left, c.right}) {
     if (body == kNone) continue;
     noise += 1e-12 * std::max(std::abs(system_.rk.y0[body]), std::abs(system_.rk.y1[body])) +
-             1e-15 * (std::abs(system_.equations.base[At(body)]) +
+             1e-15 * (std::abs(system_.equations.base()[At(body)]) +
                       system_.scenario.bodies[At(body)].radius);
   }
   return noise;
 }
 
+double StepEvents::Drift(int contact) const {
+  const double* v = system_.rk.y0.data() + system_.equations.bodies();
+  return system_.step.h * system_.equations.Relative(contact, v);
+}
+
 StepEvents::Found StepEvents::First(int separating) const {
   Found first;
+  first.event.theta = kNever;
   if (separating != kNone &&
       system_.step.h < kInstant * system_.contacts[At(separating)].duration) {
     return {separating, {EventKind::kSeparation, 0}};
@@ -53,11 +59,17 @@ StepEvents::Found StepEvents::First(int separating) const {
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     const Phase phase = system_.contacts[At(c)].phase;
     const auto [start, end] = system_.PathEnds(c);
+    if (system_.contacts[At(c)].woken) {
+      const double moved = end.value - system_.contacts[At(c)].cycle.start_deformation;
+      const double noise = Noise(c);  // What is below it may go either way.
+      if (moved < -noise && first.event.theta > 0) first = {c, {EventKind::kRelease, 0}};
+      if (moved <= noise) continue;
+    }
     if (DeformationPath::IsPlain(phase, start, end)) continue;
     const double noise = phase == Phase::kOpen ? Noise(c) : 0;
-    const auto event = FirstEvent(phase, {start, end}, passed_[At(c)], noise);
+    const auto event = FirstEvent(phase, {start, end, Drift(c)}, passed_[At(c)], noise);
     if (!event) continue;
-    if (first.contact == kNone || event->theta < first.event.theta) first = {c, *event};
+    if (event->theta < first.event.theta) first = {c, *event};
   }
   if (first.contact == kNone && separating != kNone &&
       system_.Deformation(separating, system_.rk.y1.data()) <

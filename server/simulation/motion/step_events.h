@@ -30,6 +30,8 @@ class StepEvents {
  private:
   /// Deformation of a contact that is to be taken for 0 [m].
   double Noise(int contact) const;
+  /// How far a contact would close in the step at the δ̇ with which the step begins [m].
+  double Drift(int contact) const;
 
   const MovingSystem& system_;
   // θ up to which each contact's events in the step are dealt with.

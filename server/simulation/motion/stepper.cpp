@@ -21,6 +21,15 @@ constexpr double kSafety = 0.8;  // Of the next step.
 constexpr double kEarly = 10;    // Tolerances a step may miss by in a pass that is not exact.
 constexpr double kMostGrowth = 6;
 constexpr double kStable = 4;  // λ h of the first explicit step after implicit ones.
+// The scale of a contact, in that of the largest: with 1e-3 the ε of weak contacts was off by 3e-6.
+constexpr double kWeakest = 1e-3;
+// Round-off of what a step sums.
+constexpr double kRoundOff = 1e-15;
+// Part of the acceleration of a contact below which its own force is faint, where it is largest.
+constexpr double kFaint = 0.1;
+// Part of a step that is left of one in which a collision would begin and turn; not below this part
+// of its duration.
+constexpr double kPart = 0.25, kShortest = 1e-9;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -155,6 +164,7 @@ void Stepper::TakeFixed(double until) {
 }
 
 bool Stepper::Take(double until) {
+  until_ = until;
   const int n = system_.equations.bodies();
   if (system_.fixed_step() > 0) {
     TakeFixed(until);
@@ -171,6 +181,10 @@ bool Stepper::Take(double until) {
     system_.TakeStep(choice_.implicit());
     const double error = Error();
     const double growth = Growth(error);
+    if (error <= most && TurnsAtOnce()) {
+      GoOn(kPart * system_.step.h);
+      continue;
+    }
     if (error <= most) {
       system_.FinishStep();
       Adapt(growth, rejections > 0);
@@ -181,6 +195,31 @@ bool Stepper::Take(double until) {
     GoOn(system_.step.Offset(separating_ == kNone ? shorter : 0.6));
   }
   return false;
+}
+
+// The square of the error of a contact's work, relative to the work, or to what the contact stores
+// with a deformation of `length` [m]. The force of a contact that other forces drive hardly shows
+// in its motion, by which steps are measured.
+double Stepper::WorkError(const ActiveContact& active, double length) const {
+  if (system_.implicit) return 0;
+  Motions five, three;
+  const std::ptrdiff_t work = system_.equations.work(active.contact);
+  system_.rk.Errors(work, 1, &five.length, &three.length);
+  const double stored = ElasticEnergy(active.stiffness, active.exponent, length);
+  return Square(five, three, {Largest(stored, std::abs(system_.rk.y1[work])), 1});
+}
+
+// Whether a collision that begins with the step also turns in it, so that nothing has measured it:
+// a load may end one long before its own scales tell.
+bool Stepper::TurnsAtOnce() const {
+  const int n = system_.equations.bodies();
+  return std::ranges::any_of(system_.equations.active, [&](const ActiveContact& active) {
+    const ContactState& state = system_.contacts[At(active.contact)];
+    const bool begins = state.phase == Phase::kCompression && state.start_velocity > 0 &&
+                        state.cycle.start_time == system_.time;
+    return begins && active.Relative(system_.rk.y1.data() + n) < 0 &&
+           system_.step.h > kShortest * state.duration;
+  });
 }
 
 double Stepper::Growth(double error) const {
@@ -211,7 +250,7 @@ double Stepper::Error() {
     std::copy_n(system_.euler.error().data(), 2 * n, error5_.begin());
     std::ranges::fill(error3_, 0.0);
   } else {
-    system_.rk.Errors(2 * n, error5_.data(), error3_.data());
+    system_.rk.Errors(0, 2 * n, error5_.data(), error3_.data());
   }
   double error = 0;
   WithCount<1, 2, 3>(n, [&](auto count) { error = ErrorNorm(count, system_.step.h); });
@@ -248,10 +287,7 @@ double Stepper::ErrorNorm(Count n, double h) {
   if (!std::isfinite(sum)) return kForever;  // And only then y1 is not finite.
   const double* y = system_.rk.y1.data();
   const Extent extent = Measure(n, h);
-  // What the round-off of velocities makes of lengths in a step is no error of the step.
-  const double round_off =
-      1e-15 * extent.body_speed * h / system_.scenario.solver.relative_tolerance;
-  const double least_length = Largest(1e-3 * extent.length, round_off);
+  const double digits = kRoundOff / system_.scenario.solver.relative_tolerance;
   double norm = 0;
   decay_ = 0;
   for (const ActiveContact& active : system_.equations.active) {
@@ -260,11 +296,27 @@ double Stepper::ErrorNorm(Count n, double h) {
     const Motions three{active.Relative(e3), active.Relative(e3 + n)};
     // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
     const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
-    const double length = Largest(own.length, least_length);
-    const double damping = kink ? 0 : active.DampingAt(active.Relative(y) - active.gap);
-    const double decay = damping * (active.left_inverse + active.right_inverse);
-    const Motions scale{length, Largest(own.speed, 1e-3 * extent.speed) + decay * length};
+    // What round-off of positions and velocities makes of a step is no error of the step.
+    const double deformation = active.Relative(y) - active.gap;
+    const double inverse_mass = active.left_inverse + active.right_inverse;
+    const double moved = Largest(active.left_counts * std::abs(y[active.left]),
+                                 active.right_counts * std::abs(y[active.right]));
+    const double stiffness = active.StiffnessAt(deformation) * inverse_mass;
+    const double rate = stiffness + system_.equations.SupportRate(active);
+    const double own_length =
+        std::abs(deformation - system_.contacts[At(active.contact)].cycle.start_deformation);
+    const double length = Largest(own.length, own_length, kWeakest * extent.length,
+                                  digits * (moved + extent.body_speed * h));
+    const double speed = Largest(own.speed, std::abs(active.Relative(y + n)),
+                                 kWeakest * extent.speed, digits * moved * rate * h);
+    const double decay = kink ? 0 : active.DampingAt(deformation) * inverse_mass;
+    const Motions scale{length, speed + decay * length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
+    const double driven = std::abs(active.Relative(system_.rk.slope0.data() + n));
+    const double strongest = active.StiffnessAt(length) * inverse_mass * length;
+    if (own.length > 0 && strongest < kFaint * driven) {
+      norm = Largest(norm, WorkError(active, length));
+    }
     decay_ = Largest(decay_, decay);
   }
   const double of_bodies =
@@ -279,7 +331,7 @@ double Stepper::ErrorNorm(Count n, double h) {
 bool Stepper::Land(const StepEvents::Found& found) {
   const bool parting = found.event.kind == EventKind::kSeparation;
   const StepTime planned = system_.step;
-  const double left = system_.breakpoint - system_.time;
+  const double left = std::min(until_, system_.breakpoint) - system_.time;
   // What the trapezoidal rule leaves is of third order in time.
   const bool shifts = shifts_ && !system_.implicit;
   const double nearby =
@@ -294,7 +346,7 @@ bool Stepper::Land(const StepEvents::Found& found) {
     const double correction = Correction(found);
     const double h = system_.step.h + correction;
     if (!(h > 0) || h > 2 * planned.h) break;
-    if (h > left) {  // The event is past a load's breakpoint, after which all is different.
+    if (h > left) {  // The event is past the end, or past a breakpoint, after which all differs.
       Compute(left, false);
       return false;
     }

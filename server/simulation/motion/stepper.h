@@ -28,6 +28,8 @@ class Stepper {
   /// A contact has separated at the end of the step: the next is as long as those before.
   void Separated();
 
+  /// No step goes further [s].
+  double until() const { return until_; }
   /// The contact whose predicted separation ends the step, or kNone.
   int separating() const { return separating_; }
 
@@ -42,6 +44,10 @@ class Stepper {
   double TimeToSeparation(const ActiveContact& active) const;
   /// Local error of the step, in units of what the tolerance allows.
   double Error();
+  /// The square of the relative error of a contact's work, in units of 1/h.
+  double WorkError(const ActiveContact& active, double length) const;
+  /// Whether a collision begins and turns in the step.
+  bool TurnsAtOnce() const;
   /// By what factor the step may be longer for an error of 1.
   double Growth(double error) const;
   /// The largest lengths [m] and speeds [m/s], of contacts and of all bodies, in a step of h [s].
@@ -75,6 +81,7 @@ class Stepper {
   // Largest |u| [m] and |v| [m/s] while no contact was in touch.
   double flight_length_ = 0, flight_speed_ = 0;
   int separating_ = kNone;
+  double until_ = 0;
   // The last step that no separation near has shortened [s].
   double cruise_ = 0;
   // Slopes before a Shift.

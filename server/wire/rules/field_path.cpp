@@ -45,6 +45,21 @@ std::optional<PathStep> ParseStep(std::string_view text, bool keys) {
   return step;
 }
 
+// A quantity that people give where the contract has another one.
+struct Relative {
+  std::string_view begin;  // Of the names that they give it.
+  std::string_view field;
+  std::string_view hint;
+};
+constexpr Relative kRelatives[] = {
+    {"freq", "angular_frequency_rad_per_s",
+     "angular_frequency_rad_per_s is 2π times the frequency in Hz"},
+    {"period", "angular_frequency_rad_per_s",
+     "angular_frequency_rad_per_s is 2π divided by the period"},
+    {"phase_deg", "phase_rad", "phase_rad is π/180 times the phase in degrees"},
+    {"diameter", "radius_m", "radius_m is half of the diameter"},
+};
+
 }  // namespace
 
 std::vector<PathStep> ParsePath(std::string_view text, bool keys) {
@@ -65,6 +80,10 @@ std::string_view ParentPath(std::string_view path) {
 }
 
 std::string FieldHint(const google::protobuf::Descriptor& message, const std::string& name) {
+  for (const auto& [begin, field, hint] : kRelatives) {
+    const bool has = message.FindFieldByName(std::string(field)) != nullptr;
+    if (has && name.starts_with(begin)) return std::string(hint);
+  }
   std::vector<std::string_view> names;
   names.reserve(static_cast<std::size_t>(message.field_count()));
   for (int i = 0; i < message.field_count(); ++i) names.push_back(message.field(i)->name());

@@ -28,6 +28,9 @@ class BodyNames {
   /// `bodies` outlives this and keeps its names.
   explicit BodyNames(const std::vector<Body>& bodies);
 
+  /// Whether a body is called `name`.
+  bool Has(std::string_view name) const { return index_.contains(name); }
+
   /// Index of the body called `name`. If there is none, notes that `field` breaks a rule and
   /// returns kNone.
   int Find(std::string_view name, std::string_view field, const Rules& rules) const;

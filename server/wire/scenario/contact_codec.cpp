@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -86,11 +87,7 @@ class ContactDecoder {
     if (!message.name().empty() && !IsName(message.name())) {
       BreakName(message.name(), rules);
     }
-    CheckArity(message, rules);
-    std::vector<int> touching;
-    for (int i = 0; i < message.between_size(); ++i) {
-      touching.push_back(names_.Find(message.between(i), "", rules.In("between", i)));
-    }
+    const std::vector<int> touching = FindBodies(message, rules);
     if (message.has_wall()) CheckWall(message, rules.In("wall"));
     CheckStiffness(message, touching, rules);
     const Contact law = DecodeLaw(message, rules);
@@ -107,6 +104,39 @@ class ContactDecoder {
   std::vector<Contact> Take() { return std::move(contacts_); }
 
  private:
+  std::vector<int> FindBodies(const v1::Contact& message, const Rules& rules) const {
+    if (const auto body = BodyBesideWall(message)) return {BreakWall(message, *body, rules)};
+    CheckArity(message, rules);
+    std::vector<int> touching;
+    for (int i = 0; i < message.between_size(); ++i) {
+      touching.push_back(names_.Find(message.between(i), "", rules.In("between", i)));
+    }
+    return touching;
+  }
+
+  // The place in `between` of the body that stands there beside what can only mean the wall: a
+  // name that is no body's.
+  std::optional<int> BodyBesideWall(const v1::Contact& message) const {
+    if (message.between_size() != 2) return std::nullopt;
+    for (const int body : {0, 1}) {
+      const std::string& other = message.between(1 - body);
+      if (!names_.Has(message.between(body)) || names_.Has(other)) continue;
+      if ((message.has_wall() && !other.empty()) || other == "wall") return body;
+    }
+    return std::nullopt;
+  }
+
+  // Notes that `between` names the wall. Returns the body beside it.
+  int BreakWall(const v1::Contact& message, int place, const Rules& rules) const {
+    const std::string& body = message.between(place);
+    rules.Break("between",
+                fmt::format("names {} beside {}; must name the body alone",
+                            Quoted(message.between(1 - place)), Quoted(body)),
+                fmt::format("between: [{}] names the body; the wall is only in wall{}",
+                            Shortened(body), message.has_wall() ? "" : ": {side: LEFT or RIGHT}"));
+    return names_.Find(body, "", rules);
+  }
+
   static void CheckArity(const v1::Contact& message, const Rules& rules) {
     const int count = message.between_size();
     if (count == 0) {

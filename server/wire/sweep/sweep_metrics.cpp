@@ -24,11 +24,31 @@ using google::protobuf::Message;
 constexpr std::array<std::string_view, 5> kRoots{"cycles", "groups", "final_bodies", "summary",
                                                  "convergence"};
 
+// Numbers of a result that say nothing of a run without a cycle: those of the search for μ.
+constexpr std::array<std::string_view, 6> kOfCycles{
+    "convergence", "iterations",          "episodes",
+    "growths",     "growths_no_progress", "worst_identity_residual"};
+
+bool IsOfCycles(const FieldDescriptor& field) {
+  return std::ranges::find(kOfCycles, field.name()) != kOfCycles.end();
+}
+
 // What names an entry: its body or its contact.
 const FieldDescriptor* NameField(const Descriptor& entry) {
   const FieldDescriptor* name = entry.FindFieldByName("name");
   return name != nullptr ? name : entry.FindFieldByName("contact");
 }
+
+// True for a cycle or group that the end of the run cuts. One that rests is not cut.
+template <class Row>
+bool IsCut(const Message& entry) {
+  const auto* row = google::protobuf::DynamicCastToGenerated<const Row>(&entry);
+  if (row == nullptr) return false;
+  if (row->status() == v1::Cycle::CUT || row->status() == v1::Cycle::UNFINISHED) return true;
+  return row->end() == v1::Cycle::RUN_END && row->status() != v1::Cycle::SETTLED;
+}
+
+bool IsCutRow(const Message& entry) { return IsCut<v1::Cycle>(entry) || IsCut<v1::Group>(entry); }
 
 // A name alone may be a field of the summary.
 std::vector<PathStep> Whole(std::vector<PathStep> path) {
@@ -126,44 +146,58 @@ void SweepMetrics::CheckNames(const Scenario& scenario, std::vector<Violation>* 
   }
 }
 
-std::vector<double> SweepMetrics::Of(const v1::Job& result) const {
-  std::vector<double> values;
-  values.reserve(paths_.size());
-  for (const Path& path : paths_) values.push_back(Value(path, result));
-  return values;
+std::vector<SweepMetrics::Metric> SweepMetrics::Of(const v1::Job& result) const {
+  std::vector<Metric> metrics;
+  metrics.reserve(paths_.size());
+  for (const Path& path : paths_) {
+    metrics.push_back(Value(path, result));
+    if (result.cycles().empty() && IsOfCycles(*path.back().field)) {
+      metrics.back().source = v1::SweepCell::NO_CONTACT;
+    }
+  }
+  return metrics;
 }
 
-double SweepMetrics::Value(std::span<const Step> path, const Message& message) {
+SweepMetrics::Metric SweepMetrics::Value(std::span<const Step> path, const Message& message) {
   const auto* reflection = message.GetReflection();
   const FieldDescriptor& field = *path.front().field;
   if (field.is_repeated()) return ValueOfList(path, message);
   if (IsNumber(field)) {
     const bool unset = field.has_presence() && !reflection->HasField(message, &field);
-    return unset ? kNaN : NumberIn(message, field);
+    return {.value = unset ? kNaN : NumberIn(message, field)};
   }
   return Value(path.subspan(1), reflection->GetMessage(message, &field));
 }
 
-double SweepMetrics::ValueOfList(std::span<const Step> path, const Message& message) {
+SweepMetrics::Metric SweepMetrics::ValueOfList(std::span<const Step> path, const Message& message) {
   const Step& step = path.front();
   const auto* reflection = message.GetReflection();
   const FieldDescriptor* name = step.key.empty() ? nullptr : NameField(*step.field->message_type());
-  const int size = reflection->FieldSize(message, step.field);
-  double value = step.pick == Pick::kCount ? 0 : kNaN;
-  for (int i = step.index.value_or(0); i < size; ++i) {
+  Metric found;
+  int count = 0;        // Of the entries that are meant.
+  bool hidden = false;  // A cut entry may exceed what the others have.
+  for (int i = 0; i < reflection->FieldSize(message, step.field); ++i) {
     const Message& entry = reflection->GetRepeatedMessage(message, step.field, i);
     if (name != nullptr && entry.GetReflection()->GetString(entry, name) != step.key) continue;
-    if (step.pick == Pick::kCount) {
-      ++value;
-      continue;
-    }
-    const double next = Value(path.subspan(1), entry);
+    ++count;
+    if (step.pick == Pick::kCount || i < step.index.value_or(0)) continue;
+    Metric next = Value(path.subspan(1), entry);
+    if (IsCutRow(entry)) next.source = v1::SweepCell::CUT;
     if (step.pick == Pick::kFirst) return next;
-    if (step.pick == Pick::kLast) value = next;
-    if (step.pick == Pick::kMax) value = std::fmax(value, next);  // The number, if one is NaN.
-    if (step.pick == Pick::kMin) value = std::fmin(value, next);
+    hidden |= step.pick != Pick::kLast && IsCutRow(entry) && std::isnan(next.value);
+    if (IsChosen(step.pick, next.value, found.value)) found = next;
   }
-  return value;
+  if (step.pick == Pick::kCount) return {.value = static_cast<double>(count)};
+  if (hidden) found.source = v1::SweepCell::CUT;
+  const bool of_contacts = step.field->message_type() != v1::FinalBody::descriptor();
+  if (count == 0 && of_contacts) found.source = v1::SweepCell::NO_CONTACT;
+  return found;
+}
+
+// Of two numbers of which one is NaN the other is chosen.
+bool SweepMetrics::IsChosen(Pick pick, double next, double before) {
+  if (pick == Pick::kLast || std::isnan(before)) return true;
+  return pick == Pick::kMax ? next > before : next < before;
 }
 
 }  // namespace contact

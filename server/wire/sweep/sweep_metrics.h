@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
 #include "contact/v1/scenario.pb.h"
 #include "simulation/model/scenario.h"
@@ -28,8 +29,13 @@ class SweepMetrics {
   /// Notes the metrics that name a body or contact that is not in the scenario.
   void CheckNames(const Scenario& scenario, std::vector<Violation>* violations) const;
 
-  /// The metrics of a result in their order; NaN where the result has no such number.
-  std::vector<double> Of(const v1::Job& result) const;
+  /// A metric of a result: its number, NaN where the result has none, and where it comes from.
+  struct Metric {
+    double value = kNaN;
+    v1::SweepCell::Source source = v1::SweepCell::RESULT;
+  };
+  /// The metrics of a result in their order.
+  std::vector<Metric> Of(const v1::Job& result) const;
 
  private:
   using Message = google::protobuf::Message;
@@ -54,9 +60,11 @@ class SweepMetrics {
   // What the first of these steps picks; nothing if it is the name of a field, or none.
   static std::optional<Pick> PickOf(std::span<const PathStep> steps);
   // The number at the end of the path from `message`; NaN if an entry is missing.
-  static double Value(std::span<const Step> path, const Message& message);
+  static Metric Value(std::span<const Step> path, const Message& message);
   // Value for a path that begins with a list of `message`.
-  static double ValueOfList(std::span<const Step> path, const Message& message);
+  static Metric ValueOfList(std::span<const Step> path, const Message& message);
+  // Whether the number of the next entry takes the place of the one chosen before.
+  static bool IsChosen(Pick pick, double next, double before);
 
   // One path for each metric.
   std::vector<Path> paths_;

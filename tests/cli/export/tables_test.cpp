@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -119,6 +120,21 @@ void ExpectComplete(const DataTable& table, const google::protobuf::Descriptor& 
 TEST(DataTable, EveryFieldOfTheLedgerIsAColumn) {
   ExpectComplete(CyclesTable(v1::Job()), *v1::Cycle::descriptor());
   ExpectComplete(GroupsTable(v1::Job()), *v1::Group::descriptor());
+}
+
+TEST(DataTable, CutCycleHasItsStatusAndNoNumberForWhatTheEndHides) {
+  v1::Job job;
+  v1::Cycle& cycle = *job.add_cycles();
+  cycle.set_status(v1::Cycle::CUT);
+  cycle.set_peak_force_n(std::numeric_limits<double>::quiet_NaN());
+  cycle.set_mu(3);
+  const DataTable table = CyclesTable(job);
+  const auto values = [&table](const std::string& name) {
+    return std::ranges::find(table.columns, name, &DataColumn::name)->values;
+  };
+  EXPECT_EQ(std::get<std::vector<std::string>>(values("status")).at(0), "CUT");
+  EXPECT_TRUE(std::isnan(std::get<std::vector<double>>(values("peak_force")).at(0)));
+  EXPECT_EQ(std::get<std::vector<double>>(values("mu")).at(0), 3);
 }
 
 TEST(DataTable, EveryGroupIsARow) {

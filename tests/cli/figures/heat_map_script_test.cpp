@@ -152,6 +152,19 @@ TEST(HeatMapScript, MarksCellsThatFailedOrDidNotConverge) {
                     Not(HasSubstr("\n0 1 "))));  // The cell that failed has no colour.
 }
 
+TEST(HeatMapScript, CellsThatTheEndCutsOrWithoutContactAreGreyAndInTheLegend) {
+  SweepCells cells = Grid(2, 2, [](int r, int c) { return r + c; });
+  EXPECT_THAT(Script(cells), AllOf(Not(HasSubstr("CUT")), Not(HasSubstr("no contact"))));
+  cells[1].add_sources(v1::SweepCell::CUT);
+  cells[2].add_sources(v1::SweepCell::NO_CONTACT);
+  EXPECT_THAT(Script(cells),
+              AllOf(HasSubstr("rectangle from 0.5,-0.5 to 1.5,0.5 front fillcolor rgb '#b0b0b0'"),
+                    HasSubstr("set arrow from 1,-0.5 to 1,0.5 nohead"),
+                    HasSubstr("rectangle from -0.5,0.5 to 0.5,1.5 front fillcolor rgb '#e8e8e8'"),
+                    HasSubstr("; grey with a bar: CUT by the end; light grey: no contact'"),
+                    Not(HasSubstr("\n1 0 1\n")), Not(HasSubstr("white:"))));
+}
+
 TEST(HeatMapScript, ManyCellsHaveNoNumbersAndFewTics) {
   const std::string script = Script(Grid(40, 40, [](int r, int c) { return r * c; }));
   EXPECT_THAT(script, Not(HasSubstr("with labels")));

@@ -76,6 +76,15 @@ TEST(SweepLine, IsBrokenWhereACellFailedAndCrossedWhereItDidNotConverge) {
   EXPECT_EQ(figure.note, "× not converged; 1 cell failed");
 }
 
+TEST(SweepLine, IsBrokenWhereTheEndCutsACellOrItHasNoContact) {
+  SweepCells cells = Cells({1, 2, 3, 4});
+  cells[1].add_sources(v1::SweepCell::CUT);
+  cells[2].add_sources(v1::SweepCell::NO_CONTACT);
+  const Figure figure = SweepLineFigure(Sweep(), cells, 0, false);
+  EXPECT_THAT(figure.panels.at(0).curves.at(0).y, ElementsAre(10, IsNan(), IsNan(), 40));
+  EXPECT_EQ(figure.note, "1 cell CUT by the end; 1 cell without contact");
+}
+
 TEST(SweepLine, LogarithmicAxisTellsWhatItCannotShow) {
   const Figure figure = SweepLineFigure(Sweep(), Cells({-1, 0, 1, 2}), 0, true);
   EXPECT_TRUE(figure.panels.at(0).log_y);

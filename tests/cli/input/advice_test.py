@@ -70,6 +70,15 @@ class AdviceTest(FileTest):
         name = self.run_it("run", path, "-o", "name", code=None)[0].strip()
         self.assertIn("which passed into each other", self.run_it("describe", name)[0])
 
+    def test_contact_deeper_than_the_radius_is_told_before_and_after(self):
+        path = self.write("soft.yaml", BALLS.read_text("utf-8").replace("1.0e8", "1.0"))
+        said = self.run_it("validate", path)[1]
+        self.assertIn(f"{path}:", said)
+        self.assertIn("warning: contacts[0].stiffness: makes", said)
+        name = self.run_it("run", path, "--set", "contacts[0].exponent=1", "--set", "end_time_s=4",
+                           "-o", "name", code=None)[0].strip()
+        self.assertRegex(self.run_it("describe", name)[0], "deep in cycle 1, more than the radius")
+
     def test_run_that_touches_nothing_says_so(self):
         name = self.run_it("run", CHAIN, "--set", "bodies[B1].velocity_m_per_s=-1", "-o",
                            "name")[0].strip()

@@ -53,6 +53,29 @@ TEST(ConvergenceText, FullHasNothingToCount) {
   EXPECT_EQ(MissedCount(FromText("state: RUNNING progress { cycles: 2 }")), "-");
 }
 
+TEST(ConvergenceText, CountsTheCyclesThatTheEndCuts) {
+  const v1::Job full = FromText("convergence: FULL summary { cycles: 5 cycles_cut: 2 }");
+  EXPECT_EQ(ConvergenceText(full), "FULL, 2 cycles cut by the end");
+  EXPECT_THAT(RenderJob(full, {}), HasSubstr("\nconvergence FULL, 2 cycles cut by the end; resid"));
+  EXPECT_EQ(ConvergenceText(Partial("summary { cycles: 9 cycles_not_converged: 3 cycles_cut: 1 }")),
+            "PARTIAL (3 of 9 cycles), 1 cycle cut by the end");
+}
+
+TEST(ConvergenceText, CountsTheCutCyclesOfAServerThatDoesNotCount) {
+  v1::Job job = FromText(R"(convergence: FULL summary { cycles: 3 }
+      cycles { status: UNFINISHED } cycles { status: CUT } cycles { status: RELEASED })");
+  EXPECT_EQ(ConvergenceText(job), "FULL, 2 cycles cut by the end");
+  KeepMissed(&job);
+  EXPECT_EQ(ConvergenceText(job), "FULL, 2 cycles cut by the end");
+}
+
+TEST(ConvergenceText, AnswersWithoutARestitutionMissNothing) {
+  for (const auto status : {v1::Cycle::JUMP, v1::Cycle::LIMITED, v1::Cycle::RELEASED,
+                            v1::Cycle::CUT, v1::Cycle::UNFINISHED}) {
+    EXPECT_FALSE(Misses(status)) << v1::Cycle::Status_Name(status);
+  }
+}
+
 TEST(KeepMissed, LeavesWhatMissesAndTheCountsOfAll) {
   v1::Job job = Partial(R"(
       summary { cycles: 4 cycles_not_converged: 1 cycles_infeasible: 1 }
@@ -119,6 +142,17 @@ TEST(ConvergenceHints, MissIsThatOfTheGroup) {
   EXPECT_THAT(ConvergenceHints(job), Not(HasSubstr("restitution_tolerance")));
   job.mutable_cycles(0)->set_group(7);
   EXPECT_THAT(ConvergenceHints(job), HasSubstr("restitution_tolerance=1e-07"));
+}
+
+TEST(ConvergenceHints, CycleWhoseEnergyDoesNotBalanceIsNotSentToTheSearch) {
+  v1::Job job = Partial(Cycle(1, 50, 0.5));
+  job.mutable_cycles(0)->set_identity_residual(0.22);
+  EXPECT_EQ(
+      ConvergenceHints(job),
+      "       The energy of 1 cycle does not balance, by up to 2.2e-01 of its work; a smaller "
+      "solver.relative_tolerance may help\n");
+  job.mutable_scenario()->mutable_solver()->set_restitution_tolerance(0.05);
+  EXPECT_THAT(ConvergenceHints(job), Not(HasSubstr("does not balance")));
 }
 
 TEST(ConvergenceHints, PapersProcessHasAnAlternative) {

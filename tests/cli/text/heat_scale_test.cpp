@@ -78,6 +78,19 @@ TEST(HeatScale, CellsThatFailedOrLackTheMetricCountForNothing) {
   EXPECT_TRUE(std::isnan(scale.Shown(cells[3])));
 }
 
+TEST(HeatScale, NumbersThatAreNotKnownAreCountedByTheirReason) {
+  SweepCells cells = Cells({1, 2, 1000, NAN, NAN});
+  cells[2].add_sources(v1::SweepCell::CUT);
+  cells[3].add_sources(v1::SweepCell::NO_CONTACT);
+  cells[4].add_sources(v1::SweepCell::RESULT);
+  const HeatScale scale(cells, 0, false);
+  EXPECT_EQ(scale.high(), 2);
+  EXPECT_TRUE(std::isnan(scale.Shown(cells[2])));
+  EXPECT_EQ(scale.cut(), 1);
+  EXPECT_EQ(scale.untouched(), 1);
+  EXPECT_EQ(scale.valueless(), 1);
+}
+
 TEST(HeatScale, KnowsWholeNumbers) { EXPECT_FALSE(HeatScale(Cells({1, 2.5}), 0, false).whole()); }
 
 TEST(HeatScale, OfNoValuesHasItsEndsTheWrongWayRound) {

@@ -41,7 +41,7 @@ std::string Written(Act act) {
 TEST(JsonProgress, LineTellsARunInJson) {
   EXPECT_EQ(ProgressJson(RunAt(1), "abc", 2),
             R"({"kind":"run","job":"abc","done":0.25,"time_s":1.0,"end_time_s":4.0,"steps":0,)"
-            R"("cycles":3,"iterations":0,"eta_s":6.0})"
+            R"("cycles":3,"iterations":0,"busy_with":"","eta_s":6.0})"
             "\n");
   EXPECT_THAT(ProgressJson(RunAt(0), "abc", 2), HasSubstr(R"("eta_s":null)"));
 }

@@ -15,7 +15,7 @@ class ProgressTest(CliTest):
     def test_run_is_told_in_lines_of_json_up_to_its_end(self):
         lines = self.told("run", CHAIN)
         self.assertEqual(list(lines[-1]), ["kind", "job", "done", "time_s", "end_time_s", "steps",
-                                           "cycles", "iterations", "eta_s"])
+                                           "cycles", "iterations", "busy_with", "eta_s"])
         self.assertEqual((lines[-1]["kind"], lines[-1]["done"]), ("run", 1))
         self.assertEqual((lines[-1]["time_s"], lines[-1]["cycles"]), (4e-3, 2))
         parts = [line["done"] for line in lines]

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <google/protobuf/text_format.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -66,6 +67,21 @@ TEST(RenderGroups, ShowsThoseWithoutAnAnswerAndWhatWasReached) {
       RenderGroups(job, {}),
       HasSubstr("\nwall group 2: no μ gives a restitution of 0.5: it jumps from 0.75 at μ = "
                 "2e+08 to 0.25 at μ = 2.1e+08\n"));
+}
+
+TEST(RenderGroups, ShowsWhatALimitedGroupReachedAndWhatAReleasedOneGivesBack) {
+  v1::Job job;
+  *job.add_groups() = Reached(v1::Cycle::LIMITED, "too_much_mu: 8 too_much_restitution: 0.75");
+  EXPECT_THAT(RenderGroups(job, {}),
+              HasSubstr("\nwall group 2: no μ gives a restitution of 0.5: too much comes back at "
+                        "every μ: ε is 0.75 at μ = 8, and the groups before are final\n"));
+  *job.mutable_groups(0) =
+      Reached(v1::Cycle::RELEASED, "work_restitution_j: -0.25 restitution_out: nan");
+  EXPECT_THAT(RenderGroups(job, {}),
+              AllOf(HasSubstr("RELEASED"),
+                    HasSubstr("\nwall group 2: it gives back 0.25 J that was stored before\n")));
+  job.mutable_groups(0)->set_work_restitution_j(NAN);
+  EXPECT_THAT(RenderGroups(job, {}), HasSubstr(": it gives back what was stored before\n"));
 }
 
 TEST(Certificate, SaysWhichWayTheRestitutionMisses) {

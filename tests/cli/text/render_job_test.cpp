@@ -13,6 +13,7 @@
 namespace contact::cli {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -56,6 +57,47 @@ TEST(RenderJob, ShowsLedgerBodiesAndBalances) {
             "convergence FULL (1 of 2 cycles); residuals: momentum 1.0e-16, energy 2.0e-15, "
             "cycle identity 3.0e-14; 250 steps\n"
             "warning: the law has no velocity\n");
+}
+
+// The number that a row of earlier servers has there says nothing.
+TEST(RenderJob, SettledAndReleasedCyclesHaveNeitherRestitutionNorError) {
+  for (const auto status : {v1::Cycle::SETTLED, v1::Cycle::RELEASED}) {
+    v1::Job job = FromText("cycles { restitution_in: 0.1 restitution_out: 62.8 }");
+    EXPECT_THAT(RenderJob(job, {}), AllOf(HasSubstr("62.8"), HasSubstr("6.3e+02")));
+    job.mutable_cycles(0)->set_status(status);
+    EXPECT_THAT(RenderJob(job, {}), AllOf(Not(HasSubstr("62.8")), Not(HasSubstr("e+02"))));
+  }
+}
+
+TEST(RenderJob, CutCycleHasDashesForWhatTheEndHides) {
+  const v1::Job job = FromText(R"(
+      cycles { contact: "wall" number: 1 group: 1 kind: NIRV end: RUN_END status: CUT
+               mu: 5e6 mu_over_k_s_per_m: 0.25 restitution_in: 0.9 restitution_out: nan
+               end_time_s: 4e-3 peak_force_n: nan delta_max_m: nan work_compression_j: nan
+               work_restitution_j: nan })");
+  EXPECT_THAT(RenderJob(job, {.columns = {"status", "mu", "restitution_out", "error", "peak_force",
+                                          "delta_max", "work_compression", "work_restitution"}}),
+              testing::ContainsRegex("CUT +5000000( +-){6}\n"));
+}
+
+TEST(RenderJob, StatusesHaveTheirColours) {
+  const auto shown = [](v1::Cycle::Status status) {
+    v1::Job job;
+    job.add_cycles()->set_status(status);
+    return RenderJob(job, {.color = true});
+  };
+  EXPECT_THAT(shown(v1::Cycle::LIMITED), HasSubstr("\x1b[33mLIMITED"));
+  EXPECT_THAT(shown(v1::Cycle::RELEASED), HasSubstr(" RELEASED "));
+  EXPECT_THAT(shown(v1::Cycle::CUT), HasSubstr("\x1b[2mCUT"));
+  EXPECT_THAT(shown(v1::Cycle::UNFINISHED), HasSubstr("\x1b[2mUNFINISHED"));
+}
+
+TEST(RenderJob, RunningJobTellsWhatKeepsItBusy) {
+  v1::Job job = FromText(R"(name: "jobs/x" state: RUNNING
+                            progress { end_time_s: 3 busy_with: "ball-floor, δ 1e-9 m" })");
+  EXPECT_THAT(RenderJob(job, {}), HasSubstr("\nbusy: ball-floor, δ 1e-9 m\n"));
+  job.set_state(v1::Job::SUCCEEDED);
+  EXPECT_THAT(RenderJob(job, {}), Not(HasSubstr("busy")));
 }
 
 TEST(RenderJob, ShowsHowTheJobIsTreated) {

@@ -136,6 +136,14 @@ TEST(RenderProgress, FitsTheWidth) {
   }
 }
 
+TEST(RenderProgress, TellsWhatKeepsALongRunBusy) {
+  v1::Progress progress;
+  progress.set_end_time_s(4);
+  EXPECT_THAT(ProgressWords(progress, 2), testing::Not(testing::HasSubstr("busy")));
+  progress.set_busy_with("ball-floor, δ 1e-9 m");
+  EXPECT_THAT(ProgressWords(progress, 2), testing::EndsWith("; busy: ball-floor, δ 1e-9 m"));
+}
+
 TEST(RenderProgress, NeedsNoUtf8) {
   v1::Progress progress;
   progress.set_time_s(1);

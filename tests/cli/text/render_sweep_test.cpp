@@ -69,6 +69,34 @@ TEST(RenderSweep, HeatMapMarksWhatDidNotConvergeOrFailed) {
             "░ 2 … █ 50;  ! not converged, ×× failed, -- no value\n");
 }
 
+// Cells as those above, but cell 0 is cut by the end of the run and cell 1 touches nothing.
+SweepCells CellsAtTheEnd() {
+  SweepCells cells = Cells();
+  cells[0].add_sources(v1::SweepCell::CUT);
+  cells[0].set_cycles(3);
+  cells[0].set_cycles_cut(2);
+  cells[1].add_sources(v1::SweepCell::NO_CONTACT);
+  cells[1].set_cycles(0);
+  return cells;
+}
+
+TEST(RenderSweep, MetricOfACutCycleOrOfNoContactIsNoNumber) {
+  const std::string text = RenderSweep(Job(), CellsAtTheEnd(), {});
+  EXPECT_THAT(text, testing::ContainsRegex("0 +0.5 +0.9 +CUT +FULL, 2 cut\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("1 +0.5 +0.8 +no contact +FULL, no contact\n"));
+  EXPECT_THAT(SweepCsv(Job().sweep(), CellsAtTheEnd()),
+              HasSubstr("\n0,0.5,0.9,nan,SUCCEEDED,FULL,iterations: CUT\n"
+                        "1,0.5,0.8,nan,SUCCEEDED,FULL,no contact\n"));
+}
+
+TEST(RenderSweep, HeatMapHasMarksForCutCellsAndThoseWithoutContact) {
+  EXPECT_THAT(RenderHeatMap(Job().sweep(), CellsAtTheEnd(), 0, {}),
+              HasSubstr("0.5  ][ ()\n"
+                        "  2  ░! ××\n"
+                        "░ 50 … █ 50;  ! not converged, ×× failed, -- no value, ][ CUT by the end, "
+                        "() no contact\n"));
+}
+
 TEST(RenderSweep, HeatMapShowsHolesOfAnUnfinishedSweep) {
   SweepCells cells = Cells();
   cells.erase(1);

@@ -115,6 +115,16 @@ TEST_F(FindCellTest, CellIsShownWithValuesAndMetrics) {
   EXPECT_THAT(text, testing::ContainsRegex("iterations +4\n"));
 }
 
+TEST_F(FindCellTest, MetricOfACutCycleIsShownAsCut) {
+  v1::SweepCell& cell = cells_.at(4);
+  cell.add_sources(v1::SweepCell::CUT);
+  cell.set_cycles(2);
+  cell.set_cycles_cut(1);
+  const std::string text = RenderCell(job_, cell, Style());
+  EXPECT_THAT(text, HasSubstr("convergence FULL, 1 cut\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("iterations +CUT\n"));
+}
+
 TEST_F(FindCellTest, FailedCellSaysWhyAndHasNoConvergence) {
   v1::SweepCell& cell = cells_.at(4);
   cell.set_state(v1::Job::FAILED);

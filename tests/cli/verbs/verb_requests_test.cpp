@@ -252,7 +252,7 @@ TEST_F(VerbRequestsTest, RunShowsTheResultAndSubmitDoesNotWait) {
   const std::size_t watches = server_.Asked<v1::WatchJobRequest>().size();
   const End submit = Run({"submit", "-t", "two-balls"});
   EXPECT_THAT(submit.printed, HasSubstr("QUEUED"));
-  EXPECT_EQ(submit.said, "Next:  contactctl watch new\n");
+  EXPECT_EQ(submit.said, "Next:  contactctl watch new2\n");
   EXPECT_EQ(server_.Asked<v1::WatchJobRequest>().size(), watches);
 }
 
@@ -348,6 +348,16 @@ TEST_F(VerbRequestsTest, DoctorTakesAnyPatchOfTheSameVersion) {
   EXPECT_FALSE(Finding(end, "version")["ok"]);
   EXPECT_EQ(Finding(end, "version")["fix"], "install the same version on both sides");
   EXPECT_NE(end.code, ExitCode::kOk);
+}
+
+TEST_F(VerbRequestsTest, DoctorTellsWhatKeepsLongRunsBusy) {
+  server_.Add("jobs/quick", v1::Job::RUNNING);
+  EXPECT_TRUE(Finding(Run({"doctor", "-o", "json"}), "busy").is_null());
+  server_.Add("jobs/long", v1::Job::RUNNING).mutable_progress()->set_busy_with("a-b, λh 2e4");
+  const json busy = Finding(Run({"doctor", "-o", "json"}), "busy");
+  EXPECT_EQ(busy["found"], "jobs/long: a-b, λh 2e4");
+  EXPECT_TRUE(busy["ok"]);
+  EXPECT_THAT(server_.Asked<v1::ListJobsRequest>().back().states(), ElementsAre(v1::Job::RUNNING));
 }
 
 TEST_F(VerbRequestsTest, DoctorFindsAServerThatStartedInTheFuture) {

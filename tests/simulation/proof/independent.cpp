@@ -30,6 +30,12 @@ struct Finding {
   std::string where;
 };
 
+// The largest deformation that a row tells; of one that the end cuts, where it is cut.
+double Deepest(const Cycle& c) {
+  return std::isnan(c.max_deformation) ? std::max(c.start_deformation, c.end_deformation)
+                                       : c.max_deformation;
+}
+
 double WeightOf(double Disagreement::*which) {
   if (which == &Disagreement::time || which == &Disagreement::overlap) return kInstants;
   if (which == &Disagreement::work || which == &Disagreement::approach) return kWorks;
@@ -41,9 +47,9 @@ class Independent {
   Independent(const Scenario& scenario, const Record& run, double tolerance)
       : s_(scenario), run_(run), motion_(scenario, LargestSpeed(), tolerance) {
     for (const Cycle& c : run.cycles) {
-      deepest_ = std::max(deepest_, c.max_deformation);
+      deepest_ = std::max(deepest_, Deepest(c));
       double& deepest = depths_[c.contact];
-      deepest = std::max(deepest, c.max_deformation);
+      deepest = std::max(deepest, Deepest(c));
       Note(c);
     }
     for (const Group& g : run.groups) groups_[{g.contact, g.number}] = &g;
@@ -89,7 +95,7 @@ class Independent {
   }
   // The largest change of its deformation.
   static double Swing(const Cycle& c) {
-    return c.max_deformation - std::min(c.start_deformation, c.end_deformation);
+    return Deepest(c) - std::min(c.start_deformation, c.end_deformation);
   }
 
   void Note(const Cycle& c) {
@@ -113,7 +119,7 @@ class Independent {
     for (const Body& b : s_.bodies) largest = std::max(largest, std::abs(b.velocity));
     for (const double v : run_.outcome.velocities) largest = std::max(largest, std::abs(v));
     for (const Cycle& c : run_.cycles) {
-      const double swing = Frequency(Of(c), c.max_deformation) * Swing(c);
+      const double swing = Frequency(Of(c), Deepest(c)) * Swing(c);
       largest = std::max({largest, c.approach_velocity, swing});
     }
     return largest;
@@ -129,13 +135,12 @@ class Independent {
   // nothing of its swing.
   PlainMotion::Scale ScaleOf(const Cycle& c) const {
     const Contact& contact = Of(c);
-    const double depth =
-        Counts(c) ? c.max_deformation : std::max(c.max_deformation, 0.1 * depths_.at(c.contact));
+    const double depth = Counts(c) ? Deepest(c) : std::max(Deepest(c), 0.1 * depths_.at(c.contact));
     const double least = (Counts(c) ? 1e-6 : 1e-4) * depth;
     const double swing = std::max({Swing(c), least, 1e-9 * deepest_});
     const double force = contact.stiffness * std::pow(depth, contact.exponent);
     return {swing, std::max(c.approach_velocity, Frequency(contact, depth) * swing),
-            std::max(c.work_compression, force * swing)};
+            std::fmax(c.work_compression, force * swing)};
   }
 
   void Apply(const Mark& mark) {
@@ -160,7 +165,7 @@ class Independent {
 
   void Start(const Cycle& c, const PlainMotion::Scale& scale) {
     if (Counts(c)) {
-      const double path = std::max(c.max_deformation, c.approach_velocity * c.start_time);
+      const double path = std::max(Deepest(c), c.approach_velocity * c.start_time);
       Miss(&Disagreement::time,
            std::abs(motion_.Deformation(c.contact) - c.start_deformation) / path, c,
            "deformation at the start");

@@ -16,6 +16,7 @@
 #include "cli/figures/heat_map/contours.h"
 #include "cli/figures/heat_map/heat_map_axes.h"
 #include "cli/input/no_limits.h"
+#include "cli/text/sweep/cell_words.h"
 #include "cli/text/sweep/sweep_grid.h"
 #include "wire/sweep/sweep_codec.h"
 
@@ -42,8 +43,22 @@ SweepGrid RequireGrid(const v1::Sweep& sweep, const SweepCells& cells) {
   return *grid;
 }
 
-// What lies over a cell whose centre is (x, y): hatching, or a cross on white.
-std::string Overlay(const v1::SweepCell& cell, std::size_t x, std::size_t y, bool dark) {
+// A grey cell whose left upper corner is (left, top); with a bar if the end of the run cuts its
+// value, which else no contact has.
+std::string GreyCell(double left, double top, bool cut) {
+  std::string text = fmt::format(
+      "set object rectangle from {},{} to {},{} front fillcolor rgb '{}' fillstyle solid "
+      "noborder\n",
+      left, top, left + 1, top + 1, cut ? "#b0b0b0" : "#e8e8e8");
+  if (!cut) return text;
+  return text +
+         fmt::format("set arrow from {0},{1} to {0},{2} nohead front lc rgb 'black' lw 1.5\n",
+                     left + 0.5, top, top + 1);
+}
+
+// What lies over a cell whose centre is (x, y): hatching, a cross on white, or grey.
+std::string Overlay(const v1::SweepCell& cell, v1::SweepCell::Source source, std::size_t x,
+                    std::size_t y, bool dark) {
   const double left = static_cast<double>(x) - 0.5;
   const double top = static_cast<double>(y) - 0.5;
   if (cell.state() == v1::Job::FAILED) {
@@ -54,6 +69,7 @@ std::string Overlay(const v1::SweepCell& cell, std::size_t x, std::size_t y, boo
         "set arrow from {0},{3} to {2},{1} nohead front lc rgb '#b00020' lw 1.5\n",
         left, top, left + 1, top + 1);
   }
+  if (!SourceWord(source).empty()) return GreyCell(left, top, source == v1::SweepCell::CUT);
   if (cell.convergence() == v1::Job::FULL) return "";
   return fmt::format(
       "set object rectangle from {},{} to {},{} front fillcolor rgb '{}' "
@@ -64,8 +80,8 @@ std::string Overlay(const v1::SweepCell& cell, std::size_t x, std::size_t y, boo
 std::string Overlays(const SweepGrid& grid, const SweepCells& cells, const HeatScale& scale) {
   std::string overlays;
   for (const auto& [index, cell] : cells) {
-    overlays +=
-        Overlay(cell, grid.ColumnOf(cell), grid.RowOf(cell), scale.Height(scale.Shown(cell)) < 0.5);
+    overlays += Overlay(cell, SourceOf(cell, scale.metric()), grid.ColumnOf(cell), grid.RowOf(cell),
+                        scale.Height(scale.Shown(cell)) < 0.5);
   }
   return overlays;
 }

@@ -53,7 +53,9 @@ std::string Legend(const HeatScale& scale) {
   if (scale.unshown() > 0) white.push_back(Count(scale.unshown(), "value <= 0", "values <= 0"));
   if (scale.valueless() > 0)
     white.push_back(Count(scale.valueless(), "without value", "without value"));
-  const std::string legend = "hatched: not converged; crossed: failed";
+  std::string legend = "hatched: not converged; crossed: failed";
+  if (scale.cut() > 0) legend += "; grey with a bar: CUT by the end";
+  if (scale.untouched() > 0) legend += "; light grey: no contact";
   return white.empty() ? legend : fmt::format("{}; white: {}", legend, fmt::join(white, ", "));
 }
 

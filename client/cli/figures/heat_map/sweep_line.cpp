@@ -34,6 +34,8 @@ std::string Note(const SweepCells& cells, const HeatScale& scale, bool missed) {
   std::string note = missed ? "× not converged" : "";
   const auto add = [&note](const std::string& more) { note += note.empty() ? more : "; " + more; };
   if (failed > 0) add(Count(failed, "cell failed", "cells failed"));
+  if (scale.cut() > 0) add(Count(scale.cut(), "cell", "cells") + " CUT by the end");
+  if (scale.untouched() > 0) add(Count(scale.untouched(), "cell", "cells") + " without contact");
   if (scale.unshown() > 0) {
     add(Count(scale.unshown(), "value <= 0 not shown", "values <= 0 not shown"));
   }

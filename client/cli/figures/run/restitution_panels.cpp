@@ -50,7 +50,7 @@ std::vector<Panel> RestitutionPanels(const RunCurves& run) {
     Figure::Curve error{name, colour, Mark::kEnd, {}, {}, false};
     run.EachCycle(name, [&](const v1::Cycle& cycle, int place) {
       const auto group = groups.find({name, cycle.group()});
-      const double out = group == groups.end() ? cycle.restitution_out() : group->second;
+      const double out = group == groups.end() ? RestitutionOf(cycle) : group->second;
       const double miss = RestitutionError(out, cycle.restitution_in());
       Add(place, cycle.restitution_in(), &asked);
       Add(place, out, &had);

@@ -13,6 +13,7 @@
 
 #include "cli/text/render_groups.h"
 #include "cli/text/render_json.h"
+#include "cli/text/render_ledger.h"
 
 namespace contact::cli {
 namespace {
@@ -75,7 +76,7 @@ class Results {
     Add(job, name + "status", "", v1::Cycle::Status_Name(cycle.status()));
     Add(job, name + "end", "", v1::Cycle::End_Name(cycle.end()));
     Add(job, name + "μ", "N·s/m^(n+1)", cycle.mu());
-    Add(job, name + "ε out", "1", cycle.restitution_out());
+    Add(job, name + "ε out", "1", RestitutionOf(cycle));
     Add(job, name + "peak force", "N", cycle.peak_force_n());
     Add(job, name + "δ max", "m", cycle.delta_max_m());
     Add(job, name + "t end", "s", cycle.end_time_s());

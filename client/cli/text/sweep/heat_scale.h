@@ -14,8 +14,8 @@ class HeatScale {
   /// logarithmic and shows no value <= 0.
   HeatScale(const SweepCells& cells, int metric, bool log);
 
-  /// The value that the map shows for a cell; NaN if the cell failed, has no finite value, or has
-  /// none that the scale shows.
+  /// The value that the map shows for a cell; NaN if the cell failed, has no finite value that is
+  /// known, see SourceOf, or has none that the scale shows.
   double Shown(const v1::SweepCell& cell) const;
 
   /// The place of a shown value on the scale, from 0 for the lowest to 1 for the highest; 0 if all
@@ -34,12 +34,18 @@ class HeatScale {
   bool whole() const { return whole_; }
   /// The number of finite values that a logarithmic scale cannot show.
   int unshown() const { return unshown_; }
-  /// The number of cells that did not fail and have no finite value.
+  /// The number of cells that did not fail and have no finite value, without those below.
   int valueless() const { return valueless_; }
+  /// The number of cells whose value comes from a cycle that the end of the run cuts.
+  int cut() const { return cut_; }
+  /// The number of cells without the contact whose value it is.
+  int untouched() const { return untouched_; }
 
  private:
-  /// The value of a cell whatever the scale; NaN if the cell failed or has none.
+  /// The value of a cell whatever the scale; NaN if the cell failed or has none that is known.
   double Value(const v1::SweepCell& cell) const;
+  /// Counts a cell that did not fail and has no value that is shown.
+  void CountHole(const v1::SweepCell& cell);
 
   int metric_;
   bool log_;
@@ -48,6 +54,8 @@ class HeatScale {
   bool whole_ = true;
   int unshown_ = 0;
   int valueless_ = 0;
+  int cut_ = 0;
+  int untouched_ = 0;
 };
 
 }  // namespace contact::cli

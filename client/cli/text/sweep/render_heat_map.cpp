@@ -13,6 +13,7 @@
 #include "base/spelling.h"
 #include "cli/base/number.h"
 #include "cli/text/sweep/axis_text.h"
+#include "cli/text/sweep/cell_words.h"
 #include "cli/text/sweep/heat_scale.h"
 #include "cli/text/sweep/sweep_grid.h"
 #include "wire/sweep/axis_words.h"
@@ -27,6 +28,9 @@ std::string Glyph(const v1::SweepCell* cell, const HeatScale& scale, const Style
   constexpr std::array<std::string_view, 4> kShades{"░", "▒", "▓", "█"};
   if (cell == nullptr) return "··";
   if (cell->state() == v1::Job::FAILED) return Paint("××", Tone::kBad, style);
+  const v1::SweepCell::Source source = SourceOf(*cell, scale.metric());
+  if (source == v1::SweepCell::CUT) return Paint("][", Tone::kFaint, style);
+  if (source == v1::SweepCell::NO_CONTACT) return Paint("()", Tone::kFaint, style);
   const double value = scale.Shown(*cell);
   if (std::isnan(value)) return "--";
   const std::string_view shade =
@@ -47,6 +51,8 @@ std::string Legend(const HeatScale& scale) {
   std::string legend =
       fmt::format("░ {} … █ {}{};  ! not converged, ×× failed, -- no value", Digits(scale.low(), 5),
                   Digits(scale.high(), 5), scale.log() ? ", log scale" : "");
+  if (scale.cut() > 0) legend += ", ][ CUT by the end";
+  if (scale.untouched() > 0) legend += ", () no contact";
   if (scale.unshown() == 0) return legend;
   return legend + fmt::format(" ({})", Count(scale.unshown(), "is <= 0", "are <= 0"));
 }

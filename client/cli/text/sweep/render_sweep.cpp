@@ -14,6 +14,7 @@
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
 #include "cli/text/sweep/axis_text.h"
+#include "cli/text/sweep/cell_words.h"
 #include "wire/sweep/axis_words.h"
 
 namespace contact::cli {
@@ -33,11 +34,11 @@ std::string Title(const v1::Job& job, const Style& style) {
   return Wrap(line + "\n", style);
 }
 
-// The last column of a cell: its convergence, or why it failed.
+// The last column of a cell: its convergence and what the end of the run cuts, or why it failed.
 Table::Cell Verdict(const v1::SweepCell& cell) {
   if (cell.state() == v1::Job::FAILED) return {cell.state_reason(), Tone::kBad};
   const bool full = cell.convergence() == v1::Job::FULL;
-  return {v1::Job::Convergence_Name(cell.convergence()), full ? Tone::kGood : Tone::kWarning};
+  return {VerdictText(cell), full ? Tone::kGood : Tone::kWarning};
 }
 
 // Adds the values of the axes, see AxisText.
@@ -67,9 +68,7 @@ std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style
   for (const auto& [index, cell] : cells) {
     std::vector<Table::Cell> row{fmt::to_string(index)};
     AddValues(job.sweep(), cell, 6, &row);
-    for (int i = 0; i < job.sweep().metrics_size(); ++i) {
-      row.emplace_back(i < cell.metrics_size() ? Digits(cell.metrics(i), 8) : "-");
-    }
+    for (int i = 0; i < job.sweep().metrics_size(); ++i) row.emplace_back(MetricText(cell, i, 8));
     row.push_back(Verdict(cell));
     table.Add(std::move(row));
   }
@@ -83,12 +82,15 @@ std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells,
   for (const auto& [index, cell] : cells) {
     std::vector<Table::Cell> row{fmt::to_string(index)};
     AddValues(sweep, cell, 0, &row);
-    for (const double metric : cell.metrics()) row.emplace_back(fmt::to_string(metric));
-    for (int i = cell.metrics_size(); i < sweep.metrics_size(); ++i) row.emplace_back("nan");
+    for (int i = 0; i < sweep.metrics_size(); ++i) {
+      const bool known = i < cell.metrics_size() && SourceWord(SourceOf(cell, i)).empty();
+      row.emplace_back(known ? fmt::to_string(cell.metrics(i)) : "nan");
+    }
     const bool failed = cell.state() == v1::Job::FAILED;
     row.emplace_back(v1::Job::State_Name(cell.state()));
     row.emplace_back(failed ? "" : v1::Job::Convergence_Name(cell.convergence()));
-    row.emplace_back(failed ? cell.state_reason() + ": " + cell.message() : "");
+    row.emplace_back(failed ? cell.state_reason() + ": " + cell.message()
+                            : UnknownMetrics(sweep, cell));
     table.Add(std::move(row));
   }
   return table.Csv(columns);

@@ -13,8 +13,9 @@ namespace contact::cli {
 /// A sweep for people: its state, then a line a cell; of many cells the middle is left out.
 std::string RenderSweep(const v1::Job& job, const SweepCells& cells, const Style& style);
 
-/// All cells as CSV: cell, axes, metrics, state, convergence, message. `columns` selects columns
-/// by name, see Table::Csv; empty: all.
+/// All cells as CSV: cell, axes, metrics, state, convergence, message. A metric that is no known
+/// number is `nan`; the message says why, see UnknownMetrics. `columns` selects columns by name,
+/// see Table::Csv; empty: all.
 std::string SweepCsv(const v1::Sweep& sweep, const SweepCells& cells,
                      const std::vector<std::string>& columns = {});
 

@@ -15,6 +15,7 @@
 #include "cli/input/sweep_rules.h"
 #include "cli/text/render_job.h"
 #include "cli/text/sweep/axis_text.h"
+#include "cli/text/sweep/cell_words.h"
 #include "wire/sweep/axis_words.h"
 #include "wire/sweep/sweep_fields.h"
 
@@ -131,11 +132,11 @@ const v1::SweepCell& FindCell(const v1::Sweep& sweep, const SweepCells& cells,
 std::string RenderCell(const v1::Job& job, const v1::SweepCell& cell, const Style& style) {
   const v1::Sweep& sweep = job.sweep();
   const bool failed = cell.state() == v1::Job::FAILED;
-  std::string text = fmt::format(
-      "{}  {}{}\n",
-      Paint(fmt::format("{} cell {}", job.name(), cell.index()), Tone::kStrong, style),
-      Paint(v1::Job::State_Name(cell.state()), ToneOf(cell.state()), style),
-      failed ? "" : fmt::format("  convergence {}", v1::Job::Convergence_Name(cell.convergence())));
+  std::string text =
+      fmt::format("{}  {}{}\n",
+                  Paint(fmt::format("{} cell {}", job.name(), cell.index()), Tone::kStrong, style),
+                  Paint(v1::Job::State_Name(cell.state()), ToneOf(cell.state()), style),
+                  failed ? "" : fmt::format("  convergence {}", VerdictText(cell)));
   if (failed) {
     text += Wrap(fmt::format("{}: {}\n", cell.state_reason(), cell.message()), style);
   }
@@ -145,7 +146,7 @@ std::string RenderCell(const v1::Job& job, const v1::SweepCell& cell, const Styl
   }
   Table metrics({{"METRIC"}, {"VALUE", true}});
   for (int i = 0; i < sweep.metrics_size(); ++i) {
-    metrics.Add({sweep.metrics(i), i < cell.metrics_size() ? Digits(cell.metrics(i), 10) : "-"});
+    metrics.Add({sweep.metrics(i), MetricText(cell, i, 10)});
   }
   return text + "\n" + values.Text(style) + "\n" + metrics.Text(style);
 }

@@ -4,7 +4,7 @@
 import type {SweepCell} from '../api/generated/contact/v1/event_pb';
 import {interpolate} from './panel';
 import {short} from './numbers';
-import {inkOn, metricOf, outcomeOf, viridis} from './sweep';
+import {inkOn, metricOf, outcomeOf, unknownOf, viridis} from './sweep';
 
 const LEVELS = 64;   // Colours of the scale.
 
@@ -31,8 +31,13 @@ export interface MapShapes {
   /** A path for each colour. */
   fills: [string, string][];
   hatched: string;
+  /** The bars of the cells that the end of the run cuts. */
+  cut: string;
   words: Word[];
 }
+
+/** The colours of cells without a known number. */
+export const GREYS = {'CUT': '#b0b0b0', 'no contact': '#e8e8e8'};
 
 /** Paths by colour. */
 export function byColour(parts: Iterable<[string, string]>): [string, string][] {
@@ -71,15 +76,20 @@ export function mapShapes(place: MapPlace, cellOf: (i: number, j: number) => Swe
   const fills: [string, string][] = [];
   const words: Word[] = [];
   let hatched = '';
+  let cut = '';
   for (let j = 0; j < rows; ++j) {
     for (let i = 0; i < columns; ++i) {
       const cell = cellOf(i, j);
       const outcome = outcomeOf(cell);
       if (outcome === 'waiting') continue;
+      const why = outcome === 'failed' ? '' : unknownOf(cell, metric);
       const value = metricOf(cell, metric);
       const at = part(value);
       const [x, y] = cornerOf(place, i, j);
       const path = `M${x} ${y}h${round(width)}v${round(height)}h${-round(width)}z`;
+      if (why) fills.push([GREYS[why], path]);
+      if (why === 'CUT') cut += `M${round(x + width / 2)} ${y}v${round(height)}`;
+      if (why) continue;
       if (Number.isFinite(at)) fills.push([levelOf(at), path]);
       if (outcome === 'not converged') hatched += path;
       if (!roomy && outcome !== 'failed') continue;
@@ -87,7 +97,7 @@ export function mapShapes(place: MapPlace, cellOf: (i: number, j: number) => Swe
         text: outcome === 'failed' ? '×' : Number.isFinite(value) ? short(value, 3) : '–'});
     }
   }
-  return {fills: byColour(fills), hatched, words};
+  return {fills: byColour(fills), hatched, cut, words};
 }
 
 /** The line that passes closest to a point: its place in the list. `lines` have their heights at `xs`. */

@@ -5,6 +5,7 @@ import {toJson} from '@bufbuild/protobuf';
 import {Cycle_End, Cycle_Status, Job_State, type Job} from '../api/generated/contact/v1/job_pb';
 import {ScenarioSchema} from '../api/generated/contact/v1/scenario_pb';
 import {flatten} from './field_path';
+import {restitutionOf} from './status';
 
 export type Value = number | string | undefined;
 
@@ -48,7 +49,7 @@ function resultsOf(job: Job): Entry[] {
     const name = `${c.contact} #${c.number}`;
     return [
       [`${name} status`, '', Cycle_Status[c.status]], [`${name} end`, '', Cycle_End[c.end]],
-      [`${name} μ`, 'N·s/m^(n+1)', c.mu], [`${name} ε out`, '1', c.restitutionOut],
+      [`${name} μ`, 'N·s/m^(n+1)', c.mu], [`${name} ε out`, '1', restitutionOf(c)],
       [`${name} peak force`, 'N', c.peakForceN], [`${name} δ max`, 'm', c.deltaMaxM],
       [`${name} t end`, 's', c.endTimeS],
     ];

@@ -3,7 +3,7 @@
 import type {SweepCell} from '../api/generated/contact/v1/event_pb';
 import {extent} from './panel';
 import {exact} from './numbers';
-import {cellIndex, metricOf, outcomeOf} from './sweep';
+import {cellIndex, metricOf, metricText, outcomeOf, unknownOf} from './sweep';
 
 /** An axis of a map. */
 export interface Axis {
@@ -33,7 +33,7 @@ export function scaleOf({cells, metric, log}: MapData): {range: [number, number]
 /** What a cell is, in words. */
 export function wordsOf({x, y, cells, indexAt, metric, metricName}: MapData, [i, j]: [number, number]): string {
   const cell = cells.get(indexAt(i, j));
-  return `${x.name} = ${exact(x.values[i]!)}, ${y.name} = ${exact(y.values[j]!)}: ${metricName} ${cell ? exact(metricOf(cell, metric)) : ''} ${outcomeOf(cell)}`;
+  return `${x.name} = ${exact(x.values[i]!)}, ${y.name} = ${exact(y.values[j]!)}: ${metricName} ${metricText(cell, metric)} ${outcomeOf(cell)}`;
 }
 
 /** The cells of the map as CSV. */
@@ -41,9 +41,9 @@ export function csvOf(props: MapData): string {
   const {x, y, cells, indexAt, metric, metricName} = props;
   const rows = y.values.flatMap((v, j) => x.values.map((u, i) => {
     const cell = cells.get(indexAt(i, j));
-    return [exact(u), exact(v), cell ? String(metricOf(cell, metric)) : '', outcomeOf(cell)].join(',');
+    return [exact(u), exact(v), cell ? String(metricOf(cell, metric)) : '', outcomeOf(cell), unknownOf(cell, metric)].join(',');
   }));
-  return `${[[x.name, y.name, metricName, 'outcome'].join(','), ...rows].join('\n')}\n`;
+  return `${[[x.name, y.name, metricName, 'outcome', 'unknown'].join(','), ...rows].join('\n')}\n`;
 }
 
 /** The place of a cell; undefined if it is not in the map. */

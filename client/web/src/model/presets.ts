@@ -32,9 +32,9 @@ function peakLabels({cycles, series}: RunView): Label[] {
   const time = values(series, 'time');
   const apart = 0.02 * ((time.at(-1) ?? 0) - (time[0] ?? 0));
   const chosen: Cycle[] = [];
-  for (const cycle of [...cycles].sort((a, b) => b.peakForceN - a.peakForceN)) {
+  const seen = cycles.filter(({turnTimeS}) => turnTimeS >= time[0]! && turnTimeS <= time.at(-1)!);   // NaN if cut before.
+  for (const cycle of seen.sort((a, b) => b.peakForceN - a.peakForceN)) {
     if (chosen.length === MOST_LABELS) break;
-    if (!(cycle.turnTimeS >= time[0]! && cycle.turnTimeS <= time.at(-1)!)) continue;
     if (chosen.every((other) => Math.abs(other.turnTimeS - cycle.turnTimeS) >= apart)) chosen.push(cycle);
   }
   return chosen.map((cycle) => ({

@@ -1,8 +1,9 @@
 // Axes, cells and values of a sweep.
 
 import {Job_Convergence, Job_State} from '../api/generated/contact/v1/job_pb';
-import type {SweepCell} from '../api/generated/contact/v1/event_pb';
+import {SweepCell_Source, type SweepCell} from '../api/generated/contact/v1/event_pb';
 import {Sweep_Combination, type Sweep, type Sweep_Axis} from '../api/generated/contact/v1/scenario_pb';
+import {exact} from './numbers';
 
 /** What became of a cell. */
 export type Outcome = 'waiting' | 'converged' | 'not converged' | 'failed';
@@ -40,9 +41,39 @@ export function cellIndex(sizes: number[], places: number[]): number {
   return sizes.reduce((index, size, i) => index * size + places[i]!, 0);
 }
 
-/** What the map and the line show of a cell; NaN if it has no such number. */
+/** Why a metric is no known number; empty if it is one, or if the server does not tell. */
+export type Unknown = '' | 'CUT' | 'no contact';
+
+/** Why a metric of a cell is no known number: the end of the run cuts its cycle, or nothing was touched. */
+export function unknownOf(cell: SweepCell | undefined, metric: number): Unknown {
+  const source = cell?.sources[metric];
+  if (source === SweepCell_Source.CUT) return 'CUT';
+  return source === SweepCell_Source.NO_CONTACT ? 'no contact' : '';
+}
+
+/** What the map and the line show of a cell; NaN if it has no such number that is known. */
 export function metricOf(cell: SweepCell | undefined, metric: number): number {
-  return cell?.metrics[metric] ?? NaN;
+  return unknownOf(cell, metric) ? NaN : cell?.metrics[metric] ?? NaN;
+}
+
+/** The same for people. */
+export function metricText(cell: SweepCell | undefined, metric: number): string {
+  return unknownOf(cell, metric) || (cell ? exact(metricOf(cell, metric)) : '');
+}
+
+/** The metrics of a cell that are not known: `cycles[0].mu: CUT`. */
+export function unknownsOf(cell: SweepCell, metrics: string[]): string {
+  return metrics.map((name, i) => [name, unknownOf(cell, i)] as const).filter(([, why]) => why).map((pair) => pair.join(': ')).join('; ');
+}
+
+/** How many cells have no known number of a metric, by the reason. */
+export function countUnknown(cells: Iterable<SweepCell>, metric: number): Record<Exclude<Unknown, ''>, number> {
+  const counts = {'CUT': 0, 'no contact': 0};
+  for (const cell of cells) {
+    const why = outcomeOf(cell) === 'failed' ? '' : unknownOf(cell, metric);
+    if (why) ++counts[why];
+  }
+  return counts;
 }
 
 const VIRIDIS = ['440154', '482878', '3e4989', '31688e', '26828e', '1f9e89', '35b779', '6ece58', 'b5de2b', 'fde725'];

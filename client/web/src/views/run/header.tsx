@@ -5,6 +5,7 @@ import {useState} from 'preact/hooks';
 import {server} from '../../api/client';
 import {explain} from '../../api/errors';
 import {isFinal} from '../../api/watch';
+import type {RunSummary} from '../../api/generated/contact/v1/job_pb';
 import type {RunState} from '../../model/runState';
 import {count} from '../../model/numbers';
 import {go} from '../../ui/route';
@@ -34,6 +35,10 @@ function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (wh
   );
 }
 
+function cutOf({cyclesCut}: RunSummary): string {
+  return cyclesCut > 0 ? ` (${count(cyclesCut)} cut by the end)` : '';
+}
+
 export function Header({id, run}: {id: string; run: RunState}) {
   const [error, setError] = useState('');
   const {job, progress} = run;
@@ -51,8 +56,9 @@ export function Header({id, run}: {id: string; run: RunState}) {
           {progress && progress.cells === 0 && <span class="soft">{count(progress.steps)} steps, {count(progress.cycles)} cycles, {count(progress.iterations)} corrections</span>}
         </p>
       )}
+      {!ended && progress?.busyWith && <p class="soft">busy: {progress.busyWith}</p>}
       {run.message && <p class="notice" role="status">{run.reason}: {run.message}</p>}
-      {job && <p class="facts soft">jobs/{id} · {elapsed(job)}{job.summary ? ` · ${count(job.summary.cycles)} cycles, ${count(job.summary.iterations)} corrections of μ, ${count(job.summary.steps)} steps` : ''}</p>}
+      {job && <p class="facts soft">jobs/{id} · {elapsed(job)}{job.summary ? ` · ${count(job.summary.cycles)} cycles${cutOf(job.summary)}, ${count(job.summary.iterations)} corrections of μ, ${count(job.summary.steps)} steps` : ''}</p>}
       {(job?.warnings ?? []).map((text) => <p key={text} class="warning"><span aria-hidden="true">⚠</span> {text}</p>)}
     </>
   );

@@ -7,6 +7,7 @@ import {
 } from '../../api/generated/contact/v1/job_pb';
 import type {RunState} from '../../model/runState';
 import {count, exact} from '../../model/numbers';
+import {isCut, lookOfStatus, reachedOf, restitutionOf} from '../../model/status';
 import {setQuery} from '../../ui/route';
 import {leafOf, Leaves} from './leaves';
 import {setWindow} from './window';
@@ -23,7 +24,7 @@ const CYCLES: Column<Cycle>[] = [
   {name: 'group', of: (c) => exact(c.group)},
   {name: 'n', of: (c) => exact(c.iterations)},
   {name: 'ε in', of: (c) => exact(c.restitutionIn)},
-  {name: 'ε out', of: (c) => exact(c.restitutionOut)},
+  {name: 'ε out', of: (c) => exact(restitutionOf(c))},
   {name: 'μ [N·s/m^(n+1)]', of: (c) => exact(c.mu)},
   {name: 'μ/k [s/m]', of: (c) => exact(c.muOverKSPerM)},
   {name: 'α', of: (c) => exact(c.alpha)},
@@ -51,14 +52,12 @@ const GROUPS: Column<Group>[] = [
   {name: 't start [s]', of: (g) => exact(g.startTimeS)},
   {name: 't end [s]', of: (g) => exact(g.endTimeS)},
   {name: 'residual', of: (g) => exact(g.residual)},
+  {name: 'reached', of: reachedOf, words: true},
 ];
 
-const GOOD = [Cycle_Status.CONVERGED, Cycle_Status.GIVEN_LAW, Cycle_Status.SETTLED];
-const BAD = [Cycle_Status.NOT_CONVERGED, Cycle_Status.INFEASIBLE];
-
 function Status({status}: {status: Cycle_Status}) {
-  const tone = GOOD.includes(status) ? 'good' : BAD.includes(status) ? 'bad' : 'warn';
-  return <span class={`badge ${tone}`}><span aria-hidden="true">{{good: '✓', bad: '✗', warn: '!'}[tone]}</span> {Cycle_Status[status]}</span>;
+  const {sign, tone, meaning} = lookOfStatus(status);
+  return <span class={`badge ${tone}`} title={meaning}><span aria-hidden="true">{sign}</span> {Cycle_Status[status]}</span>;
 }
 
 type Entry = (Cycle | Group) & {contact: string; number: number; status: Cycle_Status; startTimeS: number; endTimeS: number};
@@ -71,7 +70,7 @@ function zoom({startTimeS, endTimeS}: Entry): void {
 /** A row; it is made once, for entries do not change. */
 function Line<T extends Entry>({row, columns}: {row: T; columns: Column<T>[]}) {
   return useMemo(() => (
-    <tr>
+    <tr class={isCut(row) ? 'cut' : ''}>
       <td><button type="button" class="quiet" title="show this stretch of time" onClick={() => zoom(row)}>{row.contact}</button></td>
       <td class="number">{row.number}</td><td><Status status={row.status} /></td>
       {columns.map((column) => <td key={column.name} class={column.words ? '' : 'number'}>{column.of(row)}</td>)}

@@ -2,11 +2,11 @@
 
 import {useMemo, useRef, useState} from 'preact/hooks';
 
-import {cellAt, cornerOf, mapShapes, type MapPlace, type MapShapes} from '../../model/cell_shapes';
+import {cellAt, cornerOf, GREYS, mapShapes, type MapPlace, type MapShapes} from '../../model/cell_shapes';
 import {contourShapes} from '../../model/contour_shapes';
 import {csvOf, placeOfCell, scaleOf, wordsOf, type Axis, type MapData} from '../../model/map_data';
 import {exact, short} from '../../model/numbers';
-import {viridis} from '../../model/sweep';
+import {countUnknown, viridis} from '../../model/sweep';
 import {ExportButtons} from '../../plots/exports';
 import {drawingOf, pointIn} from '../../plots/drawing';
 import {useWidth} from '../../ui/use_width';
@@ -49,13 +49,14 @@ function keysOf(props: Props) {
   };
 }
 
-function Cells({shapes: {fills, hatched, words}, large}: {shapes: MapShapes; large: boolean}) {
+function Cells({shapes: {fills, hatched, cut, words}, large}: {shapes: MapShapes; large: boolean}) {
   return (
     <>
       <defs><pattern id="hatch" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
         <rect width="7" height="7" fill="none" /><line x1="0" y1="0" x2="0" y2="7" stroke="#fff" stroke-width="2" /><line x1="2" y1="0" x2="2" y2="7" stroke="#000" stroke-width="1.4" /></pattern></defs>
       {fills.map(([colour, path]) => <path key={colour} d={path} fill={colour} class={large ? 'cell' : ''} shape-rendering="crispEdges" />)}
       {hatched && <path d={hatched} fill="url(#hatch)" />}
+      {cut && <path d={cut} stroke="#000" stroke-width="1.5" />}
       {words.map(({x, y, text, ink, rim}) => <text key={`${x},${y}`} x={x} y={y} text-anchor="middle" fill={ink}
         class={`${ink ? '' : 'ink'} ${rim ? `halo ${ink === '#000000' ? 'bright' : 'dark'}` : ''}`}>{text}</text>)}
     </>
@@ -75,6 +76,18 @@ function Ticks({x, y, place: {left, width, height, columns, rows}}: {x: Axis; y:
   );
 }
 
+/** The keys of cells without a known number, if there are any. */
+function UnknownKeys(counts: ReturnType<typeof countUnknown>) {
+  const swatch = (colour: string, bar: boolean) => (
+    <svg width="14" height="12" aria-hidden="true"><rect width="14" height="12" fill={colour} />{bar && <path d="M7 0v12" stroke="#000" stroke-width="1.5" />}</svg>);
+  return (
+    <>
+      {counts.CUT > 0 && <> · {swatch(GREYS.CUT, true)} CUT by the end</>}
+      {counts['no contact'] > 0 && <> · {swatch(GREYS['no contact'], false)} no contact</>}
+    </>
+  );
+}
+
 export function HeatMap(props: Props) {
   const {x, y, cells, indexAt, metric, log, chosen, choose, open, metricName} = props;
   const drawn = useRef<SVGSVGElement>(null);
@@ -83,6 +96,7 @@ export function HeatMap(props: Props) {
   const place = placeOf(props, width);
   const view = [props.version, metric, log, props.contours, x.name, y.name, indexAt(0, 0), width];
   const {range, part} = useMemo(() => scaleOf(props), view);
+  const unknown = useMemo(() => countUnknown(cells.values(), metric), view);
   const lines = useMemo(() => (props.contours ? contourShapes(props, place, range) : undefined), view);
   const shapes = useMemo(() => mapShapes(place, (i, j) => cells.get(indexAt(i, j)), metric, part, !lines?.contours.length), view);
   const ticks = useMemo(() => <Ticks x={x} y={y} place={place} />, [x.name, y.name, place.columns, place.rows, width]);
@@ -113,7 +127,7 @@ export function HeatMap(props: Props) {
       <p class="pointed soft mono">{shown ? wordsOf(props, shown) : '\u00a0'}</p>
       <p class="scale soft"><span class="mono">{short(range[0], 6)}</span>
         <svg width="180" height="12" aria-hidden="true">{Array.from({length: 60}, (_, i) => <rect key={i} x={i * 3} y="0" width="3" height="12" fill={viridis(i / 59)} />)}</svg>
-        <span class="mono">{short(range[1], 6)}</span> hatched: not converged · ×: failed · –: no value</p>
+        <span class="mono">{short(range[1], 6)}</span> hatched: not converged · ×: failed · –: no value<UnknownKeys {...unknown} /></p>
     </figure>
   );
 }

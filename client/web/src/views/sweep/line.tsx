@@ -6,7 +6,7 @@ import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
 import type {Sweep} from '../../api/generated/contact/v1/scenario_pb';
 import {exact} from '../../model/numbers';
 import type {Curve, Panel} from '../../model/panel';
-import {axisName, metricOf, outcomeOf} from '../../model/sweep';
+import {axisName, countUnknown, metricOf, metricText, outcomeOf} from '../../model/sweep';
 import {Plot} from '../../plots/plot';
 import {keysOver, type Choosing} from './choosing';
 
@@ -27,16 +27,17 @@ function linePanel({sweep, metric, chosen}: Props, points: SweepCell[]): Panel {
   const curve = (label: string, colour: number, mark: Curve['mark'], of: SweepCell[]): Curve => ({
     label, colour, mark, keyed: mark === 'linePoints', x: of.map((c) => c.values[0]!), y: of.map((c) => metricOf(c, metric))});
   const missed = points.filter((c) => outcomeOf(c) === 'not converged');
+  const unknown = countUnknown(points, metric);
   return {
     id: 'line', title: name, xLabel: axisName(axis), yLabel: name, overTime: true, logX: !!axis.log,
     curves: [curve(name, 0, 'linePoints', points), curve(`${name} ends`, 1, 'end', missed),
       curve('chosen', 1, 'start', points.filter(({index}) => index === chosen))],
-    note: `o chosen${missed.length > 0 ? '; ×: not converged' : ''}`,
+    note: `o chosen${missed.length > 0 ? '; ×: not converged' : ''}${Object.entries(unknown).map(([why, n]) => (n > 0 ? `; ${why}: ${n} of ${points.length} cells` : '')).join('')}`,
   };
 }
 
 function wordsOf({sweep, metric}: Props, cell: SweepCell): string {
-  return `${axisName(sweep.axes[0]!)} = ${exact(cell.values[0])}: ${sweep.metrics[metric]} ${exact(metricOf(cell, metric))} ${outcomeOf(cell)}`;
+  return `${axisName(sweep.axes[0]!)} = ${exact(cell.values[0])}: ${sweep.metrics[metric]} ${metricText(cell, metric)} ${outcomeOf(cell)}`;
 }
 
 export function Line(props: Props) {

@@ -6,7 +6,7 @@ import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
 import {byColour, levelOf, nearestLine} from '../../model/cell_shapes';
 import {extent} from '../../model/panel';
 import {short} from '../../model/numbers';
-import {outcomeOf} from '../../model/sweep';
+import {countUnknown, metricOf, outcomeOf} from '../../model/sweep';
 import {drawingOf, pointIn} from '../../plots/drawing';
 import {ExportButtons} from '../../plots/exports';
 import {useTheme} from '../../ui/theme';
@@ -39,7 +39,7 @@ interface Lines {
 }
 
 const anchor = (i: number, n: number) => (i === 0 ? 'start' : i === n - 1 ? 'end' : 'middle');
-const valuesOf = (cell: SweepCell) => [...cell.values, ...cell.metrics];
+const valuesOf = (cell: SweepCell) => [...cell.values, ...cell.metrics.map((_, i) => metricOf(cell, i))];
 const round = (value: number) => Math.round(value * 10) / 10;
 
 function linesOf(names: string[], cells: SweepCell[], width: number): Lines {
@@ -82,8 +82,9 @@ export function Parallel({names, axes, cells, metric, choose, open, chosen, csv,
   const lines = useMemo(() => linesOf(names, cells, width), [cells, names.join(), width]);
   const [low, high] = lines.ranges[axes + metric] ?? [0, 1];
   const colour = (cell: SweepCell) =>
-    levelOf((dark ? 0.35 : 0) + (dark ? 0.65 : 0.6) * (low === high ? 0.5 : ((cell.metrics[metric] ?? NaN) - low) / (high - low) || 0));
+    levelOf((dark ? 0.35 : 0) + (dark ? 0.65 : 0.6) * (low === high ? 0.5 : (metricOf(cell, metric) - low) / (high - low) || 0));
   const paths = useMemo(() => [true, false].map((converged) => pathsOf(lines, cells, colour, converged)), [lines, metric, dark]);
+  const unknown = useMemo(() => names.slice(axes).map((_, i) => Object.values(countUnknown(cells, i)).some(Boolean)), [cells, names.join()]);
   const place = cells.findIndex(({index}) => index === chosen);
   const click = (event: MouseEvent) => {
     const near = cells[nearestLine(lines.xs, lines.heights, ...pointIn(drawn.current!, event))];
@@ -102,7 +103,7 @@ export function Parallel({names, axes, cells, metric, choose, open, chosen, csv,
           <Axes names={names} width={width} {...lines} />
         </svg>
       </div>
-      <p class="note">dashed: not converged or failed</p>
+      <p class="note">dashed: not converged or failed{unknown.some(Boolean) && '; broken: CUT by the end, or no contact'}</p>
     </figure>
   );
 }

@@ -8,7 +8,7 @@ import type {Sweep as SweepSpec} from '../../api/generated/contact/v1/scenario_p
 import {sliceIndex} from '../../model/map_data';
 import type {RunState} from '../../model/runState';
 import {count, exact} from '../../model/numbers';
-import {axisName, axisValues, isGrid, outcomeOf} from '../../model/sweep';
+import {axisName, axisValues, isGrid, metricOf, outcomeOf, unknownsOf} from '../../model/sweep';
 import {save} from '../../ui/save';
 import {setQuery} from '../../ui/route';
 import {CellDetails, runCell} from './cell';
@@ -23,8 +23,8 @@ interface Props {
 }
 
 function csvOf(sweep: SweepSpec, cells: SweepCell[]): string {
-  const head = ['cell', ...sweep.axes.map(axisName), ...sweep.metrics, 'outcome'];
-  const rows = cells.map((c) => [c.index, ...c.values.map(exact), ...c.metrics.map(String), outcomeOf(c)]);
+  const head = ['cell', ...sweep.axes.map(axisName), ...sweep.metrics, 'outcome', 'unknown'];
+  const rows = cells.map((c) => [c.index, ...c.values.map(exact), ...c.metrics.map((_, i) => metricOf(c, i)), outcomeOf(c), unknownsOf(c, sweep.metrics)]);
   return `${[head, ...rows].map((row) => row.join(',')).join('\n')}\n`;
 }
 

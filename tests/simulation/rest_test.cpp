@@ -1,0 +1,125 @@
+// What contacts of machines do: touch at one instant, rest, are disturbed, let go, are cut.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "testing/cases.h"
+
+namespace contact {
+namespace {
+
+using testing::Ball;
+using testing::Record;
+using testing::RunAndRecord;
+
+// A ball of 1 kg that is put on a floor under −10 N, and gets a step of `force` at 0.5 s.
+Scenario Placed(double restitution, double force) {
+  Scenario s;
+  s.bodies = {Ball(0.05, 0, 1)};
+  s.contacts = {{.name = "floor", .right = 0, .stiffness = 1e7, .restitution = restitution}};
+  s.loads = {{.body = 0, .constant = -10}, {.body = 0, .begin = 0.5, .constant = force}};
+  s.end_time = 1;
+  return s;
+}
+
+const Cycle* First(const Record& r, Cycle::Status status) {
+  const auto found = std::ranges::find(r.cycles, status, &Cycle::status);
+  return found == r.cycles.end() ? nullptr : &*found;
+}
+
+TEST(Ties, TwoTouchesAtOneInstantAreTwoCollisions) {
+  Scenario s;
+  s.bodies = {Ball(0, 1), Ball(0.1001, 0), Ball(0.2002, -1)};
+  for (int i = 0; i < 2; ++i) {
+    s.contacts.push_back({.name = std::to_string(i),
+                          .left = i,
+                          .right = i + 1,
+                          .stiffness = 1e7,
+                          .restitution = 0.6,
+                          .damping = DampingLaw::kExact});
+  }
+  s.end_time = 0.005;
+  const Record r = RunAndRecord(s);
+  EXPECT_TRUE(r.outcome.all_converged);
+  EXPECT_NEAR(r.outcome.velocities[0], -0.6, 1e-9);
+  EXPECT_NEAR(r.outcome.velocities[1], 0, 1e-9);
+  EXPECT_NEAR(r.outcome.velocities[2], 0.6, 1e-9);
+}
+
+TEST(Ties, TouchingBallsOfAlmostOneSpeedAreNotGlued) {
+  const auto cradle = [](double second) {
+    Scenario s = testing::Chain(std::vector<double>(5, 0.5), std::vector<double>(4, 1e8),
+                                std::vector<double>(4, 0.9), 1.41421356237, 0.02);
+    s.bodies[1].velocity = second;
+    return RunAndRecord(s);
+  };
+  const Record near = cradle(1.41421356), same = cradle(1.41421356237);
+  EXPECT_TRUE(near.outcome.all_converged);
+  const double published[] = {-0.139, 0.156, 0.416, 0.876, 1.520};
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(near.outcome.velocities[i], published[i], 5e-4);
+    EXPECT_NEAR(near.outcome.velocities[i], same.outcome.velocities[i], 1e-6);
+  }
+}
+
+// r = ε² α²/(2 (α − ln(1 + α))) of the energy k δ_s^2.5/2.5: what the collision would have
+// returned.
+TEST(Rest, AReleaseWithoutALoadGivesBackWhatItsCollisionWouldHave) {
+  const Record r = RunAndRecord(Placed(0.5, 10));
+  const Cycle* released = First(r, Cycle::Status::kReleased);
+  ASSERT_NE(released, nullptr);
+  EXPECT_EQ(released->start_time, 0.5);
+  EXPECT_EQ(released->end, Cycle::End::kSeparation);
+  EXPECT_NEAR(released->work_compression, 0, 1e-9);
+  const double alpha = 1.43275053327;
+  const double part = 0.25 * alpha * alpha / (2 * (alpha - std::log1p(alpha)));
+  const double stored = 1e7 * std::pow(released->start_deformation, 2.5) / 2.5;
+  EXPECT_NEAR(-released->work_restitution / stored, part, 1e-6);
+  EXPECT_LT(released->identity_residual, 1e-7);
+}
+
+TEST(Rest, ALoadThatLiftsEndsItAtItsBeginAndIsAnAnswer) {
+  const Record r = RunAndRecord(Placed(0.5, 20));
+  EXPECT_TRUE(r.outcome.all_converged);
+  ASSERT_NE(First(r, Cycle::Status::kReleased), nullptr);
+  EXPECT_EQ(r.cycles.back().start_time, 0.5);
+  EXPECT_NEAR(r.cycles.back().end_time, 0.5039, 2e-4);  // Elastic it would be 0.5034 s.
+}
+
+TEST(Rest, MoreWeightBeginsACycleWithItsRestitution) {
+  const Record r = RunAndRecord(Placed(0.5, -100));
+  EXPECT_TRUE(r.outcome.all_converged);
+  const auto struck = std::ranges::find(r.cycles, 0.5, &Cycle::start_time);
+  ASSERT_NE(struck, r.cycles.end());
+  EXPECT_EQ(struck->status, Cycle::Status::kConverged);
+  EXPECT_NEAR(struck->restitution_out, 0.5, 1e-8);
+  EXPECT_LT(r.outcome.worst_identity_residual, 1e-8);
+  EXPECT_LT(r.outcome.momentum_residual, 1e-12);
+  EXPECT_LT(r.outcome.steps, 10'000);
+}
+
+// A nearly plastic blow that creeps longer than the run: what it was does not depend on the end.
+TEST(End, OfTheRunHidesAndChangesNothing) {
+  Scenario s;
+  s.bodies = {Ball(1, 1, 1)};
+  s.contacts = {{.name = "floor", .right = 0, .stiffness = 1e6, .restitution = 0.01}};
+  s.loads = {{.body = 0, .constant = -9.8}};
+  std::vector<double> peaks;
+  for (const double end : {2.0, 5.0, 10.0}) {
+    s.end_time = end;
+    const Record r = RunAndRecord(s);
+    EXPECT_EQ(r.outcome.time, end);
+    EXPECT_TRUE(r.outcome.all_converged);
+    for (const Cycle& c : r.cycles) EXPECT_LE(c.end_time, end);
+    EXPECT_EQ(r.outcome.cut_cycles, 1);
+    EXPECT_EQ(r.cycles[0].status, Cycle::Status::kCut);
+    EXPECT_TRUE(std::isnan(r.cycles[0].restitution_out));
+    peaks.push_back(r.cycles[0].peak_force);
+  }
+  EXPECT_NEAR(peaks[1] / peaks[0], 1, 1e-6);
+  EXPECT_NEAR(peaks[2] / peaks[0], 1, 1e-6);
+}
+
+}  // namespace
+}  // namespace contact
