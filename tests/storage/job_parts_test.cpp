@@ -41,7 +41,7 @@ void FillField(const FieldDescriptor& field, Message* message) {
     case FieldDescriptor::CPPTYPE_UINT64:
       return set.SetUInt64(message, &field, 5);
     case FieldDescriptor::CPPTYPE_ENUM:
-      return set.SetEnumValue(message, &field, 1);
+      return many ? set.AddEnumValue(message, &field, 1) : set.SetEnumValue(message, &field, 1);
     case FieldDescriptor::CPPTYPE_BOOL:
       return set.SetBool(message, &field, true);
     default:
