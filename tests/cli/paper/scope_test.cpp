@@ -1,6 +1,8 @@
 // The paper knows cycles only: no case of it needs a group of several.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,17 +15,19 @@
 namespace contact::cli {
 namespace {
 
-// Every number of the groups and of the motion's end, to the last bit.
-std::vector<double> Numbers(const contact::testing::Record& run) {
+// The bits of every number of the groups and of the motion's end; a row that the end cuts has NaN.
+std::vector<std::uint64_t> Numbers(const contact::testing::Record& run) {
   std::vector<double> numbers = run.outcome.velocities;
   for (const Cycle& cycle : run.cycles) {
     numbers.insert(numbers.end(), {cycle.mu, cycle.end_time, cycle.work_compression,
                                    cycle.work_restitution, double(cycle.status)});
   }
-  return numbers;
+  std::vector<std::uint64_t> bits;
+  for (const double number : numbers) bits.push_back(std::bit_cast<std::uint64_t>(number));
+  return bits;
 }
 
-std::vector<double> Solve(v1::Scenario message, v1::Solver::RestitutionScope scope) {
+std::vector<std::uint64_t> Solve(v1::Scenario message, v1::Solver::RestitutionScope scope) {
   message.mutable_solver()->set_restitution_scope(scope);
   const DecodedScenario decoded = DecodeScenario(message, kNoLimits);
   EXPECT_TRUE(decoded.violations.empty());
