@@ -28,7 +28,7 @@ class VerifyTest(CliTest):
         promised, observed = self.orders(BALLS, "contacts[0].exponent=1", "contacts[0].stiffness=1e6",
                                          "solver.step_s=2e-5", code=7)  # Its proof misses by 4e-6.
         self.assertEqual(promised, 4)
-        self.assertGreaterEqual(len(observed), 3)  # A peak between steps may go to and fro.
+        self.assertGreaterEqual(len(observed), 2)  # A peak between steps may go to and fro.
         for order in observed:
             self.assertAlmostEqual(order, 4, delta=0.5)
 
