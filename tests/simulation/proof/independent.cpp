@@ -20,9 +20,9 @@ using Status = Cycle::Status;
 constexpr double kInstants = 0.01, kWorks = 0.1;
 // Local error of a step, relative to the scales; less is lost in round-off.
 constexpr double kTolerance = 1e-14;
-// From which disagreement on it is asked what is the integration's own: it is less than five times
-// what ten times the tolerance changes.
-constexpr double kDoubtful = 1e-9, kCoarse = 10, kOwn = 5, kLost = 0.01;
+// From which disagreement on it is asked what is due to the errors of steps: it is less than five
+// times what an integration changes by that is as coarse as the run.
+constexpr double kDoubtful = 1e-9, kOwn = 5, kLost = 0.01;
 
 // A relative difference, by its weight, and where it is.
 struct Finding {
@@ -265,8 +265,8 @@ class Independent {
   std::vector<Finding> findings_;
 };
 
-// The integration's own error grows with time, in what rattles ten times with each blow: what it
-// finds is so much less than it says, and nothing once it has lost the way.
+// Errors of steps grow with time, in what rattles ten times with each blow: what is found is so
+// much less than it says, and nothing once the way is lost.
 void Judge(const std::vector<Finding>& fine, const std::vector<Finding>& coarse,
            Disagreement& miss) {
   double own = 0;
@@ -284,7 +284,8 @@ void Judge(const std::vector<Finding>& fine, const std::vector<Finding>& coarse,
 }  // namespace
 
 Disagreement CompareWithIndependent(const Scenario& scenario, const Record& run, int most_steps) {
-  Independent fine(scenario, run, kTolerance), coarse(scenario, run, kCoarse * kTolerance);
+  Independent fine(scenario, run, kTolerance),
+      coarse(scenario, run, scenario.solver.relative_tolerance);
   Disagreement miss = fine.Compare(most_steps);
   const bool doubtful = std::ranges::any_of(
       fine.findings(), [](const Finding& f) { return !(f.value <= kDoubtful); });
