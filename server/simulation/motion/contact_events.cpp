@@ -12,6 +12,8 @@ constexpr int kPieces = 8;
 // A deformation that so many times its noise begins in a step is no start from rest, which would
 // have begun in the step before: by chance that one ended on the touch.
 constexpr double kFast = 100;
+// Part of a step in which bodies that separate are apart at last.
+constexpr double kSoonest = 1e-9;
 
 // Root of f between a and b, where it changes sign; a when it already has b's sign there.
 template <class F>
@@ -50,6 +52,16 @@ double StartOfClosing(const DeformationPath& path) {
   return 0;
 }
 
+// From where on bodies that move apart are apart: round-off may leave a trace of deformation at the
+// start, which they may leave and come back to early in the step.
+double StartOfFlight(const DeformationPath& path) {
+  if (path.start.value < 0 || path.drift >= 0) return 0;
+  for (double theta = 1.0 / kPieces; theta > kSoonest; theta /= 4) {
+    if (path.Value(theta) < 0) return theta;
+  }
+  return 0;
+}
+
 std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise) {
   // What plainly moves apart is not at rest; it may come back in the step.
   if (std::abs(path.start.value) <= noise && path.drift >= -noise && path.drift <= kFast * noise) {
@@ -62,7 +74,7 @@ std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise
   const bool peaks = path.start.slope > 0 && path.end.slope < 0;
   if (path.end.value <= noise && !peaks) return std::nullopt;
   const auto value = [&](double theta) { return path.Value(theta); };
-  if (auto theta = FirstPositive(value, path.end.value)) {
+  if (auto theta = FirstPositive(value, path.end.value, StartOfFlight(path))) {
     return ContactEvent{EventKind::kTouch, *theta};
   }
   const auto falling = [&](double theta) { return -path.Slope(theta); };
