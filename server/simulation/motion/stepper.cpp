@@ -198,14 +198,16 @@ bool Stepper::Take(double until) {
 }
 
 // The square of the error of a contact's work, relative to the work, or to what the contact stores
-// with a deformation of `length` [m]. The force of a contact that other forces drive hardly shows
-// in its motion, by which steps are measured.
+// when it is pressed by `length` [m] more than at the start of its cycle. The force of a contact
+// that other forces drive hardly shows in its motion, by which steps are measured.
 double Stepper::WorkError(const ActiveContact& active, double length) const {
   if (system_.implicit) return 0;
   Motions five, three;
   const std::ptrdiff_t work = system_.equations.work(active.contact);
   system_.rk.Errors(work, 1, &five.length, &three.length);
-  const double stored = ElasticEnergy(active.stiffness, active.exponent, length);
+  const double start = system_.contacts[At(active.contact)].cycle.start_deformation;
+  const double stored = ElasticEnergy(active.stiffness, active.exponent, start + length) -
+                        ElasticEnergy(active.stiffness, active.exponent, start);
   return Square(five, three, {Largest(stored, std::abs(system_.rk.y1[work])), 1});
 }
 
