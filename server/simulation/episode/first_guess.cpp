@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "simulation/laws/isolated_collision.h"
 
@@ -15,6 +16,12 @@ namespace {
 constexpr double kSwing = 0.3;
 // How long a collision takes, in units of δ_m/v: three of them, and longer where it is damped.
 constexpr double kAlone = 6;
+// A speed is nothing beside one that is so many times it.
+constexpr double kNothing = 1e5;
+
+// Times in which loads may grow: each is a fourth of the next, the last that which is left.
+constexpr double kFiner = 0.25;
+constexpr int kFinest = 20;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
@@ -68,8 +75,11 @@ double FirstGuess::Sought(const ContactState& state, double alpha, double own,
   if (own == 0 && state.last_mu > 0 && !state.woken) return state.last_mu;
   double speed = std::max(
       {own, NeighbourSpeed(state.cycle.contact), SpeedAround(state.cycle, effective_mass)});
+  const double behind = SpeedBehind(state.cycle, effective_mass);
+  if (behind > kNothing * speed) speed = behind;
   if (speed == 0) speed = fastest_;
-  const double swing = SwingSpeed(contact, effective_mass, external_force);
+  const double swing = std::max(SwingSpeed(contact, effective_mass, external_force),
+                                SwingAhead(state.cycle, effective_mass, external_force));
   speed = speed > 0 ? std::max(speed, kSwing * swing) : swing;
   const double mu = alpha * contact.stiffness / (speed > 0 ? speed : 1);
   return state.woken && state.last_mu > 0 ? std::min(mu, state.last_mu) : mu;
@@ -81,21 +91,96 @@ double FirstGuess::SpeedAround(const Cycle& cycle, double effective_mass) const 
   const double own = cycle.approach_velocity;
   if (own == 0) return 0;
   const Contact& here = scenario_.contacts[At(cycle.contact)];
-  const double depth = MaximumDeformation(effective_mass, own, here.stiffness, here.exponent, 0);
-  const double* y = motion_.integrator().y0.data();
-  const Equations& equations = motion_.equations();
+  const double reach = kAlone * OwnDepth(cycle, effective_mass) / own;
   double largest = 0;
-  for (int c = 0; c < equations.contacts(); ++c) {
+  for (int c = 0; c < motion_.equations().contacts(); ++c) {
     const Contact& there = scenario_.contacts[At(c)];
     const bool shares = (here.left != kNone && here.left == there.right) ||
                         (here.right != kNone && here.right == there.left);
-    const double speed = equations.Relative(c, y + equations.bodies());
-    const double gap = -motion_.Deformation(c, y);
-    if (shares && speed > own && gap * own <= kAlone * depth * speed) {
-      largest = std::max(largest, speed);
+    if (!shares) continue;
+    const Meeting meeting = MeetingOf(c);
+    if (meeting.speed > own && meeting.gap <= reach * meeting.speed) {
+      largest = std::max(largest, meeting.speed);
     }
   }
   return largest;
+}
+
+// The same of all contacts that push it through others which touch.
+double FirstGuess::SpeedBehind(const Cycle& cycle, double effective_mass) const {
+  const double own = cycle.approach_velocity;
+  if (own == 0) return 0;
+  const double reach = kAlone * OwnDepth(cycle, effective_mass) / own;
+  std::vector<bool> joined(scenario_.bodies.size());
+  double largest = 0;
+  const auto join = [&](int contact) {
+    const Contact& c = scenario_.contacts[At(contact)];
+    for (const int body : {c.left, c.right}) {
+      if (body != kNone) joined[At(body)] = true;
+    }
+  };
+  const auto look = [&](int contact) {
+    const Contact& c = scenario_.contacts[At(contact)];
+    const Meeting meeting = MeetingOf(contact);
+    const bool joins =
+        (c.left != kNone && joined[At(c.left)]) || (c.right != kNone && joined[At(c.right)]);
+    if (!joins || meeting.gap > reach * std::abs(meeting.speed)) return;
+    join(contact);
+    largest = std::max(largest, meeting.speed);
+  };
+  join(cycle.contact);
+  const int contacts = motion_.equations().contacts();
+  for (int c = 0; c < contacts; ++c) look(c);
+  for (int c = contacts; c-- > 0;) look(c);
+  return largest;
+}
+
+double FirstGuess::OwnDepth(const Cycle& cycle, double effective_mass) const {
+  const Contact& c = scenario_.contacts[At(cycle.contact)];
+  return MaximumDeformation(effective_mass, cycle.approach_velocity, c.stiffness, c.exponent, 0);
+}
+
+FirstGuess::Meeting FirstGuess::MeetingOf(int contact) const {
+  const double* y = motion_.integrator().y0.data();
+  const Equations& equations = motion_.equations();
+  return {.gap = -motion_.Deformation(contact, y),
+          .speed = equations.Relative(contact, y + equations.bodies())};
+}
+
+// The same with the loads as they will be while the cycle lasts: what begins slowly may be pushed
+// together by what grows meanwhile. A collision is the sooner over, the faster it is; how long a
+// cycle from rest lasts is not known, and too small a μ does no harm.
+double FirstGuess::SwingAhead(const Cycle& cycle, double effective_mass,
+                              double external_force) const {
+  const Contact& c = scenario_.contacts[At(cycle.contact)];
+  const double own = cycle.approach_velocity, left = scenario_.end_time - motion_.time();
+  double fastest = 0;
+  for (double time = left * std::pow(kFiner, kFinest); time < left; time /= kFiner) {
+    const double change = effective_mass * LoadChange(c, time);
+    if (change == 0) return fastest;
+    fastest = std::max(fastest, SwingSpeed(c, effective_mass, external_force + change));
+    if (own == 0) continue;
+    const double v = std::max(own, fastest);
+    const double depth = MaximumDeformation(effective_mass, v, c.stiffness, c.exponent, 0);
+    if (0.5 * kAlone * depth <= v * time) break;
+  }
+  return fastest;
+}
+
+// By how much loads will accelerate the bodies of a contact together after this time, more than
+// now.
+double FirstGuess::LoadChange(const Contact& contact, double time) const {
+  const double now = motion_.time();
+  double change = 0;
+  for (const Load& load : scenario_.loads) {
+    const double sign = load.body == contact.left ? 1 : load.body == contact.right ? -1 : 0;
+    if (sign == 0) continue;
+    const auto at = [&](double t) {
+      return load.begin <= t && t < load.end ? Equations::LoadForce(load, t) : 0;
+    };
+    change += sign * (at(now + time) - at(now)) / scenario_.bodies[At(load.body)].mass;
+  }
+  return change;
 }
 
 // Paper (23); for a cycle from rest the last μ or paper (28), which hides a velocity of 1 m/s.

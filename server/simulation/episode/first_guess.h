@@ -30,7 +30,16 @@ class FirstGuess {
  private:
   double Sought(const ContactState& state, double alpha, double own_speed, double effective_mass,
                 double external_force) const;
+  // How far apart the two sides of a contact are [m], and how fast they approach [m/s].
+  struct Meeting {
+    double gap, speed;
+  };
+  Meeting MeetingOf(int contact) const;
+  double OwnDepth(const Cycle& cycle, double effective_mass) const;
   double SpeedAround(const Cycle& cycle, double effective_mass) const;
+  double SpeedBehind(const Cycle& cycle, double effective_mass) const;
+  double SwingAhead(const Cycle& cycle, double effective_mass, double external_force) const;
+  double LoadChange(const Contact& contact, double time) const;
   double Paper(const ContactState& state, double own_speed) const;
   int Neighbour(int contact, int except) const;
   double NeighbourSpeed(int contact) const;
