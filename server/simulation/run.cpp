@@ -46,10 +46,10 @@ class Runner {
 
   Outcome Run() {
     while (run_.state.time < scenario_.end_time && run_.outcome.end == Outcome::End::kFinished) {
-      if (InCycle(run_.state)) {
+      if (InCycle(run_.state) || solver_.Wakes(run_.state)) {
         Episode();
       } else {
-        Accept(Advance(scenario_.end_time));
+        Flight();
       }
       observer_.OnProgress({.time = run_.state.time,
                             .steps = motion_.steps(),
@@ -76,9 +76,17 @@ class Runner {
     return saved;
   }
 
-  Motion::Pause Advance(double until) {
+  Motion::Pause Advance(double until, bool repeatable) {
     motion_.Begin(run_.state, true);
-    return motion_.Advance(until, solver_.Record(), &sampler_, stop_, scenario_.solver.max_steps);
+    return motion_.Advance(until, solver_.Record(repeatable), &sampler_, stop_,
+                           scenario_.solver.max_steps);
+  }
+
+  void Flight() {
+    const Motion::Pause foreseen =
+        solver_.Foresee(run_.state, scenario_.end_time, stop_, scenario_.solver.max_steps);
+    if (foreseen != Motion::Pause::kQuiet) return Settle(foreseen);
+    if (!solver_.Wakes(run_.state)) Accept(Advance(scenario_.end_time, false));
   }
 
   void Accept(Motion::Pause pause) {
@@ -95,7 +103,7 @@ class Runner {
                         stop_, scenario_.solver.max_steps);
       if (solved != Motion::Pause::kQuiet) return Settle(solved);
       if (solver_.tentative()) sampler_.Hold();
-      const Motion::Pause pause = Advance(solver_.record_until());
+      const Motion::Pause pause = Advance(solver_.record_until(), solver_.tentative());
       if (solver_.Accepts(pause)) {
         sampler_.Release();
         return Accept(pause);

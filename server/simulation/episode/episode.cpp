@@ -105,8 +105,8 @@ void EpisodeSolver::Restore(const RunState& state) {
   episode_ = static_cast<int>(state.outcome.episodes);  // Of cycles that rest after it.
 }
 
-Recorder& EpisodeSolver::Record() {
-  recorder_.Begin(episode_);
+Recorder& EpisodeSolver::Record(bool repeatable) {
+  recorder_.Begin(episode_, repeatable);
   return recorder_;
 }
 
@@ -136,6 +136,21 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
                     ? scenario_.solver.encounter_cycles
                     : 1);
   return Search();
+}
+
+Motion::Pause EpisodeSolver::Foresee(const State& start, double end, const std::stop_token& stop,
+                                     std::int64_t step_limit) {
+  if (std::ranges::none_of(start.contacts, Rests)) return Motion::Pause::kQuiet;
+  problem_.Begin(start, end, stop, step_limit);
+  const Motion::Pause pause = problem_.SeeFlight();
+  const bool completed = !problem_.Aborted() && pause != Motion::Pause::kNumeric;
+  return completed ? Motion::Pause::kQuiet : pause;
+}
+
+bool EpisodeSolver::Wakes(const State& state) const {
+  return std::ranges::any_of(state.contacts, [&](const ContactState& c) {
+    return Rests(c) && problem_.groups.RestEnd(LastGroup(c)) <= state.time;
+  });
 }
 
 // A scan, of which what it tells of each group is noted; again where a group has become negligible,

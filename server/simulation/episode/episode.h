@@ -25,6 +25,12 @@ class EpisodeSolver {
   Motion::Pause Solve(const State& start, int episode, double end, const std::stop_token& stop,
                       std::int64_t step_limit);
 
+  /// Looks at the flight that begins at `start`, when no cycle runs: sees where rests end in it.
+  /// Returns why that could not be completed, or kQuiet.
+  Motion::Pause Foresee(const State& start, double end, const std::stop_token& stop,
+                        std::int64_t step_limit);
+  /// Whether a rest is known to end no later than in this state.
+  bool Wakes(const State& state) const;
   /// The instant up to which the episode may be recorded, if it does not end before.
   double record_until() const { return record_until_; }
   /// Whether what is recorded has yet to show that the episode is solved.
@@ -33,8 +39,8 @@ class EpisodeSolver {
   /// again, and recorded anew.
   bool Accepts(Motion::Pause pause);
 
-  /// Begins the recording of the episode; hosts it.
-  Recorder& Record();
+  /// Begins the recording of the episode, or of the flight after it; hosts it.
+  Recorder& Record(bool repeatable);
   Recorder& recorder() { return recorder_; }
 
   void Save(RunState* state) const;

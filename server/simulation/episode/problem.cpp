@@ -68,6 +68,8 @@ Sight Problem::SeeStretch(int most_cycles) {
   return Look(*start_, {.most_cycles = most_cycles, .first_quiet = true, .guess = true});
 }
 
+Motion::Pause Problem::SeeFlight() { return Look(*start_, {.until = end_, .patient = true}).pause; }
+
 // The tolerance of a pass that need not be more exact than this.
 double Problem::Tolerance(double wanted) const {
   const double finest = scenario_.solver.relative_tolerance;

@@ -26,6 +26,8 @@ class Problem {
   Sight Scan(int most_cycles, bool guess, bool coarse = false);
   /// Sees the first stretch without pause, each cycle of it.
   Sight SeeStretch(int most_cycles);
+  /// Sees the flight until a cycle begins, at most to the end of the run.
+  Motion::Pause SeeFlight();
   /// The front with the μ that its groups now have. `until`: what has not ended then is open [s].
   /// `tolerance`: of the integration; 0: the scenario's, which is the finest.
   Sight Evaluate(const std::vector<GroupId>& front, bool sensitive, double until,

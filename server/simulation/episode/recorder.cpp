@@ -44,8 +44,10 @@ Recorder::Recorder(const Scenario& scenario, const Motion& motion, Observer& obs
       missed_(kDampingLaws),
       unproven_(scenario.contacts.size()) {}
 
-void Recorder::Begin(int episode) {
+void Recorder::Begin(int episode, bool repeatable) {
   episode_ = episode;
+  repeatable_ = repeatable;
+  disturbed_ = false;
   membership_.Begin(false);
   sound_ = true;
   cycles.clear();
@@ -67,7 +69,7 @@ void Recorder::Restore(const RunState& state) {
 
 bool Recorder::OnStep() {
   observer_.OnStep();
-  return true;
+  return !disturbed_;
 }
 
 CycleHost::Factor Recorder::OnStart(ContactState& state, double effective_mass,
@@ -89,6 +91,15 @@ double Recorder::OnRelease(ContactState& state, double effective_mass) {
   if (iterated) group.status = Cycle::Status::kReleased;
   if (group.number == 0) group.number = ++state.member.groups;
   return membership_.Release(state, effective_mass);
+}
+
+// Notes when the rest ends, which the search has not seen, or nobody in a flight between episodes.
+bool Recorder::OnDisturbed(const ContactState& state, double cause) {
+  if (!repeatable_) return true;
+  known_.NoteRestEnd(LastGroup(state), cause);
+  disturbed_ = true;
+  sound_ = false;
+  return false;
 }
 
 void Recorder::OnCancel(ContactState& state) {

@@ -16,7 +16,8 @@ class Recorder final : public CycleHost {
   Recorder(const Scenario& scenario, const Motion& motion, Observer& observer, Groups& groups);
 
   /// A recorded pass of this episode begins: forgets the cycles and groups of the last one.
-  void Begin(int episode);
+  /// `repeatable`: it may be made again, and ends where a rest should have ended earlier.
+  void Begin(int episode, bool repeatable);
   /// Fills what is known of a cycle that the end of the run has cut.
   void FinishCut(ContactState& state);
 
@@ -25,6 +26,7 @@ class Recorder final : public CycleHost {
              double) override;
   double OnRelease(ContactState& state, double effective_mass) override;
   double RestEnds(const ContactState& state) override { return membership_.RestEnd(state); }
+  bool OnDisturbed(const ContactState& state, double cause) override;
   void OnCancel(ContactState& state) override;
   bool OnStep() override;
 
@@ -53,6 +55,8 @@ class Recorder final : public CycleHost {
   Membership membership_;
   int episode_ = 0;
   bool sound_ = true;
+  bool repeatable_ = false;
+  bool disturbed_ = false;
   std::vector<bool> warned_;    // Per contact.
   std::vector<bool> missed_;    // Per law.
   std::vector<bool> unproven_;  // Contacts of which it was told that a row fails its proof.

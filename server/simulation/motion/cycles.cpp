@@ -249,7 +249,11 @@ void Cycles::Apply(const StepEvents::Found& found, CycleHost& host) {
 // Ends the rest of a contact; its cycle is starting.
 void Cycles::Wake(int contact, CycleHost& host) {
   ContactState& state = system_.contacts[At(contact)];
-  EndCycle(state, Cycle::End::kNonSeparation, host);
+  if (state.cycle.start_time == system_.time) {  // It has not rested: there is no row of it.
+    CancelCycle(state, host);
+  } else {
+    EndCycle(state, Cycle::End::kNonSeparation, host);
+  }
   state.settled = false;
   state.woken = true;
 }
@@ -257,9 +261,11 @@ void Cycles::Wake(int contact, CycleHost& host) {
 void Cycles::AskRests(CycleHost& host) {
   for (int c = 0; c < system_.equations.contacts(); ++c) {
     ContactState& state = system_.contacts[At(c)];
-    if (state.phase != Phase::kResting) continue;
+    if (!Rests(state)) continue;
     state.rest_until = host.RestEnds(state);
-    if (state.rest_until <= system_.time) Wake(c, host);
+    if (state.rest_until > system_.time) continue;
+    if (state.phase == Phase::kResting) Wake(c, host);
+    state.settled = false, state.woken = true;  // Also of a rest that was about to begin.
   }
 }
 

@@ -105,6 +105,11 @@ State InitialState(const Scenario& scenario);
 /// Whether loads, supports or walls may keep contacts closed.
 bool IsPacking(const Scenario& scenario);
 
+/// Whether the contact is at rest, or about to be.
+inline bool Rests(const ContactState& contact) {
+  return contact.phase == Phase::kResting || (contact.phase == Phase::kStarting && contact.settled);
+}
+
 /// Whether a cycle runs or wants to start; a resting contact has none.
 bool InCycle(const State& state);
 
