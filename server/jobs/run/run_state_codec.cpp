@@ -153,7 +153,7 @@ void serialize(Archive& archive, Unknown& u) {
   archive(u.id, u.mu, u.first_mu, u.lasts, u.start_time, u.restitution_out, u.settled_mu);
   archive(u.length, u.speed, u.corrected, u.kept, u.guesses, u.weak, u.reopened, u.flips, u.cut,
           u.given_up, u.lowered, u.iterations);
-  archive(u.growth, u.status, u.too_much, u.too_little);
+  archive(u.growth, u.missing, u.status, u.too_much, u.too_little);
 }
 
 template <class Archive>

@@ -8,6 +8,10 @@ namespace contact {
 
 double GroupSight::Miss() const { return std::sqrt(std::max(squared, 0.0)) / restitution_in - 1; }
 
+double GroupSight::Missing() const {
+  return std::abs(work_restitution + restitution_in * restitution_in * work_compression);
+}
+
 double GroupSight::SlopeOfSquare() const {
   const auto of = [&](const Eigen::ArrayXd& of_work) {
     return column < of_work.size() ? of_work[column] : 0;
@@ -56,6 +60,7 @@ void Groups::Merge(const GroupSight& first, const GroupSight& next, Growth why) 
   grown.mu = grown.first_mu;
   grown.status = Cycle::Status::kNotConverged;
   grown.growth = why;
+  grown.missing = first.Missing();
   grown.corrected = true;
   grown.weak = grown.lowered = false;
   grown.settled_mu = kNaN;

@@ -15,6 +15,11 @@ constexpr std::array<double, 5> kLower = {0.5, 0.2, 0.05, 1e-2, 1e-4};
 
 // A group without a solution is taken up again so often at most.
 constexpr int kMostReopened = 3;
+// A neighbour whose work is less than this part of the works that a group misses its balance by
+// cannot settle it: of a contact that a ramp presses groups would take in one swing after another.
+constexpr double kShare = 0.1;
+// Nor does it help to take in more where the last one has left more than this part of the miss.
+constexpr double kShrinks = 0.9;
 // A miss that rather is the cause of what others miss by than their effect.
 constexpr double kMuch = 1e-2;
 
@@ -25,13 +30,22 @@ GroupId Neighbour(GroupId id, int places) {
 
 }  // namespace
 
+// Whether the balance of a group, which misses for every μ, can be settled with this neighbour.
+bool Growing::Settles(const GroupSight& group, const GroupSight& neighbour, Growth why) const {
+  if (why != Growth::kTooLittle && why != Growth::kTooMuch) return true;
+  const double work = std::max(neighbour.work_compression, -neighbour.work_restitution);
+  if (neighbour.cycles > 0 && work < kShare * group.Missing()) return false;
+  const Unknown& unknown = problem_.groups.At(group.id);
+  return unknown.growth != why || group.Missing() < kShrinks * unknown.missing;
+}
+
 bool Growing::TakeNext(const GroupId& id, Growth why) {
   const GroupId next = Neighbour(id, 1);
   const Sight sight = problem_.Evaluate({id, next}, false, kForever);
   const GroupSight* here = sight.Find(id);
   const GroupSight* there = sight.Find(next);
   if (here == nullptr || !here->ended || here->separated) return false;
-  if (there == nullptr || there->after_rest) return false;
+  if (there == nullptr || there->after_rest || !Settles(*here, *there, why)) return false;
   GroupSight taken = *there;
   // Of one that does not end in sight the group takes what there is: it is unfinished then.
   if (taken.cycles == 0) taken.last_turn = (taken.start_time + sight.time) / 2;
@@ -47,7 +61,8 @@ bool Growing::JoinPrevious(const GroupId& id, Growth why) {
   const GroupSight* here = sight.Find(id);
   const GroupSight* there = sight.Find(before);
   if (here == nullptr || here->cycles == 0 || there == nullptr || !there->sought) return false;
-  if (here->after_rest) return false;
+  const bool limited = problem_.groups.At(before).status == Cycle::Status::kLimited;
+  if (here->after_rest || limited || !Settles(*here, *there, why)) return false;
   problem_.groups.Merge(*there, *here, why);
   log_.Grow(sight, before, problem_.groups.At(before));
   return true;
@@ -93,18 +108,20 @@ bool Growing::Answer(const GroupSight& group, Root root) {
   return true;
 }
 
-// A group that has no solution keeps what comes nearest; one that gives back too much for every μ
-// its first guess, for a large μ would slow the motion for next to nothing.
+// A group that has no solution keeps what comes nearest. One that loads drive, whose μ hardly
+// matters, keeps its first guess: what gives back too much for every μ, and what a rest follows in
+// which loads hold what it has stored.
 void Growing::Decide(const GroupId& id, Root root) const {
   Unknown& unknown = problem_.groups.At(id);
   const bool alone = problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle;
   const bool opens = root == Root::kTooMuch && !std::isnan(unknown.too_little.mu);  // Does not end.
   const bool jumps = !alone && (root == Root::kJump || opens);
-  const bool limited = !alone && root == Root::kTooMuch && !opens;
+  const bool limited = !alone && root != Root::kJump && !opens;
   unknown.status = jumps     ? Cycle::Status::kJump
                    : limited ? Cycle::Status::kLimited
                              : Cycle::Status::kInfeasible;
-  if (root == Root::kTooLittle) unknown.mu = 0;
+  if (root == Root::kTooLittle && alone) unknown.mu = 0;
+  if (root == Root::kTooLittle && !alone) unknown.mu = unknown.first_mu;
   if (root == Root::kTooMuch) unknown.mu = opens ? unknown.too_much.mu : unknown.first_mu;
   if (root == Root::kJump && alone) unknown.mu = unknown.too_much.mu;
 }

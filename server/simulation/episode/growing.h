@@ -38,6 +38,7 @@ class Growing {
   bool Grow(const GroupId& id, Growth why);
   bool TakeNext(const GroupId& id, Growth why);
   bool JoinPrevious(const GroupId& id, Growth why);
+  bool Settles(const GroupSight& group, const GroupSight& neighbour, Growth why) const;
   bool Lower(const GroupId& id);
 
   Problem& problem_;

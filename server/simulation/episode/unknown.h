@@ -45,6 +45,7 @@ struct Unknown {
   bool lowered = false;           ///< It did not end, and its μ was lowered until it did.
   int iterations = 0;             ///< Corrections of μ by the search that found it.
   Growth growth = Growth::kNotGrown;
+  double missing = 0;  ///< By what it missed its balance when it grew last [J].
   /// kConverged, kJump, kInfeasible, kUnfinished: found. kNotConverged: still sought.
   Cycle::Status status = Cycle::Status::kNotConverged;
   Group::Reached too_much, too_little;
@@ -83,6 +84,8 @@ struct GroupSight {
 
   /// ε_out/ε_in − 1.
   double Miss() const;
+  /// The works that the group misses its balance by, |W_r + ε² W_c| [J].
+  double Missing() const;
   /// ∂(ε_out²)/∂μ by its own μ, of a pass with slopes.
   double SlopeOfSquare() const;
 };
