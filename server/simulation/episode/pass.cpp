@@ -265,18 +265,27 @@ double Pass::SlowestTurn() const {
 // Whether nothing has begun or ended for longer than the contacts would take to turn. A ramp may
 // turn them where it ends.
 bool Pass::Creeps() const {
-  const auto ramps = [](const Load& load) { return load.slope != 0 && load.end < kNever; };
-  if (std::ranges::any_of(motion_.equations().acting(), ramps)) return false;
+  double since = idle_since_;
+  for (const Load& load : scenario_.loads) {
+    if (load.slope == 0 || load.end == kNever || load.begin > motion_.time()) continue;
+    since = std::max(since, load.end);
+  }
   const double patience = plan_.front.empty() ? kPatienceOfAScan : kPatience;
-  return motion_.time() - idle_since_ > patience * SlowestTurn() + kPeriods * longest_period_;
+  return motion_.time() - since > patience * SlowestTurn() + kPeriods * longest_period_;
+}
+
+// Far beyond the end of the run a pass has seen enough of it, or nothing for long.
+bool Pass::SeesFar() const {
+  if (motion_.time() <= plan_.far) return false;
+  return late_cycles_ >= most_late_ || motion_.time() - idle_since_ > plan_.far - plan_.end;
 }
 
 bool Pass::OnStep() {
   observer_.OnStep();
+  enough_ = enough_ || SeesFar();
   if (++idle_steps_ % kStride != 0 || plan_.patient) return !enough_;
   const bool stuck = scenario_.solver.fixed_step == 0 && idle_steps_ > kStuck;
-  const bool far = motion_.time() > plan_.far && late_cycles_ >= most_late_;
-  enough_ = enough_ || stuck || far || Creeps();
+  enough_ = enough_ || stuck || Creeps();
   return !enough_;
 }
 

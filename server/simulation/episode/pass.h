@@ -55,6 +55,7 @@ class Pass final : public CycleHost {
   void Stir(double time);
   double SlowestTurn() const;
   bool Creeps() const;
+  bool SeesFar() const;
   bool Enough() const;
   bool FrontHasEnded() const;
 
