@@ -122,7 +122,8 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
   for (int c = 0; c < std::ssize(scenario_.contacts); ++c) sought |= IsSought(scenario_, c);
   record_until_ = end;
   tentative_ = false;
-  if (!sought || start.time < solved_until_) return Motion::Pause::kQuiet;
+  const bool solved = start.time < solved_until_ && !Wakes(start);
+  if (!sought || solved) return Motion::Pause::kQuiet;
   problem_.Begin(start, end, stop, step_limit);
   if (scenario_.solver.update != UpdateRule::kNewtonCoupled) {
     const Found found = paper_.Solve(kPaperCycles, scenario_.solver.max_iterations);

@@ -26,7 +26,25 @@ Power Stress(const Contact& contact, double deformation) {
   return power;
 }
 
+// The work that ends the rest of a contact [J].
+double WakingWork(const MovingSystem& system, const ContactState& state) {
+  return kWakeFactor * system.scenario.solver.settled_nirv_fraction * state.largest_work;
+}
+
+// The work of a contact since its cycle began, at this deformation, in units of what ends a rest.
+double Disturbance(const MovingSystem& system, int contact, double deformation) {
+  const ContactState& state = system.contacts[At(contact)];
+  const double force = Stress(system.scenario.contacts[At(contact)], deformation).value;
+  const double work = force * std::abs(deformation - state.cycle.start_deformation);
+  const double limit = WakingWork(system, state);
+  return limit > 0 ? work / limit : 0;
+}
+
 }  // namespace
+
+bool HardlyWorks(const MovingSystem& system, int contact, double deformation) {
+  return Disturbance(system, contact, deformation) <= kNegligible;
+}
 
 void Rest::Begin(ContactState& state, CycleHost& host) {
   state.rest_mark = system_.time;
@@ -41,20 +59,6 @@ double Rest::NextEnd() const {
     if (rests) next = std::min(next, state.rest_until);
   }
   return next;
-}
-
-double Rest::Disturbance(int contact, double deformation) const {
-  const ContactState& state = system_.contacts[At(contact)];
-  const Contact& c = system_.scenario.contacts[At(contact)];
-  const double start = state.cycle.start_deformation;
-  const double force = Stress(c, deformation).value;
-  const double work = force * std::abs(deformation - start);
-  const double limit = WakingWork(state);
-  return limit > 0 ? work / limit : 0;
-}
-
-double Rest::WakingWork(const ContactState& state) const {
-  return kWakeFactor * system_.scenario.solver.settled_nirv_fraction * state.largest_work;
 }
 
 bool Rest::IsLeft(int contact, double deformation) const {
@@ -73,7 +77,7 @@ void Rest::Follow() {
     const double after = active.Relative(system_.rk.y1.data() + n);
     const double deformation = active.Relative(system_.rk.y1.data()) - active.gap;
     const bool turns = (before > 0) != (after > 0);
-    if (!turns || Disturbance(active.contact, deformation) > kNegligible) continue;
+    if (!turns || !HardlyWorks(system_, active.contact, deformation)) continue;
     state.rest_mark = system_.time + system_.step.h * before / (before - after);
   }
 }
@@ -82,7 +86,7 @@ bool Rest::Ends(int contact, bool at_breakpoint, CycleHost& host) {
   ContactState& state = system_.contacts[At(contact)];
   if (system_.time >= state.rest_until) return true;
   const double deformation = system_.Deformation(contact, system_.rk.y0.data());
-  const double disturbance = Disturbance(contact, deformation);
+  const double disturbance = Disturbance(system_, contact, deformation);
   if (at_breakpoint && disturbance <= kNegligible) state.rest_mark = system_.time;
   return disturbance > 1 ? host.OnDisturbed(state, state.rest_mark) : IsLeft(contact, deformation);
 }
@@ -123,7 +127,7 @@ std::vector<int> Rest::Disturbed(const std::vector<double>& of_bodies, Displacem
     const Power stress = Stress(system_.scenario.contacts[At(c)], state.cycle.start_deformation);
     const double moved = by(cause, stress.slope);
     const double work = (stress.value + 0.5 * stress.slope * moved) * moved;
-    if (work > WakingWork(state)) disturbed.push_back(c);
+    if (work > WakingWork(system_, state)) disturbed.push_back(c);
   }
   return disturbed;
 }

@@ -7,6 +7,10 @@
 
 namespace contact {
 
+/// Whether the work of a contact that rests, or did so until its cycle began, is negligible so far,
+/// at this deformation [m].
+bool HardlyWorks(const MovingSystem& system, int contact, double deformation);
+
 /// When contacts that rest do so no more. README.md, I8.
 ///
 /// Rest ends at its cause: a collision, or a load that begins or ends, at bodies that closed
@@ -33,10 +37,6 @@ class Rest {
   std::vector<int> DisturbedByLoads() const;
 
  private:
-  /// The work of a contact that rests with this deformation, in units of what ends its rest.
-  double Disturbance(int contact, double deformation) const;
-  /// The work that ends the rest of a contact [J].
-  double WakingWork(const ContactState& state) const;
   /// Whether what pressed it is gone, however little that stored: it is let go at once.
   bool IsLeft(int contact, double deformation) const;
   /// A quantity of each body, summed over those that closed contacts and supports join.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "simulation/motion/rest.h"
+
 namespace contact {
 namespace {
 
@@ -67,8 +69,13 @@ StepEvents::Found StepEvents::First(int separating) const {
     }
     if (DeformationPath::IsPlain(phase, start, end)) continue;
     const double noise = phase == Phase::kOpen ? Noise(c) : 0;
-    const auto event = FirstEvent(phase, {start, end, Drift(c)}, passed_[At(c)], noise);
+    const DeformationPath path(start, end, Drift(c));
+    auto event = FirstEvent(phase, path, passed_[At(c)], noise);
     if (!event) continue;
+    // What was hardly pressed since it rested gives back what was stored before.
+    const bool released = system_.contacts[At(c)].woken && event->kind == EventKind::kTurn &&
+                          HardlyWorks(system_, c, path.Value(event->theta));
+    if (released) event->kind = EventKind::kRelease;
     if (event->theta < first.event.theta) first = {c, *event};
   }
   if (first.contact == kNone && separating != kNone &&
