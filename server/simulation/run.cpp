@@ -232,6 +232,17 @@ class Runner {
   double Energy() const { return motion_.equations().Energy(motion_.integrator().y0.data()); }
   double Momentum() const { return motion_.equations().Momentum(motion_.integrator().y0.data()); }
 
+  // What the loads have given and taken [N·s], at most.
+  double LoadImpulse() const {
+    double impulse = 0;
+    for (const Load& load : scenario_.loads) {
+      const double t = std::max(0.0, std::min(load.end, run_.state.time) - load.begin);
+      impulse += (std::abs(load.constant) + std::abs(load.amplitude)) * t +
+                 0.5 * std::abs(load.slope) * t * t;
+    }
+    return impulse;
+  }
+
   // The largest energy and momentum seen, to which the balances are relative.
   void Scale() {
     double momentum = 0;
@@ -269,9 +280,10 @@ class Runner {
       run_.outcome.energy_residual =
           std::abs(Energy() - run_.start_energy - run_.state.load_work + loss) / run_.energy_scale;
     }
-    if (run_.momentum_scale > 0) {
+    const double exchanged = std::max(run_.momentum_scale, LoadImpulse());
+    if (exchanged > 0) {
       run_.outcome.momentum_residual =
-          std::abs(Momentum() - run_.start_momentum - run_.state.impulse) / run_.momentum_scale;
+          std::abs(Momentum() - run_.start_momentum - run_.state.impulse) / exchanged;
     }
   }
 
