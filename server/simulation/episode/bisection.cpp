@@ -52,7 +52,7 @@ Bisection::Point Bisection::At(double mu, bool slope) {
     const double square = group_.restitution_in * group_.restitution_in;
     point.excess = seen->squared / square - 1;
     if (seen->column != kNone) point.slope = seen->SlopeOfSquare() / square;
-    point.most = problem_.MostMu(*seen);
+    point.most = seen->weak ? mu : problem_.MostMu(*seen);  // Of next to nothing noise is left.
     point.end = seen->end_time;
   } else {
     point.ended = false;
@@ -102,7 +102,7 @@ bool Bisection::Scan(const GroupSight& group) {
   for (int i = 0; i < kMostScanned && open < kMostOpen && !problem_.Aborted(); ++i, mu *= kFine) {
     const Point point = At(mu, true);
     open = point.ended ? 0 : open + 1;
-    if (!point.there || (point.ended && mu > point.most)) break;
+    if (!point.there || (point.ended && mu >= point.most)) break;
     if (HasRoot(last, point, kDepth)) return true;
     last = point;
   }

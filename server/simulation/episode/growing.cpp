@@ -18,8 +18,13 @@ constexpr int kMostReopened = 3;
 // A neighbour whose work is less than this part of the works that a group misses its balance by
 // cannot settle it: of a contact that a ramp presses groups would take in one swing after another.
 constexpr double kShare = 0.1;
+// Jumps may follow each other from trough to trough: a group takes in so many cycles at most. The
+// longest of 3,000 scenarios has ten.
+constexpr int kMostCycles = 16;
 // Nor does it help to take in more where the last one has left more than this part of the miss.
 constexpr double kShrinks = 0.9;
+// A change of what is around a group by less than this gives it no root that it had not.
+constexpr double kSame = 1e-3;
 // A miss that rather is the cause of what others miss by than their effect.
 constexpr double kMuch = 1e-2;
 
@@ -32,8 +37,12 @@ GroupId Neighbour(GroupId id, int places) {
 
 // Whether the balance of a group, which misses for every μ, can be settled with this neighbour.
 bool Growing::Settles(const GroupSight& group, const GroupSight& neighbour, Growth why) const {
+  if (group.cycles + neighbour.cycles > kMostCycles) return false;
   if (why != Growth::kTooLittle && why != Growth::kTooMuch) return true;
-  const double work = std::max(neighbour.work_compression, -neighbour.work_restitution);
+  const double in = group.restitution_in;
+  const double work = why == Growth::kTooMuch  // What comes back of the one before can only go.
+                          ? in * in * neighbour.work_compression
+                          : std::max(neighbour.work_compression, -neighbour.work_restitution);
   if (neighbour.cycles > 0 && work < kShare * group.Missing()) return false;
   const Unknown& unknown = problem_.groups.At(group.id);
   return unknown.growth != why || group.Missing() < kShrinks * unknown.missing;
@@ -160,7 +169,8 @@ bool Growing::HasRoot(const GroupSight& group, const Sight& scan) {
   double sum = 0;
   for (const GroupSight& g : scan.groups) sum += g.start_time < group.end_time ? g.mu : 0;
   const auto known = scanned_.try_emplace(group.id, kNaN).first;
-  if (!group.ended || std::exchange(known->second, sum) == sum) return false;
+  if (!group.ended || std::abs(known->second - sum) <= kSame * sum) return false;
+  known->second = sum;
   return bisection_.Scan(group);
 }
 

@@ -14,8 +14,8 @@ constexpr double kBeyond = 3, kOwn = 5;
 // μ δⁿ T/m_e, the damping in units of what stops the bodies within the group's duration T; an
 // isolated collision has some 3/ε. Of 2,700 groups of random scenarios one in a thousand needs
 // more. The first group of an encounter begins at rest, so that it has a root if it ends at all.
-// What a sine drives goes on to move where damping stops all else.
-constexpr double kFelt = 3000, kFeltWhenDriven = 1e5, kFeltAtFirst = 1e6;
+// What loads press creeps on where damping stops all else, and what a sine drives never stops.
+constexpr double kFelt = 3000, kFeltWhenPressed = 3e4, kFeltWhenDriven = 1e5, kFeltAtFirst = 1e6;
 // Part of a scan that passes have to be spared for a state to be kept, and how long before the
 // front it is taken.
 constexpr double kWorth = 0.1, kShortly = 1e-3;
@@ -84,7 +84,7 @@ double Problem::MostMu(const GroupSight& g) const {
                       motion_.equations().effective_mass(g.id.contact);
   const bool driven =
       std::ranges::any_of(scenario_.loads, [](const Load& load) { return load.amplitude != 0; });
-  const double felt = driven ? kFeltWhenDriven : kFelt;
+  const double felt = driven ? kFeltWhenDriven : scenario_.loads.empty() ? kFelt : kFeltWhenPressed;
   return (g.id.place > 1 ? felt : kFeltAtFirst) / g.restitution_in / unit;
 }
 
