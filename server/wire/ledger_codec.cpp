@@ -97,6 +97,7 @@ v1::Group Encode(const Scenario& scenario, const Group& group) {
   message.set_status(WireStatus(group.status));
   message.set_growth(WireGrowth(group.growth));
   message.set_residual(group.residual);
+  message.set_beside_cut(group.beside_cut);
   if (!std::isnan(group.too_much.mu)) {
     message.set_too_much_mu(group.too_much.mu);
     message.set_too_much_restitution(group.too_much.restitution);

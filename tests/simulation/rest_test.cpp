@@ -121,5 +121,67 @@ TEST(End, OfTheRunHidesAndChangesNothing) {
   EXPECT_NEAR(peaks[2] / peaks[0], 1, 1e-6);
 }
 
+// A pin that a ramp presses against a stop rings, rests while it is held, and is let go.
+Record Pressed(double restitution) {
+  Scenario s;
+  s.bodies = {Ball(-0.05, 0, 0.01)};
+  s.contacts = {
+      {.name = "stop", .left = 0, .stiffness = 1.5e8, .exponent = 1, .restitution = restitution}};
+  s.loads = {{.body = 0, .begin = 0, .end = 0.03, .slope = 200},
+             {.body = 0, .begin = 0.03, .end = 0.04, .constant = 6},
+             {.body = 0, .begin = 0.04, .end = 0.07, .constant = 6, .slope = -200}};
+  s.end_time = 0.08;
+  return RunAndRecord(s);
+}
+
+TEST(Loads, WhatTheyHoldIsLimitedAndWhatTheyLetGoIsReleased) {
+  for (const double restitution : {0.3, 0.6, 0.8}) {
+    const Record r = Pressed(restitution);
+    EXPECT_TRUE(r.outcome.all_converged);
+    EXPECT_LT(r.outcome.steps, 400'000);
+    ASSERT_FALSE(r.groups.empty());
+    const Group& press = r.groups.front();
+    EXPECT_EQ(press.status, Cycle::Status::kLimited);
+    EXPECT_LT(press.too_little.restitution, restitution);  // At μ = 0: the load keeps the rest.
+    const Cycle* release = First(r, Cycle::Status::kReleased);
+    ASSERT_NE(release, nullptr);
+    EXPECT_NEAR(release->start_time, 0.04, 1e-6);
+    EXPECT_NEAR(-release->work_restitution, 6 * 6 / (2 * 1.5e8), 1e-3 * 6 * 6 / (2 * 1.5e8));
+    EXPECT_LT(r.outcome.momentum_residual, 1e-8);
+  }
+}
+
+TEST(TheEnd, MarksGroupsThatOverlapOneThatItCuts) {
+  Scenario s = testing::TripleChain();
+  const Record whole = RunAndRecord(s);
+  ASSERT_GE(whole.groups.size(), 2U);
+  for (const Group& g : whole.groups) EXPECT_FALSE(g.beside_cut);
+  s.end_time = (whole.groups[0].end_time + whole.groups[1].end_time) / 2;
+  const Record cut = RunAndRecord(s);
+  ASSERT_EQ(cut.groups.size(), whole.groups.size());
+  for (const Group& g : cut.groups) EXPECT_TRUE(g.beside_cut);
+}
+
+TEST(TheEnd, LeavesRowsOfALawThatEndBeforeItWhatTheyAre) {
+  Scenario s = testing::TripleChain();
+  s.contacts[0].damping = DampingLaw::kExact;
+  const Record whole = RunAndRecord(s);
+  s.end_time = (whole.groups[0].end_time + whole.groups[1].end_time) / 2;
+  for (const Cycle& c : RunAndRecord(s).cycles) EXPECT_NE(c.status, Cycle::Status::kNotConverged);
+}
+
+TEST(FixedSteps, SolveTheChainAtEachAndMissItsIdentityByTheirFourthPower) {
+  const auto missed = [](double step) {
+    Scenario s = testing::TripleChain();
+    s.solver.fixed_step = step;
+    const Record r = RunAndRecord(s);
+    EXPECT_TRUE(r.outcome.all_converged) << step;
+    return r.outcome.worst_identity_residual;
+  };
+  const double coarse = missed(4e-6), fine = missed(1e-6);
+  EXPECT_NEAR(std::log(coarse / fine) / std::log(4), 4, 0.5);
+  missed(1e-7);
+}
+
 }  // namespace
 }  // namespace contact

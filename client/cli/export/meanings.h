@@ -67,6 +67,7 @@ inline constexpr Meaning kGroup[] = {
     {"too_much_restitution", "restitution at too_much_mu"},
     {"too_little_mu", "nearest mu that gave too little restitution"},
     {"too_little_restitution", "restitution at too_little_mu"},
+    {"beside_cut", "whether the end of the run cuts it, or one that overlaps it"},
 };
 
 /// A pass of the search for μ, and

@@ -121,7 +121,7 @@ std::string Certificate(const v1::Group& group) {
     case v1::Cycle::INFEASIBLE:
       return Reached(group);
     case v1::Cycle::LIMITED:
-      return Reached(group) + ", and the groups before are final";
+      return Reached(group) + ", for loads drive or hold the contact";
     case v1::Cycle::RELEASED:
       return Released(group);
     default:

@@ -35,6 +35,9 @@ void Append(const Message& row, const FieldDescriptor& field, std::string* text)
     case FieldDescriptor::CPPTYPE_INT32:
       *text += fmt::format("{}", reflection.GetInt32(row, &field));
       return;
+    case FieldDescriptor::CPPTYPE_BOOL:
+      *text += reflection.GetBool(row, &field) ? '1' : '0';
+      return;
     default:
       *text += reflection.GetString(row, &field);  // Names of contacts need no quotes.
   }

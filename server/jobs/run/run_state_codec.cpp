@@ -165,8 +165,8 @@ template <class Archive>
 void serialize(Archive& archive, RunState& s) {
   archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
   archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
-  archive(s.growths, s.growths_no_progress, s.solved_until, s.rest_ends);
-  archive(s.unknowns, s.warned, s.missed, s.unproven, s.sampling);
+  archive(s.growths, s.growths_no_progress, s.solved_until, s.cut_since);
+  archive(s.unknowns, s.rest_ends, s.warned, s.missed, s.unproven, s.sampling);
 }
 
 namespace {

@@ -87,6 +87,7 @@ void EpisodeSolver::Save(RunState* state) const {
   state->growths = log_.growths;
   state->growths_no_progress = log_.growths_no_progress;
   state->solved_until = solved_until_;
+  state->cut_since = problem_.groups.cut_since();
   state->unknowns.clear();
   for (const auto& [id, unknown] : problem_.groups.known()) state->unknowns.push_back(unknown);
   state->rest_ends.clear();
@@ -99,6 +100,7 @@ void EpisodeSolver::Restore(const RunState& state) {
   log_.growths = state.growths;
   log_.growths_no_progress = state.growths_no_progress;
   solved_until_ = state.solved_until;
+  problem_.groups.set_cut_since(state.cut_since);
   for (const Unknown& unknown : state.unknowns) problem_.groups.At(unknown.id) = unknown;
   for (const auto& [id, time] : state.rest_ends) problem_.groups.NoteRestEnd(id, time);
   recorder_.Restore(state);
@@ -178,6 +180,7 @@ Sight EpisodeSolver::Scan(bool coarse) {
       const bool missed = g.sought && !(std::abs(g.Miss()) <= problem_.tolerance());
       unknown.status = missed ? Cycle::Status::kNotConverged : Cycle::Status::kConverged;
     }
+    if (sight.time >= problem_.end()) problem_.groups.NoteCut(sight, problem_.end());
     if (!changed || i == kRescans || problem_.Aborted()) return sight;
   }
 }

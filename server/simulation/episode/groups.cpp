@@ -89,6 +89,24 @@ double Groups::RestEnd(const GroupId& before) const {
   return noted == rest_ends_.end() ? kNever : noted->second;
 }
 
+void Groups::NoteCut(const Sight& sight, double end) {
+  const auto until = [](const GroupSight& g) { return g.ended ? g.end_time : kNever; };
+  cut_since_ = kNever;
+  for (const GroupSight& g : sight.groups) {
+    if (g.sought && g.start_time < end && until(g) > end) {
+      cut_since_ = std::min(cut_since_, g.start_time);
+    }
+  }
+  for (bool earlier = true; earlier;) {
+    earlier = false;
+    for (const GroupSight& g : sight.groups) {
+      if (!g.sought || g.start_time >= cut_since_ || until(g) <= cut_since_) continue;
+      cut_since_ = g.start_time;
+      earlier = true;
+    }
+  }
+}
+
 void Groups::ForgetBegun(const State& state) {
   std::erase_if(known_, [&](const auto& entry) { return HasBegun(state, entry.first); });
   std::erase_if(rest_ends_, [&](const auto& entry) {

@@ -32,6 +32,13 @@ class Groups {
   std::map<GroupId, double>& rest_ends() { return rest_ends_; }
   const std::map<GroupId, double>& rest_ends() const { return rest_ends_; }
 
+  /// Notes since when groups overlap one that the end of the run cuts, or one that overlaps such a
+  /// group: with a later end their μ may be others. `sight` has seen the run to its end [s].
+  void NoteCut(const Sight& sight, double end);
+  /// That instant [s]; infinite if there is none.
+  double cut_since() const { return cut_since_; }
+  void set_cut_since(double time) { cut_since_ = time; }
+
   /// Forgets the groups that have begun in this state, and rests that are over.
   void ForgetBegun(const State& state);
   std::map<GroupId, Unknown>& known() { return known_; }
@@ -40,6 +47,7 @@ class Groups {
  private:
   std::map<GroupId, Unknown> known_;
   std::map<GroupId, double> rest_ends_;  // By the group before the rest.
+  double cut_since_ = kNever;
 };
 
 }  // namespace contact

@@ -38,7 +38,8 @@ bool Membership::IsWeak(const ContactState& state, double times) const {
   const SolverOptions& options = scenario_.solver;
   const double fraction = state.cycle.kind == Cycle::Kind::kNirv ? options.settled_nirv_fraction
                                                                  : options.settled_fraction;
-  const double work = std::max(state.cycle.work_compression, -state.cycle.work_restitution);
+  const double work =
+      std::max(state.cycle.work_compression, std::abs(state.cycle.work_restitution));
   return work <= times * fraction * state.largest_work;
 }
 

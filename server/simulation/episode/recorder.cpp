@@ -115,7 +115,7 @@ void Recorder::Open(ContactState& state, const Unknown& unknown) const {
   group.status = unknown.status;
   if (contact.damping != DampingLaw::kEnergyRestitution) group.status = Cycle::Status::kGivenLaw;
   if (IsUndamped(scenario_, state.cycle.contact)) group.status = Cycle::Status::kConverged;
-  if (unknown.cut) group.status = OfCut(group.status);
+  if (unknown.cut && IsSought(scenario_, state.cycle.contact)) group.status = OfCut(group.status);
   if (contact.damping != DampingLaw::kGiven) group.restitution_in = contact.restitution;
   group.restitution_out = unknown.restitution_out;
   group.growth = unknown.growth;
@@ -249,6 +249,7 @@ void Recorder::Close(ContactState& state) {
       status == Cycle::Status::kNotConverged || status == Cycle::Status::kReleased;
   if (answerless && (weak || state.member.nothing)) status = Cycle::Status::kSettled;
   group.status = status;
+  group.beside_cut = group.end_time > known_.cut_since();
   const bool answered = unknown == nullptr || unknown->given_up;
   if (status == Cycle::Status::kNotConverged && !answered) sound_ = false;
   for (Cycle& cycle : cycles) {
@@ -264,6 +265,7 @@ void Recorder::FinishCut(ContactState& state) {
   if (state.phase == Phase::kResting) return;
   Group& group = state.member.group;
   cycle.status = group.status = OfCut(group.status);
+  group.beside_cut = true;
   if (group.number == 0) return;
   group.end = Cycle::End::kRunEnd;
   group.end_time = cycle.end_time;

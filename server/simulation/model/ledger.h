@@ -33,7 +33,7 @@ struct Cycle {
     kJump,          ///< As μ changes, ε_out jumps over ε_in; Group tells both sides.
     kUnfinished,  ///< The end of the run cuts it, and no μ was found for its group: it has a guess.
     kReleased,    ///< A restitution without compression: it gives back what was stored before.
-    kLimited,     ///< Its group gives back too much for every μ, and those before it are final.
+    kLimited,     ///< No μ of its group gives ε_in, for loads drive it; it has a guess.
     kCut,         ///< The end of the run cuts it; μ is that of a look beyond the end.
   };
 
@@ -97,10 +97,10 @@ struct Group {
   double work_compression = 0;        ///< Sum of W_c of its cycles, a cut one included [J].
   double work_restitution = 0;        ///< Sum of W_r [J], ≤ 0.
   double restitution_in = kNaN;
-  double restitution_out = kNaN;  ///< √(−W_r/W_c).
-  double residual = 0;            ///< |(W4)| summed over its cycles, / W_c.
-  Reached too_much = {},
-          too_little = {};  ///< Of kJump and kInfeasible: the nearest on either side.
+  double restitution_out = kNaN;           ///< √(−W_r/W_c).
+  double residual = 0;                     ///< |(W4)| summed over its cycles, / W_c.
+  bool beside_cut = false;                 ///< The end of the run cuts it, or one that overlaps it.
+  Reached too_much = {}, too_little = {};  ///< Of those without a μ: the nearest on either side.
 };
 
 /// One pass through an episode with one set of μ.

@@ -335,6 +335,7 @@ void Cycles::DescribeEnd(ContactState& state) {
   const Eigen::ArrayXd& y = system_.rk.y0;
   const bool separates = cycle.end == Cycle::End::kSeparation;
   cycle.end_time = system_.time;
+  cycle.turn_time = std::min(cycle.turn_time, cycle.end_time);  // The end was located again.
   cycle.end_deformation = separates ? 0 : system_.Deformation(cycle.contact, y.data());
   cycle.separation_velocity =
       separates ? system_.equations.Relative(cycle.contact, y.data() + system_.equations.bodies())
@@ -363,8 +364,12 @@ void Cycles::Balance(const ContactState& state, double split_velocity, Cycle* cy
                             kinetic(split_velocity) - cycle->external_compression;
   const double released = compressed - kinetic(split_velocity) + kinetic(end) +
                           cycle->work_restitution - cycle->external_restitution;
-  cycle->identity_residual = state.released ? std::abs(released / cycle->work_restitution)
-                                            : std::abs(compressed / cycle->work_compression);
+  const double missed = std::abs(state.released ? released : compressed);
+  const double work = state.released ? -cycle->work_restitution : cycle->work_compression;
+  // A negligible cycle counts by what it does to the contact: of its own work round-off is left.
+  const double negligible = system_.scenario.solver.settled_nirv_fraction * state.largest_work;
+  cycle->identity_residual =
+      missed == 0 ? 0 : missed / (work > negligible ? work : state.largest_work);
   system_.contact_loss += cycle->dissipated_compression + cycle->dissipated_restitution;
 }
 

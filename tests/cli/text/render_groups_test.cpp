@@ -74,7 +74,7 @@ TEST(RenderGroups, ShowsWhatALimitedGroupReachedAndWhatAReleasedOneGivesBack) {
   *job.add_groups() = Reached(v1::Cycle::LIMITED, "too_much_mu: 8 too_much_restitution: 0.75");
   EXPECT_THAT(RenderGroups(job, {}),
               HasSubstr("\nwall group 2: no μ gives a restitution of 0.5: too much comes back at "
-                        "every μ: ε is 0.75 at μ = 8, and the groups before are final\n"));
+                        "every μ: ε is 0.75 at μ = 8, for loads drive or hold the contact\n"));
   *job.mutable_groups(0) =
       Reached(v1::Cycle::RELEASED, "work_restitution_j: -0.25 restitution_out: nan");
   EXPECT_THAT(RenderGroups(job, {}),

@@ -26,7 +26,7 @@ class Comparison {
       Velocities();
     }
     for (const Group& g : run_.groups) {
-      if (IsAnswered(g) && !IsMarked(g)) Compare(g);
+      if (IsAnswered(g) && !(other_.longer && g.beside_cut)) Compare(g);
     }
     return result_;
   }
@@ -50,14 +50,6 @@ class Comparison {
       const double v = other_.Velocity(again_.outcome.velocities[there]);
       Take(std::abs(v - run_.outcome.velocities[i]) / largest, "velocity of " + s_.bodies[i].name);
     }
-  }
-
-  // Whether a row of it says that the end of the run plays a part in its μ.
-  bool IsMarked(const Group& g) const {
-    return std::ranges::any_of(run_.cycles, [&](const Cycle& c) {
-      return c.contact == g.contact && c.group == g.number &&
-             (c.status == Cycle::Status::kCut || c.end == Cycle::End::kRunEnd);
-    });
   }
 
   void Compare(const Group& g) {

@@ -86,7 +86,9 @@ class Judge {
       BreakOnce("values", "of ", name(), ' ', c.number);
     }
     if (c.status != Cycle::Status::kConverged) return;
-    if (!(c.max_deformation >= c.start_deformation) || !(c.work_compression > 0)) {
+    // Of a cycle of next to nothing, which its group has taken in, round-off is left.
+    const double round_off = 1e-9 * HardestWork();
+    if (!(c.max_deformation >= c.start_deformation) || !(c.work_compression > -round_off)) {
       BreakOnce("compression", "of ", name(), ' ', c.number);
     }
   }
@@ -105,8 +107,7 @@ class Judge {
     const bool unfinished = g.status == Cycle::Status::kUnfinished;
     if (!full() || !(unfinished || g.status == Cycle::Status::kCut)) return;
     const Contact& contact = s_.contacts[static_cast<std::size_t>(g.contact)];
-    const double most =
-        std::ranges::max_element(run_.groups, {}, &Group::work_compression)->work_compression;
+    const double most = HardestWork();
     if (unfinished && g.end != Cycle::End::kRunEnd &&
         g.work_compression > promised_.negligible * most) {
       BreakOnce("unfinished", contact.name, " group ", g.number);
@@ -115,6 +116,12 @@ class Judge {
     if (blow > 0 && g.mu > promised_.glue * blow) {
       BreakOnce("glued", contact.name, " group ", g.number, ": ", g.mu / blow, " times");
     }
+  }
+
+  // The largest W_c of a group of the run.
+  double HardestWork() const {
+    const auto hardest = std::ranges::max_element(run_.groups, {}, &Group::work_compression);
+    return hardest == run_.groups.end() ? 0 : hardest->work_compression;
   }
 
   double Hardest(const Group& g) const {

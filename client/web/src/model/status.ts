@@ -17,7 +17,7 @@ const LOOKS: Partial<Record<Cycle_Status, Look>> = {
   [Cycle_Status.SETTLED]: {sign: '✓', tone: 'good', meaning: 'its work is negligible, or the contact rests'},
   [Cycle_Status.RELEASED]: {sign: '✓', tone: 'good', meaning: 'it gives back what was stored before; ε says nothing of it'},
   [Cycle_Status.JUMP]: {sign: '!', tone: 'warn', meaning: 'ε jumps over the one asked for as μ changes'},
-  [Cycle_Status.LIMITED]: {sign: '!', tone: 'warn', meaning: 'too much comes back at every μ, and the groups before are final'},
+  [Cycle_Status.LIMITED]: {sign: '!', tone: 'warn', meaning: 'no μ gives ε, for loads drive or hold the contact'},
   [Cycle_Status.CUT]: {sign: '┤', tone: 'calm', meaning: 'the end of the run cuts it; what that hides is –'},
   [Cycle_Status.UNFINISHED]: {sign: '┤', tone: 'calm', meaning: 'the end of the run cuts it, and no μ was found'},
   [Cycle_Status.INFEASIBLE]: {sign: '✗', tone: 'bad', meaning: 'no μ gives the restitution asked for'},
