@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 #include "simulation/kinds/machines.h"
 #include "simulation/proof/independent.h"
@@ -34,13 +35,17 @@ std::string NameOf(const Machine& machine, unsigned seed) {
   return std::string(machine.name) + ' ' + std::to_string(seed);
 }
 
-// Kinds of which some are not solved yet, or not alike in all words: columns of balls that swing
-// without coming to rest, late pulses, rows with exponents to 4. README.md, "Known limits".
-bool IsOpen(const Machine& machine) {
-  constexpr std::array kOpen = {"placed", "stack",   "settling",  "late",    "press", "pulses",
-                                "gas",    "plastic", "exponents", "grazing", "sizes", "zeno"};
-  return std::ranges::find(kOpen, machine.name) != kOpen.end();
+bool IsOneOf(const Machine& machine, std::initializer_list<std::string_view> names) {
+  return std::ranges::find(names, machine.name) != names.end();
 }
+
+// Balls that fall on each other and come to rest: not all are solved yet, nor alike in all words.
+// README.md, "Known limits".
+bool IsOpen(const Machine& machine) { return IsOneOf(machine, {"placed", "stack", "settling"}); }
+
+// Where contacts creep, or begin next to nothing, the instants of two integrations are farther
+// apart.
+bool Creeps(const Machine& machine) { return IsOneOf(machine, {"late", "zeno", "exponents"}); }
 
 class EachMachine : public ::testing::TestWithParam<Machine> {};
 
@@ -53,7 +58,8 @@ TEST_P(EachMachine, KeepsPromisesThatAnIndependentIntegrationConfirms) {
     for (const std::string& broken : BrokenPromises(s, run)) ADD_FAILURE() << broken;
     if (run.outcome.end != Outcome::End::kFinished) continue;  // It is not FULL, see below.
     const Disagreement miss = CompareWithIndependent(s, run);
-    EXPECT_LT(miss.sure, s.solver.clip_tension ? 1e-6 : 1e-8) << miss.where;
+    const bool far = s.solver.clip_tension || Creeps(GetParam());
+    EXPECT_LT(miss.sure, far ? 1e-6 : 1e-8) << miss.where;
   }
 }
 
@@ -61,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, EachMachine, ::testing::ValuesIn(Machines()),
                          [](const auto& made) { return std::string(made.param.name); });
 
 // Nearly plastic ones apart, whose restitution is steep in μ where it hardly ends.
-TEST(Machines, AreSolvedInNinetyOfAHundred) {
+TEST(Machines, AreSolvedInNinetyFiveOfAHundred) {
   if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
   int runs = 0, full = 0;
   std::string others;
@@ -74,12 +80,13 @@ TEST(Machines, AreSolvedInNinetyOfAHundred) {
       if (!IsFull(run)) others += NameOf(machine, seed) + ' ' + run.outcome.message + '\n';
     }
   }
-  EXPECT_GE(full, 0.9 * runs) << others;
+  EXPECT_GE(full, 0.95 * runs) << others;
 }
 
 TEST(Machines, HaveTheSameAnswersInOtherWords) {
   for (const Machine& machine : Machines()) {
-    if (IsOpen(machine)) continue;
+    // A tail of chaos with another tolerance; a touch at rest, in a moving frame.
+    if (IsOpen(machine) || IsOneOf(machine, {"late", "pulses"})) continue;
     const Scenario s = Rolled(machine, kFirst);
     const Ledger run = RunForLedger(s);
     if (!IsFull(run) || (!kOptimized && run.outcome.steps > 2'000)) continue;
