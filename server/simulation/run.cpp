@@ -9,6 +9,7 @@
 #include "simulation/episode/run_state.h"
 #include "simulation/motion/cycle_works.h"
 #include "simulation/sampler.h"
+#include "simulation/whereabouts.h"
 
 namespace contact {
 namespace {
@@ -16,6 +17,9 @@ namespace {
 constexpr char kFull[] =
     "output.samples_per_contact: the trajectory has as many samples as the server allows; contacts "
     "after that have only those of sample_interval_s";
+
+// From so many steps on a run tells what it is busy with.
+constexpr std::int64_t kManySteps = 1'000'000;
 
 // One run: free flights and episodes in turn, and the ledger.
 class Runner {
@@ -54,7 +58,10 @@ class Runner {
       observer_.OnProgress({.time = run_.state.time,
                             .steps = motion_.steps(),
                             .cycles = run_.cycles,
-                            .iterations = solver_.log().total});
+                            .iterations = solver_.log().total,
+                            .busy_with = motion_.steps() < kManySteps
+                                             ? std::string()
+                                             : Whereabouts(scenario_, motion_)});
       if (run_.state.time < scenario_.end_time && run_.outcome.end == Outcome::End::kFinished) {
         observer_.OnBoundary([this] { return Save(); });
       }
@@ -129,19 +136,12 @@ class Runner {
       case Motion::Pause::kStopped:
         return fail(Outcome::End::kStopped, "stopped on request");
       case Motion::Pause::kStepLimit:
-        return fail(Outcome::End::kBudgetSteps, "the step budget was spent");
+        return fail(Outcome::End::kBudgetSteps,
+                    "the step budget was spent (" + Whereabouts(scenario_, motion_) + ")");
       case Motion::Pause::kNumeric:
-        return fail(Outcome::End::kNumeric, "the integration broke down (" + Whereabouts() + ")");
+        return fail(Outcome::End::kNumeric,
+                    "the integration broke down (" + Whereabouts(scenario_, motion_) + ")");
     }
-  }
-
-  std::string Whereabouts() const {
-    std::string names;
-    for (const ActiveContact& active : motion_.equations().active) {
-      const auto& contact = scenario_.contacts[static_cast<std::size_t>(active.contact)];
-      names += (names.empty() ? "in contact " : ", ") + contact.name;
-    }
-    return names.empty() ? "no contact active" : names;
   }
 
   void Emit(const Cycle& cycle) {

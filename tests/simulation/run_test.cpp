@@ -290,6 +290,15 @@ TEST(Run, KeepsItsStepBudget) {
   EXPECT_GT(r.outcome.time, 0);
 }
 
+TEST(Run, TellsOnWhatItsBudgetWasSpent) {
+  Scenario s = testing::TripleChain();
+  s.solver.max_steps = 20;
+  const std::string message = RunAndRecord(s).outcome.message;
+  for (const char* part : {"in contact ", ": δ ", " m, λh ", ", work "}) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+}
+
 TEST(Run, ABodyWithoutContactFlies) {
   Scenario s;
   s.bodies = {testing::Ball(1, 3)};
