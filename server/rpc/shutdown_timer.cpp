@@ -18,7 +18,9 @@ bool StoppedBefore(steady_clock::time_point end, const std::stop_token& stop) {
   std::mutex mutex;
   std::unique_lock lock(mutex);
   const auto stopped = [&stop] { return stop.stop_requested(); };
-  return std::condition_variable_any().wait_until(lock, stop, end, stopped);
+  // What it returns is what it saw last; libstdc++ may say false where the stop came just after.
+  std::condition_variable_any().wait_until(lock, stop, end, stopped);
+  return stopped();
 }
 
 }  // namespace
