@@ -5,7 +5,7 @@ import {after, afterEach, before, beforeEach, test} from 'node:test';
 
 import {AskingServer, CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
 
-const LONG = swinging(2, {method: 'RK4', stepS: 1e-7});   // Ten seconds or so.
+const LONG = swinging(2, {method: 'RK4', stepS: 1e-7});   // Twenty seconds or so.
 let server;
 let browser;
 let page;
@@ -62,6 +62,20 @@ test('numbers of the ledger equal those of the API, digit for digit', async () =
   assert.match(await page.getByLabel('Details').innerText(), new RegExp(String(job.finalBodies[2].velocityMPerS)));
 });
 
+test('a stream that is slower than the job itself takes nothing of it away', async () => {
+  const id = await server.submit(CHAIN);
+  const job = await server.ended(id);
+  let answers = 0;
+  let asked;
+  const twice = new Promise((resolve) => { asked = resolve; });
+  page.on('response', (response) => { if (response.url().endsWith('/GetJob') && ++answers === 2) asked(); });
+  await page.route('**/WatchJob', async (route) => { await twice; await route.continue(); });
+  await open(`/runs/${id}`);
+  await page.getByLabel('Details').getByText(String(job.finalBodies[2].velocityMPerS)).waitFor();
+  await hold(async () => await points('residual') >= 3);   // The stream has come.
+  assert.match(await page.getByLabel('Details').innerText(), new RegExp(String(job.finalBodies[2].velocityMPerS)));
+});
+
 test('a run is watched while it converges, and is cancelled', async () => {
   const id = await server.submit(LONG);
   await open(`/runs/${id}`);
@@ -76,7 +90,7 @@ test('a run is watched while it converges, and is cancelled', async () => {
 });
 
 test('a window follows the newest samples of a run', async () => {
-  const id = await server.submit(LONG);
+  const id = await server.submit({...LONG, output: {sampleIntervalS: 1e-5}});   // So close that a window has some of the last chunk.
   await open(`/runs/${id}?from=0&to=0.01&follow=1`);
   const shown = () => page.getByLabel('Motion', {exact: true}).locator('.tools .mono').innerText().then((t) => Number(t.split(' ')[0]));
   await hold(async () => await shown() > 0.005);

@@ -5,7 +5,7 @@ import {after, afterEach, before, beforeEach, test} from 'node:test';
 
 import {CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
 
-const LONG = swinging(2, {method: 'RK4', stepS: 1e-7});   // Ten seconds or so.
+const LONG = swinging(2, {method: 'RK4', stepS: 1e-7});   // Twenty seconds or so.
 const BALL = {title: 'A ball alone', bodies: [{name: 'a', massKg: 1}], endTimeS: 1e-3, output: {ledgerOnly: true}};
 let server;
 let browser;
@@ -78,7 +78,7 @@ test('a run is deleted when that is said twice', async () => {
 });
 
 test('a window that follows goes on to follow after a zoom', async () => {
-  const id = await server.submit(LONG);
+  const id = await server.submit({...LONG, output: {sampleIntervalS: 1e-5}});   // So close that a window has some of the last chunk.
   await open(`/runs/${id}?from=0&to=0.01&follow=1`);
   const shown = () => page.getByLabel('Motion', {exact: true}).locator('.tools .mono').innerText().then((text) => text.match(/[\d.e-]+/g).map(Number));
   await hold(async () => await points('force') > 2 && (await shown())[0] > 0.002);

@@ -5,6 +5,7 @@ import {useEffect, useRef, useState} from 'preact/hooks';
 import {server} from '../../api/client';
 import {explain, passes} from '../../api/errors';
 import type {Link} from '../../api/stream';
+import type {Job} from '../../api/generated/contact/v1/job_pb';
 import {isFinal, watchJob} from '../../api/watch';
 import {emptyRun, takeEvents, takeSnapshot, type RunState} from '../../model/runState';
 
@@ -22,6 +23,7 @@ export function useRun(id: string): {run: RunState; link: Link} {
     let frame = 0;
     let shownAt = 0;
     let fetched = false;
+    let whole = false;   // The job as it stays is here: its end, its summary, its bodies.
     const show = () => {
       frame = 0;
       shownAt = performance.now();
@@ -42,6 +44,8 @@ export function useRun(id: string): {run: RunState; link: Link} {
       done = final;
       fetched = true;
       server.getJob({name}, {signal: control.signal}).then((job) => {
+        if (whole) return;
+        whole = isFinal(job.state);
         takeSnapshot(state, job);
         if (state.cycles.length === 0) state.cycles = job.cycles;
         if (state.groups.length === 0) state.groups = job.groups;
@@ -52,7 +56,12 @@ export function useRun(id: string): {run: RunState; link: Link} {
       });
     };
     fetchJob(false);
-    void watchJob(name, (job) => { takeSnapshot(state, state.job?.spec.case ? {...job, spec: state.job.spec} : job); plan(); },
+    // What comes later than the whole job would only take away from it.
+    const takeHeader = (job: Job) => {
+      if (!whole) takeSnapshot(state, state.job?.spec.case ? {...job, spec: state.job.spec} : job);
+      plan();
+    };
+    void watchJob(name, takeHeader,
       (events) => { takeEvents(state, events); if (events.length > 0) plan(); },
       setLink, control.signal);
     return () => { control.abort(); clearTimeout(frame); cancelAnimationFrame(frame); };
