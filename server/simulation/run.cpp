@@ -89,6 +89,8 @@ class Runner {
                            scenario_.solver.max_steps);
   }
 
+  // To the next touch, once it is known where rests end on the way. One that ends at once begins an
+  // episode instead.
   void Flight() {
     const Motion::Pause foreseen =
         solver_.Foresee(run_.state, scenario_.end_time, stop_, scenario_.solver.max_steps);

@@ -19,11 +19,12 @@ TEST_P(EveryKind, IsConfirmedByAnIndependentIntegration) {
     const testing::Record run = testing::RunAndRecord(scenario);
     const testing::Disagreement miss = testing::CompareWithIndependent(scenario, run);
     SCOPED_TRACE(seed);
+    // At their ends, where F δ̇ = 0, pressed cycles hardly move: their instants matter less.
+    const bool pressed = GetParam() == static_cast<int>(Kind::kPressed);
     EXPECT_LT(miss.velocity, 1e-8);
     EXPECT_LT(miss.restitution, 1e-8);
-    // Of instants where F δ̇ = 0, so that a hundred times as much changes nothing else.
-    EXPECT_LT(miss.time, 1e-6);
-    EXPECT_LT(miss.worst, 2e-8) << miss.where;
+    EXPECT_LT(miss.time, pressed ? 1e-7 : 1e-8);
+    EXPECT_LT(miss.worst, pressed ? 2e-8 : 1e-8) << miss.where;
     EXPECT_LT(miss.overlap, 1e-8);
     EXPECT_EQ(miss.checked_until, scenario.end_time);
   }

@@ -171,8 +171,7 @@ Sight EpisodeSolver::Scan(bool coarse) {
       unknown.flips += flips;
       unknown.weak = g.weak;
       unknown.restitution_out = std::sqrt(std::max(g.squared, 0.0));
-      const bool other = unknown.length == 0;
-      if (other) unknown.length = g.length, unknown.speed = g.speed;
+      if (unknown.length == 0) unknown.length = g.length, unknown.speed = g.speed;
       const bool ends_after_all = unknown.status == Cycle::Status::kUnfinished &&
                                   g.end_time <= problem_.end() && unknown.reopened < kReopened;
       if (ends_after_all) ++unknown.reopened;

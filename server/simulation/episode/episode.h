@@ -39,7 +39,8 @@ class EpisodeSolver {
   /// again, and recorded anew.
   bool Accepts(Motion::Pause pause);
 
-  /// Begins the recording of the episode, or of the flight after it; hosts it.
+  /// Begins the recording of the episode, or of the flight after it; hosts it. `repeatable`: see
+  /// Recorder::Begin.
   Recorder& Record(bool repeatable);
   Recorder& recorder() { return recorder_; }
 

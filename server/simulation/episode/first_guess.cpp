@@ -16,10 +16,10 @@ namespace {
 constexpr double kSwing = 0.3;
 // How long a collision takes, in units of δ_m/v: three of them, and longer where it is damped.
 constexpr double kAlone = 6;
-// A speed is nothing beside one that is so many times it.
+// A speed is nothing beside one that is so many times it. Touching bodies of almost one speed meet
+// with 1e-7 of the others' and less (nearspeeds of the machines).
 constexpr double kNothing = 1e5;
-
-// Times in which loads may grow: each is a fourth of the next, the last that which is left.
+// Times after which loads are looked at: each is a fourth of the next, from 1e-12 of what is left.
 constexpr double kFiner = 0.25;
 constexpr int kFinest = 20;
 
@@ -75,8 +75,10 @@ double FirstGuess::Sought(const ContactState& state, double alpha, double own,
   if (own == 0 && state.last_mu > 0 && !state.woken) return state.last_mu;
   double speed = std::max(
       {own, NeighbourSpeed(state.cycle.contact), SpeedAround(state.cycle, effective_mass)});
-  const double behind = SpeedBehind(state.cycle, effective_mass);
-  if (behind > kNothing * speed) speed = behind;
+  if (own > 0 && 2 * FastestBody() > kNothing * speed) {
+    const double behind = SpeedBehind(state.cycle, effective_mass);
+    if (behind > kNothing * speed) speed = behind;
+  }
   if (speed == 0) speed = fastest_;
   const double swing = std::max(SwingSpeed(contact, effective_mass, external_force),
                                 SwingAhead(state.cycle, effective_mass, external_force));
@@ -106,11 +108,14 @@ double FirstGuess::SpeedAround(const Cycle& cycle, double effective_mass) const 
   return largest;
 }
 
-// The same of all contacts that push it through others which touch.
+double FirstGuess::FastestBody() const {
+  const int n = motion_.equations().bodies();
+  return motion_.integrator().y0.segment(n, n).abs().maxCoeff();
+}
+
+// The largest speed with which bodies meet that push a collision through contacts which touch.
 double FirstGuess::SpeedBehind(const Cycle& cycle, double effective_mass) const {
-  const double own = cycle.approach_velocity;
-  if (own == 0) return 0;
-  const double reach = kAlone * OwnDepth(cycle, effective_mass) / own;
+  const double reach = kAlone * OwnDepth(cycle, effective_mass) / cycle.approach_velocity;
   std::vector<bool> joined(scenario_.bodies.size());
   double largest = 0;
   const auto join = [&](int contact) {
@@ -147,9 +152,10 @@ FirstGuess::Meeting FirstGuess::MeetingOf(int contact) const {
           .speed = equations.Relative(contact, y + equations.bodies())};
 }
 
-// The same with the loads as they will be while the cycle lasts: what begins slowly may be pushed
-// together by what grows meanwhile. A collision is the sooner over, the faster it is; how long a
-// cycle from rest lasts is not known, and too small a μ does no harm.
+// The speed of the swing through the equilibrium of the loads as they will be while the cycle
+// lasts: what begins slowly may be pushed together by what grows meanwhile. A collision is the
+// sooner over, the faster it is; how long a cycle from rest lasts is not known, and too small a μ
+// does no harm. Loads that do not change at once are taken as they are: a guess needs no more.
 double FirstGuess::SwingAhead(const Cycle& cycle, double effective_mass,
                               double external_force) const {
   const Contact& c = scenario_.contacts[At(cycle.contact)];

@@ -37,6 +37,7 @@ class FirstGuess {
   Meeting MeetingOf(int contact) const;
   double OwnDepth(const Cycle& cycle, double effective_mass) const;
   double SpeedAround(const Cycle& cycle, double effective_mass) const;
+  double FastestBody() const;
   double SpeedBehind(const Cycle& cycle, double effective_mass) const;
   double SwingAhead(const Cycle& cycle, double effective_mass, double external_force) const;
   double LoadChange(const Contact& contact, double time) const;

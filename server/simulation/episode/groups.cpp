@@ -111,7 +111,7 @@ void Groups::ForgetBegun(const State& state) {
   std::erase_if(known_, [&](const auto& entry) { return HasBegun(state, entry.first); });
   std::erase_if(rest_ends_, [&](const auto& entry) {
     const ContactState& contact = state.contacts[static_cast<std::size_t>(entry.first.contact)];
-    const bool rests = contact.phase == Phase::kResting && LastGroup(contact) == entry.first;
+    const bool rests = Rests(contact) && LastGroup(contact) == entry.first;
     return HasBegun(state, entry.first) && !rests;
   });
 }

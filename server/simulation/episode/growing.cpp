@@ -17,13 +17,17 @@ constexpr std::array<double, 5> kLower = {0.5, 0.2, 0.05, 1e-2, 1e-4};
 constexpr int kMostReopened = 3;
 // A neighbour whose work is less than this part of the works that a group misses its balance by
 // cannot settle it: of a contact that a ramp presses groups would take in one swing after another.
+// More refuses what helps: 0.3 leaves wall 152 and support 429 of simulation_campaign unsolved; 0
+// eleven of 40 presses. Loads.WhatTheyHoldIsLimited….
 constexpr double kShare = 0.1;
-// Jumps may follow each other from trough to trough: a group takes in so many cycles at most. The
-// longest of 3,000 scenarios has ten.
+// Jumps may follow each other from trough to trough, 430 of them in damper 13 of the machines: a
+// group has so many cycles at most. The longest of 3,000 scenarios has ten.
 constexpr int kMostCycles = 16;
-// Nor does it help to take in more where the last one has left more than this part of the miss.
+// Nor does it help to take in more where the last one has left more than this part of the miss, as
+// in 125 swings of press 20. Of a row, where it does help, little is left.
 constexpr double kShrinks = 0.9;
-// A change of what is around a group by less than this gives it no root that it had not.
+// A change of what is around a group by less than this gives it no root that it had not. Scanned
+// again for every change, 2 more of 40 stacks of the machines spend a million steps.
 constexpr double kSame = 1e-3;
 // A miss that rather is the cause of what others miss by than their effect.
 constexpr double kMuch = 1e-2;
@@ -129,8 +133,7 @@ void Growing::Decide(const GroupId& id, Root root) const {
   unknown.status = jumps     ? Cycle::Status::kJump
                    : limited ? Cycle::Status::kLimited
                              : Cycle::Status::kInfeasible;
-  if (root == Root::kTooLittle && alone) unknown.mu = 0;
-  if (root == Root::kTooLittle && !alone) unknown.mu = unknown.first_mu;
+  if (root == Root::kTooLittle) unknown.mu = alone ? 0 : unknown.first_mu;
   if (root == Root::kTooMuch) unknown.mu = opens ? unknown.too_much.mu : unknown.first_mu;
   if (root == Root::kJump && alone) unknown.mu = unknown.too_much.mu;
 }

@@ -93,7 +93,7 @@ double Recorder::OnRelease(ContactState& state, double effective_mass) {
   return membership_.Release(state, effective_mass);
 }
 
-// Notes when the rest ends, which the search has not seen, or nobody in a flight between episodes.
+// Notes when the rest ends, which the search has not seen: the episode is to be solved again.
 bool Recorder::OnDisturbed(const ContactState& state, double cause) {
   if (!repeatable_) return true;
   known_.NoteRestEnd(LastGroup(state), cause);
@@ -173,8 +173,7 @@ void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::Ar
   Cycle& cycle = state.cycle;
   const bool rested = !state.member.open;
   const bool ended = membership_.End(state);
-  state.member.imbalance +=
-      cycle.identity_residual * std::max(cycle.work_compression, -cycle.work_restitution);
+  state.member.imbalance += state.imbalance;
   Label(state, cycle);
   if (rested) cycle.group = 0, cycle.status = Cycle::Status::kSettled;
   if (cycle.status == Cycle::Status::kSettled) cycle.restitution_out = kNaN;

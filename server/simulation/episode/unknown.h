@@ -46,7 +46,7 @@ struct Unknown {
   int iterations = 0;             ///< Corrections of μ by the search that found it.
   Growth growth = Growth::kNotGrown;
   double missing = 0;  ///< By what it missed its balance when it grew last [J].
-  /// kConverged, kJump, kInfeasible, kUnfinished: found. kNotConverged: still sought.
+  /// kConverged, kJump, kLimited, kInfeasible, kUnfinished: found. kNotConverged: still sought.
   Cycle::Status status = Cycle::Status::kNotConverged;
   Group::Reached too_much, too_little;
 

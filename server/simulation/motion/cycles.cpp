@@ -136,6 +136,7 @@ void Cycles::DescribeStart(int contact) {
                  .approach_velocity = approach};
   state.start_velocity = system_.equations.Relative(contact, y + n);
   state.released = false;
+  state.imbalance = 0;
   state.peak = {};
 }
 
@@ -264,8 +265,12 @@ void Cycles::AskRests(CycleHost& host) {
     if (!Rests(state)) continue;
     state.rest_until = host.RestEnds(state);
     if (state.rest_until > system_.time) continue;
-    if (state.phase == Phase::kResting) Wake(c, host);
-    state.settled = false, state.woken = true;  // Also of a rest that was about to begin.
+    if (state.phase == Phase::kResting) {
+      Wake(c, host);
+    } else {  // It was about to rest.
+      state.settled = false;
+      state.woken = true;
+    }
   }
 }
 
@@ -351,26 +356,28 @@ void Cycles::DescribeEnd(ContactState& state) {
                  &cycle);
   const double ratio = -cycle.work_restitution / cycle.work_compression;
   cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
-  if (system_.equations.recording) Balance(state, at_force ? peak.velocity : 0, &cycle);
+  if (system_.equations.recording) Balance(state, at_force ? peak.velocity : 0);
 }
 
-// (W4), of a release to its end, and what the cycle has dissipated.
-void Cycles::Balance(const ContactState& state, double split_velocity, Cycle* cycle) {
-  const double mass = system_.equations.effective_mass(cycle->contact);
+// (W4), of a release to its end, and what the cycle has dissipated. A negligible cycle counts by
+// what it does to the contact: of its own work round-off is left.
+void Cycles::Balance(ContactState& state, double split_velocity) {
+  Cycle& cycle = state.cycle;
+  const double mass = system_.equations.effective_mass(cycle.contact);
   const auto kinetic = [&](double v) { return 0.5 * mass * v * v; };
   const double end =
-      system_.equations.Relative(cycle->contact, system_.rk.y0.data() + system_.equations.bodies());
-  const double compressed = cycle->work_compression - kinetic(state.start_velocity) +
-                            kinetic(split_velocity) - cycle->external_compression;
+      system_.equations.Relative(cycle.contact, system_.rk.y0.data() + system_.equations.bodies());
+  const double compressed = cycle.work_compression - kinetic(state.start_velocity) +
+                            kinetic(split_velocity) - cycle.external_compression;
   const double released = compressed - kinetic(split_velocity) + kinetic(end) +
-                          cycle->work_restitution - cycle->external_restitution;
-  const double missed = std::abs(state.released ? released : compressed);
-  const double work = state.released ? -cycle->work_restitution : cycle->work_compression;
-  // A negligible cycle counts by what it does to the contact: of its own work round-off is left.
+                          cycle.work_restitution - cycle.external_restitution;
+  const double work = state.released ? -cycle.work_restitution : cycle.work_compression;
   const double negligible = system_.scenario.solver.settled_nirv_fraction * state.largest_work;
-  cycle->identity_residual =
-      missed == 0 ? 0 : missed / (work > negligible ? work : state.largest_work);
-  system_.contact_loss += cycle->dissipated_compression + cycle->dissipated_restitution;
+  state.imbalance = std::abs(state.released ? released : compressed);
+  if (state.imbalance > 0) {
+    cycle.identity_residual = state.imbalance / (work > negligible ? work : state.largest_work);
+  }
+  system_.contact_loss += cycle.dissipated_compression + cycle.dissipated_restitution;
 }
 
 // Takes back a cycle that does nothing: a load parts touching bodies as their cycle begins. The

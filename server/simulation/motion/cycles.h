@@ -70,7 +70,7 @@ class Cycles {
   /// What is known of a cycle as it ends.
   void DescribeEnd(ContactState& state);
   /// Residual and losses of a cycle; `split_velocity`: δ̇ where its compression has ended [m/s].
-  void Balance(const ContactState& state, double split_velocity, Cycle* cycle);
+  void Balance(ContactState& state, double split_velocity);
   /// Takes back a cycle that has no duration or did no work.
   void CancelCycle(ContactState& state, CycleHost& host);
   /// Changes the sensitivities where a force begins (sign 1) or ends (−1) with a jump, (S3).

@@ -29,6 +29,8 @@ struct ContactState {
   bool woken = false;
   /// Whether the running cycle gives back what was stored before it.
   bool released = false;
+  /// By what the last cycle of a recording misses (W4) [J]; 0 until it ends.
+  double imbalance = 0;
   /// δ̇ where the running cycle began [m/s]; of what rested before the rest of its swing.
   double start_velocity = 0;
   /// Of a contact that rests: when its rest ends at the latest, and the last instant at which one

@@ -86,11 +86,19 @@ class Judge {
       BreakOnce("values", "of ", name(), ' ', c.number);
     }
     if (c.status != Cycle::Status::kConverged) return;
-    // Of a cycle of next to nothing, which its group has taken in, round-off is left.
-    const double round_off = 1e-9 * HardestWork();
-    if (!(c.max_deformation >= c.start_deformation) || !(c.work_compression > -round_off)) {
+    if (!(c.max_deformation >= c.start_deformation) ||
+        !(c.work_compression > 0 || IsRoundOffOfAGroup(c))) {
       BreakOnce("compression", "of ", name(), ' ', c.number);
     }
+  }
+
+  // Of a cycle of next to nothing, which a group of several has taken in, round-off is left.
+  bool IsRoundOffOfAGroup(const Cycle& c) const {
+    const auto holds = [&](const Group& g) {
+      return g.contact == c.contact && g.number == c.group && g.cycles > 1;
+    };
+    return std::abs(c.work_compression) <= 1e-9 * HardestWork() &&
+           std::ranges::any_of(run_.groups, holds);
   }
 
   void Restitution(const Group& g) {

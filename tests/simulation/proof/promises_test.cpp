@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"overlap", [](Record& r) { r.cycles[1].contact = 0, r.cycles[1].number = 2; }},
         Fault{"number", [](Record& r) { r.cycles[1].number = 2; }},
         Fault{"values", [](Record& r) { r.cycles[1].mu = -1; }},
-        Fault{"compression", [](Record& r) { r.cycles[0].work_compression = -1; }},
+        Fault{"compression", [](Record& r) { r.cycles[0].work_compression = 0; }},
         Fault{"glued", Glue},
         Fault{"unfinished", [](Record& r) { r.groups[0].status = Cycle::Status::kUnfinished; }}),
     [](const auto& made) {
