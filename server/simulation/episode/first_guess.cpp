@@ -62,7 +62,10 @@ double FirstGuess::Factor(const ContactState& state, double effective_mass,
 
 double FirstGuess::Released(const ContactState& state, double effective_mass) const {
   const Contact& c = scenario_.contacts[At(state.cycle.contact)];
-  if (c.damping == DampingLaw::kGiven || NeedsNoVelocity(c.damping)) return state.cycle.mu;
+  const bool stores = state.cycle.start_deformation > 0;  // Else it ends at once with any μ.
+  if (c.damping == DampingLaw::kGiven || NeedsNoVelocity(c.damping) || !stores) {
+    return state.cycle.mu;
+  }
   const double alpha = DampingCoefficient(c.damping, c.restitution);
   return alpha * c.stiffness /
          ApproachVelocity(effective_mass, state.cycle.start_deformation, c.stiffness, c.exponent,

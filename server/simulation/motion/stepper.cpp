@@ -175,7 +175,7 @@ bool Stepper::Take(double until) {
     const double acceleration = system_.rk.slope0.segment(n, n).abs().maxCoeff();
     system_.next_step = speed > 0 ? 0.01 * speed / acceleration : 1e-6;  // Infinite in free flight.
   }
-  const double most = system_.tolerance > system_.scenario.solver.relative_tolerance ? kEarly : 1;
+  const double most = MostError();
   for (int rejections = 0; rejections < kMaxRejections; ++rejections) {
     system_.step = Plan(until);
     system_.TakeStep(choice_.implicit());
@@ -197,9 +197,10 @@ bool Stepper::Take(double until) {
   return false;
 }
 
-// The square of the error of a contact's work, relative to the work, or to what the contact stores
-// when it is pressed by `length` [m] more than at the start of its cycle. The force of a contact
-// that other forces drive hardly shows in its motion, by which steps are measured.
+// The square of the error of a contact's work, relative to the work, to what the contact stores
+// when it is pressed by `length` [m] more than at the start of its cycle, or to the energy of its
+// motion, which it has yet to take up while other forces press it faster and faster. The force of a
+// contact that others drive hardly shows in its motion, by which steps are measured.
 double Stepper::WorkError(const ActiveContact& active, double length) const {
   if (system_.implicit) return 0;
   Motions five, three;
@@ -208,7 +209,12 @@ double Stepper::WorkError(const ActiveContact& active, double length) const {
   const double start = system_.contacts[At(active.contact)].cycle.start_deformation;
   const double stored = ElasticEnergy(active.stiffness, active.exponent, start + length) -
                         ElasticEnergy(active.stiffness, active.exponent, start);
-  return Square(five, three, {Largest(stored, std::abs(system_.rk.y1[work])), 1});
+  const int n = system_.equations.bodies();
+  const double speed = active.Relative(system_.rk.y1.data() + n);
+  const bool speeds_up = speed > 0 && active.Relative(system_.rk.slope0.data() + n) > 0;
+  const double carried =
+      speeds_up ? 0.5 * speed * speed / (active.left_inverse + active.right_inverse) : 0;
+  return Square(five, three, {Largest(stored, std::abs(system_.rk.y1[work]), carried), 1});
 }
 
 // Whether a collision that begins with the step also turns in it, so that nothing has measured it:
@@ -222,6 +228,10 @@ bool Stepper::TurnsAtOnce() const {
     return begins && active.Relative(system_.rk.y1.data() + n) < 0 &&
            system_.step.h > kShortest * state.duration;
   });
+}
+
+double Stepper::MostError() const {
+  return system_.tolerance > system_.scenario.solver.relative_tolerance ? kEarly : 1;
 }
 
 double Stepper::Growth(double error) const {
@@ -344,8 +354,10 @@ bool Stepper::Land(const StepEvents::Found& found) {
   } else if (found.event.theta < 1) {
     Compute(event, parting);
   }
+  double least = kForever, nearest = 0;
   for (int i = 0; i < kMaxLandings; ++i) {
-    const double correction = Correction(found);
+    const Residual residual = ResidualOf(found);
+    const double correction = -residual.value / residual.slope;
     const double h = system_.step.h + correction;
     if (!(h > 0) || h > 2 * planned.h) break;
     if (h > left) {  // The event is past the end, or past a breakpoint, after which all differs.
@@ -356,10 +368,19 @@ bool Stepper::Land(const StepEvents::Found& found) {
     const bool there = std::abs(correction) <= 1e-7 * system_.step.h;
     if (there || std::abs(correction) <= nearby) {
       Shift(correction, there);
-      if (there) return true;
-    } else {
-      Compute(h, parting);
+      if (!there) continue;
+      // The warp of a separation may do worse on a long step: a shorter one leads nearer first.
+      if (system_.step.warp == planned.warp || Error() <= MostError()) return true;
+      Compute(kApproach * event, false);
+      return false;
     }
+    // Where all is round-off, Newton's method only leads away.
+    if (!parting && std::abs(residual.value) >= least) {
+      Compute(nearest, false);
+      break;
+    }
+    least = std::abs(residual.value), nearest = system_.step.h;
+    Compute(h, parting);
   }
   if (!parting) return true;  // As near as it gets.
   Compute(planned.h, planned.warp == 2);
@@ -386,15 +407,18 @@ void Stepper::Compute(double h, bool parting) {
   system_.FinishStep();
 }
 
-// By how much the step must be longer to end on the event, to first order.
-double Stepper::Correction(const StepEvents::Found& found) const {
-  if (found.event.kind == EventKind::kRestTouch) return 0;  // Known to within the noise.
+// What is 0 at the event, δ or δ̇, at the end of the step, and its slope.
+Stepper::Residual Stepper::ResidualOf(const StepEvents::Found& found) const {
   const int n = system_.equations.bodies();
   const double rate = system_.equations.Relative(found.contact, system_.rk.y1.data() + n);
-  if (found.event.kind == EventKind::kNonSeparation) {
-    return -rate / system_.equations.Relative(found.contact, system_.rk.slope1.data() + n);
+  switch (found.event.kind) {
+    case EventKind::kRestTouch:
+      return {0, 1};  // Known to within the noise.
+    case EventKind::kNonSeparation:
+      return {rate, system_.equations.Relative(found.contact, system_.rk.slope1.data() + n)};
+    default:
+      return {system_.Deformation(found.contact, system_.rk.y1.data()), rate};
   }
-  return -system_.Deformation(found.contact, system_.rk.y1.data()) / rate;
 }
 
 }  // namespace contact

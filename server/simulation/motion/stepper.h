@@ -46,6 +46,8 @@ class Stepper {
   double Error();
   /// The square of the relative error of a contact's work, in units of 1/h.
   double WorkError(const ActiveContact& active, double length) const;
+  /// The largest Error() of a step.
+  double MostError() const;
   /// Whether a collision begins and turns in the step.
   bool TurnsAtOnce() const;
   /// By what factor the step may be longer for an error of 1.
@@ -63,8 +65,12 @@ class Stepper {
   void Adapt(double growth, bool repeated);
   /// Sets the length of the next step, and its method: that of an implicit step may end its use.
   void GoOn(double h);
-  /// By how much the step must be longer to end on an event [s], to first order.
-  double Correction(const StepEvents::Found& found) const;
+  /// What is 0 at an event, δ [m] or δ̇ [m/s], and its slope.
+  struct Residual {
+    double value, slope;
+  };
+  /// That of an event, at the end of the step.
+  Residual ResidualOf(const StepEvents::Found& found) const;
   /// Moves the end of the step by a short time [s].
   void Shift(double time, bool tangent);
   /// Computes the step of h [s] and its end; `parting`: it ends in a separation.

@@ -91,7 +91,7 @@ class Independent {
   // Whether it is an answer of a cycle that moves.
   static bool Counts(const Cycle& c) {
     return c.status != Status::kSettled && c.status != Status::kNotConverged &&
-           c.status != Status::kInfeasible;
+           c.status != Status::kInfeasible && c.status != Status::kUnfinished;
   }
   // The largest change of its deformation.
   static double Swing(const Cycle& c) {
@@ -193,7 +193,8 @@ class Independent {
         largest = std::max(largest, other.work_compression);
       }
     }
-    const double rest = s_.solver.settled_nirv_fraction * largest;
+    // A rest ends when it is disturbed by four times what settles (rest.cpp).
+    const double rest = 4 * s_.solver.settled_nirv_fraction * largest;
     return std::max(0.0, rate * rate - 2 * rest / EffectiveMass(s_, Of(c)));
   }
 
