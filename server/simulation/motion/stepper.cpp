@@ -361,7 +361,7 @@ bool Stepper::Land(const StepEvents::Found& found) {
     const double h = system_.step.h + correction;
     if (!(h > 0) || h > 2 * planned.h) break;
     if (h > left) {  // The event is past the end, or past a breakpoint, after which all differs.
-      Compute(left, false);
+      Compute(left, planned.warp == 2);
       return false;
     }
     // So near that the tangent leads there: its error is of second order.
