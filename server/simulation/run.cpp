@@ -254,7 +254,8 @@ class Runner {
       }
     }
     run_.momentum_scale = std::max({run_.momentum_scale, momentum, motion_.momentum_scale()});
-    run_.energy_scale = std::max({run_.energy_scale, Energy(), std::abs(run_.state.load_work)});
+    run_.energy_scale = std::max(
+        {run_.energy_scale, Energy(), motion_.energy_scale(), std::abs(run_.state.load_work)});
   }
 
   void Summarize() {

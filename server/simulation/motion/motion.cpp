@@ -162,8 +162,9 @@ void Motion::FollowStep() {
 
 bool Motion::Accept(StepListener* listener) {
   if (system_.equations.recording) {
-    system_.momentum_scale =
-        std::max(system_.momentum_scale, system_.equations.MomentumScale(system_.rk.y1.data()));
+    const double* y = system_.rk.y1.data();
+    system_.momentum_scale = std::max(system_.momentum_scale, system_.equations.MomentumScale(y));
+    system_.energy_scale = std::max(system_.energy_scale, system_.equations.Energy(y));
   }
   if (system_.equations.recording || system_.splits_at_force()) {
     for (const ActiveContact& active : system_.equations.active) forces_.Observe(active);

@@ -57,6 +57,8 @@ class Motion {
   double time() const { return system_.time; }
   /// Largest Σ|m v| of the recording since Begin [N·s].
   double momentum_scale() const { return system_.momentum_scale; }
+  /// Largest energy of the recording since Begin [J].
+  double energy_scale() const { return system_.energy_scale; }
   /// Length of the last step [s].
   double step() const { return system_.step.h; }
   /// Steps tried since construction, rejected ones included.

@@ -35,7 +35,7 @@ void MovingSystem::Begin(const State& state, bool is_recording, double own_toler
   contacts = state.contacts;
   contact_loss = state.contact_loss;
   touch_time = kNaN;
-  momentum_scale = 0;
+  momentum_scale = energy_scale = 0;
 
   equations.Rebase(state.positions);
   equations.recording = is_recording;

@@ -81,8 +81,8 @@ struct MovingSystem {
   double forcing_time = 0;
   /// Whether a contact rests.
   bool resting = false;
-  /// Largest Σ|m v| seen in a recording since the last State [N·s].
-  double momentum_scale = 0;
+  /// Largest Σ|m v| [N·s] and energy [J] seen in a recording since the last State.
+  double momentum_scale = 0, energy_scale = 0;
   /// Energy dissipated in cycles that have ended [J].
   double contact_loss = 0;
   /// Steps tried, rejected ones included, and evaluations of the equations since construction.

@@ -324,9 +324,9 @@ double Stepper::ErrorNorm(Count n, double h) {
     const double decay = kink ? 0 : active.DampingAt(deformation) * inverse_mass;
     const Motions scale{length, speed + decay * length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
-    const double driven = std::abs(active.Relative(system_.rk.slope0.data() + n));
-    const double strongest = active.StiffnessAt(length) * inverse_mass * length;
-    if (own.length > 0 && strongest < kFaint * driven) {
+    const double faint = kFaint * std::abs(active.Relative(system_.rk.slope0.data() + n));
+    const bool strong = length >= deformation && stiffness * length >= faint;
+    if (own.length > 0 && !strong && active.StiffnessAt(length) * inverse_mass * length < faint) {
       norm = Largest(norm, WorkError(active, length));
     }
     decay_ = Largest(decay_, decay);

@@ -86,8 +86,8 @@ class Judge {
       BreakOnce("values", "of ", name(), ' ', c.number);
     }
     if (c.status != Cycle::Status::kConverged) return;
-    if (!(c.max_deformation >= c.start_deformation) ||
-        !(c.work_compression > 0 || IsRoundOffOfAGroup(c))) {
+    const bool compresses = c.max_deformation >= c.start_deformation && c.work_compression > 0;
+    if (!compresses && !IsRoundOffOfAGroup(c)) {
       BreakOnce("compression", "of ", name(), ' ', c.number);
     }
   }
