@@ -66,6 +66,16 @@ TEST(FirstEvent, ATouchThatPartsFirstBeginsWhereItComesBack) {
   EXPECT_GT(path.Slope(back->theta), 0);
 }
 
+TEST(FirstEvent, ATouchThatPartsForAMomentBeginsWhereItComesBack) {
+  for (const double moment : {0.1, 1e-3, 1e-6}) {  // δ = θ² (θ − moment): loads part, then press.
+    SCOPED_TRACE(moment);
+    const DeformationPath path({0, 0, -2 * moment}, {1 - moment, 3 - 2 * moment, 6 - 2 * moment});
+    const auto back = FirstEvent(Phase::kOpen, path);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(back->theta, moment, 1e-6 * moment);
+  }
+}
+
 TEST(FirstEvent, RoundOffIsNoTouch) {
   EXPECT_FALSE(FirstEvent(Phase::kOpen, Parabola(-1e-20, 0, 3e-20), 0, 1e-16));
   const auto event = FirstEvent(Phase::kOpen, Parabola(-1e-20, 0, 1e-9), 0, 1e-16);

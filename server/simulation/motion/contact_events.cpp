@@ -41,13 +41,17 @@ std::optional<double> FirstPositive(F f, double at_end, double from = 0) {
 }
 
 // Where touching bodies that are closer at the end of the step begin to close: at once, or, if they
-// part first, where they come back to the deformation at which they began.
+// part first, however early, where they come back to the deformation at which they began.
 double StartOfClosing(const DeformationPath& path) {
   const double level = std::max(0.0, path.start.value);
   const auto above = [&](double theta) { return path.Value(theta) - level; };
   for (int i = kPieces - 1; i > 0; --i) {
     const double theta = static_cast<double>(i) / kPieces;
     if (above(theta) <= 0) return Root(above, theta, static_cast<double>(i + 1) / kPieces);
+  }
+  if (path.start.curvature >= 0) return 0;
+  for (double theta = 0.25 / kPieces; theta > kSoonest; theta /= 4) {
+    if (above(theta) < 0) return Root(above, theta, 4 * theta);
   }
   return 0;
 }
