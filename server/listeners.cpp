@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/clock.h"
 #include "identity/token_changes.h"
 
 namespace contact {
@@ -111,10 +112,15 @@ SelfProbe Listeners::Probe() const {
 }
 
 void Listeners::Shutdown(std::chrono::milliseconds grace) {
-  if (gateway_) gateway_->Close();
+  using std::chrono::milliseconds;
+  const auto end = SystemClock().Elapsed() + grace;
   for (const auto& server : servers_) server->Drain();
-  for (const auto& server : servers_) server->Shutdown(grace);
-  gateway_.reset();  // After its calls have got their answers.
+  if (gateway_) gateway_->Finish(grace);
+  gateway_.reset();  // It calls the first server, and must not once that shuts down.
+  for (const auto& server : servers_) {
+    const auto left = std::chrono::duration_cast<milliseconds>(end - SystemClock().Elapsed());
+    server->Shutdown(std::max(left, milliseconds(0)));
+  }
 }
 
 void Listeners::AddTo(MetricsSources::Now* now) const {
