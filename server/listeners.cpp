@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/clock.h"
-#include "identity/token_changes.h"
 
 namespace contact {
 namespace {
@@ -31,12 +30,8 @@ std::string Listeners::Prepare() {
     if (tls_) return tls_->Replace(material);
     tls_ = std::make_shared<TlsCredentials>(material);
   };
-  const auto note = [audit = audit_, file = config_.identity.tokens.string()](
-                        const TokenTable* before, const TokenTable& now) {
-    if (!audit) return;
-    for (AuditRecord& record : TokenChanges(before, now, file, SystemClock().Now())) {
-      audit->Write(std::move(record));
-    }
+  const auto note = [audit = audit_](AuditRecord record) {
+    if (audit) audit->Write(std::move(record));
   };
   auto opened = IdentityFiles::Open(config_.identity, take, note);
   if (const auto* why = std::get_if<std::string>(&opened)) return *why;

@@ -20,6 +20,7 @@ from authority import Authority
 from contact.v1 import admin_service_pb2, job_service_pb2, job_service_pb2_grpc
 from contactd import BINARY, PATIENCE_S, Server, three_ball_chain
 from google.protobuf import message_factory
+from provider import Provider
 
 Code = grpc.StatusCode
 METHODS = [method
@@ -366,6 +367,26 @@ class SettingsTest(IdentityTest):
                              capture_output=True, text=True, timeout=PATIENCE_S)
         self.assertEqual(run.returncode, 2)
         self.assertIn("chmod 600", run.stderr)
+
+    def test_files_that_others_can_change_are_refused(self):
+        (self.folder / "keys").write_text(json.dumps({"keys": [Provider(self.folder, "a").jwk()]}))
+        files = dict(zip(("tls-cert", "tls-key"), self.server_files), **{
+            "tls-client-ca": self.ca.pem,
+            **{flag: self.folder / file for flag, file in (
+                ("identity-rules", "rules"), ("tokens", "tokens"), ("jwt-keys", "keys"))}})
+        flags = [f"--{flag}={file}" for flag, file in files.items()]
+        flags += ["--jwt-issuer=https://id.acme", "--jwt-audience=contactd"]
+        for flag, file in files.items():
+            with self.subTest(flag):
+                mode = pathlib.Path(file).stat().st_mode
+                pathlib.Path(file).chmod(mode | 0o002)
+                run = subprocess.run([BINARY, f"--data-dir={self.folder / 'data'}",
+                                      "--listen=127.0.0.1:0", *flags], capture_output=True,
+                                     text=True, timeout=PATIENCE_S)
+                self.assertEqual(run.returncode, 2)
+                self.assertRegex(run.stderr, f"{file} can be .*changed by others; chmod")
+                pathlib.Path(file).chmod(mode)
+        self.start(*flags)
 
 
 if __name__ == "__main__":
