@@ -7,7 +7,7 @@ namespace {
 
 using grpc::experimental::InterceptionHookPoints;
 
-// No handler of ours gives this code, and what gRPC does not know meets no interceptor.
+// No handler of ours gives this code.
 bool IsOfGrpc(const grpc::Status& status) {
   return status.error_code() == grpc::StatusCode::UNIMPLEMENTED && status.error_message().empty();
 }
@@ -27,8 +27,10 @@ class Interceptor final : public grpc::experimental::Interceptor {
 }  // namespace
 
 grpc::experimental::Interceptor* MalformedRequests::CreateServerInterceptor(
-    grpc::experimental::ServerRpcInfo* /*info*/) {
-  return new Interceptor();
+    grpc::experimental::ServerRpcInfo* info) {
+  // To gRPC a method that there is not is such a stream; the contract has none.
+  const bool known = info->type() != grpc::experimental::ServerRpcInfo::Type::BIDI_STREAMING;
+  return known ? new Interceptor() : nullptr;
 }
 
 }  // namespace contact
