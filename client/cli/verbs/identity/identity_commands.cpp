@@ -15,6 +15,7 @@
 #include "base/replace_file.h"
 #include "base/spelling.h"
 #include "cli/base/failure.h"
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/text/print_job.h"
@@ -36,7 +37,17 @@ struct TokenOptions {
   std::vector<std::string> roles;
   std::string ttl = "90d";
   std::string id;
+  /// Where a new token is written; empty: the standard output.
+  std::string to;
 };
+
+// Replaces the file by one that nobody but its owner may read.
+void WriteSecret(const std::string& file, const std::string& text) {
+  constexpr mode_t kOwnerOnly = 0600;
+  if (const auto error = ReplaceFile(file, text, kOwnerOnly)) {
+    throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", file, error.message()));
+  }
+}
 
 std::vector<TokenRecord> ReadTokens(const std::string& file) {
   if (!fs::exists(file)) return {};
@@ -57,10 +68,7 @@ void ChangeTokens(const std::string& file, Change change) {
   if (lock.valid()) ::flock(lock.get(), LOCK_EX);
   std::vector<TokenRecord> records = ReadTokens(file);
   change(&records);
-  constexpr mode_t kOwnerOnly = 0600;
-  if (const auto error = ReplaceFile(file, TokenTable::Format(records), kOwnerOnly)) {
-    throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", file, error.message()));
-  }
+  WriteSecret(file, TokenTable::Format(records));
 }
 
 Principal PrincipalOf(const TokenOptions& options) {
@@ -77,10 +85,11 @@ ExitCode CreateToken(const TokenOptions& options, const Settings& settings) {
   const auto expires =
       std::chrono::floor<std::chrono::seconds>(system_clock::now() + RequireDuration(options.ttl));
   const NewToken made = MakeToken(PrincipalOf(options), expires);
+  if (!options.to.empty()) WriteSecret(options.to, made.token + "\n");
   ChangeTokens(options.file, [&made](auto* records) { records->push_back(made.record); });
-  fmt::print("{}\n", made.token);
-  fmt::print(stderr, "token {} of {} until {}; it is shown this once\n", made.record.id,
-             options.name, FormatUtc(expires));
+  if (options.to.empty()) fmt::print("{}\n", made.token);
+  Tell("token {} of {} until {}; {}\n", made.record.id, options.name, FormatUtc(expires),
+       options.to.empty() ? "it is shown this once" : "it is in " + options.to);
   return ExitCode::kOk;
 }
 
@@ -163,6 +172,10 @@ void AddToken(CommandLine& line, CLI::App& server) {
   line.SetWords(create->add_option("--role", options->roles, "What it may do"),
                 {"read", "submit", "operator", "admin"})
       ->required();
+  line.SetKind(
+      create->add_option("-f,--file", options->to,
+                         "Write the token there, for its owner alone, instead of showing it"),
+      ValueKind::kFile);
   create->add_option("--ttl", options->ttl, "How long it is valid")
       ->type_name("TIME")
       ->capture_default_str();
