@@ -65,7 +65,7 @@ std::string Listeners::Start() {
     return config_.trusted_proxy;
   }
   if (config_.listen_admin.empty()) return "";
-  options.door = Door(Principal{"admin", kLocal, {Role::kAdmin}, "socket"});
+  options.door = Door(SocketAdmin());
   options.reflection = options.admin = true;
   options.channelz = config_.admin_channelz;
   return Open(config_.listen_admin, options) ? "" : config_.listen_admin;

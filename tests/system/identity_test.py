@@ -85,6 +85,7 @@ class IdentityTest(unittest.TestCase):
                 ("right", "user:boss tenant:acme roles:admin", now + day),
                 ("read-only", "user:eye tenant:acme roles:read", now + day),
                 ("other tenant", "user:eve tenant:umbra roles:operator", now + day),
+                ("server", "user:backup roles:server", now + day),
                 ("expired", "user:boss tenant:acme roles:admin", now - day)):
             secret = hashlib.sha256(f"{kind}{time.time_ns()}".encode()).hexdigest()[:43]
             self.tokens[kind] = f"ctk_{secret[:8]}_{secret}"
@@ -130,21 +131,21 @@ class IdentityTest(unittest.TestCase):
 
 # What the table says for each method: the code for each kind of token, with a good certificate.
 OK, NO, HIDDEN = Code.OK, Code.PERMISSION_DENIED, Code.NOT_FOUND
-#                  own certificate, read-only token, token of another tenant, right token
+#                  own certificate, read-only token, token of another tenant, right token, server's
 EXPECTED = {
-    "CreateJob":     (OK, NO, OK, OK),
-    "GetJob":        (OK, OK, HIDDEN, OK),
-    "ListJobs":      (OK, OK, OK, OK),
-    "CancelJob":     (OK, NO, HIDDEN, OK),
-    "DeleteJob":     (OK, NO, HIDDEN, OK),
-    "WatchJob":      (OK, OK, HIDDEN, OK),
-    "WatchJobs":     (OK, OK, OK, OK),
-    "ReadArtifact":  (OK, OK, HIDDEN, OK),
-    "GetSeries":     (OK, OK, HIDDEN, OK),
-    "GetServerInfo": (OK, OK, OK, OK),
-    "Backup":        (NO, NO, NO, OK),
+    "CreateJob":     (OK, NO, OK, OK, NO),
+    "GetJob":        (OK, OK, HIDDEN, OK, NO),
+    "ListJobs":      (OK, OK, OK, OK, NO),
+    "CancelJob":     (OK, NO, HIDDEN, OK, NO),
+    "DeleteJob":     (OK, NO, HIDDEN, OK, NO),
+    "WatchJob":      (OK, OK, HIDDEN, OK, NO),
+    "WatchJobs":     (OK, OK, OK, OK, NO),
+    "ReadArtifact":  (OK, OK, HIDDEN, OK, NO),
+    "GetSeries":     (OK, OK, HIDDEN, OK, NO),
+    "GetServerInfo": (OK, OK, OK, OK, NO),
+    "Backup":        (NO, NO, NO, NO, OK),
 }
-COLUMNS = {"none": 0, "read-only": 1, "other tenant": 2, "right": 3}
+COLUMNS = {"none": 0, "read-only": 1, "other tenant": 2, "right": 3, "server": 4}
 
 
 class TableTest(IdentityTest):

@@ -73,9 +73,10 @@ void ChangeTokens(const std::string& file, Change change) {
 
 Principal PrincipalOf(const TokenOptions& options) {
   std::string mistake;
-  const auto principal = ParsePrincipal(fmt::format("user:{} tenant:{} roles:{}", options.name,
-                                                    options.tenant, fmt::join(options.roles, ",")),
-                                        &mistake);
+  const std::string tenant = options.tenant.empty() ? "" : "tenant:" + options.tenant;
+  const auto principal = ParsePrincipal(
+      fmt::format("user:{} {} roles:{}", options.name, tenant, fmt::join(options.roles, ",")),
+      &mistake);
   if (!principal) throw Failure(ExitCode::kUsage, mistake);
   return *principal;
 }
@@ -168,9 +169,9 @@ void AddToken(CommandLine& line, CLI::App& server) {
   CLI::App* create = token->add_subcommand("create", "Make a token and show it, this once");
   AddTokenFile(line, *create, options.get());
   create->add_option("--name", options->name, "Whose it is; jobs have this owner")->required();
-  create->add_option("--tenant", options->tenant, "Whose jobs it sees")->required();
+  create->add_option("--tenant", options->tenant, "Whose jobs it sees; none with the role server");
   line.SetWords(create->add_option("--role", options->roles, "What it may do"),
-                {"read", "submit", "operator", "admin"})
+                {"read", "submit", "operator", "admin", "server"})
       ->required();
   line.SetKind(
       create->add_option("-f,--file", options->to,
