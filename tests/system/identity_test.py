@@ -306,6 +306,32 @@ class RotationTest(IdentityTest):
             self.assertEqual(call(channel, info, "", old), Code.UNAUTHENTICATED)
 
 
+class StreamTest(IdentityTest):
+
+    def test_a_stream_ends_soon_after_its_right(self):
+        rules = self.folder / "rules"
+        server = self.start(*self.tls(), f"--tls-client-ca={self.ca.pem}",
+                            f"--identity-rules={rules}", f"--tokens={self.folder / 'tokens'}")
+        metadata = [("authorization", f"Bearer {self.tokens['right']}")]
+        with self.channel(server, self.ada) as channel:
+            stub = job_service_pb2_grpc.JobServiceStub(channel)
+            request = job_service_pb2.WatchJobsRequest()
+            by_token = stub.WatchJobs(request, timeout=PATIENCE_S, metadata=metadata)
+            by_certificate = stub.WatchJobs(request, timeout=PATIENCE_S)
+            for stream in (by_token, by_certificate):
+                next(iter(stream))
+            rules.write_text("cert spiffe://acme/user/ada nobody\n" + rules.read_text())
+            start = time.monotonic()
+            for stream in (by_certificate, by_token):
+                if stream is by_token:
+                    self.write_tokens()  # All are others now.
+                with self.assertRaises(grpc.RpcError) as ended:
+                    list(stream)
+                self.assertEqual(ended.exception.code(), Code.UNAUTHENTICATED)
+            print(f"the streams ended after {time.monotonic() - start:.1f} s")
+            self.assertLess(time.monotonic() - start, 30)
+
+
 class SocketTest(IdentityTest):
 
     def test_every_socket_has_its_own_principal(self):
