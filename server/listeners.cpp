@@ -21,7 +21,9 @@ Listeners::Listeners(JobManager& jobs, Store& store, const Config& config, v1::S
 
 std::string Listeners::Prepare() {
   if (!config_.audit_log.empty()) {
-    auto opened = AuditLog::Open(config_.audit_log, config_.max_audit_bytes);
+    const bool alone = config_.store_address.empty();
+    auto opened = AuditLog::Open(config_.audit_log, config_.max_audit_bytes,
+                                 alone ? config_.data_dir / "audit-head" : "");
     if (const auto* why = std::get_if<std::string>(&opened)) return "--audit-log: " + *why;
     audit_ = std::move(std::get<std::unique_ptr<AuditLog>>(opened));
   }

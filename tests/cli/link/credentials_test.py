@@ -160,6 +160,16 @@ class CredentialsTest(unittest.TestCase):
         audit = self.folder / "audit.log"
         said = self.run_it("server", "audit", "verify", audit)[0]
         self.assertRegex(said, r"3 lines, unbroken; the last is [0-9a-f]{64}")
+        verify = "server", "audit", "verify", audit, "--head", self.folder / "data" / "audit-head"
+        self.run_it(*verify)
+        whole = audit.read_text()
+        for kept in (2, 0):
+            audit.write_text("".join(whole.splitlines(keepends=True)[:kept]))
+            self.assertIn("is not there: lines are cut off", self.run_it(*verify, code=1)[1])
+        self.server.start()
+        self.assertIn("does not have the line that was its last", self.server.log())
+        self.server.terminate()
+        audit.write_text(whole)
         audit.write_text(audit.read_text().replace('"ci"', '"eve"', 1))
         said = self.run_it("server", "audit", "verify", audit, code=1)[1]
         self.assertIn("audit.log:2: does not fit", said)

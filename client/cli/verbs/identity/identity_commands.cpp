@@ -134,14 +134,29 @@ ExitCode ListTokens(const TokenOptions& options, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-ExitCode CheckAudit(const std::string& file, const Settings& settings) {
+// What the command about an audit log asks.
+struct AuditOptions {
+  std::string file;
+  std::string head;
+};
+
+ExitCode CheckAudit(const AuditOptions& options, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable});
-  const auto findings = VerifyAudit(file);
+  const auto& [file, head] = options;
+  const std::string last = head.empty() ? "" : ReadHead(head);
+  if (!head.empty() && last.empty()) throw Failure(ExitCode::kLocal, "cannot read " + head);
+  const auto findings = VerifyAudit(file, last);
   if (!findings) throw Failure(ExitCode::kLocal, "cannot read " + file);
   if (findings->bad_line > 0) {
     throw Failure(ExitCode::kRunFailed,
                   fmt::format("{}:{}: does not fit: {}", findings->bad_file.string(),
                               findings->bad_line, findings->mistake));
+  }
+  if (!head.empty() && !findings->has_head) {
+    throw Failure(ExitCode::kRunFailed,
+                  file +
+                      ": the line that the server has written last is not there: lines are cut "
+                      "off, or all were made anew");
   }
   if (findings->missing > 0) {
     fmt::print(stderr, "{}.1 to {}.{} are not here\n", file, file, findings->missing);
@@ -195,11 +210,16 @@ void AddAudit(CommandLine& line, CLI::App& server) {
   audit->require_subcommand(1);
   CLI::App* verify =
       audit->add_subcommand("verify", "Check that no line was changed, left out or put in");
-  auto file = std::make_shared<std::string>();
-  line.SetKind(verify->add_option("FILE", *file, "The file that --audit-log of the server names"),
+  auto options = std::make_shared<AuditOptions>();
+  line.SetKind(verify->add_option("FILE", options->file,
+                                  "The file that --audit-log of the server names"),
                ValueKind::kFile)
       ->required();
-  line.SetAction(*verify, file, CheckAudit);
+  line.SetKind(verify->add_option("--head", options->head,
+                                  "The file audit-head of --data-dir of the server: shows whether "
+                                  "lines are cut off at the end, or all were made anew"),
+               ValueKind::kFile);
+  line.SetAction(*verify, options, CheckAudit);
 }
 
 }  // namespace contact::cli
