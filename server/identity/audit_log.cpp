@@ -22,12 +22,8 @@
 namespace contact {
 namespace {
 
-constexpr int kRefusedPerSecond = 100;
-
-bool IsRefused(const AuditRecord& record) {
-  return record.code == "UNAUTHENTICATED" || record.code == "PERMISSION_DENIED" ||
-         record.code == "RESOURCE_EXHAUSTED";
-}
+// Of calls that failed: they change nothing, and cost the caller nothing.
+constexpr int kFailedPerSecond = 100;
 
 std::string LineOf(const AuditRecord& record, const std::string& previous, std::int64_t suppressed,
                    std::int64_t lost) {
@@ -173,12 +169,12 @@ void AuditLog::Rotate() {
 }
 
 bool AuditLog::IsSuppressed(const AuditRecord& record) {
-  if (!IsRefused(record)) return false;
+  if (record.reason.empty()) return false;
   const auto second =
       std::chrono::duration_cast<std::chrono::seconds>(record.time.time_since_epoch()).count();
   if (std::exchange(second_, second) != second) of_second_.clear();
   const std::string whose = record.caller ? FormatPrincipal(*record.caller) : "";
-  if (++of_second_[whose] <= kRefusedPerSecond) return false;
+  if (++of_second_[whose] <= kFailedPerSecond) return false;
   ++suppressed_;
   return true;
 }

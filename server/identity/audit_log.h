@@ -52,7 +52,7 @@ class AuditLog {
       const std::filesystem::path& file, std::int64_t max_bytes = 0,
       const std::filesystem::path& head = {});
 
-  /// Writes the record, some time later. Of the refused calls of one principal, and of all callers
+  /// Writes the record, some time later. Of the failed calls of one principal, and of all callers
   /// that are not known, at most 100 a second are written; the next record says as `suppressed` how
   /// many are left out. A record that cannot be written counts in the next one as `lost`.
   void Write(AuditRecord record);
@@ -75,7 +75,7 @@ class AuditLog {
   bool Append(const AuditRecord& record);
   /// Puts the file away and begins a new one; goes on with the old one if it cannot. On the thread.
   void Rotate();
-  /// True if the record is one too many of refused calls. On the thread.
+  /// True if the record is one too many of failed calls. On the thread.
   bool IsSuppressed(const AuditRecord& record);
 
   // All of the thread.
@@ -86,7 +86,7 @@ class AuditLog {
   const FileDescriptor head_;
   /// SHA-256 of the last line.
   std::string previous_;
-  /// The second of the last refused call, and how many each principal had in it.
+  /// The second of the last failed call, and how many each principal had in it.
   std::int64_t second_ = 0;
   std::map<std::string, int> of_second_;
   std::int64_t suppressed_ = 0;

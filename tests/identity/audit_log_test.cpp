@@ -117,7 +117,7 @@ TEST_F(AuditLogTest, UnknownCallersCannotFillTheDisk) {
   {
     const auto log = Open();
     AuditRecord refused = RecordOf("", false);
-    refused.code = "UNAUTHENTICATED";
+    refused.code = refused.reason = "UNAUTHENTICATED";
     for (int i = 0; i < 250; ++i) log->Write(refused);
     log->Write(RecordOf("jobs/a"));
     log->Flush();
@@ -132,7 +132,7 @@ TEST_F(AuditLogTest, RefusalsOfOnePrincipalCannotFillTheDiskNorHideThoseOfOthers
     const auto log = Open();
     AuditRecord refused = RecordOf("");
     for (const char* code : {"RESOURCE_EXHAUSTED", "PERMISSION_DENIED"}) {
-      refused.code = code;
+      refused.code = refused.reason = code;
       for (int i = 0; i < 125; ++i) log->Write(refused);
     }
     refused.caller->name = "other";
