@@ -46,9 +46,11 @@ std::filesystem::path DefaultDataDir() {
 int DefaultWorkers() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 // What a worker may take for its run: as much of half of the memory that there is as each other
-// one, for the other half is for all else; no more than a run usually needs.
+// one, for the other half is for all else; no more than a run usually needs, and no less than a
+// small one.
 std::int64_t ShareOfMemory(int workers) {
-  return std::min(MemoryLimit() / 2 / workers, std::int64_t{1} << 30);
+  constexpr std::int64_t kLeast = 64 << 20, kMost = 1 << 30;
+  return std::clamp(MemoryLimit() / 2 / workers, kLeast, kMost);
 }
 
 std::string VariableOf(const CLI::Option& option) {
