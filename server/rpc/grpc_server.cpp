@@ -181,10 +181,12 @@ void GrpcServer::Shutdown(milliseconds grace) {
       spdlog::critical("gRPC did not shut down in time; ending the process");
       std::_Exit(1);
     };
-    const ShutdownTimer timer(grace + 500ms, cut, grace + 2s, give_up);
-    server_->Shutdown(std::chrono::system_clock::now() + grace);
-    hand_over_.Stop();
-    server_.reset();
+    {
+      const ShutdownTimer timer(grace + 500ms, cut, grace + 2s, give_up);
+      server_->Shutdown(std::chrono::system_clock::now() + grace);
+      hand_over_.Stop();
+      server_.reset();
+    }  // The timer may be cutting connections of the acceptor until here.
     floods_->SetCut(nullptr);
     acceptor_.reset();
   }
