@@ -323,10 +323,12 @@ void AddBudgets(CLI::App* app, JobOptions* jobs) {
             "Integration steps of a job, all its cells together; 0 is any");
   AddSize(app, "--max-output-bytes", &jobs->max_budget.output_bytes,
           "Bytes that a job may record, such as 2GB; 0 is any");
-  AddSize(
-      app, "--max-memory", &jobs->max_budget.memory_bytes,
-      "Memory of a worker for its run: a job that is estimated to need more is refused, and one "
-      "whose ledger needs more is ended; 0 is any");
+  app->add_option("--max-memory", jobs->max_budget.memory_bytes,
+                  "Memory of a worker for its run: a job that is estimated to need more is "
+                  "refused, and one whose ledger needs more is ended; 0 is any")
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("BYTES")
+      ->default_str("half of the memory over all workers, 1 GiB at most");
   AddTime(app, "--step-timeout", &jobs->step_timeout,
           "A run that makes no step for this time is ended; 0 is never");
   AddNumber(app, "--max-attempts", &jobs->max_attempts, 1, 1000,

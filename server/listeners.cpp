@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "identity/token_changes.h"
+#include "base/clock.h"
 
 namespace contact {
 namespace {
@@ -21,7 +21,9 @@ Listeners::Listeners(JobManager& jobs, Store& store, const Config& config, v1::S
 
 std::string Listeners::Prepare() {
   if (!config_.audit_log.empty()) {
-    auto opened = AuditLog::Open(config_.audit_log, config_.max_audit_bytes);
+    const bool alone = config_.store_address.empty();
+    auto opened = AuditLog::Open(config_.audit_log, config_.max_audit_bytes,
+                                 alone ? config_.data_dir / "audit-head" : "");
     if (const auto* why = std::get_if<std::string>(&opened)) return "--audit-log: " + *why;
     audit_ = std::move(std::get<std::unique_ptr<AuditLog>>(opened));
   }
@@ -30,12 +32,8 @@ std::string Listeners::Prepare() {
     if (tls_) return tls_->Replace(material);
     tls_ = std::make_shared<TlsCredentials>(material);
   };
-  const auto note = [audit = audit_, file = config_.identity.tokens.string()](
-                        const TokenTable* before, const TokenTable& now) {
-    if (!audit) return;
-    for (AuditRecord& record : TokenChanges(before, now, file, SystemClock().Now())) {
-      audit->Write(std::move(record));
-    }
+  const auto note = [audit = audit_](AuditRecord record) {
+    if (audit) audit->Write(std::move(record));
   };
   auto opened = IdentityFiles::Open(config_.identity, take, note);
   if (const auto* why = std::get_if<std::string>(&opened)) return *why;
@@ -69,7 +67,7 @@ std::string Listeners::Start() {
     return config_.trusted_proxy;
   }
   if (config_.listen_admin.empty()) return "";
-  options.door = Door(Principal{"admin", kLocal, {Role::kAdmin}, "socket"});
+  options.door = Door(SocketAdmin());
   options.reflection = options.admin = true;
   options.channelz = config_.admin_channelz;
   return Open(config_.listen_admin, options) ? "" : config_.listen_admin;
@@ -111,10 +109,15 @@ SelfProbe Listeners::Probe() const {
 }
 
 void Listeners::Shutdown(std::chrono::milliseconds grace) {
-  if (gateway_) gateway_->Close();
+  using std::chrono::milliseconds;
+  const auto end = SystemClock().Elapsed() + grace;
   for (const auto& server : servers_) server->Drain();
-  for (const auto& server : servers_) server->Shutdown(grace);
-  gateway_.reset();  // After its calls have got their answers.
+  if (gateway_) gateway_->Finish(grace);
+  gateway_.reset();  // It calls the first server, and must not once that shuts down.
+  for (const auto& server : servers_) {
+    const auto left = std::chrono::duration_cast<milliseconds>(end - SystemClock().Elapsed());
+    server->Shutdown(std::max(left, milliseconds(0)));
+  }
 }
 
 void Listeners::AddTo(MetricsSources::Now* now) const {

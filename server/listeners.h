@@ -41,7 +41,8 @@ class Listeners {
   /// Asks the server at `--listen`; past the listener if that wants client certificates.
   SelfProbe Probe() const;
 
-  /// Ends them, as GrpcServer::Shutdown.
+  /// Ends the gateway, which calls the first server, then the servers, as GrpcServer::Shutdown; all
+  /// calls together get `grace`.
   void Shutdown(std::chrono::milliseconds grace);
 
   /// Adds what is known of connections, streams, certificate and files of identity.

@@ -18,6 +18,7 @@
 
 #include "base/clock.h"
 #include "base/ids.h"
+#include "base/memory_limit.h"
 #include "base/replace_file.h"
 #include "base/spelling.h"
 #include "jobs/cluster/shared_jobs.h"
@@ -113,6 +114,22 @@ v1::ServerInfo Identity(const Config& config) {
   *identity.mutable_start_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
   identity.mutable_limits()->set_max_stored_bytes(config.store.max_bytes);
   return identity;
+}
+
+// Writes to the log what runs may take of the memory that there is for this process.
+void TellMemory(const Config& config) {
+  constexpr double kMiB = 1 << 20;
+  const auto each = static_cast<double>(config.jobs.max_budget.memory_bytes);
+  const auto limit = static_cast<double>(MemoryLimit());
+  const std::string most = each == 0 ? "any memory" : fmt::format("{:.0f} MiB", each / kMiB);
+  const std::string words =
+      fmt::format("{} with {} each for a run, of {:.0f} MiB",
+                  Count(config.jobs.workers, "worker", "workers"), most, limit / kMiB);
+  if (each == 0 || each * config.jobs.workers > 0.75 * limit) {
+    spdlog::warn("{}: more than there is; --max-memory and --workers bound it", words);
+  } else {
+    spdlog::info("{}", words);
+  }
 }
 
 // Serves --http-listen if it is given, and tells where. False: its port cannot be written down.
@@ -276,6 +293,7 @@ int Work(const Config& config, const sigset_t& signals) {
   options.on_failure = EndAfterDiskFailure;
   const auto store = OpenPostgres(config.store_address, options);
   if (!store.ok()) return Refuse(store.status());
+  TellMemory(config);
   JobFeed feed;
   SharedJobs jobs(**store, SystemClock(), config.jobs, config.shared, feed);
   const auto take = [&jobs] {
@@ -310,6 +328,7 @@ int Serve(const Config& config, const sigset_t& signals) {
   options.reserve_bytes = kReserve;
   const auto served = OpenServed(config, options);
   if (!served.ok()) return Refuse(served.status());
+  if (config.role != ProcessRole::kFront) TellMemory(config);
   JobManager& jobs = *served->jobs;
   Listeners listeners(jobs, *served->store, config, Identity(config));
   std::unique_ptr<MetricsServer> metrics;

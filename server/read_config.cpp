@@ -22,6 +22,7 @@
 
 #include "address.h"
 #include "base/ids.h"
+#include "base/memory_limit.h"
 #include "flags.h"
 #include "storage/postgres/postgres_store.h"
 #include "version.h"
@@ -43,6 +44,14 @@ std::filesystem::path DefaultDataDir() {
 }
 
 int DefaultWorkers() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+// What a worker may take for its run: as much of half of the memory that there is as each other
+// one, for the other half is for all else; no more than a run usually needs, and no less than a
+// small one.
+std::int64_t ShareOfMemory(int workers) {
+  constexpr std::int64_t kLeast = 64 << 20, kMost = 1 << 30;
+  return std::clamp(MemoryLimit() / 2 / workers, kLeast, kMost);
+}
 
 std::string VariableOf(const CLI::Option& option) {
   std::string name = "CONTACTD_" + option.get_lnames().front();
@@ -259,6 +268,8 @@ void Finish(const Switches& switches, Config* config) {
   CheckStore(*config);
   SettleShared(config);
   SettleLauncher(config);
+  std::int64_t& memory = config->jobs.max_budget.memory_bytes;
+  if (memory == kUnset) memory = ShareOfMemory(config->jobs.workers);
   if (!config->store_address.empty()) config->store.max_bytes = 0;
   if (config->store.max_bytes == kUnset) config->store.max_bytes = MostOfDisk(config->data_dir);
   SettleOwnerLimits(*config, &config->jobs.owner_limits);
@@ -297,7 +308,7 @@ Config Defaults() {
   config.jobs.max_budget = {.wall_time = std::chrono::hours(1),
                             .steps = 1'000'000'000,
                             .output_bytes = 4'000'000'000,
-                            .memory_bytes = std::int64_t{1} << 30};
+                            .memory_bytes = kUnset};
   config.data_dir = DefaultDataDir();
   config.jobs.workers = DefaultWorkers();
   config.jobs.checkpoint_interval = std::chrono::seconds(1);

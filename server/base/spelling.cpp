@@ -47,6 +47,19 @@ constexpr Unprintable kUnprintable[] = {
     {"\xE2\x81", 0xA6, 0xA9},  // U+2066 to U+2069: isolates
 };
 
+// The text with `instead` for each unprintable character that is none of those kept.
+std::string Replaced(std::string_view text, char instead, std::string_view kept) {
+  std::string printable;
+  printable.reserve(text.size());
+  while (!text.empty()) {
+    const bool keep = kept.find(text.front()) != std::string_view::npos;
+    const std::size_t bytes = keep ? 0 : UnprintableBytes(text);
+    printable += bytes > 0 ? instead : text.front();
+    text.remove_prefix(std::max<std::size_t>(1, bytes));
+  }
+  return printable;
+}
+
 bool IsContinuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
 
 }  // namespace
@@ -99,15 +112,8 @@ std::size_t UnprintableBytes(std::string_view text) {
   return 0;
 }
 
-std::string Printable(std::string_view text, char instead) {
-  std::string printable;
-  printable.reserve(text.size());
-  while (!text.empty()) {
-    const std::size_t bytes = UnprintableBytes(text);
-    printable += bytes > 0 ? instead : text.front();
-    text.remove_prefix(std::max<std::size_t>(1, bytes));
-  }
-  return printable;
-}
+std::string Printable(std::string_view text, char instead) { return Replaced(text, instead, ""); }
+
+std::string PrintableLines(std::string_view text) { return Replaced(text, '?', "\n\t"); }
 
 }  // namespace contact

@@ -33,6 +33,9 @@ std::size_t UnprintableBytes(std::string_view text);
 /// The text with `instead` for each of these characters.
 std::string Printable(std::string_view text, char instead = '?');
 
+/// Printable text that keeps line feeds and tabs.
+std::string PrintableLines(std::string_view text);
+
 /// Text of a user, to be shown in a message: cut to 64 bytes at the end of a UTF-8 character, and
 /// printable.
 std::string Shortened(std::string_view text);

@@ -33,6 +33,8 @@ class Gateway::Threads {
   /// Waits until all connections have ended.
   ~Threads() { threads_.clear(); }
 
+  void Finish(std::chrono::milliseconds grace) { service_.requests().Finish(grace); }
+
   /// Called by one thread.
   void Serve(int fd) {
     boost::asio::io_context& io = threads_[next_++ % threads_.size()]->io;
@@ -69,13 +71,17 @@ Gateway::Gateway(Listener listener, const std::shared_ptr<grpc::Channel>& channe
 }
 
 Gateway::~Gateway() {
-  Close();
+  acceptor_->Close();
   acceptor_->Cut();
   threads_.reset();
 }
 
 std::size_t Gateway::connections() const { return acceptor_->open(); }
 std::int64_t Gateway::refused_connections() const { return acceptor_->refused(); }
-void Gateway::Close() { acceptor_->Close(); }
+
+void Gateway::Finish(std::chrono::milliseconds grace) {
+  acceptor_->Close();
+  threads_->Finish(grace);
+}
 
 }  // namespace contact

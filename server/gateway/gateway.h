@@ -2,6 +2,7 @@
 
 #include <grpcpp/channel.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -28,8 +29,9 @@ class Gateway {
   std::size_t connections() const;
   std::int64_t refused_connections() const;
 
-  /// Accepts no more connections.
-  void Close();
+  /// Accepts no more connections, and refuses requests with SERVER_DRAINING. Waits until those that
+  /// came before are answered, for at most `grace`. The gRPC server outlives the gateway.
+  void Finish(std::chrono::milliseconds grace);
 
  private:
   class Threads;

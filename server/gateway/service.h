@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gateway/memory.h"
+#include "gateway/open_requests.h"
 #include "gateway/options.h"
 #include "gateway/protocol/static_files.h"
 
@@ -34,6 +35,7 @@ class Service {
   /// What the bodies of requests may take, and what whole answers may until they are sent.
   Memory& bodies() { return bodies_; }
   Memory& answers() { return answers_; }
+  OpenRequests& requests() { return requests_; }
 
  private:
   const GatewayOptions options_;
@@ -41,6 +43,7 @@ class Service {
   const StaticFiles files_;
   Memory bodies_{options_.memory};
   Memory answers_{options_.memory};
+  OpenRequests requests_;
 };
 
 }  // namespace contact::gateway

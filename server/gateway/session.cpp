@@ -18,6 +18,8 @@
 #include "gateway/rpc_call.h"
 #include "gateway/unary_call.h"
 #include "grpc/health/v1/health.pb.h"
+#include "jobs/job/errors.h"
+#include "rpc/call/status.h"
 
 namespace contact::gateway {
 namespace {
@@ -109,6 +111,11 @@ awaitable<void> Session::Run() {
 }
 
 awaitable<bool> Session::Answer(const HttpRequest& request) {
+  const OpenRequests::Request open = service_.requests().Begin();
+  if (!open) {
+    const Error draining = MakeError(Reason::kServerDraining);
+    co_return co_await connection_.Send(request, Refused(request, 503, ToGrpc(draining)));
+  }
   if (auto refusal = service_.Refusal(request)) {
     co_return co_await connection_.Send(request, *std::move(refusal));
   }

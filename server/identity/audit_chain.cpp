@@ -33,7 +33,7 @@ std::string MistakeOf(const std::string& line, bool finished, const std::string&
 }
 
 // Follows one file. False: it cannot be read, or a line does not fit.
-bool Follow(const AuditFile& file, AuditFindings* findings) {
+bool Follow(const AuditFile& file, const std::string& head, AuditFindings* findings) {
   std::ifstream in(file.path, std::ios::binary);
   std::int64_t number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -41,6 +41,7 @@ bool Follow(const AuditFile& file, AuditFindings* findings) {
     ++findings->lines;
     findings->mistake = MistakeOf(line, !in.eof(), findings->last);
     findings->last = Sha256Hex(line);
+    findings->has_head |= findings->last == head;
     if (findings->mistake.empty()) continue;
     findings->bad_line = number;
     findings->bad_file = file.path;
@@ -83,7 +84,13 @@ std::string LastDigest(const std::vector<AuditFile>& files) {
   return FirstPrevious();
 }
 
-std::optional<AuditFindings> VerifyAudit(const fs::path& file) {
+std::string ReadHead(const fs::path& head) {
+  std::string digest;
+  std::ifstream(head) >> digest;
+  return digest;
+}
+
+std::optional<AuditFindings> VerifyAudit(const fs::path& file, const std::string& head) {
   const std::vector<AuditFile> files = AuditFiles(file);
   if (files.empty()) return std::nullopt;
   AuditFindings findings;
@@ -91,7 +98,7 @@ std::optional<AuditFindings> VerifyAudit(const fs::path& file) {
   if (findings.missing == 0) findings.last = FirstPrevious();
   for (const AuditFile& next : files) {
     ++findings.files;
-    if (Follow(next, &findings)) continue;
+    if (Follow(next, head, &findings)) continue;
     if (findings.bad_line > 0) return findings;
     return std::nullopt;
   }

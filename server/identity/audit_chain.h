@@ -30,6 +30,9 @@ LastLine FindLastLine(const std::filesystem::path& file);
 /// SHA-256 of the last line in the files, which may be none.
 std::string LastDigest(const std::vector<AuditFile>& files);
 
+/// The digest in the head of an audit log; empty if there is none.
+std::string ReadHead(const std::filesystem::path& head);
+
 /// What VerifyAudit finds.
 struct AuditFindings {
   std::int64_t files = 0;
@@ -38,6 +41,8 @@ struct AuditFindings {
   int missing = 0;
   /// SHA-256 of the last line, to be kept elsewhere: it shows whether lines are missing at the end.
   std::string last;
+  /// True if a line has the digest of the head.
+  bool has_head = false;
   /// The first line that does not fit, from 1, and its file; 0: all fit.
   std::int64_t bad_line = 0;
   std::filesystem::path bad_file;
@@ -45,8 +50,9 @@ struct AuditFindings {
   std::string mistake;
 };
 
-/// Follows the chain of an audit log through all of its files. Nothing if one cannot be read, or
-/// there is none.
-std::optional<AuditFindings> VerifyAudit(const std::filesystem::path& file);
+/// Follows the chain of an audit log through all of its files, and looks for the line with the
+/// digest `head`. Nothing if one cannot be read, or there is none.
+std::optional<AuditFindings> VerifyAudit(const std::filesystem::path& file,
+                                         const std::string& head = "");
 
 }  // namespace contact

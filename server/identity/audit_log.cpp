@@ -22,11 +22,11 @@
 namespace contact {
 namespace {
 
-// Of records that cost the caller nothing.
-constexpr int kCheapPerSecond = 100;
+// Of calls that failed: they change nothing, and cost the caller nothing.
+constexpr int kFailedPerSecond = 100;
 
-std::string LineOf(const AuditRecord& record, const std::string& previous,
-                   std::int64_t suppressed) {
+std::string LineOf(const AuditRecord& record, const std::string& previous, std::int64_t suppressed,
+                   std::int64_t lost) {
   using std::chrono::milliseconds;
   const auto ms = std::chrono::duration_cast<milliseconds>(record.time.time_since_epoch());
   std::string time = FormatUtc(record.time);
@@ -45,6 +45,7 @@ std::string LineOf(const AuditRecord& record, const std::string& previous,
   if (!record.reason.empty()) json["reason"] = record.reason;
   json["duration_us"] = record.duration.count();
   if (suppressed > 0) json["suppressed"] = suppressed;
+  if (lost > 0) json["lost"] = lost;
   json["prev"] = previous;
   // Names of jobs are whatever the caller has sent.
   return json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
@@ -66,15 +67,27 @@ std::string Problem(const std::filesystem::path& file) {
 
 FileDescriptor OpenFile(const std::filesystem::path& file, int flags) {
   constexpr mode_t kOwnerOnly = 0600;
-  return FileDescriptor(::open(
-      file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | flags, kOwnerOnly));
+  return FileDescriptor(
+      ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | flags, kOwnerOnly));
+}
+
+// Opens the head, and says in the server's log if the audit log is not the one that it is of.
+FileDescriptor OpenHead(const std::filesystem::path& head, const std::filesystem::path& file) {
+  if (head.empty()) return FileDescriptor();
+  const std::string last = ReadHead(head);
+  const auto found = VerifyAudit(file, last);
+  if (!last.empty() && !(found && found->has_head)) {
+    spdlog::error("{} does not have the line that was its last: lines are cut off, or made anew",
+                  file.string());
+  }
+  return OpenFile(head, 0);
 }
 
 }  // namespace
 
 std::variant<std::unique_ptr<AuditLog>, std::string> AuditLog::Open(
-    const std::filesystem::path& file, std::int64_t max_bytes) {
-  FileDescriptor out = OpenFile(file, 0);
+    const std::filesystem::path& file, std::int64_t max_bytes, const std::filesystem::path& head) {
+  FileDescriptor out = OpenFile(file, O_APPEND);
   struct stat status = {};
   if (!out.valid() || ::fstat(out.get(), &status) != 0) return Problem(file);
   if (!S_ISREG(status.st_mode)) return file.string() + " is no file";
@@ -83,8 +96,10 @@ std::variant<std::unique_ptr<AuditLog>, std::string> AuditLog::Open(
     spdlog::warn("{}: cut off a line that was not finished", file.string());
     if (::ftruncate(out.get(), last.end) != 0) return Problem(file);
   }
-  return std::unique_ptr<AuditLog>(
-      new AuditLog(file, max_bytes, std::move(out), LastDigest(AuditFiles(file))));
+  FileDescriptor head_file = OpenHead(head, file);
+  if (!head.empty() && !head_file.valid()) return Problem(head);
+  return std::unique_ptr<AuditLog>(new AuditLog(
+      file, max_bytes, std::move(out), std::move(head_file), LastDigest(AuditFiles(file))));
 }
 
 void AuditLog::Write(AuditRecord record) {
@@ -106,7 +121,7 @@ void AuditLog::Flush() {
 }
 
 bool AuditLog::Append(const AuditRecord& record) {
-  const std::string line = LineOf(record, previous_, suppressed_);
+  const std::string line = LineOf(record, previous_, suppressed_, lost_);
   ::off_t before = ::lseek(file_.get(), 0, SEEK_END);
   if (max_bytes_ > 0 && before > 0 &&
       before + static_cast<std::int64_t>(line.size()) + 1 > max_bytes_) {
@@ -115,10 +130,16 @@ bool AuditLog::Append(const AuditRecord& record) {
   }
   if (WriteAll(file_.get(), line + '\n')) {
     previous_ = Sha256Hex(line);
-    suppressed_ = 0;
+    suppressed_ = lost_ = 0;
     failed_ = false;
+    // Of one size, and in place: a crash leaves this one or the one before.
+    if (head_.valid() && ::pwrite(head_.get(), previous_.data(), previous_.size(), 0) < 0) {
+      spdlog::error("the head of the audit log cannot be written: {}",
+                    std::generic_category().message(errno));
+    }
     return true;
   }
+  ++lost_;
   if (!std::exchange(failed_, true)) {
     spdlog::error("the audit log cannot be written: {}", std::generic_category().message(errno));
   }
@@ -134,7 +155,7 @@ void AuditLog::Rotate() {
   const std::string away = fmt::format("{}.{}", path_.string(), last + 1);
   const std::string draft = path_.string() + ".new";
   ::unlink(draft.c_str());
-  FileDescriptor next = OpenFile(draft, O_EXCL);
+  FileDescriptor next = OpenFile(draft, O_APPEND | O_EXCL);
   if (next.valid() && !MoveIntoPlace(path_, away) && !MoveIntoPlace(draft, path_)) {
     file_ = std::move(next);
     stuck_ = false;
@@ -148,11 +169,12 @@ void AuditLog::Rotate() {
 }
 
 bool AuditLog::IsSuppressed(const AuditRecord& record) {
-  if (record.caller && record.code != "RESOURCE_EXHAUSTED") return false;
+  if (record.reason.empty()) return false;
   const auto second =
       std::chrono::duration_cast<std::chrono::seconds>(record.time.time_since_epoch()).count();
-  if (std::exchange(second_, second) != second) of_second_ = 0;
-  if (++of_second_ <= kCheapPerSecond) return false;
+  if (std::exchange(second_, second) != second) of_second_.clear();
+  const std::string whose = record.caller ? FormatPrincipal(*record.caller) : "";
+  if (++of_second_[whose] <= kFailedPerSecond) return false;
   ++suppressed_;
   return true;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,19 +38,23 @@ struct AuditRecord {
 
 /// A file with a JSON object a line for each change and each refused call. Each line has the
 /// SHA-256 of the line before as `prev`, so that a line that is changed, left out or put in is
-/// found; see VerifyAudit. A file that has grown large becomes FILE.1, FILE.2 and so on, and the
-/// chain goes on in a new one. Written on a thread of its own. Thread-safe.
+/// found; see VerifyAudit. The SHA-256 of the last line also stands in a file of its own, the head,
+/// which shows whether lines are missing at the end or all were made anew. A file that has grown
+/// large becomes FILE.1, FILE.2 and so on, and the chain goes on in a new one. Written on a thread
+/// of its own. Thread-safe.
 class AuditLog {
  public:
   /// Opens the file, of mode 0600 if it is made, and goes on with its chain. What a crash has left
   /// of a line that was not finished is cut off. Words that say why, if it cannot. A file may have
-  /// `max_bytes`, or one line if that is longer; 0: any number.
+  /// `max_bytes`, or one line if that is longer; 0: any number. `head`: where the head is; empty:
+  /// there is none. If the log has not the line of the head, the server's log says so.
   static std::variant<std::unique_ptr<AuditLog>, std::string> Open(
-      const std::filesystem::path& file, std::int64_t max_bytes = 0);
+      const std::filesystem::path& file, std::int64_t max_bytes = 0,
+      const std::filesystem::path& head = {});
 
-  /// Writes the record, some time later. Of calls whose caller is not known, and of those past a
-  /// limit, at most 100 a second are written; the next record says as `suppressed` how many are
-  /// left out.
+  /// Writes the record, some time later. Of the failed calls of one principal, and of all callers
+  /// that are not known, at most 100 a second are written; the next record says as `suppressed` how
+  /// many are left out. A record that cannot be written counts in the next one as `lost`.
   void Write(AuditRecord record);
   /// Writes the record and synchronises the disk, then calls `done` on the log's thread. False: it
   /// could not be written.
@@ -59,29 +64,33 @@ class AuditLog {
 
  private:
   AuditLog(std::filesystem::path path, std::int64_t max_bytes, FileDescriptor file,
-           std::string previous)
+           FileDescriptor head, std::string previous)
       : path_(std::move(path)),
         max_bytes_(max_bytes),
         file_(std::move(file)),
+        head_(std::move(head)),
         previous_(std::move(previous)) {}
 
   /// Appends the record. On the thread.
   bool Append(const AuditRecord& record);
   /// Puts the file away and begins a new one; goes on with the old one if it cannot. On the thread.
   void Rotate();
-  /// True if the record is one too many of a kind that anybody can cause. On the thread.
+  /// True if the record is one too many of failed calls. On the thread.
   bool IsSuppressed(const AuditRecord& record);
 
   // All of the thread.
   const std::filesystem::path path_;
   const std::int64_t max_bytes_;
   FileDescriptor file_;
+  /// Holds previous_, if there is a head.
+  const FileDescriptor head_;
   /// SHA-256 of the last line.
   std::string previous_;
-  /// The second of the last record that anybody can cause, and how many it had.
+  /// The second of the last failed call, and how many each principal had in it.
   std::int64_t second_ = 0;
-  int of_second_ = 0;
+  std::map<std::string, int> of_second_;
   std::int64_t suppressed_ = 0;
+  std::int64_t lost_ = 0;
   /// True while nothing can be written, so that the log says it once.
   bool failed_ = false;
   /// True while no new file can be begun.

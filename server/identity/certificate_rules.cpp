@@ -56,9 +56,13 @@ std::variant<CertificateRules, std::string> CertificateRules::Parse(const std::s
     std::istringstream words(line);
     std::string kind, pattern, principal;
     words >> kind >> pattern;
-    std::getline(words, principal);
+    std::getline(words >> std::ws, principal);
     if (kind != "cert" || pattern.empty()) {
-      return "a rule is 'cert PATTERN user:NAME tenant:NAME roles:ROLE'";
+      return "a rule is 'cert PATTERN user:NAME tenant:NAME roles:ROLE' or 'cert PATTERN nobody'";
+    }
+    if (principal == "nobody") {
+      rules.rules_.push_back({pattern, ""});
+      return "";
     }
     rules.rules_.push_back({pattern, principal});
     return MistakeOf(pattern, principal);

@@ -8,7 +8,9 @@
 #include <mutex>
 #include <utility>
 
+#include "base/ids.h"
 #include "identity/secret_file.h"
+#include "identity/token_changes.h"
 
 namespace contact {
 namespace {
@@ -29,20 +31,20 @@ std::variant<T, std::string> Load(const fs::path& file, Read read, const More&..
 
 }  // namespace
 
-IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed,
-                             TokensChanged tokens_changed, const Clock& clock)
-    : changed_(std::move(changed)), tokens_changed_(std::move(tokens_changed)) {
+IdentityFiles::IdentityFiles(IdentityPaths all, TlsChanged changed, Noted note, const Clock& clock)
+    : paths_(std::move(all)), changed_(std::move(changed)), note_(std::move(note)), clock_(clock) {
+  const IdentityPaths& paths = paths_;
   if (!paths.tokens.empty()) {
     tokens_.emplace(std::vector{paths.tokens},
                     [file = paths.tokens] { return Load<TokenTable>(file, ReadSecretFile); });
   }
   if (!paths.rules.empty()) {
     rules_.emplace(std::vector{paths.rules},
-                   [file = paths.rules] { return Load<CertificateRules>(file, ReadTextFile); });
+                   [file = paths.rules] { return Load<CertificateRules>(file, ReadTrustedFile); });
   }
   if (!paths.jwt_keys.empty()) {
     jwt_.emplace(std::vector{paths.jwt_keys}, [file = paths.jwt_keys, policy = paths.jwt] {
-      return Load<JwtVerifier>(file, ReadTextFile, policy);
+      return Load<JwtVerifier>(file, ReadTrustedFile, policy);
     });
   }
   const TlsPaths& tls = paths.tls;
@@ -52,10 +54,10 @@ IdentityFiles::IdentityFiles(const IdentityPaths& paths, TlsChanged changed,
 }
 
 std::variant<std::shared_ptr<IdentityFiles>, std::string> IdentityFiles::Open(
-    const IdentityPaths& paths, TlsChanged changed, TokensChanged tokens_changed,
-    const Clock& clock, std::chrono::milliseconds period) {
+    const IdentityPaths& paths, TlsChanged changed, Noted note, const Clock& clock,
+    std::chrono::milliseconds period) {
   std::shared_ptr<IdentityFiles> files(
-      new IdentityFiles(paths, std::move(changed), std::move(tokens_changed), clock));
+      new IdentityFiles(paths, std::move(changed), std::move(note), clock));
   if (const std::string mistakes = files->Look(); !mistakes.empty()) return mistakes;
   files->thread_ = std::jthread(
       [self = files.get(), period](const std::stop_token& stop) { self->Follow(stop, period); });
@@ -77,26 +79,43 @@ void IdentityFiles::Follow(const std::stop_token& stop, std::chrono::millisecond
 
 std::string IdentityFiles::Look() {
   std::string mistakes;
-  const auto look = [&mistakes](auto& file) {
-    const std::string mistake = file ? file->Look() : "";
+  const auto look = [&mistakes](auto& file, const auto& changed) {
+    if (!file) return;
+    const auto before = file->value();
+    const std::string mistake = file->Look();
     if (!mistakes.empty() && !mistake.empty()) mistakes += "; ";
     mistakes += mistake;
+    if (const auto now = file->value(); now && now != before) changed(before.get(), *now);
   };
-  look(tokens_);
-  look(rules_);
-  look(jwt_);
-  look(tls_);
-  if (const auto now = tokens(); now && now != told_tokens_) {
-    tokens_changed_(told_tokens_.get(), *now);
-    told_tokens_ = now;
-  }
-  const auto tls = tls_ ? tls_->value() : nullptr;
-  if (tls && tls != told_) {
-    changed_(*tls);
-    if (told_) spdlog::info("the certificate was read again");
-    told_ = tls;
-  }
+  look(tokens_, [this](const TokenTable* before, const TokenTable& now) {
+    for (AuditRecord& record : TokenChanges(before, now, paths_.tokens.string(), clock_.Now())) {
+      note_(std::move(record));
+    }
+  });
+  look(rules_, [this](const auto* before, const auto& /*now*/) {
+    if (before != nullptr) NoteChange("rules", paths_.rules);
+  });
+  look(jwt_, [this](const auto* before, const auto& /*now*/) {
+    if (before != nullptr) NoteChange("keys", paths_.jwt_keys);
+  });
+  look(tls_, [this](const TlsMaterial* before, const TlsMaterial& now) {
+    changed_(now);
+    if (before == nullptr) return;
+    spdlog::info("the certificate was read again");
+    NoteChange("tls", paths_.tls.certificate);
+  });
   return mistakes;
+}
+
+void IdentityFiles::NoteChange(const char* what, const fs::path& file) const {
+  note_({.time = clock_.Now(),
+         .call = RandomIds().NextId(),
+         .caller = {},
+         .peer = "file:" + file.string(),
+         .method = what,
+         .job = {},
+         .code = "CHANGED",
+         .reason = {}});
 }
 
 std::shared_ptr<const TokenTable> IdentityFiles::tokens() const {

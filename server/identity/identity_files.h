@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "base/clock.h"
+#include "identity/audit_log.h"
 #include "identity/door.h"
 #include "identity/reloaded.h"
 #include "identity/tls_material.h"
@@ -36,13 +37,14 @@ class IdentityFiles final : public IdentitySource {
   /// Called with what TLS is to use from now on: once by Open, later on the thread.
   using TlsChanged = std::function<void(const TlsMaterial&)>;
 
-  /// Called with the tokens that were valid before, or null, and with those of now: as TlsChanged.
-  using TokensChanged = std::function<void(const TokenTable* before, const TokenTable& now)>;
+  /// Called with what the audit log is to say of the files, as TlsChanged: what TokenChanges tells,
+  /// and one record for each change of rules, keys or certificates that is used from now on.
+  using Noted = std::function<void(AuditRecord)>;
 
   /// Reads the files, and follows them by looking once a `period`; words about the first mistake if
   /// one cannot be used. The clock outlives the files.
   static std::variant<std::shared_ptr<IdentityFiles>, std::string> Open(
-      const IdentityPaths& paths, TlsChanged changed, TokensChanged tokens_changed,
+      const IdentityPaths& paths, TlsChanged changed, Noted note,
       const Clock& clock = SystemClock(),
       std::chrono::milliseconds period = std::chrono::seconds(1));
   ~IdentityFiles() override;
@@ -61,23 +63,23 @@ class IdentityFiles final : public IdentitySource {
   std::optional<std::chrono::system_clock::time_point> not_after() const;
 
  private:
-  IdentityFiles(const IdentityPaths& paths, TlsChanged changed, TokensChanged tokens_changed,
-                const Clock& clock);
+  IdentityFiles(IdentityPaths paths, TlsChanged changed, Noted note, const Clock& clock);
   /// Looks at all files. Returns the mistakes, a line each.
   std::string Look();
   /// Body of the thread.
   void Follow(const std::stop_token& stop, std::chrono::milliseconds period);
+  /// Notes that the file, or one of those with it, has changed; `what` stands for the method.
+  void NoteChange(const char* what, const std::filesystem::path& file) const;
 
+  const IdentityPaths paths_;
   const TlsChanged changed_;
-  const TokensChanged tokens_changed_;
+  const Noted note_;
+  const Clock& clock_;
   /// Nothing if the server has no such file.
   std::optional<Reloaded<TokenTable>> tokens_;
   std::optional<Reloaded<CertificateRules>> rules_;
   std::optional<Reloaded<JwtVerifier>> jwt_;
   std::optional<Reloaded<TlsMaterial>> tls_;
-  /// What changed_ and tokens_changed_ were called with last.
-  std::shared_ptr<const TlsMaterial> told_;
-  std::shared_ptr<const TokenTable> told_tokens_;
   std::jthread thread_;  // Last: it uses all of the above.
 };
 

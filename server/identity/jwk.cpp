@@ -5,6 +5,7 @@
 #include <openssl/ecdsa.h>
 #include <openssl/param_build.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,7 @@ namespace {
 constexpr int kLeastRsaBits = 2048;
 constexpr int kMostRsaBits = 8192;  // More takes too long to verify.
 constexpr std::size_t kP256Bytes = 32;
+constexpr std::size_t kEd25519Bytes = 32;
 
 template <class T, auto Free>
 struct Deleter {
@@ -60,6 +62,8 @@ OwnedKey MakeKey(const char* kind, OSSL_PARAM_BLD* builder) {
 OwnedKey RsaKey(const nlohmann::json& object) {
   const Number n = ToNumber(Member(object, "n")), e = ToNumber(Member(object, "e"));
   if (BN_num_bits(n.get()) < kLeastRsaBits || BN_num_bits(n.get()) > kMostRsaBits) return nullptr;
+  // Of an even modulus everybody knows a factor, and to the power of 1 everybody signs.
+  if (!BN_is_odd(n.get()) || !BN_is_odd(e.get()) || BN_is_one(e.get())) return nullptr;
   const Builder builder(OSSL_PARAM_BLD_new());
   OSSL_PARAM_BLD_push_BN(builder.get(), OSSL_PKEY_PARAM_RSA_N, n.get());
   OSSL_PARAM_BLD_push_BN(builder.get(), OSSL_PKEY_PARAM_RSA_E, e.get());
@@ -77,8 +81,34 @@ OwnedKey P256Key(const nlohmann::json& object) {
   return MakeKey("EC", builder.get());
 }
 
+// True for the eight points of Ed25519 whose multiples are these eight: everybody signs for them.
+// Their y is 0, 1, −1 or solves 121665 y⁴ − 243332 y² + 121666 = 0 modulo 2^255 − 19, which follows
+// from the curve's equation for a point whose double has y = 0.
+bool IsOfSmallOrder(std::string key) {
+  std::ranges::reverse(key);
+  key.front() = static_cast<char>(key.front() & 0x7F);  // The sign of x.
+  const Owned<BN_CTX, BN_CTX_free> context(BN_CTX_new());
+  const Number p(BN_new()), square = ToNumber(key), sum(BN_new()), product(BN_new());
+  BN_set_bit(p.get(), 255);
+  BN_sub_word(p.get(), 19);
+  BN_mod_sqr(square.get(), square.get(), p.get(), context.get());
+  // (121665 y² − 243332) y² + 121666
+  BN_copy(sum.get(), square.get());
+  BN_mul_word(sum.get(), 121665);
+  BN_sub_word(sum.get(), 243332);
+  BN_mod_mul(sum.get(), sum.get(), square.get(), p.get(), context.get());
+  BN_add_word(sum.get(), 121666);
+  // y² (y² − 1)
+  BN_copy(product.get(), square.get());
+  BN_sub_word(product.get(), 1);
+  BN_mod_mul(product.get(), product.get(), square.get(), p.get(), context.get());
+  BN_mod_mul(product.get(), product.get(), sum.get(), p.get(), context.get());
+  return BN_is_zero(product.get());
+}
+
 OwnedKey Ed25519Key(const nlohmann::json& object) {
   const std::string x = Member(object, "x");
+  if (x.size() != kEd25519Bytes || IsOfSmallOrder(x)) return nullptr;
   return OwnedKey(EVP_PKEY_new_raw_public_key(EVP_PKEY_ED25519, nullptr, Bytes(x), x.size()));
 }
 

@@ -74,7 +74,9 @@ std::set<Role> RolesOf(const json& claims, const std::string& name) {
   }
   std::set<Role> roles;
   for (const std::string& word : words) {
-    if (const auto role = FindRole(word)) roles.insert(*role);
+    const auto role = FindRole(word);
+    if (role && *role != Role::kServer)
+      roles.insert(*role);  // A token of a provider is a tenant's.
   }
   return roles;
 }

@@ -10,10 +10,11 @@
 namespace contact {
 namespace {
 
-constexpr std::array<std::pair<Role, const char*>, 4> kRoles = {{{Role::kRead, "read"},
+constexpr std::array<std::pair<Role, const char*>, 5> kRoles = {{{Role::kRead, "read"},
                                                                  {Role::kSubmit, "submit"},
                                                                  {Role::kOperator, "operator"},
-                                                                 {Role::kAdmin, "admin"}}};
+                                                                 {Role::kAdmin, "admin"},
+                                                                 {Role::kServer, "server"}}};
 
 bool IsName(std::string_view text) {
   return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](unsigned char c) {
@@ -23,14 +24,14 @@ bool IsName(std::string_view text) {
 
 // The least role that has the permission.
 Role LeastRole(Permission permission) { return static_cast<Role>(permission); }
-static_assert(static_cast<int>(Permission::kAdmin) == static_cast<int>(Role::kAdmin));
+static_assert(static_cast<int>(Permission::kServer) == static_cast<int>(Role::kServer));
 
 bool ReadRoles(const std::string& text, std::set<Role>* roles, std::string* mistake) {
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
     const std::optional<Role> role = FindRole(word);
     if (!role) {
-      *mistake = "'" + word + "' is no role; there are read, submit, operator and admin";
+      *mistake = "'" + word + "' is no role; there are read, submit, operator, admin and server";
       return false;
     }
     roles->insert(*role);
@@ -41,12 +42,17 @@ bool ReadRoles(const std::string& text, std::set<Role>* roles, std::string* mist
 }  // namespace
 
 const Principal& LocalPrincipal() {
-  static const Principal kEverybody{kLocal, kLocal, {Role::kAdmin}, "local"};
+  static const Principal kEverybody{kLocal, kLocal, {Role::kAdmin, Role::kServer}, "local"};
   return kEverybody;
 }
 
+Principal SocketAdmin() { return {"admin", kLocal, LocalPrincipal().roles, "socket"}; }
+
 bool May(const Principal& principal, Permission permission) {
-  return !principal.roles.empty() && *principal.roles.rbegin() >= LeastRole(permission);
+  if (permission == Permission::kServer) return principal.roles.contains(Role::kServer);
+  return std::ranges::any_of(principal.roles, [permission](Role role) {
+    return role != Role::kServer && role >= LeastRole(permission);
+  });
 }
 
 bool IsKnownAdmin(const Principal& principal) {
@@ -78,18 +84,23 @@ std::optional<Principal> ParsePrincipal(const std::string& text, std::string* mi
     parts[key] = word.substr(colon + 1);
   }
   Principal principal{parts["user"], parts["tenant"], {}, ""};
-  if (!IsName(principal.name) || !IsName(principal.tenant)) {
-    *mistake = "user and tenant need names of 1 to 64 letters, digits and ._@-";
-    return std::nullopt;
-  }
   if (!ReadRoles(parts["roles"], &principal.roles, mistake)) return std::nullopt;
-  if (!principal.roles.empty()) return principal;
-  *mistake = "roles are missing";
+  const bool server = principal.roles == std::set<Role>{Role::kServer};
+  if (!IsName(principal.name) || !(server || IsName(principal.tenant))) {
+    *mistake = "user and tenant need names of 1 to 64 letters, digits and ._@-";
+  } else if (principal.roles.empty()) {
+    *mistake = "roles are missing";
+  } else if (principal.roles.contains(Role::kServer) && !(server && principal.tenant.empty())) {
+    *mistake = "the role server is alone and of no tenant: user:NAME roles:server";
+  } else {
+    return principal;
+  }
   return std::nullopt;
 }
 
 std::string FormatPrincipal(const Principal& principal) {
-  std::string text = "user:" + principal.name + " tenant:" + principal.tenant + " roles:";
+  const std::string tenant = principal.tenant.empty() ? "" : " tenant:" + principal.tenant;
+  std::string text = "user:" + principal.name + tenant + " roles:";
   for (const Role role : principal.roles) {
     if (!text.ends_with(':')) text += ',';
     text += NameOf(role);

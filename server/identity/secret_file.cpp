@@ -14,6 +14,20 @@ namespace contact {
 namespace {
 
 constexpr std::size_t kMostBytes = 1 << 20;
+constexpr mode_t kOthersWrite = S_IWGRP | S_IWOTH;
+
+// The folder in which others may replace the file, or what it is a link to; empty: none.
+std::string ReplaceableIn(const std::filesystem::path& file) {
+  std::error_code error;
+  for (const auto& path :
+       {std::filesystem::absolute(file, error), std::filesystem::canonical(file, error)}) {
+    struct stat folder = {};
+    const bool found = ::stat(path.parent_path().c_str(), &folder) == 0;
+    const bool open = (folder.st_mode & kOthersWrite) != 0 && (folder.st_mode & S_ISVTX) == 0;
+    if (!found || open) return path.parent_path().string();
+  }
+  return "";
+}
 
 bool Read(const std::filesystem::path& file, mode_t refused, std::string* text,
           std::string* mistake) {
@@ -28,7 +42,14 @@ bool Read(const std::filesystem::path& file, mode_t refused, std::string* text,
     return false;
   }
   if ((status.st_mode & refused) != 0) {
-    *mistake = file.string() + " can be read or changed by others; chmod 600 it";
+    const bool secret = (refused & S_IROTH) != 0;
+    *mistake = file.string() + (secret ? " can be read or changed by others; chmod 600 it"
+                                       : " can be changed by others; chmod go-w it");
+    return false;
+  }
+  const std::string folder = refused == 0 ? "" : ReplaceableIn(file);
+  if (!folder.empty()) {
+    *mistake = file.string() + " can be replaced by others; chmod go-w " + folder;
     return false;
   }
   text->clear();
@@ -48,8 +69,12 @@ bool ReadTextFile(const std::filesystem::path& file, std::string* text, std::str
   return Read(file, 0, text, mistake);
 }
 
+bool ReadTrustedFile(const std::filesystem::path& file, std::string* text, std::string* mistake) {
+  return Read(file, kOthersWrite, text, mistake);
+}
+
 bool ReadSecretFile(const std::filesystem::path& file, std::string* text, std::string* mistake) {
-  return Read(file, S_IWGRP | S_IROTH | S_IWOTH, text, mistake);
+  return Read(file, kOthersWrite | S_IROTH, text, mistake);
 }
 
 }  // namespace contact

@@ -66,9 +66,10 @@ std::variant<TlsMaterial, std::string> LoadTls(const TlsPaths& paths,
                                                system_clock::time_point now) {
   TlsMaterial material;
   std::string mistake;
-  if (!ReadTextFile(paths.certificate, &material.certificate, &mistake)) return mistake;
+  if (!ReadTrustedFile(paths.certificate, &material.certificate, &mistake)) return mistake;
   if (!ReadSecretFile(paths.key, &material.key, &mistake)) return mistake;
-  if (!paths.client_ca.empty() && !ReadTextFile(paths.client_ca, &material.client_ca, &mistake)) {
+  if (!paths.client_ca.empty() &&
+      !ReadTrustedFile(paths.client_ca, &material.client_ca, &mistake)) {
     return mistake;
   }
   mistake = MistakeOf(paths, material, now);

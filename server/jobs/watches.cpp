@@ -1,6 +1,5 @@
 #include "jobs/watches.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -8,20 +7,6 @@
 #include "jobs/log/jobs_cursor.h"
 
 namespace contact {
-namespace {
-
-// A message is not worth to be larger, and not to be smaller.
-constexpr std::size_t kMostBytes = std::size_t{256} * 1024;
-constexpr std::size_t kLeastBytes = std::size_t{8} * 1024;
-// Of the messages of all watchers, as long as none is smaller than the least.
-constexpr std::size_t kAllBytes = std::size_t{24} << 20;
-
-}  // namespace
-
-std::size_t MessageBytes(int watchers) {
-  return std::clamp(kAllBytes / static_cast<std::size_t>(std::max(watchers, 1)), kLeastBytes,
-                    kMostBytes);
-}
 
 void Watches::WatchJob(const Principal& caller, const v1::WatchJobRequest& request, Wake wake,
                        Callback<WatchedJob> done) {
@@ -57,8 +42,7 @@ WatchedJob Watches::Open(const v1::WatchJobRequest& request, WatchRules rules, S
   auto cursor = std::make_unique<DeliveryCursor>(std::move(tail), std::move(behind), parts_.clock,
                                                  rules.delivery);
   return {std::move(job), std::move(cursor), rules.bookmark_interval,
-          rules.delivery.min_frame_interval.count() > 0,
-          [watchers = parts_.watchers] { return MessageBytes(watchers.taken()); }};
+          rules.delivery.min_frame_interval.count() > 0, BudgetOf(parts_.watchers)};
 }
 
 Result<Watches::Jobs> Watches::WatchJobs(const Principal& caller,
@@ -66,6 +50,7 @@ Result<Watches::Jobs> Watches::WatchJobs(const Principal& caller,
   Result<JobsCursor::Rules> rules = ToRules(request);
   if (!rules.ok()) return rules.error();
   rules.value().tenant = caller.tenant;
+  rules.value().message_bytes = BudgetOf(parts_.watchers);
   Places::Place place = parts_.watchers.Take(caller);
   if (!place) return WatcherLimit(parts_.watchers.open(caller));
   return Jobs(std::make_unique<JobsCursor>(

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
-#include <functional>
 #include <memory>
 
 #include "base/clock.h"
@@ -14,15 +12,12 @@
 #include "jobs/log/log_cursor.h"
 #include "jobs/log/stream_source.h"
 #include "jobs/log/tail_cursor.h"
+#include "jobs/quota/message_bytes.h"
 #include "jobs/quota/places.h"
 #include "jobs/read/watch_rules.h"
 #include "jobs/schedule/unfinished.h"
 
 namespace contact {
-
-/// Bytes of a message, about, while so many watch: a reader that takes nothing keeps one, so all
-/// together have a bounded number.
-std::size_t MessageBytes(int watchers);
 
 /// A job that is watched.
 struct WatchedJob {
@@ -34,8 +29,7 @@ struct WatchedJob {
   std::chrono::milliseconds bookmark_interval{0};
   /// True if the cursor may have something new because time has passed.
   bool paced = false;
-  /// Bytes that the next message may have, about: the fewer, the more watchers there are.
-  std::function<std::size_t()> message_bytes = [] { return MessageBytes(1); };
+  MessageBudget message_bytes = [] { return MessageBytes(1); };
 };
 
 /// Opens watches of one job and of all jobs. Thread-safe; no call waits.

@@ -8,9 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "jobs/job/callback.h"
 #include "rpc/call/audit.h"
 #include "rpc/call/call_guard.h"
 #include "rpc/call/status.h"
+#include "rpc/stream/rightful_source.h"
 #include "rpc/stream/stream_reactor.h"
 
 namespace contact {
@@ -58,8 +60,10 @@ class CallStarter {
     Admission admission = guard_.Check(*context, call.method, call.kind);
     if (admission.refusal) return Refuse<Message>(context, call, admission);
     return StreamReactor<Message>::Start(
-        loop_, context, std::move(label), std::move(admission.held),
-        [&](auto wake, auto opened) { open(*admission.caller, wake, opened); });
+        loop_, context, std::move(label), std::move(admission.held), [&](auto wake, auto opened) {
+          open(*admission.caller, wake,
+               Rightful<Message>(opened, guard_.RightOf(*context, call.method, *admission.caller)));
+        });
   }
 
   /// As Stream, for a call that may begin only once the audit log has it: else the call ends with
@@ -90,6 +94,21 @@ class CallStarter {
                                             const Admission& admission) {
     Audit(log_, loop_->clock(), *context, call, admission).End(Result<bool>(*admission.refusal));
     return StreamReactor<Message>::Refuse(loop_, context, *admission.refusal);
+  }
+
+  /// What `opened` does, with a source that asks for the right to read it again and again.
+  template <class Message>
+  Callback<std::unique_ptr<StreamSource<Message>>> Rightful(
+      Callback<std::unique_ptr<StreamSource<Message>>> opened, Right right) const {
+    if (!right) return opened;
+    return [this, opened = std::move(opened),
+            right = std::move(right)](Result<std::unique_ptr<StreamSource<Message>>> source) {
+      if (source.ok()) {
+        source.value() = std::make_unique<RightfulSource<Message>>(std::move(source.value()), right,
+                                                                   loop_->clock());
+      }
+      opened(std::move(source));
+    };
   }
 
   /// Moves a result into the response.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "grpc/health/v1/health.pb.h"
+#include "rpc/call/malformed_request.h"
 #include "rpc/metrics/call_monitor.h"
 #include "rpc/net/listener.h"
 #include "rpc/shutdown_timer.h"
@@ -79,6 +80,7 @@ void Monitor(std::shared_ptr<RpcMetrics> metrics, std::shared_ptr<PeerCounts> st
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> monitors;
   monitors.push_back(
       std::make_unique<CallMonitor>(std::move(metrics), std::move(streams), std::move(floods)));
+  monitors.push_back(std::make_unique<MalformedRequests>());
   builder->experimental().SetInterceptorCreators(std::move(monitors));
 }
 
@@ -179,10 +181,12 @@ void GrpcServer::Shutdown(milliseconds grace) {
       spdlog::critical("gRPC did not shut down in time; ending the process");
       std::_Exit(1);
     };
-    const ShutdownTimer timer(grace + 500ms, cut, grace + 2s, give_up);
-    server_->Shutdown(std::chrono::system_clock::now() + grace);
-    hand_over_.Stop();
-    server_.reset();
+    {
+      const ShutdownTimer timer(grace + 500ms, cut, grace + 2s, give_up);
+      server_->Shutdown(std::chrono::system_clock::now() + grace);
+      hand_over_.Stop();
+      server_.reset();
+    }  // The timer may be cutting connections of the acceptor until here.
     floods_->SetCut(nullptr);
     acceptor_.reset();
   }

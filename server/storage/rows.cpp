@@ -30,11 +30,11 @@ StoredJob ToStored(const JobColumns& columns) {
 }
 
 StoredEvent ToStored(std::uint64_t sequence, int kind, CodedEvent event, std::int64_t crc32,
-                     std::uint64_t place) {
+                     std::uint64_t place, const std::string& job) {
   StoredEvent stored;
   stored.sequence = sequence;
   stored.kind = static_cast<v1::Event::PayloadCase>(kind);
-  stored.intact = Checksum(event, place) == crc32;
+  stored.intact = Passes(crc32, event, place, job);
   if (!stored.intact) return stored;
   stored.coding = event.coding;
   stored.bytes = std::move(event.bytes);
@@ -42,12 +42,13 @@ StoredEvent ToStored(std::uint64_t sequence, int kind, CodedEvent event, std::in
 }
 
 void MergePart(const std::string& bytes, std::int64_t crc32, StoredJob* stored) {
-  stored->intact = stored->intact && Checksum(bytes) == crc32 && stored->job.MergeFromString(bytes);
+  stored->intact = stored->intact && Passes(crc32, bytes, stored->job.name()) &&
+                   stored->job.MergeFromString(bytes);
 }
 
 void AddCheckpoint(std::string state, std::int64_t crc32, std::uint64_t sequence,
                    StoredJob* stored) {
-  if (Checksum(state) != crc32) return;
+  if (!Passes(crc32, state, stored->job.name())) return;
   stored->checkpoint = std::move(state);
   stored->checkpoint_sequence = sequence;
 }
@@ -59,7 +60,7 @@ absl::StatusOr<StoredJob> IfIntact(StoredJob stored) {
 
 bool StoredJob::MergeResult() {
   const std::string bytes = std::exchange(result, {});
-  return bytes.empty() || (Checksum(bytes) == result_crc32 && job.MergeFromString(bytes));
+  return bytes.empty() || (Passes(result_crc32, bytes, job.name()) && job.MergeFromString(bytes));
 }
 
 }  // namespace contact

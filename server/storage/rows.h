@@ -32,9 +32,9 @@ struct JobColumns {
 /// than the row.
 StoredJob ToStored(const JobColumns& columns);
 
-/// An event of a row; `crc32` is that of Checksum(event, place).
+/// An event of a row of the job; `crc32` is that of Checksum(event, place, job).
 StoredEvent ToStored(std::uint64_t sequence, int kind, CodedEvent event, std::int64_t crc32,
-                     std::uint64_t place);
+                     std::uint64_t place, const std::string& job);
 
 /// Adds a piece of the job, such as its spec, if it passes its checksum; else the job is not
 /// intact.

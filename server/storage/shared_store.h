@@ -122,7 +122,8 @@ struct MovedJobs {
   std::uint64_t next = 0;
 };
 
-/// What one process tells all others. It may be lost.
+/// What one process tells all others. It may be lost, and whoever may connect to a database can
+/// make one up: it says only where to look, but for progress.
 struct Note {
   enum class Kind {
     /// The job was created, changed or deleted: `tenant`, `last_sequence`, `state`.

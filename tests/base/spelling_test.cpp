@@ -78,6 +78,10 @@ TEST(Spelling, NoPrintableTextSteersATerminalOrTurnsItsDirection) {
   EXPECT_EQ(Printable("cut \xE2\x80"), "cut \xE2\x80");
 }
 
+TEST(Spelling, PrintableLinesStayLines) {
+  EXPECT_EQ(PrintableLines("a\tb\n\x1b[31mc\r\n"), "a\tb\n?[31mc?\n");
+}
+
 TEST(Spelling, QuotedTextIsNeverCutInsideACharacter) {
   std::string text = "x";
   for (int i = 0; i < 40; ++i) text += "δ";

@@ -98,26 +98,43 @@ class StuckTest(FaultTest):
 
 
 class StuckCrowdTest(FaultTest):
-    """Ten thousand watchers that open their windows wide, and never read."""
+    """Ten thousand readers of a stream that open their windows wide, and never read."""
 
     flags = ("--workers=1", "--max-watchers=10001", "--max-watchers-per-peer=10001")
 
-    def test_each_costs_a_bounded_number_of_bytes(self):
-        scenario = spring_wall(0.4)  # 11 MB of events.
+    def job(self):
+        """The name of a job with 11 MB of events."""
+        scenario = spring_wall(0.4)
         scenario.output.sample_interval_s = 2e-6
-        name = self.server.run(scenario).name
+        return self.server.run(scenario).name
+
+    def assertCheap(self, method, request):
         base = status_of(self.server, "VmRSS")
-        request = job_service_pb2.WatchJobRequest(name=name).SerializeToString()
+        path = f"/contact.v1.JobService/{method}"
         for _ in range(100):
             client = http2.greet(self.server.port, window=http2.LARGEST_WINDOW)
             self.addCleanup(client.close)
-            client.sendall(b"".join(http2.headers(stream, WATCH) + http2.message(stream, request)
-                                    for stream in range(1, 201, 2)))
+            client.sendall(b"".join(
+                http2.headers(stream, path) + http2.message(stream, request.SerializeToString())
+                for stream in range(1, 201, 2)))
         each = (self.settled() - base) / 10_000 * 1000
-        self.assertKept("kilobytes_a_watcher", each, 64, "kB", slack=1)
+        self.assertKept("kilobytes_a_stream", each, 64, "kB", slack=1)
         code, elapsed = self.server.terminate()
         self.assertEqual(code, 0, self.server.log())
         self.assertKept("exit", elapsed, 5, slack=1)
+
+    def test_watchers_of_a_job(self):
+        self.assertCheap("WatchJob", job_service_pb2.WatchJobRequest(name=self.job()))
+
+    def test_watchers_of_all_jobs(self):
+        labels = {f"label-{i:02}": "x" * 60 for i in range(16)}
+        for _ in range(300):
+            self.server.create(endless_and_slow(), labels=labels)
+        self.assertCheap("WatchJobs", job_service_pb2.WatchJobsRequest())
+
+    def test_readers_of_an_artifact(self):
+        self.assertCheap("ReadArtifact", job_service_pb2.ReadArtifactRequest(
+            name=self.job(), artifact="trajectory.csv"))
 
     def settled(self):
         """Memory once it has grown by less than a megabyte in a second, in MB."""

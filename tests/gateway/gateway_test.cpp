@@ -183,6 +183,10 @@ class GatewayTest : public testing::Test {
     return Client(port_);
   }
   SlowCall& slow() { return service_.slow(); }
+  // Finishes on another thread.
+  std::future<void> Finish(std::chrono::milliseconds grace) {
+    return std::async(std::launch::async, [this, grace] { gateway_->Finish(grace); });
+  }
   std::size_t connections() const { return gateway_->connections(); }
   // Whether others are answered.
   bool Answers() const {
@@ -272,6 +276,37 @@ TEST_F(GatewayTest, AUnaryCallIsAnsweredToAClientThatHasClosedItsHalf) {
   EXPECT_FALSE(client.Wait(50ms)) << "the call is cancelled";
   slow().End();
   EXPECT_TRUE(client.ReadAll().ends_with(R"({"name":"done"})"));
+}
+
+TEST_F(GatewayTest, TheEndWaitsForWhatIsAnswered) {
+  const Client client = Connect({});
+  client.Send(Post("GetJob", "application/json", kSlow));
+  ASSERT_TRUE(slow().Begins());
+  const auto finished = Finish(kPatience);
+  EXPECT_EQ(finished.wait_for(50ms), std::future_status::timeout);
+  slow().End();
+  EXPECT_TRUE(client.ReadAll().ends_with(R"({"name":"done"})"));
+  EXPECT_EQ(finished.wait_for(kPatience), std::future_status::ready);
+}
+
+TEST_F(GatewayTest, TheEndWaitsNoLongerThanItMay) {
+  const Client client = Connect({});
+  client.Send(Post("GetJob", "application/json", kSlow));
+  ASSERT_TRUE(slow().Begins());
+  EXPECT_EQ(Finish(1ms).wait_for(kPatience), std::future_status::ready);
+}
+
+TEST_F(GatewayTest, ARequestThatComesAfterTheEndHasBegunIsRefused) {
+  const Client client = Connect({});
+  client.Send("GET /healthz HTTP/1.1\r\nhost: localhost\r\n\r\n");
+  ASSERT_TRUE(client.Read(4096).ends_with("ok\n"));
+  Finish(0ms).get();
+  client.Send(Post("GetJob", "application/json", "{}"));
+  const std::string answer = client.ReadAll();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 503 ")) << answer;
+  const json error = json::parse(BodyOf(answer));
+  EXPECT_EQ(error["code"], "unavailable");
+  EXPECT_EQ(error["details"][0]["debug"]["reason"], "SERVER_DRAINING");
 }
 
 TEST_F(GatewayTest, AUnaryCallIsCancelledOnceItsClientTakesNothingMore) {

@@ -115,6 +115,11 @@ class HttpTest(GatewayTest):
             self.assertTrue(answer == b"" or answer.startswith(b"HTTP/1.1 400 "), (bad, answer))
         self.assertEqual(self.ask("GET", "/healthz").status, 200)
 
+    def test_two_hosts_are_refused(self):
+        raw = self.connect()
+        raw.sendall(self.request("POST", b"{}", "host: localhost"))
+        self.assertEqual(read_answer(raw)[0], 400)
+
     def is_refused_with_what_follows(self, *headers):
         raw = self.connect()
         raw.sendall(self.request("POST", b"0\r\n\r\n", *headers) +

@@ -116,7 +116,9 @@ TEST_F(AuditLogTest, UnfinishedLineIsCutOff) {
 TEST_F(AuditLogTest, UnknownCallersCannotFillTheDisk) {
   {
     const auto log = Open();
-    for (int i = 0; i < 250; ++i) log->Write(RecordOf("", false));
+    AuditRecord refused = RecordOf("", false);
+    refused.code = refused.reason = "UNAUTHENTICATED";
+    for (int i = 0; i < 250; ++i) log->Write(refused);
     log->Write(RecordOf("jobs/a"));
     log->Flush();
   }
@@ -125,17 +127,44 @@ TEST_F(AuditLogTest, UnknownCallersCannotFillTheDisk) {
   EXPECT_EQ(nlohmann::json::parse(lines.back()).at("suppressed"), 150);
 }
 
-TEST_F(AuditLogTest, RefusalsPastALimitCannotFillTheDisk) {
+TEST_F(AuditLogTest, RefusalsOfOnePrincipalCannotFillTheDiskNorHideThoseOfOthers) {
   {
     const auto log = Open();
     AuditRecord refused = RecordOf("");
-    refused.code = "RESOURCE_EXHAUSTED";
-    for (int i = 0; i < 250; ++i) log->Write(refused);
-    log->Write(RecordOf("jobs/a"));
+    for (const char* code : {"RESOURCE_EXHAUSTED", "PERMISSION_DENIED"}) {
+      refused.code = refused.reason = code;
+      for (int i = 0; i < 125; ++i) log->Write(refused);
+    }
+    refused.caller->name = "other";
+    log->Write(refused);
     log->Flush();
   }
   EXPECT_EQ(Lines().size(), 101U);
-  EXPECT_EQ(nlohmann::json::parse(Lines().back()).at("suppressed"), 150);
+  const auto last = nlohmann::json::parse(Lines().back());
+  EXPECT_EQ(last.at("principal"), "other");
+  EXPECT_EQ(last.at("suppressed"), 150);
+}
+
+TEST_F(AuditLogTest, TheHeadShowsLinesThatAreCutOffOrMadeAnew) {
+  const auto head = folder_.path() / "head";
+  const auto has_head = [&] { return VerifyAudit(file_, ReadHead(head))->has_head; };
+  {
+    auto opened = AuditLog::Open(file_, 0, head);
+    auto& log = *std::get<std::unique_ptr<AuditLog>>(opened);
+    for (int i = 0; i < 3; ++i) log.Write(RecordOf("jobs/" + std::to_string(i)));
+    log.Flush();
+  }
+  EXPECT_EQ(ReadHead(head), VerifyAudit(file_)->last);
+  EXPECT_TRUE(has_head());
+  const auto lines = Lines();
+  for (const std::size_t kept : {2U, 1U, 0U}) {
+    Rewrite({lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(kept)});
+    EXPECT_EQ(VerifyAudit(file_)->bad_line, 0) << "the chain alone does not show it";
+    EXPECT_FALSE(has_head()) << kept;
+  }
+  WriteJobs(2);  // Without the third, in a chain that fits.
+  EXPECT_EQ(VerifyAudit(file_)->bad_line, 0);
+  EXPECT_FALSE(has_head());
 }
 
 constexpr std::int64_t kThreeLines = 1200;
@@ -200,6 +229,7 @@ TEST_F(AuditLogTest, WhatCannotBeWrittenIsTold) {
   EXPECT_FALSE(WriteDurably(*log));
   setrlimit(RLIMIT_FSIZE, &limit);
   EXPECT_TRUE(WriteDurably(*log));
+  EXPECT_EQ(nlohmann::json::parse(Lines().back()).at("lost"), 1);
   EXPECT_EQ(VerifyAudit(file_)->bad_line, 0);
   EXPECT_EQ(VerifyAudit(file_)->lines, 2);
   EXPECT_TRUE(std::holds_alternative<std::string>(AuditLog::Open("/dev/null")));

@@ -45,6 +45,16 @@ TEST(CertificateRulesTest, FirstRuleThatFitsTheWholeNameDecides) {
   }
 }
 
+TEST(CertificateRulesTest, NobodyIsNobodyWhateverFollows) {
+  const CertificateRules rules = Rules(
+      "cert cn:mallory nobody\n"
+      "cert cn:* user:$1 tenant:acme roles:submit\n");
+  EXPECT_FALSE(rules.Find({"cn:mallory"}));
+  EXPECT_TRUE(rules.Find({"cn:ada"}));
+  EXPECT_TRUE(
+      std::holds_alternative<std::string>(CertificateRules::Parse("cert cn:a nobody else")));
+}
+
 TEST(CertificateRulesTest, LongNamesFitNoRule) {
   EXPECT_FALSE(Rules("cert cn:* user:x tenant:t roles:read").Find({"cn:" + std::string(300, 'a')}));
 }

@@ -1,5 +1,6 @@
 #include "identity/jwt.h"
 
+#include <absl/strings/escaping.h>
 #include <gmock/gmock.h>
 #include <openssl/core_names.h>
 #include <openssl/ecdsa.h>
@@ -123,6 +124,12 @@ JwtVerifier Verifier(const std::vector<Signer>& signers) {
   return std::get<JwtVerifier>(std::move(verifier));
 }
 
+// Whether a key is one of those that are used.
+bool IsUsed(const json& jwk) {
+  const json set = {{"keys", json::array({jwk})}};
+  return std::holds_alternative<JwtVerifier>(JwtVerifier::Parse(set.dump(), {"issuer", "us"}));
+}
+
 std::string Mistake(const JwtVerifier& verifier, const std::string& token) {
   const auto found = verifier.Verify(token, kNow);
   const auto* mistake = std::get_if<std::string>(&found);
@@ -228,6 +235,43 @@ TEST(Jwt, KeysThatCannotVerifyAreLeftAside) {
   EXPECT_THAT(parse(json::array({good, good})), HasSubstr("two keys"));
   EXPECT_THAT(std::get<std::string>(JwtVerifier::Parse("[]", {})), HasSubstr("set of keys"));
   EXPECT_THAT(std::get<std::string>(JwtVerifier::Parse("{", {})), HasSubstr("set of keys"));
+}
+
+TEST(Jwt, KeysForWhichEverybodyCanSignAreNotUsed) {
+  const json rsa = Rsa().Jwk();
+  json weak = rsa;
+  ASSERT_TRUE(IsUsed(rsa));
+  for (const char exponent : {'\0', '\1', '\4'}) {
+    weak["e"] = ToBase64Url({exponent});
+    EXPECT_FALSE(IsUsed(weak)) << int{exponent};
+  }
+  weak = rsa;
+  std::string modulus = *FromBase64Url(rsa["n"].get<std::string>());
+  modulus.back() ^= 1;
+  weak["n"] = ToBase64Url(modulus);
+  EXPECT_FALSE(IsUsed(weak)) << "an even modulus";
+}
+
+// The encodings of y of the points of small order, also those that are not reduced, with both signs
+// of x; from their list in libsodium.
+TEST(Jwt, PointsOfSmallOrderAreNoKeys) {
+  const auto key = [](std::string bytes) {
+    return json{{"kid", "a"}, {"kty", "OKP"}, {"crv", "Ed25519"}, {"x", ToBase64Url(bytes)}};
+  };
+  ASSERT_TRUE(IsUsed(Ed().Jwk()));
+  const auto edge = [](char low) {
+    return std::string(1, low) + std::string(30, '\xff') + std::string(1, '\x7f');
+  };
+  for (std::string y :
+       {std::string(32, '\0'), '\1' + std::string(31, '\0'), edge('\xec'), edge('\xed'),
+        edge('\xee'),
+        absl::HexStringToBytes("26e8958fc2b227b045c3f489f2ef98f0d5dfac05d3c63339b13802886d53fc05"),
+        absl::HexStringToBytes(
+            "c7176a703d4dd84fba3c0b760d10670f2a2053fa2c39ccc64ec7fd7792ac037a")}) {
+    EXPECT_FALSE(IsUsed(key(y))) << absl::BytesToHexString(y);
+    y.back() = static_cast<char>(y.back() | 0x80);
+    EXPECT_FALSE(IsUsed(key(y))) << absl::BytesToHexString(y);
+  }
 }
 
 TEST(Base64Url, EachTextOfBytesHasOneForm) {

@@ -21,6 +21,24 @@ TEST(PrincipalTest, EveryRoleIncludesThoseBeforeIt) {
   EXPECT_FALSE(May(Principal{"a", "t", {}, ""}, Permission::kRead)) << "no role, no permission";
 }
 
+TEST(PrincipalTest, WhoCopiesTheStoreIsOfNoTenant) {
+  std::string mistake;
+  const auto server = ParsePrincipal("user:backup roles:server", &mistake);
+  ASSERT_TRUE(server) << mistake;
+  EXPECT_EQ(ParsePrincipal(FormatPrincipal(*server), &mistake), server);
+  EXPECT_TRUE(May(*server, Permission::kServer));
+  for (const Permission permission : {Permission::kRead, Permission::kSubmit, Permission::kAdmin}) {
+    EXPECT_FALSE(May(*server, permission)) << NameOf(permission);
+  }
+  EXPECT_FALSE(May(Principal{"a", "t", {Role::kAdmin}, ""}, Permission::kServer));
+  EXPECT_TRUE(May(LocalPrincipal(), Permission::kServer));
+  EXPECT_TRUE(May(SocketAdmin(), Permission::kServer));
+  for (const char* text : {"user:a tenant:t roles:server", "user:a tenant:t roles:admin,server",
+                           "user:a roles:admin"}) {
+    EXPECT_FALSE(ParsePrincipal(text, &mistake)) << text;
+  }
+}
+
 TEST(PrincipalTest, TextIsReadBack) {
   std::string mistake;
   const auto principal = ParsePrincipal(" user:ci@lab tenant:acme  roles:submit,read ", &mistake);

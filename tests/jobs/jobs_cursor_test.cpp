@@ -64,6 +64,22 @@ TEST_F(JobsCursorTest, BeginsWithAllJobsNewestFirst) {
   EXPECT_EQ(told, names);
 }
 
+TEST_F(JobsCursorTest, MessagesOfLargeJobsKeepToTheirBytes) {
+  OpenWithFakeRun();
+  v1::CreateJobRequest request = RequestFor(BouncingBall());
+  for (int i = 0; i < 16; ++i) {
+    (*request.mutable_job()->mutable_labels())["label-" + std::to_string(i)] = std::string(60, 'x');
+  }
+  for (int i = 0; i < 150; ++i) ASSERT_TRUE(Create(request).ok());
+  const auto cursor = Watch();
+  int jobs = 0;
+  while (jobs < 150) {
+    const v1::WatchJobsResponse message = Next(*cursor);
+    EXPECT_LE(message.ByteSizeLong(), MessageBytes(1));
+    jobs += message.jobs_size();
+  }
+}
+
 TEST_F(JobsCursorTest, EmptyServerAnswersAtOnce) {
   OpenWithFakeRun();
   const v1::WatchJobsResponse message = Next(*Watch());

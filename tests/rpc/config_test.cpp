@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory_limit.h"
 #include "read_config.h"
 #include "testing/temp_directory.h"
 
@@ -94,7 +95,9 @@ TEST_F(ConfigTest, DefaultsLetNoJobTakeTheServerForItself) {
   EXPECT_EQ(budget.wall_time, std::chrono::hours(1));
   EXPECT_EQ(budget.steps, 1'000'000'000);
   EXPECT_EQ(budget.output_bytes, 4'000'000'000);
-  EXPECT_EQ(budget.memory_bytes, std::int64_t{1} << 30);
+  EXPECT_LE(budget.memory_bytes, std::int64_t{1} << 30);
+  EXPECT_LE(8 * Good({"--workers=8"}).jobs.max_budget.memory_bytes, MemoryLimit() / 2);
+  EXPECT_EQ(Good({"--max-memory=2GiB"}).jobs.max_budget.memory_bytes, std::int64_t{2} << 30);
   EXPECT_GT(Good({}).store.max_bytes, 1'000'000) << "most of the disk";
   EXPECT_EQ(Good({"--max-stored-bytes=0"}).store.max_bytes, 0);
   const RunBudget any =

@@ -47,5 +47,18 @@ TEST(Checksum, EventIsBoundToItsSequenceAndItsCoding) {
   EXPECT_NE(Checksum(plain, 3), Checksum(frames, 3));
 }
 
+TEST(Checksum, BytesAreBoundToTheirJob) {
+  const CodedEvent event{Coding::kPlain, Message()};
+  const std::int64_t crc32 = Checksum(event, 3, "jobs/a");
+  EXPECT_TRUE(Passes(crc32, event, 3, "jobs/a"));
+  EXPECT_FALSE(Passes(crc32, event, 3, "jobs/b"));
+  EXPECT_FALSE(Passes(crc32, event, 4, "jobs/a"));
+  EXPECT_FALSE(Passes(Checksum(Message(), 0, "jobs/a"), Message(), "jobs/b"));
+}
+
+TEST(Checksum, OnesWithoutAJobArePassedForAny) {
+  EXPECT_TRUE(Passes(Checksum(Message()), Message(), "jobs/a"));
+}
+
 }  // namespace
 }  // namespace contact

@@ -430,6 +430,12 @@ class RolesTest(ClusterTest):
             with self.subTest(role=role, sql=sql):
                 self.assertFalse(self.may(role, sql))
 
+    def test_nobody_else_may_connect(self):
+        cluster().run("DROP ROLE IF EXISTS a_stranger; CREATE ROLE a_stranger LOGIN")
+        self.addCleanup(cluster().run, "DROP ROLE a_stranger")
+        self.assertFalse(self.may("a_stranger", "LISTEN contactd"))
+        self.assertTrue(self.may("a_launcher", "SELECT"))
+
     def test_role_that_meets_older_tables_is_told_to_migrate(self):
         self.shared.ask("UPDATE contactd.version SET version = 1")
         for role in "front", "worker":
@@ -448,6 +454,43 @@ class RolesTest(ClusterTest):
         self.migrate()
         self.assertFalse(self.may("a_front", "SELECT FROM contactd.jobs"))
         self.assertFalse(self.may("a_launcher", "SELECT contactd.leave('nobody')"))
+
+
+class NotesTest(ClusterTest):
+    """Notes that somebody makes up who may connect to the database."""
+
+    def tell(self, line):
+        self.shared.ask(f"SELECT pg_notify('contactd', E'{line}\\n')")
+
+    def test_one_that_asks_for_a_cancellation_cancels_nothing(self):
+        front = self.shared.front()
+        self.shared.worker("--workers=1")
+        name = self.running(front, endless_and_slow())
+        for _ in range(3):
+            self.tell(f"2 {name}  0 0 ")
+            time.sleep(0.3)
+        self.assertEqual(front.get(name).state, Job.RUNNING)
+        front.cancel(name)
+        wait_for(lambda: front.get(name).state == Job.CANCELLED)
+
+    def test_one_that_tells_of_events_that_are_not_there_keeps_nobody_busy(self):
+        front = self.shared.front()
+        self.shared.worker("--workers=1")
+        waiting = [self.running(front, endless_and_slow()), front.create(endless()).name]
+        heard = iter(front.watch(waiting[1]))
+        next(heard)
+        used = lambda: sum(map(int, pathlib.Path(
+            f"/proc/{front.process.pid}/stat").read_text().split()[13:15])) / os.sysconf("SC_CLK_TCK")
+        time.sleep(1)
+        before = used()
+        self.tell(f"1 {waiting[1]} bG9jYWw= {2**64 - 1} 0 ")
+        time.sleep(2)
+        self.assertLess((used() - before) / 2, 0.3)
+        for name in waiting:
+            front.cancel(name)
+        for message in heard:
+            end = message
+        self.assertEqual(end.events[-1].state_changed.state, Job.CANCELLED)
 
 
 class FrontTest(ClusterTest):

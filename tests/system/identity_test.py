@@ -20,6 +20,7 @@ from authority import Authority
 from contact.v1 import admin_service_pb2, job_service_pb2, job_service_pb2_grpc
 from contactd import BINARY, PATIENCE_S, Server, three_ball_chain
 from google.protobuf import message_factory
+from provider import Provider
 
 Code = grpc.StatusCode
 METHODS = [method
@@ -84,6 +85,7 @@ class IdentityTest(unittest.TestCase):
                 ("right", "user:boss tenant:acme roles:admin", now + day),
                 ("read-only", "user:eye tenant:acme roles:read", now + day),
                 ("other tenant", "user:eve tenant:umbra roles:operator", now + day),
+                ("server", "user:backup roles:server", now + day),
                 ("expired", "user:boss tenant:acme roles:admin", now - day)):
             secret = hashlib.sha256(f"{kind}{time.time_ns()}".encode()).hexdigest()[:43]
             self.tokens[kind] = f"ctk_{secret[:8]}_{secret}"
@@ -129,21 +131,21 @@ class IdentityTest(unittest.TestCase):
 
 # What the table says for each method: the code for each kind of token, with a good certificate.
 OK, NO, HIDDEN = Code.OK, Code.PERMISSION_DENIED, Code.NOT_FOUND
-#                  own certificate, read-only token, token of another tenant, right token
+#                  own certificate, read-only token, token of another tenant, right token, server's
 EXPECTED = {
-    "CreateJob":     (OK, NO, OK, OK),
-    "GetJob":        (OK, OK, HIDDEN, OK),
-    "ListJobs":      (OK, OK, OK, OK),
-    "CancelJob":     (OK, NO, HIDDEN, OK),
-    "DeleteJob":     (OK, NO, HIDDEN, OK),
-    "WatchJob":      (OK, OK, HIDDEN, OK),
-    "WatchJobs":     (OK, OK, OK, OK),
-    "ReadArtifact":  (OK, OK, HIDDEN, OK),
-    "GetSeries":     (OK, OK, HIDDEN, OK),
-    "GetServerInfo": (OK, OK, OK, OK),
-    "Backup":        (NO, NO, NO, OK),
+    "CreateJob":     (OK, NO, OK, OK, NO),
+    "GetJob":        (OK, OK, HIDDEN, OK, NO),
+    "ListJobs":      (OK, OK, OK, OK, NO),
+    "CancelJob":     (OK, NO, HIDDEN, OK, NO),
+    "DeleteJob":     (OK, NO, HIDDEN, OK, NO),
+    "WatchJob":      (OK, OK, HIDDEN, OK, NO),
+    "WatchJobs":     (OK, OK, OK, OK, NO),
+    "ReadArtifact":  (OK, OK, HIDDEN, OK, NO),
+    "GetSeries":     (OK, OK, HIDDEN, OK, NO),
+    "GetServerInfo": (OK, OK, OK, OK, NO),
+    "Backup":        (NO, NO, NO, NO, OK),
 }
-COLUMNS = {"none": 0, "read-only": 1, "other tenant": 2, "right": 3}
+COLUMNS = {"none": 0, "read-only": 1, "other tenant": 2, "right": 3, "server": 4}
 
 
 class TableTest(IdentityTest):
@@ -304,6 +306,32 @@ class RotationTest(IdentityTest):
             self.assertEqual(call(channel, info, "", old), Code.UNAUTHENTICATED)
 
 
+class StreamTest(IdentityTest):
+
+    def test_a_stream_ends_soon_after_its_right(self):
+        rules = self.folder / "rules"
+        server = self.start(*self.tls(), f"--tls-client-ca={self.ca.pem}",
+                            f"--identity-rules={rules}", f"--tokens={self.folder / 'tokens'}")
+        metadata = [("authorization", f"Bearer {self.tokens['right']}")]
+        with self.channel(server, self.ada) as channel:
+            stub = job_service_pb2_grpc.JobServiceStub(channel)
+            request = job_service_pb2.WatchJobsRequest()
+            by_token = stub.WatchJobs(request, timeout=PATIENCE_S, metadata=metadata)
+            by_certificate = stub.WatchJobs(request, timeout=PATIENCE_S)
+            for stream in (by_token, by_certificate):
+                next(iter(stream))
+            rules.write_text("cert spiffe://acme/user/ada nobody\n" + rules.read_text())
+            start = time.monotonic()
+            for stream in (by_certificate, by_token):
+                if stream is by_token:
+                    self.write_tokens()  # All are others now.
+                with self.assertRaises(grpc.RpcError) as ended:
+                    list(stream)
+                self.assertEqual(ended.exception.code(), Code.UNAUTHENTICATED)
+            print(f"the streams ended after {time.monotonic() - start:.1f} s")
+            self.assertLess(time.monotonic() - start, 30)
+
+
 class SocketTest(IdentityTest):
 
     def test_every_socket_has_its_own_principal(self):
@@ -366,6 +394,26 @@ class SettingsTest(IdentityTest):
                              capture_output=True, text=True, timeout=PATIENCE_S)
         self.assertEqual(run.returncode, 2)
         self.assertIn("chmod 600", run.stderr)
+
+    def test_files_that_others_can_change_are_refused(self):
+        (self.folder / "keys").write_text(json.dumps({"keys": [Provider(self.folder, "a").jwk()]}))
+        files = dict(zip(("tls-cert", "tls-key"), self.server_files), **{
+            "tls-client-ca": self.ca.pem,
+            **{flag: self.folder / file for flag, file in (
+                ("identity-rules", "rules"), ("tokens", "tokens"), ("jwt-keys", "keys"))}})
+        flags = [f"--{flag}={file}" for flag, file in files.items()]
+        flags += ["--jwt-issuer=https://id.acme", "--jwt-audience=contactd"]
+        for flag, file in files.items():
+            with self.subTest(flag):
+                mode = pathlib.Path(file).stat().st_mode
+                pathlib.Path(file).chmod(mode | 0o002)
+                run = subprocess.run([BINARY, f"--data-dir={self.folder / 'data'}",
+                                      "--listen=127.0.0.1:0", *flags], capture_output=True,
+                                     text=True, timeout=PATIENCE_S)
+                self.assertEqual(run.returncode, 2)
+                self.assertRegex(run.stderr, f"{file} can be .*changed by others; chmod")
+                pathlib.Path(file).chmod(mode)
+        self.start(*flags)
 
 
 if __name__ == "__main__":

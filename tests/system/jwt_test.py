@@ -6,7 +6,7 @@ import unittest
 
 import grpc
 from contact.v1 import job_service_pb2
-from contactd import PATIENCE_S, Server, ServerTest
+from contactd import PATIENCE_S, Server, ServerTest, wait_for
 from provider import Provider
 
 
@@ -17,7 +17,7 @@ class JwtTest(ServerTest):
         self.write_keys(self.provider)
         return Server(self.folder / "data", f"--listen=unix:{self.folder}/socket",
                       f"--jwt-keys={self.folder}/keys", "--jwt-issuer=https://id.acme",
-                      "--jwt-audience=contactd")
+                      "--jwt-audience=contactd", f"--audit-log={self.folder}/audit")
 
     def write_keys(self, *providers):
         draft = self.folder / "keys.new"
@@ -52,13 +52,18 @@ class JwtTest(ServerTest):
         second = Provider(self.folder, "second")
         self.assertUnknown(second.token())
         self.write_keys(second)
-        end = time.monotonic() + PATIENCE_S
-        while True:
-            try:
-                return self.assertEqual(self.caller(second.token()).name, "ada")
-            except grpc.RpcError:
-                self.assertLess(time.monotonic(), end)
-                time.sleep(0.1)
+        wait_for(lambda: self.knows(second))
+        wait_for(lambda: '"keys"' in (self.folder / "audit").read_text())
+        lines = (self.folder / "audit").read_text().splitlines()
+        changes = [line for line in map(json.loads, lines) if line["method"] == "keys"]
+        self.assertEqual([(line["code"], line["peer"]) for line in changes],
+                         [("CHANGED", f"file:{self.folder}/keys")])
+
+    def knows(self, provider):
+        try:
+            return self.caller(provider.token()).name == "ada"
+        except grpc.RpcError:
+            return False
 
 
 if __name__ == "__main__":

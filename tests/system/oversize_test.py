@@ -6,7 +6,7 @@ import unittest
 import grpc
 import http2
 from contact.v1 import job_service_pb2, job_service_pb2_grpc
-from contactd import PATIENCE_S, Job, ServerTest, three_ball_chain
+from contactd import PATIENCE_S, Job, ServerTest, details_of, three_ball_chain
 
 LIMIT = 1 << 20  # Of a message.
 MOST_GROWTH = 64 << 20
@@ -81,6 +81,19 @@ class OversizeTest(ServerTest):
     def test_message_of_60_megabytes_is_refused(self):
         self.assertEqual(self.call(bytes(60 << 20)), grpc.StatusCode.RESOURCE_EXHAUSTED)
         self.assertLivesOn()
+
+    def test_bytes_that_are_no_message_are_an_invalid_argument(self):
+        for method in job_service_pb2.DESCRIPTOR.services_by_name["JobService"].methods:
+            with self.subTest(method.name):
+                channel = self.server.channel
+                kind = channel.unary_stream if method.server_streaming else channel.unary_unary
+                call = kind(f"/contact.v1.JobService/{method.name}")
+                with self.assertRaises(grpc.RpcError) as caught:
+                    answer = call(b"\x0a\xff", timeout=PATIENCE_S)
+                    for _ in answer if method.server_streaming else ():
+                        pass
+                self.assertEqual(caught.exception.code(), grpc.StatusCode.INVALID_ARGUMENT)
+                self.assertEqual(details_of(caught.exception)["ErrorInfo"].reason, "FIELD_INVALID")
 
     def test_compressed_message_is_refused_unseen(self):
         bomb = bytes(100 << 20)  # Some 100 KB on the way.

@@ -49,12 +49,14 @@ export class Server {
     return this;
   }
 
+  /** Ends it. Fails if it was asked to end and did not do so as it should. */
   async end(signal = 'SIGTERM') {
     if (!this.process) return;
-    const ended = new Promise((resolve) => { this.process.once('exit', resolve); });
+    const ended = new Promise((resolve) => { this.process.once('exit', (code, by) => resolve(code ?? by)); });
     this.process.kill(signal);
-    await ended;
+    const how = await ended;
     this.process = undefined;
+    if (signal === 'SIGTERM' && how !== 0) throw new Error(`contactd ended with ${how}`);
   }
 
   async close() {

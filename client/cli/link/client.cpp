@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "cli/link/printable_answers.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
@@ -169,10 +170,12 @@ Failure CallFailure::AllTold() const {
 }
 
 Client::Client(std::string server, std::chrono::milliseconds call_timeout,
-               const std::shared_ptr<grpc::ChannelCredentials>& credentials)
+               const std::shared_ptr<grpc::ChannelCredentials>& credentials, Answers answers)
     : server_(std::move(server)), call_timeout_(call_timeout) {
   RequireAddress(server_);
-  channel_ = grpc::CreateCustomChannel(server_, credentials, Arguments());
+  channel_ = grpc::experimental::CreateCustomChannelWithInterceptors(
+      server_, credentials, Arguments(),
+      answers == Answers::kPrintable ? PrintableAnswers() : Interceptors());
   stub_ = v1::JobService::NewStub(channel_);
 }
 

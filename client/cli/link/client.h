@@ -46,10 +46,14 @@ class Client {
   /// The service whose methods Call takes.
   using Stub = v1::JobService::Stub;
 
+  /// How answers come: as MakePrintable leaves them, or as they were sent.
+  enum class Answers { kPrintable, kAsSent };
+
   /// Connects to HOST:PORT in the background. Throws Failure (kUsage) for any other text.
   Client(std::string server, std::chrono::milliseconds call_timeout,
          const std::shared_ptr<grpc::ChannelCredentials>& credentials =
-             grpc::InsecureChannelCredentials());
+             grpc::InsecureChannelCredentials(),
+         Answers answers = Answers::kPrintable);
 
   /// Makes a unary call of JobService. Throws CallFailure.
   template <class Request, class Response>

@@ -14,8 +14,13 @@ std::string HttpGet(const std::string& address, const std::string& path,
   client.set_connection_timeout(timeout);
   client.set_read_timeout(timeout);
   const auto start = std::chrono::steady_clock::now();
-  httplib::Result result = client.Get(path);
-  if (result && result->status == 200) return std::move(result->body);
+  constexpr std::size_t kMostBytes = 64 << 20;
+  std::string body;
+  const httplib::Result result = client.Get(path, [&body](const char* data, std::size_t size) {
+    body.append(data, size);
+    return body.size() <= kMostBytes;
+  });
+  if (result && result->status == 200) return body;
   const bool late = !result && std::chrono::steady_clock::now() - start >= timeout;
   const std::string why = result ? fmt::format("answers with status {}", result->status)
                                  : to_string(result.error()) + " failed";

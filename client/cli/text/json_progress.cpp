@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "cli/text/render_json.h"
 #include "cli/text/render_progress.h"
 
 namespace contact::cli {
@@ -37,7 +38,7 @@ std::string ProgressJson(const v1::Progress& progress, const std::string& job, d
   }
   const std::optional<double> left = TimeToGo(done, elapsed_s);
   json["eta_s"] = left ? nlohmann::ordered_json(*left) : nlohmann::ordered_json();
-  return json.dump() + "\n";
+  return EscapedJson(json.dump()) + "\n";
 }
 
 JsonProgress::JsonProgress(std::FILE* stream, std::string job)

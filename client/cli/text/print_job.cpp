@@ -9,7 +9,7 @@
 namespace contact::cli {
 
 void PrintJson(const std::string& json, const Settings& settings) {
-  fmt::print("{}", settings.yaml ? YamlOfJson(json) : json);
+  fmt::print("{}", settings.yaml ? YamlOfJson(json) : EscapedJson(json));
 }
 
 void PrintJob(const v1::Job& job, const Settings& settings,

@@ -14,31 +14,12 @@
 namespace contact::cli {
 namespace {
 
-// The text with the escape of JSON for each character that steers a terminal: protobuf leaves some.
-std::string Escaped(std::string_view json) {
-  std::string text;
-  while (!json.empty()) {
-    const std::size_t bytes = json.front() == '\n' ? 0 : UnprintableBytes(json);
-    if (bytes == 0) {
-      text += json.front();
-    } else {
-      unsigned code =
-          static_cast<unsigned char>(json[0]) & (bytes == 1 ? 0x7FU : 0x3FU >> (bytes - 1));
-      for (const char c : json.substr(1, bytes - 1))
-        code = code << 6U | (static_cast<unsigned char>(c) & 0x3FU);
-      text += fmt::format("\\u{:04x}", code);
-    }
-    json.remove_prefix(std::max<std::size_t>(1, bytes));
-  }
-  return text;
-}
-
 std::string Print(const google::protobuf::Message& message,
                   const google::protobuf::util::JsonPrintOptions& options) {
   std::string text;
   const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
   if (!status.ok()) throw std::runtime_error("cannot print as JSON: " + status.ToString());
-  return Escaped(WithPlainNumbers(text, *message.GetDescriptor()));
+  return EscapedJson(WithPlainNumbers(text, *message.GetDescriptor()));
 }
 
 }  // namespace
@@ -55,6 +36,24 @@ std::string ToJsonLine(const google::protobuf::Message& message) {
   google::protobuf::util::JsonPrintOptions options;
   options.preserve_proto_field_names = true;
   return Print(message, options) + "\n";
+}
+
+std::string EscapedJson(std::string_view json) {
+  std::string text;
+  while (!json.empty()) {
+    const std::size_t bytes = json.front() == '\n' ? 0 : UnprintableBytes(json);
+    if (bytes == 0) {
+      text += json.front();
+    } else {
+      unsigned code =
+          static_cast<unsigned char>(json[0]) & (bytes == 1 ? 0x7FU : 0x3FU >> (bytes - 1));
+      for (const char c : json.substr(1, bytes - 1))
+        code = code << 6U | (static_cast<unsigned char>(c) & 0x3FU);
+      text += fmt::format("\\u{:04x}", code);
+    }
+    json.remove_prefix(std::max<std::size_t>(1, bytes));
+  }
+  return text;
 }
 
 }  // namespace contact::cli

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/spelling.h"
 #include "cli/base/number.h"
+#include "cli/link/printable_answers.h"
 #include "cli/text/iteration_table.h"
 #include "cli/text/render_groups.h"
 #include "cli/text/render_job.h"
@@ -19,20 +21,30 @@ using namespace std::chrono_literals;
 
 constexpr auto kBeforeProgress = 200ms;  // Most runs end sooner and need no bar.
 
+// What was sent may be as it is, for JSON; rows are for people in any case.
+template <class Message>
+Message Printable(Message sent) {
+  MakePrintable(&sent);
+  return sent;
+}
+
 }  // namespace
 
 LiveView::LiveView(Options options) : options_(std::move(options)) {
+  options_.job = PrintableLines(options_.job);
   if (options_.progress == ProgressForm::kJson) json_.emplace(options_.messages, options_.job);
 }
 
 LiveView::~LiveView() { EraseProgress(); }
 
 void LiveView::OnSnapshot(const v1::Job& job) {
-  if (job.has_progress() && !IsFinal(job.state())) progress_ = job.progress();
+  if (job.has_progress() && !IsFinal(job.state())) progress_ = Printable(job.progress());
   if (job.has_progress() && json_) json_->Update(job.progress());
 }
 
-void LiveView::OnEvent(const v1::Event& event) {
+void LiveView::OnEvent(const v1::Event& sent) {
+  if (sent.has_frame_chunk()) return;  // Frames are for programs.
+  const v1::Event event = Printable(sent);
   switch (event.payload_case()) {
     case v1::Event::kIteration:
       return ShowIteration(event.iteration());
@@ -52,7 +64,7 @@ void LiveView::OnEvent(const v1::Event& event) {
       progress_ = event.progress();
       if (json_) json_->Update(*progress_);
       return;
-    default:  // Frames are for programs; a newer server may send kinds that are unknown here.
+    default:  // A newer server may send kinds that are unknown here.
       return;
   }
 }

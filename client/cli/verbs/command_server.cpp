@@ -87,9 +87,10 @@ ExitCode Metrics(const std::string& address, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable});
   constexpr std::chrono::seconds kTimeout{10};
   try {
-    fmt::print("{}",
-               HttpGet(address, "/metrics",
-                       settings.timeout.empty() ? kTimeout : RequireDuration(settings.timeout)));
+    const std::string page =
+        HttpGet(address, "/metrics",
+                settings.timeout.empty() ? kTimeout : RequireDuration(settings.timeout));
+    fmt::print("{}", PrintableLines(page));
   } catch (const Failure& failure) {
     if (failure.code() != ExitCode::kUnreachable) throw;
     throw Failure(failure.code(), fmt::format("no metrics at {}: a server tells them with contactd "

@@ -44,6 +44,9 @@ bool IsOwnOrigin(const HttpRequest& request) {
 }  // namespace
 
 std::optional<HttpAnswer> Refuse(const OriginRules& rules, const HttpRequest& request) {
+  if (std::ranges::count(request.headers, "host", &Headers::value_type::first) > 1) {
+    return PlainAnswer(400, "a request has one Host");  // RFC 9112, 3.2.
+  }
   const std::string host = HostIn(request.header("host"));
   if (!IsLoopbackName(host) && !Has(rules.hosts, host)) {
     return PlainAnswer(421, "Host is not a name of this server; see --http-host");

@@ -205,10 +205,14 @@ HttpAnswer AnswerOf(const RpcRequest& call, std::string message, const Status& s
   return answer;
 }
 
-HttpAnswer Exhausted(const HttpRequest& head, int status, const std::string& words) {
+HttpAnswer Refused(const HttpRequest& head, int status, const Status& why) {
   const auto dialect = DialectOfRequest(head);
-  if (!IsRpc(head) || !dialect) return PlainAnswer(status, words);
-  return Failure(*dialect, {StatusCode::RESOURCE_EXHAUSTED, words});
+  if (!IsRpc(head) || !dialect) return PlainAnswer(status, why.error_message());
+  return Failure(*dialect, why);
+}
+
+HttpAnswer Exhausted(const HttpRequest& head, int status, const std::string& words) {
+  return Refused(head, status, {StatusCode::RESOURCE_EXHAUSTED, words});
 }
 
 }  // namespace contact::gateway

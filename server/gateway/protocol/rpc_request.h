@@ -40,8 +40,11 @@ std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request);
 HttpAnswer AnswerOf(const RpcRequest& call, std::string message, const grpc::Status& status,
                     const Trailers& head, const Trailers& trailers);
 
-/// The answer to a request that there is no room for: RESOURCE_EXHAUSTED, as the call's protocol
-/// says it; `status` to what is no call.
+/// The answer to a request that is refused for this error, as the call's protocol says it; `status`
+/// and the error's words to what is no call.
+HttpAnswer Refused(const HttpRequest& head, int status, const grpc::Status& why);
+
+/// Refused because there is no room for it: RESOURCE_EXHAUSTED.
 HttpAnswer Exhausted(const HttpRequest& head, int status, const std::string& words);
 
 /// What Exhausted says where the answer is what there is no room for.

@@ -19,6 +19,8 @@ class FollowedLogs {
   std::shared_ptr<JobLog> Follow(const v1::Job& job);
   /// A job is there now. Positions may come in any order.
   void Advance(const LogPosition& position);
+  /// True if somebody has the log of the job.
+  bool Has(const std::string& name) { return Find(name) != nullptr; }
   /// Tells the watchers how far the run is.
   void SetProgress(const std::string& name, const v1::Event& progress);
   /// Names of the jobs whose logs somebody has.

@@ -93,6 +93,14 @@ void JobClaimer::Cancel(const std::string& name) {
   scheduler_.Cancel(name, "", [](const absl::Status& /*stored*/) {});
 }
 
+void JobClaimer::LookForCancel(const std::string& name) {
+  const Jobs jobs = scheduler_.jobs();
+  if (std::ranges::find(jobs, name, &Scheduler::Here::name) == jobs.end()) return;
+  store_.Read(name, JobPart::kHeader, [this, name](const absl::StatusOr<StoredJob>& stored) {
+    if (stored.ok() && stored->cancel_requested) Cancel(name);
+  });
+}
+
 void JobClaimer::Loop(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), "claimer");
   while (!stop.stop_requested()) {

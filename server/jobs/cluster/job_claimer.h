@@ -37,8 +37,8 @@ class JobClaimer {
   void LoansWait();
   /// How much there is to do in all processes.
   void SetDemand(const Demand& demand);
-  /// Somebody wants the job cancelled, wherever it is.
-  void Cancel(const std::string& name);
+  /// Somebody wants the job cancelled, perhaps: cancels it if it is here and the store says so.
+  void LookForCancel(const std::string& name);
   /// Runs the jobs that this process has.
   const Scheduler& scheduler() const { return scheduler_; }
   /// Hands the jobs back, and says that the worker is gone. Idempotent.
@@ -54,6 +54,7 @@ class JobClaimer {
   void BeatIfDue(Time now, const Jobs& jobs);
   /// Compares what the store says that this process has with what it had when it asked.
   void Compare(const std::set<std::string>& had, const std::vector<HeldJob>& held);
+  void Cancel(const std::string& name);
   /// Takes in a job of which the store says that this process has it.
   void Adopt(const HeldJob& held);
   /// Claims what can be begun soon, if there may be some.

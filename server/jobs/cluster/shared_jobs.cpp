@@ -17,6 +17,9 @@ using namespace std::chrono_literals;
 
 // How often the store is asked for what notes should have told.
 constexpr auto kAskTime = 1s;
+// How often logs of which notes tell are looked at between two such questions: one process sends so
+// many notes a second.
+constexpr int kMostLooks = 20;
 // Workers tell how far their runs are every few seconds, also if nothing has changed.
 constexpr auto kForgetTime = 15s;
 
@@ -42,15 +45,18 @@ SharedJobs::~SharedJobs() { Stop(); }
 void SharedJobs::Hear(const Note& note) {
   switch (note.kind) {
     case Note::Kind::kChanged: {
-      const auto state = static_cast<v1::Job::State>(note.state);
-      logs_.Advance({note.name, note.last_sequence, IsFinal(state)});
+      if (logs_.Has(note.name)) {
+        const MutexLock lock(mutex_);
+        moved_logs_.insert(note.name);
+        missed_.notify_all();
+      }
       if (note.state == 0) return;
       feed_.Changed(note.tenant, note.name);
-      if (claimer_ && state == v1::Job::QUEUED) claimer_->JobsWait();
+      if (claimer_ && note.state == v1::Job::QUEUED) claimer_->JobsWait();
       return;
     }
     case Note::Kind::kCancel:
-      if (claimer_) claimer_->Cancel(note.name);
+      if (claimer_) claimer_->LookForCancel(note.name);
       return;
     case Note::Kind::kLoans:
       if (claimer_) claimer_->LoansWait();
@@ -74,11 +80,21 @@ void SharedJobs::Follow(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), "follower");
   while (!stop.stop_requested()) {
     Ask();
-    const MutexLock lock(mutex_);
-    missed_.wait_for(mutex_, stop, kAskTime,
-                     [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return to_ask_; });
-    to_ask_ = false;
+    for (int rest = kMostLooks; rest > 0; --rest) {
+      const std::set<std::string> names = AwaitMovedLogs(stop);
+      if (names.empty()) break;
+      AskPositions({names.begin(), names.end()});
+    }
   }
+}
+
+std::set<std::string> SharedJobs::AwaitMovedLogs(const std::stop_token& stop) {
+  const MutexLock lock(mutex_);
+  missed_.wait_for(mutex_, stop, kAskTime, [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    return to_ask_ || !moved_logs_.empty();
+  });
+  if (std::exchange(to_ask_, false)) return {};
+  return std::exchange(moved_logs_, {});
 }
 
 void SharedJobs::Ask() {

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <map>
 #include <memory>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -59,6 +60,9 @@ class SharedJobs final : public Unfinished {
   /// The loop of the thread that asks the store.
   void Follow(const std::stop_token& stop);
   void Ask();
+  /// Waits for notes of logs that are watched. Returns whose logs may be longer; none once it is
+  /// time to ask for all.
+  std::set<std::string> AwaitMovedLogs(const std::stop_token& stop);
   /// Asks which jobs have changed their state. False: the store does not answer.
   bool AskMoved();
   /// Notes how far all watched jobs are.
@@ -79,9 +83,11 @@ class SharedJobs final : public Unfinished {
   std::uint64_t moved_ = 0;
 
   mutable Mutex mutex_;
-  /// Notified when notes may have been lost.
+  /// Notified when notes may have been lost, and of notes of logs that are watched.
   std::condition_variable_any missed_;
   bool to_ask_ ABSL_GUARDED_BY(mutex_) = true;
+  /// Names of the jobs of these notes.
+  std::set<std::string> moved_logs_ ABSL_GUARDED_BY(mutex_);
   Demand demand_ ABSL_GUARDED_BY(mutex_);
   /// By the names of jobs.
   std::map<std::string, Told> told_ ABSL_GUARDED_BY(mutex_);

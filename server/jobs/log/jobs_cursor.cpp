@@ -6,8 +6,11 @@
 namespace contact {
 namespace {
 
-// Jobs in a message: headers of a few hundred bytes each.
+// Jobs in a message.
 constexpr int kMostJobs = 100;
+// Bytes that the header of a job has if it has many labels. A few hundred are usual: the first
+// message finds out.
+constexpr std::size_t kLargeJob = 4 << 10;
 
 }  // namespace
 
@@ -23,7 +26,7 @@ JobsCursor::JobsCursor(Store& store, JobFeed& feed, const Clock& clock, Rules ru
       changes_(feed.Subscribe(rules_.tenant, *wake_)),
       last_sent_(clock.Elapsed()) {
   rules_.filter.tenant = rules_.tenant;
-  rules_.filter.limit = kMostJobs;
+  FitLimit(kLargeJob);
 }
 
 StreamStep JobsCursor::Read(v1::WatchJobsResponse* out) {
@@ -49,7 +52,8 @@ StreamStep JobsCursor::ReadJobs(v1::WatchJobsResponse* out) {
       FetchPage();
       continue;
     }
-    const std::vector<std::string> names = changes_->Take(kMostJobs);
+    const std::vector<std::string> names =
+        changes_->Take(static_cast<std::size_t>(rules_.filter.limit));
     if (names.empty()) return {};
     FetchChanged(names);
   }
@@ -119,10 +123,18 @@ StreamStep JobsCursor::TakeFetched(v1::WatchJobsResponse* out) {
       out->add_gone(stored.job.name());
     }
   }
+  if (out->jobs_size() > 0) {
+    FitLimit(out->ByteSizeLong() / static_cast<std::size_t>(out->jobs_size()));
+  }
   rules_.filter.before = page.next;
   listed_ |= page.next == 0;
   out->set_snapshot_complete(listed_);
   return {.has_message = true};
+}
+
+void JobsCursor::FitLimit(std::size_t job_bytes) {
+  const std::size_t jobs = rules_.message_bytes() / std::max<std::size_t>(job_bytes, 1);
+  rules_.filter.limit = static_cast<int>(std::clamp<std::size_t>(jobs, 1, kMostJobs));
 }
 
 bool JobsCursor::HasState(const v1::Job& job) const {

@@ -12,6 +12,7 @@
 #include "jobs/job/callback.h"
 #include "jobs/log/job_feed.h"
 #include "jobs/log/stream_source.h"
+#include "jobs/quota/message_bytes.h"
 #include "jobs/quota/places.h"
 #include "storage/store.h"
 
@@ -36,6 +37,7 @@ class JobsCursor final : public StreamSource<v1::WatchJobsResponse> {
     std::chrono::milliseconds bookmark_interval{0};
     /// Whose jobs. Nobody has the empty one.
     std::string tenant = {};
+    MessageBudget message_bytes = [] { return MessageBytes(1); };
   };
 
   /// `place` is kept until the cursor is destroyed. Store, feed and clock outlive the cursor.
@@ -71,12 +73,14 @@ class JobsCursor final : public StreamSource<v1::WatchJobsResponse> {
   void WakeWhenFetched();
   /// Makes a message of what was fetched, if it is there.
   StreamStep TakeFetched(v1::WatchJobsResponse* out);
+  /// Has the next message keep to its bytes, if a job takes so many.
+  void FitLimit(std::size_t job_bytes);
   bool HasState(const v1::Job& job) const;
   bool HasLabels(const v1::Job& job) const;
 
   Store& store_;
   const Clock& clock_;
-  /// `filter.before` moves with the snapshot.
+  /// `filter.before` moves with the snapshot, `filter.limit` with the size of jobs.
   Rules rules_;
   const Complete complete_;
   /// Shared with the callbacks of the store, which may come after the cursor is destroyed.

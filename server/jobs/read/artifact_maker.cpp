@@ -11,15 +11,15 @@
 #include "jobs/read/frame_values.h"
 
 namespace contact {
-namespace {
 
-constexpr std::size_t kChunkBytes = 1 << 18;
-constexpr std::size_t kPageBytes = 1 << 18;
-
-}  // namespace
-
-ArtifactMaker::ArtifactMaker(Store& store, Executor& executor, ArtifactPlan plan, Wake wake)
-    : store_(store), executor_(executor), wake_(std::move(wake)), plan_(std::move(plan)) {}
+ArtifactMaker::ArtifactMaker(Store& store, Executor& executor, FewAtOnce& turns, ArtifactPlan plan,
+                             Wake wake, MessageBudget message_bytes)
+    : store_(store),
+      executor_(executor),
+      turns_(turns),
+      wake_(std::move(wake)),
+      message_bytes_(std::move(message_bytes)),
+      plan_(std::move(plan)) {}
 
 StreamStep ArtifactMaker::Take(v1::ReadArtifactResponse* out) {
   {
@@ -32,7 +32,15 @@ StreamStep ArtifactMaker::Take(v1::ReadArtifactResponse* out) {
     if (error_) return {.error = error_};
     if (std::exchange(working_, true)) return {};
   }
-  Continue();
+  turns_.Run([weak = weak_from_this()](FewAtOnce::Place turn) {
+    const auto self = weak.lock();
+    if (!self) return;
+    {
+      const MutexLock lock(self->mutex_);
+      self->turn_ = std::move(turn);
+    }
+    self->Continue();
+  });
   return {};
 }
 
@@ -61,7 +69,7 @@ void ArtifactMaker::Post(std::function<void(ArtifactMaker&)> work) {
 
 void ArtifactMaker::ReadPage(std::uint32_t kinds, void (ArtifactMaker::*take)(const Page&)) {
   store_.ReadEvents(
-      {plan_.stored.job.name(), position_, kinds, kPageBytes},
+      {plan_.stored.job.name(), position_, kinds, message_bytes_()},
       [weak = weak_from_this(), take](Page page) {
         const auto self = weak.lock();
         if (!self) return;
@@ -135,8 +143,9 @@ void ArtifactMaker::Emit(const std::string& text) {
     rest.remove_prefix(static_cast<std::size_t>(skipped));
     place += skipped;
   }
+  const std::size_t most = message_bytes_();
   while (!rest.empty()) {
-    const std::string_view data = rest.substr(0, kChunkBytes);
+    const std::string_view data = rest.substr(0, most);
     v1::ReadArtifactResponse chunk;
     chunk.set_offset(place);
     chunk.set_data(data.data(), data.size());
@@ -175,10 +184,13 @@ void ArtifactMaker::Fail(Error error) {
 }
 
 void ArtifactMaker::Pause() {
+  FewAtOnce::Place turn;  // Goes after the lock: the next maker begins then.
   {
     const MutexLock lock(mutex_);
     working_ = false;
+    turn = std::move(turn_);
   }
+  turn = nullptr;
   wake_();
 }
 

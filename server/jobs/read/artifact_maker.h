@@ -14,7 +14,9 @@
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job/callback.h"
 #include "jobs/log/stream_source.h"
+#include "jobs/quota/message_bytes.h"
 #include "jobs/read/artifact_plan.h"
+#include "jobs/read/few_at_once.h"
 #include "storage/store.h"
 #include "wire/chunk_columns.h"
 
@@ -27,8 +29,10 @@ class Executor;
 /// when the last reference goes.
 class ArtifactMaker : public std::enable_shared_from_this<ArtifactMaker> {
  public:
-  /// `wake` is called when there may be something to take. Store and executor outlive the maker.
-  ArtifactMaker(Store& store, Executor& executor, ArtifactPlan plan, Wake wake);
+  /// `wake` is called when there may be something to take. Chunks keep to `message_bytes`, and what
+  /// is made at once about to it; it works when `turns` lets it. All of these outlive the maker.
+  ArtifactMaker(Store& store, Executor& executor, FewAtOnce& turns, ArtifactPlan plan, Wake wake,
+                MessageBudget message_bytes);
 
   /// Moves the next chunk to `out`. If there is none, it starts to make the next ones, unless that
   /// is under way. Never blocks. The last chunk has the artifact with size and SHA-256.
@@ -62,7 +66,9 @@ class ArtifactMaker : public std::enable_shared_from_this<ArtifactMaker> {
 
   Store& store_;
   Executor& executor_;
+  FewAtOnce& turns_;
   const Wake wake_;
+  const MessageBudget message_bytes_;
 
   // Owned by the executor task that is running.
 
@@ -89,6 +95,8 @@ class ArtifactMaker : public std::enable_shared_from_this<ArtifactMaker> {
   std::deque<v1::ReadArtifactResponse> chunks_ ABSL_GUARDED_BY(mutex_);
   /// True from Take to Pause.
   bool working_ ABSL_GUARDED_BY(mutex_) = false;
+  /// While it works, or waits for the store.
+  FewAtOnce::Place turn_ ABSL_GUARDED_BY(mutex_);
   std::optional<Error> error_ ABSL_GUARDED_BY(mutex_);
 };
 

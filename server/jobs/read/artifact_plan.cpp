@@ -63,7 +63,12 @@ Result<ArtifactPlan> PlanArtifact(StoredJob stored, const v1::ReadArtifactReques
     plan.kind = ArtifactPlan::Kind::kCellTrajectory;
     plan.cell = *cell;
   }
-  plan.stored = std::move(stored);
+  if (plan.kind == ArtifactPlan::Kind::kCycles || plan.kind == ArtifactPlan::Kind::kGroups) {
+    plan.stored = std::move(stored);
+  } else {
+    plan.stored.job.set_name(job.name());
+    plan.stored.job.set_last_sequence(job.last_sequence());
+  }
   return plan;
 }
 

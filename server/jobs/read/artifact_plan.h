@@ -16,7 +16,8 @@ void AddArtifacts(v1::Job* job);
 struct ArtifactPlan {
   /// What the artifact is made of.
   enum class Kind { kCycles, kGroups, kTrajectory, kCellTrajectory };
-  /// The job; for kCycles and kGroups with its result, which is not merged.
+  /// The job; for kCycles and kGroups with its result, which is not merged. For others its name and
+  /// last sequence alone, because a reader may keep it for long.
   StoredJob stored;
   /// Its name.
   std::string artifact;

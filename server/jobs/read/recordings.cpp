@@ -30,8 +30,9 @@ void Recordings::ReadArtifact(const Principal& caller, const v1::ReadArtifactReq
           place = nullptr;
           return done(plan.error());
         }
-        auto maker = std::make_shared<ArtifactMaker>(store_, executor_, std::move(plan.value()),
-                                                     std::move(wake));
+        auto maker =
+            std::make_shared<ArtifactMaker>(store_, executor_, artifacts_, std::move(plan.value()),
+                                            std::move(wake), BudgetOf(readers_));
         done(Artifact(std::make_unique<ArtifactReader>(std::move(maker), std::move(place))));
       });
 }

@@ -38,6 +38,8 @@ class Recordings {
   const Places readers_;
   /// Large series are made two at a time: one is decoded while the store reads for the other.
   FewAtOnce large_series_{2};
+  /// So are artifacts: ten thousand readers must not hold up the store for others.
+  FewAtOnce artifacts_{2};
 };
 
 }  // namespace contact

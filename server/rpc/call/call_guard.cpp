@@ -94,6 +94,23 @@ Admission CallGuard::Check(const grpc::ServerContextBase& context, std::string_v
   return {caller, held.error()};
 }
 
+std::function<std::optional<Error>()> CallGuard::RightOf(const grpc::ServerContextBase& context,
+                                                         std::string_view method,
+                                                         const Principal& caller) const {
+  if (!door_.asks()) return {};
+  return [this, presented = PresentedBy(context), rule = FindMethod(method),
+          caller]() -> std::optional<Error> {
+    const auto known = door_.Identify(presented, clock_.Now());
+    if (const auto* why = std::get_if<std::string>(&known)) {
+      return Refuse(Reason::kUnauthenticated, *why);
+    }
+    const auto& now = std::get<Principal>(known);
+    if (!May(now, rule->needs)) return Deny(now, rule);
+    if (now == caller) return std::nullopt;
+    return Refuse(Reason::kUnauthenticated, "the caller is another principal now; call again");
+  };
+}
+
 void CallGuard::NoteRefusal(const Error& error) const {
   if (error.reason != InfoOf(Reason::kQuotaExceeded).name) return;
   metrics_->Refused(error.reason, error.metadata.at("resource"));

@@ -66,6 +66,11 @@ class CallGuard {
   /// token from the buckets of its peer and its caller. The limits of a peer do not hold for known
   /// admins: others at the same address must not keep them out. Counts refusals.
   Admission Check(const grpc::ServerContextBase& context, std::string_view method, CallKind kind);
+  /// Says of a caller that has come in whether it may go on: whether what it has shown still makes
+  /// it the same principal. Empty where everybody comes in. The guard outlives the function.
+  std::function<std::optional<Error>()> RightOf(const grpc::ServerContextBase& context,
+                                                std::string_view method,
+                                                const Principal& caller) const;
   /// Counts a call that was refused later, if that was for a quota.
   void NoteRefusal(const Error& error) const;
 

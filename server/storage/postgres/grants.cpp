@@ -23,6 +23,12 @@ constexpr std::array kOfWorker = {"beat",      "claim",       "leave",       "le
                                   "take_loan", "return_loan", "refuse_loan", "settle_loans"};
 constexpr std::array kOfLauncher = {"demand"};
 
+// Runs a command in which %I is the database.
+std::string OnDatabase(const std::string& command) {
+  return absl::StrCat("DO $do$BEGIN EXECUTE format('", absl::StrReplaceAll(command, {{"'", "''"}}),
+                      "', current_database()); END$do$;");
+}
+
 // A name as SQL has it.
 std::string Quoted(const std::string& name) {
   return absl::StrCat("\"", absl::StrReplaceAll(name, {{"\"", "\"\""}}), "\"");
@@ -49,7 +55,8 @@ std::string OnlyTo(const std::string& name, std::initializer_list<Functions> all
   const std::string role = Quoted(name);
   std::string script = absl::StrCat("REVOKE ALL ON ALL TABLES IN SCHEMA contactd FROM ", role,
                                     "; REVOKE ALL ON ALL FUNCTIONS IN SCHEMA contactd FROM ", role,
-                                    "; GRANT USAGE ON SCHEMA contactd TO ", role, ";");
+                                    "; GRANT USAGE ON SCHEMA contactd TO ", role, ";",
+                                    OnDatabase("GRANT CONNECT ON DATABASE %I TO " + role));
   for (const Functions functions : all) absl::StrAppend(&script, GrantTo(role, functions));
   return script;
 }
@@ -58,10 +65,11 @@ std::string OnlyTo(const std::string& name, std::initializer_list<Functions> all
 
 std::string GrantScript(const Grants& grants) {
   if (grants.front.empty() && grants.worker.empty() && grants.launcher.empty()) return "";
-  return absl::StrCat(AsOwner(kShared), AsOwner(kOfFront), AsOwner(kOfWorker),
-                      OnlyTo(grants.front, {kShared, kOfFront}),
-                      OnlyTo(grants.worker, {kShared, kOfWorker}),
-                      OnlyTo(grants.launcher, {kOfLauncher}));
+  return absl::StrCat(
+      // Whoever may connect hears all notes and can send some.
+      OnDatabase("REVOKE CONNECT ON DATABASE %I FROM PUBLIC"), AsOwner(kShared), AsOwner(kOfFront),
+      AsOwner(kOfWorker), OnlyTo(grants.front, {kShared, kOfFront}),
+      OnlyTo(grants.worker, {kShared, kOfWorker}), OnlyTo(grants.launcher, {kOfLauncher}));
 }
 
 }  // namespace contact::postgres

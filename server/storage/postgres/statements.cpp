@@ -315,9 +315,10 @@ absl::StatusOr<EventPage> EventsOf(const Rows& rows, const EventQuery& query) {
   page.position = query.after + std::min(kMostScanned, last - query.after);
   std::size_t bytes = 0;
   for (int row = 1; row < rows.size(); ++row) {  // The first row has no event.
-    page.events.push_back(ToStored(
-        static_cast<std::uint64_t>(rows.Integer(row, 2)), static_cast<int>(rows.Integer(row, 3)),
-        {static_cast<Coding>(rows.Integer(row, 4)), rows.Bytes(row, 6)}, rows.Integer(row, 5), 0));
+    page.events.push_back(ToStored(static_cast<std::uint64_t>(rows.Integer(row, 2)),
+                                   static_cast<int>(rows.Integer(row, 3)),
+                                   {static_cast<Coding>(rows.Integer(row, 4)), rows.Bytes(row, 6)},
+                                   rows.Integer(row, 5), 0, query.name));
     bytes += static_cast<std::size_t>(rows.Integer(row, 7)) + 1;
   }
   // The page may have ended before all that it could step over.

@@ -180,7 +180,7 @@ class Checker {
     const std::string bytes = row.Bytes(2);
     job->second.found_bytes += static_cast<std::int64_t>(bytes.size());
     job->second.has_spec |= part == "spec";
-    if (Checksum(bytes) != row.Integer(1)) {
+    if (!Passes(row.Integer(1), bytes, job->second.name)) {
       Find(job->second.name, ": its ", part, " fails its checksum");
     } else if (!message->ParseFromString(bytes)) {
       Find(job->second.name, ": its ", part, " is no message");
@@ -203,7 +203,7 @@ class Checker {
     job.found_sequence = sequence;
     job.found_bytes += static_cast<std::int64_t>(coded.bytes.size());
     v1::Event event;
-    if (Checksum(coded, static_cast<std::uint64_t>(sequence)) != row.Integer(4)) {
+    if (!Passes(row.Integer(4), coded, static_cast<std::uint64_t>(sequence), job.name)) {
       Find(job.name, ": event ", sequence, " fails its checksum");
     } else if (!DecodeEvent(coded.coding, coded.bytes, &event) ||
                event.payload_case() != row.Integer(2)) {
@@ -214,7 +214,7 @@ class Checker {
   void CheckCheckpoint(Row row) {
     const auto job = jobs_.find(row.Integer(0));
     if (job == jobs_.end()) return;  // CheckReference has told.
-    if (Checksum(row.Bytes(2)) != row.Integer(1)) {
+    if (!Passes(row.Integer(1), row.Bytes(2), job->second.name)) {
       Find(job->second.name, ": its checkpoint fails its checksum");
     }
   }

@@ -21,20 +21,21 @@ void Seal(Database& database, std::int64_t job) {
 }
 
 void InsertEvents(Database& database, std::int64_t job, std::uint64_t last,
-                  const std::vector<EventRow>& events) {
+                  const std::vector<EventRow>& events, const std::string& name) {
   for (const EventRow& row : events) {
     ++last;
     Execute(database,
             "INSERT INTO events(job, sequence, kind, coding, crc32, payload) VALUES(?,?,?,?,?,?)",
-            job, last, row.kind, row.event.coding, Checksum(row.event, last),
+            job, last, row.kind, row.event.coding, Checksum(row.event, last, name),
             Query::Blob{row.event.bytes});
   }
 }
 
 void WriteCheckpoint(Database& database, std::int64_t job, std::uint64_t last,
-                     const Checkpoint& checkpoint) {
+                     const Checkpoint& checkpoint, const std::string& name) {
   Execute(database, "REPLACE INTO checkpoints(job, sequence, crc32, state) VALUES(?,?,?,?)", job,
-          last + checkpoint.events, Checksum(checkpoint.state), Query::Blob{checkpoint.state});
+          last + checkpoint.events, Checksum(checkpoint.state, 0, name),
+          Query::Blob{checkpoint.state});
 }
 
 // Replaces what is stored of a job beside its log.
@@ -49,7 +50,7 @@ void WriteParts(Database& database, std::int64_t job, const JobChange& change) {
           "COALESCE((SELECT LENGTH(result) FROM results WHERE job=?1), 0) WHERE number=?1",
           job, parts.result.size());
   Execute(database, "REPLACE INTO results(job, crc32, result) VALUES(?,?,?)", job,
-          Checksum(parts.result), Query::Blob{parts.result});
+          Checksum(parts.result, 0, change.name), Query::Blob{parts.result});
 }
 
 void InsertJob(Database& database, const JobInsert& insert) {
@@ -61,13 +62,13 @@ void InsertJob(Database& database, const JobInsert& insert) {
           insert.events.size(), parts.end_time, parts.spec.size() + BytesOf(insert.events),
           Checksum(parts.header), Query::Blob{parts.header});
   const std::int64_t job = database.LastInsertRowid();
-  Execute(database, "INSERT INTO specs(job, crc32, spec) VALUES(?,?,?)", job, Checksum(parts.spec),
-          Query::Blob{parts.spec});
+  Execute(database, "INSERT INTO specs(job, crc32, spec) VALUES(?,?,?)", job,
+          Checksum(parts.spec, 0, insert.name), Query::Blob{parts.spec});
   for (const auto& [key, value] : insert.labels) {
     Execute(database, "INSERT INTO labels(key, value, job) VALUES(?,?,?)", key, value, job);
   }
   Seal(database, job);
-  InsertEvents(database, job, 0, insert.events);
+  InsertEvents(database, job, 0, insert.events, insert.name);
 }
 
 // RESOURCE_EXHAUSTED if the owner's jobs take as much as they may.
@@ -128,9 +129,9 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
           change.take, last + change.events.size(), BytesOf(change.events), number);
   if (change.take) Seal(database, number);
   // First, because it goes with the end of the job.
-  if (change.checkpoint) WriteCheckpoint(database, number, last, *change.checkpoint);
+  if (change.checkpoint) WriteCheckpoint(database, number, last, *change.checkpoint, change.name);
   if (!change.parts.header.empty()) WriteParts(database, number, change);
-  InsertEvents(database, number, last, change.events);
+  InsertEvents(database, number, last, change.events, change.name);
   return last + 1;
 }
 

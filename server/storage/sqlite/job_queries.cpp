@@ -48,11 +48,11 @@ JobRow RowOf(const Query& query) {
   return row;
 }
 
-StoredEvent EventOf(const Query& query) {
+StoredEvent EventOf(const Query& query, const std::string& job) {
   const auto sequence = static_cast<std::uint64_t>(query.Integer(0));
   return ToStored(sequence, static_cast<int>(query.Integer(4)),
                   {static_cast<Coding>(query.Integer(2)), query.Bytes(3)}, query.Integer(1),
-                  sequence);
+                  sequence, job);
 }
 
 // Adds the spec, if there is one.
@@ -191,7 +191,7 @@ absl::StatusOr<EventPage> ReadEvents(Database& database, const EventQuery& query
       page.position = page.events.back().sequence;
       break;
     }
-    const StoredEvent& event = page.events.emplace_back(EventOf(rows));
+    const StoredEvent& event = page.events.emplace_back(EventOf(rows, query.name));
     bytes += DecodedSize(event.coding, event.bytes) + 1;
   }
   return page;

@@ -7,7 +7,7 @@ namespace contact {
 
 /// Version of the tables below, kept in PRAGMA user_version of the database. A change of the tables
 /// raises it by 1 and adds a step to migration.cpp.
-inline constexpr int kSchemaVersion = 6;
+inline constexpr int kSchemaVersion = 7;
 
 /// SQL condition on a row of jobs: the job has ended, so its state is one of those below.
 inline constexpr char kEnded[] = "state IN (3,4,5)";

@@ -11,7 +11,7 @@ import unittest
 
 from authority import Authority
 from cli_case import CHAIN, CONTACTCTL
-from contactd import PATIENCE_S, Server
+from contactd import PATIENCE_S, Server, wait_for
 
 
 class CredentialsTest(unittest.TestCase):
@@ -32,11 +32,12 @@ class CredentialsTest(unittest.TestCase):
         self.server.start()
 
     def make_token(self, name, role):
-        token = self.run_it("server", "token", "create", "--tokens", self.tokens, "--name", name,
-                            "--tenant", "acme", "--role", role)[0]
         path = self.folder / f"{name}.token"
-        path.touch(mode=0o600)
-        path.write_text(token)
+        shown = self.run_it("server", "token", "create", "--tokens", self.tokens, "--name", name,
+                            "--role", role, "-f", path,
+                            *(() if role == "server" else ("--tenant", "acme")))[0]
+        self.assertEqual(shown, "")
+        self.assertEqual(path.stat().st_mode & 0o777, 0o600)
         return path
 
     def run_it(self, *arguments, code=0, environment=None):
@@ -55,6 +56,17 @@ class CredentialsTest(unittest.TestCase):
         status = self.ask("--token-file", self.token, "server", "status")[0]
         self.assertIn("you       ci of acme, submit", status)
 
+    def test_a_token_of_the_server_copies_the_store_and_one_of_an_admin_does_not(self):
+        copy = self.folder / "copy.db"
+        for name, role, code in (("boss", "admin", 9), ("backup", "server", 0)):
+            token = self.make_token(name, role)
+            wait_for(lambda: name in self.audit_log())
+            self.ask("--token-file", token, "server", "backup", "-o", copy, code=code)
+        self.assertEqual(copy.read_bytes()[:15], b"SQLite format 3")
+
+    def audit_log(self):
+        return (self.folder / "audit.log").read_text()
+
     def test_who_is_not_known_or_not_allowed_gets_code_9(self):
         said = self.ask("list", code=9)[1]
         self.assertIn("--token-file FILE", said)
@@ -64,7 +76,7 @@ class CredentialsTest(unittest.TestCase):
         unknown.write_text(f"ctk_00000000_{secret}")
         self.assertNotIn(secret, self.ask("--token-file", unknown, "list", code=9)[1])
         said = self.ask("--token-file", self.token, "server", "backup", "-f", "x.db", code=9)[1]
-        self.assertIn("admin", said)
+        self.assertIn("role server", said)
         reader = self.make_token("eye", "read")
         self.ask("--token-file", reader, "submit", CHAIN, code=9)
 
@@ -148,6 +160,16 @@ class CredentialsTest(unittest.TestCase):
         audit = self.folder / "audit.log"
         said = self.run_it("server", "audit", "verify", audit)[0]
         self.assertRegex(said, r"3 lines, unbroken; the last is [0-9a-f]{64}")
+        verify = "server", "audit", "verify", audit, "--head", self.folder / "data" / "audit-head"
+        self.run_it(*verify)
+        whole = audit.read_text()
+        for kept in (2, 0):
+            audit.write_text("".join(whole.splitlines(keepends=True)[:kept]))
+            self.assertIn("is not there: lines are cut off", self.run_it(*verify, code=1)[1])
+        self.server.start()
+        self.assertIn("does not have the line that was its last", self.server.log())
+        self.server.terminate()
+        audit.write_text(whole)
         audit.write_text(audit.read_text().replace('"ci"', '"eve"', 1))
         said = self.run_it("server", "audit", "verify", audit, code=1)[1]
         self.assertIn("audit.log:2: does not fit", said)

@@ -129,6 +129,12 @@ TEST_F(DeviceLogin, AsksNobodyWhoCouldBeSomebodyElse) {
   request_.issuer = kIssuer;
   provider_["token_endpoint"] = "http://id.acme/token";
   EXPECT_THAT(Failed().second, HasSubstr("is not https"));
+  for (const char* url : {"http://127.0.0.1:x@evil.example/", "http://localhost.evil.example",
+                          "http://127.0.0.1.evil", "https://id.acme@evil.example/",
+                          "http://localhost:80@evil.example", "ftp://localhost"}) {
+    provider_["token_endpoint"] = url;
+    EXPECT_THAT(Failed().second, HasSubstr("is not https")) << url;
+  }
   provider_["issuer"] = "https://evil.example";
   EXPECT_THAT(Failed().second, HasSubstr("calls itself https://evil.example"));
   EXPECT_TRUE(posted_.empty());

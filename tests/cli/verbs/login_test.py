@@ -38,7 +38,7 @@ class LoginPage(http.server.BaseHTTPRequestHandler):
     def answer(self, status, body):
         self.send_response(status)
         self.end_headers()
-        self.wfile.write(json.dumps(body).encode())
+        self.wfile.write(json.dumps({**body, "rest": self.server.rest}).encode())
 
     def log_message(self, *_):
         pass
@@ -63,6 +63,7 @@ class LoginTest(CliTest):
         self.web.issuer = f"https://localhost:{self.web.server_address[1]}"
         self.web.token = lambda: self.provider.token(iss=self.web.issuer)
         self.web.forms = []
+        self.web.rest = ""
         thread = threading.Thread(target=self.web.serve_forever)
         thread.start()
         self.addCleanup(thread.join)
@@ -92,6 +93,11 @@ class LoginTest(CliTest):
         _, said = self.log_in(Authority(self.folder, "other"), code=4)
         self.assertIn(self.web.issuer, said)
         self.assertEqual(self.web.forms, [])
+
+    def test_answer_without_end_is_given_up(self):
+        self.web.rest = "x" * (8 << 20)
+        _, said = self.log_in(self.ca, code=4)
+        self.assertIn("answers with more than 1 MiB", said)
 
     def test_place_for_the_token_is_asked_for_first(self):
         said = self.run_it("login", "--issuer", self.web.issuer, "--client-id", "c", code=2)[1]

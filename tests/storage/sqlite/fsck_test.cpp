@@ -111,8 +111,26 @@ TEST_F(FsckTest, ColumnsThatNoChecksumCoversAreComparedWithTheJob) {
               ElementsAre("jobs/a: the job is not what its row says"));
   EXPECT_THAT(After("UPDATE labels SET value='x' WHERE job=2"),
               Contains("jobs/b: its labels are not those of its spec"));
+}
+
+TEST_F(FsckTest, WhatBelongsToAnotherJobFailsItsChecksum) {
+  Fill();
+  for (const char* name : {"jobs/a", "jobs/b"}) {
+    v1::Job ended = MakeJob(name);
+    ended.set_state(v1::Job::SUCCEEDED);
+    ended.add_cycles();
+    ASSERT_TRUE(Update({.name = name, .job = &ended}).ok());
+  }
+  store_.reset();
   EXPECT_THAT(After("REPLACE INTO specs SELECT 1, crc32, spec FROM specs WHERE job=2"),
-              Contains("jobs/a: its spec is that of another job"));
+              ElementsAre("jobs/a: its spec fails its checksum"));
+  EXPECT_THAT(After("REPLACE INTO results SELECT 1, crc32, result FROM results WHERE job=2"),
+              Contains("jobs/a: its result fails its checksum"));
+  EXPECT_THAT(After("REPLACE INTO events SELECT 1, sequence, kind, coding, crc32, payload"
+                    " FROM events WHERE job=2 AND sequence=4"),
+              Contains("jobs/a: event 4 fails its checksum"));
+  Open();
+  EXPECT_TRUE(absl::IsDataLoss(Read("jobs/a").status()));
 }
 
 TEST_F(FsckTest, ColumnsThatStandNowhereElseHaveAChecksum) {

@@ -34,15 +34,18 @@ seconds Seconds(const json& object, const char* name, seconds otherwise) {
       std::clamp(found->get<double>(), 0.0, static_cast<double>(kLongest.count()))));
 }
 
-// True for a URL whose answers nobody on the way can change.
+// True for a URL whose answers nobody on the way can change. One with a user before its host is
+// none: people would take that for the host.
 bool IsSafe(std::string_view url) {
-  if (url.starts_with("https://")) return true;
-  for (const std::string_view loopback : {"http://127.0.0.1", "http://[::1]", "http://localhost"}) {
-    if (!url.starts_with(loopback)) continue;
-    const std::string_view rest = url.substr(loopback.size());
-    return rest.empty() || rest.front() == ':' || rest.front() == '/';
-  }
-  return false;
+  const bool https = url.starts_with("https://");
+  if (!https && !url.starts_with("http://")) return false;
+  url.remove_prefix(https ? 8 : 7);
+  const std::string_view authority = url.substr(0, url.find_first_of("/?#\\"));
+  if (authority.find('@') != std::string_view::npos) return false;
+  const std::size_t port = authority.find_last_not_of("0123456789");
+  const bool has_port = port != std::string_view::npos && authority[port] == ':';
+  const std::string_view host = has_port ? authority.substr(0, port) : authority;
+  return https || host == "127.0.0.1" || host == "[::1]" || host == "localhost";
 }
 
 [[noreturn]] void Refuse(const std::string& issuer, const std::string& what) {

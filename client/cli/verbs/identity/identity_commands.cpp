@@ -15,6 +15,7 @@
 #include "base/replace_file.h"
 #include "base/spelling.h"
 #include "cli/base/failure.h"
+#include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
 #include "cli/text/print_job.h"
@@ -36,7 +37,17 @@ struct TokenOptions {
   std::vector<std::string> roles;
   std::string ttl = "90d";
   std::string id;
+  /// Where a new token is written; empty: the standard output.
+  std::string to;
 };
+
+// Replaces the file by one that nobody but its owner may read.
+void WriteSecret(const std::string& file, const std::string& text) {
+  constexpr mode_t kOwnerOnly = 0600;
+  if (const auto error = ReplaceFile(file, text, kOwnerOnly)) {
+    throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", file, error.message()));
+  }
+}
 
 std::vector<TokenRecord> ReadTokens(const std::string& file) {
   if (!fs::exists(file)) return {};
@@ -57,17 +68,15 @@ void ChangeTokens(const std::string& file, Change change) {
   if (lock.valid()) ::flock(lock.get(), LOCK_EX);
   std::vector<TokenRecord> records = ReadTokens(file);
   change(&records);
-  constexpr mode_t kOwnerOnly = 0600;
-  if (const auto error = ReplaceFile(file, TokenTable::Format(records), kOwnerOnly)) {
-    throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", file, error.message()));
-  }
+  WriteSecret(file, TokenTable::Format(records));
 }
 
 Principal PrincipalOf(const TokenOptions& options) {
   std::string mistake;
-  const auto principal = ParsePrincipal(fmt::format("user:{} tenant:{} roles:{}", options.name,
-                                                    options.tenant, fmt::join(options.roles, ",")),
-                                        &mistake);
+  const std::string tenant = options.tenant.empty() ? "" : "tenant:" + options.tenant;
+  const auto principal = ParsePrincipal(
+      fmt::format("user:{} {} roles:{}", options.name, tenant, fmt::join(options.roles, ",")),
+      &mistake);
   if (!principal) throw Failure(ExitCode::kUsage, mistake);
   return *principal;
 }
@@ -77,10 +86,11 @@ ExitCode CreateToken(const TokenOptions& options, const Settings& settings) {
   const auto expires =
       std::chrono::floor<std::chrono::seconds>(system_clock::now() + RequireDuration(options.ttl));
   const NewToken made = MakeToken(PrincipalOf(options), expires);
+  if (!options.to.empty()) WriteSecret(options.to, made.token + "\n");
   ChangeTokens(options.file, [&made](auto* records) { records->push_back(made.record); });
-  fmt::print("{}\n", made.token);
-  fmt::print(stderr, "token {} of {} until {}; it is shown this once\n", made.record.id,
-             options.name, FormatUtc(expires));
+  if (options.to.empty()) fmt::print("{}\n", made.token);
+  Tell("token {} of {} until {}; {}\n", made.record.id, options.name, FormatUtc(expires),
+       options.to.empty() ? "it is shown this once" : "it is in " + options.to);
   return ExitCode::kOk;
 }
 
@@ -124,14 +134,29 @@ ExitCode ListTokens(const TokenOptions& options, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-ExitCode CheckAudit(const std::string& file, const Settings& settings) {
+// What the command about an audit log asks.
+struct AuditOptions {
+  std::string file;
+  std::string head;
+};
+
+ExitCode CheckAudit(const AuditOptions& options, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable});
-  const auto findings = VerifyAudit(file);
+  const auto& [file, head] = options;
+  const std::string last = head.empty() ? "" : ReadHead(head);
+  if (!head.empty() && last.empty()) throw Failure(ExitCode::kLocal, "cannot read " + head);
+  const auto findings = VerifyAudit(file, last);
   if (!findings) throw Failure(ExitCode::kLocal, "cannot read " + file);
   if (findings->bad_line > 0) {
     throw Failure(ExitCode::kRunFailed,
                   fmt::format("{}:{}: does not fit: {}", findings->bad_file.string(),
                               findings->bad_line, findings->mistake));
+  }
+  if (!head.empty() && !findings->has_head) {
+    throw Failure(ExitCode::kRunFailed,
+                  file +
+                      ": the line that the server has written last is not there: lines are cut "
+                      "off, or all were made anew");
   }
   if (findings->missing > 0) {
     fmt::print(stderr, "{}.1 to {}.{} are not here\n", file, file, findings->missing);
@@ -159,10 +184,14 @@ void AddToken(CommandLine& line, CLI::App& server) {
   CLI::App* create = token->add_subcommand("create", "Make a token and show it, this once");
   AddTokenFile(line, *create, options.get());
   create->add_option("--name", options->name, "Whose it is; jobs have this owner")->required();
-  create->add_option("--tenant", options->tenant, "Whose jobs it sees")->required();
+  create->add_option("--tenant", options->tenant, "Whose jobs it sees; none with the role server");
   line.SetWords(create->add_option("--role", options->roles, "What it may do"),
-                {"read", "submit", "operator", "admin"})
+                {"read", "submit", "operator", "admin", "server"})
       ->required();
+  line.SetKind(
+      create->add_option("-f,--file", options->to,
+                         "Write the token there, for its owner alone, instead of showing it"),
+      ValueKind::kFile);
   create->add_option("--ttl", options->ttl, "How long it is valid")
       ->type_name("TIME")
       ->capture_default_str();
@@ -181,11 +210,16 @@ void AddAudit(CommandLine& line, CLI::App& server) {
   audit->require_subcommand(1);
   CLI::App* verify =
       audit->add_subcommand("verify", "Check that no line was changed, left out or put in");
-  auto file = std::make_shared<std::string>();
-  line.SetKind(verify->add_option("FILE", *file, "The file that --audit-log of the server names"),
+  auto options = std::make_shared<AuditOptions>();
+  line.SetKind(verify->add_option("FILE", options->file,
+                                  "The file that --audit-log of the server names"),
                ValueKind::kFile)
       ->required();
-  line.SetAction(*verify, file, CheckAudit);
+  line.SetKind(verify->add_option("--head", options->head,
+                                  "The file audit-head of --data-dir of the server: shows whether "
+                                  "lines are cut off at the end, or all were made anew"),
+               ValueKind::kFile);
+  line.SetAction(*verify, options, CheckAudit);
 }
 
 }  // namespace contact::cli
