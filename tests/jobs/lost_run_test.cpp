@@ -144,7 +144,8 @@ TEST_F(LostRunTest, SpentWallTimeEndsARealRun) {
   request.mutable_job()->mutable_budget()->mutable_wall_time()->set_seconds(10);
   const std::string name = Create(request).value().name();
   while (Get(name).value().progress().time_s() == 0) std::this_thread::yield();
-  const v1::Job job = EndedInTime(name);
+  clock_.Advance(seconds(11));  // And no further: a run that does not end soon counts as lost.
+  const v1::Job job = Ended(name);
   EXPECT_EQ(job.state(), v1::Job::FAILED);
   EXPECT_EQ(job.state_reason(), "BUDGET_WALL_TIME");
   EXPECT_THAT(job.error().message(), HasSubstr("10 s"));
