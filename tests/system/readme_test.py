@@ -25,10 +25,14 @@ def number(text):
     return float(digits.replace(",", "")) * UNITS.get(unit, 1)
 
 
-def defaults_of_help():
-    """{flag: default} of `contactd --help`."""
-    text = subprocess.run([os.environ["CONTACTD"], "--help"], check=True, text=True,
+def help_text():
+    return subprocess.run([os.environ["CONTACTD"], "--help"], check=True, text=True,
                           stdout=subprocess.PIPE).stdout
+
+
+def defaults_of_help():
+    """{flag: default} of `contactd --help`, of those that are numbers."""
+    text = help_text()
     found = re.findall(r"(--[a-z-]+) [^\n]*=([\d.e+]+)(?:s| % of [a-z -]+)?"
                        r"(?:; any number where nobody is asked who calls)? \(Env", text)
     return {flag: float(value) for flag, value in found}
@@ -42,13 +46,17 @@ def sources():
 class ReadmeTest(unittest.TestCase):
 
     def test_defaults_of_flags_are_those_of_the_help(self):
-        told = {flag: number(row[row.index(f"`{flag}`") + 1])
+        told = {flag: row[row.index(f"`{flag}`") + 1]
                 for title in ("Settings", "Limits") for row in rows(title)
                 for flag in re.findall(r"`(--[a-z-]+)`", " ".join(row[:2]))
                 if f"`{flag}`" in row}
-        self.assertGreater(len(told), 20)
+        numbers = {flag: number(cell) for flag, cell in told.items() if cell[0].isdigit()}
+        self.assertGreater(len(numbers), 20)
         defaults = defaults_of_help()
-        self.assertEqual(told, {flag: defaults.get(flag) for flag in told})
+        self.assertEqual(numbers, {flag: defaults.get(flag) for flag in numbers})
+        words = " ".join(help_text().split())
+        for flag in told.keys() - numbers.keys():
+            self.assertRegex(words, f" {flag} [^=]+(=1[^=]+)*={re.escape(told[flag])} ")
 
     def test_every_limit_of_the_help_has_its_row(self):
         limits = {flag for flag in defaults_of_help()
@@ -70,8 +78,8 @@ class ReadmeTest(unittest.TestCase):
         most_open = re.search(r"kMostOpen = (\d+)", floods).group(1)
         taken_back = re.search(r"kMostTakenBack = (\d+)", floods).group(1)
         unanswered = re.search(r"kMostUnanswered = (\d+) << 20", floods).group(1)
-        watches = (SERVER / "jobs/watches.cpp").read_text("utf-8")
-        messages = re.search(r"kAllBytes = std::size_t\{(\d+)\} << 20", watches).group(1)
+        budgets = (SERVER / "jobs/quota/message_bytes.cpp").read_text("utf-8")
+        messages = re.search(r"kAllBytes = std::size_t\{(\d+)\} << 20", budgets).group(1)
         columns = (SERVER / "wire/chunk_columns.h").read_text("utf-8")
         chunk = re.search(r"kMostChunkBytes = std::size_t\{(\d+)\} << 20", columns).group(1)
         self.assertEqual(told, {
@@ -79,7 +87,7 @@ class ReadmeTest(unittest.TestCase):
             "calls that a connection takes back in a second": float(taken_back),
             "bytes of a connection between two answers, beside those of windows":
                 int(unanswered) * 2**20,
-            "messages to all watchers": int(messages) * 2**20,
+            "messages of all streams": int(messages) * 2**20,
             "bytes of a frame chunk": int(chunk) * 2**20,
             "fields in a CreateJob request": 2.0 ** int(fields),
             "memory of CreateJob requests that are not answered yet": int(requests) * 2**20,
