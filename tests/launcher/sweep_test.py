@@ -22,7 +22,7 @@ def long_sweep():
     """Cells that take about two minutes on two cores."""
     base = three_ball_chain()
     base.solver.method = scenario_pb2.Solver.RK4
-    base.solver.step_s = 1e-8
+    base.solver.step_s = 4e-8
     base.solver.max_steps = 10**9
     axis = scenario_pb2.Sweep.Axis(
         field="contacts[0].restitution",
