@@ -26,7 +26,8 @@ std::int64_t Least(std::int64_t limit, const fs::path& root, fs::path folder, co
 std::int64_t MemoryLimit(const fs::path& groups, const fs::path& root) {
   std::int64_t limit = sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
   std::ifstream lines(groups);
-  // A line is NUMBER:CONTROLLERS:/FOLDER; version 2 of control groups has no controllers there.
+  // A line is NUMBER:CONTROLLERS:/FOLDER, of which the slash is ignored here; version 2 of control
+  // groups has no controllers there.
   for (std::string number, controllers, folder; std::getline(lines, number, ':') &&
                                                 std::getline(lines, controllers, ':') &&
                                                 std::getline(lines.ignore(), folder);) {

@@ -74,9 +74,9 @@ std::set<Role> RolesOf(const json& claims, const std::string& name) {
   }
   std::set<Role> roles;
   for (const std::string& word : words) {
+    // What a provider signs is of a tenant, and never of the whole server.
     const auto role = FindRole(word);
-    if (role && *role != Role::kServer)
-      roles.insert(*role);  // A token of a provider is a tenant's.
+    if (role && *role != Role::kServer) roles.insert(*role);
   }
   return roles;
 }

@@ -17,8 +17,8 @@ using namespace std::chrono_literals;
 
 // How often the store is asked for what notes should have told.
 constexpr auto kAskTime = 1s;
-// How often logs of which notes tell are looked at between two such questions: one process sends so
-// many notes a second.
+// After so many looks at logs of which notes tell, everything is asked again, however many notes
+// come. A process tells of a log twenty times a second at most.
 constexpr int kMostLooks = 20;
 // Workers tell how far their runs are every few seconds, also if nothing has changed.
 constexpr auto kForgetTime = 15s;

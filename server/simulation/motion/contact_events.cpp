@@ -40,6 +40,14 @@ std::optional<double> FirstPositive(F f, double at_end, double from = 0) {
   return std::nullopt;
 }
 
+// A θ in the first eighth of a step at which δ is below a level; 0: none was found.
+double EarlyBelow(const DeformationPath& path, double level) {
+  for (double theta = 1.0 / kPieces; theta > kSoonest; theta /= 4) {
+    if (path.Value(theta) < level) return theta;
+  }
+  return 0;
+}
+
 // Where touching bodies that are closer at the end of the step begin to close: at once, or, if they
 // part first, however early, where they come back to the deformation at which they began.
 double StartOfClosing(const DeformationPath& path) {
@@ -49,21 +57,14 @@ double StartOfClosing(const DeformationPath& path) {
     const double theta = static_cast<double>(i) / kPieces;
     if (above(theta) <= 0) return Root(above, theta, static_cast<double>(i + 1) / kPieces);
   }
-  if (path.start.curvature >= 0) return 0;
-  for (double theta = 0.25 / kPieces; theta > kSoonest; theta /= 4) {
-    if (above(theta) < 0) return Root(above, theta, 4 * theta);
-  }
-  return 0;
+  const double parted = path.start.curvature < 0 ? EarlyBelow(path, level) : 0;
+  return parted > 0 ? Root(above, parted, 4 * parted) : 0;
 }
 
 // From where on bodies that move apart are apart: round-off may leave a trace of deformation at the
 // start, which they may leave and come back to early in the step.
 double StartOfFlight(const DeformationPath& path) {
-  if (path.start.value < 0 || path.drift >= 0) return 0;
-  for (double theta = 1.0 / kPieces; theta > kSoonest; theta /= 4) {
-    if (path.Value(theta) < 0) return theta;
-  }
-  return 0;
+  return path.start.value < 0 || path.drift >= 0 ? 0 : EarlyBelow(path, 0);
 }
 
 std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise) {

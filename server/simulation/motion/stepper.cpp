@@ -325,6 +325,7 @@ double Stepper::ErrorNorm(Count n, double h) {
     const Motions scale{length, speed + decay * length};
     norm = Largest(norm, Square(five, kink ? Motions{} : three, scale));
     const double faint = kFaint * std::abs(active.Relative(system_.rk.slope0.data() + n));
+    // Mostly what is known already tells that the contact is not faint, without another power.
     const bool strong = length >= deformation && stiffness * length >= faint;
     if (own.length > 0 && !strong && active.StiffnessAt(length) * inverse_mass * length < faint) {
       norm = Largest(norm, WorkError(active, length));
