@@ -12,11 +12,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "base/clock.h"
+#include "base/future.h"
 #include "base/ids.h"
 #include "base/memory_limit.h"
 #include "base/replace_file.h"
@@ -183,6 +186,25 @@ DiskSpace SpaceOf(const std::filesystem::path& directory) {
           static_cast<std::int64_t>(space.available)};
 }
 
+// What the file holds, which is made if it is not there. Without it the tokens of pages are good
+// for as long as this process lives.
+std::string KeepSecret(const std::filesystem::path& file, const std::string& made) {
+  std::string kept;
+  if (std::ifstream(file) >> kept) return kept;
+  if (const std::error_code error = ReplaceFile(file, made + "\n", 0600)) {
+    spdlog::warn("cannot write {}: {}", file.string(), error.message());
+  }
+  return made;
+}
+
+// As above, for all processes of a database.
+std::string KeepSecret(SharedStore& store, const std::string& made) {
+  const auto kept = Await<absl::StatusOr<std::string>>(
+      [&](auto done) { store.Keep("page-secret", made, false, std::move(done)); });
+  if (!kept.ok()) spdlog::warn("page tokens are of this process: {}", kept.status().ToString());
+  return kept.value_or(made);
+}
+
 // A store with what runs its jobs.
 struct Served {
   std::unique_ptr<Store> store;
@@ -196,6 +218,7 @@ absl::StatusOr<Served> OpenServed(const Config& config, StoreOptions options) {
   if (!config.store_address.empty()) {
     auto shared = OpenPostgres(config.store_address, std::move(options));
     if (!shared.ok()) return shared.status();
+    jobs.page_secret = KeepSecret(**shared, jobs.page_secret);
     served.jobs = std::make_unique<JobManager>(**shared, SystemClock(), RandomIds(),
                                                std::move(jobs), config.shared);
     served.store = *std::move(shared);
@@ -206,6 +229,7 @@ absl::StatusOr<Served> OpenServed(const Config& config, StoreOptions options) {
   served.store = *std::move(store);
   jobs.disk = [directory = config.data_dir] { return SpaceOf(directory); };
   jobs.retention.clock_file = config.data_dir / "clock";
+  jobs.page_secret = KeepSecret(config.data_dir / "page-secret", jobs.page_secret);
   served.jobs =
       std::make_unique<JobManager>(*served.store, SystemClock(), RandomIds(), std::move(jobs));
   return served;

@@ -47,18 +47,18 @@ void JobReader::Get(const Principal& caller, const std::string& name,
 
 void JobReader::List(const Principal& caller, const v1::ListJobsRequest& request,
                      Callback<v1::ListJobsResponse> done) const {
-  Result<JobQuery> query = ToQuery(request);
+  Result<JobQuery> query = ToQuery(request, tokens_.Open(caller.tenant, request.page_token()));
   if (!query.ok()) return done(query.error());
   query.value().tenant = caller.tenant;
   store_.List(std::move(query.value()),
-              [this, done = std::move(done)](absl::StatusOr<JobPage> page) {
+              [this, tenant = caller.tenant, done = std::move(done)](absl::StatusOr<JobPage> page) {
                 if (!page.ok()) return done(ToError(page.status(), ""));
                 v1::ListJobsResponse response;
                 for (StoredJob& stored : page->jobs) {
                   Complete(&stored);
                   *response.add_jobs() = std::move(stored.job);
                 }
-                response.set_next_page_token(PageToken(page->next));
+                response.set_next_page_token(tokens_.Seal(tenant, page->next));
                 done(std::move(response));
               });
 }

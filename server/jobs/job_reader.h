@@ -7,6 +7,7 @@
 #include "identity/principal.h"
 #include "jobs/job/callback.h"
 #include "jobs/job/job_options.h"
+#include "jobs/read/page_tokens.h"
 #include "jobs/schedule/unfinished.h"
 #include "storage/store.h"
 
@@ -20,7 +21,11 @@ class JobReader {
   /// All outlive it. Results are parsed on the executor, because a ledger may be long.
   JobReader(Store& store, const JobOptions& options, const Unfinished& unfinished,
             Executor& executor)
-      : store_(store), options_(options), unfinished_(unfinished), executor_(executor) {}
+      : store_(store),
+        options_(options),
+        unfinished_(unfinished),
+        executor_(executor),
+        tokens_(options.page_secret) {}
 
   /// The job with ledger and artifacts; of a running job, what its run has brought so far.
   void Get(const Principal& caller, const std::string& name, Callback<v1::Job> done) const;
@@ -38,6 +43,7 @@ class JobReader {
   const JobOptions& options_;
   const Unfinished& unfinished_;
   Executor& executor_;
+  const PageTokens tokens_;
 };
 
 }  // namespace contact

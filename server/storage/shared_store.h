@@ -185,6 +185,11 @@ class SharedStore : public Store {
   /// 0: none, only where to begin.
   virtual void Moved(std::uint64_t since, Callback<MovedJobs> done) = 0;
 
+  /// Keeps a short value under a name for all processes; one that is there already stays unless
+  /// `replace`. Answers what is kept then.
+  virtual void Keep(const std::string& name, const std::string& value, bool replace,
+                    Callback<std::string> done) = 0;
+
   /// Hears the notes of all processes, also of this one; on a thread of the store. `missed`: notes
   /// may have been lost before now; called at the start, too.
   virtual void Listen(std::function<void(const Note&)> heard, std::function<void()> missed) = 0;

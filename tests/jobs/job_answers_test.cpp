@@ -99,6 +99,20 @@ TEST_F(JobsTest, ListLeavesOutWhatIsLarge) {
   EXPECT_EQ(List(page).value().next_page_token(), "");
 }
 
+TEST_F(JobsTest, PageTokenIsGoodAfterARestartWithTheSameSecret) {
+  const JobOptions options = WithFakeRun({.page_secret = "secret"});
+  Open(options);
+  const std::string first = Create();
+  Create();
+  v1::ListJobsRequest page;
+  page.set_page_size(1);
+  page.set_page_token(List(page).value().next_page_token());
+  Open(options);
+  EXPECT_EQ(List(page).value().jobs(0).name(), first);
+  OpenWithFakeRun();
+  EXPECT_EQ(List(page).error().reason, "FIELD_INVALID");
+}
+
 TEST_F(JobsTest, SnapshotHasTheJobWithoutItsLedger) {
   Open();
   const v1::Job job = Ended(Create(BouncingBall(1)));

@@ -27,6 +27,11 @@ class TenantJobsTest : public JobsTest {
     manager_->reader().Get(caller, name, result.callback());
     return Reason(result.Get());
   }
+  Result<v1::ListJobsResponse> ListAs(const Principal& caller, const v1::ListJobsRequest& request) {
+    Await<Result<v1::ListJobsResponse>> result;
+    manager_->reader().List(caller, request, result.callback());
+    return result.Get();
+  }
   std::string CancelAs(const Principal& caller, const std::string& name) {
     v1::CancelJobRequest request;
     request.set_name(name);
@@ -57,6 +62,19 @@ TEST_F(TenantJobsTest, JobBelongsToItsCreator) {
   const v1::Job job = result.Get().value();
   EXPECT_EQ(job.owner(), "ada") << "whatever the request says";
   EXPECT_EQ(job.tenant(), "acme");
+}
+
+TEST_F(TenantJobsTest, PageTokenOfAnotherTenantIsNone) {
+  OpenWithFakeRun();
+  CreateAs(kAda, BouncingBall());
+  CreateAs(kAda, BouncingBall());
+  CreateAs(kEve, BouncingBall());
+  v1::ListJobsRequest page;
+  page.set_page_size(1);
+  page.set_page_token(ListAs(kAda, page).value().next_page_token());
+  ASSERT_NE(page.page_token(), "");
+  EXPECT_EQ(ListAs(kBob, page).value().jobs_size(), 1);
+  EXPECT_EQ(Reason(ListAs(kEve, page)), "FIELD_INVALID");
 }
 
 TEST_F(TenantJobsTest, JobIsNotThereForOtherTenants) {

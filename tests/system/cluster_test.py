@@ -77,6 +77,12 @@ class ServingTest(ClusterTest):
             two.get(name)
         self.assertEqual(caught.exception.code(), grpc.StatusCode.NOT_FOUND)
 
+    def test_page_of_one_front_is_continued_by_another(self):
+        one, two = self.shared.front(), self.shared.front()
+        names = [one.create(endless()).name for _ in range(2)]
+        token = one.list(page_size=1).next_page_token
+        self.assertEqual(two.list(page_token=token).jobs[0].name, names[0])
+
     def test_watcher_follows_a_run_that_is_elsewhere(self):
         one, two = self.shared.front(), self.shared.front()
         self.shared.worker("--workers=1")
@@ -407,6 +413,7 @@ class RolesTest(ClusterTest):
     def test_nobody_reads_or_writes_but_by_the_functions_of_his_role(self):
         for role, sql in [
                 ("a_front", "SELECT contactd.list_jobs(9, '', '{}', '{}', '{}', '', 9)"),
+                ("a_front", "SELECT contactd.keep('name', 'value', true)"),
                 ("a_worker", "SELECT contactd.leave('nobody')"),
                 ("a_launcher", "SELECT * FROM contactd.demand()")]:
             with self.subTest(role=role, sql=sql):
@@ -421,6 +428,7 @@ class RolesTest(ClusterTest):
                 ("a_front", "UPDATE contactd.jobs SET state = 3"),
                 ("a_worker", "INSERT INTO contactd.workers VALUES('w', 'h', 1, '', now())"),
                 ("a_front", "SELECT contactd.leave('nobody')"),
+                ("a_worker", "SELECT contactd.keep('page-secret', '', false)"),
                 ("a_worker", "SELECT contactd.remove_job('jobs/a', '')"),
                 ("a_worker", "SELECT contactd.list_jobs(9, '', '{}', '{}', '{}', '', 9)"),
                 ("a_launcher", "SELECT contactd.read_job('jobs/a', '', true, true, true)"),

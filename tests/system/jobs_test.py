@@ -169,6 +169,9 @@ class LifeTest(ServerTest):
             token = page.next_page_token
             if not token:
                 break
+            self.assertRegex(token, "^[0-9a-f]{32}$")
+            self.server.terminate()
+            self.server.start()  # A token outlives it.
         self.assertEqual(seen, names[::-1])
         odd = self.server.list(labels={"parity": "1"}).jobs
         self.assertEqual([job.name for job in odd], [names[3], names[1]])

@@ -6,7 +6,9 @@
 #include <functional>
 #include <memory>
 #include <stop_token>
+#include <string>
 
+#include "base/ids.h"
 #include "base/resident_memory.h"
 #include "contact/v1/job_service.pb.h"
 #include "jobs/job/budget.h"
@@ -88,6 +90,9 @@ struct JobOptions {
   RetentionLimits retention = {};
   /// Least time between two checkpoints of a run; 0: no checkpoints.
   std::chrono::milliseconds checkpoint_interval{0};
+  /// Hides the positions in page tokens, see PageTokens. Processes with the same one, and none
+  /// else, read each other's.
+  std::string page_secret = RandomIds().NextUuid();
   /// Counters of job transitions. Never null.
   std::shared_ptr<JobMetrics> metrics = std::make_shared<JobMetrics>();
   /// Solves a scenario; tests replace it.

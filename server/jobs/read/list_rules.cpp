@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstddef>
 #include <set>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -14,14 +12,6 @@
 
 namespace contact {
 namespace {
-
-// The number that PageToken has written; negative if it did not write this.
-std::int64_t NumberOf(const std::string& token) {
-  std::int64_t number = 0;
-  const char* const end = token.data() + token.size();
-  const auto [rest, error] = std::from_chars(token.data(), end, number);
-  return error == std::errc() && rest == end && PageToken(number) == token ? number : -1;
-}
 
 void CheckPrefix(const std::string& prefix, std::vector<Violation>* violations) {
   const int most =
@@ -32,7 +22,7 @@ void CheckPrefix(const std::string& prefix, std::vector<Violation>* violations) 
 
 }  // namespace
 
-Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
+Result<JobQuery> ToQuery(const v1::ListJobsRequest& request, std::int64_t before) {
   std::vector<Violation> violations;
   JobQuery query;
   const int page_size = v1::ListJobsRequest::kPageSizeFieldNumber;
@@ -41,7 +31,7 @@ Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
   if (query.limit == 0) {
     query.limit = static_cast<int>(RuleOf<v1::ListJobsRequest>(page_size).default_number());
   }
-  if (!request.page_token().empty()) query.before = NumberOf(request.page_token());
+  query.before = before;
   if (query.before < 0) {
     violations.push_back({"page_token", "is none that this server gave", "start without a token"});
   }
@@ -59,7 +49,5 @@ Result<JobQuery> ToQuery(const v1::ListJobsRequest& request) {
   if (!violations.empty()) return Invalid(std::move(violations));
   return query;
 }
-
-std::string PageToken(std::int64_t number) { return number > 0 ? fmt::format("{}", number) : ""; }
 
 }  // namespace contact

@@ -23,6 +23,10 @@ constexpr std::array kSteps = {
          "DROP INDEX IF EXISTS contactd.jobs_unfinished, contactd.jobs_taken;"
          "CREATE INDEX jobs_taken ON contactd.jobs(worker, number)"
          " WHERE state = 2 OR (state = 1 AND worker IS NOT NULL);"},
+    // Processes share the secret of page tokens, and heads of audit logs.
+    Step{5,
+         "CREATE TABLE IF NOT EXISTS contactd.kept(name text COLLATE \"C\" PRIMARY KEY, value "
+         "bytea NOT NULL);"},
 };
 
 // The lock is held to the end, so that of several programs that begin at once one does it. Tables

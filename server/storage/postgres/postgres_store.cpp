@@ -234,6 +234,14 @@ class PostgresStore : public SharedStore {
     Post<MovedJobs>(postgres::FindMoved(since), postgres::MovedJobsOf, std::move(done));
   }
 
+  void Keep(const std::string& name, const std::string& value, bool replace,
+            Callback<std::string> done) override {
+    Post<std::string>(
+        postgres::Keep(name, value, replace),
+        [](const Rows& rows) -> absl::StatusOr<std::string> { return rows.Bytes(0, 0); },
+        std::move(done));
+  }
+
   void Listen(std::function<void(const Note&)> heard, std::function<void()> missed) override {
     auto bulletin =
         std::make_shared<postgres::Bulletin>(address_, std::move(heard), std::move(missed));

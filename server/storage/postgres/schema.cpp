@@ -121,6 +121,9 @@ CREATE TABLE contactd.used(
   PRIMARY KEY(worker, tenant, owner)
 );
 
+-- Short values that all processes share.
+CREATE TABLE contactd.kept(name text COLLATE "C" PRIMARY KEY, value bytea NOT NULL);
+
 -- They are compressed already, or do not become smaller.
 ALTER TABLE contactd.results ALTER COLUMN result SET STORAGE EXTERNAL;
 ALTER TABLE contactd.events ALTER COLUMN payload SET STORAGE EXTERNAL;
@@ -372,6 +375,15 @@ BEGIN
         state = excluded.state;
   END IF;
   PERFORM contactd.append(v_job, first - 1, a_kinds, a_codings, a_sizes, a_crc32s, a_payloads);
+END $$;
+
+-- Keeps a value under a name; one that is there already stays unless a_replace. The value then.
+CREATE OR REPLACE FUNCTION contactd.keep(a_name text, a_value bytea, a_replace boolean)
+RETURNS bytea LANGUAGE plpgsql AS $$
+BEGIN
+  INSERT INTO contactd.kept AS k(name, value) VALUES(a_name, a_value)
+    ON CONFLICT (name) DO UPDATE SET value = excluded.value WHERE a_replace;
+  RETURN (SELECT k.value FROM contactd.kept k WHERE k.name = a_name);
 END $$;
 
 -- Outcomes: D done; N no such job.

@@ -153,6 +153,10 @@ absl::StatusOr<std::vector<LogPosition>> PositionsOf(const Rows& rows) {
   return positions;
 }
 
+Statement Keep(const std::string& name, const std::string& value, bool replace) {
+  return {"SELECT contactd.keep($1,$2,$3)", Parameters().Bytes(name).Bytes(value).Boolean(replace)};
+}
+
 Statement FindMoved(std::uint64_t since) {
   return {"SELECT next, name, tenant FROM contactd.moved_since($1)",
           Parameters().Integer(static_cast<std::int64_t>(since))};

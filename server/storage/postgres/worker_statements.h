@@ -40,6 +40,9 @@ absl::StatusOr<OwnerCounts> OwnerCountsOf(const Rows& rows);
 Statement FindPositions(const std::vector<std::string>& names);
 absl::StatusOr<std::vector<LogPosition>> PositionsOf(const Rows& rows);
 
+/// The answer is the value.
+Statement Keep(const std::string& name, const std::string& value, bool replace);
+
 Statement FindMoved(std::uint64_t since);
 absl::StatusOr<MovedJobs> MovedJobsOf(const Rows& rows);
 

@@ -72,6 +72,12 @@ class SharedStoreTest : public testing::Test {
              })
           .status();
     }
+    std::string Keep(const std::string& name, const std::string& value, bool replace) {
+      return Ask<std::string>([&](SharedStore& store, auto done) {
+               store.Keep(name, value, replace, std::move(done));
+             })
+          .value();
+    }
     Demand Count() {
       return Ask<Demand>([](SharedStore& store, auto done) { store.Count(std::move(done)); })
           .value();
@@ -174,6 +180,14 @@ TEST_F(SharedStoreTest, ManyWorkersThatClaimAtOnceShareNoJob) {
   }
   EXPECT_EQ(claimed.size(), static_cast<std::size_t>(kJobs));
   EXPECT_EQ(std::set(claimed.begin(), claimed.end()).size(), static_cast<std::size_t>(kJobs));
+}
+
+TEST_F(SharedStoreTest, WhatOneKeepsFirstAllHave) {
+  EXPECT_EQ(one_.Keep("secret", "of one", false), "of one");
+  EXPECT_EQ(two_.Keep("secret", "of two", false), "of one");
+  EXPECT_EQ(two_.Keep("other", std::string("\0\xff", 2), false), std::string("\0\xff", 2));
+  EXPECT_EQ(two_.Keep("secret", "new", true), "new");
+  EXPECT_EQ(one_.Keep("secret", "of one", false), "new");
 }
 
 TEST_F(SharedStoreTest, UnknownOrExpiredWorkerGetsNoJob) {
