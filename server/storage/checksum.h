@@ -17,7 +17,7 @@ std::int64_t Checksum(const std::string& bytes, std::uint64_t place = 0,
 std::int64_t Checksum(const CodedEvent& event, std::uint64_t sequence, const std::string& job = "");
 
 /// True if the bytes, or the event, have this checksum as what belongs to the job; or the one
-/// without its name, as all had before version 7 of SQLite's tables and have in PostgreSQL's.
+/// without its name, as all had before version 7 of SQLite's tables and 5 of PostgreSQL's.
 bool Passes(std::int64_t crc32, const std::string& bytes, const std::string& job);
 bool Passes(std::int64_t crc32, const CodedEvent& event, std::uint64_t sequence,
             const std::string& job);

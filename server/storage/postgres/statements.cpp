@@ -84,15 +84,16 @@ const char kHeader[] =
     "number, name, state, epoch, cancel_requested, last_sequence, crc32, header, oldest_sequence,"
     " compacted, owner, tenant, request_id";
 
-// A row's place is its primary key, so its checksum has none.
-void AddEvents(const std::vector<EventRow>& events, Parameters* parameters) {
+// Only the database knows their sequences, so their checksums have none.
+void AddEvents(const std::string& job, const std::vector<EventRow>& events,
+               Parameters* parameters) {
   std::vector<std::int64_t> kinds, codings, sizes, checksums;
   std::vector<const std::string*> payloads;
   for (const auto& [kind, event] : events) {
     kinds.push_back(kind);
     codings.push_back(static_cast<std::int64_t>(event.coding));
     sizes.push_back(static_cast<std::int64_t>(DecodedSize(event.coding, event.bytes)));
-    checksums.push_back(Checksum(event, 0));
+    checksums.push_back(Checksum(event, 0, job));
     payloads.push_back(&event.bytes);
   }
   parameters->Integers(kinds).Integers(codings).Integers(sizes).Integers(checksums);
@@ -115,8 +116,8 @@ Statement CreateJob(const JobInsert& job) {
   }
   parameters.Bytes(job.whose.owner).Bytes(job.whose.tenant).Integer(job.state);
   parameters.Integer(parts.end_time).Integer(Checksum(parts.header)).Bytes(parts.header);
-  parameters.Integer(Checksum(parts.spec)).Bytes(parts.spec).Texts(keys).Texts(values);
-  AddEvents(job.events, &parameters);
+  parameters.Integer(Checksum(parts.spec, 0, job.name)).Bytes(parts.spec).Texts(keys).Texts(values);
+  AddEvents(job.name, job.events, &parameters);
   parameters.Boolean(job.may_create).Integer(job.max_owner_bytes);
   parameters.Integer(job.priority).Integer(job.cells).Integer(job.limits.waiting);
   parameters.Integer(job.limits.owner_jobs).Integer(job.limits.owner_cells);
@@ -165,15 +166,16 @@ Statement ChangeJob(const JobChange& change, std::uint64_t epoch) {
   if (parts.result.empty()) {
     parameters.Null().Null();
   } else {
-    parameters.Integer(Checksum(parts.result)).Bytes(parts.result);
+    parameters.Integer(Checksum(parts.result, 0, change.name)).Bytes(parts.result);
   }
   if (change.checkpoint) {
     parameters.Integer(static_cast<std::int64_t>(change.checkpoint->events));
-    parameters.Integer(Checksum(change.checkpoint->state)).Bytes(change.checkpoint->state);
+    parameters.Integer(Checksum(change.checkpoint->state, 0, change.name));
+    parameters.Bytes(change.checkpoint->state);
   } else {
     parameters.Null().Null().Null();
   }
-  AddEvents(change.events, &parameters);
+  AddEvents(change.name, change.events, &parameters);
   return {
       "SELECT * FROM "
       "contactd.change_job($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13,$14,$15,$16,$17,"

@@ -19,9 +19,9 @@ namespace contact::postgres {
 /// The columns of a job's row that HeaderOf and JobsOf read.
 extern const char kHeader[];
 
-/// Adds new events of a log as arrays of kinds, codings, sizes, checksums and payloads, and their
-/// bytes.
-void AddEvents(const std::vector<EventRow>& events, Parameters* parameters);
+/// Adds new events of the log of a job as arrays of kinds, codings, sizes, checksums and payloads,
+/// and their bytes.
+void AddEvents(const std::string& job, const std::vector<EventRow>& events, Parameters* parameters);
 
 /// See Store::Create.
 Statement CreateJob(const JobInsert& job);

@@ -108,7 +108,7 @@ Statement ReturnLoan(const std::string& worker, const Loan& loan, const LoanCoun
   parameters.Bytes(worker).Bytes(loan.job).Integer(static_cast<std::int64_t>(loan.epoch));
   parameters.Integer(loan.number).Integer(counts.failed).Integer(counts.not_converged);
   parameters.Integer(counts.steps);
-  AddEvents(change.events, &parameters);
+  AddEvents(change.name, change.events, &parameters);
   return {"SELECT * FROM contactd.return_loan($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13)",
           std::move(parameters)};
 }

@@ -1,6 +1,7 @@
 // What the PostgreSQL engine promises beyond the calls that every engine has.
 #include "storage/postgres/postgres_store.h"
 
+#include <absl/strings/str_cat.h>
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -259,6 +260,45 @@ TEST_F(PostgresStoreTest, DamageCostsThatObjectOnly) {
   database_.Run("UPDATE contactd.jobs SET tenant = 'umbra' WHERE number = 1");
   EXPECT_TRUE(absl::IsDataLoss(Read("jobs/a", JobPart::kHeader).status()));
   EXPECT_TRUE(Read("jobs/b").ok());
+}
+
+TEST_F(PostgresStoreTest, WhatBelongsToAnotherJobFailsItsChecksum) {
+  Open();
+  for (const char* name : {"jobs/a", "jobs/b"}) {
+    v1::Job job = MakeJob(name);
+    ASSERT_TRUE(Create(job).ok());
+    job.set_state(v1::Job::SUCCEEDED);
+    job.add_cycles();
+    ASSERT_TRUE(Update({.name = name, .job = &job}).ok());
+  }
+  const auto copy = [this](const std::string& table, const std::string& column) {
+    database_.Run(absl::StrCat("UPDATE contactd.", table, " t SET crc32 = o.crc32, ", column,
+                               " = o.", column, " FROM contactd.", table,
+                               " o WHERE o.job = 2 AND t.job = 1"));
+  };
+  copy("events", "payload");
+  EXPECT_FALSE(ReadEvents({.name = "jobs/a"})->events[0].intact);
+  EXPECT_TRUE(Read("jobs/a").ok());
+  copy("results", "result");
+  EXPECT_TRUE(absl::IsDataLoss(Read("jobs/a").status()));
+  EXPECT_TRUE(Read("jobs/a", JobPart::kSpec).ok());
+  copy("specs", "spec");
+  EXPECT_TRUE(absl::IsDataLoss(Read("jobs/a", JobPart::kSpec).status()));
+  EXPECT_TRUE(Read("jobs/b").ok());
+}
+
+TEST_F(PostgresStoreTest, CheckpointOfAnotherJobIsNone) {
+  Open();
+  for (const std::string name : {"jobs/a", "jobs/b"}) {
+    ASSERT_TRUE(Create(MakeJob(name)).ok());
+    const Checkpoint checkpoint{0, "state of " + name};
+    ASSERT_TRUE(Update({.name = name, .checkpoint = &checkpoint}).ok());
+  }
+  EXPECT_EQ(Read("jobs/a", JobPart::kRun)->checkpoint, "state of jobs/a");
+  database_.Run(
+      "UPDATE contactd.checkpoints t SET crc32 = o.crc32, state = o.state"
+      " FROM contactd.checkpoints o WHERE o.job = 2 AND t.job = 1");
+  EXPECT_EQ(Read("jobs/a", JobPart::kRun)->checkpoint, "");
 }
 
 // The server's default must not weaken the promise that what is answered is on disk.
