@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/protocol/origin.h"
+#include "identity/audit_log.h"
 #include "identity/identity_files.h"
 #include "jobs/cluster/shared_options.h"
 #include "jobs/job_manager.h"
@@ -57,11 +58,11 @@ struct Config {
   std::filesystem::path http_port_file;   ///< File to write the gateway's port to; empty: none.
   std::filesystem::path web_dir;          ///< Files of the dashboard; empty: none.
   std::vector<SocketListener> listen_as;  ///< Socket files, each with one identity.
-  std::string trusted_proxy;        ///< unix:PATH of a proxy that says who calls; empty: none.
-  std::string listen_admin;         ///< unix:PATH of AdminService; empty: it is at `listen`.
-  bool admin_channelz = false;      ///< Channelz is served at `listen_admin`.
-  IdentityPaths identity;           ///< Who may come in by `listen`.
-  std::filesystem::path audit_log;  ///< File of changes and refused calls; empty: none.
+  std::string trusted_proxy;    ///< unix:PATH of a proxy that says who calls; empty: none.
+  std::string listen_admin;     ///< unix:PATH of AdminService; empty: it is at `listen`.
+  bool admin_channelz = false;  ///< Channelz is served at `listen_admin`.
+  IdentityPaths identity;       ///< Who may come in by `listen`.
+  AuditPlace audit_log;         ///< Where changes and refused calls are written.
   std::int64_t max_audit_bytes = 100'000'000;  ///< See AuditLog::Open.
   std::filesystem::path data_dir;              ///< Directory of jobs and results; made if missing.
   std::string store_address;  ///< PostgreSQL database of jobs and results; empty: `data_dir`.

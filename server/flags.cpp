@@ -162,8 +162,13 @@ void AddIdentity(CLI::App* app, Config* config, Switches* switches) {
                   "calls: \"user:NAME tenant:NAME roles:ROLE\"");
   app->add_option("--listen-admin", config->listen_admin,
                   "unix:PATH of AdminService, reflection and channelz, which --listen then lacks");
-  app->add_option("--audit-log", config->audit_log,
-                  "File that gets a line for each change and each refused call");
+  CLI::Option* audit_log =
+      app->add_option("--audit-log", config->audit_log.file,
+                      "File that gets a line for each change and each refused call");
+  app->add_option("--audit-key", config->audit_log.key_file,
+                  "File with a key, of 32 characters or more, without which nobody can make the "
+                  "chain of --audit-log anew")
+      ->needs(audit_log);
   AddSize(
       app, "--max-audit-bytes", &config->max_audit_bytes,
       "Size at which the file of --audit-log becomes FILE.1, FILE.2 and so on, and a new one is "

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "identity/hex.h"
+#include "identity/secret_file.h"
 
 namespace contact {
 namespace {
@@ -33,14 +34,15 @@ std::string MistakeOf(const std::string& line, bool finished, const std::string&
 }
 
 // Follows one file. False: it cannot be read, or a line does not fit.
-bool Follow(const AuditFile& file, const std::string& head, AuditFindings* findings) {
+bool Follow(const AuditFile& file, const std::string& head, const std::string& key,
+            AuditFindings* findings) {
   std::ifstream in(file.path, std::ios::binary);
   std::int64_t number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
     ++findings->lines;
     findings->mistake = MistakeOf(line, !in.eof(), findings->last);
-    findings->last = Sha256Hex(line);
+    findings->last = LineDigest(line, key);
     findings->has_head |= findings->last == head;
     if (findings->mistake.empty()) continue;
     findings->bad_line = number;
@@ -51,6 +53,21 @@ bool Follow(const AuditFile& file, const std::string& head, AuditFindings* findi
 }
 
 }  // namespace
+
+std::string LineDigest(const std::string& line, const std::string& key) {
+  return key.empty() ? Sha256Hex(line) : HmacHex(key, line);
+}
+
+bool ReadAuditKey(const fs::path& file, std::string* key, std::string* mistake) {
+  constexpr std::size_t kFewest = 32;
+  if (!ReadSecretFile(file, key, mistake)) return false;
+  constexpr char kWhite[] = " \t\r\n";
+  key->erase(0, key->find_first_not_of(kWhite));
+  key->erase(key->find_last_not_of(kWhite) + 1);
+  if (key->size() >= kFewest) return true;
+  *mistake = file.string() + " has a key of fewer than 32 characters";
+  return false;
+}
 
 std::string FirstPrevious() { return std::string(64, '0'); }
 
@@ -76,10 +93,10 @@ LastLine FindLastLine(const fs::path& file) {
   return last;
 }
 
-std::string LastDigest(const std::vector<AuditFile>& files) {
+std::string LastDigest(const std::vector<AuditFile>& files, const std::string& key) {
   for (auto file = files.rbegin(); file != files.rend(); ++file) {
     const LastLine last = FindLastLine(file->path);
-    if (last.end > 0) return Sha256Hex(last.text);
+    if (last.end > 0) return LineDigest(last.text, key);
   }
   return FirstPrevious();
 }
@@ -90,7 +107,8 @@ std::string ReadHead(const fs::path& head) {
   return digest;
 }
 
-std::optional<AuditFindings> VerifyAudit(const fs::path& file, const std::string& head) {
+std::optional<AuditFindings> VerifyAudit(const fs::path& file, const std::string& head,
+                                         const std::string& key) {
   const std::vector<AuditFile> files = AuditFiles(file);
   if (files.empty()) return std::nullopt;
   AuditFindings findings;
@@ -98,7 +116,7 @@ std::optional<AuditFindings> VerifyAudit(const fs::path& file, const std::string
   if (findings.missing == 0) findings.last = FirstPrevious();
   for (const AuditFile& next : files) {
     ++findings.files;
-    if (Follow(next, head, &findings)) continue;
+    if (Follow(next, head, key, &findings)) continue;
     if (findings.bad_line > 0) return findings;
     return std::nullopt;
   }

@@ -8,6 +8,14 @@
 
 namespace contact {
 
+/// What a line says of the one before, and the head of the last: SHA-256, or HMAC-SHA-256 if there
+/// is a key.
+std::string LineDigest(const std::string& line, const std::string& key);
+/// Reads the key of an audit log from a file that only its owner and group may read, without the
+/// white space around it. False, with the reason in `mistake`: it cannot be read, or the key has
+/// fewer than 32 characters.
+bool ReadAuditKey(const std::filesystem::path& file, std::string* key, std::string* mistake);
+
 /// What stands for the line before the first of all.
 std::string FirstPrevious();
 
@@ -27,8 +35,8 @@ struct LastLine {
   std::string text;
 };
 LastLine FindLastLine(const std::filesystem::path& file);
-/// SHA-256 of the last line in the files, which may be none.
-std::string LastDigest(const std::vector<AuditFile>& files);
+/// Digest of the last line in the files, which may be none.
+std::string LastDigest(const std::vector<AuditFile>& files, const std::string& key = "");
 
 /// The digest in the head of an audit log; empty if there is none.
 std::string ReadHead(const std::filesystem::path& head);
@@ -39,7 +47,7 @@ struct AuditFindings {
   std::int64_t lines = 0;
   /// Files that came before the first one that is there: somebody has put them elsewhere.
   int missing = 0;
-  /// SHA-256 of the last line, to be kept elsewhere: it shows whether lines are missing at the end.
+  /// Digest of the last line, to be kept elsewhere: it shows whether lines are missing at the end.
   std::string last;
   /// True if a line has the digest of the head.
   bool has_head = false;
@@ -51,8 +59,9 @@ struct AuditFindings {
 };
 
 /// Follows the chain of an audit log through all of its files, and looks for the line with the
-/// digest `head`. Nothing if one cannot be read, or there is none.
+/// digest `head`. `key`: that of the chain; empty: it has none. Nothing if one cannot be read, or
+/// there is none.
 std::optional<AuditFindings> VerifyAudit(const std::filesystem::path& file,
-                                         const std::string& head = "");
+                                         const std::string& head = "", const std::string& key = "");
 
 }  // namespace contact

@@ -72,13 +72,17 @@ FileDescriptor OpenFile(const std::filesystem::path& file, int flags) {
 }
 
 // Opens the head, and says in the server's log if the audit log is not the one that it is of.
-FileDescriptor OpenHead(const std::filesystem::path& head, const std::filesystem::path& file) {
+FileDescriptor OpenHead(const std::filesystem::path& head, const std::filesystem::path& file,
+                        const std::string& key) {
   if (head.empty()) return FileDescriptor();
   const std::string last = ReadHead(head);
-  const auto found = VerifyAudit(file, last);
+  const auto found = VerifyAudit(file, last, key);
   if (!last.empty() && !(found && found->has_head)) {
-    spdlog::error("{} does not have the line that was its last: lines are cut off, or made anew",
-                  file.string());
+    spdlog::error(
+        "{} does not have the line that was its last: lines are cut off or made anew, or the key "
+        "is "
+        "another",
+        file.string());
   }
   return OpenFile(head, 0);
 }
@@ -86,7 +90,10 @@ FileDescriptor OpenHead(const std::filesystem::path& head, const std::filesystem
 }  // namespace
 
 std::variant<std::unique_ptr<AuditLog>, std::string> AuditLog::Open(
-    const std::filesystem::path& file, std::int64_t max_bytes, const std::filesystem::path& head) {
+    const AuditPlace& place, std::int64_t max_bytes, const std::filesystem::path& head) {
+  const std::filesystem::path& file = place.file;
+  std::string key, mistake;
+  if (!place.key_file.empty() && !ReadAuditKey(place.key_file, &key, &mistake)) return mistake;
   FileDescriptor out = OpenFile(file, O_APPEND);
   struct stat status = {};
   if (!out.valid() || ::fstat(out.get(), &status) != 0) return Problem(file);
@@ -96,10 +103,11 @@ std::variant<std::unique_ptr<AuditLog>, std::string> AuditLog::Open(
     spdlog::warn("{}: cut off a line that was not finished", file.string());
     if (::ftruncate(out.get(), last.end) != 0) return Problem(file);
   }
-  FileDescriptor head_file = OpenHead(head, file);
+  FileDescriptor head_file = OpenHead(head, file, key);
   if (!head.empty() && !head_file.valid()) return Problem(head);
-  return std::unique_ptr<AuditLog>(new AuditLog(
-      file, max_bytes, std::move(out), std::move(head_file), LastDigest(AuditFiles(file))));
+  const std::string last_digest = LastDigest(AuditFiles(file), key);
+  return std::unique_ptr<AuditLog>(new AuditLog(file, std::move(key), max_bytes, std::move(out),
+                                                std::move(head_file), last_digest));
 }
 
 void AuditLog::Write(AuditRecord record) {
@@ -129,7 +137,7 @@ bool AuditLog::Append(const AuditRecord& record) {
     before = ::lseek(file_.get(), 0, SEEK_END);
   }
   if (WriteAll(file_.get(), line + '\n')) {
-    previous_ = Sha256Hex(line);
+    previous_ = LineDigest(line, key_);
     suppressed_ = lost_ = 0;
     failed_ = false;
     // Of one size, and in place: a crash leaves this one or the one before.

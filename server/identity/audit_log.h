@@ -36,9 +36,19 @@ struct AuditRecord {
   std::chrono::microseconds duration{0};
 };
 
+/// Where an audit log is, and who can make its chain.
+struct AuditPlace {
+  /// Empty: there is no log.
+  std::filesystem::path file = {};
+  /// Holds the key of the chain, see ReadAuditKey; empty: anybody can make one.
+  std::filesystem::path key_file = {};
+
+  bool empty() const { return file.empty(); }
+};
+
 /// A file with a JSON object a line for each change and each refused call. Each line has the
-/// SHA-256 of the line before as `prev`, so that a line that is changed, left out or put in is
-/// found; see VerifyAudit. The SHA-256 of the last line also stands in a file of its own, the head,
+/// digest of the line before as `prev`, so that a line that is changed, left out or put in is
+/// found; see VerifyAudit. The digest of the last line also stands in a file of its own, the head,
 /// which shows whether lines are missing at the end or all were made anew. A file that has grown
 /// large becomes FILE.1, FILE.2 and so on, and the chain goes on in a new one. Written on a thread
 /// of its own. Thread-safe.
@@ -49,8 +59,13 @@ class AuditLog {
   /// `max_bytes`, or one line if that is longer; 0: any number. `head`: where the head is; empty:
   /// there is none. If the log has not the line of the head, the server's log says so.
   static std::variant<std::unique_ptr<AuditLog>, std::string> Open(
+      const AuditPlace& place, std::int64_t max_bytes = 0, const std::filesystem::path& head = {});
+  /// As above, without a key.
+  static std::variant<std::unique_ptr<AuditLog>, std::string> Open(
       const std::filesystem::path& file, std::int64_t max_bytes = 0,
-      const std::filesystem::path& head = {});
+      const std::filesystem::path& head = {}) {
+    return Open(AuditPlace{.file = file}, max_bytes, head);
+  }
 
   /// Writes the record, some time later. Of the failed calls of one principal, and of all callers
   /// that are not known, at most 100 a second are written; the next record says as `suppressed` how
@@ -63,9 +78,10 @@ class AuditLog {
   void Flush();
 
  private:
-  AuditLog(std::filesystem::path path, std::int64_t max_bytes, FileDescriptor file,
+  AuditLog(std::filesystem::path path, std::string key, std::int64_t max_bytes, FileDescriptor file,
            FileDescriptor head, std::string previous)
       : path_(std::move(path)),
+        key_(std::move(key)),
         max_bytes_(max_bytes),
         file_(std::move(file)),
         head_(std::move(head)),
@@ -80,11 +96,13 @@ class AuditLog {
 
   // All of the thread.
   const std::filesystem::path path_;
+  /// Of the chain; empty: none.
+  const std::string key_;
   const std::int64_t max_bytes_;
   FileDescriptor file_;
   /// Holds previous_, if there is a head.
   const FileDescriptor head_;
-  /// SHA-256 of the last line.
+  /// Digest of the last line.
   std::string previous_;
   /// The second of the last failed call, and how many each principal had in it.
   std::int64_t second_ = 0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
@@ -165,6 +166,59 @@ TEST_F(AuditLogTest, TheHeadShowsLinesThatAreCutOffOrMadeAnew) {
   WriteJobs(2);  // Without the third, in a chain that fits.
   EXPECT_EQ(VerifyAudit(file_)->bad_line, 0);
   EXPECT_FALSE(has_head());
+}
+
+class KeyedAuditLogTest : public AuditLogTest {
+ protected:
+  KeyedAuditLogTest() { WriteKey(std::string(32, 'k') + "\n", 0600); }
+
+  void WriteKey(const std::string& text, mode_t mode) const {
+    std::ofstream(key_file_, std::ios::trunc) << text;
+    ::chmod(key_file_.c_str(), mode);
+  }
+  auto OpenKeyed() const { return AuditLog::Open({.file = file_, .key_file = key_file_}); }
+  void WriteKeyed(int count) const {
+    auto opened = OpenKeyed();
+    auto& log = *std::get<std::unique_ptr<AuditLog>>(opened);
+    for (int i = 0; i < count; ++i) log.Write(RecordOf("jobs/" + std::to_string(i)));
+    log.Flush();
+  }
+  std::int64_t BadLine(const std::string& key) const {
+    return VerifyAudit(file_, "", key)->bad_line;
+  }
+
+  const std::filesystem::path key_file_ = folder_.path() / "key";
+  const std::string key_ = std::string(32, 'k');
+};
+
+TEST_F(KeyedAuditLogTest, ChainNeedsItsKey) {
+  WriteKeyed(2);
+  WriteKeyed(2);  // It goes on after a restart.
+  EXPECT_EQ(BadLine(key_), 0);
+  EXPECT_EQ(BadLine(""), 2);
+  EXPECT_EQ(BadLine(std::string(32, 'x')), 2);
+}
+
+TEST_F(KeyedAuditLogTest, ChainThatIsMadeAnewWithoutTheKeyIsFound) {
+  WriteKeyed(3);
+  std::vector<std::string> lines = Lines();
+  std::filesystem::remove(file_);
+  WriteJobs(3);
+  EXPECT_EQ(BadLine(""), 0) << "by itself it is whole";
+  EXPECT_EQ(BadLine(key_), 2);
+  lines[1].replace(lines[1].find("acme"), 4, "evil");
+  Rewrite(lines);
+  EXPECT_EQ(BadLine(key_), 3);
+}
+
+TEST_F(KeyedAuditLogTest, KeyThatOthersMayReadOrThatIsShortIsRefused) {
+  WriteKey(key_, 0604);
+  EXPECT_TRUE(std::holds_alternative<std::string>(OpenKeyed()));
+  WriteKey(" " + std::string(31, 'k') + "\n", 0600);
+  EXPECT_TRUE(std::holds_alternative<std::string>(OpenKeyed()));
+  std::filesystem::remove(key_file_);
+  EXPECT_TRUE(std::holds_alternative<std::string>(OpenKeyed()));
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "no line is written without the key";
 }
 
 constexpr std::int64_t kThreeLines = 1200;

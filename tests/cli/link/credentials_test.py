@@ -153,6 +153,23 @@ class CredentialsTest(unittest.TestCase):
         said = self.run_it("server", "audit", "verify", audit)[1]
         self.assertIn("audit.log.1 are not here", said)
 
+    def test_audit_log_is_verified_with_its_key(self):
+        key = self.folder / "key"
+        key.write_text("k" * 32 + "\n")
+        key.chmod(0o600)
+        self.server.terminate()
+        self.server.flags += (f"--audit-key={key}",)
+        (self.folder / "audit.log").unlink()
+        self.server.start()
+        self.ask("list", code=9)
+        self.server.terminate()
+        verify = "server", "audit", "verify", self.folder / "audit.log"
+        head = "--head", self.folder / "data" / "audit-head"
+        self.assertIn("unbroken", self.run_it(*verify, *head, "--key", key)[0])
+        self.assertIn("does not fit", self.run_it(*verify, code=1)[1])
+        key.chmod(0o644)
+        self.assertIn("chmod 600", self.run_it(*verify, "--key", key, code=11)[1])
+
     def test_audit_log_is_verified(self):
         self.ask("--token-file", self.token, "run", CHAIN, "-o", "name")
         self.ask("list", code=9)

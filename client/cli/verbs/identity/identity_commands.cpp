@@ -138,14 +138,19 @@ ExitCode ListTokens(const TokenOptions& options, const Settings& settings) {
 struct AuditOptions {
   std::string file;
   std::string head;
+  std::string key;
 };
 
 ExitCode CheckAudit(const AuditOptions& options, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable});
-  const auto& [file, head] = options;
+  const auto& [file, head, key_file] = options;
+  std::string key, mistake;
+  if (!key_file.empty() && !ReadAuditKey(key_file, &key, &mistake)) {
+    throw Failure(ExitCode::kLocal, mistake);
+  }
   const std::string last = head.empty() ? "" : ReadHead(head);
   if (!head.empty() && last.empty()) throw Failure(ExitCode::kLocal, "cannot read " + head);
-  const auto findings = VerifyAudit(file, last);
+  const auto findings = VerifyAudit(file, last, key);
   if (!findings) throw Failure(ExitCode::kLocal, "cannot read " + file);
   if (findings->bad_line > 0) {
     throw Failure(ExitCode::kRunFailed,
@@ -219,6 +224,9 @@ void AddAudit(CommandLine& line, CLI::App& server) {
                                   "The file audit-head of --data-dir of the server: shows whether "
                                   "lines are cut off at the end, or all were made anew"),
                ValueKind::kFile);
+  line.SetKind(
+      verify->add_option("--key", options->key, "The file that --audit-key of the server names"),
+      ValueKind::kFile);
   line.SetAction(*verify, options, CheckAudit);
 }
 
