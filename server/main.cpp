@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -37,6 +38,7 @@
 #include "storage/sqlite/fsck.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "storage/store_copy.h"
+#include "stored_audit_head.h"
 #include "version.h"
 
 namespace contact {
@@ -209,6 +211,8 @@ std::string KeepSecret(SharedStore& store, const std::string& made) {
 struct Served {
   std::unique_ptr<Store> store;
   std::unique_ptr<JobManager> jobs;
+  /// See AuditPlace.
+  std::function<std::unique_ptr<AuditHead>()> open_head;
 };
 
 // A directory that this process has alone, or a database that it shares with others.
@@ -221,6 +225,9 @@ absl::StatusOr<Served> OpenServed(const Config& config, StoreOptions options) {
     jobs.page_secret = KeepSecret(**shared, jobs.page_secret);
     served.jobs = std::make_unique<JobManager>(**shared, SystemClock(), RandomIds(),
                                                std::move(jobs), config.shared);
+    served.open_head = [&store = **shared, file = config.audit_log.file] {
+      return OpenStoredHead(store, file);
+    };
     served.store = *std::move(shared);
     return served;
   }
@@ -346,12 +353,13 @@ int Work(const Config& config, const sigset_t& signals) {
 }
 
 // Serves until a signal comes, then shuts down. Returns the exit code.
-int Serve(const Config& config, const sigset_t& signals) {
+int Serve(Config config, const sigset_t& signals) {
   StoreOptions options = config.store;
   options.on_failure = EndAfterDiskFailure;
   options.reserve_bytes = kReserve;
   const auto served = OpenServed(config, options);
   if (!served.ok()) return Refuse(served.status());
+  config.audit_log.open_head = served->open_head;
   if (config.role != ProcessRole::kFront) TellMemory(config);
   JobManager& jobs = *served->jobs;
   Listeners listeners(jobs, *served->store, config, Identity(config));

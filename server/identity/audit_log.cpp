@@ -71,20 +71,35 @@ FileDescriptor OpenFile(const std::filesystem::path& file, int flags) {
       ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | flags, kOwnerOnly));
 }
 
-// Opens the head, and says in the server's log if the audit log is not the one that it is of.
-FileDescriptor OpenHead(const std::filesystem::path& head, const std::filesystem::path& file,
-                        const std::string& key) {
-  if (head.empty()) return FileDescriptor();
-  const std::string last = ReadHead(head);
-  const auto found = VerifyAudit(file, last, key);
-  if (!last.empty() && !(found && found->has_head)) {
-    spdlog::error(
-        "{} does not have the line that was its last: lines are cut off or made anew, or the key "
-        "is "
-        "another",
-        file.string());
+class HeadFile : public AuditHead {
+ public:
+  explicit HeadFile(std::filesystem::path path)
+      : path_(std::move(path)), file_(OpenFile(path_, 0)) {}
+
+  bool valid() const { return file_.valid(); }
+  std::string Read() override { return ReadHead(path_); }
+  void Write(const std::string& digest) override {
+    // Of one size, and in place: a crash leaves this one or the one before.
+    if (::pwrite(file_.get(), digest.data(), digest.size(), 0) >= 0) return;
+    spdlog::error("the head of the audit log cannot be written: {}",
+                  std::generic_category().message(errno));
   }
-  return OpenFile(head, 0);
+
+ private:
+  const std::filesystem::path path_;
+  const FileDescriptor file_;
+};
+
+// Says in the server's log if the audit log is not the one that the head is of.
+void CompareHead(AuditHead& head, const std::filesystem::path& file, const std::string& key) {
+  const std::string last = head.Read();
+  if (last.empty()) return;
+  const auto found = VerifyAudit(file, last, key);
+  if (found && found->has_head) return;
+  spdlog::error(
+      "{} does not have the line that was its last: lines are cut off or made anew, or the key is "
+      "another",
+      file.string());
 }
 
 }  // namespace
@@ -103,11 +118,18 @@ std::variant<std::unique_ptr<AuditLog>, std::string> AuditLog::Open(
     spdlog::warn("{}: cut off a line that was not finished", file.string());
     if (::ftruncate(out.get(), last.end) != 0) return Problem(file);
   }
-  FileDescriptor head_file = OpenHead(head, file, key);
-  if (!head.empty() && !head_file.valid()) return Problem(head);
+  std::unique_ptr<AuditHead> kept;
+  if (!head.empty()) {
+    auto head_file = std::make_unique<HeadFile>(head);
+    if (!head_file->valid()) return Problem(head);
+    kept = std::move(head_file);
+  } else if (place.open_head) {
+    kept = place.open_head();
+  }
+  if (kept) CompareHead(*kept, file, key);
   const std::string last_digest = LastDigest(AuditFiles(file), key);
-  return std::unique_ptr<AuditLog>(new AuditLog(file, std::move(key), max_bytes, std::move(out),
-                                                std::move(head_file), last_digest));
+  return std::unique_ptr<AuditLog>(
+      new AuditLog(file, std::move(key), max_bytes, std::move(out), std::move(kept), last_digest));
 }
 
 void AuditLog::Write(AuditRecord record) {
@@ -140,11 +162,7 @@ bool AuditLog::Append(const AuditRecord& record) {
     previous_ = LineDigest(line, key_);
     suppressed_ = lost_ = 0;
     failed_ = false;
-    // Of one size, and in place: a crash leaves this one or the one before.
-    if (head_.valid() && ::pwrite(head_.get(), previous_.data(), previous_.size(), 0) < 0) {
-      spdlog::error("the head of the audit log cannot be written: {}",
-                    std::generic_category().message(errno));
-    }
+    if (head_) head_->Write(previous_);
     return true;
   }
   ++lost_;

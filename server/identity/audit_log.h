@@ -36,12 +36,24 @@ struct AuditRecord {
   std::chrono::microseconds duration{0};
 };
 
+/// Keeps the digest of the last line of an audit log apart from it.
+class AuditHead {
+ public:
+  virtual ~AuditHead() = default;
+  /// The digest that was kept last; empty: none.
+  virtual std::string Read() = 0;
+  /// Keeps a digest, soon: a crash may leave an earlier one. On the log's thread.
+  virtual void Write(const std::string& digest) = 0;
+};
+
 /// Where an audit log is, and who can make its chain.
 struct AuditPlace {
   /// Empty: there is no log.
   std::filesystem::path file = {};
   /// Holds the key of the chain, see ReadAuditKey; empty: anybody can make one.
   std::filesystem::path key_file = {};
+  /// Opens the head of a log that has none in a file; null: there is none.
+  std::function<std::unique_ptr<AuditHead>()> open_head = {};
 
   bool empty() const { return file.empty(); }
 };
@@ -49,15 +61,16 @@ struct AuditPlace {
 /// A file with a JSON object a line for each change and each refused call. Each line has the
 /// digest of the line before as `prev`, so that a line that is changed, left out or put in is
 /// found; see VerifyAudit. The digest of the last line also stands in a file of its own, the head,
-/// which shows whether lines are missing at the end or all were made anew. A file that has grown
-/// large becomes FILE.1, FILE.2 and so on, and the chain goes on in a new one. Written on a thread
-/// of its own. Thread-safe.
+/// which shows whether lines are missing at the end or all were made anew; see AuditPlace, too. A
+/// file that has grown large becomes FILE.1, FILE.2 and so on, and the chain goes on in a new one.
+/// Written on a thread of its own. Thread-safe.
 class AuditLog {
  public:
   /// Opens the file, of mode 0600 if it is made, and goes on with its chain. What a crash has left
   /// of a line that was not finished is cut off. Words that say why, if it cannot. A file may have
-  /// `max_bytes`, or one line if that is longer; 0: any number. `head`: where the head is; empty:
-  /// there is none. If the log has not the line of the head, the server's log says so.
+  /// `max_bytes`, or one line if that is longer; 0: any number. `head`: the file of the head;
+  /// empty: see AuditPlace::open_head. If the log has not the line of the head, the server's log
+  /// says so.
   static std::variant<std::unique_ptr<AuditLog>, std::string> Open(
       const AuditPlace& place, std::int64_t max_bytes = 0, const std::filesystem::path& head = {});
   /// As above, without a key.
@@ -79,7 +92,7 @@ class AuditLog {
 
  private:
   AuditLog(std::filesystem::path path, std::string key, std::int64_t max_bytes, FileDescriptor file,
-           FileDescriptor head, std::string previous)
+           std::unique_ptr<AuditHead> head, std::string previous)
       : path_(std::move(path)),
         key_(std::move(key)),
         max_bytes_(max_bytes),
@@ -100,8 +113,8 @@ class AuditLog {
   const std::string key_;
   const std::int64_t max_bytes_;
   FileDescriptor file_;
-  /// Holds previous_, if there is a head.
-  const FileDescriptor head_;
+  /// Keeps previous_; null: nobody does.
+  const std::unique_ptr<AuditHead> head_;
   /// Digest of the last line.
   std::string previous_;
   /// The second of the last failed call, and how many each principal had in it.

@@ -1,9 +1,14 @@
 """A store moves between a directory and a PostgreSQL database, by the commands of its README."""
 
+import hashlib
+import pathlib
+import re
 import subprocess
 import unittest
 
 from contactd import BINARY, PATIENCE_S, Job, Server, ServerTest, cluster, database_of, three_ball_chain
+
+README = pathlib.Path(__file__).parents[2] / "server/storage/postgres/README.md"
 
 
 def contents(server):
@@ -67,6 +72,34 @@ class MoveTest(ServerTest):
             subprocess.run([cluster().bin / command[0], *command[1:]], check=True)
         self.serve(f"--store={restored}")
         self.assertEqual(contents(self.server), before)
+
+
+class AuditTest(ServerTest):
+    """The head of the audit log of a server whose jobs are in a database."""
+
+    def make_server(self):
+        self.audit = self.folder / "audit.log"
+        return Server(self.folder / "data", f"--audit-log={self.audit}", store="postgres")
+
+    def head(self):
+        [command] = re.findall(r"psql -At ADDRESS -c \"(.*)\"", README.read_text())
+        rows = subprocess.run([cluster().bin / "psql", "-At", database_of(self.server.data_dir), "-c",
+                               command], check=True, capture_output=True, text=True).stdout
+        [digest] = re.findall(rf"^audit-head \S+ {self.audit}\|(.*)$", rows, re.MULTILINE)
+        return digest
+
+    def test_database_keeps_the_digest_of_the_last_line(self):
+        for _ in range(20):
+            self.server.create(three_ball_chain())
+        self.server.terminate()
+        lines = self.audit.read_bytes().splitlines()
+        self.assertEqual(self.head(), hashlib.sha256(lines[-1]).hexdigest())
+        self.server.start()
+        self.assertNotIn("that was its last", self.server.log())
+        self.server.terminate()
+        self.audit.write_bytes(b"".join(line + b"\n" for line in lines[:-1]))
+        self.server.start()
+        self.assertIn("does not have the line that was its last", self.server.log())
 
 
 if __name__ == "__main__":
