@@ -53,6 +53,7 @@ RUN_ELSEWHERE = {
     "$ sudo systemctl enable": "tests/deploy/systemd_test.py",
     "$ sudo systemctl stop postgresql": "tests/deploy/failover_test.py",
     "$ sudo -u postgres": "tests/deploy/failover_test.py",
+    "ssh -N -L /tmp/lab.sock": "tests/cli/link/forwarded_test.py",
     "$ psql -At ADDRESS": "tests/system/stores_test.py",
     "$ pg_dump": "tests/system/stores_test.py",
     "$ contactd --role launcher": "tests/launcher/slurm_test.py",

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/link/printable_answers.h"
+#include "cli/link/socket_advice.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
@@ -66,9 +67,11 @@ bool IsOtherProtocol(std::string_view message) {
 
 std::string Unreachable(const grpc::Status& status, const std::string& server) {
   const std::string& message = status.error_message();
+  const std::string advice = SocketAdvice(server, message);
   const std::string here =
-      IsOtherProtocol(message)
-          ? ""
+      IsOtherProtocol(message) ? ""
+      : !advice.empty()
+          ? fmt::format("  what helps:      {}\n", advice)
           : fmt::format("  start one here:  contactd --listen {} --data-dir DIR\n", server);
   return fmt::format(
       "cannot reach contactd at {} ({})\n"

@@ -11,6 +11,7 @@
 #include "cli/base/table.h"
 #include "cli/link/client.h"
 #include "cli/link/credentials.h"
+#include "cli/link/socket_advice.h"
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
@@ -69,9 +70,13 @@ void LookAtServer(const Settings& settings, Findings* findings) {
     LookAtBusyRuns(client, findings);
   } catch (const Failure& failure) {
     const std::string text = failure.what();
+    const bool refused = failure.code() == ExitCode::kUnreachable;
+    const std::string advice = refused ? SocketAdvice(settings.server, text) : "";
     findings->push_back({"server", text.substr(0, text.find('\n')),
-                         "contactctl dev starts one; --server, CONTACT_SERVER or contactctl config "
-                         "set server names another",
+                         !advice.empty()
+                             ? advice
+                             : "contactctl dev starts one; --server, CONTACT_SERVER or contactctl "
+                               "config set server names another",
                          failure.code()});
   }
 }
