@@ -16,6 +16,7 @@
 #include "launcher/launcher_options.h"
 #include "log.h"
 #include "rpc/grpc_server.h"
+#include "rpc/net/connection_limits.h"
 #include "storage/postgres/grants.h"
 #include "storage/store.h"
 
@@ -52,6 +53,7 @@ enum class ProcessRole {
 /// The settings of contactd, checked.
 struct Config {
   std::string listen = "127.0.0.1:7070";  ///< HOST:PORT, port 0 being any free one; or unix:PATH.
+  std::vector<std::string> more_listen;   ///< Further addresses of the same.
   std::string metrics_listen;             ///< HOST:PORT of the metrics; empty: none.
   std::string http_listen;                ///< HOST:PORT or unix:PATH of the gateway; empty: none.
   gateway::OriginRules http_rules;        ///< Whom the gateway answers.
@@ -81,7 +83,9 @@ struct Config {
   StoreOptions store;
   JobOptions jobs;
   GrpcServerOptions rpc;
-  launcher::LauncherOptions launcher;  ///< Of the role `launcher`.
+  ConnectionLimits connections;          ///< Of each listener.
+  int max_connection_bytes = 192 << 20;  ///< See GatewayThreads.
+  launcher::LauncherOptions launcher;    ///< Of the role `launcher`.
 };
 
 }  // namespace contact

@@ -31,10 +31,14 @@ const std::map<std::string, launcher::Engine> kEngines{{"exec", launcher::Engine
                                                        {"slurm", launcher::Engine::kSlurm}};
 
 // What the server is, apart from limits.
-void AddBasics(CLI::App* app, Config* config) {
-  app->add_option("--listen", config->listen,
-                  "HOST:PORT, port 0 being any free one; or unix:PATH, a socket file")
-      ->capture_default_str();
+void AddBasics(CLI::App* app, Config* config, Switches* switches) {
+  app->add_option(
+         "--listen", switches->listen,
+         "HOST:PORT, port 0 being any free one; or unix:PATH, a socket file. There are all "
+         "calls by gRPC, gRPC-Web and Connect, and the dashboard. May be repeated")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->default_str(config->listen);
   app->add_option("--data-dir", config->data_dir, "Directory of jobs and results; made if missing")
       ->capture_default_str();
   app->add_option(
@@ -83,9 +87,10 @@ void AddSharing(CLI::App* app, Config* config) {
 
 // The gateway for browsers and curl.
 void AddHttp(CLI::App* app, Config* config) {
-  app->add_option("--http-listen", config->http_listen,
-                  "HOST:PORT or unix:PATH for browsers and curl: the dashboard, and all calls by "
-                  "the protocols Connect and gRPC-Web");
+  app->add_option(
+      "--http-listen", config->http_listen,
+      "The same as one more --listen, but without TLS: for browsers, curl or a proxy of "
+      "this machine");
   app->add_option("--http-port-file", config->http_port_file,
                   "File to write the port of --http-listen to");
   app->add_option("--http-host", config->http_rules.hosts,
@@ -209,9 +214,9 @@ void AddPeerLimits(CLI::App* app, Config* config, Switches* switches) {
             "Watchers of all jobs together");
   AddNumber(app, "--max-watchers-per-peer", &calls.max_watchers_per_peer, 1, 100'000,
             "Streams of one address of the network");
-  AddNumber(app, "--max-connections", &config->rpc.connections.in_all, 1, 100'000,
+  AddNumber(app, "--max-connections", &config->connections.in_all, 1, 100'000,
             "Connections in all");
-  AddNumber(app, "--max-connections-per-peer", &config->rpc.connections.per_peer, 1, 100'000,
+  AddNumber(app, "--max-connections-per-peer", &config->connections.per_peer, 1, 100'000,
             "Connections of one address of the network");
   AddNumber(app, "--write-stall-seconds", &switches->write_stall_s, 0.01, 3600.0,
             "A reader of a stream that takes nothing for this time is dropped");
@@ -258,8 +263,9 @@ void AddOwnerLimits(CLI::App* app, JobOptions* jobs) {
 
 // Limits of memory and disk.
 void AddSpaceLimits(CLI::App* app, Config* config) {
-  AddNumber(app, "--max-rpc-memory-bytes", &config->rpc.max_memory_bytes, 16 << 20, 2047 << 20,
-            "Bytes that connections and messages under way may take");
+  AddNumber(app, "--max-rpc-memory-bytes", &config->max_connection_bytes, 16 << 20, 2047 << 20,
+            "Bytes of requests and answers under way that connections may hold; past it the one "
+            "that holds most is cut");
   app->add_option("--max-stored-bytes", config->store.max_bytes,
                   "Bytes of the database; 0: what the disk has")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 50))
@@ -358,7 +364,7 @@ void AddRetention(CLI::App* app, RetentionLimits* retention) {
 }  // namespace
 
 void AddFlags(CLI::App* app, Config* config, Switches* switches) {
-  AddBasics(app, config);
+  AddBasics(app, config, switches);
   AddSharing(app, config);
   AddHttp(app, config);
   AddLog(app, config);

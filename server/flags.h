@@ -13,9 +13,10 @@ namespace contact {
 
 /// Values of flags that are not settings themselves; ReadConfig derives settings from them.
 struct Switches {
-  bool no_reflection = false;  ///< Hide the services on loopback, too.
-  bool channelz = false;       ///< Show connections and calls on loopback.
-  bool insecure = false;       ///< Listening on addresses that others can reach is intended.
+  bool no_reflection = false;       ///< Hide the services on loopback, too.
+  bool channelz = false;            ///< Show connections and calls on loopback.
+  bool insecure = false;            ///< Listening on addresses that others can reach is intended.
+  std::vector<std::string> listen;  ///< The first is Config::listen; empty: its default.
   std::vector<std::string> listen_as;  ///< See ReadConfig.
   double write_stall_s = 30;           ///< GrpcServerOptions::write_stall, in seconds.
 };

@@ -17,7 +17,15 @@ bool HasFiles(const IdentityPaths& paths) {
 }  // namespace
 
 Listeners::Listeners(JobManager& jobs, Store& store, const Config& config, v1::ServerInfo info)
-    : jobs_(jobs), store_(store), config_(config), info_(std::move(info)) {}
+    : jobs_(jobs),
+      store_(store),
+      config_(config),
+      info_(std::move(info)),
+      threads_(static_cast<std::size_t>(config.max_connection_bytes)) {
+  const ConnectionLimits fitted = FitToDescriptors(config.connections);
+  info_.mutable_limits()->set_max_connections(fitted.in_all);
+  info_.mutable_limits()->set_max_connections_per_peer(fitted.per_peer);
+}
 
 std::string Listeners::Prepare() {
   if (!config_.audit_log.empty()) {
@@ -30,7 +38,7 @@ std::string Listeners::Prepare() {
   if (!HasFiles(config_.identity)) return "";
   const auto take = [this](const TlsMaterial& material) {
     if (tls_) return tls_->Replace(material);
-    tls_ = std::make_shared<TlsCredentials>(material);
+    tls_ = std::make_shared<gateway::TlsContext>(material);
   };
   const auto note = [audit = audit_](AuditRecord record) {
     if (audit) audit->Write(std::move(record));
@@ -45,62 +53,94 @@ Door Listeners::MainDoor() const {
   return AsksWhoCalls(config_.identity) ? Door(files_) : Door(LocalPrincipal());
 }
 
-std::string Listeners::Start() {
-  if (!ListenHttp()) return config_.http_listen;
+GatewayOptions Listeners::OptionsOf(const std::string& address) const {
+  return {.rules = config_.http_rules,
+          .tls = address.starts_with("unix:") ? nullptr : tls_,
+          .web_dir = config_.web_dir,
+          .max_body_bytes = static_cast<std::size_t>(config_.rpc.max_message_bytes),
+          .connections = config_.connections,
+          .stall = config_.rpc.write_stall};
+}
+
+const GrpcServer& Listeners::Add(const GrpcServerOptions& options) {
+  servers_.push_back(std::make_unique<GrpcServer>(jobs_, store_, options, info_));
+  servers_.back()->Start();
+  return *servers_.back();
+}
+
+std::string Listeners::StartMain() {
+  std::vector<std::string> addresses = {config_.listen, config_.http_listen};
+  addresses.insert(addresses.end(), config_.more_listen.begin(), config_.more_listen.end());
+  std::vector<Listener> listeners;
+  for (const std::string& address : addresses) {
+    listeners.push_back(address.empty() ? Listener() : OpenListener(address));
+    if (!address.empty() && listeners.back().sockets.empty()) return address;
+  }
+  port_ = listeners[0].port;
+  http_port_ = listeners[1].port;
+  info_.set_http_address(HttpAddress());
   GrpcServerOptions options = config_.rpc;
   options.metrics = calls_;
   options.audit = audit_;
   options.door = MainDoor();
-  options.credentials = tls_ && !config_.listen.starts_with("unix:") ? tls_->Make() : nullptr;
   options.admin = config_.listen_admin.empty();
-  const auto port = Open(config_.listen, options);
-  if (!port) return config_.listen;
-  port_ = *port;
-  options.credentials = nullptr;
+  const GrpcServer& server = Add(options);
+  for (std::size_t i = 0; i < listeners.size(); ++i) {
+    if (listeners[i].sockets.empty()) continue;
+    opened_.push_back({std::move(listeners[i]), &server, OptionsOf(addresses[i])});
+    if (addresses[i] == config_.http_listen) opened_.back().options.tls = nullptr;
+  }
+  return "";
+}
+
+bool Listeners::StartFile(const std::string& address, const GrpcServerOptions& options,
+                          bool trusts_principal) {
+  Listener listener = OpenListener(address);
+  if (listener.sockets.empty()) return false;
+  GatewayOptions how = OptionsOf(address);
+  how.trusts_principal = trusts_principal;
+  opened_.push_back({std::move(listener), &Add(options), std::move(how)});
+  return true;
+}
+
+std::string Listeners::Start() {
+  if (std::string taken = StartMain(); !taken.empty()) return taken;
+  GrpcServerOptions options = config_.rpc;
+  options.metrics = calls_;
+  options.audit = audit_;
   options.reflection = options.channelz = options.admin = false;
   for (const SocketListener& socket : config_.listen_as) {
     options.door = Door(socket.principal);
-    if (!Open("unix:" + socket.path, options)) return socket.path;
+    if (!StartFile("unix:" + socket.path, options)) return socket.path;
   }
   options.door = Door(TrustedProxy());
-  if (!config_.trusted_proxy.empty() && !Open(config_.trusted_proxy, options)) {
+  if (!config_.trusted_proxy.empty() && !StartFile(config_.trusted_proxy, options, true)) {
     return config_.trusted_proxy;
   }
   if (config_.listen_admin.empty()) return "";
   options.door = Door(SocketAdmin());
   options.reflection = options.admin = true;
   options.channelz = config_.admin_channelz;
-  return Open(config_.listen_admin, options) ? "" : config_.listen_admin;
+  return StartFile(config_.listen_admin, options) ? "" : config_.listen_admin;
 }
 
-std::optional<int> Listeners::Open(const std::string& address, const GrpcServerOptions& options) {
-  servers_.push_back(std::make_unique<GrpcServer>(jobs_, store_, options, info_));
-  return servers_.back()->Start(address);
+void Listeners::Serve(const std::function<std::string()>& metrics) {
+  const bool tells = !MainDoor().asks() && config_.listen_admin.empty();
+  for (Opened& opened : std::exchange(opened_, {})) {
+    const bool main = opened.server == servers_.front().get();
+    if (tells && main) opened.options.metrics = metrics;
+    gateways_.push_back(std::make_unique<Gateway>(
+        threads_, std::move(opened.listener), opened.server->Inside(), std::move(opened.options)));
+  }
 }
 
-bool Listeners::ListenHttp() {
-  const std::string& address = config_.http_listen;
-  if (address.empty()) return true;
-  http_ = OpenListener(address);
-  http_port_ = http_.port;
-  info_.set_http_address(
-      address.starts_with("unix:")
-          ? address
-          : fmt::format("http://{}:{}", address.substr(0, address.rfind(':')), http_port_));
-  return !http_.sockets.empty();
-}
-
-void Listeners::ServeHttp(std::function<std::string()> metrics) {
-  if (http_.sockets.empty()) return;
-  GatewayOptions options{.rules = config_.http_rules,
-                         .web_dir = config_.web_dir,
-                         .max_body_bytes = static_cast<std::size_t>(config_.rpc.max_message_bytes),
-                         .stall = config_.rpc.write_stall};
-  options.connections.per_peer =
-      std::min(options.connections.per_peer, config_.rpc.connections.per_peer);
-  if (!MainDoor().asks() && config_.listen_admin.empty()) options.metrics = std::move(metrics);
-  gateway_ =
-      std::make_unique<Gateway>(std::move(http_), servers_.front()->Inside(), std::move(options));
+std::string Listeners::HttpAddress() const {
+  const bool own = !config_.http_listen.empty();
+  const std::string& address = own ? config_.http_listen : config_.listen;
+  if (address.starts_with("unix:")) return address;
+  const char* scheme = own || !tls_ ? "http" : "https";
+  return fmt::format("{}://{}:{}", scheme, address.substr(0, address.rfind(':')),
+                     own ? http_port_ : port_);
 }
 
 SelfProbe Listeners::Probe() const {
@@ -111,24 +151,24 @@ SelfProbe Listeners::Probe() const {
 void Listeners::Shutdown(std::chrono::milliseconds grace) {
   using std::chrono::milliseconds;
   const auto end = SystemClock().Elapsed() + grace;
+  const auto left = [&] {
+    const auto time = std::chrono::duration_cast<milliseconds>(end - SystemClock().Elapsed());
+    return std::max(time, milliseconds(0));
+  };
+  for (const auto& gateway : gateways_) gateway->Drain();
   for (const auto& server : servers_) server->Drain();
-  if (gateway_) gateway_->Finish(grace);
-  gateway_.reset();  // It calls the first server, and must not once that shuts down.
-  for (const auto& server : servers_) {
-    const auto left = std::chrono::duration_cast<milliseconds>(end - SystemClock().Elapsed());
-    server->Shutdown(std::max(left, milliseconds(0)));
-  }
+  for (const auto& gateway : gateways_) gateway->Finish(left());
+  gateways_.clear();  // They call the servers, and must not once those shut down.
+  for (const auto& server : servers_) server->Shutdown(left());
 }
 
 void Listeners::AddTo(MetricsSources::Now* now) const {
   for (const auto& server : servers_) {
     now->watchers += server->watchers();
-    now->connections += server->connections();
-    now->refused_connections += server->refused_connections();
   }
-  if (gateway_) {
-    now->connections += gateway_->connections();
-    now->refused_connections += gateway_->refused_connections();
+  for (const auto& gateway : gateways_) {
+    now->connections += gateway->connections();
+    now->refused_connections += gateway->refused_connections();
   }
   if (!files_) return;
   now->tls_failures = files_->tls_failures();

@@ -11,13 +11,13 @@
 #include "gateway/gateway.h"
 #include "identity/identity_files.h"
 #include "rpc/metrics/metrics_page.h"
-#include "rpc/net/tls_credentials.h"
 #include "self_probe.h"
 
 namespace contact {
 
 /// All listeners of the server, each with the identity that it asks for: `--listen`, every
-/// `--listen-as`, and `--listen-admin`.
+/// `--listen-as`, and `--listen-admin`. Each kind of identity has a gRPC server of its own, and
+/// each listener a gateway before it.
 class Listeners {
  public:
   /// Manager and store outlive it. `info`: see JobService.
@@ -26,12 +26,12 @@ class Listeners {
   /// Reads the files of identity and opens the audit log. Returns what is wrong; empty: nothing.
   std::string Prepare();
 
-  /// Opens all listeners. Returns the address that cannot be had; empty: none.
+  /// Opens all listeners and starts the servers; who connects waits for Serve. Returns the address
+  /// that cannot be had; empty: none.
   std::string Start();
-
-  /// Serves `--http-listen`, if it is given; after Start. `metrics`: the text of the metrics page,
-  /// which is served where nobody is asked who calls and AdminService has no listener of its own.
-  void ServeHttp(std::function<std::string()> metrics);
+  /// Serves those who connect. `metrics`: the text of the metrics page, which is there where nobody
+  /// is asked who calls and AdminService has no listener of its own.
+  void Serve(const std::function<std::string()>& metrics);
   /// The port of `--http-listen`; 0 for a socket file, and for none.
   int http_port() const { return http_port_; }
 
@@ -41,8 +41,8 @@ class Listeners {
   /// Asks the server at `--listen`; past the listener if that wants client certificates.
   SelfProbe Probe() const;
 
-  /// Ends the gateway, which calls the first server, then the servers, as GrpcServer::Shutdown; all
-  /// calls together get `grace`.
+  /// Ends the gateways, then the servers that they call, as GrpcServer::Shutdown; all calls
+  /// together get `grace`.
   void Shutdown(std::chrono::milliseconds grace);
 
   /// Adds what is known of connections, streams, certificate and files of identity.
@@ -54,10 +54,24 @@ class Listeners {
  private:
   /// Who comes in by `--listen`.
   Door MainDoor() const;
-  /// Listens on `--http-listen`, if it is given, and tells clients. False: it cannot be had.
-  bool ListenHttp();
-  /// Opens a listener; its port, or nothing if the address cannot be had.
-  std::optional<int> Open(const std::string& address, const GrpcServerOptions& options);
+  /// What the gateway of a listener is to do, without its metrics.
+  GatewayOptions OptionsOf(const std::string& address) const;
+  /// A listener that waits for Serve, with the server that answers there.
+  struct Opened {
+    Listener listener;
+    const GrpcServer* server;
+    GatewayOptions options;
+  };
+  /// Listens on `--listen` and `--http-listen`, where the first server answers. Returns the address
+  /// that cannot be had.
+  std::string StartMain();
+  /// Where browsers find the server.
+  std::string HttpAddress() const;
+  /// A server with these options, which serves.
+  const GrpcServer& Add(const GrpcServerOptions& options);
+  /// Serves a socket file by a server of its own. False: it cannot be had.
+  bool StartFile(const std::string& address, const GrpcServerOptions& options,
+                 bool trusts_principal = false);
 
   JobManager& jobs_;
   Store& store_;
@@ -66,17 +80,17 @@ class Listeners {
   const std::shared_ptr<RpcMetrics> calls_ = std::make_shared<RpcMetrics>();
   std::shared_ptr<AuditLog> audit_;
   /// Null without TLS.
-  std::shared_ptr<TlsCredentials> tls_;
+  std::shared_ptr<gateway::TlsContext> tls_;
   /// Null without files of identity.
   std::shared_ptr<IdentityFiles> files_;
   int port_ = 0;
   /// That of `--listen` first.
   std::vector<std::unique_ptr<GrpcServer>> servers_;
-  /// Of `--http-listen`, until it is served.
-  Listener http_;
   int http_port_ = 0;
-  /// Null without `--http-listen`. Calls the first server.
-  std::unique_ptr<Gateway> gateway_;
+  std::vector<Opened> opened_;
+  GatewayThreads threads_;
+  /// Each calls a server.
+  std::vector<std::unique_ptr<Gateway>> gateways_;
 };
 
 }  // namespace contact

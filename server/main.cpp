@@ -137,11 +137,12 @@ void TellMemory(const Config& config) {
   }
 }
 
-// Serves --http-listen if it is given, and tells where. False: its port cannot be written down.
-bool ServeHttp(const Config& config, MetricsSources sources, Listeners& listeners) {
-  if (config.http_listen.empty()) return true;
+// Serves those who connect. Tells where --http-listen is, if it is given. False: its port cannot be
+// written down.
+bool ServeCallers(const Config& config, MetricsSources sources, Listeners& listeners) {
   const auto page = std::make_shared<MetricsPage>(std::move(sources));
-  listeners.ServeHttp([page] { return page->Text(); });
+  listeners.Serve([page] { return page->Text(); });
+  if (config.http_listen.empty()) return true;
   const std::string port = std::to_string(listeners.http_port());
   if (!config.http_port_file.empty() && ReplaceFile(config.http_port_file, port + "\n")) {
     fmt::print(stderr, "contactd: cannot write --http-port-file {}\n",
@@ -372,7 +373,7 @@ int Serve(Config config, const sigset_t& signals) {
     fmt::print(stderr, "contactd: cannot listen on {}; does another process?\n", taken);
   } else if (!ServeMetrics(config, Sources(config, options, jobs, listeners), &metrics)) {
     code = kExitHeld;
-  } else if (!ServeHttp(config, Sources(config, options, jobs, listeners), listeners) ||
+  } else if (!ServeCallers(config, Sources(config, options, jobs, listeners), listeners) ||
              !Announce(config, listeners.port())) {
     code = kExitUsage;
   } else {

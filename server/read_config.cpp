@@ -60,13 +60,18 @@ std::string VariableOf(const CLI::Option& option) {
   return name;
 }
 
-// The environment variables as flags. They go before those of the command line, which then win.
-std::vector<std::string> FlagsFromEnvironment(const CLI::App& app) {
+// The environment variables as flags, without those that the command line has.
+std::vector<std::string> FlagsFromEnvironment(const CLI::App& app,
+                                              const std::vector<std::string>& given) {
   std::vector<std::string> flags;
   for (const CLI::Option* option : app.get_options()) {
     const char* value = std::getenv(option->get_envname().c_str());
     if (option->get_envname().empty() || value == nullptr || *value == '\0') continue;
-    flags.push_back(fmt::format("--{}={}", option->get_lnames().front(), value));
+    const std::string flag = "--" + option->get_lnames().front();
+    const bool wins = std::ranges::any_of(given, [&flag](const std::string& argument) {
+      return argument == flag || argument.starts_with(flag + "=");
+    });
+    if (!wins) flags.push_back(fmt::format("{}={}", flag, value));
   }
   return flags;
 }
@@ -83,6 +88,13 @@ bool CheckAddress(const char* flag, const std::string& listen, const char* forms
       flag, fmt::format("{} is not a loopback address, and {}; use 127.0.0.1, or say "
                         "--insecure-i-know",
                         listen, need));
+}
+
+// All addresses of --listen.
+std::vector<std::string> ListenAddresses(const Config& config) {
+  std::vector<std::string> all(1, config.listen);
+  all.insert(all.end(), config.more_listen.begin(), config.more_listen.end());
+  return all;
 }
 
 bool IsFile(const std::string& listen) { return listen.starts_with("unix:") && listen.size() > 5; }
@@ -109,7 +121,7 @@ void CheckIdentity(const Config& config) {
     refuse("--jwt-keys", "needs --jwt-issuer and --jwt-audience");
   }
   const bool tokens = !identity.tokens.empty() || !identity.jwt_keys.empty();
-  if (tokens && !tls && !IsFile(config.listen)) {
+  if (tokens && !tls && !std::ranges::all_of(ListenAddresses(config), IsFile)) {
     refuse(identity.tokens.empty() ? "--jwt-keys" : "--tokens",
            "would go over the network unencrypted; give --tls-cert, or --listen "
            "unix:PATH");
@@ -244,16 +256,31 @@ void SettleLauncher(Config* config) {
   }
 }
 
+void SettleListen(const std::vector<std::string>& addresses, Config* config) {
+  if (addresses.empty()) return;
+  config->listen = addresses.front();
+  config->more_listen.assign(addresses.begin() + 1, addresses.end());
+}
+
+// True if only this machine reaches the addresses of --listen. Throws CLI::ValidationError for one
+// that others reach and must not, or that is none.
+bool CheckListen(const Config& config, bool asks, bool insecure) {
+  const bool safe = asks && !config.identity.tls.certificate.empty();
+  bool loopback = true;
+  for (const std::string& listen : ListenAddresses(config)) {
+    loopback &= IsFile(listen) ||
+                CheckAddress("--listen", listen, "HOST:PORT or unix:PATH", insecure || safe,
+                             "that needs --tls-cert, and --tokens or --tls-client-ca");
+  }
+  return loopback;
+}
+
 // Sets what follows from several flags. Throws CLI::ValidationError for values that one flag's own
 // check cannot refuse.
 void Finish(const Switches& switches, Config* config) {
-  const std::string& listen = config->listen;
   const bool asks = AsksWhoCalls(config->identity);
-  const bool safe = asks && !config->identity.tls.certificate.empty();
-  const bool loopback =
-      IsFile(listen) ||
-      CheckAddress("--listen", listen, "HOST:PORT or unix:PATH", switches.insecure || safe,
-                   "that needs --tls-cert, and --tokens or --tls-client-ca");
+  SettleListen(switches.listen, config);
+  const bool loopback = CheckListen(*config, asks, switches.insecure);
   if (!config->metrics_listen.empty()) {
     CheckAddress("--metrics-listen", config->metrics_listen, "HOST:PORT", switches.insecure,
                  "metrics have neither encryption nor password");
@@ -295,8 +322,9 @@ void AddSources(CLI::App* app) {
 
 // The arguments in the order that CLI11 wants: the last one first.
 std::vector<std::string> Arguments(const CLI::App& app, int argc, const char* const* argv) {
-  std::vector<std::string> arguments = FlagsFromEnvironment(app);
-  arguments.insert(arguments.end(), argv + 1, argv + argc);
+  const std::vector<std::string> given(argv + 1, argv + argc);
+  std::vector<std::string> arguments = FlagsFromEnvironment(app, given);
+  arguments.insert(arguments.end(), given.begin(), given.end());
   std::ranges::reverse(arguments);
   return arguments;
 }

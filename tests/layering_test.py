@@ -19,7 +19,7 @@ ORDER = {
     "server/storage": [".", "sqlite", "postgres"],
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "cluster", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],
-    "server/gateway": ["protocol", "."],
+    "server/gateway": ["net", "protocol", "call", "http1", "http2", "."],
     "client/cli": ["base", "input", "settings", "link", "text", "export", "figures", "paper", "help",
                    "verbs", "."],
     "client/cli/text": [".", "comparison", "sweep"],

@@ -11,20 +11,26 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 OWN_CLOCK = {
     "server/base/clock.cpp": "is the clock",
     "server/self_probe.cpp": "deadlines of calls are gRPC's, in system time",
-    "server/gateway/rpc_call.cpp": "deadlines of calls are gRPC's, in system time",
-    "server/gateway/connection.cpp": "limits what real sockets do in real time",
+    "server/gateway/call/rpc_call.cpp": "deadlines of calls are gRPC's, in system time",
+    "server/gateway/dispatch.cpp": "limits what real sockets do in real time",
+    "server/gateway/net/socket.cpp": "limits what real sockets do in real time",
+    "server/gateway/http1/connection.cpp": "limits what real sockets do in real time",
+    "server/gateway/http2/connection.cpp": "limits what real sockets do in real time",
+    "server/gateway/http2/callbacks.cpp": "limits what real sockets do in real time",
+    "server/gateway/http2/stream.cpp": "limits what real sockets do in real time",
+    "server/gateway/http2/turns.cpp": "waits on a timer of Asio until a real instant",
     "server/rpc/grpc_server.cpp": "gRPC takes the deadline of its shutdown as system time",
     "server/rpc/grpc_log.cpp": "gRPC logs before there is a server to inject a clock into",
     "server/rpc/shutdown_timer.cpp": "waits on a condition until a real instant",
     "server/rpc/call/call_guard.cpp": "deadlines of calls are gRPC's, in system time",
     "server/rpc/metrics/call_monitor.cpp": "gRPC makes the interceptors of calls itself",
-    "server/rpc/net/connection_acceptor.cpp": "limits what real sockets do in real time",
     "server/rpc/stream/stream_loop.cpp": "waits on a condition until a real instant",
     "server/rpc/stream/stream_reactor.h": "waits for real sockets",
 }
 # Tests that may sleep, and why.
 SLEEPS = {
     "tests/rpc/watch_stream_test.cpp": "plays clients that stall on real sockets",
+    "tests/gateway/door_test.cpp": "polls what sockets tell nobody",
     "tests/rpc/test_server.h": "polls what gRPC tells nobody",
 }
 # Programs that measure or load a server from outside: no unit tests.

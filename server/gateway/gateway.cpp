@@ -10,7 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/session.h"
+#include "gateway/call/service.h"
+#include "gateway/dispatch.h"
+#include "gateway/http2/connection.h"
+#include "gateway/net/acceptor.h"
 
 namespace contact {
 namespace {
@@ -20,32 +23,24 @@ constexpr unsigned kMostThreads = 8;
 
 }  // namespace
 
-/// The threads of the gateway and what runs on them. Each connection stays on one thread: threads
-/// that share an io_context wake each other at each step of a call.
-class Gateway::Threads {
+class GatewayThreads::Pool {
  public:
-  Threads(const std::shared_ptr<grpc::Channel>& channel, GatewayOptions options)
-      : service_(channel, std::move(options)) {
+  Pool() {
     const unsigned number =
         std::clamp(std::thread::hardware_concurrency(), kFewestThreads, kMostThreads);
     for (unsigned i = 0; i < number; ++i) threads_.push_back(std::make_unique<Thread>());
   }
-  /// Waits until all connections have ended.
-  ~Threads() { threads_.clear(); }
 
-  void Finish(std::chrono::milliseconds grace) { service_.requests().Finish(grace); }
+  boost::asio::io_context& first() { return threads_.front()->io; }
 
-  /// Called by one thread.
-  void Serve(int fd) {
-    boost::asio::io_context& io = threads_[next_++ % threads_.size()]->io;
-    boost::asio::post(io, [this, &io, fd] { gateway::Serve(io, service_, fd); });
-  }
+  /// Called on the first thread.
+  gateway::Http2Thread& Next() { return threads_[next_++ % threads_.size()]->http2; }
 
  private:
   struct Thread {
     Thread()
         : thread([this] {
-            pthread_setname_np(pthread_self(), "http");
+            pthread_setname_np(pthread_self(), "gateway");
             io.run();
           }) {}
     ~Thread() { work.reset(); }
@@ -53,35 +48,47 @@ class Gateway::Threads {
     boost::asio::io_context io{1};
     boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work{
         io.get_executor()};
-    std::jthread thread;  // Last: it uses both.
+    gateway::Http2Thread http2{io};
+    std::jthread thread;  // Last: it uses all of the above.
   };
 
-  gateway::Service service_;
   std::vector<std::unique_ptr<Thread>> threads_;
   std::size_t next_ = 0;
 };
 
-Gateway::Gateway(Listener listener, const std::shared_ptr<grpc::Channel>& channel,
-                 GatewayOptions options) {
-  ConnectionLimits limits = FitToDescriptors(options.connections);
-  limits.stall = options.stall;
-  threads_ = std::make_unique<Threads>(channel, std::move(options));
-  acceptor_ = std::make_unique<ConnectionAcceptor>(
-      std::move(listener), limits, [this](int /*listener*/, int fd) { threads_->Serve(fd); });
+GatewayThreads::GatewayThreads(std::size_t most_bytes)
+    : held_(most_bytes), pool_(std::make_unique<Pool>()) {}
+
+GatewayThreads::~GatewayThreads() = default;
+
+Gateway::Gateway(GatewayThreads& threads, Listener listener,
+                 const std::shared_ptr<grpc::Channel>& channel, GatewayOptions options)
+    : service_(std::make_shared<gateway::Service>(channel, std::move(options))) {
+  acceptor_ = gateway::Acceptor::Open(
+      threads.pool_->first(), std::move(listener), service_->connections(),
+      service_->options().stall, [service = service_, &threads](gateway::Acceptor::Accepted next) {
+        gateway::Dispatch(service, threads.held_, threads.pool_->Next(), std::move(next));
+      });
 }
 
 Gateway::~Gateway() {
-  acceptor_->Close();
-  acceptor_->Cut();
-  threads_.reset();
+  Drain();
+  service_->connections()->TellAll(true);
+  service_->connections()->AwaitNone();
 }
 
-std::size_t Gateway::connections() const { return acceptor_->open(); }
-std::int64_t Gateway::refused_connections() const { return acceptor_->refused(); }
+std::size_t Gateway::connections() const { return service_->connections()->open(); }
+std::int64_t Gateway::refused_connections() const { return service_->connections()->refused(); }
+
+void Gateway::Drain() {
+  if (const auto acceptor = std::exchange(acceptor_, nullptr)) acceptor->Close();
+  service_->requests().Finish(std::chrono::milliseconds(0));
+  service_->connections()->TellAll(false);
+}
 
 void Gateway::Finish(std::chrono::milliseconds grace) {
-  acceptor_->Close();
-  threads_->Finish(grace);
+  Drain();
+  service_->requests().Finish(grace);
 }
 
 }  // namespace contact

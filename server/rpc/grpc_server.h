@@ -4,20 +4,14 @@
 
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <optional>
-#include <string>
 
 #include "base/clock.h"
-#include "base/executor.h"
 #include "jobs/job_manager.h"
 #include "rpc/admin_service.h"
 #include "rpc/call/call_guard.h"
 #include "rpc/call_starter.h"
 #include "rpc/job_service.h"
-#include "rpc/net/connection_acceptor.h"
-#include "rpc/net/flood_guard.h"
 #include "rpc/stream/stream_loop.h"
 
 namespace contact {
@@ -26,25 +20,16 @@ namespace contact {
 struct GrpcServerOptions {
   /// Largest size of a request.
   int max_message_bytes = 8 << 20;
-  /// Memory of all connections and messages. Past it gRPC cuts some connections.
-  int max_memory_bytes = 512 << 20;
-  /// See ConnectionAcceptor.
-  ConnectionLimits connections = {};
   /// See CallGuard.
   CallLimits calls = {};
-  /// A connection that has not begun to speak HTTP/2 after this time is closed.
-  std::chrono::milliseconds handshake_timeout{5'000};
-  /// A reader of a stream that takes nothing for this time is dropped; also the limit of
-  /// `connections.stall`, which it replaces.
+  /// A reader of a stream that takes nothing for this time is dropped.
   std::chrono::milliseconds write_stall{30'000};
   /// True: the server answers which services and messages there are.
   bool reflection = true;
-  /// True: the server answers which connections there are, and what went over them.
+  /// True: the server answers which calls there are and were.
   bool channelz = false;
   /// Who comes in.
   Door door = Door();
-  /// How connections are protected; null: not at all.
-  std::shared_ptr<grpc::ServerCredentials> credentials = {};
   /// True: the server has AdminService.
   bool admin = true;
   /// Where calls are counted.
@@ -53,7 +38,9 @@ struct GrpcServerOptions {
   std::shared_ptr<AuditLog> audit = {};
 };
 
-/// The gRPC server of one listener: its settings, its services, its end.
+/// The gRPC server of those who come in by one Door: its settings, its services, its end. It
+/// listens on nothing: gRPC 1.51 bounds neither the frames nor the memory of a connection, so the
+/// gateway takes all bytes from outside and hands over whole calls.
 class GrpcServer {
  public:
   /// `identity`: see JobService. The manager, its store and the clock outlive the server.
@@ -66,13 +53,11 @@ class GrpcServer {
   GrpcServer(const GrpcServer&) = delete;
   GrpcServer& operator=(const GrpcServer&) = delete;
 
-  /// Listens on `HOST:PORT`, port 0 being any free one, and serves. Returns the port; nothing if
-  /// the address cannot be had. Another server on the same port is such a case. `unix:PATH` is a
-  /// socket file that its owner and group may use; its port is 0.
-  std::optional<int> Start(const std::string& address);
+  /// Serves.
+  void Start();
 
-  /// A channel to the services that passes neither listener nor acceptor. After Start only.
-  std::shared_ptr<grpc::Channel> Inside() const { return server_->InProcessChannel({}); }
+  /// A channel to the services. After Start only, and not to be used after Shutdown.
+  std::shared_ptr<grpc::Channel> Inside() const;
 
   /// Health turns NOT_SERVING; streams, also those that begin later, end with SERVER_DRAINING.
   void Drain();
@@ -84,25 +69,15 @@ class GrpcServer {
   /// Number of streams that are open.
   std::size_t watchers() const { return loop_->streams(); }
 
-  /// Numbers of connections that are open, and of those refused since the start.
-  std::size_t connections() const { return acceptor_ ? acceptor_->open() : 0; }
-  std::int64_t refused_connections() const { return acceptor_ ? acceptor_->refused() : 0; }
-
   /// Counters of calls and of streams.
   std::shared_ptr<const RpcMetrics> metrics() const { return metrics_; }
   std::shared_ptr<const StreamMetrics> stream_metrics() const { return loop_->metrics(); }
 
  private:
-  /// Starts gRPC and the acceptor of the listener's connections. Returns the port.
-  std::optional<int> Listen(Listener listener, grpc::ServerBuilder& builder);
-
-  /// The options, with connections reduced to what descriptors suffice for.
   const GrpcServerOptions options_;
   const std::shared_ptr<StreamLoop> loop_;
   /// Open streams of each peer.
   const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
-  /// Cuts connections by acceptor_.
-  const std::shared_ptr<FloodGuard> floods_ = std::make_shared<FloodGuard>();
   const std::shared_ptr<RpcMetrics> metrics_;
   CallGuard guard_;
   /// Starts the calls of both services.
@@ -110,12 +85,8 @@ class GrpcServer {
   /// The services. gRPC uses them until server_ is gone.
   JobService jobs_;
   AdminService admin_;
-  /// Gives connections to gRPC, which reads a new one on the thread that does so, for as long as
-  /// there is something to read.
-  Executor hand_over_{"hand-over"};
   /// Null before Start and after Shutdown.
   std::unique_ptr<grpc::Server> server_;
-  std::unique_ptr<ConnectionAcceptor> acceptor_;  // Hands connections to server_.
 };
 
 }  // namespace contact

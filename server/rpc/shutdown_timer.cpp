@@ -25,14 +25,10 @@ bool StoppedBefore(steady_clock::time_point end, const std::stop_token& stop) {
 
 }  // namespace
 
-ShutdownTimer::ShutdownTimer(milliseconds patience, Action urge, milliseconds limit, Action give_up)
-    : thread_([patience, urge = std::move(urge), limit,
-               give_up = std::move(give_up)](const std::stop_token& stop) {
+ShutdownTimer::ShutdownTimer(milliseconds limit, Action give_up)
+    : thread_([limit, give_up = std::move(give_up)](const std::stop_token& stop) {
         pthread_setname_np(pthread_self(), "shutdown-timer");
-        const auto begin = steady_clock::now();
-        if (StoppedBefore(begin + patience, stop)) return;
-        urge();
-        if (!StoppedBefore(begin + limit, stop)) give_up();
+        if (!StoppedBefore(steady_clock::now() + limit, stop)) give_up();
       }) {}
 
 }  // namespace contact

@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "contact/v1/job_service.pb.h"
+#include "gateway/http1/parsed_request.h"
 #include "gateway/protocol/codec.h"
 #include "gateway/protocol/origin.h"
-#include "gateway/protocol/parsed_request.h"
 #include "gateway/protocol/rpc_request.h"
 #include "gateway/protocol/static_files.h"
 

@@ -45,8 +45,7 @@ class ClientsTest(GatewayTest):
         run = subprocess.run(
             ["node", "--test", "--test-reporter=spec", "clients.test.mjs"], cwd=folder,
             capture_output=True, text=True, timeout=4 * PATIENCE_S,
-            env=os.environ | {"SERVER": f"http://127.0.0.1:{self.http}",
-                              "NATIVE": f"http://127.0.0.1:{self.server.port}", "JOB": self.one_job(),
+            env=os.environ | {"SERVER": f"http://127.0.0.1:{self.http}", "JOB": self.one_job(),
                               "DESCRIPTORS": str(contract)})
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         print(re.search(r"ℹ pass \d+", run.stdout)[0])

@@ -88,7 +88,7 @@ class TokensTest(ServerTest):
         end = time.monotonic() + PATIENCE_S
         while "PERMISSION_DENIED" not in (self.folder / "audit").read_text():
             self.assertLess(time.monotonic(), end)
-        self.assertIn('"peer":"unix:"', (self.folder / "audit").read_text())
+        self.assertIn(f'"peer":"unix:{os.getuid()}:', (self.folder / "audit").read_text())
 
 
 class PeerTest(GatewayTest):

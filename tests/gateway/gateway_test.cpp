@@ -178,8 +178,8 @@ class GatewayTest : public testing::Test {
   Client Connect(GatewayOptions options) {
     Listener listener = OpenTcpListener("127.0.0.1:0");
     port_ = listener.port;
-    gateway_ = std::make_unique<Gateway>(std::move(listener), server_->InProcessChannel({}),
-                                         std::move(options));
+    gateway_ = std::make_unique<Gateway>(threads_, std::move(listener),
+                                         server_->InProcessChannel({}), std::move(options));
     return Client(port_);
   }
   SlowCall& slow() { return service_.slow(); }
@@ -198,6 +198,7 @@ class GatewayTest : public testing::Test {
  private:
   TestService service_;
   std::unique_ptr<grpc::Server> server_;
+  GatewayThreads threads_;
   std::unique_ptr<Gateway> gateway_;
   int port_ = 0;
 };
@@ -330,7 +331,7 @@ TEST_F(GatewayTest, AnAnswerThatIsTakenDropByDropIsCut) {
 }
 
 TEST_F(GatewayTest, AConnectionWithoutARequestIsClosed) {
-  EXPECT_EQ(Connect({.idle = 20ms}).ReadAll(), "");
+  EXPECT_EQ(Connect({.handshake = 20ms}).ReadAll(), "");
 }
 
 TEST_F(GatewayTest, AConnectionThatIsIdleAfterARequestIsClosed) {

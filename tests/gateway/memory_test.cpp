@@ -1,4 +1,4 @@
-#include "gateway/memory.h"
+#include "gateway/net/memory.h"
 
 #include <gtest/gtest.h>
 

@@ -104,7 +104,7 @@ class HttpTest(GatewayTest):
 
     def test_what_is_no_http_is_refused_and_ended(self):
         for bad in (b"\x16\x03\x01\x02\x00\x01\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n",
-                    b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", b"GET / HTTP/1.1\r\nno colon\r\n\r\n",
+                    b"PRI * HTTP/3.0\r\n\r\nSM\r\n\r\n", b"GET / HTTP/1.1\r\nno colon\r\n\r\n",
                     self.request("POST", b"zz\r\n", "transfer-encoding: chunked"),
                     self.request("POST", b"{}", "content-length: -1"),
                     self.request("POST", b"{}", "content-length: 1", "content-length: 2")):

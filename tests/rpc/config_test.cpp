@@ -193,15 +193,15 @@ TEST_F(ConfigTest, EveryFlagArrives) {
   EXPECT_EQ(config.jobs.max_watchers, 11);
   EXPECT_EQ(config.jobs.scenario_limits.max_cells, 12);
   EXPECT_EQ(config.rpc.write_stall, std::chrono::milliseconds(500));
-  EXPECT_EQ(config.rpc.connections.in_all, 13);
-  EXPECT_EQ(config.rpc.connections.per_peer, 14);
+  EXPECT_EQ(config.connections.in_all, 13);
+  EXPECT_EQ(config.connections.per_peer, 14);
   EXPECT_EQ(config.rpc.calls.max_watchers_per_peer, 15);
   EXPECT_EQ(config.rpc.calls.max_creates_per_second, 1.5);
   EXPECT_EQ(config.rpc.calls.max_create_burst, 16);
   EXPECT_EQ(config.rpc.calls.max_metadata_bytes, 2048);
   EXPECT_EQ(config.store.max_bytes, 1'000'000);
   EXPECT_EQ(config.metrics_listen, "127.0.0.1:0");
-  EXPECT_EQ(config.rpc.max_memory_bytes, 16 << 20);
+  EXPECT_EQ(config.max_connection_bytes, 16 << 20);
   EXPECT_EQ(config.log_format, LogFormat::kJson);
   EXPECT_EQ(config.log_level, spdlog::level::warn);
   EXPECT_FALSE(config.rpc.reflection);
@@ -340,6 +340,17 @@ TEST_F(ConfigTest, SocketFileIsLocal) {
   const Config config = Good({"--listen", "unix:/run/contactd.sock"});
   EXPECT_EQ(config.listen, "unix:/run/contactd.sock");
   EXPECT_TRUE(config.rpc.reflection);
+}
+
+TEST_F(ConfigTest, EveryListenerIsCheckedAsTheFirst) {
+  const Config config = Good({"--listen", "unix:/run/contactd.sock", "--listen", "127.0.0.1:0"});
+  EXPECT_EQ(config.listen, "unix:/run/contactd.sock");
+  EXPECT_EQ(config.more_listen, std::vector<std::string>{"127.0.0.1:0"});
+  setenv("CONTACTD_LISTEN", "127.0.0.1:9", 1);
+  EXPECT_TRUE(Good({"--listen=127.0.0.1:0"}).more_listen.empty()) << "the command line wins";
+  unsetenv("CONTACTD_LISTEN");
+  EXPECT_EQ(Bad({"--listen", "127.0.0.1:0", "--listen", "0.0.0.0:0"}).code, kExitUsage);
+  EXPECT_EQ(Bad({"--listen", "127.0.0.1:0", "--listen", "nowhere"}).code, kExitUsage);
 }
 
 TEST_F(ConfigTest, DataDirDefaultsToTheStateFolderOfTheUser) {

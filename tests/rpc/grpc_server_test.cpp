@@ -2,12 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
-#include <sys/stat.h>
 
-#include <filesystem>
 #include <string>
 
-#include "client_socket.h"
 #include "test_server.h"
 
 namespace contact {
@@ -97,68 +94,6 @@ TEST(GrpcServerTest, ChannelzIsASwitchThatIsOff) {
   EXPECT_NE(CallRaw(open, method, "").bytes, "");
   const TestServer closed;
   EXPECT_EQ(CallRaw(closed, method, "").bytes, "");
-}
-
-TEST(GrpcServerTest, TwoServersCannotShareAPort) {
-  TestServer first;
-  GrpcServer second(first.jobs(), first.store(), {}, {});
-  EXPECT_FALSE(second.Start(first.address()));
-}
-
-TEST(GrpcServerTest, BadAddressIsAnError) {
-  TestServer first;
-  GrpcServer second(first.jobs(), first.store(), {}, {});
-  EXPECT_FALSE(second.Start("256.0.0.1:0"));
-}
-
-bool Answers(const std::string& target) {
-  const auto stub =
-      v1::JobService::NewStub(grpc::CreateChannel(target, grpc::InsecureChannelCredentials()));
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kPatience);
-  v1::ServerInfo info;
-  return stub->GetServerInfo(&context, {}, &info).ok();
-}
-
-TEST(GrpcServerTest, ListensOnIpv6AndOnNames) {
-  TestServer first;
-  for (const std::string host : {"[::1]", "localhost"}) {
-    GrpcServer server(first.jobs(), first.store(), {}, {});
-    const auto port = server.Start(host + ":0");
-    ASSERT_TRUE(port) << host;
-    EXPECT_TRUE(Answers(host + ":" + std::to_string(*port)));
-  }
-}
-
-TEST(GrpcServerTest, SocketFileIsForOwnerAndGroupAndForOneServer) {
-  TestServer first;
-  const TempDirectory folder;
-  const std::string file = folder.path() / "socket";
-  GrpcServer server(first.jobs(), first.store(), {}, {});
-  ASSERT_EQ(server.Start("unix:" + file), 0);
-  struct stat status = {};
-  ASSERT_EQ(stat(file.c_str(), &status), 0);
-  EXPECT_EQ(status.st_mode & 0777U, 0660U);
-  GrpcServer second(first.jobs(), first.store(), {}, {});
-  EXPECT_FALSE(second.Start("unix:" + file));
-  EXPECT_TRUE(Answers("unix:" + file));
-  server.Shutdown(std::chrono::seconds(1));
-  EXPECT_FALSE(std::filesystem::exists(file));
-}
-
-TEST(GrpcServerTest, SilentConnectionIsClosed) {
-  const TestServer server({.handshake_timeout = std::chrono::milliseconds(50)});
-  ClientSocket silent(server.port());
-  EXPECT_TRUE(silent.IsClosedByPeer());
-}
-
-TEST(GrpcServerTest, ConnectionsPastTheLimitAreRefused) {
-  const TestServer server({.connections = {.in_all = 2, .per_peer = 2}});
-  ClientSocket first(server.port());
-  ClientSocket second(server.port());
-  EXPECT_TRUE(Eventually([&] { return ClientSocket(server.port()).IsClosedByPeer(); }));
-  first.Close();
-  EXPECT_TRUE(Eventually([&] { return Answers(server.address()); }));
 }
 
 }  // namespace

@@ -132,15 +132,6 @@ TEST(JobServiceTest, OversizedRequestIsRefusedBeforeItIsRead) {
   EXPECT_TRUE(Create(server, Request(scenario), &job).ok());
 }
 
-TEST(JobServiceTest, CompressedRequestIsRefused) {
-  TestServer server;
-  v1::Job job;
-  for (const auto algorithm : {GRPC_COMPRESS_GZIP, GRPC_COMPRESS_DEFLATE}) {
-    const grpc::Status status = Create(server, Request(Collision()), &job, algorithm);
-    EXPECT_EQ(status.error_code(), grpc::UNIMPLEMENTED) << status.error_message();
-  }
-}
-
 TEST(JobServiceTest, DrainingManagerRefusesNewJobsOnly) {
   TestServer server;
   server.Create(Collision());

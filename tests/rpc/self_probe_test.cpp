@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gateway/gateway.h"
 #include "rpc/net/listener.h"
 #include "test_server.h"
 
@@ -12,8 +13,12 @@ using namespace std::chrono_literals;
 
 TEST(SelfProbe, ServerThatServesAnswersUntilItDrains) {
   TestServer server;
-  const SelfProbe outside("127.0.0.1:0", server.port(), false),
-      any("0.0.0.0:0", server.port(), false), inside(server.grpc().Inside());
+  GatewayThreads threads;
+  Listener listener = OpenTcpListener("127.0.0.1:0");
+  const int port = listener.port;
+  const Gateway gateway(threads, std::move(listener), server.grpc().Inside(), {});
+  const SelfProbe outside("127.0.0.1:0", port, false), any("0.0.0.0:0", port, false),
+      inside(server.grpc().Inside());
   for (const SelfProbe* probe : {&outside, &any, &inside}) EXPECT_TRUE(probe->Answers(10s));
   server.grpc().Drain();
   for (const SelfProbe* probe : {&outside, &any, &inside}) EXPECT_FALSE(probe->Answers(10s));

@@ -11,40 +11,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Calls {
-  std::atomic<int> urged = 0;
+TEST(ShutdownTimerTest, GivesUpWhileItLives) {
   std::atomic<int> given_up = 0;
-};
-
-TEST(ShutdownTimerTest, ActionsComeInOrderWhileItLives) {
-  Calls calls;
-  const ShutdownTimer timer(
-      0ms, [&] { ++calls.urged; }, 1ms,
-      [&] {
-        EXPECT_EQ(calls.urged, 1);
-        ++calls.given_up;
-      });
-  EXPECT_TRUE(Eventually([&] { return calls.given_up == 1; }));
+  const ShutdownTimer timer(1ms, [&] { ++given_up; });
+  EXPECT_TRUE(Eventually([&] { return given_up == 1; }));
 }
 
 TEST(ShutdownTimerTest, NothingHappensOnceItIsDestroyed) {
-  Calls calls;
+  std::atomic<int> given_up = 0;
   {
-    const ShutdownTimer timer(
-        1h, [&] { ++calls.urged; }, 2h, [&] { ++calls.given_up; });
+    const ShutdownTimer timer(1h, [&] { ++given_up; });
   }
-  EXPECT_EQ(calls.urged, 0);
-  EXPECT_EQ(calls.given_up, 0);
-}
-
-TEST(ShutdownTimerTest, UrgingMayBeEnough) {
-  Calls calls;
-  {
-    const ShutdownTimer timer(
-        0ms, [&] { ++calls.urged; }, 1h, [&] { ++calls.given_up; });
-    EXPECT_TRUE(Eventually([&] { return calls.urged == 1; }));
-  }
-  EXPECT_EQ(calls.given_up, 0);
+  EXPECT_EQ(given_up, 0);
 }
 
 }  // namespace

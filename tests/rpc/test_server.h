@@ -21,15 +21,16 @@
 
 namespace contact {
 
-/// A whole server in this process, on a port and in a folder of its own.
+/// A whole server in this process, in a folder of its own, without a door.
 class TestServer {
  public:
   explicit TestServer(GrpcServerOptions options = {}, JobOptions jobs = {.workers = 2})
       : store_(OpenSqlite(folder_.path()).value()),
         jobs_(*store_, SystemClock(), RandomIds(), std::move(jobs)),
-        server_(jobs_, *store_, options, {}),
-        port_(server_.Start("127.0.0.1:0").value()),
-        stub_(v1::JobService::NewStub(Connect())) {}
+        server_(jobs_, *store_, options, {}) {
+    server_.Start();
+    stub_ = v1::JobService::NewStub(Connect());
+  }
 
   ~TestServer() {
     server_.Shutdown(std::chrono::seconds(1));
@@ -43,18 +44,9 @@ class TestServer {
   JobManager& jobs() { return jobs_; }
   Store& store() { return *store_; }
   v1::JobService::Stub& stub() { return *stub_; }
-  int port() const { return port_; }
-  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
 
-  /// A connection of its own that takes only about 64 KiB ahead of its reader, so that one who
-  /// does not read soon holds up the server's writes.
-  std::shared_ptr<grpc::Channel> Connect() const {
-    grpc::ChannelArguments arguments;
-    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    arguments.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, 64 << 10);
-    arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
-    return grpc::CreateCustomChannel(address(), grpc::InsecureChannelCredentials(), arguments);
-  }
+  /// A channel of its own. One who does not read holds up the server's writes.
+  std::shared_ptr<grpc::Channel> Connect() const { return server_.Inside(); }
 
   /// Submits a job and returns its name.
   std::string Create(const v1::Scenario& scenario) {
@@ -72,8 +64,7 @@ class TestServer {
   const std::unique_ptr<Store> store_;
   JobManager jobs_;
   GrpcServer server_;
-  const int port_;
-  const std::unique_ptr<v1::JobService::Stub> stub_;
+  std::unique_ptr<v1::JobService::Stub> stub_;
 };
 
 /// Reason of a failed call, from its details.

@@ -112,7 +112,7 @@ class EverythingAtOnceTest(MemoryTest):
         self.stall(self.server.run(recorded).name, 2000)
         runs = [self.server.create(scenario).name
                 for scenario in (balls_at_rest(19_999), endless()) * 3]
-        floods = [flooding.start(self.server.port, FLOOD_S, kind)
+        floods = [flooding.start(self.server.port, 1, FLOOD_S, kind)
                   for kind in ("unread calls", "CONTINUATION")]
         while any(flood.poll() is None for flood in floods):
             self.server.create(balls_at_rest(5000))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "gateway/protocol/codes.h"
@@ -31,6 +32,8 @@ constexpr std::array kForms = std::to_array<Form>({
     {"application/grpc-web+json", Protocol::kGrpcWeb, true},
     {"application/grpc-web-text", Protocol::kGrpcWebText, false},
     {"application/grpc-web-text+proto", Protocol::kGrpcWebText, false},
+    {"application/grpc", Protocol::kGrpc, false},
+    {"application/grpc+proto", Protocol::kGrpc, false},
 });
 
 // The end of a stream as Connect says it.
@@ -50,14 +53,15 @@ std::optional<Dialect> DialectOf(const std::string& media_type) {
 }
 
 Headers HeadersOf(const Dialect& dialect) {
-  Headers headers = {{"content-type", dialect.content_type}, {"cache-control", "no-store"}};
+  Headers headers = {{"content-type", dialect.content_type}};
+  if (dialect.protocol != Protocol::kGrpc) headers.emplace_back("cache-control", "no-store");
   // No message is compressed.
   if (dialect.protocol == Protocol::kConnectUnary)
     headers.emplace_back("accept-encoding", "identity");
   if (dialect.protocol == Protocol::kConnectStream) {
     headers.emplace_back("connect-accept-encoding", "identity");
   }
-  if (dialect.web()) headers.emplace_back("grpc-accept-encoding", "identity");
+  if (dialect.grpc()) headers.emplace_back("grpc-accept-encoding", "identity");
   return headers;
 }
 
@@ -66,27 +70,39 @@ std::string MessagePrefix(std::size_t size) {
   return {prefix.data(), prefix.size()};
 }
 
-std::string WebTrailers(const grpc::Status& status, const Trailers& trailers) {
-  std::string lines = fmt::format("grpc-status: {}\r\n", static_cast<int>(status.error_code()));
+Headers TrailersOf(const grpc::Status& status, const Trailers& trailers) {
+  Headers headers = {{"grpc-status", std::to_string(static_cast<int>(status.error_code()))}};
   if (!status.error_message().empty()) {
-    lines += fmt::format("grpc-message: {}\r\n", PercentEncode(status.error_message()));
+    headers.emplace_back("grpc-message", PercentEncode(status.error_message()));
   }
   if (!status.error_details().empty()) {
-    lines += fmt::format("grpc-status-details-bin: {}\r\n", ToBase64(status.error_details()));
+    headers.emplace_back("grpc-status-details-bin", ToBase64(status.error_details()));
   }
-  for (const auto& [name, value] : ToHeaders(trailers, "")) {
+  std::ranges::move(ToHeaders(trailers, ""), std::back_inserter(headers));
+  return headers;
+}
+
+std::string WebTrailers(const grpc::Status& status, const Trailers& trailers) {
+  std::string lines;
+  for (const auto& [name, value] : TrailersOf(status, trailers)) {
     lines += fmt::format("{}: {}\r\n", name, value);
   }
   return lines;
 }
 
 std::string EndOf(const Dialect& dialect, const grpc::Status& status, const Trailers& trailers) {
-  if (!dialect.web()) return ToBytes({kEndOfStream, ConnectEnd(status, trailers)});
+  if (dialect.protocol == Protocol::kGrpc) return "";
+  if (!dialect.grpc()) return ToBytes({kEndOfStream, ConnectEnd(status, trailers)});
   const std::string end = ToBytes({kTrailers, WebTrailers(status, trailers)});
   return dialect.protocol == Protocol::kGrpcWebText ? ToPaddedBase64(end) : end;
 }
 
 HttpAnswer Failure(const Dialect& dialect, const grpc::Status& error, const Trailers& trailers) {
+  if (dialect.protocol == Protocol::kGrpc) {
+    HttpAnswer answer{200, HeadersOf(dialect)};
+    std::ranges::move(TrailersOf(error, trailers), std::back_inserter(answer.headers));
+    return answer;
+  }
   if (dialect.framed()) return {200, HeadersOf(dialect), EndOf(dialect, error, trailers)};
   HttpAnswer answer{HttpStatus(error.error_code()), HeadersOf(dialect), ErrorJson(error)};
   answer.headers.front().second = "application/json";  // Also if messages are bytes.

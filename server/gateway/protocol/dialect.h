@@ -18,6 +18,7 @@ struct Dialect {
     kConnectStream,  ///< The body is frames, of which the last has the end in JSON.
     kGrpcWeb,        ///< The body is frames, of which the last has the trailers.
     kGrpcWebText,    ///< The same in base64.
+    kGrpc,           ///< The body is frames, and HTTP/2 has the trailers.
   };
   Protocol protocol = Protocol::kConnectUnary;
   /// Messages are JSON, else bytes.
@@ -27,7 +28,8 @@ struct Dialect {
 
   /// True for the protocols whose answers are frames and whose HTTP status is always 200.
   bool framed() const { return protocol != Protocol::kConnectUnary; }
-  bool web() const { return protocol == Protocol::kGrpcWeb || protocol == Protocol::kGrpcWebText; }
+  /// True for gRPC and gRPC-Web.
+  bool grpc() const { return protocol >= Protocol::kGrpcWeb; }
 };
 
 /// The dialect of a media type; nothing if there is none with it.
@@ -42,14 +44,18 @@ Headers HeadersOf(const Dialect& dialect);
 /// What goes before a message of this size; not for kConnectUnary.
 std::string MessagePrefix(std::size_t size);
 
-/// The last frame of an answer, or of kGrpcWebText its base64; not for kConnectUnary.
+/// The last frame of an answer, or of kGrpcWebText its base64; none for kGrpc. Not for
+/// kConnectUnary.
 std::string EndOf(const Dialect& dialect, const grpc::Status& status, const Trailers& trailers);
 
 /// The whole answer that says that a call failed.
 HttpAnswer Failure(const Dialect& dialect, const grpc::Status& error,
                    const Trailers& trailers = {});
 
-/// The text of gRPC-Web's trailers, a line each.
+/// What tells of the end of a call in gRPC's protocols.
+Headers TrailersOf(const grpc::Status& status, const Trailers& trailers);
+
+/// The same as the text of gRPC-Web, a line each.
 std::string WebTrailers(const grpc::Status& status, const Trailers& trailers);
 
 }  // namespace contact::gateway

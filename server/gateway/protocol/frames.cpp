@@ -29,6 +29,10 @@ std::array<char, 5> FramePrefix(std::uint8_t flags, std::size_t size) {
   return prefix;
 }
 
+std::size_t FrameBytes(std::string_view begin) {
+  return kPrefixBytes + (begin.size() < kPrefixBytes ? 0 : SizeIn(begin));
+}
+
 std::string ToBytes(const Frame& frame) {
   const auto prefix = FramePrefix(frame.flags, frame.payload.size());
   return std::string(prefix.data(), prefix.size()) + frame.payload;

@@ -26,6 +26,9 @@ struct Frame {
 /// What goes before a payload of this size.
 std::array<char, 5> FramePrefix(std::uint8_t flags, std::size_t size);
 
+/// Size of the frame that begins so, with its prefix; that of the prefix if not all of it is there.
+std::size_t FrameBytes(std::string_view begin);
+
 /// The frame as bytes.
 std::string ToBytes(const Frame& frame);
 

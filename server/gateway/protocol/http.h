@@ -13,6 +13,8 @@ using Headers = std::vector<std::pair<std::string, std::string>>;
 
 /// A request as it came.
 struct HttpRequest {
+  /// True for HTTP/2, whose answers may have trailers.
+  bool http2 = false;
   std::string method = "GET";
   /// As in the first line: path and query.
   std::string target = "/";
@@ -31,6 +33,8 @@ struct HttpAnswer {
   int status = 200;
   Headers headers = {};
   std::string body = {};
+  /// What HTTP/2 sends behind the body.
+  Headers trailers = {};
 };
 
 /// An answer of one line.

@@ -57,7 +57,7 @@ Status OneMessage(const std::string& body, std::string* message) {
 
 // The name of the header by which the dialect says how a message is compressed.
 const char* EncodingHeader(const Dialect& dialect) {
-  if (dialect.web()) return "grpc-encoding";
+  if (dialect.grpc()) return "grpc-encoding";
   return dialect.framed() ? "connect-content-encoding" : "content-encoding";
 }
 
@@ -68,7 +68,7 @@ Status CheckHeaders(const HttpRequest& request, const Dialect& dialect) {
     return Unimplemented("compressed messages are not taken; send them as they are");
   }
   const std::string_view version = request.header("connect-protocol-version");
-  if (!dialect.web() && !version.empty() && version != "1") {
+  if (!dialect.grpc() && !version.empty() && version != "1") {
     return Invalid("connect-protocol-version must be 1");
   }
   return Status::OK;
@@ -76,10 +76,10 @@ Status CheckHeaders(const HttpRequest& request, const Dialect& dialect) {
 
 // Reads the deadline, if there is one.
 Status ReadTimeout(const HttpRequest& request, RpcRequest* call) {
-  const char* name = call->dialect.web() ? "grpc-timeout" : "connect-timeout-ms";
+  const char* name = call->dialect.grpc() ? "grpc-timeout" : "connect-timeout-ms";
   if (!request.has(name)) return Status::OK;
   const std::string_view text = request.header(name);
-  const auto time = call->dialect.web() ? GrpcTimeout(text) : ConnectTimeout(text);
+  const auto time = call->dialect.grpc() ? GrpcTimeout(text) : ConnectTimeout(text);
   if (!time) return Invalid(fmt::format("{} is no time", name));
   call->timeout = std::min(std::chrono::milliseconds(*time), kLongest);
   return Status::OK;
@@ -142,7 +142,12 @@ Status ReadQuery(const HttpRequest& request, RpcRequest* call) {
 
 // The dialect of a request, that of a GET by its query.
 std::optional<Dialect> DialectOfRequest(const HttpRequest& request) {
-  if (request.method != "GET") return DialectOf(MediaType(request.header("content-type")));
+  if (request.method != "GET") {
+    auto dialect = DialectOf(MediaType(request.header("content-type")));
+    // HTTP/1.1 has no trailers that every proxy lets pass.
+    if (dialect && dialect->protocol == Protocol::kGrpc && !request.http2) return std::nullopt;
+    return dialect;
+  }
   const std::string encoding = QueryValue(request.target, "encoding").value_or("");
   if (encoding != "json" && encoding != "proto") return std::nullopt;
   return DialectOf("application/" + encoding);
@@ -153,13 +158,18 @@ bool MayBeGot(const MethodDescriptor& method) {
 }
 
 bool Fits(const Dialect& dialect, const MethodDescriptor& method) {
-  if (dialect.web()) return true;
+  if (dialect.grpc()) return true;
   return dialect.framed() == method.server_streaming();
 }
 
 }  // namespace
 
 bool IsRpc(const HttpRequest& request) { return FindMethod(request.path()) != nullptr; }
+
+bool IsNative(const HttpRequest& request) {
+  const auto dialect = DialectOfRequest(request);
+  return request.method == "POST" && dialect && dialect->protocol == Protocol::kGrpc;
+}
 
 std::string AllowedMethods(const HttpRequest& request) {
   const MethodDescriptor* method = FindMethod(request.path());
@@ -200,14 +210,23 @@ HttpAnswer AnswerOf(const RpcRequest& call, std::string message, const Status& s
     return answer;
   }
   answer.body.insert(0, MessagePrefix(answer.body.size()));
+  if (dialect.protocol == Protocol::kGrpc) answer.trailers = TrailersOf(status, trailers);
   if (dialect.protocol == Protocol::kGrpcWebText) answer.body = ToPaddedBase64(answer.body);
   answer.body += EndOf(dialect, status, trailers);
   return answer;
 }
 
+std::variant<RpcRequest, HttpAnswer> ReadNativeHead(const HttpRequest& request) {
+  RpcRequest call{.path = std::string(request.path()), .dialect = *DialectOfRequest(request)};
+  if (const Status status = ReadHead(request, &call); !status.ok()) {
+    return Failure(call.dialect, status);
+  }
+  return call;
+}
+
 HttpAnswer Refused(const HttpRequest& head, int status, const Status& why) {
   const auto dialect = DialectOfRequest(head);
-  if (!IsRpc(head) || !dialect) return PlainAnswer(status, why.error_message());
+  if (!(IsRpc(head) || IsNative(head)) || !dialect) return PlainAnswer(status, why.error_message());
   return Failure(*dialect, why);
 }
 

@@ -29,12 +29,19 @@ struct RpcRequest {
 /// True if the request is for a method of the contract.
 bool IsRpc(const HttpRequest& request);
 
+/// True if the request is a call in gRPC's own protocol, of whatever method.
+bool IsNative(const HttpRequest& request);
+
 /// The methods of HTTP that the target of a request takes, as `Allow` has them.
 std::string AllowedMethods(const HttpRequest& request);
 
 /// What a request that IsRpc asks for, by the specifications of Connect and gRPC-Web; or the answer
 /// to one that does not keep to them.
 std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request);
+
+/// What the head of a request that IsNative asks for: a call without `method`, whose messages stand
+/// in the body; or the answer to one that cannot be read.
+std::variant<RpcRequest, HttpAnswer> ReadNativeHead(const HttpRequest& request);
 
 /// The whole answer of a unary call that has ended so.
 HttpAnswer AnswerOf(const RpcRequest& call, std::string message, const grpc::Status& status,

@@ -1,7 +1,6 @@
 #include "rpc/call/call_guard.h"
 
 #include <fmt/format.h>
-#include <grpc/grpc_security_constants.h>
 
 #include <chrono>
 #include <utility>
@@ -23,16 +22,9 @@ constexpr std::size_t kEntryBytes = 32;
 std::size_t MetadataBytes(const grpc::ServerContextBase& context) {
   std::size_t bytes = 0;
   for (const auto& [name, value] : context.client_metadata()) {
-    bytes += name.size() + value.size() + kEntryBytes;
+    if (!name.starts_with("x-contactd-")) bytes += name.size() + value.size() + kEntryBytes;
   }
   return bytes;
-}
-
-void AddNames(const grpc::AuthContext& peer, const char* property, const std::string& prefix,
-              std::vector<std::string>* names) {
-  for (const grpc::string_ref& value : peer.FindPropertyValues(property)) {
-    names->push_back(prefix + std::string(value.data(), value.size()));
-  }
 }
 
 // All values of a name in the metadata of the call.
@@ -45,19 +37,11 @@ std::vector<std::string> ValuesOf(const char* name, const grpc::ServerContextBas
   return values;
 }
 
-// What the caller shows of itself: in the metadata of the call, and by the names in the certificate
-// of the connection.
+// What the caller shows of itself, and what the gateway says of its connection.
 Presented PresentedBy(const grpc::ServerContextBase& context) {
-  Presented presented;
-  presented.authorization = ValuesOf("authorization", context);
-  presented.principal = ValuesOf(kPrincipalHeader, context);
-  const auto peer = context.auth_context();
-  if (!peer || !peer->IsPeerAuthenticated()) return presented;
-  AddNames(*peer, GRPC_PEER_URI_PROPERTY_NAME, "", &presented.certificate);
-  AddNames(*peer, GRPC_PEER_DNS_PROPERTY_NAME, "dns:", &presented.certificate);
-  AddNames(*peer, GRPC_PEER_EMAIL_PROPERTY_NAME, "email:", &presented.certificate);
-  AddNames(*peer, GRPC_X509_CN_PROPERTY_NAME, "cn:", &presented.certificate);
-  return presented;
+  return {.authorization = ValuesOf("authorization", context),
+          .certificate = ValuesOf(kCertificateHeader, context),
+          .principal = ValuesOf(kPrincipalHeader, context)};
 }
 
 }  // namespace

@@ -80,8 +80,7 @@ class CallGuard {
   /// Takes what the call needs of the caller's limits.
   Result<Quotas::Place> CheckQuotas(const grpc::ServerContextBase& context, const Principal& caller,
                                     CallKind kind);
-  /// gRPC limits metadata too, but a client that does not confirm the server's HTTP/2 settings
-  /// gets around that.
+  /// Counts what a client has sent, and not what the gateway adds.
   std::optional<Error> CheckMetadata(const grpc::ServerContextBase& context) const;
   /// Takes a token from the bucket of the peer.
   std::optional<Error> CheckRate(const std::string& peer);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "rpc/metrics/rpc_metrics.h"
-#include "rpc/net/flood_guard.h"
 #include "rpc/net/peer.h"
 
 namespace contact {
@@ -15,11 +14,9 @@ namespace contact {
 /// Thread-safe.
 class CallMonitor final : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
-  /// Calls are counted in `metrics`, streams in `streams` while they are open, and `floods` hears
-  /// of all.
-  CallMonitor(std::shared_ptr<RpcMetrics> metrics, std::shared_ptr<PeerCounts> streams,
-              std::shared_ptr<FloodGuard> floods)
-      : metrics_(std::move(metrics)), streams_(std::move(streams)), floods_(std::move(floods)) {}
+  /// Calls are counted in `metrics`, streams in `streams` while they are open.
+  CallMonitor(std::shared_ptr<RpcMetrics> metrics, std::shared_ptr<PeerCounts> streams)
+      : metrics_(std::move(metrics)), streams_(std::move(streams)) {}
 
   /// The interceptor of one call. gRPC owns and deletes it.
   grpc::experimental::Interceptor* CreateServerInterceptor(
@@ -29,7 +26,6 @@ class CallMonitor final : public grpc::experimental::ServerInterceptorFactoryInt
   const std::shared_ptr<RpcMetrics> metrics_;
   /// Open streams of each peer.
   const std::shared_ptr<PeerCounts> streams_;
-  const std::shared_ptr<FloodGuard> floods_;
 };
 
 }  // namespace contact

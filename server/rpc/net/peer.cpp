@@ -3,48 +3,46 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <array>
+#include <atomic>
 
 namespace contact {
 namespace {
 
-// What gRPC says of a call that comes by no connection. Connections have an address.
-constexpr char kWithin[] = "unknown";
+// A number of its own for each connection to a socket file: the system has none.
+std::string UriOfFile(int fd) {
+  static std::atomic<std::uint64_t> connections = 0;
+  ucred user = {};
+  socklen_t size = sizeof(user);
+  if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &user, &size) != 0) user.uid = static_cast<uid_t>(-1);
+  return fmt::format("unix:{}:{}", user.uid, ++connections);
+}
 
 }  // namespace
 
-std::string PeerOf(const std::string& uri) {
-  const bool has_port = uri.starts_with("ipv4:") || uri.starts_with("ipv6:");
-  return uri.substr(0, has_port ? uri.rfind(':') : uri.find(':'));
-}
+std::string PeerOf(const std::string& uri) { return uri.substr(0, uri.rfind(':')); }
 
-std::string AddressOf(const sockaddr_storage& address) {
-  if (address.ss_family == AF_UNIX) return "unix";
+std::string UriOf(int fd) {
+  sockaddr_storage address = {};
+  socklen_t size = sizeof(address);
+  getpeername(fd, reinterpret_cast<sockaddr*>(&address), &size);
+  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
+  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
   std::array<char, INET6_ADDRSTRLEN> text = {};
-  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
-  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
-  const void* number = &v4.sin_addr;
-  if (address.ss_family == AF_INET6) number = &v6.sin6_addr;
-  inet_ntop(address.ss_family, number, text.data(), text.size());
-  return text.data();
-}
-
-std::string UriOf(const sockaddr_storage& address) {
-  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
-  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
   if (address.ss_family == AF_INET) {
-    return fmt::format("ipv4:{}:{}", AddressOf(address), ntohs(v4.sin_port));
+    inet_ntop(AF_INET, &v4.sin_addr, text.data(), text.size());
+    return fmt::format("ipv4:{}:{}", text.data(), ntohs(v4.sin_port));
   }
-  if (address.ss_family != AF_INET6) return "unix:";
-  return fmt::format("ipv6:%5B{}%5D:{}", AddressOf(address), ntohs(v6.sin6_port));
+  if (address.ss_family != AF_INET6) return UriOfFile(fd);
+  inet_ntop(AF_INET6, &v6.sin6_addr, text.data(), text.size());
+  return fmt::format("ipv6:%5B{}%5D:{}", text.data(), ntohs(v6.sin6_port));
 }
 
 std::string CallerUri(const grpc::ServerContextBase& context) {
-  std::string transport = context.peer();
-  if (transport != kWithin) return transport;
   const auto named = context.client_metadata().find(kPeerHeader);
-  if (named == context.client_metadata().end()) return transport;
+  if (named == context.client_metadata().end()) return context.peer();
   return {named->second.data(), named->second.size()};
 }
 

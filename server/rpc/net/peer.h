@@ -1,7 +1,6 @@
 #pragma once
 
 #include <grpcpp/server_context.h>
-#include <sys/socket.h>
 
 #include <map>
 #include <memory>
@@ -12,19 +11,21 @@
 namespace contact {
 
 /// The peer of a call, for limits: the network address without its port, such as `ipv4:127.0.0.1`.
-/// `uri` is `ServerContext::peer()`. All clients of a socket file are one peer, `unix`.
+/// `uri` is a connection as UriOf calls it. The clients of a socket file are a peer for each user
+/// of the machine, such as `unix:1000`.
 std::string PeerOf(const std::string& uri);
 
-/// The network address of a connection without its port; `unix` for one of a socket file.
-std::string AddressOf(const sockaddr_storage& address);
-/// The connection as gRPC calls it: `ipv4:127.0.0.1:5000`, `ipv6:%5B::1%5D:5000`, `unix:`.
-std::string UriOf(const sockaddr_storage& address);
+/// How the connection `fd` is called: `ipv4:127.0.0.1:5000`, `ipv6:%5B::1%5D:5000` as gRPC does,
+/// and `unix:1000:7` for the seventh connection of a process to socket files, by the user 1000.
+std::string UriOf(int fd);
 
-/// The metadata by which the gateway says from which connection a call comes, as UriOf.
+/// The metadata by which the gateway says from which connection a call comes, as UriOf; and a name
+/// in the client certificate of that connection, see CertificateRules, any number of times.
 inline constexpr char kPeerHeader[] = "x-contactd-peer";
+inline constexpr char kCertificateHeader[] = "x-contactd-certificate-bin";
 
-/// Who makes a call: `ServerContext::peer()`; for a call from within the process, the connection
-/// that the gateway names. Calls of a connection cannot name another.
+/// Who makes a call: the connection that the gateway names, `unknown` for a call from elsewhere in
+/// the process.
 std::string CallerUri(const grpc::ServerContextBase& context);
 
 /// Counts what each peer has open, such as streams. Thread-safe; owned by shared pointers.
