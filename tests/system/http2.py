@@ -1,6 +1,7 @@
 """A client of HTTP/2 made by hand, that may do what no library does."""
 
 import socket
+import ssl
 import struct
 
 PREFACE = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n"
@@ -50,7 +51,7 @@ def message(stream, content=b""):
     return frame(DATA, END_STREAM, stream, b"\0" + struct.pack(">I", len(content)) + content)
 
 
-def greet(port, *, window=None, file=None):
+def greet(port, *, window=None, file=None, tls=False):
     """A connection that has said who it is; `window`: what it is ready to take. To a port of this
     host, or to a socket file."""
     if file:
@@ -58,6 +59,10 @@ def greet(port, *, window=None, file=None):
         connection.connect(str(file))
     else:
         connection = socket.create_connection(("127.0.0.1", port), 5)
+    if tls:
+        context = ssl._create_unverified_context()
+        context.set_alpn_protocols(["h2"])
+        connection = context.wrap_socket(connection)
     settings = struct.pack(">HI", INITIAL_WINDOW_SIZE, window) if window else b""
     connection.sendall(PREFACE + frame(SETTINGS, 0, 0, settings))
     if window:
