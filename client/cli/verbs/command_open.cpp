@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -26,8 +27,11 @@ std::string PageOf(Client& client, const std::string& job) {
   const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
   const std::string& address = info.http_address();
   if (!address.starts_with("http")) {
+    const std::string file = address.substr(std::min(address.find(':') + 1, address.size()));
     throw Failure(ExitCode::kLocal,
-                  "the server has no page for browsers; it needs --http-listen HOST:PORT");
+                  fmt::format("the server's page is at a socket file, which browsers cannot open; "
+                              "`ssh -N -L 8080:{} HOST` has it at http://localhost:8080",
+                              file.empty() ? "FILE" : file));
   }
   if (job.empty()) return address + "/";
   const std::string name = FindJob(client, job);

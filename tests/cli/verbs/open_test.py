@@ -10,8 +10,6 @@ from contactd import PATIENCE_S, Server, ServerTest, three_ball_chain
 
 class OpenTest(ServerTest):
 
-    flags = ("--http-listen=127.0.0.1:0",)
-
     def open(self, *arguments, code=0, **variables):
         run = subprocess.run(
             [CONTACTCTL, "--server", f"127.0.0.1:{self.server.port}", "open", *arguments],
@@ -35,12 +33,20 @@ class OpenTest(ServerTest):
         printed = self.open(BROWSER=str(browser))
         self.assertEqual(seen.read_text(), printed)
 
-    def test_a_server_without_a_page_says_what_it_needs(self):
+    def test_an_address_of_its_own_for_browsers_is_told(self):
         self.server.kill()
-        self.server = Server(pathlib.Path(self.folder / "other"))
+        self.server = Server(pathlib.Path(self.folder / "other"), "--http-listen=127.0.0.1:0")
         self.addCleanup(self.server.kill)
         self.server.start()
-        self.assertIn("--http-listen", self.open(code=11))
+        self.assertNotIn(f":{self.server.port}/", self.open())
+
+    def test_a_page_at_a_socket_file_says_how_to_reach_it(self):
+        self.server.kill()
+        file = self.folder / "http"
+        self.server = Server(pathlib.Path(self.folder / "other"), f"--http-listen=unix:{file}")
+        self.addCleanup(self.server.kill)
+        self.server.start()
+        self.assertIn(f"ssh -N -L 8080:{file} HOST", self.open(code=11))
 
 
 if __name__ == "__main__":
