@@ -66,32 +66,31 @@ class ReadmeTest(unittest.TestCase):
 
     def test_limits_without_a_flag_are_those_of_the_code(self):
         told = {row[0]: number(row[2]) for row in rows("Limits") if row[1] == "–"}
-        server = (SERVER / "rpc/grpc_server.h").read_text("utf-8")
+        gateway = (SERVER / "gateway/call/options.h").read_text("utf-8")
         guard = (SERVER / "rpc/call/call_guard.cpp").read_text("utf-8")
-        handshake = re.search(r"handshake_timeout\{([\d']+)\}", server).group(1)
+        handshake = re.search(r"handshake\{([\d']+)\}", gateway).group(1)
         deadline = re.search(r"seconds kDefaultDeadline\{(\d+)\}", guard).group(1)
         budget = (SERVER / "rpc/call/request_budget.cpp").read_text("utf-8")
         fields = re.search(r"kMostFields = 1 << (\d+)", budget).group(1)
         service = (SERVER / "rpc/job_service.h").read_text("utf-8")
         requests = re.search(r"requests_\{(\d+) << 20\}", service).group(1)
-        floods = (SERVER / "rpc/net/flood_guard.cpp").read_text("utf-8")
-        most_open = re.search(r"kMostOpen = (\d+)", floods).group(1)
-        taken_back = re.search(r"kMostTakenBack = (\d+)", floods).group(1)
-        unanswered = re.search(r"kMostUnanswered = (\d+) << 20", floods).group(1)
+        http2 = (SERVER / "gateway/http2/connection.cpp").read_text("utf-8")
+        streams = re.search(r"kStreams = (\d+)", http2).group(1)
+        frames = (SERVER / "gateway/http2/frame_budget.h").read_text("utf-8")
+        free = re.search(r"kFree = ([\d']+)", frames).group(1)
         budgets = (SERVER / "jobs/quota/message_bytes.cpp").read_text("utf-8")
         messages = re.search(r"kAllBytes = std::size_t\{(\d+)\} << 20", budgets).group(1)
         columns = (SERVER / "wire/chunk_columns.h").read_text("utf-8")
         chunk = re.search(r"kMostChunkBytes = std::size_t\{(\d+)\} << 20", columns).group(1)
         self.assertEqual(told, {
-            "open calls of a connection": float(most_open),
-            "calls that a connection takes back in a second": float(taken_back),
-            "bytes of a connection between two answers, beside those of windows":
-                int(unanswered) * 2**20,
+            "streams of a connection": float(streams),
+            "frames of a connection in a second that move no bytes and ask nothing":
+                float(free.replace("'", "")),
             "messages of all streams": int(messages) * 2**20,
             "bytes of a frame chunk": int(chunk) * 2**20,
             "fields in a CreateJob request": 2.0 ** int(fields),
             "memory of CreateJob requests that are not answered yet": int(requests) * 2**20,
-            "time until a connection begins HTTP/2": float(handshake.replace("'", "")) / 1000,
+            "time until a connection has said its first bytes": float(handshake.replace("'", "")) / 1000,
             "time in the queue of a unary call without deadline": float(deadline)})
 
     def test_threads_are_those_of_the_code(self):
