@@ -142,6 +142,9 @@ void AddIdentity(CLI::App* app, Config* config, Switches* switches) {
   app->add_option("--tls-key", identity.tls.key, "Private key of --tls-cert, PEM");
   app->add_option("--tls-client-ca", identity.tls.client_ca,
                   "Authorities whose client certificates are taken, PEM; clients need one then");
+  app->add_option("--tls-crl", identity.tls.crl,
+                  "Lists of the client certificates that each authority of --tls-client-ca has "
+                  "revoked, PEM; read again when they change");
   app->add_option("--identity-rules", identity.rules,
                   "File that says which principal a client certificate is");
   app->add_option("--tokens", identity.tokens,

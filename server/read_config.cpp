@@ -108,6 +108,9 @@ void CheckIdentity(const Config& config) {
   };
   if (tls == identity.tls.key.empty()) refuse("--tls-cert", "goes with --tls-key");
   if (!identity.tls.client_ca.empty() && !tls) refuse("--tls-client-ca", "needs --tls-cert");
+  if (!identity.tls.crl.empty() && identity.tls.client_ca.empty()) {
+    refuse("--tls-crl", "needs --tls-client-ca");
+  }
   if (!identity.rules.empty() && identity.tls.client_ca.empty()) {
     refuse("--identity-rules", "needs --tls-client-ca");
   }

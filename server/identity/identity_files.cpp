@@ -49,7 +49,7 @@ IdentityFiles::IdentityFiles(IdentityPaths all, TlsChanged changed, Noted note, 
   }
   const TlsPaths& tls = paths.tls;
   if (tls.certificate.empty()) return;
-  tls_.emplace(std::vector{tls.certificate, tls.key, tls.client_ca},
+  tls_.emplace(std::vector{tls.certificate, tls.key, tls.client_ca, tls.crl},
                [tls, &clock] { return LoadTls(tls, clock.Now()); });
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 using std::chrono::system_clock;
 using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
+using List = std::unique_ptr<X509_CRL, decltype(&X509_CRL_free)>;
 using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
 using Memory = std::unique_ptr<BIO, decltype(&BIO_free_all)>;
 
@@ -39,6 +40,21 @@ system_clock::time_point ToTime(const ASN1_TIME* time) {
   return system_clock::from_time_t(timegm(&parts));
 }
 
+std::string MistakeOfList(const std::filesystem::path& path, const std::string& pem,
+                          system_clock::time_point now) {
+  const Memory lists = Open(pem);
+  int count = 0;
+  while (const List list{PEM_read_bio_X509_CRL(lists.get(), nullptr, nullptr, nullptr),
+                         &X509_CRL_free}) {
+    const ASN1_TIME* end = X509_CRL_get0_nextUpdate(list.get());
+    if (end != nullptr && now >= ToTime(end)) {
+      return fmt::format("{} was to be replaced by {}", path.string(), FormatUtc(ToTime(end)));
+    }
+    ++count;
+  }
+  return count > 0 ? "" : path.string() + " holds no list of revoked certificates";
+}
+
 std::string MistakeOf(const TlsPaths& paths, const TlsMaterial& material,
                       system_clock::time_point now) {
   const Certificate certificate = FirstCertificate(material.certificate);
@@ -57,7 +73,7 @@ std::string MistakeOf(const TlsPaths& paths, const TlsMaterial& material,
   if (!paths.client_ca.empty() && !FirstCertificate(material.client_ca)) {
     return paths.client_ca.string() + " holds no certificate";
   }
-  return "";
+  return paths.crl.empty() ? "" : MistakeOfList(paths.crl, material.crl, now);
 }
 
 }  // namespace
@@ -72,6 +88,7 @@ std::variant<TlsMaterial, std::string> LoadTls(const TlsPaths& paths,
       !ReadTrustedFile(paths.client_ca, &material.client_ca, &mistake)) {
     return mistake;
   }
+  if (!paths.crl.empty() && !ReadTrustedFile(paths.crl, &material.crl, &mistake)) return mistake;
   mistake = MistakeOf(paths, material, now);
   if (!mistake.empty()) return mistake;
   material.not_after = ToTime(X509_get0_notAfter(FirstCertificate(material.certificate).get()));

@@ -15,6 +15,8 @@ struct TlsPaths {
   std::filesystem::path key = {};
   /// The authorities whose client certificates are taken, PEM; empty: none are asked for.
   std::filesystem::path client_ca = {};
+  /// What these authorities have revoked, PEM, a list of each; empty: nothing.
+  std::filesystem::path crl = {};
 };
 
 /// What is in these files.
@@ -22,14 +24,15 @@ struct TlsMaterial {
   std::string certificate;
   std::string key;
   std::string client_ca;
+  std::string crl;
   /// End of the certificate's validity.
   std::chrono::system_clock::time_point not_after;
 };
 
 /// Reads the files; words about the first mistake if they cannot be used: one is missing or empty,
 /// holds no certificate or no key, the key is not that of the certificate or others may read its
-/// file, or the certificate is not valid at `now`. gRPC 1.51 checks none of this, and ends the
-/// process over an empty key.
+/// file, the certificate is not valid at `now`, or there is no list of revocations or one that is
+/// over, with which nobody would come in.
 std::variant<TlsMaterial, std::string> LoadTls(const TlsPaths& paths,
                                                std::chrono::system_clock::time_point now);
 

@@ -1,5 +1,6 @@
 """Makes certificates with openssl, for tests; nothing of it is kept."""
 
+import datetime
 import pathlib
 import subprocess
 
@@ -25,6 +26,22 @@ class Authority:
                       self.folder / f"{self.name}.key", "-CAcreateserial", "-days", str(days),
                       "-extfile", extensions, "-out", self.folder / f"{name}.pem")
         return self.folder / f"{name}.pem", self.folder / f"{name}.key"
+
+    def revoke(self, *names, days=2):
+        """The list of the certificates that are revoked, those before and these; negative `days`:
+        it is over."""
+        database, settings = self.folder / "index.txt", self.folder / "ca.cnf"
+        database.touch()
+        settings.write_text(f"[ca]\ndefault_ca=it\n[it]\ndatabase={database}\ndefault_md=sha256\n"
+                            f"certificate={self.pem}\nprivate_key={self.folder / self.name}.key\n")
+        for name in names:
+            self._openssl("ca", "-config", settings, "-revoke", self.folder / f"{name}.pem")
+        crl = self.folder / "crl.pem"
+        begin = datetime.datetime.utcnow() - datetime.timedelta(days=3)
+        end = datetime.datetime.utcnow() + datetime.timedelta(days=days)
+        self._openssl("ca", "-config", settings, "-gencrl", "-crl_lastupdate", f"{begin:%y%m%d%H%M%SZ}",
+                      "-crl_nextupdate", f"{end:%y%m%d%H%M%SZ}", "-out", crl)
+        return crl
 
     def _new_key(self, name):
         return ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-keyout",

@@ -125,6 +125,12 @@ class IdentityTest(unittest.TestCase):
             list(stub.WatchJob(job_service_pb2.WatchJobRequest(name=name), timeout=PATIENCE_S))
         return name
 
+    def wait_for(self, condition):
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
+
     def audit(self):
         return [json.loads(line) for line in (self.folder / "audit.log").read_text().splitlines()]
 
@@ -250,12 +256,6 @@ class RotationTest(IdentityTest):
                     return int(float(line.split()[-1]))
         return None
 
-    def wait_for(self, condition):
-        end = time.monotonic() + PATIENCE_S
-        while not condition():
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.05)
-
     def test_only_a_pair_that_can_be_used_replaces_the_old_one(self):
         read = pathlib.Path.read_bytes
         first = [read(path) for path in self.server_files]
@@ -304,6 +304,28 @@ class RotationTest(IdentityTest):
             self.write_tokens()
             self.wait_for(lambda: call(channel, info, "", self.tokens["right"]) == OK)
             self.assertEqual(call(channel, info, "", old), Code.UNAUTHENTICATED)
+
+
+class RevokedTest(IdentityTest):
+
+    def test_a_revoked_certificate_does_not_come_in_once_the_list_says_so(self):
+        bob = self.ca.issue("bob", "URI:spiffe://acme/user/bob")
+        crl = self.ca.revoke()
+        server = self.start(*self.tls(), f"--tls-client-ca={self.ca.pem}", f"--tls-crl={crl}",
+                            f"--identity-rules={self.folder / 'rules'}")
+        info = next(method for method in METHODS if method.name == "GetServerInfo")
+
+        def code(pair):
+            with self.channel(server, pair) as channel:
+                return call(channel, info, "", None)
+
+        self.assertEqual([code(self.ada), code(bob)], [OK, OK])
+        self.ca.revoke("bob")
+        self.wait_for(lambda: code(bob) == Code.UNAVAILABLE)
+        self.assertEqual(code(self.ada), OK)
+        crl.write_text("nonsense\n")
+        self.wait_for(lambda: "what was read before stays in use" in server.log())
+        self.assertEqual([code(self.ada), code(bob)], [OK, Code.UNAVAILABLE])
 
 
 class StreamTest(IdentityTest):
@@ -373,6 +395,11 @@ class SettingsTest(IdentityTest):
             (pair[0],): "--tls-key",
             (f"--tls-client-ca={self.ca.pem}",): "needs --tls-cert",
             (*pair, f"--tls-client-ca={self.ca.pem}"): "needs --identity-rules",
+            (*pair, f"--tls-crl={self.ca.pem}"): "needs --tls-client-ca",
+            (*pair, f"--tls-client-ca={self.ca.pem}", f"--identity-rules={self.folder / 'rules'}",
+             f"--tls-crl={self.ca.revoke(days=-1)}"): "was to be replaced by",
+            (*pair, f"--tls-client-ca={self.ca.pem}", f"--identity-rules={self.folder / 'rules'}",
+             f"--tls-crl={self.ca.pem}"): "holds no list",
             ("--listen-admin=127.0.0.1:0",): "must be unix:PATH",
             ("--trusted-proxy=127.0.0.1:0",): "must be unix:PATH",
             ("--listen-as=unix:/x user:a",): "tenant",

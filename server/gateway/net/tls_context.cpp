@@ -15,6 +15,7 @@ namespace {
 
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free_all)>;
 using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
+using List = std::unique_ptr<X509_CRL, decltype(&X509_CRL_free)>;
 
 // The protocols that the server speaks, the better one first, each with its length before it.
 constexpr std::string_view kProtocols("\x02h2\x08http/1.1", 12);
@@ -58,14 +59,21 @@ void UsePair(SSL_CTX* context, const TlsMaterial& material) {
 }
 
 // What certificates must say beyond their signature is up to the rules of identity.
-void AskClients(SSL_CTX* context, const std::string& client_ca) {
-  const Bio certificates = Open(client_ca);
+void AskClients(SSL_CTX* context, const TlsMaterial& material) {
+  const Bio certificates = Open(material.client_ca);
   while (const Certificate authority = Next(certificates.get())) {
     Demand(X509_STORE_add_cert(SSL_CTX_get_cert_store(context), authority.get()) == 1 &&
                SSL_CTX_add_client_CA(context, authority.get()) == 1,
            "authority of clients");
   }
+  X509_STORE* store = SSL_CTX_get_cert_store(context);
+  const Bio lists = Open(material.crl);
+  while (const List list{PEM_read_bio_X509_CRL(lists.get(), nullptr, nullptr, nullptr),
+                         &X509_CRL_free}) {
+    Demand(X509_STORE_add_crl(store, list.get()) == 1, "list of revoked certificates");
+  }
   ERR_clear_error();
+  if (!material.crl.empty()) X509_STORE_set_flags(store, X509_V_FLAG_CRL_CHECK);
   SSL_CTX_set_verify(context, SSL_VERIFY_PEER | SSL_VERIFY_FAIL_IF_NO_PEER_CERT, nullptr);
 }
 
@@ -81,7 +89,7 @@ std::shared_ptr<SSL_CTX> MakeContext(const TlsMaterial& material) {
                                       SSL_MODE_RELEASE_BUFFERS);
   SSL_CTX_set_alpn_select_cb(context.get(), &Choose, nullptr);
   UsePair(context.get(), material);
-  if (!material.client_ca.empty()) AskClients(context.get(), material.client_ca);
+  if (!material.client_ca.empty()) AskClients(context.get(), material);
   return context;
 }
 
