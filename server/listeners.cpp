@@ -69,6 +69,7 @@ const GrpcServer& Listeners::Add(const GrpcServerOptions& options) {
 }
 
 std::string Listeners::StartMain() {
+  constexpr std::size_t kHttp = 1;  // Of --http-listen, which has no TLS.
   std::vector<std::string> addresses = {config_.listen, config_.http_listen};
   addresses.insert(addresses.end(), config_.more_listen.begin(), config_.more_listen.end());
   std::vector<Listener> listeners;
@@ -77,7 +78,7 @@ std::string Listeners::StartMain() {
     if (!address.empty() && listeners.back().sockets.empty()) return address;
   }
   port_ = listeners[0].port;
-  http_port_ = listeners[1].port;
+  http_port_ = listeners[kHttp].port;
   info_.set_http_address(HttpAddress());
   GrpcServerOptions options = config_.rpc;
   options.metrics = calls_;
@@ -88,7 +89,7 @@ std::string Listeners::StartMain() {
   for (std::size_t i = 0; i < listeners.size(); ++i) {
     if (listeners[i].sockets.empty()) continue;
     opened_.push_back({std::move(listeners[i]), &server, OptionsOf(addresses[i])});
-    if (addresses[i] == config_.http_listen) opened_.back().options.tls = nullptr;
+    if (i == kHttp) opened_.back().options.tls = nullptr;
   }
   return "";
 }

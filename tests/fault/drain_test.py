@@ -118,7 +118,8 @@ class StuckCrowdTest(FaultTest):
                 http2.headers(stream, path) + http2.message(stream, request.SerializeToString())
                 for stream in range(1, 201, 2)))
         each = (self.settled() - base) / 10_000 * 1000
-        self.assertKept("kilobytes_a_stream", each, 64, "kB", slack=1)
+        # gRPC has two calls for each within the process, of 10 kB of arenas each, and two messages wait.
+        self.assertKept("kilobytes_a_stream", each, 112, "kB", slack=1)
         code, elapsed = self.server.terminate()
         self.assertEqual(code, 0, self.server.log())
         self.assertKept("exit", elapsed, 5, slack=1)

@@ -9,7 +9,9 @@
 namespace contact::gateway {
 namespace {
 
-constexpr std::size_t kReadAhead = 32 << 10;
+// Small messages wake the user some at a time; a stalled stream holds so much, or one message
+// (fault/drain).
+constexpr std::size_t kReadAhead = 4 << 10;
 
 }  // namespace
 
@@ -70,7 +72,7 @@ std::vector<grpc::ByteBuffer> RpcCall::Take() {
     const MutexLock lock(mutex_);
     taken.swap(messages_);
     ahead_ = 0;
-    read = !reading_ && !read_all_ && !released_;
+    read = taken.empty() && !reading_ && !read_all_ && !released_;
     reading_ = reading_ || read;
   }
   if (read) StartRead(&incoming_);

@@ -21,7 +21,7 @@ using Work = boost::asio::executor_work_guard<Executor>;
 void Prepare(const Service& service, const HttpRequest& head, const RpcRequest& request,
              const Peer& peer, grpc::ClientContext* context);
 
-/// A stream of messages through the server, in both directions. Up to 32 KiB of the server's
+/// A stream of messages through the server, in both directions. Up to 4 KiB of the server's
 /// messages are read ahead, so that small ones do not wake the user one by one, and no more, so
 /// that a client that takes nothing holds up the stream and not the memory. Used on the thread of
 /// its exchange; its user waits for `status` before it lets go.
@@ -40,7 +40,7 @@ class RpcCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   /// No more messages are written. Only if writable.
   void EndWrites();
 
-  /// Takes the messages that have come, in their order.
+  /// Takes the messages that have come, in their order. If there are none, more are asked for.
   std::vector<grpc::ByteBuffer> Take();
 
   /// True once the metadata before the messages are there, or the call has ended.
