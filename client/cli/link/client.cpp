@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "cli/base/socket_advice.h"
 #include "cli/link/printable_answers.h"
-#include "cli/link/socket_advice.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/base/process.h"
+#include "cli/base/socket_advice.h"
 #include "cli/base/table.h"
 #include "cli/link/client.h"
 #include "cli/link/credentials.h"
-#include "cli/link/socket_advice.h"
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"

@@ -1,4 +1,4 @@
-#include "cli/link/socket_advice.h"
+#include "cli/base/socket_advice.h"
 
 #include <gtest/gtest.h>
 
