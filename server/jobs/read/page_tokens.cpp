@@ -18,7 +18,7 @@ struct Block {
   std::int64_t position = 0;
   std::int64_t zero = 0;
 };
-constexpr int kBlockBytes = sizeof(Block);
+constexpr std::size_t kBlockBytes = sizeof(Block);
 
 using Bytes = std::array<unsigned char, kBlockBytes>;
 
@@ -37,7 +37,8 @@ Bytes Pass(const std::string& secret, const std::string& tenant, const Bytes& in
   EVP_CIPHER_CTX_set_padding(context.get(), 0);
   Bytes out;
   int size = 0;
-  Require(EVP_CipherUpdate(context.get(), out.data(), &size, in.data(), kBlockBytes) == 1);
+  Require(EVP_CipherUpdate(context.get(), out.data(), &size, in.data(),
+                           static_cast<int>(kBlockBytes)) == 1);
   return out;
 }
 
