@@ -34,7 +34,7 @@ class StoredHead : public AuditHead {
     while (busy_) idle_.wait(mutex_);
   }
 
-  std::string Read() override {
+  std::string Read() override {  // Leaves an empty row where there is none.
     const Kept kept =
         Await<Kept>([this](auto done) { store_.Keep(name_, "", false, std::move(done)); });
     if (!kept.ok()) spdlog::error("{} cannot be read: {}", name_, kept.status().ToString());

@@ -1,6 +1,7 @@
 #include "base/digest.h"
 
 #include <openssl/evp.h>
+#include <openssl/hmac.h>
 
 #include <boost/crc.hpp>
 #include <stdexcept>
@@ -18,6 +19,17 @@ std::uint32_t Crc32c(std::string_view bytes) {
   boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, true, true> crc;
   crc.process_bytes(bytes.data(), bytes.size());
   return crc.checksum();
+}
+
+std::string HmacSha256(const std::string& key, std::string_view bytes) {
+  std::string code(EVP_MAX_MD_SIZE, '\0');
+  unsigned int size = 0;
+  const auto* made = HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()),
+                          reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                          reinterpret_cast<unsigned char*>(code.data()), &size);
+  Require(made != nullptr ? 1 : 0);
+  code.resize(size);
+  return code;
 }
 
 struct Sha256::State {

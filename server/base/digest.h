@@ -10,6 +10,10 @@ namespace contact {
 /// CRC-32C (Castagnoli) of bytes: polynomial 0x1EDC6F41, reflected, as BackupChunk.crc32c has it.
 std::uint32_t Crc32c(std::string_view bytes);
 
+/// HMAC-SHA-256 of the bytes with this key: 32 bytes, not hexadecimal. Throws std::runtime_error if
+/// OpenSSL fails.
+std::string HmacSha256(const std::string& key, std::string_view bytes);
+
 /// SHA-256 of bytes that come in pieces. Throws std::runtime_error if OpenSSL fails. Not
 /// thread-safe.
 class Sha256 {

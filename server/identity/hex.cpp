@@ -1,11 +1,5 @@
 #include "identity/hex.h"
 
-#include <openssl/evp.h>
-#include <openssl/hmac.h>
-
-#include <array>
-#include <stdexcept>
-
 #include "base/digest.h"
 
 namespace contact {
@@ -28,14 +22,7 @@ std::string Sha256Hex(std::string_view bytes) {
 }
 
 std::string HmacHex(const std::string& key, std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> code;
-  unsigned int size = 0;
-  if (HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()),
-           reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), code.data(),
-           &size) == nullptr) {
-    throw std::runtime_error("OpenSSL cannot compute HMAC");
-  }
-  return Hex({reinterpret_cast<const char*>(code.data()), size});
+  return Hex(HmacSha256(key, bytes));
 }
 
 }  // namespace contact

@@ -39,6 +39,15 @@ TEST(Crc32cTest, EveryFlippedBitIsSeen) {
   }
 }
 
+// RFC 4231, test cases 2 and 6, the second with a key longer than a block.
+TEST(HmacSha256Test, HasThePublishedValues) {
+  EXPECT_EQ(Hex(HmacSha256("Jefe", "what do ya want for nothing?")),
+            "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
+  EXPECT_EQ(Hex(HmacSha256(std::string(131, '\xaa'),
+                           "Test Using Larger Than Block-Size Key - Hash Key First")),
+            "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
+}
+
 // FIPS 180-2, appendix B.
 TEST(Sha256Test, HasThePublishedValues) {
   EXPECT_EQ(Sha256Of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

@@ -65,14 +65,17 @@ bool IsOtherProtocol(std::string_view message) {
   return Contains(message, "parsing HTTP/2") || Contains(message, "http1.x");
 }
 
+// A line that says how to have a server at this address; empty where something else is.
+std::string HelpAt(const std::string& server, const std::string& message) {
+  if (IsOtherProtocol(message)) return "";
+  const std::string advice = SocketAdvice(server, message);
+  if (!advice.empty()) return fmt::format("  what helps:      {}\n", advice);
+  return fmt::format("  start one here:  contactd --listen {} --data-dir DIR\n", server);
+}
+
 std::string Unreachable(const grpc::Status& status, const std::string& server) {
   const std::string& message = status.error_message();
-  const std::string advice = SocketAdvice(server, message);
-  const std::string here =
-      IsOtherProtocol(message) ? ""
-      : !advice.empty()
-          ? fmt::format("  what helps:      {}\n", advice)
-          : fmt::format("  start one here:  contactd --listen {} --data-dir DIR\n", server);
+  const std::string here = HelpAt(server, message);
   return fmt::format(
       "cannot reach contactd at {} ({})\n"
       "{}  {}contactctl --server HOST:PORT …, CONTACT_SERVER, contactctl config use PROFILE",

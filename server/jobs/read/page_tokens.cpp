@@ -2,12 +2,13 @@
 
 #include <absl/strings/escaping.h>
 #include <openssl/evp.h>
-#include <openssl/hmac.h>
 
 #include <array>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+
+#include "base/digest.h"
 
 namespace contact {
 namespace {
@@ -17,7 +18,7 @@ struct Block {
   std::int64_t position = 0;
   std::int64_t zero = 0;
 };
-constexpr int kBlockBytes = sizeof(Block);
+constexpr std::size_t kBlockBytes = sizeof(Block);
 
 using Bytes = std::array<unsigned char, kBlockBytes>;
 
@@ -27,18 +28,17 @@ void Require(bool done) {
 
 // Encrypts a block with a key of the tenant, or decrypts it.
 Bytes Pass(const std::string& secret, const std::string& tenant, const Bytes& in, bool encrypt) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> key;
-  Require(HMAC(EVP_sha256(), secret.data(), static_cast<int>(secret.size()),
-               reinterpret_cast<const unsigned char*>(tenant.data()), tenant.size(), key.data(),
-               nullptr) != nullptr);
+  const std::string key = HmacSha256(secret, tenant);  // AES takes the first half.
   const std::unique_ptr<EVP_CIPHER_CTX, decltype(&EVP_CIPHER_CTX_free)> context(
       EVP_CIPHER_CTX_new(), EVP_CIPHER_CTX_free);
-  Require(EVP_CipherInit_ex(context.get(), EVP_aes_128_ecb(), nullptr, key.data(), nullptr,
+  Require(EVP_CipherInit_ex(context.get(), EVP_aes_128_ecb(), nullptr,
+                            reinterpret_cast<const unsigned char*>(key.data()), nullptr,
                             encrypt ? 1 : 0) == 1);
   EVP_CIPHER_CTX_set_padding(context.get(), 0);
   Bytes out;
   int size = 0;
-  Require(EVP_CipherUpdate(context.get(), out.data(), &size, in.data(), kBlockBytes) == 1);
+  Require(EVP_CipherUpdate(context.get(), out.data(), &size, in.data(),
+                           static_cast<int>(kBlockBytes)) == 1);
   return out;
 }
 
