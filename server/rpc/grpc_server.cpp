@@ -118,7 +118,7 @@ void GrpcServer::Shutdown(milliseconds grace) {
       spdlog::critical("gRPC did not shut down in time; ending the process");
       std::_Exit(1);
     };
-    const ShutdownTimer timer(grace + 2s, give_up);
+    const ShutdownTimer timer(grace + 3s, give_up);
     server_->Shutdown(std::chrono::system_clock::now() + grace);
     server_.reset();
   }

@@ -2,10 +2,12 @@
 
 #include <grpcpp/impl/codegen/proto_utils.h>
 
+#include <string>
 #include <utility>
 
 #include "base/spelling.h"
 #include "jobs/job/errors.h"
+#include "rpc/stream/serialized_source.h"
 #include "rpc/stream/watch_source.h"
 
 namespace contact {
@@ -23,10 +25,8 @@ v1::Principal ToMessage(const Principal& principal) {
 }  // namespace
 
 using grpc::ServerUnaryReactor;
-using grpc::ServerWriteReactor;
 
-ServerUnaryReactor* JobService::CreateJob(Context* context, const grpc::ByteBuffer* request,
-                                          grpc::ByteBuffer* response) {
+ServerUnaryReactor* JobService::CreateJob(Context* context, const Bytes* request, Bytes* response) {
   const Call call{"/contact.v1.JobService/CreateJob", "", CallKind::kCreateJob};
   return calls_.Unary<v1::Job>(context, call, response, [&](const auto& caller, auto answer) {
     v1::CreateJobRequest parsed;
@@ -92,43 +92,52 @@ ServerUnaryReactor* JobService::GetServerInfo(Context* context,
       });
 }
 
-ServerWriteReactor<grpc::ByteBuffer>* JobService::WatchJob(Context* context,
-                                                           const grpc::ByteBuffer* request) {
-  v1::WatchJobRequest parsed;
-  grpc::ByteBuffer bytes = *request;
-  const bool readable =
-      grpc::SerializationTraits<v1::WatchJobRequest>::Deserialize(&bytes, &parsed).ok();
-  const auto open = [&](const auto& caller, auto wake, auto opened) {
-    if (!readable) {
-      return opened(MakeError(Reason::kFieldInvalid, "the request is no WatchJobRequest"));
-    }
-    const auto watched = [opened, &loop = calls_.loop()](Result<WatchedJob> job) {
-      if (!job.ok()) return opened(job.error());
-      opened(MakeWatchSource(std::move(job.value()), loop.clock(), *loop.metrics()));
-    };
-    jobs_.watches().WatchJob(caller, parsed, wake, watched);
-  };
-  const Call call{"/contact.v1.JobService/WatchJob", parsed.name(), CallKind::kStream};
-  return calls_.Stream<grpc::ByteBuffer>(context, call, "job=" + Shortened(parsed.name()), open);
-}
-
-ServerWriteReactor<v1::WatchJobsResponse>* JobService::WatchJobs(
-    Context* context, const v1::WatchJobsRequest* request) {
-  const Call call{"/contact.v1.JobService/WatchJobs", "", CallKind::kStream};
-  return calls_.Stream<v1::WatchJobsResponse>(
-      context, call, "job=*", [&](const auto& caller, auto wake, auto opened) {
-        opened(jobs_.watches().WatchJobs(caller, *request, wake));
+template <class Request, class Open>
+JobService::Stream* JobService::Start(Context* context, const char* method, const Bytes& request,
+                                      Open open) {
+  Request parsed;
+  Bytes bytes = request;
+  const bool readable = grpc::SerializationTraits<Request>::Deserialize(&bytes, &parsed).ok();
+  std::string name;  // WatchJobs has none.
+  if constexpr (requires { parsed.name(); }) name = parsed.name();
+  const Call call{method, name, CallKind::kStream};
+  const std::string label = "job=" + (name.empty() ? "*" : Shortened(name));
+  return calls_.Stream<Bytes>(
+      context, call, label, [&](const auto& caller, auto wake, auto opened) {
+        if (readable) return open(caller, parsed, wake, opened);
+        const std::string type = Request::descriptor()->name();
+        opened(MakeError(Reason::kFieldInvalid, "the request is no " + type));
       });
 }
 
-ServerWriteReactor<v1::ReadArtifactResponse>* JobService::ReadArtifact(
-    Context* context, const v1::ReadArtifactRequest* request) {
-  const Call call{"/contact.v1.JobService/ReadArtifact", request->name(), CallKind::kStream};
-  return calls_.Stream<v1::ReadArtifactResponse>(context, call, "job=" + Shortened(request->name()),
-                                                 [&](const auto& caller, auto wake, auto opened) {
-                                                   jobs_.recordings().ReadArtifact(caller, *request,
-                                                                                   wake, opened);
-                                                 });
+JobService::Stream* JobService::WatchJob(Context* context, const Bytes* request) {
+  return Start<v1::WatchJobRequest>(
+      context, "/contact.v1.JobService/WatchJob", *request,
+      [&](const auto& caller, const auto& parsed, auto wake, auto opened) {
+        const auto watched = [opened, &loop = calls_.loop()](Result<WatchedJob> job) {
+          if (!job.ok()) return opened(job.error());
+          opened(MakeWatchSource(std::move(job.value()), loop.clock(), *loop.metrics()));
+        };
+        jobs_.watches().WatchJob(caller, parsed, wake, watched);
+      });
+}
+
+JobService::Stream* JobService::WatchJobs(Context* context, const Bytes* request) {
+  return Start<v1::WatchJobsRequest>(
+      context, "/contact.v1.JobService/WatchJobs", *request,
+      [&](const auto& caller, const auto& parsed, auto wake, auto opened) {
+        SerializedSource<v1::WatchJobsResponse>::Opens(opened)(
+            jobs_.watches().WatchJobs(caller, parsed, wake));
+      });
+}
+
+JobService::Stream* JobService::ReadArtifact(Context* context, const Bytes* request) {
+  return Start<v1::ReadArtifactRequest>(
+      context, "/contact.v1.JobService/ReadArtifact", *request,
+      [&](const auto& caller, const auto& parsed, auto wake, auto opened) {
+        jobs_.recordings().ReadArtifact(caller, parsed, wake,
+                                        SerializedSource<v1::ReadArtifactResponse>::Opens(opened));
+      });
 }
 
 }  // namespace contact

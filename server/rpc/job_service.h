@@ -14,11 +14,14 @@ namespace contact {
 /// The calls of the contract's JobService. Each is handed to the part of the JobManager that
 /// answers it. Handlers never wait, because gRPC runs all of them on a few threads.
 ///
-/// WatchJob sends serialised bytes, so that an event is serialised once for all watchers. CreateJob
-/// takes them, so that what a request would take is known before it is parsed.
-class JobService final
-    : public v1::JobService::WithRawCallbackMethod_CreateJob<
-          v1::JobService::WithRawCallbackMethod_WatchJob<v1::JobService::CallbackService>> {
+/// Streams send serialised bytes: WatchJob, so that an event is serialised once for all watchers,
+/// the others, so that readers who stall keep nothing else. CreateJob takes bytes, so that what a
+/// request would take is known before it is parsed.
+class JobService final : public v1::JobService::WithRawCallbackMethod_CreateJob<
+                             v1::JobService::WithRawCallbackMethod_WatchJob<
+                                 v1::JobService::WithRawCallbackMethod_WatchJobs<
+                                     v1::JobService::WithRawCallbackMethod_ReadArtifact<
+                                         v1::JobService::CallbackService>>>> {
  public:
   /// `identity` is the answer of GetServerInfo without the numbers that the manager knows. The
   /// manager and `calls` outlive the service.
@@ -28,12 +31,11 @@ class JobService final
  private:
   using Context = grpc::CallbackServerContext;
   using Unary = grpc::ServerUnaryReactor;
-  template <class Message>
-  using Stream = grpc::ServerWriteReactor<Message>;
+  using Bytes = grpc::ByteBuffer;
+  using Stream = grpc::ServerWriteReactor<Bytes>;
 
   /// Answered by JobCreator once the job is on disk. Limited for each peer, see CallKind.
-  Unary* CreateJob(Context* context, const grpc::ByteBuffer* request,
-                   grpc::ByteBuffer* response) override;
+  Unary* CreateJob(Context* context, const Bytes* request, Bytes* response) override;
   /// Answered by JobReader, with ledger and artifacts.
   Unary* GetJob(Context* context, const v1::GetJobRequest* request, v1::Job* response) override;
   /// Answered by JobReader, with a page of headers.
@@ -52,13 +54,16 @@ class JobService final
   Unary* GetServerInfo(Context* context, const v1::GetServerInfoRequest* request,
                        v1::ServerInfo* response) override;
   /// Opened by Watches; a WatchSource makes the messages.
-  Stream<grpc::ByteBuffer>* WatchJob(Context* context, const grpc::ByteBuffer* request) override;
+  Stream* WatchJob(Context* context, const Bytes* request) override;
   /// Opened by Watches; a JobsCursor makes the messages.
-  Stream<v1::WatchJobsResponse>* WatchJobs(Context* context,
-                                           const v1::WatchJobsRequest* request) override;
+  Stream* WatchJobs(Context* context, const Bytes* request) override;
   /// Opened by Recordings; an ArtifactReader makes the messages.
-  Stream<v1::ReadArtifactResponse>* ReadArtifact(Context* context,
-                                                 const v1::ReadArtifactRequest* request) override;
+  Stream* ReadArtifact(Context* context, const Bytes* request) override;
+
+  /// Starts a stream whose request is a `Request`; FIELD_INVALID if the bytes are none.
+  /// `open(caller, request, wake, opened)`: see CallStarter::Stream.
+  template <class Request, class Open>
+  Stream* Start(Context* context, const char* method, const Bytes& request, Open open);
 
   JobManager& jobs_;
   CallStarter& calls_;

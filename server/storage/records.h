@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -127,6 +128,10 @@ struct JobQuery {
   std::int64_t before = 0;
   /// Most jobs of the page, > 0.
   int limit = 50;
+  /// True once nobody waits for the page: CANCELLED is an answer then, so that ten thousand readers
+  /// who leave do not keep the store from its end. Empty: somebody always waits. Called on the
+  /// store's thread.
+  std::function<bool()> abandoned = {};
 };
 
 /// Some of the jobs that a query asks for.
@@ -159,6 +164,8 @@ struct EventQuery {
   std::uint32_t kinds = ~0U;
   /// About the bytes of a page, decoded. A page has at least one event, however large.
   std::size_t max_bytes = 1 << 18;
+  /// As JobQuery::abandoned.
+  std::function<bool()> abandoned = {};
 };
 
 /// The bit of a kind of event in EventQuery::kinds.

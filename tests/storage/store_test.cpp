@@ -225,6 +225,18 @@ TEST_P(StoreCallsTest, PositionNeverGoesBack) {
   }
 }
 
+TEST_F(StoreTest, PageThatNobodyWaitsForIsNotRead) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  bool abandoned = false;
+  const auto look = [&abandoned] { return abandoned; };
+  EXPECT_TRUE(List({.abandoned = look}).ok());
+  EXPECT_TRUE(ReadEvents({.name = "jobs/a", .abandoned = look}).ok());
+  abandoned = true;
+  EXPECT_TRUE(absl::IsCancelled(List({.abandoned = look}).status()));
+  EXPECT_TRUE(absl::IsCancelled(ReadEvents({.name = "jobs/a", .abandoned = look}).status()));
+}
+
 TEST_P(StoreCallsTest, ListIsPagedNewestFirst) {
   Open();
   for (const char* name : {"jobs/a", "jobs/b", "jobs/c", "jobs/d", "jobs/e"}) {

@@ -62,7 +62,10 @@ StreamStep JobsCursor::ReadJobs(v1::WatchJobsResponse* out) {
 void JobsCursor::FetchPage() {
   fetch_ = std::make_shared<Fetch>();
   // Gone if the reader leaves first.
-  store_.List(rules_.filter, [weak = std::weak_ptr(fetch_)](absl::StatusOr<JobPage> page) {
+  const std::weak_ptr<Fetch> weak = fetch_;
+  JobQuery query = rules_.filter;
+  query.abandoned = [weak] { return weak.expired(); };
+  store_.List(std::move(query), [weak](absl::StatusOr<JobPage> page) {
     const auto fetch = weak.lock();
     if (!fetch) return;
     const MutexLock lock(fetch->mutex);

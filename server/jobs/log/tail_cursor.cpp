@@ -99,7 +99,11 @@ void TailCursor::StartFetch(std::size_t max_bytes) {
     (*waker)();
   };
   source_.store.ReadEvents(
-      {name_, page_.position, kinds_, ahead_ ? kPageBytes : max_bytes},
+      {.name = name_,
+       .after = page_.position,
+       .kinds = kinds_,
+       .max_bytes = ahead_ ? kPageBytes : max_bytes,
+       .abandoned = [weak] { return weak.expired(); }},
       [weak, &decoder = source_.decoder, decode](absl::StatusOr<EventPage> stored) {
         if (weak.expired()) return;
         decoder.Post([decode, stored = std::move(stored)]() mutable { decode(std::move(stored)); });

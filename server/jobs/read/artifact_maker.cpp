@@ -69,7 +69,11 @@ void ArtifactMaker::Post(std::function<void(ArtifactMaker&)> work) {
 
 void ArtifactMaker::ReadPage(std::uint32_t kinds, void (ArtifactMaker::*take)(const Page&)) {
   store_.ReadEvents(
-      {plan_.stored.job.name(), position_, kinds, message_bytes_()},
+      {.name = plan_.stored.job.name(),
+       .after = position_,
+       .kinds = kinds,
+       .max_bytes = message_bytes_(),
+       .abandoned = [weak = weak_from_this()] { return weak.expired(); }},
       [weak = weak_from_this(), take](Page page) {
         const auto self = weak.lock();
         if (!self) return;

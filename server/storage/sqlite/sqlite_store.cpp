@@ -19,6 +19,13 @@ absl::StatusOr<bool> Done(const absl::Status& status) {
   return true;
 }
 
+// Reads unless nobody waits for the page any more.
+template <class Page, class Query, class Read>
+absl::StatusOr<Page> ReadIfWanted(Database& database, const Query& query, Read read) {
+  if (query.abandoned && query.abandoned()) return absl::CancelledError("nobody waits for it");
+  return read(database, query);
+}
+
 // The calls of Store, each an operation of the one thread.
 class SqliteStore : public Store {
  public:
@@ -113,7 +120,8 @@ void SqliteStore::OwnerBytes(JobOwner whose, Callback<std::int64_t> done) {
 }
 
 void SqliteStore::List(JobQuery query, Callback<JobPage> done) {
-  Post([query = std::move(query)](Database& database) { return contact::List(database, query); },
+  Post([query = std::move(query)](
+           Database& database) { return ReadIfWanted<JobPage>(database, query, contact::List); },
        std::move(done));
 }
 
@@ -126,9 +134,11 @@ void SqliteStore::Sizes(Callback<std::vector<JobSize>> done) {
 }
 
 void SqliteStore::ReadEvents(EventQuery query, Callback<EventPage> done) {
-  Post([query =
-            std::move(query)](Database& database) { return contact::ReadEvents(database, query); },
-       std::move(done));
+  Post(
+      [query = std::move(query)](Database& database) {
+        return ReadIfWanted<EventPage>(database, query, contact::ReadEvents);
+      },
+      std::move(done));
 }
 
 void SqliteStore::Delete(std::string name, std::string expected_uid, Callback<JobOwner> done) {
