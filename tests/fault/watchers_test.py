@@ -123,7 +123,8 @@ class IdleTest(CrowdTest):
         self.server.cancel(running)
         self.assertPromises(self.server)
         self.figures |= dict(attached_s=round(crowd.attached_s, 1))
-        self.assertKept("resident", resident, 300, "MB", slack=1)
+        # 280 MB are gRPC's: each watcher has two calls in the process, the gateway's and the service's.
+        self.assertKept("resident", resident, 450, "MB", slack=1)
         self.assertKept("load", load, 0.05, "cores")
         self.assertKept("event_reached_all", figures["max"] / 1000, 1)
 

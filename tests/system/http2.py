@@ -4,6 +4,8 @@ import socket
 import ssl
 import struct
 
+import hpack
+
 PREFACE = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n"
 DATA, HEADERS, PRIORITY, RST_STREAM, SETTINGS, PING, WINDOW_UPDATE, CONTINUATION = (
     0, 1, 2, 3, 4, 6, 8, 9)
@@ -68,3 +70,13 @@ def greet(port, *, window=None, file=None, tls=False):
     if window:
         connection.sendall(frame(WINDOW_UPDATE, 0, 0, struct.pack(">I", window - 65535)))
     return connection
+
+
+def read_headers(connection):
+    """The first headers that come on the connection; empty if it ends before. They fit a frame."""
+    with connection.makefile("rb") as read:
+        while len(head := read.read(9)) == 9:
+            payload = read.read(int.from_bytes(head[:3], "big"))
+            if head[3] == HEADERS:
+                return dict(hpack.Decoder().decode(payload))
+    return {}

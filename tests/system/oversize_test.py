@@ -132,26 +132,21 @@ class OversizeTest(ServerTest):
         """It never says that it has seen the server's limit, so gRPC does not enforce it."""
         for size in (9 << 10, 1 << 20):
             answer = self.rude_call(size)
-            self.assertNotIn(b"grpc-status\x010", answer)  # Refused, or cut off.
+            self.assertNotEqual(answer.get("grpc-status"), "0")  # Refused, or cut off.
             if size == 9 << 10:
-                self.assertIn(b"bytes of metadata; at most 8192 are taken", answer)
+                self.assertIn("bytes of metadata; at most 8192 are taken", answer["grpc-message"])
         self.assertLivesOn()
 
     def rude_call(self, size):
-        """What the server says to a call with so much metadata, its settings unanswered."""
+        """The headers of the answer to a call with so much metadata, the server's settings unanswered.
+        Empty: none came."""
         out = http2.headers(1, INFO, (b"note", b"x" * size)) + http2.message(1)
-        answer = b""
         with http2.greet(self.server.port) as connection:
             try:
                 connection.sendall(out)
-                while b"grpc-status" not in answer:
-                    chunk = connection.recv(65536)
-                    if not chunk:
-                        break
-                    answer += chunk
+                return http2.read_headers(connection)
             except OSError:  # Cut off, or nothing more to hear.
-                pass
-        return answer
+                return {}
 
 
 if __name__ == "__main__":
