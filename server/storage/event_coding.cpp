@@ -62,8 +62,9 @@ Buffer Decompress(const std::string& bytes) {
 bool HasWholeColumns(const v1::FrameChunk& chunk) {
   const auto size = static_cast<std::size_t>(chunk.samples()) * kDouble;
   return chunk.samples() > 0 && !chunk.columns().empty() &&
-         std::ranges::all_of(chunk.columns(),
-                             [size](const auto& column) { return column.values().size() == size; });
+         std::ranges::all_of(chunk.columns(), [size](const auto& column) {
+           return column.values().size() == size && column.numbers().empty();
+         });
 }
 
 // The event without its values, which are most of it.

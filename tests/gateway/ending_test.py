@@ -131,6 +131,7 @@ class EndingTest(GatewayTest):
             self.http = int((self.folder / "http").read_text())
         print(f"{ROUNDS} ends, the longest took {longest:.2f} s; {self.answered} answers")
         self.assertLess(longest, 5)
+        wait_for(lambda: self.server.get(self.job).state == Job.RUNNING)
         self.assertEqual(self.server.get(self.job).attempt, 1)
         self.assertEqual(self.ends, {"unavailable", "grpc-status 14"})
 

@@ -116,6 +116,9 @@ TEST(EventCodingTest, OtherEventsAndOddChunksComeBack) {
   event.mutable_frame_chunk()->mutable_columns(1)->set_values("not three doubles");
   EXPECT_EQ(EncodeEvent(event).coding, Coding::kPlain);
   ExpectSame(event);
+  event = Frames({{1, 2, 3}, {4, 5, 6}});
+  event.mutable_frame_chunk()->mutable_columns(0)->add_numbers(7);
+  ExpectSame(event);
 }
 
 TEST(EventCodingTest, ChunkOfManySamplesOfNothingComesBack) {
