@@ -120,7 +120,7 @@ v1::Artifact Download(Client& client, const DownloadOptions& options) {
     const bool told = reconnection.lost();
     const auto pause = reconnection.Lost(call.status());
     if (!told) options.lost(WhyLost(call.status()));
-    Rest(pause, [&options] {
+    Rest(*client.channel(), pause, [&options] {
       RequireTime(options);
       return true;
     });

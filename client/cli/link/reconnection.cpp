@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <thread>
 #include <utility>
 
 namespace contact::cli {
@@ -48,11 +47,11 @@ Milliseconds Reconnection::Lost(const grpc::Status& status) {
   return pause;
 }
 
-void Rest(Milliseconds pause, const std::function<bool()>& go_on) {
+void Rest(grpc::Channel& channel, Milliseconds pause, const std::function<bool()>& go_on) {
   const auto until = Clock::now() + pause;
   while (Clock::now() < until && go_on()) {
-    std::this_thread::sleep_for(std::min<Clock::duration>(
-        kStreamTick, std::max<Clock::duration>(until - Clock::now(), {})));
+    const auto wait = std::min<Clock::duration>(kStreamTick, until - Clock::now());
+    channel.WaitForStateChange(channel.GetState(true), std::chrono::system_clock::now() + wait);
   }
 }
 

@@ -63,8 +63,10 @@ class Reconnection {
   std::mt19937 random_{std::random_device{}()};
 };
 
-/// Waits for `pause`, or until `go_on` returns false; it is called about ten times a second.
-void Rest(std::chrono::milliseconds pause, const std::function<bool()>& go_on);
+/// Waits for `pause`, or until `go_on` returns false; it is called about ten times a second. The
+/// channel connects meanwhile: without anybody who waits, gRPC looks at it every 5 s only.
+void Rest(grpc::Channel& channel, std::chrono::milliseconds pause,
+          const std::function<bool()>& go_on);
 
 /// Why a stream with this status was lost, in few words.
 std::string WhyLost(const grpc::Status& status);

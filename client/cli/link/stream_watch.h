@@ -32,7 +32,7 @@ class StreamWatch {
       const bool told = reconnection_.lost();
       const std::chrono::milliseconds pause = reconnection_.Lost(status);
       if (!told) observer_.OnLost(WhyLost(status));
-      Rest(pause, [this] { return GoOn(); });
+      Rest(*client_.channel(), pause, [this] { return GoOn(); });
       if (end_) return *end_;
     }
   }
