@@ -5,6 +5,8 @@
 //   simulation_campaign 0 500 0 6 2            the same under ENCOUNTER
 //   simulation_campaign 0 120 valve placed     of these kinds
 //   simulation_campaign 0 120 machines         of all machines
+//   simulation_campaign --against <(xz -dc tests/reference/campaign/auto.jsonl.xz)
+//                                              what got better and worse since those lines
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
