@@ -110,8 +110,8 @@ class FloodTest(HonestTest):
 
 class FrameFloodTest(unittest.TestCase):
     """One server that asks nobody, on TCP and on a socket file, and one that asks for tokens over
-    TLS, of which the attacker has none. All kinds of floods by eight connections each, and by one
-    and four of TCP; FLOOD_ALL has all numbers everywhere.
+    TLS, of which the attacker has none. All kinds of floods by eight connections each, and by one,
+    two and four of TCP; FLOOD_ALL has all numbers everywhere.
     """
 
     @classmethod
@@ -195,7 +195,7 @@ class FrameFloodTest(unittest.TestCase):
 
 for kind in flooding.KINDS:
     for where in ("tcp", "unix", "tls"):
-        for connections in (1, 4, 8):
+        for connections in (1, 2, 4, 8):
             if where == "tcp" or connections == 8 or os.environ.get("FLOOD_ALL"):
                 setattr(FrameFloodTest,
                         f"test_{kind.replace(' ', '_')}_{where}_{connections}",
