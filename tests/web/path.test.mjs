@@ -59,7 +59,7 @@ test('numbers of the ledger equal those of the API, digit for digit', async () =
       assert.ok(cells.includes(String(cycle[field])), `${field} ${cycle[field]} in ${cells}`);
     }
   }
-  assert.match(await page.getByLabel('Details').innerText(), new RegExp(String(job.finalBodies[2].velocityMPerS)));
+  await page.getByLabel('Details').getByText(String(job.finalBodies[2].velocityMPerS)).waitFor();
 });
 
 test('a stream that is slower than the job itself takes nothing of it away', async () => {
