@@ -20,6 +20,10 @@ using Leaving = Exchange::Leaving;
 using ExchangePtr = std::shared_ptr<Exchange>;
 
 constexpr std::chrono::seconds kReadyTime{2};
+// A client that takes messages in less reads a stream as fast as it comes: without the next one
+// read meanwhile it has a tenth less (service_benchmark --only frames). One that stalls after that
+// holds one message more (fault/drain).
+constexpr std::chrono::milliseconds kFlows{10};
 
 // The call that asks whether the server serves.
 RpcRequest HealthCheck() { return {.path = "/grpc.health.v1.Health/Check", .timeout = kReadyTime}; }
@@ -101,16 +105,18 @@ class Streaming {
     for (;;) {
       if (exchange_->left()) call_->Cancel();
       Feed();
-      auto messages = call_->has_head() ? call_->Take() : std::vector<grpc::ByteBuffer>();
+      auto messages = call_->has_head() ? call_->Take(flows_) : std::vector<grpc::ByteBuffer>();
       if (!began_ && call_->has_head() && !(call_->status() && messages.empty())) {
         const bool sent = co_await Head();
         if (!sent) co_return false;
         if (messages.empty()) continue;
       }
       if (!messages.empty()) {
+        const auto begin = std::chrono::steady_clock::now();
         const bool sent = co_await Send(std::move(messages));
         if (!sent || !printed_.ok()) co_return sent;
         co_await exchange_->Writable();  // So that a stalled client holds few messages.
+        flows_ = std::chrono::steady_clock::now() - begin < kFlows;
         continue;
       }
       if (call_->status()) co_return true;
@@ -161,6 +167,8 @@ class Streaming {
   const std::shared_ptr<RpcCall> call_;
   // The message of a request that was read as a whole, until it is written.
   std::optional<grpc::ByteBuffer> first_;
+  // The client has taken the last messages at once: the next are read while it takes those before.
+  bool flows_ = false;
   // The head was sent.
   bool began_ = false;
   // Why a message cannot be sent.

@@ -65,14 +65,14 @@ const Trailers& RpcCall::head() const {
   return head_ ? context_.GetServerInitialMetadata() : none;
 }
 
-std::vector<grpc::ByteBuffer> RpcCall::Take() {
+std::vector<grpc::ByteBuffer> RpcCall::Take(bool ahead) {
   std::vector<grpc::ByteBuffer> taken;
   bool read = false;
   {
     const MutexLock lock(mutex_);
     taken.swap(messages_);
     ahead_ = 0;
-    read = taken.empty() && !reading_ && !read_all_ && !released_;
+    read = (ahead || taken.empty()) && !reading_ && !read_all_ && !released_;
     reading_ = reading_ || read;
   }
   if (read) StartRead(&incoming_);

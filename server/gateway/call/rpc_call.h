@@ -40,8 +40,9 @@ class RpcCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   /// No more messages are written. Only if writable.
   void EndWrites();
 
-  /// Takes the messages that have come, in their order. If there are none, more are asked for.
-  std::vector<grpc::ByteBuffer> Take();
+  /// Takes the messages that have come, in their order. If there are none, or with `ahead`, more
+  /// are asked for.
+  std::vector<grpc::ByteBuffer> Take(bool ahead);
 
   /// True once the metadata before the messages are there, or the call has ended.
   bool has_head() const { return head_ || status_; }
