@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/clock.h"
 #include "gateway/call/outgoing.h"
 #include "gateway/call/rpc_call.h"
 #include "gateway/call/unary_call.h"
@@ -112,11 +113,11 @@ class Streaming {
         if (messages.empty()) continue;
       }
       if (!messages.empty()) {
-        const auto begin = std::chrono::steady_clock::now();
+        const auto begin = SystemClock().Elapsed();
         const bool sent = co_await Send(std::move(messages));
         if (!sent || !printed_.ok()) co_return sent;
         co_await exchange_->Writable();  // So that a stalled client holds few messages.
-        flows_ = std::chrono::steady_clock::now() - begin < kFlows;
+        flows_ = SystemClock().Elapsed() - begin < kFlows;
         continue;
       }
       if (call_->status()) co_return true;
