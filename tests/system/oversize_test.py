@@ -121,15 +121,15 @@ class OversizeTest(ServerTest):
 
     def test_large_metadata_is_refused(self):
         refused = (grpc.StatusCode.RESOURCE_EXHAUSTED,)
-        # What is far past the limit gRPC takes for a broken connection: it answers and hangs up,
-        # and whether the answer is read before the end is a race that no server can decide.
+        # Past 128 KiB the server hangs up; whether the client reads an answer before the end is a
+        # race that no server can decide.
         cut = (*refused, grpc.StatusCode.UNAVAILABLE)
         for size, codes in ((7000, (grpc.StatusCode.OK,)), (9 << 10, refused), (1 << 20, cut)):
             self.assertIn(self.call(b"", INFO, metadata=[("note", "x" * size)]), codes, size)
         self.assertLivesOn()
 
     def test_large_metadata_of_a_client_that_ignores_settings_is_refused(self):
-        """It never says that it has seen the server's limit, so gRPC does not enforce it."""
+        """It sends more than the settings of the server allow."""
         for size in (9 << 10, 1 << 20):
             answer = self.rude_call(size)
             self.assertNotEqual(answer.get("grpc-status"), "0")  # Refused, or cut off.
