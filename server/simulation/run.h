@@ -18,6 +18,10 @@ struct RunState;
 /// exceptions of the observer leave this function.
 Outcome Run(const Scenario& scenario, Observer& observer, std::stop_token stop = {});
 
+/// As Run, with all bodies moved together from touch to touch, also where parts of them would do:
+/// the dearer way to the same answers.
+Outcome RunWhole(const Scenario& scenario, Observer& observer, std::stop_token stop = {});
+
 /// Goes on from a boundary of an earlier run of the same scenario by the same program: calls the
 /// observer as that run would have done from there on, and has its outcome, to the byte. Otherwise
 /// like Run.

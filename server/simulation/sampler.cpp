@@ -2,19 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace contact {
-namespace {
-
-// Steps of a cycle whose duration is not known.
-constexpr double kSteps = 30;
-// Samples nearer than this part of their spacing are one.
-constexpr double kNear = 1e-3;
-
-}  // namespace
 
 Sampler::Sampler(const Scenario& scenario, Motion& motion, Observer& observer, std::stop_token stop)
     : scenario_(scenario), motion_(motion), observer_(observer), stop_(std::move(stop)) {
@@ -31,14 +22,15 @@ void Sampler::RecordStart(const State& state) {
 
 void Sampler::OnStep(const StepTime& step) {
   if (scenario_.sample_interval == 0) return;
-  PlanCycles(step);
+  FindCycleSamples(motion_, step, full() ? 0 : scenario_.samples_per_contact, &planned_);
   bool prepared = false;
   std::size_t next = 0;  // In planned_.
   while (true) {
     const double regular = NextRegular(step);
-    const double planned = next < planned_.size() ? planned_[next] : kNever;
-    if (regular == kNever && planned == kNever) return;
-    const bool in_cycle = planned < regular - near_;
+    const CycleSample planned =
+        next < planned_.size() ? planned_[next] : CycleSample{.time = kNever};
+    if (regular == kNever && planned.time == kNever) return;
+    const bool in_cycle = planned.time < regular - planned.near;
     if (in_cycle) ++next;
     if (in_cycle && !Wants(planned)) continue;
     // A step may have millions of samples. Looked at once a chunk.
@@ -48,7 +40,7 @@ void Sampler::OnStep(const StepTime& step) {
     }
     if (!prepared) motion_.PrepareInterpolation();
     prepared = true;
-    const double time = in_cycle ? planned : regular;
+    const double time = in_cycle ? planned.time : regular;
     motion_.Interpolate(std::clamp(step.Theta(time), 0.0, 1.0), &y_);
     if (!in_cycle) ++regular_;
     Record(std::min(time, scenario_.end_time), y_);
@@ -62,34 +54,9 @@ double Sampler::NextRegular(const StepTime& step) const {
   return time > late || time > scenario_.end_time * (1 + 1e-12) ? kNever : time;
 }
 
-void Sampler::PlanCycles(const StepTime& step) {
-  planned_.clear();
-  near_ = 0;
-  if (scenario_.samples_per_contact == 0 || full()) return;
-  const double end = step.At(1);
-  double least = kNever;
-  for (const ActiveContact& active : motion_.equations().active) {
-    const ContactState& contact = motion_.contacts()[static_cast<std::size_t>(active.contact)];
-    if (contact.phase == Phase::kResting) continue;
-    const double spacing = Spacing(contact, step);
-    const double start = contact.cycle.start_time;
-    least = std::min(least, spacing);
-    for (double i = std::floor((step.start - start) / spacing); start + i * spacing <= end; ++i) {
-      if (start + i * spacing >= step.start) planned_.push_back(start + i * spacing);
-    }
-  }
-  std::ranges::sort(planned_);
-  if (least < kNever) near_ = kNear * least;
+bool Sampler::Wants(const CycleSample& sample) const {
+  return sample.time - last_ > sample.near && !full();
 }
-
-double Sampler::Spacing(const ContactState& cycle, const StepTime& step) const {
-  const double expected = cycle.duration > 0 ? cycle.duration : kSteps * step.h;
-  const double passed = (step.At(1) - cycle.cycle.start_time) / (2 * expected);
-  const double spacing = expected / scenario_.samples_per_contact;
-  return passed < 1 ? spacing : std::ldexp(spacing, std::ilogb(std::min(passed, 1e300)) + 1);
-}
-
-bool Sampler::Wants(double time) const { return time - last_ > near_ && !full(); }
 
 bool Sampler::full() const {
   const bool asked = scenario_.sample_interval > 0 && scenario_.samples_per_contact > 0;

@@ -5,6 +5,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "simulation/course/course.h"
+#include "simulation/course/cycle_samples.h"
 #include "simulation/episode/run_state.h"
 #include "simulation/model/observer.h"
 #include "simulation/motion/motion.h"
@@ -16,9 +18,8 @@ namespace contact {
 ///
 /// Samples go out in the order of time, before it is known how long a cycle will last, and a run
 /// may be cut within a cycle. So those of a cycle are placed from its start on by the duration that
-/// it is expected to have, over Scenario::samples_per_contact. From twice that duration on, each
-/// doubling of the cycle has that many again: what creeps without end does not fill the trajectory.
-class Sampler final : public StepListener {
+/// it is expected to have, over Scenario::samples_per_contact.
+class Sampler final : public Recording {
  public:
   /// All outlive the sampler. Once `stop` is requested it hands out no further chunk of samples of
   /// a step, however many there are.
@@ -44,22 +45,18 @@ class Sampler final : public StepListener {
   void Restore(Sampling from);
 
   /// Keeps the samples from now on until they are released or taken back.
-  void Hold();
+  void Hold() override;
   /// Hands out what was kept, if anything, and from now on at once again. Once `stop` is requested
   /// the samples end with the last chunk that was handed out before.
-  void Release();
+  void Release() override;
   /// Forgets what was kept: goes on from where Hold was called.
-  void TakeBack();
+  void TakeBack() override;
 
  private:
   /// Time of the next sample at the interval [s]; infinite if it is not in the step.
   double NextRegular(const StepTime& step) const;
-  /// Finds the samples of the running cycles in a step.
-  void PlanCycles(const StepTime& step);
-  /// Time between samples of a cycle in a step [s].
-  double Spacing(const ContactState& cycle, const StepTime& step) const;
-  /// True if a sample of a cycle at this time [s] is wanted: not where another one is.
-  bool Wants(double time) const;
+  /// True if there is room for a sample of a cycle, and no other one near.
+  bool Wants(const CycleSample& sample) const;
   /// Takes a sample of the state y.
   void Record(double time, const Eigen::ArrayXd& y);
 
@@ -80,9 +77,8 @@ class Sampler final : public StepListener {
   std::optional<Sampling> before_;
   // Full chunks that are kept.
   std::vector<Samples> held_;
-  // Samples of cycles in the step [s], ascending, and what is too near to another [s].
-  std::vector<double> planned_;
-  double near_ = 0;
+  // Samples of cycles in the step.
+  std::vector<CycleSample> planned_;
   // Scratch: the state of a sample, and its slopes.
   Eigen::ArrayXd y_, slope_;
 };

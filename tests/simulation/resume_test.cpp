@@ -128,6 +128,14 @@ std::vector<std::pair<std::string, Scenario>> Scenarios() {
     all.back().second.samples_per_contact = 40;
   }
   all.back().second.most_contact_samples = 1000;  // Of the long row.
+  all.emplace_back("gas", testing::Gas(40, 1e6, 1));
+  all.emplace_back("dense gas", testing::Gas(12, 1e8, 1, 0.05));
+  all.emplace_back("falling column", testing::Column(10, 1e7, 0.8, 0.001));
+  all.back().second.end_time = 0.04;
+  for (std::size_t i = all.size() - 3; i < all.size(); ++i) {
+    all[i].second.sample_interval = all[i].second.end_time / 700;
+    all[i].second.samples_per_contact = 10;
+  }
   return all;
 }
 

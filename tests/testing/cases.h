@@ -1,5 +1,6 @@
 #pragma once
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,57 @@ inline Scenario Collision(double mass, double velocity, double stiffness, double
                  .exponent = exponent,
                  .restitution = restitution}};
   s.end_time = 100 * MaximumDeformation(mass, velocity, stiffness, exponent, 0) / velocity;
+  return s;
+}
+
+/// Balls of 30 g between two walls, in gaps of 2 to 30 mm times `spread`, at up to ±1 m/s, for 50
+/// ms: most collisions happen alone.
+inline Scenario Gas(int balls, double stiffness, unsigned seed, double spread = 1) {
+  std::mt19937 random(seed);  // Its numbers are those of the standard, everywhere.
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  Scenario s;
+  double x = 0;
+  for (int i = 0; i < balls; ++i) {
+    x += spread * between(2e-3, 30e-3) + 0.01;
+    s.bodies.push_back({.name = std::string("B").append(std::to_string(i)),
+                        .mass = 0.03,
+                        .radius = 0.01,
+                        .position = x,
+                        .velocity = between(-1, 1)});
+    s.contacts.push_back({.name = std::string("C").append(std::to_string(i)),
+                          .left = i - 1,
+                          .right = i,
+                          .stiffness = stiffness,
+                          .restitution = 0.9});
+    x += 0.01;
+  }
+  s.contacts.push_back({.name = "end",
+                        .left = balls - 1,
+                        .wall_position = x + spread * between(2e-3, 30e-3),
+                        .stiffness = stiffness,
+                        .restitution = 0.9});
+  s.end_time = 0.05;
+  return s;
+}
+
+/// Balls of 30 g that fall onto a floor to their right, the lowest from `gap`, as far apart [m].
+inline Scenario Column(int balls, double stiffness, double restitution, double gap) {
+  Scenario s;
+  for (int i = 0; i < balls; ++i) {
+    s.bodies.push_back({.name = std::string("B").append(std::to_string(i)),
+                        .mass = 0.03,
+                        .radius = 0.01,
+                        .position = -0.01 - gap - (0.02 + gap) * (balls - 1 - i)});
+    s.loads.push_back({.body = i, .constant = 9.81 * 0.03});
+    s.contacts.push_back({.name = std::string("C").append(std::to_string(i)),
+                          .left = i,
+                          .right = i + 1 < balls ? i + 1 : kNone,
+                          .stiffness = stiffness,
+                          .restitution = restitution});
+  }
+  s.end_time = 0.3;
   return s;
 }
 

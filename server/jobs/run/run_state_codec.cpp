@@ -2,6 +2,7 @@
 
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/string.hpp>
+#include <cereal/types/variant.hpp>
 #include <cereal/types/vector.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +11,9 @@
 #include <sstream>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
+#include "simulation/clusters/cluster_state.h"
 #include "version.h"
 
 namespace contact {
@@ -66,6 +69,11 @@ void load(RunStateReader& reader, cereal::BinaryData<T>& block) {
 }
 
 template <class T>
+void load(RunStateReader& reader, cereal::NameValuePair<T>& named) {
+  reader(named.value);
+}
+
+template <class T>
 void load(RunStateReader& reader, cereal::SizeTag<T>& list) {
   load(reader, list.size);
   reader.Require(list.size);
@@ -96,7 +104,7 @@ void serialize(Archive& archive, Group& g) {
   archive(g.contact, g.number, g.encounter, g.first_cycle, g.cycles);
   archive(g.start_time, g.end_time, g.end, g.status, g.growth, g.mu);
   archive(g.work_compression, g.work_restitution, g.restitution_in, g.restitution_out);
-  archive(g.residual, g.too_much, g.too_little);
+  archive(g.residual, g.beside_cut, g.too_much, g.too_little);
 }
 
 template <class Archive>
@@ -113,7 +121,7 @@ void serialize(Archive& archive, ContactState::Peak& p) {
 template <class Archive>
 void serialize(Archive& archive, ContactState& c) {
   archive(c.phase, c.gap, c.cycles, c.last_mu, c.largest_work, c.settled, c.duration);
-  archive(c.work, c.external_work, c.column, c.peak, c.cycle);
+  archive(c.work, c.external_work, c.column, c.peak, c.cycle, c.imbalance);
   archive(c.encounter, c.member);
   archive(c.largest_motion, c.largest_speed, c.woken, c.released, c.start_velocity, c.rest_until,
           c.rest_mark);
@@ -162,11 +170,119 @@ void serialize(Archive& archive, RestEnd& r) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Iteration::Unknown& u) {
+  archive(u.contact, u.number, u.mu, u.restitution_out, u.restitution_in, u.residual);
+  archive(u.bracket_low, u.bracket_high, u.update);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Iteration& i) {
+  archive(i.episode, i.number, i.start_time, i.accepted, i.unknowns);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Report::Growing& g) {
+  archive(g.group);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Report::Warning& w) {
+  archive(w.text);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Report::Item& i) {
+  archive(i.time, i.news);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Place& p) {
+  archive(p.u, p.v);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Flight& f) {
+  archive(f.time, f.start, f.acceleration);
+}
+
+template <class Archive>
+void serialize(Archive& archive, StepTime& s) {
+  archive(s.start, s.h, s.warp);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Trace::Ends& e) {
+  archive(e.from, e.to, e.from_acceleration, e.to_acceleration);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Trace::Pressed& p) {
+  archive(p.contact, p.mu);
+}
+
+template <class Archive>
+void serialize(Archive& archive, CycleSample& s) {
+  archive(s.time, s.near);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Trace& t) {
+  archive(t.bodies, t.steps, t.ends, t.pressed, t.presses, t.samples);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Outlook& o) {
+  archive(o.step, o.solved_until, o.cut_since, o.unknowns, o.rest_ends, o.episode);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Waiting& w) {
+  archive(w.time, w.lasted, w.bodies, w.outlook);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Cast& c) {
+  archive(c.time, c.bodies, c.places, c.contacts, c.states, c.outlook);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Piece& p) {
+  archive(p.number, p.touch, p.start, p.end, p.before, p.trace, p.report.items, p.told);
+  archive(p.pause, p.whereabouts, p.has_episode, p.steps, p.evaluations);
+  archive(p.iterations, p.growths, p.growths_no_progress, p.loss, p.impulse);
+  archive(p.warned, p.unproven, p.missed);
+  std::vector<Waiting> waited;
+  for (const auto& group : p.waited) waited.push_back(*group);
+  archive(waited);
+  p.waited.clear();
+  for (Waiting& group : waited) {
+    p.waited.push_back(std::make_shared<const Waiting>(std::move(group)));
+  }
+}
+
+template <class Archive>
+void serialize(Archive& archive, ClusterState::Station& s) {
+  archive(s.from, s.piece, s.flight);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ClusterState& s) {
+  archive(s.pieces, s.stations, s.waiting, s.number, s.look_at, s.blocks);
+  archive(s.useful, s.wasted, s.loss, s.impulse);
+}
+
+template <class Archive>
 void serialize(Archive& archive, RunState& s) {
   archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
   archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
   archive(s.growths, s.growths_no_progress, s.solved_until, s.cut_since);
   archive(s.unknowns, s.rest_ends, s.warned, s.missed, s.unproven, s.sampling);
+  bool parted = s.clusters != nullptr;
+  archive(parted);
+  if (!parted) return;
+  ClusterState clusters = s.clusters != nullptr ? *s.clusters : ClusterState{};
+  archive(clusters);
+  s.clusters = std::make_shared<const ClusterState>(std::move(clusters));
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "simulation/episode/unknown.h"
@@ -8,6 +9,8 @@
 #include "simulation/motion/state.h"
 
 namespace contact {
+
+struct ClusterState;
 
 /// How far the trajectory is recorded.
 struct Sampling {
@@ -41,6 +44,8 @@ struct RunState {
   std::vector<bool> missed;        ///< Laws of which a miss was told.
   std::vector<bool> unproven;      ///< Contacts of which it was told that a row fails its proof.
   Sampling sampling;
+  /// Of a run in clusters, of which `state` has the time and the contacts; else null.
+  std::shared_ptr<const ClusterState> clusters;
 };
 
 }  // namespace contact

@@ -193,7 +193,8 @@ double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles, doubl
 }
 
 double SolveSeconds(const Scenario& scenario, double steps) {
-  const auto parts = static_cast<double>(scenario.bodies.size() + scenario.contacts.size());
+  const double all = static_cast<double>(scenario.bodies.size() + scenario.contacts.size());
+  const double parts = MayPart(scenario) ? std::min(all, 3.0) : all;  // Two bodies that touch.
   const double share = scenario.solver.fixed_step > 0 ? kFixedStepShare : 1;
   return kJobSeconds + share * steps * (kStepSeconds + kBodySeconds * parts / 2);
 }

@@ -1,4 +1,4 @@
-#include "simulation/whereabouts.h"
+#include "simulation/course/whereabouts.h"
 
 #include <algorithm>
 #include <cstddef>

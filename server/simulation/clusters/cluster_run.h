@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "simulation/clusters/agenda.h"
+#include "simulation/clusters/blocks.h"
+#include "simulation/clusters/frames.h"
+#include "simulation/clusters/meeting.h"
+#include "simulation/clusters/world.h"
+#include "simulation/episode/run_state.h"
+#include "simulation/model/observer.h"
+
+namespace contact {
+
+/// A run whose bodies are solved in parts, the earliest first: what touches is a cluster, with a
+/// clock, steps and unknowns of its own, and what touches nothing flies. README.md, "Clusters".
+class ClusterRun {
+ public:
+  /// All outlive the run. Only for what MayPart.
+  ClusterRun(const Scenario& scenario, Observer& observer, std::stop_token stop);
+
+  /// Goes on from there instead of from the start.
+  void Restore(const RunState& from);
+  Outcome Run();
+
+ private:
+  // What a piece is tried with.
+  struct Attempt {
+    double time = 0;
+    std::vector<int> bodies;  // Ascending.
+    int touch = kNone;        // The contact that begins at this time.
+    int joins = 0;            // How often others have joined.
+    double until = 0;         // How far to look for others before it is solved [s].
+  };
+
+  void Treat(const Agenda::Entry& entry);
+  bool Gather(const std::vector<int>& more, Attempt* attempt) const;
+  void Flood(Attempt* attempt) const;
+  bool Join(int body, Attempt* attempt);
+  void Rewind(const Attempt& attempt);
+  void Keep(const std::shared_ptr<Piece>& piece, const std::vector<Waiting>& groups);
+  void Undo(const Piece& piece);
+  bool Meets(Attempt* attempt);
+  std::shared_ptr<Piece> Solve(const Attempt& attempt);
+  void Count(const Piece& piece);
+  void Fail(const Piece& piece);
+
+  void Advance();
+  void TellUntil(double instant);
+  void Tell(const Report::News& news);
+  void ForgetUntil(double instant);
+  RunState Save() const;
+
+  double Energy() const;
+  double Momentum() const;
+  void Scale();
+  void Summarize();
+
+  const Scenario& scenario_;
+  Observer& observer_;
+  PieceSolver solver_;
+  World world_;
+  Agenda agenda_;
+  Frames frames_;
+  // What a run that goes on from here needs; Save fills in what the other members hold. Its time is
+  // that up to which all is told.
+  RunState run_;
+  Pieces pieces_;             // Those that go on after that time.
+  std::int64_t number_ = 0;   // Of the last piece that was tried.
+  std::int64_t look_at_ = 0;  // The number at which to look what is certain.
+  Blocks blocks_;
+  std::int64_t useful_ = 0, wasted_ = 0;  // Steps since bodies were bound last.
+  double loss_ = 0;                       // Dissipated in pieces that are certain [J],
+  double impulse_ = 0;  // and the impulse of walls and fixed bodies in them [N·s].
+};
+
+}  // namespace contact

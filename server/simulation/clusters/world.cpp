@@ -1,0 +1,220 @@
+#include "simulation/clusters/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "simulation/model/derived.h"
+
+namespace contact {
+
+World::World(const Scenario& scenario)
+    : scenario_(scenario),
+      accelerations_(scenario.bodies.size()),
+      contacts_of_(scenario.bodies.size()),
+      states_(InitialState(scenario).contacts),
+      stations_(scenario.bodies.size()),
+      waiting_(scenario.bodies.size()),
+      changes_(scenario.bodies.size()) {
+  for (const Load& load : scenario.loads) {
+    accelerations_[At(load.body)] += load.constant / scenario.bodies[At(load.body)].mass;
+  }
+  for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
+    const bool fixed = scenario.bodies[b].fixed;
+    const Flight flight{.start = {.v = fixed ? 0 : scenario.bodies[b].velocity},
+                        .acceleration = fixed ? 0 : accelerations_[b]};
+    stations_[b].push_back({.from = 0, .flight = flight});
+  }
+  for (std::size_t c = 0; c < scenario.contacts.size(); ++c) {
+    gaps_.push_back(InitialGap(scenario, scenario.contacts[c]));
+    states_[c].phase = Phase::kOpen;
+    for (const int body : Sides(static_cast<int>(c))) {
+      contacts_of_[At(body)].push_back(static_cast<int>(c));
+    }
+  }
+}
+
+int World::Other(int contact, int body) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  const int other = c.left == body ? c.right : c.left;
+  return Moves(other) ? other : kNone;
+}
+
+std::vector<int> World::Sides(int contact) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  std::vector<int> sides;
+  for (const int body : {c.left, c.right}) {
+    if (Moves(body)) sides.push_back(body);
+  }
+  return sides;
+}
+
+// δ = u_left − u_right − gap, from displacements: positions would lose its digits.
+double World::Gap(int contact, const Place& left, const Place& right) const {
+  return gaps_[At(contact)] - left.u + right.u;
+}
+
+World::Distance World::DistanceAt(int contact, double instant) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  const Place left = At(c.left, instant), right = At(c.right, instant);
+  return {Gap(contact, left, right), left.v - right.v};
+}
+
+double World::Noise(int contact, double instant) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  const double size = std::abs(gaps_[At(contact)]) + std::abs(At(c.left, instant).u) +
+                      std::abs(At(c.right, instant).u);
+  return 4 * std::numeric_limits<double>::epsilon() * size;
+}
+
+Place World::At(int body, double instant) const {
+  if (!Moves(body)) return {};
+  const std::vector<Station>& stations = stations_[At(body)];
+  auto at = stations.end() - 1;
+  while (at != stations.begin() && at->from > instant) --at;
+  if (at->piece == nullptr) return at->flight.At(instant);
+  const std::vector<int>& bodies = at->piece->start.bodies;
+  const auto place = std::ranges::lower_bound(bodies, body) - bodies.begin();
+  const Trace& trace = at->piece->trace;
+  return trace.At(static_cast<std::size_t>(place), trace.StepAt(instant), instant);
+}
+
+const Piece* World::LastPiece(int body) const {
+  const std::vector<Station>& stations = stations_[At(body)];
+  for (auto at = stations.rbegin(); at != stations.rend(); ++at) {
+    if (at->piece != nullptr) return at->piece.get();
+  }
+  return nullptr;
+}
+
+double World::NextTouch(int contact) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  double from = 0;
+  for (const int body : Sides(contact)) {
+    if (waiting_[At(body)] != nullptr) return kNever;
+    from = std::max(from, stations_[At(body)].back().from);
+  }
+  const Distance d = DistanceAt(contact, from);
+  const double gap = std::abs(d.gap) <= Noise(contact, from) ? 0 : d.gap;
+  return from + TimeToTouch(gap, d.speed, Acceleration(c.left) - Acceleration(c.right));
+}
+
+void World::ContactsAmong(const std::vector<int>& bodies, Cast* cast) const {
+  for (const int body : bodies) {
+    for (const int c : ContactsOf(body)) {
+      const int other = Other(c, body);
+      if (other != kNone && !std::ranges::binary_search(bodies, other)) continue;
+      cast->contacts.push_back(c);
+    }
+  }
+  std::ranges::sort(cast->contacts);
+  const auto twice = std::ranges::unique(cast->contacts);
+  cast->contacts.erase(twice.begin(), twice.end());
+}
+
+Cast World::Assemble(const std::vector<int>& bodies, double instant, int touch) const {
+  Cast cast;
+  cast.time = instant;
+  cast.bodies = bodies;
+  ContactsAmong(bodies, &cast);
+  for (const int body : bodies)
+    cast.places.push_back(stations_[At(body)].back().flight.At(instant));
+  for (const int c : cast.contacts) cast.states.push_back(states_[At(c)]);
+  Touch(touch, &cast);
+  std::vector<const Waiting*> groups;
+  for (const int body : bodies) {
+    const Waiting* group = waiting_[At(body)].get();
+    if (group != nullptr && group->bodies.front() == body) groups.push_back(group);
+  }
+  if (groups.size() == 1 && groups[0]->bodies == bodies) {
+    cast.outlook = groups[0]->outlook;
+    return cast;
+  }
+  for (const Waiting* group : groups) {  // With others what was foreseen need not come.
+    Outlook& all = cast.outlook;
+    const Outlook& one = group->outlook;
+    all.unknowns.insert(all.unknowns.end(), one.unknowns.begin(), one.unknowns.end());
+    all.rest_ends.insert(all.rest_ends.end(), one.rest_ends.begin(), one.rest_ends.end());
+    all.episode = std::max(all.episode, one.episode);
+    const bool shorter = one.step > 0 && (all.step == 0 || one.step < all.step);
+    if (shorter) all.step = one.step;
+  }
+  return cast;
+}
+
+// Gaps of open contacts whose bodies were not together before, and those that close now.
+void World::Touch(int touch, Cast* cast) const {
+  for (std::size_t i = 0; i < cast->contacts.size(); ++i) {
+    const int c = cast->contacts[i];
+    ContactState& state = cast->states[i];
+    const std::vector<int> sides = Sides(c);
+    const auto& group = waiting_[At(sides.front())];
+    const bool together = group != nullptr && group == waiting_[At(sides.back())];
+    if (state.phase != Phase::kOpen || together) continue;
+    const Distance d = DistanceAt(c, cast->time);
+    state.gap = c == touch || std::abs(d.gap) <= Noise(c, cast->time) ? 0 : d.gap;
+    if (state.gap > 0 || d.speed <= 0) continue;
+    state.phase = Phase::kStarting;
+    state.settled = false;
+    state.cycle.kind = Cycle::Kind::kCollision;
+  }
+}
+
+void World::Commit(const std::shared_ptr<Piece>& piece, const std::vector<Waiting>& groups) {
+  for (std::size_t i = 0; i < piece->end.contacts.size(); ++i) {
+    states_[At(piece->end.contacts[i])] = piece->end.states[i];
+  }
+  for (std::size_t i = 0; i < piece->end.bodies.size(); ++i) {
+    const int body = piece->end.bodies[i];
+    waiting_[At(body)] = nullptr;
+    ++changes_[At(body)];
+    std::vector<Station>& stations = stations_[At(body)];
+    stations.push_back({.from = piece->begins(), .piece = piece});
+    stations.push_back({.from = piece->ends(),
+                        .flight = {.time = piece->ends(),
+                                   .start = piece->end.places[i],
+                                   .acceleration = Acceleration(body)}});
+  }
+  Wait(groups);
+}
+
+void World::Wait(const std::vector<Waiting>& groups) {
+  for (const Waiting& group : groups) {
+    const auto shared = std::make_shared<const Waiting>(group);
+    for (const int body : group.bodies) waiting_[At(body)] = shared;
+  }
+}
+
+void World::Undo(const Piece& piece) {
+  for (std::size_t i = 0; i < piece.before.size(); ++i) {
+    states_[At(piece.start.contacts[i])] = piece.before[i];
+  }
+  for (const int body : piece.start.bodies) {
+    std::vector<Station>& stations = stations_[At(body)];
+    while (stations.back().piece.get() != &piece) stations.pop_back();
+    stations.pop_back();
+    waiting_[At(body)] = nullptr;
+    ++changes_[At(body)];
+  }
+  for (const auto& group : piece.waited) {
+    for (const int body : group->bodies) waiting_[At(body)] = group;
+  }
+}
+
+void World::Restore(std::vector<ContactState> contacts, std::vector<std::vector<Station>> stations,
+                    const std::vector<Waiting>& groups) {
+  states_ = std::move(contacts);
+  stations_ = std::move(stations);
+  Wait(groups);
+}
+
+void World::Forget(int body, double instant) {
+  std::vector<Station>& stations = stations_[At(body)];
+  auto at = stations.end() - 1;
+  while (at != stations.begin() && at->from >= instant) --at;
+  if (at->piece != nullptr && at->piece->ends() <= instant) ++at;  // It is forgotten too.
+  stations.erase(stations.begin(), at);
+}
+
+}  // namespace contact

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "simulation/clusters/piece.h"
+
+namespace contact {
+
+/// All bodies and contacts of a run: what each has done so far, and what it does next.
+///
+/// The past of a body is a list of stations: it flies, moves in a piece, flies on or waits. What a
+/// piece has found out can be undone.
+class World {
+ public:
+  /// From one instant on a body moves in a piece, or flies, or waits.
+  struct Station {
+    double from = 0;                         ///< [s].
+    std::shared_ptr<Piece> piece = nullptr;  ///< Null: it flies or waits.
+    Flight flight = {};
+  };
+
+  /// The scenario must outlive the world.
+  explicit World(const Scenario& scenario);
+
+  const Scenario& scenario() const { return scenario_; }
+  /// The contacts of a body, and those that it has with bodies that move.
+  const std::vector<int>& ContactsOf(int body) const { return contacts_of_[At(body)]; }
+  /// The body on the other side of a contact; kNone if it does not move.
+  int Other(int contact, int body) const;
+  /// The bodies of a contact that move.
+  std::vector<int> Sides(int contact) const;
+
+  /// −δ [m] and δ̇ [m/s] of a contact, where its bodies are so.
+  double Gap(int contact, const Place& left, const Place& right) const;
+  /// That at an instant [s].
+  struct Distance {
+    double gap = 0, speed = 0;
+  };
+  Distance DistanceAt(int contact, double instant) const;
+  /// Below this a gap is round-off [m].
+  double Noise(int contact, double instant) const;
+
+  /// Where a body is at an instant [s]. What does not move is at 0.
+  Place At(int body, double instant) const;
+  const std::vector<Station>& StationsOf(int body) const { return stations_[At(body)]; }
+  /// The last piece of a body; null if it has moved in none since what was forgotten.
+  const Piece* LastPiece(int body) const;
+  /// With which bodies it waits; null if it flies.
+  const std::shared_ptr<const Waiting>& WaitingOf(int body) const { return waiting_[At(body)]; }
+  /// How often the future of a body has changed.
+  int Changes(int body) const { return body == kNone ? 0 : changes_[At(body)]; }
+  /// ẍ of a body in flight [m/s²].
+  double Acceleration(int body) const { return body == kNone ? 0 : accelerations_[At(body)]; }
+
+  /// When a contact of two bodies that fly begins [s]; kNever if it does not, or one waits.
+  double NextTouch(int contact) const;
+  /// The bodies at an instant at which each flies, or has just begun to wait. `touch`: a contact
+  /// that begins there, or kNone.
+  Cast Assemble(const std::vector<int>& bodies, double instant, int touch) const;
+
+  /// The bodies of a piece have moved so, and go on like that: those in `groups` wait together, and
+  /// the others fly.
+  void Commit(const std::shared_ptr<Piece>& piece, const std::vector<Waiting>& groups);
+  /// The last piece of its bodies has never been.
+  void Undo(const Piece& piece);
+  /// What a body did before the station in which it came to an instant [s].
+  void Forget(int body, double instant);
+
+  const std::vector<ContactState>& contacts() const { return states_; }
+  /// All becomes as it was when these were the contacts, stations and groups that wait.
+  void Restore(std::vector<ContactState> contacts, std::vector<std::vector<Station>> stations,
+               const std::vector<Waiting>& groups);
+
+ private:
+  void Wait(const std::vector<Waiting>& groups);
+  static std::size_t At(int index) { return static_cast<std::size_t>(index); }
+  bool Moves(int body) const { return body != kNone && !scenario_.bodies[At(body)].fixed; }
+  void ContactsAmong(const std::vector<int>& bodies, Cast* cast) const;
+  void Touch(int touch, Cast* cast) const;
+
+  const Scenario& scenario_;
+  std::vector<double> gaps_;           // At t = 0 [m].
+  std::vector<double> accelerations_;  // In flight [m/s²].
+  std::vector<std::vector<int>> contacts_of_;
+  std::vector<ContactState> states_;
+  std::vector<std::vector<Station>> stations_;
+  std::vector<std::shared_ptr<const Waiting>> waiting_;
+  std::vector<int> changes_;
+};
+
+}  // namespace contact

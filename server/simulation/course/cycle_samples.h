@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "simulation/motion/motion.h"
+
+namespace contact {
+
+/// A sample that is wanted because of a cycle.
+struct CycleSample {
+  double time = 0;  ///< [s].
+  double near = 0;  ///< Not where another sample is as near as that [s].
+};
+
+/// The samples within a step that `motion` has made, at equal steps of each running cycle: so many
+/// in the duration that the cycle is expected to have. From twice that duration on, each doubling
+/// of the cycle has that many again: what creeps without end does not fill the trajectory. In the
+/// order of time.
+void FindCycleSamples(const Motion& motion, const StepTime& step, int samples_per_contact,
+                      std::vector<CycleSample>* found);
+
+}  // namespace contact

@@ -1,0 +1,233 @@
+// Bodies solved in parts move as all together do, and cost what moves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+#include "simulation/model/derived.h"
+#include "testing/cases.h"
+
+namespace contact {
+namespace {
+
+using testing::Column;
+using testing::Gas;
+using testing::Record;
+using testing::RunAndRecord;
+
+Record RunTogether(const Scenario& scenario) {
+  Record record;
+  record.outcome = RunWhole(scenario, record);
+  return record;
+}
+
+using Rows = std::map<std::pair<int, int>, Cycle>;
+
+Rows RowsOf(const Record& record) {
+  Rows rows;
+  for (const Cycle& cycle : record.cycles) rows[{cycle.contact, cycle.number}] = cycle;
+  return rows;
+}
+
+// Rows that the end cuts have a μ by what comes after it, of which a part knows less.
+void ExpectSame(const Record& parts, const Record& whole, double time, double mu) {
+  const Rows all = RowsOf(whole), rows = RowsOf(parts);
+  ASSERT_EQ(rows.size(), all.size());
+  for (const auto& [name, a] : all) {
+    const auto found = rows.find(name);
+    ASSERT_NE(found, rows.end()) << name.first << " " << name.second;
+    const Cycle& b = found->second;
+    EXPECT_EQ(b.status, a.status) << name.first << " " << name.second;
+    EXPECT_EQ(b.group, a.group);
+    EXPECT_NEAR(b.start_time, a.start_time, time);
+    EXPECT_NEAR(b.end_time, a.end_time, time);
+    if (a.status == Cycle::Status::kConverged) {
+      EXPECT_NEAR(b.mu / a.mu, 1, mu);
+    }
+  }
+}
+
+void ExpectBalances(const Outcome& outcome) {
+  EXPECT_EQ(outcome.end, Outcome::End::kFinished) << outcome.message;
+  EXPECT_LT(outcome.energy_residual, 1e-9);
+  EXPECT_LT(outcome.momentum_residual, 1e-9);
+  EXPECT_LT(outcome.worst_identity_residual, 1e-8);
+}
+
+TEST(Clusters, AGasMovesAsAllTogetherDo) {
+  for (const double stiffness : {1e6, 1e9}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const Scenario s = Gas(40, stiffness, seed);
+      const Record parts = RunAndRecord(s), whole = RunTogether(s);
+      ExpectSame(parts, whole, 1e-9, 1e-6);  // With ξ = 1e-8.
+      ExpectBalances(parts.outcome);
+      EXPECT_TRUE(parts.outcome.all_converged);
+    }
+  }
+}
+
+// Where collisions hardly ever are alone: parts meet while both run, and become one.
+TEST(Clusters, ADenseGasMovesAsAllTogetherDo) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Scenario s = Gas(30, 1e9, seed, 0.1);
+    const Record parts = RunAndRecord(s), whole = RunTogether(s);
+    ExpectSame(parts, whole, 1e-7, 1e-4);  // Differences grow from collision to collision.
+    ExpectBalances(parts.outcome);
+  }
+}
+
+TEST(Clusters, SamplesAreThoseOfAllTogether) {
+  Scenario s = Gas(20, 1e6, 2);
+  s.sample_interval = s.end_time / 300;
+  const Record parts = RunAndRecord(s), whole = RunTogether(s);
+  ASSERT_EQ(parts.rows(), 301);
+  ASSERT_EQ(whole.rows(), 301);
+  const int forces = static_cast<int>(1 + 2 * s.bodies.size());
+  for (int row = 0; row < 301; ++row) {
+    for (int column = 0; column < parts.columns; ++column) {
+      const bool is_force = column >= forces && (column - forces) % 4 >= 2;
+      ASSERT_NEAR(parts.Sample(row, column), whole.Sample(row, column), is_force ? 1e-5 : 1e-8)
+          << row << " " << column;
+    }
+  }
+}
+
+TEST(Clusters, SamplesWithinACollisionAreAsManyAsAsked) {
+  Scenario s = Gas(8, 1e8, 3);
+  s.sample_interval = s.end_time;
+  s.samples_per_contact = 20;
+  const Record parts = RunAndRecord(s), whole = RunTogether(s);
+  EXPECT_NEAR(parts.rows(), whole.rows(), 2);
+  for (int row = 1; row < parts.rows(); ++row) {
+    ASSERT_GT(parts.Sample(row, 0), parts.Sample(row - 1, 0));
+  }
+}
+
+TEST(Clusters, RowsAreToldInTheOrderOfTheirEnds) {
+  const Record r = RunAndRecord(Gas(200, 1e6, 5));
+  EXPECT_GT(r.cycles.size(), 100U);
+  EXPECT_TRUE(std::ranges::is_sorted(r.cycles, {}, &Cycle::end_time));
+}
+
+// A search for μ in one place has nothing to do with those elsewhere.
+TEST(Clusters, ACollisionCostsTheSameInALargerGas) {
+  const auto steps_per_cycle = [](int balls) {
+    const Record r = RunAndRecord(Gas(balls, 1e9, 7));
+    return static_cast<double>(r.outcome.steps) / static_cast<double>(r.cycles.size());
+  };
+  const double few = steps_per_cycle(100);
+  EXPECT_LT(few, 60);
+  EXPECT_NEAR(steps_per_cycle(2000) / few, 1, 0.15);
+}
+
+// Two rows that the same ball hits at once, from both sides.
+TEST(Clusters, TiesAreOneCluster) {
+  Scenario s = testing::Chain(std::vector<double>(9, 0.5), std::vector<double>(8, 1e8),
+                              std::vector<double>(8, 0.9), 0, 0.01);
+  for (int i : {0, 8}) {
+    Body& ball = s.bodies[static_cast<std::size_t>(i)];
+    ball.position += i == 0 ? -0.015625 : 0.015625;
+    ball.velocity = i == 0 ? 10 : -10;
+  }
+  const Record r = RunAndRecord(s);
+  ExpectBalances(r.outcome);
+  for (int i = 0; i < 9; ++i) {  // The mirror image of itself.
+    EXPECT_NEAR(r.outcome.velocities[static_cast<std::size_t>(i)],
+                -r.outcome.velocities[static_cast<std::size_t>(8 - i)], 1e-9);
+  }
+}
+
+// Each on a floor of its own, until all rest: δ of k δ^1.5 = m g.
+TEST(Clusters, BallsThatFallComeToRest) {
+  Scenario s = Column(8, 1e7, 0.3, 0.001);
+  for (Contact& contact : s.contacts) {
+    const Body& ball = s.bodies[static_cast<std::size_t>(contact.left)];
+    contact.right = kNone;
+    contact.wall_position = ball.position + 0.012;
+  }
+  ASSERT_TRUE(MayPart(s));
+  const Record r = RunAndRecord(s);
+  ExpectBalances(r.outcome);
+  EXPECT_TRUE(r.outcome.all_converged);
+  const double depth = std::pow(0.03 * 9.81 / 1e7, 2.0 / 3);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_NEAR(r.outcome.positions[i] - s.bodies[i].position - 0.002, depth, 1e-2 * depth);
+  }
+}
+
+// A ball at rest on a wall, a gas, and a ball that reaches the first one late.
+TEST(Clusters, WhatRestsIsStruckWhereItRests) {
+  Scenario s = Gas(8, 1e8, 9);
+  s.end_time = 0.4;
+  s.contacts[0].wall_position = -0.5;
+  s.bodies[0].position = -0.49;
+  s.bodies[0].velocity = 0;
+  s.loads = {{.body = 0, .constant = -3}};  // It presses on the wall.
+  s.bodies[1].velocity = -1.5;
+  const Record parts = RunAndRecord(s), whole = RunTogether(s);
+  ExpectBalances(parts.outcome);
+  ASSERT_EQ(parts.cycles.size(), whole.cycles.size());
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    EXPECT_NEAR(parts.outcome.velocities[i], whole.outcome.velocities[i], 1e-6);
+  }
+}
+
+// All parts percolate: what is solved for nothing is bounded.
+TEST(Clusters, ARowThatIsOneClusterCostsLittleMoreThanTogether) {
+  const Scenario s = Gas(20, 1e6, 1, 0.1);
+  const Record parts = RunAndRecord(s), whole = RunTogether(s);
+  ExpectBalances(parts.outcome);
+  EXPECT_LT(static_cast<double>(parts.outcome.steps), 3 * static_cast<double>(whole.outcome.steps));
+}
+
+TEST(Clusters, TheBudgetOfStepsEndsTheRunWithWhatIsCertain) {
+  Scenario s = Gas(100, 1e6, 1);
+  const Record whole = RunAndRecord(s);
+  s.solver.max_steps = whole.outcome.steps / 2;
+  const Record half = RunAndRecord(s);
+  EXPECT_EQ(half.outcome.end, Outcome::End::kBudgetSteps);
+  EXPECT_LE(half.outcome.steps, s.solver.max_steps);
+  EXPECT_LT(half.outcome.time, s.end_time);
+  ASSERT_LT(half.cycles.size(), whole.cycles.size());
+  EXPECT_GT(half.cycles.size(), 0U);
+  for (std::size_t i = 0; i < half.cycles.size(); ++i) {
+    EXPECT_EQ(half.cycles[i].contact, whole.cycles[i].contact);
+    EXPECT_EQ(half.cycles[i].mu, whole.cycles[i].mu);
+  }
+}
+
+TEST(Clusters, ARunThatIsStoppedSaysSo) {
+  std::stop_source source;
+  struct Stopper : Record {
+    std::stop_source* source = nullptr;
+    void OnCycle(const Cycle& c) override {
+      Record::OnCycle(c);
+      if (cycles.size() == 10) source->request_stop();
+    }
+  } stopper;
+  stopper.source = &source;
+  const Outcome outcome = contact::Run(Gas(1000, 1e9, 1), stopper, source.get_token());
+  EXPECT_EQ(outcome.end, Outcome::End::kStopped);
+  EXPECT_GE(stopper.cycles.size(), 10U);
+  EXPECT_LT(outcome.time, 0.05);
+}
+
+TEST(Clusters, WhatIsSupportedOrShakenIsSolvedTogether) {
+  Scenario s = Gas(20, 1e6, 1);
+  EXPECT_TRUE(MayPart(s));
+  s.loads = {{.body = 0, .constant = 1}};
+  EXPECT_TRUE(MayPart(s));
+  s.loads[0].amplitude = 1;
+  EXPECT_FALSE(MayPart(s));
+  s.loads.clear();
+  s.supports = {{.body = 0, .stiffness = 1e3}};
+  EXPECT_FALSE(MayPart(s));
+  EXPECT_FALSE(MayPart(Gas(4, 1e6, 1)));
+}
+
+}  // namespace
+}  // namespace contact
