@@ -1,7 +1,9 @@
 """Adds what lies elsewhere to the package when it is built: the modules generated from the
-contract, with stubs for those who check types, and the scenarios that are its templates."""
+contract, with stubs for those who check types, and the scenarios that are its templates. Its version
+is that of the project in CMakeLists.txt."""
 
 import pathlib
+import re
 import shutil
 import subprocess
 
@@ -10,6 +12,7 @@ from setuptools.command.build_py import build_py
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROTO = ROOT / "proto"
+VERSION = re.search(r"project\(contactd VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
 
 
 class BuildWithContract(build_py):
@@ -32,4 +35,4 @@ class BuildWithContract(build_py):
             shutil.copy(scenario, templates)
 
 
-setup(cmdclass={"build_py": BuildWithContract})
+setup(version=VERSION, cmdclass={"build_py": BuildWithContract})

@@ -132,6 +132,8 @@ class CommandsTest(ServerTest):
         """Runs the statements of a page, beside what its commands left; how many."""
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder / "session")
+        address = {"CONTACT_SERVER": f"127.0.0.1:{self.server.port}"}
+        self.enterContext(mock.patch.dict(os.environ, address))
         names, count = {}, 0
         text = path.read_text("utf-8").replace("127.0.0.1:7070", f"127.0.0.1:{self.server.port}")
         found = [block for block in blocks(text) if block[0] in ("python", "pycon")]
@@ -149,6 +151,7 @@ class CommandsTest(ServerTest):
         return count
 
     def test_readme(self):
+        (self.folder / "session" / "client").unlink()  # Its tour needs nothing of the repository.
         self.assertGreater(self.shell(ROOT / "README.md"), 10)
         self.assertEqual(self.python(ROOT / "README.md"), 1)
 

@@ -103,7 +103,7 @@ class LauncherTest(unittest.TestCase):
         return found
 
 
-@unittest.skipIf(slurm.MISSING, f"{', '.join(slurm.MISSING)} not here; deploy/setup installs Slurm")
+@unittest.skipIf(slurm.MISSING, f"{', '.join(slurm.MISSING)} not here: deploy/setup tests")
 class SlurmLauncherTest(LauncherTest):
     """A test whose workers are jobs of a Slurm, `self.slurm`, of the job name `self.name`."""
 

@@ -18,6 +18,7 @@ class PackageTest(unittest.TestCase):
             # A copy, because setuptools leaves files beside the sources.
             for part in ("client/python", "client/scenarios", "proto"):
                 shutil.copytree(ROOT / part, pathlib.Path(folder) / part)
+            shutil.copy(ROOT / "CMakeLists.txt", folder)
             built = pathlib.Path(folder) / "built"
             subprocess.run([sys.executable, "setup.py", "-q", "build", "--build-lib", built],
                            cwd=pathlib.Path(folder) / "client/python", check=True, timeout=120,
@@ -48,11 +49,12 @@ class PackageTest(unittest.TestCase):
             environment = {"PATH": str(bare / "bin"), "PYTHONPATH": "/usr/lib/python3/dist-packages"}
             said = subprocess.run(
                 [python, "-c", "import contactsim, contact.v1.job_service_pb2_grpc as g; "
-                 "print(contactsim.__file__, g.__file__); "
+                 "print(contactsim.__file__, g.__file__); print(contactsim.__version__); "
                  "print(contactsim.load_scenario('two-balls').title)"],
                 cwd=folder, env=environment, check=True, timeout=120, capture_output=True,
                 text=True).stdout
             self.assertEqual(said.count(str(bare)), 2, said)
+            self.assertRegex(said, r"(?m)^\d+\.\d+\.\d+$")
             self.assertIn("Two balls, one collision", said)
 
 

@@ -29,7 +29,7 @@ class Cluster:
 
     def __init__(self, **settings):
         if not BINARIES:
-            raise RuntimeError("PostgreSQL is missing; deploy/setup installs it")
+            raise RuntimeError("PostgreSQL is missing; `deploy/setup tests` installs it")
         self.bin = BINARIES[0]
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="contact-pg-", dir="/tmp"))
         self.data = self.folder / "data"

@@ -7,17 +7,23 @@
 
 #include "cli/base/message.h"
 #include "cli/base/text_file.h"
+#include "cli/export/citation.h"
 #include "cli/figures/draw.h"
 #include "cli/figures/overlay.h"
 #include "cli/figures/run/presets.h"
 #include "cli/figures/run_report.h"
 #include "cli/link/connect.h"
 #include "cli/link/find_job.h"
+#include "cli/link/job_source.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
 namespace {
+
+constexpr char kAboutCitation[] =
+    R"(The first entry is the paper, the second the run or sweep. The same scenario, by its SHA-256, gives
+the same bytes again with this version and revision of contactd.)";
 
 struct ReportArguments {
   std::vector<std::string> jobs;
@@ -110,6 +116,17 @@ ExitCode Report(const ReportArguments& arguments, const Settings& settings) {
   return ExitCode::kOk;
 }
 
+ExitCode Cite(const std::string& name, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable});
+  const v1::Job job = JobSource(settings).Get(name);
+  if (job.spec_sha256().empty()) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{} has no result to cite yet; see `contactctl wait`", job.name()));
+  }
+  fmt::print("{}", BibTeX(job));
+  return ExitCode::kOk;
+}
+
 }  // namespace
 
 void AddReport(CommandLine& line, CLI::App& command) {
@@ -119,6 +136,15 @@ void AddReport(CommandLine& line, CLI::App& command) {
       ->required();
   AddDestination(line, command, "-f,--file", &arguments->file, "Where to")->capture_default_str();
   line.SetAction(command, arguments, Report);
+}
+
+void AddCite(CommandLine& line, CLI::App& command) {
+  command.footer(kAboutCitation);
+  auto job = std::make_shared<std::string>();
+  AddOption(line, command, "JOB", job.get(), ValueKind::kJob,
+            "Its ID, or a file of describe -o json")
+      ->required();
+  line.SetAction(command, job, Cite);
 }
 
 }  // namespace contact::cli

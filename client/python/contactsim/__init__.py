@@ -1,5 +1,7 @@
 """Contact simulations on a contactd server, with results as numpy arrays and pandas DataFrames."""
 
+import importlib.metadata
+
 from .aio import AsyncClient
 from .client import Client
 from .comparing import Comparison, compare
@@ -18,4 +20,7 @@ __all__ = [
     "RunFailed", "SignalComparison", "SweepResult", "Timeout", "ToolFailed", "Unreachable", "Violation",
     "compare", "compare_measured", "load_scenario", "templates"
 ]
-__version__ = "0.1.0"
+try:
+    __version__ = importlib.metadata.version("contactsim")
+except importlib.metadata.PackageNotFoundError:  # Imported from a source tree.
+    __version__ = "0+source"

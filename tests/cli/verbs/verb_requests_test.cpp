@@ -331,6 +331,15 @@ TEST_F(VerbRequestsTest, StatusTellsVersionLoadAndLimits) {
   EXPECT_EQ(json::parse(Run({"server", "info", "-o", "json"}).printed)["workers"], 4);
 }
 
+TEST_F(VerbRequestsTest, OnlyAJobWithAResultIsCited) {
+  server_.Add("jobs/waits", v1::Job::QUEUED);
+  const End early = Run({"cite", "waits"});
+  EXPECT_EQ(early.code, ExitCode::kUsage);
+  EXPECT_EQ(early.told, "jobs/waits has no result to cite yet; see `contactctl wait`");
+  server_.Add("jobs/done", v1::Job::SUCCEEDED).set_spec_sha256("0123");
+  EXPECT_THAT(Run({"cite", "done"}).printed, HasSubstr("jobs/done, scenario SHA-256 0123}"));
+}
+
 // Finding `check` of contactctl doctor.
 json Finding(const End& end, const std::string& check) {
   for (const json& finding : json::parse(end.printed)) {

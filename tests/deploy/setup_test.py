@@ -1,0 +1,119 @@
+"""deploy/setup installs what building and running needs, says first what that takes, and does without
+npm where it must; deploy/run does without the ports that it wants."""
+
+import os
+import pathlib
+import shutil
+import socket
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TOOLS = ("bash", "dirname", "comm", "grep", "sort", "sed", "awk", "env")
+
+# Stand-ins for Debian's programs: g++ is installed, and npm cannot be had if NPM_FAILS is set.
+DPKG_QUERY = "echo 'installed g++'; echo 'config-files cmake'"
+APT_GET = """
+case "$*" in
+*print-uris*)
+  echo "0 upgraded, 575 newly installed, 0 to remove and 0 not upgraded."
+  echo "Need to get 12 MB/210 MB of archives."
+  echo "After this operation, 1041 MB of additional disk space will be used." ;;
+*npm*) echo "APT $*" >&2; exit ${NPM_FAILS:-0} ;;
+*install*) echo "APT $*" >&2 ;;
+esac
+"""
+
+
+def listed(name):
+    lines = (ROOT / "deploy" / name).read_text("utf-8").splitlines()
+    return [line for line in lines if not line.startswith("#")]
+
+
+@unittest.skipIf(os.geteuid() != 0, "only root asks nobody for rights")
+class SetupTest(unittest.TestCase):
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.bin = pathlib.Path(folder.name)
+        for tool in TOOLS:
+            (self.bin / tool).symlink_to(shutil.which(tool))
+        self.add("dpkg-query", DPKG_QUERY)
+        self.add("apt-get", APT_GET)
+
+    def add(self, name, script):
+        (self.bin / name).write_text(f"#!{shutil.which('bash')}\n{script}\n")
+        (self.bin / name).chmod(0o755)
+
+    def setup(self, *arguments, **variables):
+        """The lines that deploy/setup prints, and apt-get when it installs."""
+        run = subprocess.run([ROOT / "deploy" / "setup", *arguments], stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, encoding="utf-8",
+                             env={"PATH": str(self.bin), **variables})
+        self.assertEqual(run.returncode, 0, run.stdout)
+        return run.stdout.splitlines()
+
+    def test_says_what_it_takes_and_installs_what_is_missing(self):
+        cost, needed, npm = self.setup()
+        self.assertEqual(cost, "setup: 575 packages, 12 MB to fetch, 1041 MB on disk, about 3 min")
+        self.assertEqual(set(needed.split("--no-install-recommends ")[1].split()),
+                         set(listed("packages")) - {"g++"})
+        self.assertTrue(npm.endswith("--no-install-recommends nodejs npm"), npm)
+
+    def test_installs_what_tests_need_only_for_tests(self):
+        needed = self.setup("tests")[1]
+        self.assertEqual(set(needed.split("--no-install-recommends ")[1].split()),
+                         set(listed("packages") + listed("test-packages")) - {"g++"})
+
+    def test_does_without_npm(self):
+        self.assertEqual(self.setup(NPM_FAILS="100")[-1],
+                         "setup: no Node 18 with npm; the dashboard cannot be built")
+
+    def test_takes_the_node_that_is_there(self):
+        self.add("npm", "")
+        self.add("node", "")
+        self.assertFalse([line for line in self.setup() if "nodejs" in line])
+
+
+class PortTest(unittest.TestCase):
+    """The port that deploy/run gives to contactd."""
+
+    def port(self, wanted):
+        """What it takes instead of a wanted port, and what it says."""
+        text = (ROOT / "deploy" / "run").read_text("utf-8")
+        function = text[text.index("free_port() {"):].split("\n}\n")[0] + "\n}\n"
+        run = subprocess.run(["bash", "-euc", f"{function}free_port {wanted}"], capture_output=True,
+                             text=True, check=True)
+        return int(run.stdout), run.stderr
+
+    def test_taken_port_is_told_and_any_other_is_taken(self):
+        with socket.create_server(("127.0.0.1", 0)) as other:
+            taken = other.getsockname()[1]
+            self.assertEqual(self.port(taken), (0, f"run: port {taken} is taken by another program; "
+                                                   "contactd gets another port\n"))
+        self.assertEqual(self.port(taken), (taken, ""))
+
+
+class PackagesTest(unittest.TestCase):
+
+    def test_no_package_is_in_both_lists(self):
+        self.assertEqual(set(listed("packages")) & set(listed("test-packages")), set())
+
+    def test_building_and_running_needs_few_packages_and_no_server(self):
+        with tempfile.NamedTemporaryFile() as nothing_installed:
+            plan = subprocess.run(
+                ["apt-get", "install", "--simulate", "--no-install-recommends", "-o",
+                 f"Dir::State::status={nothing_installed.name}", *listed("packages")],
+                capture_output=True, text=True)
+        if plan.returncode != 0:
+            self.skipTest("apt-get has no lists of packages")
+        packages = {line.split()[1] for line in plan.stdout.splitlines() if line.startswith("Inst ")}
+        # Beside the 96 of a minimal Debian, of which half are needed here too, 220.
+        self.assertLess(len(packages), 270)
+        self.assertEqual(packages & {*listed("test-packages"), "systemd", "dbus"}, set())
+
+
+if __name__ == "__main__":
+    unittest.main()
