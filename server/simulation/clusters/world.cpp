@@ -108,9 +108,9 @@ void World::ContactsAmong(const std::vector<int>& bodies, Cast* cast) const {
       cast->contacts.push_back(c);
     }
   }
-  std::ranges::sort(cast->contacts);
-  const auto twice = std::ranges::unique(cast->contacts);
-  cast->contacts.erase(twice.begin(), twice.end());
+  std::vector<int>& all = cast->contacts;
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
 Cast World::Assemble(const std::vector<int>& bodies, double instant, int touch) const {
