@@ -64,10 +64,7 @@ Outcome ClusterRun::Run() {
   }
   if (run_.outcome.end == Outcome::End::kFinished) {
     TellUntil(scenario_.end_time);
-    observer_.OnProgress({.time = run_.state.time,
-                          .steps = run_.steps,
-                          .cycles = run_.cycles,
-                          .iterations = run_.iterations});
+    TellProgress();
   }
   frames_.Flush();
   Summarize();
@@ -234,6 +231,7 @@ std::shared_ptr<Piece> ClusterRun::Solve(const Attempt& attempt) {
   piece->touch = attempt.touch;
   piece->before = std::move(before);
   piece->waited = std::move(waited);
+  busy_with_ = piece->whereabouts;
   Count(*piece);
   return piece;
 }
@@ -272,11 +270,16 @@ void ClusterRun::Advance() {
   look_at_ = number_ + 1 + std::ssize(pieces_) / kSeldom;
   if (certain <= run_.state.time) return;
   TellUntil(certain);
+  TellProgress();
+  if (run_.state.time < scenario_.end_time) observer_.OnBoundary([this] { return Save(); });
+}
+
+void ClusterRun::TellProgress() {
   observer_.OnProgress({.time = run_.state.time,
                         .steps = run_.steps,
                         .cycles = run_.cycles,
-                        .iterations = run_.iterations});
-  if (run_.state.time < scenario_.end_time) observer_.OnBoundary([this] { return Save(); });
+                        .iterations = run_.iterations,
+                        .busy_with = busy_with_});
 }
 
 void ClusterRun::TellUntil(double instant) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "simulation/clusters/agenda.h"
@@ -49,6 +50,7 @@ class ClusterRun {
   void Fail(const Piece& piece);
 
   void Advance();
+  void TellProgress();
   void TellUntil(double instant);
   void Tell(const Report::News& news);
   void ForgetUntil(double instant);
@@ -72,6 +74,7 @@ class ClusterRun {
   std::int64_t number_ = 0;   // Of the last piece that was tried.
   std::int64_t look_at_ = 0;  // The number at which to look what is certain.
   Blocks blocks_;
+  std::string busy_with_;                 // Of the last piece.
   std::int64_t useful_ = 0, wasted_ = 0;  // Steps since bodies were bound last.
   double loss_ = 0;                       // Dissipated in pieces that are certain [J],
   double impulse_ = 0;  // and the impulse of walls and fixed bodies in them [N·s].
