@@ -42,10 +42,10 @@ void Include(const std::vector<int>& more, std::vector<int>* in) {
 ClusterRun::ClusterRun(const Scenario& scenario, Observer& observer, std::stop_token stop)
     : scenario_(scenario),
       observer_(observer),
-      solver_(scenario, observer, std::move(stop)),
+      solver_(scenario, observer, stop),
       world_(scenario),
       agenda_(world_),
-      frames_(world_, observer) {
+      frames_(world_, observer, std::move(stop)) {
   run_.warned.resize(scenario.contacts.size());
   run_.unproven.resize(scenario.contacts.size());
   run_.missed.resize(kDampingLaws);
@@ -298,6 +298,11 @@ void ClusterRun::TellUntil(double instant) {
   }
   std::ranges::stable_sort(news, {}, [](const Next& n) { return std::pair(n.time, n.number); });
   frames_.RecordUntil(instant, pieces_);
+  if (frames_.cut_short() && run_.outcome.end == Outcome::End::kFinished) {
+    run_.outcome.end = Outcome::End::kStopped;
+    run_.outcome.message = WhyEnded(Outcome::End::kStopped, run_.state.time, {});
+    return;
+  }
   for (const Next& next : news) Tell(*next.news);
   ForgetUntil(instant);
   run_.state.time = instant;

@@ -11,8 +11,12 @@ std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-Frames::Frames(const World& world, Observer& observer)
-    : world_(world), scenario_(world.scenario()), observer_(observer), equations_(scenario_) {
+Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
+    : world_(world),
+      scenario_(world.scenario()),
+      observer_(observer),
+      stop_(std::move(stop)),
+      equations_(scenario_) {
   samples_.columns =
       static_cast<int>(1 + 2 * scenario_.bodies.size() + 4 * scenario_.contacts.size());
 }
@@ -38,6 +42,8 @@ void Frames::RecordUntil(double instant, const Pieces& pieces) {
     const bool in_cycle = wanted.time < regular - wanted.near;
     if (in_cycle) ++next;
     if (in_cycle && (wanted.time - last_ <= wanted.near || full())) continue;
+    if (samples_.rows() == 0 && stop_.stop_requested()) cut_short_ = true;
+    if (cut_short_) return;
     if (!in_cycle) ++regular_;
     Record(std::min(in_cycle ? wanted.time : regular, scenario_.end_time), pieces);
   }

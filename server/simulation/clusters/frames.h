@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "simulation/clusters/world.h"
@@ -12,14 +13,17 @@ namespace contact {
 /// Samples of a world, at equal intervals and where its cycles want them; as Sampler makes them.
 class Frames {
  public:
-  /// All outlive the frames.
-  Frames(const World& world, Observer& observer);
+  /// All outlive the frames. Once `stop` is requested they hand out no further chunk of samples,
+  /// however many there are.
+  Frames(const World& world, Observer& observer, std::stop_token stop);
 
   /// Takes the samples up to an instant that are not taken yet [s]. `pieces`: all that go on after
   /// the last sample.
   void RecordUntil(double instant, const Pieces& pieces);
   /// Hands out what is left, at the end of the run.
   void Flush();
+  /// True if samples are missing because the run was asked to stop.
+  bool cut_short() const { return cut_short_; }
   /// True if cycles have had all samples that Scenario::most_contact_samples allows, if any.
   bool full() const;
 
@@ -35,6 +39,8 @@ class Frames {
   const World& world_;
   const Scenario& scenario_;
   Observer& observer_;
+  const std::stop_token stop_;
+  bool cut_short_ = false;
   const Equations equations_;
   std::int64_t next_ = 0, regular_ = 0;  // Samples so far, and those at the interval.
   double last_ = -kNever;                // Time of the last sample [s].
