@@ -18,18 +18,21 @@ World::World(const Scenario& scenario)
       waiting_(scenario.bodies.size()),
       changes_(scenario.bodies.size()) {
   for (const Load& load : scenario.loads) {
+    if (!Moves(load.body)) continue;
     accelerations_[At(load.body)] += load.constant / scenario.bodies[At(load.body)].mass;
   }
   for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
-    const bool fixed = scenario.bodies[b].fixed;
-    const Flight flight{.start = {.v = fixed ? 0 : scenario.bodies[b].velocity},
-                        .acceleration = fixed ? 0 : accelerations_[b]};
+    const Flight flight{.start = {.v = scenario.bodies[b].velocity},
+                        .acceleration = accelerations_[b]};
     stations_[b].push_back({.from = 0, .flight = flight});
   }
   for (std::size_t c = 0; c < scenario.contacts.size(); ++c) {
     gaps_.push_back(InitialGap(scenario, scenario.contacts[c]));
     states_[c].phase = Phase::kOpen;
-    for (const int body : Sides(static_cast<int>(c))) {
+    std::vector<int>& sides = sides_.emplace_back();
+    for (const int body : {scenario.contacts[c].left, scenario.contacts[c].right}) {
+      if (!Moves(body)) continue;
+      sides.push_back(body);
       contacts_of_[At(body)].push_back(static_cast<int>(c));
     }
   }
@@ -39,15 +42,6 @@ int World::Other(int contact, int body) const {
   const Contact& c = scenario_.contacts[At(contact)];
   const int other = c.left == body ? c.right : c.left;
   return Moves(other) ? other : kNone;
-}
-
-std::vector<int> World::Sides(int contact) const {
-  const Contact& c = scenario_.contacts[At(contact)];
-  std::vector<int> sides;
-  for (const int body : {c.left, c.right}) {
-    if (Moves(body)) sides.push_back(body);
-  }
-  return sides;
 }
 
 // δ = u_left − u_right − gap, from displacements: positions would lose its digits.
@@ -118,8 +112,9 @@ Cast World::Assemble(const std::vector<int>& bodies, double instant, int touch) 
   cast.time = instant;
   cast.bodies = bodies;
   ContactsAmong(bodies, &cast);
-  for (const int body : bodies)
+  for (const int body : bodies) {
     cast.places.push_back(stations_[At(body)].back().flight.At(instant));
+  }
   for (const int c : cast.contacts) cast.states.push_back(states_[At(c)]);
   Touch(touch, &cast);
   std::vector<const Waiting*> groups;
@@ -148,7 +143,7 @@ void World::Touch(int touch, Cast* cast) const {
   for (std::size_t i = 0; i < cast->contacts.size(); ++i) {
     const int c = cast->contacts[i];
     ContactState& state = cast->states[i];
-    const std::vector<int> sides = Sides(c);
+    const std::vector<int>& sides = Sides(c);
     const auto& group = waiting_[At(sides.front())];
     const bool together = group != nullptr && group == waiting_[At(sides.back())];
     if (state.phase != Phase::kOpen || together) continue;

@@ -28,8 +28,8 @@ class World {
   const std::vector<int>& ContactsOf(int body) const { return contacts_of_[At(body)]; }
   /// The body on the other side of a contact; kNone if it does not move.
   int Other(int contact, int body) const;
-  /// The bodies of a contact that move.
-  std::vector<int> Sides(int contact) const;
+  /// The bodies of a contact that move: the left one first, at most two.
+  const std::vector<int>& Sides(int contact) const { return sides_[At(contact)]; }
 
   /// −δ [m] and δ̇ [m/s] of a contact, where its bodies are so.
   double Gap(int contact, const Place& left, const Place& right) const;
@@ -80,8 +80,9 @@ class World {
   void Touch(int touch, Cast* cast) const;
 
   const Scenario& scenario_;
-  std::vector<double> gaps_;           // At t = 0 [m].
-  std::vector<double> accelerations_;  // In flight [m/s²].
+  std::vector<double> gaps_;             // At t = 0 [m].
+  std::vector<std::vector<int>> sides_;  // Of each contact.
+  std::vector<double> accelerations_;    // In flight [m/s²].
   std::vector<std::vector<int>> contacts_of_;
   std::vector<ContactState> states_;
   std::vector<std::vector<Station>> stations_;
