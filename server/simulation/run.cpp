@@ -15,13 +15,6 @@
 namespace contact {
 namespace {
 
-constexpr char kFull[] =
-    "output.samples_per_contact: the trajectory has as many samples as the server allows; contacts "
-    "after that have only those of sample_interval_s";
-
-// From so many steps on a run tells what it is busy with.
-constexpr std::int64_t kManySteps = 1'000'000;
-
 // One run whose bodies all move together: free flights and episodes in turn, and the ledger.
 class Runner {
  public:
@@ -61,7 +54,7 @@ class Runner {
       TellGroups();
     }
     sampler_.Flush();
-    if (sampler_.full()) observer_.OnWarning(kFull);
+    if (sampler_.full()) observer_.OnWarning(kSamplesAreFull);
     Summarize();
     return run_.outcome;
   }
@@ -113,9 +106,7 @@ class Runner {
                           .steps = motion.steps(),
                           .cycles = run_.cycles,
                           .iterations = course_.log().total,
-                          .busy_with = motion.steps() < kManySteps
-                                           ? std::string()
-                                           : Whereabouts(scenario_, motion)});
+                          .busy_with = BusyWith(scenario_, motion)});
   }
 
   double Energy() const {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "simulation/course/course.h"
-#include "simulation/course/cycle_samples.h"
+#include "simulation/course/sample_log.h"
 #include "simulation/episode/run_state.h"
 #include "simulation/model/observer.h"
 #include "simulation/motion/motion.h"
@@ -29,20 +29,17 @@ class Sampler final : public Recording {
   void OnStep(const StepTime& step) override;
 
   /// True if samples are missing because the run was asked to stop.
-  bool cut_short() const { return cut_short_; }
-  /// True if cycles have had all samples that Scenario::most_contact_samples allows, if any.
-  bool full() const;
+  bool cut_short() const { return log_.cut_short(); }
+  /// See SampleLog::full.
+  bool full() const { return log_.full(); }
 
   /// Takes the first sample, of the state at time 0. Begins a recording of `motion`.
   void RecordStart(const State& state);
   /// Hands out what is left, at the end of the run.
-  void Flush();
+  void Flush() { log_.Flush(); }
 
-  /// Samples that were not handed out yet, with the index of the first, and what else it takes to
-  /// go on after them.
-  Sampling Save() const;
-  /// Goes on after those.
-  void Restore(Sampling from);
+  Sampling Save() const { return log_.Save(); }
+  void Restore(Sampling from) { log_.Restore(std::move(from)); }
 
   /// Keeps the samples from now on until they are released or taken back.
   void Hold() override;
@@ -53,26 +50,16 @@ class Sampler final : public Recording {
   void TakeBack() override;
 
  private:
-  /// Time of the next sample at the interval [s]; infinite if it is not in the step.
-  double NextRegular(const StepTime& step) const;
-  /// True if there is room for a sample of a cycle, and no other one near.
-  bool Wants(const CycleSample& sample) const;
-  /// Takes a sample of the state y.
-  void Record(double time, const Eigen::ArrayXd& y);
+  /// Appends the values of a sample of the state y to a row.
+  void Append(double time, const Eigen::ArrayXd& y, std::vector<double>* row);
+  /// Passes a chunk on, or keeps it.
+  void HandOut(const Samples& samples);
 
   const Scenario& scenario_;
   Motion& motion_;
   Observer& observer_;
   const std::stop_token stop_;
-  bool cut_short_ = false;
-  // Index of the next sample in the trajectory.
-  std::int64_t next_ = 0;
-  // Samples at multiples of the interval so far.
-  std::int64_t regular_ = 0;
-  // Time of the last sample [s].
-  double last_ = 0;
-  // The chunk that is being filled.
-  Samples samples_;
+  SampleLog log_;
   // What was pending at Hold, while samples are kept.
   std::optional<Sampling> before_;
   // Full chunks that are kept.

@@ -150,6 +150,14 @@ void Gas(benchmark::State& state) {
 }
 BENCHMARK(Gas)->Arg(100)->Arg(1000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
+// The same with all balls moved together, as they would be without clusters.
+void GasTogether(benchmark::State& state) {
+  const Scenario s = testing::Gas(static_cast<int>(state.range(0)), 1e6, 2);
+  testing::Record record;
+  while (state.KeepRunning()) RunWhole(s, record);
+}
+BENCHMARK(GasTogether)->Arg(100)->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace contact
 

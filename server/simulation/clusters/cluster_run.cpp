@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <set>
 #include <utility>
 
 #include "simulation/clusters/cluster_state.h"
@@ -13,19 +12,23 @@ namespace contact {
 namespace {
 
 // How far back what is new may reach, in the longest times that pieces last: a merge begins where
-// the earlier piece does, and may take in others that went on then. In a gas of 100,000 balls the
-// farthest of 118 merges went back by four.
+// the earlier piece does, and may take in others that went on then. Of 140 random gases, a gas of
+// 100,000 balls and a column the farthest went back by 2.3. More keeps more in memory.
 constexpr double kBack = 16;
-// Pieces are looked through for what is certain once so many for each have come.
-constexpr std::int64_t kSeldom = 8;
-// Steps for nothing before bodies are bound together: those of some joins, and one in so many. What
-// is bound too early steps in vain for ever, and what is bound too late is solved too often: 100
-// balls of gaps 1 mm take 0.11 and 0.12 million steps with 1 and 5, of gaps 0.3 mm 4.7 and 2.9.
-constexpr std::int64_t kWasted = 2000, kUseful = 4;
-// How far those that wait look before they are solved, in times that their last piece has lasted:
-// without that 60 balls of gaps 0.3 mm take 1.9 million steps for 0.95.
+// So many times while as many pieces come as are kept it is looked what is certain. With 1 a gas of
+// 40 balls has 5 checkpoints for more than 10 (tests/jobs/cluster_checkpoint_test.cpp); with 1 or
+// 64 a gas of 10,000 takes the same time.
+constexpr std::int64_t kOften = 8;
+// Steps for nothing before bodies are bound together: as many as were of use, and those of a few
+// joins. What is bound too early steps in vain for ever, and what is bound too late is solved too
+// often; with a quarter or a sixteenth of the useful ones 100 balls in gaps of 0.06 to 0.9 mm (k
+// 1e9) take 0.12 and 0.14 million steps for 0.10.
+constexpr std::int64_t kWasted = 2000;
+// How far those that wait look before they are solved, in times that their last piece has lasted.
+// 60 balls in gaps of 0.2 to 3 mm (k 1e6) take 2.5 million steps with 0, 0.95 with 3, 1.06 with 12.
 constexpr double kAhead = 3;
-// A flight within a piece lasts at most this part of the run, so that all is told in time.
+// A flight within a piece, of bodies at rest, lasts at most this part of the run: so far behind may
+// be what is told, and so often is the rest looked at.
 constexpr double kLongest = 1.0 / 64;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
@@ -67,6 +70,7 @@ Outcome ClusterRun::Run() {
     TellProgress();
   }
   frames_.Flush();
+  if (frames_.full()) observer_.OnWarning(kSamplesAreFull);
   Summarize();
   return run_.outcome;
 }
@@ -124,17 +128,17 @@ void ClusterRun::Keep(const std::shared_ptr<Piece>& piece, const std::vector<Wai
 // instant at which each is known. False, and changes nothing, if that is certain already.
 bool ClusterRun::Gather(const std::vector<int>& more, Attempt* attempt) const {
   Attempt wider = *attempt;
-  std::vector<int> todo = more;
+  std::vector<int> pending = more;
   Include(more, &wider.bodies);
   const auto take = [&](const std::vector<int>& bodies) {
     for (const int body : bodies) {
-      if (!std::ranges::binary_search(wider.bodies, body)) todo.push_back(body);
+      if (!std::ranges::binary_search(wider.bodies, body)) pending.push_back(body);
     }
     Include(bodies, &wider.bodies);
   };
-  while (!todo.empty()) {
-    const int body = todo.back();
-    todo.pop_back();
+  while (!pending.empty()) {
+    const int body = pending.back();
+    pending.pop_back();
     take(blocks_.With(body));
     if (const auto& group = world_.WaitingOf(body)) take(group->bodies);
     for (const World::Station& station : world_.StationsOf(body)) {
@@ -145,7 +149,7 @@ bool ClusterRun::Gather(const std::vector<int>& more, Attempt* attempt) const {
       if (piece->begins() >= wider.time) continue;
       wider.time = piece->begins();
       wider.touch = piece->touch;
-      todo = wider.bodies;
+      pending = wider.bodies;
       break;
     }
   }
@@ -162,7 +166,7 @@ void ClusterRun::Flood(Attempt* attempt) const {
         const int other = world_.Other(contact, body);
         if (other == kNone || std::ranges::binary_search(attempt->bodies, other)) continue;
         const World::Distance d = world_.DistanceAt(contact, attempt->time);
-        if (d.gap > world_.Noise(contact, attempt->time) || d.speed < 0) continue;
+        if (d.speed < 0 || d.gap > world_.Noise(contact, attempt->time)) continue;
         grows |= Gather({other}, attempt);
       }
     }
@@ -186,7 +190,7 @@ bool ClusterRun::Join(int body, Attempt* attempt) {
       if (free && Gather({other}, attempt)) joined.push_back(other);
     }
   }
-  if (wasted_ < kWasted + useful_ / kUseful) return true;
+  if (wasted_ < kWasted + useful_) return true;
   blocks_.Bind(attempt->bodies);
   wasted_ = useful_ = 0;
   return true;
@@ -246,11 +250,14 @@ void ClusterRun::Fail(const Piece& piece) {
   agenda_.Note(piece.start.bodies);
   Advance();
   const Outcome::End end = EndOf(piece.pause);
-  run_.outcome.end = end == Outcome::End::kFinished ? Outcome::End::kNumeric : end;
-  run_.outcome.message =
-      WhyEnded(run_.outcome.end, piece.ends(),
-               end == Outcome::End::kFinished ? "a cluster meets bodies whose past is told"
-                                              : piece.whereabouts);
+  if (end == Outcome::End::kFinished) {
+    run_.outcome.end = Outcome::End::kNumeric;
+    run_.outcome.message =
+        "bodies meet whose past is told already, at t = " + std::to_string(piece.ends()) + " s";
+  } else {
+    run_.outcome.end = end;
+    run_.outcome.message = WhyEnded(end, piece.ends(), piece.whereabouts);
+  }
 }
 
 // Tells what is certain. What is solved from now on may begin together with a piece that goes on
@@ -267,7 +274,7 @@ void ClusterRun::Advance() {
     return entry.second->begins() < certain && entry.second->ends() > certain;
   });
   if (!alone) certain = std::min(certain, now - kBack * longest);
-  look_at_ = number_ + 1 + std::ssize(pieces_) / kSeldom;
+  look_at_ = number_ + 1 + std::ssize(pieces_) / kOften;
   if (certain <= run_.state.time) return;
   TellUntil(certain);
   TellProgress();
@@ -419,7 +426,7 @@ double ClusterRun::Momentum() const {
   return momentum;
 }
 
-// The largest energy and momentum seen, to which the balances are relative.
+// The larger energy and momentum of begin and end, to which the balances are relative.
 void ClusterRun::Scale() {
   double momentum = 0;
   for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "simulation/clusters/world.h"
+#include "simulation/course/sample_log.h"
 #include "simulation/episode/run_state.h"
 #include "simulation/model/observer.h"
 #include "simulation/motion/equations.h"
@@ -21,34 +23,35 @@ class Frames {
   /// the last sample.
   void RecordUntil(double instant, const Pieces& pieces);
   /// Hands out what is left, at the end of the run.
-  void Flush();
+  void Flush() { log_.Flush(); }
   /// True if samples are missing because the run was asked to stop.
-  bool cut_short() const { return cut_short_; }
-  /// True if cycles have had all samples that Scenario::most_contact_samples allows, if any.
-  bool full() const;
+  bool cut_short() const { return log_.cut_short(); }
+  /// See SampleLog::full.
+  bool full() const { return log_.full(); }
 
-  Sampling Save() const;
-  /// All up to `time` was taken [s].
-  void Restore(Sampling from, double time);
+  Sampling Save() const { return log_.Save(); }
+  /// Goes on from there; all up to `time` was taken [s].
+  void Restore(Sampling from, double time) {
+    log_.Restore(std::move(from));
+    until_ = time;
+  }
 
  private:
   void FindSamples(double from, double until, const Pieces& pieces);
-  void Record(double instant, const Pieces& pieces);
+  void Append(double instant, const Pieces& pieces, std::vector<double>* row);
   void FindForces(double instant, const Pieces& pieces);
+  /// −δ of a contact between the places of the sample [m].
+  double Gap(int contact) const;
 
   const World& world_;
   const Scenario& scenario_;
-  Observer& observer_;
-  const std::stop_token stop_;
-  bool cut_short_ = false;
   const Equations equations_;
-  std::int64_t next_ = 0, regular_ = 0;  // Samples so far, and those at the interval.
-  double last_ = -kNever;                // Time of the last sample [s].
-  double until_ = 0;                     // All up to here are taken [s].
-  Samples samples_;
-  // Scratch: samples of cycles; u, v and a of each body; F of each contact.
+  SampleLog log_;
+  double until_ = 0;  // All up to here are taken [s].
   std::vector<CycleSample> wanted_;
-  std::vector<double> u_, v_, a_, force_;
+  // Of a sample: each body's place, ẋ and ẍ, and F of each contact.
+  std::vector<Place> places_;
+  std::vector<double> velocities_, accelerations_, forces_;
 };
 
 }  // namespace contact

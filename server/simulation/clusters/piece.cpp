@@ -11,9 +11,6 @@
 namespace contact {
 namespace {
 
-// From so many steps on a run tells what it is busy with.
-constexpr std::int64_t kManySteps = 1'000'000;
-
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // Place of a number in an ascending list that has it.
@@ -100,7 +97,7 @@ RunState PieceSolver::Begin(const Cast& cast, const Scenario& part, const RunSta
   return now;
 }
 
-// A piece that begins so, and what solves it.
+// A piece under way, and all that solves it: a course on the scenario of its bodies.
 struct PieceSolver::Work {
   Work(const PieceSolver& of, Cast start, const RunState& run)
       : piece(std::make_shared<Piece>()),
@@ -146,9 +143,8 @@ std::shared_ptr<Piece> PieceSolver::Solve(Cast start, std::int64_t number, doubl
   work.piece->number = number;
   Go(until, &work);
   const Motion& motion = work.course.motion();
-  if (EndOf(work.piece->pause) != Outcome::End::kFinished || motion.steps() >= kManySteps) {
-    work.piece->whereabouts = Whereabouts(work.part, motion);
-  }
+  const bool ended = EndOf(work.piece->pause) != Outcome::End::kFinished;
+  work.piece->whereabouts = ended ? Whereabouts(work.part, motion) : BusyWith(work.part, motion);
   if (work.now.state.time >= scenario_.end_time) Cut(&work);
   Close(run, &work);
   return work.piece;

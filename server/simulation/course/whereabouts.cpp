@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <sstream>
 #include <vector>
 
@@ -40,6 +41,11 @@ std::string Whereabouts(const Scenario& scenario, const Motion& motion) {
   }
   if (places.size() > kMostContacts) text << " and " << places.size() - kMostContacts << " more";
   return text.str();
+}
+
+std::string BusyWith(const Scenario& scenario, const Motion& motion) {
+  constexpr std::int64_t kManySteps = 1'000'000;
+  return motion.steps() < kManySteps ? std::string() : Whereabouts(scenario, motion);
 }
 
 }  // namespace contact

@@ -10,4 +10,7 @@ namespace contact {
 /// first, three at most, each with δ [m], λ h of the step, and the work of its cycle so far [J].
 std::string Whereabouts(const Scenario& scenario, const Motion& motion);
 
+/// That, once a run has made a million steps; before it is busy with nothing: empty.
+std::string BusyWith(const Scenario& scenario, const Motion& motion);
+
 }  // namespace contact

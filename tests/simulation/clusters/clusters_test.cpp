@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -83,6 +84,63 @@ TEST(Clusters, ADenseGasMovesAsAllTogetherDo) {
   }
 }
 
+// Of any stiffness, restitution and density, with masses over a decade, falling or not, with balls
+// at rest or fixed among them.
+Scenario RandomGas(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  const auto one_in = [&](unsigned count) { return random() % count == 0; };
+  const int balls = 8 + static_cast<int>(random() % 33);
+  const double stiffness = std::pow(10, between(6, 9));
+  Scenario s = Gas(balls, stiffness, seed, std::pow(10, between(-1.1, 0)));
+  const double restitution = between(0.3, 0.95);
+  for (Contact& contact : s.contacts) contact.restitution = restitution * between(0.9, 1.05);
+  const double gravity = one_in(3) ? between(-10, 10) : 0;
+  for (int i = 0; i < balls; ++i) {
+    Body& ball = s.bodies[static_cast<std::size_t>(i)];
+    ball.mass *= std::pow(10, between(-0.5, 0.5));
+    ball.fixed = one_in(40);
+    if (ball.fixed || one_in(6)) ball.velocity = 0;
+    if (gravity != 0) s.loads.push_back({.body = i, .constant = gravity * ball.mass});
+  }
+  s.solver.max_steps = 400'000;
+  return s;
+}
+
+// The same cycles but in a few: where a tail is chaotic, and where two sets of μ solve the same
+// groups.
+TEST(Clusters, RandomGasesKeepTheirBalancesAndTheirCycles) {
+  if (!testing::kOptimized) GTEST_SKIP() << "takes minutes";
+  int finished = 0, same = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const Scenario s = RandomGas(seed);
+    const Record parts = RunAndRecord(s), whole = RunTogether(s);
+    ASSERT_NE(parts.outcome.end, Outcome::End::kNumeric) << seed << parts.outcome.message;
+    if (parts.outcome.end != Outcome::End::kFinished) continue;
+    EXPECT_LT(parts.outcome.energy_residual, 1e-9) << seed;
+    EXPECT_LT(parts.outcome.momentum_residual, 1e-9) << seed;
+    if (whole.outcome.end != Outcome::End::kFinished) continue;
+    EXPECT_GE(parts.outcome.all_converged, whole.outcome.all_converged) << seed;
+    ++finished;
+    same += parts.cycles.size() == whole.cycles.size();
+  }
+  EXPECT_GE(finished, 30);
+  EXPECT_GE(same, finished - 3);
+}
+
+// A fixed ball hangs in the air, whatever pulls at it.
+TEST(Clusters, WhatIsFixedDoesNotFall) {
+  Scenario s = Column(9, 1e7, 0.5, 0.001);
+  s.bodies[4].fixed = true;
+  s.end_time = 0.03;
+  const Record parts = RunAndRecord(s), whole = RunTogether(s);
+  ExpectSame(parts, whole, 1e-7, 1e-4);  // Differences grow from bounce to bounce.
+  ExpectBalances(parts.outcome);
+  EXPECT_EQ(parts.outcome.positions[4], s.bodies[4].position);
+}
+
 TEST(Clusters, SamplesAreThoseOfAllTogether) {
   Scenario s = Gas(20, 1e6, 2);
   s.sample_interval = s.end_time / 300;
@@ -108,6 +166,17 @@ TEST(Clusters, SamplesWithinACollisionAreAsManyAsAsked) {
   for (int row = 1; row < parts.rows(); ++row) {
     ASSERT_GT(parts.Sample(row, 0), parts.Sample(row - 1, 0));
   }
+}
+
+TEST(Clusters, SamplesWithinCollisionsEndAtTheirMostAndThatIsSaid) {
+  Scenario s = Gas(8, 1e8, 3);
+  s.sample_interval = s.end_time;
+  s.samples_per_contact = 20;
+  s.most_contact_samples = 15;
+  const Record parts = RunAndRecord(s), whole = RunTogether(s);
+  EXPECT_EQ(parts.rows(), 2 + 15);
+  EXPECT_EQ(parts.warnings, whole.warnings);
+  EXPECT_EQ(parts.warnings.size(), 1U);
 }
 
 TEST(Clusters, RowsAreToldInTheOrderOfTheirEnds) {
