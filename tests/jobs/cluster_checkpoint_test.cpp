@@ -35,6 +35,7 @@ TEST(ClusterCheckpoint, GoesOnAsIfItHadNeverStopped) {
     rest.outcome = contact::Resume(s, *state, rest);
     EXPECT_EQ(rest.outcome.velocities, whole.outcome.velocities);
     EXPECT_EQ(rest.outcome.steps, whole.outcome.steps);
+    EXPECT_EQ(rest.outcome.iterations, whole.outcome.iterations);
     EXPECT_EQ(rest.outcome.energy_residual, whole.outcome.energy_residual);
     ASSERT_EQ(rest.cycles.size(), whole.cycles.size() - whole.told[i]);
     for (std::size_t c = 0; c < rest.cycles.size(); ++c) {

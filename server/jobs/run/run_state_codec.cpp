@@ -242,7 +242,7 @@ void serialize(Archive& archive, Waiting& w) {
 
 template <class Archive>
 void serialize(Archive& archive, Cast& c) {
-  archive(c.time, c.bodies, c.places, c.contacts, c.states, c.outlook);
+  archive(c.time, c.bodies, c.places, c.contacts, c.states, c.alone, c.outlook);
 }
 
 template <class Archive>

@@ -101,15 +101,9 @@ void ClusterRun::Treat(const Agenda::Entry& entry) {
 
 // Whether others are met soon, as far as a look can tell, which costs one pass; takes them in.
 bool ClusterRun::Meets(Attempt* attempt) {
-  const bool alone = std::ranges::none_of(attempt->bodies, [&](int body) {
-    return std::ranges::any_of(world_.ContactsOf(body), [&](int contact) {
-      const int other = world_.Other(contact, body);
-      return other != kNone && !std::ranges::binary_search(attempt->bodies, other);
-    });
-  });
-  if (alone) return false;
-  const std::shared_ptr<Piece> seen = solver_.Look(
-      world_.Assemble(attempt->bodies, attempt->time, attempt->touch), attempt->until, run_);
+  Cast cast = world_.Assemble(attempt->bodies, attempt->time, attempt->touch);
+  if (cast.alone) return false;
+  const std::shared_ptr<Piece> seen = solver_.Look(std::move(cast), attempt->until, run_);
   Count(*seen);
   const std::optional<Meeting> meeting = FirstMeeting(world_, *seen, {});
   if (!meeting || EndOf(seen->pause) != Outcome::End::kFinished) return false;
@@ -243,6 +237,9 @@ std::shared_ptr<Piece> ClusterRun::Solve(const Attempt& attempt) {
 void ClusterRun::Count(const Piece& piece) {
   run_.steps += piece.steps;
   run_.evaluations += piece.evaluations;
+  run_.iterations += piece.iterations;
+  run_.growths += piece.growths;
+  run_.growths_no_progress += piece.growths_no_progress;
 }
 
 // What was found before is told, as far as nothing can undo it.
@@ -331,9 +328,6 @@ void ClusterRun::ForgetUntil(double instant) {
     const std::shared_ptr<Piece>& piece = entry.second;
     if (piece->ends() > instant) return false;
     run_.outcome.episodes += piece->has_episode;
-    run_.iterations += piece->iterations;
-    run_.growths += piece->growths;
-    run_.growths_no_progress += piece->growths_no_progress;
     loss_ += piece->loss;
     impulse_ += piece->impulse;
     for (std::size_t i = 0; i < piece->start.contacts.size(); ++i) {

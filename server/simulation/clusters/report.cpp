@@ -6,7 +6,12 @@ void Reporter::OnIteration(const Iteration& iteration) {
   Iteration told = iteration;
   told.episode = episode_;
   for (Iteration::Unknown& unknown : told.unknowns) unknown.contact = Whole(unknown.contact);
-  report_.items.push_back({begin_, told});
+  if (certain_) {
+    observer_.OnIteration(told);
+  } else {
+    report_.items.push_back({begin_, told});
+  }
+  passed_();
 }
 
 void Reporter::OnCycle(const Cycle& cycle) {
@@ -19,7 +24,11 @@ void Reporter::OnCycle(const Cycle& cycle) {
 void Reporter::OnGrowth(const Group& group) {
   Group told = group;
   told.contact = Whole(group.contact);
-  report_.items.push_back({begin_, Report::Growing{told}});
+  if (certain_) {
+    observer_.OnGrowth(told);
+  } else {
+    report_.items.push_back({begin_, Report::Growing{told}});
+  }
 }
 
 void Reporter::OnGroup(const Group& group) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,9 +30,17 @@ struct Report {
 /// Writes the report of a part of a run, in which contacts and episodes have other numbers.
 class Reporter final : public Observer {
  public:
-  /// `contacts`: the indices in the whole scenario; `observer` hears of steps. All outlive this.
-  Reporter(const std::vector<int>& contacts, double begin, Observer& observer, Report* report)
-      : contacts_(contacts), begin_(begin), observer_(observer), report_(*report) {}
+  /// `contacts`: the indices in the whole scenario; `observer` hears of steps, and at once of the
+  /// search if `certain`: nothing will undo the part. `passed` is called after each pass. All
+  /// outlive this.
+  Reporter(const std::vector<int>& contacts, double begin, Observer& observer, bool certain,
+           Report* report, std::function<void()> passed)
+      : contacts_(contacts),
+        begin_(begin),
+        observer_(observer),
+        certain_(certain),
+        report_(*report),
+        passed_(std::move(passed)) {}
 
   /// What is reported from now on belongs to this episode.
   void SetEpisode(int episode) { episode_ = episode; }
@@ -48,7 +58,9 @@ class Reporter final : public Observer {
   const std::vector<int>& contacts_;
   const double begin_;
   Observer& observer_;
+  const bool certain_;
   Report& report_;
+  const std::function<void()> passed_;
   int episode_ = 0;
 };
 

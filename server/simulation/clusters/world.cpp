@@ -116,6 +116,12 @@ Cast World::Assemble(const std::vector<int>& bodies, double instant, int touch) 
     cast.places.push_back(stations_[At(body)].back().flight.At(instant));
   }
   for (const int c : cast.contacts) cast.states.push_back(states_[At(c)]);
+  cast.alone = std::ranges::none_of(bodies, [&](int body) {
+    return std::ranges::any_of(contacts_of_[At(body)], [&](int contact) {
+      const int other = Other(contact, body);
+      return other != kNone && !std::ranges::binary_search(bodies, other);
+    });
+  });
   Touch(touch, &cast);
   std::vector<const Waiting*> groups;
   for (const int body : bodies) {

@@ -26,7 +26,8 @@ class Observer {
   virtual void OnGroup(const Group&) {}
   /// The next rows of the recorded trajectory, 1 to RowsPerChunk of them.
   virtual void OnSamples(const Samples&) {}
-  /// Called after each episode and each flight between two of them.
+  /// Called after each episode and each flight between two of them; a run in clusters calls it after
+  /// each pass, too.
   virtual void OnProgress(const Progress&) {}
   /// A sentence for people, without full stop.
   virtual void OnWarning(const std::string&) {}

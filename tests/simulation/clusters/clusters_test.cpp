@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <random>
 #include <stop_token>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "simulation/model/derived.h"
 #include "testing/cases.h"
@@ -177,6 +180,36 @@ TEST(Clusters, SamplesWithinCollisionsEndAtTheirMostAndThatIsSaid) {
   EXPECT_EQ(parts.rows(), 2 + 15);
   EXPECT_EQ(parts.warnings, whole.warnings);
   EXPECT_EQ(parts.warnings.size(), 1U);
+}
+
+// The steps after which a run told of its passes, and of its progress.
+struct Live : Observer {
+  std::int64_t steps = 0;
+  std::vector<std::int64_t> passes, progress;
+  void OnStep() override { ++steps; }
+  void OnIteration(const Iteration& /*iteration*/) override { passes.push_back(steps); }
+  void OnProgress(const Progress& told) override { progress.push_back(told.steps); }
+};
+
+TEST(Clusters, PassesOfWhatIsAloneAreToldAtOnce) {
+  Live live;
+  const Scenario row = testing::Chain(std::vector<double>(20, 0.5), std::vector<double>(19, 1e8),
+                                      std::vector<double>(19, 0.9), 0.2, 1e-3);
+  const Outcome outcome = contact::Run(row, live);
+  ASSERT_EQ(outcome.end, Outcome::End::kFinished);
+  ASSERT_GT(live.passes.size(), 10U);
+  EXPECT_EQ(std::ranges::adjacent_find(live.passes, std::ranges::greater_equal()),
+            live.passes.end());
+}
+
+// Passes that may have been for nothing are told when that is known; the steps are told at once.
+TEST(Clusters, ProgressIsToldAfterEachPass) {
+  Live live;
+  const Outcome outcome = contact::Run(Gas(30, 1e9, 1, 0.1), live);
+  ASSERT_EQ(outcome.end, Outcome::End::kFinished);
+  EXPECT_TRUE(std::ranges::is_sorted(live.progress));
+  EXPECT_GT(std::ssize(live.progress), outcome.iterations);
+  EXPECT_EQ(live.progress.back(), outcome.steps);
 }
 
 TEST(Clusters, RowsAreToldInTheOrderOfTheirEnds) {
