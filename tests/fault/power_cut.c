@@ -145,6 +145,10 @@ int open64(const char* path, int flags, ...) {
   return Open(path, flags, mode);
 }
 
+// What open is in a program that is compiled with _FORTIFY_SOURCE, where the flags are no constant.
+int __open_2(const char* path, int flags) { return Open(path, flags, 0); }
+int __open64_2(const char* path, int flags) { return Open(path, flags, 0); }
+
 int close(int fd) {
   if (PathOf(fd)) {
     pthread_mutex_lock(&mutex);
