@@ -121,23 +121,35 @@ void PaperProcess(benchmark::State& state) {
 }
 BENCHMARK(PaperProcess)->Unit(benchmark::kMicrosecond);
 
-// An undamped row through which a wave runs: what a ball costs in a step.
-void Row(benchmark::State& state) {
-  const auto balls = static_cast<std::size_t>(state.range(0));
+Scenario UndampedRow(std::size_t balls) {
   Scenario scenario =
       testing::Chain(std::vector<double>(balls, 0.5), std::vector<double>(balls - 1, 1e8),
                      std::vector<double>(balls - 1, 1), 0.2, 2e-3);
   for (Contact& c : scenario.contacts) c.damping = DampingLaw::kGiven;
+  return scenario;
+}
+
+// An undamped row through which a wave runs: what a ball costs in a step.
+void Row(benchmark::State& state) {
+  const auto balls = static_cast<std::size_t>(state.range(0));
+  const Scenario scenario = UndampedRow(balls);
   testing::Record record;
   while (state.KeepRunning()) {
     record = {};
-    record.outcome = Run(scenario, record);
+    record.outcome = RunWhole(scenario, record);
   }
   state.counters["ball_steps"] =
       benchmark::Counter(static_cast<double>(record.outcome.steps) * static_cast<double>(balls),
                          benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(Row)->Arg(100)->Arg(1000)->Arg(10'000)->Unit(benchmark::kMillisecond);
+
+// The same, of which only what the wave has reached is solved.
+void Pulse(benchmark::State& state) {
+  const Scenario scenario = UndampedRow(static_cast<std::size_t>(state.range(0)));
+  while (state.KeepRunning()) testing::RunAndRecord(scenario);
+}
+BENCHMARK(Pulse)->Arg(100)->Arg(1000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
 // A gas whose balls collide two by two: what a collision costs, however many balls there are.
 void Gas(benchmark::State& state) {

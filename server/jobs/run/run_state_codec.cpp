@@ -170,22 +170,6 @@ void serialize(Archive& archive, RestEnd& r) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Iteration::Unknown& u) {
-  archive(u.contact, u.number, u.mu, u.restitution_out, u.restitution_in, u.residual);
-  archive(u.bracket_low, u.bracket_high, u.update);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Iteration& i) {
-  archive(i.episode, i.number, i.start_time, i.accepted, i.unknowns);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Report::Growing& g) {
-  archive(g.group);
-}
-
-template <class Archive>
 void serialize(Archive& archive, Report::Warning& w) {
   archive(w.text);
 }
@@ -242,7 +226,7 @@ void serialize(Archive& archive, Waiting& w) {
 
 template <class Archive>
 void serialize(Archive& archive, Cast& c) {
-  archive(c.time, c.bodies, c.places, c.contacts, c.states, c.alone, c.outlook);
+  archive(c.time, c.bodies, c.places, c.contacts, c.states, c.outlook);
 }
 
 template <class Archive>

@@ -101,9 +101,15 @@ void ClusterRun::Treat(const Agenda::Entry& entry) {
 
 // Whether others are met soon, as far as a look can tell, which costs one pass; takes them in.
 bool ClusterRun::Meets(Attempt* attempt) {
-  Cast cast = world_.Assemble(attempt->bodies, attempt->time, attempt->touch);
-  if (cast.alone) return false;
-  const std::shared_ptr<Piece> seen = solver_.Look(std::move(cast), attempt->until, run_);
+  const bool alone = std::ranges::none_of(attempt->bodies, [&](int body) {
+    return std::ranges::any_of(world_.ContactsOf(body), [&](int contact) {
+      const int other = world_.Other(contact, body);
+      return other != kNone && !std::ranges::binary_search(attempt->bodies, other);
+    });
+  });
+  if (alone) return false;
+  const std::shared_ptr<Piece> seen = solver_.Look(
+      world_.Assemble(attempt->bodies, attempt->time, attempt->touch), attempt->until, run_);
   Count(*seen);
   const std::optional<Meeting> meeting = FirstMeeting(world_, *seen, {});
   if (!meeting || EndOf(seen->pause) != Outcome::End::kFinished) return false;
@@ -151,18 +157,30 @@ bool ClusterRun::Gather(const std::vector<int>& more, Attempt* attempt) const {
   return true;
 }
 
-// Takes in what touches at the instant of the attempt, and does not move away.
+// Takes in what touches at the instant of the attempt, and does not move away. What only lies
+// beside it is met when it is pressed: a pulse in a row of touching balls has what it has reached.
 void ClusterRun::Flood(Attempt* attempt) const {
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (const int body : std::vector<int>(attempt->bodies)) {
-      for (const int contact : world_.ContactsOf(body)) {
-        const int other = world_.Other(contact, body);
-        if (other == kNone || std::ranges::binary_search(attempt->bodies, other)) continue;
-        const World::Distance d = world_.DistanceAt(contact, attempt->time);
-        if (d.speed < 0 || d.gap > world_.Noise(contact, attempt->time)) continue;
-        grows |= Gather({other}, attempt);
-      }
+  const auto presses = [&](int contact) {
+    const World::Distance d = world_.DistanceAt(contact, attempt->time);
+    if (d.speed < 0 || d.gap > world_.Noise(contact, attempt->time)) return false;
+    if (d.speed > 0 || world_.Approach(contact) > 0) return true;
+    attempt->until = scenario_.end_time;
+    return false;
+  };
+  std::vector<int> pending = attempt->bodies;
+  while (!pending.empty()) {
+    const int body = pending.back();
+    pending.pop_back();
+    for (const int contact : world_.ContactsOf(body)) {
+      const int other = world_.Other(contact, body);
+      if (other == kNone || std::ranges::binary_search(attempt->bodies, other)) continue;
+      const double time = attempt->time;
+      const std::size_t size = attempt->bodies.size();
+      if (!presses(contact) || !Gather({other}, attempt)) continue;
+      pending.push_back(other);
+      if (attempt->time == time && attempt->bodies.size() == size + 1) continue;
+      pending = attempt->bodies;
+      break;
     }
   }
 }
@@ -314,8 +332,6 @@ void ClusterRun::TellUntil(double instant) {
 
 void ClusterRun::Tell(const Report::News& news) {
   if (run_.outcome.end != Outcome::End::kFinished) return;
-  if (const auto* iteration = std::get_if<Iteration>(&news)) observer_.OnIteration(*iteration);
-  if (const auto* growth = std::get_if<Report::Growing>(&news)) observer_.OnGrowth(growth->group);
   if (const auto* warning = std::get_if<Report::Warning>(&news)) observer_.OnWarning(warning->text);
   if (const auto* cycle = std::get_if<Cycle>(&news)) {
     TellCycle(scenario_, *cycle, observer_, &run_);

@@ -103,8 +103,7 @@ struct PieceSolver::Work {
       : piece(std::make_shared<Piece>()),
         part(of.PartOf(start)),
         now(of.Begin(start, part, run)),
-        reporter(piece->start.contacts, start.time, of.observer_, start.alone, &piece->report,
-                 [this, &of, &run] { TellProgress(of.observer_, run); }),
+        reporter(piece->start.contacts, start.time, of.observer_, &piece->report),
         course(part, reporter, of.stop_),
         writer(of.scenario_, course.motion(), piece->start.contacts, &piece->trace) {
     piece->start = std::move(start);
@@ -113,14 +112,6 @@ struct PieceSolver::Work {
     course.Restore(now);
     course.motion().Restore(run.steps, run.evaluations);
     writer.Begin(piece->end.places);
-  }
-
-  void TellProgress(Observer& observer, const RunState& run) const {
-    observer.OnProgress({.time = run.state.time,
-                         .steps = course.motion().steps(),
-                         .cycles = run.cycles,
-                         .iterations = run.iterations + course.log().total,
-                         .busy_with = BusyWith(part, course.motion())});
   }
 
   // The state that the recording has reached.

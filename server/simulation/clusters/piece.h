@@ -32,7 +32,6 @@ struct Cast {
   std::vector<Place> places;  ///< and where each is.
   std::vector<int> contacts;  ///< Indices in Scenario::contacts, ascending,
   std::vector<ContactState> states;
-  bool alone = false;  ///< No contact leads to another body that moves: nothing undoes their motion.
   Outlook outlook;
 };
 
@@ -75,8 +74,7 @@ using Pieces = std::map<std::int64_t, std::shared_ptr<Piece>>;
 /// Solves pieces of a scenario.
 class PieceSolver {
  public:
-  /// All outlive the solver; the observer hears of steps, of progress after each pass, and of the
-  /// passes of a piece that nothing undoes.
+  /// All outlive the solver; the observer hears of steps, passes and growths.
   PieceSolver(const Scenario& scenario, Observer& observer, std::stop_token stop);
 
   /// The piece that begins so; if it begins with a flight, to `until` at most [s]. `run`: what was

@@ -6,12 +6,7 @@ void Reporter::OnIteration(const Iteration& iteration) {
   Iteration told = iteration;
   told.episode = episode_;
   for (Iteration::Unknown& unknown : told.unknowns) unknown.contact = Whole(unknown.contact);
-  if (certain_) {
-    observer_.OnIteration(told);
-  } else {
-    report_.items.push_back({begin_, told});
-  }
-  passed_();
+  observer_.OnIteration(told);
 }
 
 void Reporter::OnCycle(const Cycle& cycle) {
@@ -24,11 +19,7 @@ void Reporter::OnCycle(const Cycle& cycle) {
 void Reporter::OnGrowth(const Group& group) {
   Group told = group;
   told.contact = Whole(group.contact);
-  if (certain_) {
-    observer_.OnGrowth(told);
-  } else {
-    report_.items.push_back({begin_, Report::Growing{told}});
-  }
+  observer_.OnGrowth(told);
 }
 
 void Reporter::OnGroup(const Group& group) {

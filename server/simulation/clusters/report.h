@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,14 +10,10 @@ namespace contact {
 
 /// What a part of a run has to tell, to be told in the order of time.
 struct Report {
-  /// A group that takes in its neighbour; see Observer::OnGrowth.
-  struct Growing {
-    Group group;
-  };
   struct Warning {
     std::string text;
   };
-  using News = std::variant<Iteration, Growing, Warning, Cycle, Group>;
+  using News = std::variant<Warning, Cycle, Group>;
   struct Item {
     double time = 0;  ///< Its place in the order [s]: the end of a cycle, else the begin of all.
     News news;
@@ -30,17 +24,10 @@ struct Report {
 /// Writes the report of a part of a run, in which contacts and episodes have other numbers.
 class Reporter final : public Observer {
  public:
-  /// `contacts`: the indices in the whole scenario; `observer` hears of steps, and at once of the
-  /// search if `certain`: nothing will undo the part. `passed` is called after each pass. All
-  /// outlive this.
-  Reporter(const std::vector<int>& contacts, double begin, Observer& observer, bool certain,
-           Report* report, std::function<void()> passed)
-      : contacts_(contacts),
-        begin_(begin),
-        observer_(observer),
-        certain_(certain),
-        report_(*report),
-        passed_(std::move(passed)) {}
+  /// `contacts`: the indices in the whole scenario; `observer` hears of steps and of the search at
+  /// once, though the part may be undone. All outlive this.
+  Reporter(const std::vector<int>& contacts, double begin, Observer& observer, Report* report)
+      : contacts_(contacts), begin_(begin), observer_(observer), report_(*report) {}
 
   /// What is reported from now on belongs to this episode.
   void SetEpisode(int episode) { episode_ = episode; }
@@ -58,9 +45,7 @@ class Reporter final : public Observer {
   const std::vector<int>& contacts_;
   const double begin_;
   Observer& observer_;
-  const bool certain_;
   Report& report_;
-  const std::function<void()> passed_;
   int episode_ = 0;
 };
 

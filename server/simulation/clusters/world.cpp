@@ -8,6 +8,12 @@
 #include "simulation/model/derived.h"
 
 namespace contact {
+namespace {
+
+// Part of a sum that may be round-off.
+constexpr double kNoise = 4 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
 
 World::World(const Scenario& scenario)
     : scenario_(scenario),
@@ -59,7 +65,14 @@ double World::Noise(int contact, double instant) const {
   const Contact& c = scenario_.contacts[At(contact)];
   const double size = std::abs(gaps_[At(contact)]) + std::abs(At(c.left, instant).u) +
                       std::abs(At(c.right, instant).u);
-  return 4 * std::numeric_limits<double>::epsilon() * size;
+  return kNoise * size;
+}
+
+double World::Approach(int contact) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  const double left = Acceleration(c.left), right = Acceleration(c.right);
+  const double noise = kNoise * (std::abs(left) + std::abs(right));
+  return std::abs(left - right) <= noise ? 0 : left - right;
 }
 
 Place World::At(int body, double instant) const {
@@ -83,7 +96,6 @@ const Piece* World::LastPiece(int body) const {
 }
 
 double World::NextTouch(int contact) const {
-  const Contact& c = scenario_.contacts[At(contact)];
   double from = 0;
   for (const int body : Sides(contact)) {
     if (waiting_[At(body)] != nullptr) return kNever;
@@ -91,7 +103,7 @@ double World::NextTouch(int contact) const {
   }
   const Distance d = DistanceAt(contact, from);
   const double gap = std::abs(d.gap) <= Noise(contact, from) ? 0 : d.gap;
-  return from + TimeToTouch(gap, d.speed, Acceleration(c.left) - Acceleration(c.right));
+  return from + TimeToTouch(gap, d.speed, Approach(contact));
 }
 
 void World::ContactsAmong(const std::vector<int>& bodies, Cast* cast) const {
@@ -116,12 +128,6 @@ Cast World::Assemble(const std::vector<int>& bodies, double instant, int touch) 
     cast.places.push_back(stations_[At(body)].back().flight.At(instant));
   }
   for (const int c : cast.contacts) cast.states.push_back(states_[At(c)]);
-  cast.alone = std::ranges::none_of(bodies, [&](int body) {
-    return std::ranges::any_of(contacts_of_[At(body)], [&](int contact) {
-      const int other = Other(contact, body);
-      return other != kNone && !std::ranges::binary_search(bodies, other);
-    });
-  });
   Touch(touch, &cast);
   std::vector<const Waiting*> groups;
   for (const int body : bodies) {

@@ -52,6 +52,8 @@ class World {
   int Changes(int body) const { return body == kNone ? 0 : changes_[At(body)]; }
   /// ẍ of a body in flight [m/s²].
   double Acceleration(int body) const { return body == kNone ? 0 : accelerations_[At(body)]; }
+  /// δ̈ of a contact whose bodies are both in flight [m/s²]; what is round-off of it is 0.
+  double Approach(int contact) const;
 
   /// When a contact of two bodies that fly begins [s]; kNever if it does not, or one waits.
   double NextTouch(int contact) const;

@@ -15,7 +15,8 @@ struct RunState;
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// A pass of the search for μ has ended; those of an episode come before its cycles.
+  /// A pass of the search for μ has ended; those of an episode come before its cycles. An episode
+  /// of a cluster that others join is solved anew, with another number: it has no cycles.
   virtual void OnIteration(const Iteration&) {}
   /// A cycle enters the ledger. Cycles come in the order of their end times.
   virtual void OnCycle(const Cycle&) {}
@@ -26,8 +27,7 @@ class Observer {
   virtual void OnGroup(const Group&) {}
   /// The next rows of the recorded trajectory, 1 to RowsPerChunk of them.
   virtual void OnSamples(const Samples&) {}
-  /// Called after each episode and each flight between two of them; a run in clusters calls it after
-  /// each pass, too.
+  /// Called after each episode and each flight between two of them.
   virtual void OnProgress(const Progress&) {}
   /// A sentence for people, without full stop.
   virtual void OnWarning(const std::string&) {}

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
+#include <ctime>
 #include <map>
 #include <random>
 #include <stop_token>
@@ -182,34 +182,56 @@ TEST(Clusters, SamplesWithinCollisionsEndAtTheirMostAndThatIsSaid) {
   EXPECT_EQ(parts.warnings.size(), 1U);
 }
 
-// The steps after which a run told of its passes, and of its progress.
+// After how many steps passes were told.
 struct Live : Observer {
   std::int64_t steps = 0;
-  std::vector<std::int64_t> passes, progress;
+  std::vector<std::int64_t> passes;
   void OnStep() override { ++steps; }
   void OnIteration(const Iteration& /*iteration*/) override { passes.push_back(steps); }
-  void OnProgress(const Progress& told) override { progress.push_back(told.steps); }
 };
 
-TEST(Clusters, PassesOfWhatIsAloneAreToldAtOnce) {
-  Live live;
+TEST(Clusters, PassesAreToldAsTheyAreMade) {
   const Scenario row = testing::Chain(std::vector<double>(20, 0.5), std::vector<double>(19, 1e8),
                                       std::vector<double>(19, 0.9), 0.2, 1e-3);
-  const Outcome outcome = contact::Run(row, live);
-  ASSERT_EQ(outcome.end, Outcome::End::kFinished);
-  ASSERT_GT(live.passes.size(), 10U);
-  EXPECT_EQ(std::ranges::adjacent_find(live.passes, std::ranges::greater_equal()),
-            live.passes.end());
+  for (const Scenario& scenario : {row, Gas(30, 1e9, 1, 0.1)}) {
+    Live live;
+    const Outcome outcome = contact::Run(scenario, live);
+    ASSERT_EQ(outcome.end, Outcome::End::kFinished);
+    const std::size_t count = live.passes.size();
+    ASSERT_GT(count, 10U);
+    EXPECT_GE(std::ssize(live.passes), outcome.iterations);
+    for (std::size_t i = 1; i < 10; ++i) {
+      EXPECT_GT(live.passes[i * count / 10], live.passes[(i - 1) * count / 10]);
+    }
+  }
 }
 
-// Passes that may have been for nothing are told when that is known; the steps are told at once.
-TEST(Clusters, ProgressIsToldAfterEachPass) {
-  Live live;
-  const Outcome outcome = contact::Run(Gas(30, 1e9, 1, 0.1), live);
-  ASSERT_EQ(outcome.end, Outcome::End::kFinished);
-  EXPECT_TRUE(std::ranges::is_sorted(live.progress));
-  EXPECT_GT(std::ssize(live.progress), outcome.iterations);
-  EXPECT_EQ(live.progress.back(), outcome.steps);
+Scenario LongRow(int balls) {
+  const auto contacts = static_cast<std::size_t>(balls) - 1;
+  return testing::Chain(std::vector<double>(contacts + 1, 0.5), std::vector<double>(contacts, 1e8),
+                        std::vector<double>(contacts, 0.9), 1, 2e-3);
+}
+
+TEST(Clusters, ARowOfTouchingBallsMovesAsAllTogetherDo) {
+  const Scenario row = LongRow(30);
+  const Record parts = RunAndRecord(row);
+  ExpectSame(parts, RunTogether(row), 1e-9, 1e-6);
+  ExpectBalances(parts.outcome);
+}
+
+// Balls that lie beside what moves are met when they are pressed.
+TEST(Clusters, APulseInARowCostsWhatItHasReached) {
+  const auto seconds = [](int balls) {
+    const Scenario row = LongRow(balls);
+    double least = 1e9;
+    for (int i = 0; i < 3; ++i) {
+      const std::clock_t begin = std::clock();
+      RunAndRecord(row);
+      least = std::min(least, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    }
+    return least;
+  };
+  EXPECT_LT(seconds(3000), 8 * seconds(30));  // 70 times, if all were solved together.
 }
 
 TEST(Clusters, RowsAreToldInTheOrderOfTheirEnds) {
