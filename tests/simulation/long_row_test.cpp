@@ -84,7 +84,8 @@ TEST(LongRowGuess, APoorOneIsMadeAgain) {
     Scenario scenario =
         testing::Chain(std::vector<double>(balls, 0.5), stiffnesses, restitutions, 0.2, 0.02);
     scenario.solver.max_steps = steps;
-    const Record r = RunAndRecord(scenario);
+    Record r;
+    r.outcome = RunWhole(scenario, r);
     ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << restitution << r.outcome.message;
     EXPECT_TRUE(r.outcome.all_converged) << restitution;
     EXPECT_EQ(r.outcome.growths, 0) << restitution;
