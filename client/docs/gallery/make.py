@@ -123,7 +123,7 @@ def index(cards):
             continue
         parts.append(f"## {group}\n\n`````{{container}} cards")
         for name, card in found.items():
-            parts.append(f"```{{figure}} {name}.svg\n:target: {name}.html\n:alt: \"\"\n\n"
+            parts.append(f"```{{figure}} {name}.svg\n:target: {name}.html\n:alt: {card['alt']}\n\n"
                          f"{card['title']}\n```")
         parts.append("`````\n")
     parts.append("```{toctree}\n:hidden:\n\n" + "\n".join(cards) + "\n```\n")
