@@ -17,7 +17,7 @@ JAVASCRIPT = pathlib.Path("/usr/share/javascript")  # Debian's.
 project = "contactd"
 author = "the authors of contactd"
 copyright = "the authors of contactd, Apache-2.0"
-release = re.search(r"VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"))[1]
+release = re.search(r"project\(contactd VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"))[1]
 version = release
 
 extensions = ["myst_parser", "sphinx_copybutton", "sphinx_inline_tabs"]
@@ -48,17 +48,20 @@ def math(self, node, block):
         code = f"\\begin{{{environment}}}\n{code}\n\\end{{{environment}}}"
         self.body.append(f'<div class="math">{latex2mathml.tex2mathml(code, inline=False)}</div>')
     else:
-        self.body.append(latex2mathml.tex2mathml(f"${code}$", inline=True))
+        self.body.append(latex2mathml.tex2mathml(code, inline=True))
     raise nodes.SkipNode
 
 
 def mend_theme(static):
-    """Brings together what Debian's furo leaves in parts: it expects /javascript of its server, and
-    its script imports what is no module."""
+    """Brings together what Debian's furo leaves in parts: it expects /javascript of its server, its
+    script imports what is no module, and its sassc has lost the rule for who prefers dark pages."""
     style, script = static / "styles/furo.css", static / "scripts/furo.js"
     parts = re.sub(r"@import url\(/javascript/([^)]*)\);",
                    lambda match: (JAVASCRIPT / match[1]).read_text("utf-8"),
                    style.read_text("utf-8"))
+    dark = re.search(r'body\[data-theme="dark"\] {(.*?)}', parts, re.S)[1]
+    parts += ('@media screen and (prefers-color-scheme: dark) { '
+              f'body:not([data-theme="light"]) {{{dark}}} }}\n')
     style.write_text(parts, "utf-8")
     script.write_text(re.sub(r'^import Gumshoe from .*;$', "", script.read_text("utf-8"), 1, re.M),
                       "utf-8")
