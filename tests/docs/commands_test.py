@@ -38,6 +38,7 @@ RUN_ELSEWHERE = {
     "$ cd client/node": "tests/node/example_test.py",
     "$ npm install": "tests/node/example_test.py",
     "client/web/build": "tests/web/run",
+    "client/docs/build": "tests/docs/site_test.py",
     "deploy/wheel": "tests/python/package_test.py",
     "for change in client.watch_jobs": "tests/python/client_test.py",
     "contactctl server backup": "tests/cli/verbs/backup_test.py",

@@ -1,0 +1,81 @@
+"""How Sphinx makes the site of documentation: client/docs/build calls it.
+
+The pages load nothing from elsewhere and have no script or style but files, because contactd serves
+them under the policy of the dashboard, `default-src 'self'`.
+"""
+
+import hashlib
+import pathlib
+import re
+
+from docutils import nodes
+from docutils.utils.math import latex2mathml, pick_math_environment, unichar2tex
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+project = "contactd"
+author = "the authors of contactd"
+copyright = "the authors of contactd, Apache-2.0"
+release = re.search(r"VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"))[1]
+version = release
+
+extensions = ["myst_parser", "sphinx_copybutton", "sphinx_inline_tabs"]
+myst_enable_extensions = ["deflist", "dollarmath", "fieldlist", "substitution"]
+myst_heading_anchors = 4
+exclude_patterns = ["README.md", "**/cards"]
+
+html_theme = "furo"
+html_title = f"contactd {release}"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+html_math_renderer = "mathml"
+html_show_sphinx = False
+html_copy_source = False
+html_permalinks_icon = "#"
+pygments_style = "xcode"
+pygments_dark_style = "github-dark"
+copybutton_prompt_text = r"\$ |>>> "
+copybutton_prompt_is_regexp = True
+copybutton_only_copy_prompt_lines = True
+
+
+def math(self, node, block):
+    """Writes a formula as MathML, which browsers draw without a script or font."""
+    code = node.astext().translate(unichar2tex.uni2tex_table)
+    if block:
+        environment = pick_math_environment(code)
+        code = f"\\begin{{{environment}}}\n{code}\n\\end{{{environment}}}"
+        self.body.append(f'<div class="math">{latex2mathml.tex2mathml(code, inline=False)}</div>')
+    else:
+        self.body.append(latex2mathml.tex2mathml(f"${code}$", inline=True))
+    raise nodes.SkipNode
+
+
+def move_into_files(app, error):
+    """Moves the scripts and styles that the theme writes into pages to files of their own."""
+    if error or app.builder.format != "html":
+        return
+    out = pathlib.Path(app.outdir)
+    tags = {"script": (".js", '<script src="{}"></script>'),
+            "style": (".css", '<link rel="stylesheet" href="{}"/>')}
+    for page in out.rglob("*.html"):
+        up = "../" * (len(page.relative_to(out).parts) - 1)
+
+        def as_file(match):
+            ending, tag = tags[match[1]]
+            name = f"_static/page-{hashlib.sha256(match[2].encode()).hexdigest()[:8]}{ending}"
+            (out / name).write_text(match[2], "utf-8")
+            return tag.format(up + name)
+
+        text = page.read_text("utf-8")
+        moved = re.sub(r"<(script|style)>(.*?)</\1>", as_file, text, flags=re.S)
+        moved = moved.replace('style="display: none;"', 'class="unseen"')
+        if moved != text:
+            page.write_text(moved, "utf-8")
+
+
+def setup(app):
+    app.add_html_math_renderer(
+        "mathml", (lambda self, node: math(self, node, False), None),
+        (lambda self, node: math(self, node, True), None))
+    app.connect("build-finished", move_into_files)
