@@ -22,7 +22,7 @@ version = release
 extensions = ["myst_parser", "sphinx_copybutton", "sphinx_inline_tabs"]
 myst_enable_extensions = ["deflist", "dollarmath", "fieldlist", "substitution"]
 myst_heading_anchors = 4
-exclude_patterns = ["README.md", "**/cards"]
+exclude_patterns = ["README.md", "**/cards", "evidence/table.md"]
 
 html_theme = "furo"
 html_title = f"contactd {release}"

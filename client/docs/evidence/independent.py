@@ -9,6 +9,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import contactsim
+from contactsim.model import contact_names, contact_pairs
 from laboratory import Laboratory
 from rows import row
 
@@ -26,13 +27,16 @@ class Replay:
         self.scenario = result.scenario
         self.cycles = list(result.job.cycles)
         self.names = [body.name for body in self.scenario.bodies]
+        self.contacts = [(name, contact, [self.names.index(body) for body in pair])
+                         for contact in self.scenario.contacts
+                         for name, pair in zip(contact_names(contact), contact_pairs(contact))]
         self.masses = np.array([body.mass_kg for body in self.scenario.bodies])
-        self.mu = [0.0] * len(self.scenario.contacts)
+        self.mu = [0.0] * len(self.contacts)
         self.works = {(c.contact, c.number): [0.0, 0.0] for c in self.cycles}
         self.velocities = self._integrate()
 
     def _integrate(self) -> np.ndarray:
-        bodies, contacts = len(self.names), len(self.scenario.contacts)
+        bodies, contacts = len(self.names), len(self.contacts)
         state = np.concatenate([[body.position_m for body in self.scenario.bodies],
                                 [body.velocity_m_per_s for body in self.scenario.bodies],
                                 np.zeros(contacts)])
@@ -54,8 +58,8 @@ class Replay:
     def _choose(self, time: float) -> list[tuple[int, Any]]:
         """Sets μ of each contact at a time; the cycles that run then."""
         running = []
-        for place, contact in enumerate(self.scenario.contacts):
-            cycle = next((c for c in self.cycles if c.contact == contact.name
+        for place, (name, _, _) in enumerate(self.contacts):
+            cycle = next((c for c in self.cycles if c.contact == name
                           and c.start_time_s <= time <= c.end_time_s), None)
             self.mu[place] = cycle.mu if cycle else 0.0
             if cycle:
@@ -71,26 +75,23 @@ class Replay:
         bodies = len(self.names)
         x, v = state[:bodies], state[bodies:2 * bodies]
         force, power = self._loads(time, x, v), []
-        for place, contact in enumerate(self.scenario.contacts):
-            push, work = self._contact(place, contact, x, v, force)
-            power.append(push * work)
+        for place in range(len(self.contacts)):
+            push, speed = self._contact(place, x, v, force)
+            power.append(push * speed)
         return np.concatenate([v, force / self.masses, power])
 
-    def _contact(self, place: int, contact: Any, x: np.ndarray, v: np.ndarray,
+    def _contact(self, place: int, x: np.ndarray, v: np.ndarray,
                  force: np.ndarray) -> tuple[float, float]:
-        """Adds the force of a contact; force and δ̇."""
-        left = self.names.index(contact.between[0])
-        radius = self.scenario.bodies[left].radius_m
-        if len(contact.between) == 1:
-            depth, speed, right = x[left] + radius - contact.wall.position_m, v[left], None
+        """Adds the force of a contact; that force and δ̇."""
+        _, contact, bodies = self.contacts[place]
+        radii = sum(self.scenario.bodies[body].radius_m for body in bodies)
+        if len(bodies) == 1:
+            depth, speed = x[bodies[0]] + radii - contact.wall.position_m, v[bodies[0]]
         else:
-            right = self.names.index(contact.between[1])
-            depth = radius + self.scenario.bodies[right].radius_m - (x[right] - x[left])
-            speed = v[left] - v[right]
+            depth, speed = radii - (x[bodies[1]] - x[bodies[0]]), v[bodies[0]] - v[bodies[1]]
         push = (contact.stiffness + self.mu[place] * speed) * max(depth, 0.0) ** 1.5
-        force[left] -= push
-        if right is not None:
-            force[right] += push
+        for body, direction in zip(bodies, (-1, 1)):
+            force[body] += direction * push
         return push, speed
 
     def _loads(self, time: float, x: np.ndarray, v: np.ndarray) -> np.ndarray:

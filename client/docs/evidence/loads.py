@@ -27,7 +27,7 @@ def pressed(stiffness: float, restitution: float, velocity: float, force: float)
         return (-cycle.separation_velocity_m_per_s / speed, math.sqrt(restitution**2 - lost))
 
 
-for case in ((1e4, 0.5, 1, 9.81), (1e3, 0.5, 1.5, 9.81), (1e6, 0.8, 2, 300)):
+for case in ((1e5, 0.5, 1, 9.81), (1e7, 0.3, 3, 50), (1e6, 0.8, 2, 300)):
     pressed(*case)
 
 
