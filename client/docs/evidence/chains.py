@@ -88,7 +88,8 @@ def _(laboratory: Laboratory) -> Any:
 
 def striker(mass: float, forces: tuple[float, ...]) -> None:
     @row(f"striker-{mass:g}", WAVES,
-         f"forces of the waves that a striker of {mass:g} masses starts, at contact 30", RK4, 1e-3)
+         f"forces of the waves that a striker of {mass:g} masses starts, at contact 30", RK4, 1e-3,
+         slow=mass == 3)
     def _(laboratory: Laboratory) -> Any:
         ours = [cycle.peak_force_n for cycle in cycles_of(long_row(laboratory, mass), 30)]
         return ours[:len(forces)], forces
