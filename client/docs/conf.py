@@ -11,7 +11,7 @@ import re
 from docutils import nodes
 from docutils.utils.math import latex2mathml, pick_math_environment, unichar2tex
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[2]  # Also of the copy in build/docs-source.
 
 project = "contactd"
 author = "the authors of contactd"
@@ -22,7 +22,7 @@ version = release
 extensions = ["myst_parser", "sphinx_copybutton", "sphinx_inline_tabs"]
 myst_enable_extensions = ["deflist", "dollarmath", "fieldlist", "substitution"]
 myst_heading_anchors = 4
-exclude_patterns = ["README.md", "**/cards", "evidence/table.md"]
+exclude_patterns = ["README.md", "evidence/table.md"]
 
 html_theme = "furo"
 html_title = f"contactd {release}"
