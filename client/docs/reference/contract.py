@@ -99,11 +99,16 @@ def unit_of(field: Field) -> str:
     return rule_of(field).unit or next((UNITS[end] for end in ends if end in UNITS), "")
 
 
+def number(value: float) -> str:
+    """A number as files have it, such as 1e6."""
+    return re.sub(r"e\+?(-?)0*", r"e\1", f"{value:g}")
+
+
 def range_of(field: Field) -> str:
     """The values that a field may have."""
     rule = rule_of(field)
-    low = {"min": f"[{rule.min:g}", "above": f"({rule.above:g}"}.get(rule.WhichOneof("low"), "")
-    high = f"{rule.max:g}]" if rule.HasField("max") else ""
+    low = {"min": f"[{number(rule.min)}", "above": f"({number(rule.above)}"}.get(rule.WhichOneof("low"), "")
+    high = f"{number(rule.max)}]" if rule.HasField("max") else ""
     span = f"{low or '(−∞'}, {high or '∞)'}" if low or high else ""
     counts = [f"{count} {words}" for count, words in (
         (rule.max_characters, "characters at most"), (rule.min_entries, "entries at least"),
@@ -117,7 +122,7 @@ def default_of(field: Field) -> str:
     kind = rule.WhichOneof("default")
     if rule.required:
         return "required"
-    return {"default_number": f"{rule.default_number:g}", "default_name": rule.default_name,
+    return {"default_number": number(rule.default_number), "default_name": rule.default_name,
             "default_text": escaped(rule.default_text), None: ""}[kind]
 
 
@@ -197,7 +202,7 @@ def errors_page(*names: str) -> str:
              "[`Job.state_reason`](results.md).", "",
              "| Reason | Code | Where, and what it means |", "|---|---|---|"]
     for reason, (code, calls) in sorted(errors(*names).items()):
-        where = "; ".join(f"{call}: {escaped(text)}" if text else call
+        where = "; ".join(f"{call}: {escaped(text.rstrip('.'))}" if text else call
                           for call, text in calls.items())
         lines.append(f"| `{reason}` | `{code}` | {where} |")
     return "\n".join([*lines, ""])

@@ -1,6 +1,6 @@
 """Writes the pages of the reference: each from what the programs themselves say.
 
-    make.py FOLDER    with contactctl and contactd in the PATH, and a contactd at CONTACT_SERVER
+    make.py FOLDER    with contactctl and contactd in the PATH
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 import contract
 import python_page
@@ -21,39 +22,54 @@ def output(*command: str) -> str:
     return subprocess.run(command, check=True, capture_output=True, encoding="utf-8").stdout
 
 
-def verbs() -> list[str]:
-    """The verbs of contactctl, and those below them, as words of a command line."""
-    found = []
-    for verb in re.findall(r"^  ([a-z-]+) {2,}\S", output("contactctl", "help"), re.M):
-        found.append(verb)
-        below = output("contactctl", "help", verb).partition("SUBCOMMANDS:")[2]
-        below = below or output("contactctl", "help", verb).partition("COMMANDS\n")[2]
-        found += [f"{verb} {word}" for word in re.findall(r"^  ([a-z-]+) {2,}\S", below, re.M)]
-    return found
+def below(*words: str) -> list[list[str]]:
+    """The commands that the help of contactctl, or of one of its verbs, lists."""
+    listed = output("contactctl", *words, "--help").partition("Subcommands:\n")[2]
+    names = re.findall(r"^  ([a-z-]+)(?:, [a-z-]+)* {2,}\S", listed.partition("\n\n")[0], re.M)
+    return [[*words, name] for name in names]
 
 
-def verbs_page() -> str:
-    """The help of each verb."""
-    lines = ["# Commands", "", "What `contactctl help` prints.", "",
-             "```text", output("contactctl", "help").rstrip(), "```", ""]
-    for verb in verbs():
-        lines += [f"## {verb}", "", "```text", output("contactctl", "help", *verb.split()).rstrip(),
-                  "```", ""]
+def commands_page() -> str:
+    """The help of each verb, and of those below it."""
+    lines = ["# Commands", "", "What `contactctl --help` prints, and `contactctl VERB --help`.", "",
+             *printed("contactctl", "--help")]
+    for verb in below():
+        for words in [verb, *below(*verb)]:
+            lines += [f"## {' '.join(words)}", "", *printed("contactctl", *words, "--help")]
     return "\n".join(lines)
+
+
+def printed(*command: str) -> list[str]:
+    """The output of a program as a block."""
+    return ["```text", output(*command).rstrip(), "```", ""]
 
 
 def settings_page() -> str:
     """The flags of contactd."""
-    return "\n".join(["# Flags of contactd", "", "What `contactd --help` prints.", "", "```text",
-                      output("contactd", "--help").rstrip(), "```", ""])
+    return "\n".join(["# Flags of contactd", "", "What `contactd --help` prints.", "",
+                      *printed("contactd", "--help")])
+
+
+def metrics() -> str:
+    """What a contactd of its own tells Prometheus."""
+    with tempfile.TemporaryDirectory() as folder, subprocess.Popen(
+            ["contactd", "--listen=127.0.0.1:0", "--metrics-listen=127.0.0.1:0",
+             f"--data-dir={folder}/data"], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL,
+            encoding="utf-8") as server:
+        try:
+            told = (re.search(r"metrics on port (\d+)", line) for line in server.stderr)
+            port = next(match[1] for match in told if match)
+            return output("contactctl", "server", "metrics", "--metrics", f"127.0.0.1:{port}")
+        finally:
+            server.terminate()
 
 
 def metrics_page() -> str:
-    """The metrics of a running contactd, with the meaning that it tells Prometheus."""
-    lines = ["# Metrics", "", "From `/metrics` of a contactd that has just begun; Prometheus reads "
-             "it. A metric that has labels appears there once it has a value.", "",
+    """The metrics with the meaning that contactd tells Prometheus."""
+    lines = ["# Metrics", "", "From `/metrics` of a contactd that has just begun "
+             "(`contactd --metrics-listen`). A metric with labels is there once it has a value.", "",
              "| Metric | Type | Meaning |", "|---|---|---|"]
-    text = output("contactctl", "server", "metrics")
+    text = metrics()
     types = dict(re.findall(r"^# TYPE (\S+) (\S+)$", text, re.M))
     lines += [f"| `{name}` | {types.get(name, '')} | {contract.escaped(words)} |"
               for name, words in sorted(re.findall(r"^# HELP (\S+) (.*)$", text, re.M))]
@@ -68,7 +84,7 @@ def main(folder: pathlib.Path) -> None:
         "requests": contract.messages_page("Requests and answers", *SERVICES),
         "errors": contract.errors_page(*SERVICES),
         "python": python_page.page(),
-        "commands": verbs_page(),
+        "commands": commands_page(),
         "settings": settings_page(),
         "metrics": metrics_page(),
     }

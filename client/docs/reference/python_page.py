@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import inspect
+import re
 from typing import Any
 
 import contactsim
+
+from contract import escaped
 
 
 def page() -> str:
@@ -48,9 +51,10 @@ def signature_of(function: Any) -> str:
     except (TypeError, ValueError):
         return "(…)"
     parameters = [p for p in signature.parameters.values() if p.name != "self"]
-    return str(signature.replace(parameters=parameters)).replace("'", "")
+    # Annotations are texts: their quotes go, those of defaults stay.
+    return re.sub(r"(: |-> )'([^']*)'", r"\1\2", str(signature.replace(parameters=parameters)))
 
 
 def text(thing: Any) -> str:
     """The docstring."""
-    return (inspect.getdoc(thing) or "").replace("*", "\\*")
+    return escaped(inspect.getdoc(thing) or "")
