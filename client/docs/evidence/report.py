@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import datetime
-import itertools
 import pathlib
 from typing import Sequence
 
@@ -46,7 +45,10 @@ def page(found: Sequence[Measured], version: tuple[str, str], today: str) -> str
     held = sum(m.holds for m in found)
     lines = [f"{held} of {len(found)} rows hold. Computed on {today} by contactd {version[0]}, "
              f"revision {version[1][:8] or 'unknown'}.", ""]
-    for group, members in itertools.groupby(found, lambda m: m.row.group):
+    groups: dict[str, list[Measured]] = {}
+    for measured in found:
+        groups.setdefault(measured.row.group, []).append(measured)
+    for group, members in groups.items():
         lines += [f"## {group}", "",
                   "| What | Ours | Theirs | Difference | Allowed | Theirs is from | Row |",
                   "|---|---|---|---|---|---|---|", *map(line, members), ""]
