@@ -187,6 +187,13 @@ class CommandsTest(ServerTest):
         self.assertRegex(printed, r"jobs/\w{10} FULL: 2 cycles\n")
         self.assertRegex(printed, r"over HTTP: \d+ of 1001 samples\n")
 
+    def test_pages_of_the_site(self):
+        count = 0
+        for page in sorted((ROOT / "client" / "docs").rglob("*.md")):
+            with self.subTest(page=page.relative_to(ROOT)):
+                count += self.shell(page) + self.python(page)
+        self.assertGreater(count, 7)
+
     def test_curl_page(self):
         self.assertEqual(self.shell(ROOT / "client" / "curl.md"), 7)
 

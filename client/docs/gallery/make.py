@@ -1,6 +1,6 @@
 """Makes the gallery in a folder: a page, a scenario and a picture for each card, and their index.
 
-    make.py FOLDER [NAME…]    all cards, or those named
+    make.py FOLDER [--sample] [NAME…]    all cards, those named, or the first ones of each group
 
 A card is a file of cards/. It has `title`, `group` and `text`, and
 
@@ -136,6 +136,9 @@ def main(folder, chosen):
         "figure.constrained_layout.use": True, "path.simplify_threshold": 0.5})
     files = sorted((folder / "cards").glob("*.yaml"))
     cards = {file.stem: yaml.safe_load(file.read_text("utf-8")) for file in files}
+    if chosen == ["--sample"]:
+        chosen = [name for group in GROUPS
+                  for name in [name for name in cards if cards[name]["group"] == group][:2]]
     cards = {name: card for name, card in cards.items() if not chosen or name in chosen}
     os.chdir(folder)
     for name, card in cards.items():
