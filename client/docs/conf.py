@@ -9,7 +9,7 @@ import pathlib
 import re
 
 from docutils import nodes
-from docutils.utils.math import latex2mathml, pick_math_environment, unichar2tex
+from docutils.utils.math import latex2mathml, unichar2tex
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]  # Also of the copy in build/docs-source.
 
@@ -42,12 +42,8 @@ copybutton_only_copy_prompt_lines = True
 def math(self, node, block):
     """Writes a formula as MathML, which browsers draw without a script or font."""
     code = node.astext().translate(unichar2tex.uni2tex_table)
-    if block:
-        environment = pick_math_environment(code)
-        code = f"\\begin{{{environment}}}\n{code}\n\\end{{{environment}}}"
-        self.body.append(f'<div class="math">{latex2mathml.tex2mathml(code, inline=False)}</div>')
-    else:
-        self.body.append(latex2mathml.tex2mathml(f"${code}$", inline=True))
+    formula = latex2mathml.tex2mathml(code, inline=not block)
+    self.body.append(f'<div class="math">{formula}</div>' if block else formula)
     raise nodes.SkipNode
 
 
