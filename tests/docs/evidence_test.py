@@ -43,7 +43,7 @@ class EvidenceTest(unittest.TestCase):
         self.assertEqual([row["row"] for row in read(self.folder / "history.csv")],
                          [row["row"] for row in table])
         page = (self.folder / "table.md").read_text("utf-8")
-        self.assertEqual([row["row"] for row in table if f"`{row['row']}` |" not in page], [])
+        self.assertEqual([row["row"] for row in table if f" `{row['row']}` |" not in page], [])
 
     def test_the_table_of_the_site_has_the_rows_that_there_are(self):
         listed = evidence("--list")

@@ -50,8 +50,8 @@ def page(found: Sequence[Measured], version: tuple[str, str], today: str) -> str
         groups.setdefault(measured.row.group, []).append(measured)
     for group, members in groups.items():
         lines += [f"## {group}", "",
-                  "| What | Ours | Theirs | Difference | Allowed | Theirs is from | Row |",
-                  "|---|---|---|---|---|---|---|", *map(line, members), ""]
+                  "| What, and its name | Ours | Theirs | Difference | Theirs is from |",
+                  "|---|---|---|---|---|", *map(line, members), ""]
     return "\n".join(lines)
 
 
@@ -59,15 +59,14 @@ def line(measured: Measured) -> str:
     """A row in Markdown."""
     claim = measured.row
     mark = "" if measured.holds else " **missed**"
-    cells = (claim.what, number(measured.ours), number(measured.theirs),
-             f"{measured.difference:.1e}{mark}", f"{claim.tolerance:g}", claim.source,
-             f"`{claim.key}`")
+    cells = (f"{claim.what} `{claim.key}`", number(measured.ours), number(measured.theirs),
+             f"{measured.difference:.1e} of {claim.tolerance:g}{mark}", claim.source)
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
 def number(value: float) -> str:
-    """Ten digits, which is what the tolerances need."""
-    return f"{value:.10g}"
+    """Eight digits; table.csv has all."""
+    return f"{value:.8g}"
 
 
 def verdict(measured: Measured) -> str:
