@@ -26,6 +26,7 @@ class Row:
     compute: Callable[..., tuple[Value, Value]]
     each: bool = False  #: True: every number relative to its own; else to the largest of theirs.
     slow: bool = False  #: True: left out by --fast.
+    needs: str = ""  #: A program that may be missing, as in tests: then the row is left out.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,13 +45,13 @@ class Measured:
 
 
 def row(key: str, group: str, what: str, source: str, tolerance: float, *, each: bool = False,
-        slow: bool = False) -> Callable[[Callable[..., tuple[Value, Value]]],
+        slow: bool = False, needs: str = "") -> Callable[[Callable[..., tuple[Value, Value]]],
                                         Callable[..., tuple[Value, Value]]]:
     """Enters a function into ROWS."""
     def enter(compute: Callable[..., tuple[Value, Value]]) -> Callable[..., tuple[Value, Value]]:
         if any(known.key == key for known in ROWS):
             raise ValueError(f"two rows are called {key}")
-        ROWS.append(Row(key, group, what, source, tolerance, compute, each, slow))
+        ROWS.append(Row(key, group, what, source, tolerance, compute, each, slow, needs))
         return compute
     return enter
 
