@@ -9,7 +9,7 @@ import pathlib
 import re
 
 from docutils import nodes
-from docutils.utils.math import latex2mathml, pick_math_environment, unichar2tex
+from docutils.utils.math import latex2mathml, unichar2tex
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]  # Also of the copy in build/docs-source.
 JAVASCRIPT = pathlib.Path("/usr/share/javascript")  # Debian's.
@@ -23,7 +23,7 @@ version = release
 extensions = ["myst_parser", "sphinx_copybutton", "sphinx_inline_tabs"]
 myst_enable_extensions = ["deflist", "dollarmath", "fieldlist", "substitution"]
 myst_heading_anchors = 4
-exclude_patterns = ["README.md"]
+exclude_patterns = ["README.md", "evidence/table.md"]
 
 html_theme = "furo"
 html_title = f"contactd {release}"
@@ -43,12 +43,8 @@ copybutton_only_copy_prompt_lines = True
 def math(self, node, block):
     """Writes a formula as MathML, which browsers draw without a script or font."""
     code = node.astext().translate(unichar2tex.uni2tex_table)
-    if block:
-        environment = pick_math_environment(code)
-        code = f"\\begin{{{environment}}}\n{code}\n\\end{{{environment}}}"
-        self.body.append(f'<div class="math">{latex2mathml.tex2mathml(code, inline=False)}</div>')
-    else:
-        self.body.append(latex2mathml.tex2mathml(code, inline=True))
+    formula = latex2mathml.tex2mathml(code, inline=not block)
+    self.body.append(f'<div class="math">{formula}</div>' if block else formula)
     raise nodes.SkipNode
 
 
