@@ -12,11 +12,12 @@ from docutils import nodes
 from docutils.utils.math import latex2mathml, unichar2tex
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]  # Also of the copy in build/docs-source.
+JAVASCRIPT = pathlib.Path("/usr/share/javascript")  # Debian's.
 
 project = "contactd"
 author = "the authors of contactd"
 copyright = "the authors of contactd, Apache-2.0"
-release = re.search(r"VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"))[1]
+release = re.search(r"project\(contactd VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"))[1]
 version = release
 
 extensions = ["myst_parser", "sphinx_copybutton", "sphinx_inline_tabs"]
@@ -47,11 +48,36 @@ def math(self, node, block):
     raise nodes.SkipNode
 
 
-def move_into_files(app, error):
+def mend_theme(static):
+    """Brings together what Debian's furo leaves in parts: it expects /javascript of its server, its
+    script imports what is no module, and its sassc has lost the rule for who prefers dark pages."""
+    style, script = static / "styles/furo.css", static / "scripts/furo.js"
+    parts = re.sub(r"@import url\(/javascript/([^)]*)\);",
+                   lambda match: (JAVASCRIPT / match[1]).read_text("utf-8"),
+                   style.read_text("utf-8"))
+    dark = re.search(r'body\[data-theme="dark"\] {(.*?)}', parts, re.S)[1]
+    parts += ('@media screen and (prefers-color-scheme: dark) { '
+              f'body:not([data-theme="light"]) {{{dark}}} }}\n')
+    style.write_text(parts, "utf-8")
+    script.write_text(re.sub(r'^import Gumshoe from .*;$', "", script.read_text("utf-8"), 1, re.M),
+                      "utf-8")
+
+
+def mend_tags(text):
+    """A page that loads the part of the theme's script, and whose blocks of code can be scrolled with
+    keys."""
+    text = re.sub(r'<script src="([^"]*scripts/)furo\.js"',
+                  r'<script src="\1gumshoe-patched.js"></script><script src="\1furo.js"', text)
+    text = text.replace('style="display: none;"', 'class="unseen"')
+    return re.sub(r"<pre(?! tabindex)", '<pre tabindex="0"', text)
+
+
+def mend(app, error):
     """Moves the scripts and styles that the theme writes into pages to files of their own."""
     if error or app.builder.format != "html":
         return
     out = pathlib.Path(app.outdir)
+    mend_theme(out / "_static")
     tags = {"script": (".js", '<script src="{}"></script>'),
             "style": (".css", '<link rel="stylesheet" href="{}"/>')}
     for page in out.rglob("*.html"):
@@ -64,14 +90,12 @@ def move_into_files(app, error):
             return tag.format(up + name)
 
         text = page.read_text("utf-8")
-        moved = re.sub(r"<(script|style)>(.*?)</\1>", as_file, text, flags=re.S)
-        moved = moved.replace('style="display: none;"', 'class="unseen"')
-        if moved != text:
-            page.write_text(moved, "utf-8")
+        moved = re.sub(r"<(script|style)>(.*?)</\1>", as_file, mend_tags(text), flags=re.S)
+        page.write_text(moved, "utf-8")
 
 
 def setup(app):
     app.add_html_math_renderer(
         "mathml", (lambda self, node: math(self, node, False), None),
         (lambda self, node: math(self, node, True), None))
-    app.connect("build-finished", move_into_files)
+    app.connect("build-finished", mend)

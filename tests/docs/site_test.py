@@ -93,7 +93,7 @@ class SiteTest(unittest.TestCase):
             for link in read(page).loads:
                 self.assertFalse(urllib.parse.urlsplit(link).netloc, (page, link))
         for style in SITE.rglob("*.css"):
-            self.assertNotRegex(style.read_text("utf-8"), r"(url\(|@import)\s*['\"]?(https?:)?//",
+            self.assertNotRegex(style.read_text("utf-8"), r"(url\(|@import)\s*['\"]?(https?:)?/",
                                 style)
 
     def test_pages_have_no_script_or_style_within_them(self):

@@ -15,6 +15,7 @@ The texts of shell and Python run as they are shown. A number that is not within
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import textwrap
@@ -65,7 +66,10 @@ def python_of(name, card):
 
 def run(name, card):
     """Runs what the card shows in the current folder; the values of its number."""
-    subprocess.run(["bash", "-ec", shell_of(name, card)], check=True, stdout=subprocess.DEVNULL)
+    shell = subprocess.run(["bash", "-ec", shell_of(name, card)], stdout=subprocess.PIPE,
+                           stderr=subprocess.STDOUT, encoding="utf-8")
+    if shell.returncode:
+        raise SystemExit(f"gallery: {name}: {shell.stdout}")
     names = {"np": np, "plt": plt, "contactsim": contactsim}
     exec(compile(python_of(name, card), name, "exec"), names)
     if "draw" in card or "python" in card and not pathlib.Path(f"{name}.svg").exists():
@@ -119,15 +123,20 @@ def index(cards):
              "made.\n"]
     for group in GROUPS:
         found = {name: card for name, card in cards.items() if card["group"] == group}
-        if not found:
-            continue
         parts.append(f"## {group}\n\n`````{{container}} cards")
         for name, card in found.items():
-            parts.append(f"```{{figure}} {name}.svg\n:target: {name}.html\n:alt: \"\"\n\n"
+            parts.append(f"```{{figure}} {name}.svg\n:target: {name}.html\n:alt: {card['alt']}\n\n"
                          f"{card['title']}\n```")
         parts.append("`````\n")
     parts.append("```{toctree}\n:hidden:\n\n" + "\n".join(cards) + "\n```\n")
     return "\n".join(parts)
+
+
+def place(item):
+    """Where a card stands in the gallery."""
+    name, card = item
+    number = re.fullmatch(r"fig(\d+)", name)
+    return GROUPS.index(card["group"]), int(number[1]) if number else 0, name
 
 
 def main(folder, chosen):
@@ -139,7 +148,8 @@ def main(folder, chosen):
     if chosen == ["--sample"]:
         chosen = [name for group in GROUPS
                   for name in [name for name in cards if cards[name]["group"] == group][:2]]
-    cards = {name: card for name, card in cards.items() if not chosen or name in chosen}
+    cards = {name: card for name, card in sorted(cards.items(), key=place)
+             if not chosen or name in chosen}
     os.chdir(folder)
     for name, card in cards.items():
         begin = time.monotonic()
