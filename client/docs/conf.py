@@ -64,12 +64,12 @@ def mend_theme(static):
 
 
 def mend_tags(text):
-    """A page that loads the part of the theme's script, and whose blocks of code can be scrolled with
+    """A page that loads all parts of the theme's script, and whose wide blocks can be scrolled with
     keys."""
     text = re.sub(r'<script src="([^"]*scripts/)furo\.js"',
                   r'<script src="\1gumshoe-patched.js"></script><script src="\1furo.js"', text)
     text = text.replace('style="display: none;"', 'class="unseen"')
-    return re.sub(r"<pre(?! tabindex)", '<pre tabindex="0"', text)
+    return re.sub(r'<(pre|div(?= class="(?:table-wrapper|math)\b))\b', r'<\1 tabindex="0"', text)
 
 
 def mend(app, error):

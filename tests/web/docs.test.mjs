@@ -7,7 +7,8 @@ import {AxeBuilder} from '@axe-core/playwright';
 
 import {openBrowser, openPage, Server} from './harness.mjs';
 
-const PAGES = ['', 'install.html', 'gallery/index.html', 'gallery/two-balls.html', 'search.html?q=restitution'];
+const PAGES = ['', 'install.html', 'gallery/index.html', 'gallery/two-balls.html', 'search.html?q=restitution', 'theory/index.html',
+  'evidence/index.html', 'reference/scenario.html'];
 
 let server;
 let browser;
