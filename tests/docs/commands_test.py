@@ -164,8 +164,7 @@ class CommandsTest(ServerTest):
         self.assertEqual(self.python(ROOT / "README.md"), 1)
 
     def test_client_readme(self):
-        self.assertGreater(self.shell(ROOT / "client" / "README.md"), 15)
-        self.assertEqual(self.python(ROOT / "client" / "README.md"), 1)
+        self.assertEqual(self.shell(ROOT / "client" / "README.md"), 1)
 
     def octave(self, path):
         """Runs the scripts of a page as one, beside what its commands left; what it printed."""
@@ -200,7 +199,7 @@ class CommandsTest(ServerTest):
             with self.subTest(page=page.relative_to(ROOT)):
                 self.new_session()
                 count += self.shell(page) + self.python(page)
-        self.assertGreater(count, 7)
+        self.assertGreater(count, 90)
 
     def test_curl_page(self):
         self.assertEqual(self.shell(ROOT / "client" / "curl.md"), 7)

@@ -19,7 +19,7 @@ import rows  # noqa: E402
 
 def evidence(*arguments):
     return subprocess.run([FOLDER / "run", *arguments], capture_output=True, encoding="utf-8",
-                          env=os.environ, timeout=200)
+                          env=os.environ, timeout=600)
 
 
 def read(path):

@@ -9,7 +9,6 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 
 import contract
 import python_page
@@ -50,29 +49,22 @@ def settings_page() -> str:
                       *printed("contactd", "--help")])
 
 
-def metrics() -> str:
-    """What a contactd of its own tells Prometheus."""
-    with tempfile.TemporaryDirectory() as folder, subprocess.Popen(
-            ["contactd", "--listen=127.0.0.1:0", "--metrics-listen=127.0.0.1:0",
-             f"--data-dir={folder}/data"], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL,
-            encoding="utf-8") as server:
-        try:
-            told = (re.search(r"metrics on port (\d+)", line) for line in server.stderr)
-            port = next(match[1] for match in told if match)
-            return output("contactctl", "server", "metrics", "--metrics", f"127.0.0.1:{port}")
-        finally:
-            server.terminate()
+def metrics() -> list[tuple[str, str, str]]:
+    """Name, type and meaning of each metric, from the source of the page that contactd serves."""
+    source = (contract.PROTO.parent / "server/rpc/metrics/metrics_page.cpp").read_text("utf-8")
+    found = re.findall(r'page->(Gauge|Counter|Distribution)\(\s*"(\w+)",\s*"([^"]*)"\)', source)
+    types = {"Gauge": "gauge", "Counter": "counter", "Distribution": "histogram"}
+    return sorted((name, types[kind], meaning) for kind, name, meaning in found)
 
 
 def metrics_page() -> str:
-    """The metrics with the meaning that contactd tells Prometheus."""
-    lines = ["# Metrics", "", "From `/metrics` of a contactd that has just begun "
-             "(`contactd --metrics-listen`). A metric with labels is there once it has a value.", "",
+    """The metrics of contactd."""
+    lines = ["# Metrics", "", "`contactd --metrics-listen 127.0.0.1:9464` serves them under `/metrics` "
+             "in the format of Prometheus; `contactctl server metrics` prints them. Alerts and a "
+             "dashboard for Grafana are in `deploy/monitoring`.", "",
              "| Metric | Type | Meaning |", "|---|---|---|"]
-    text = metrics()
-    types = dict(re.findall(r"^# TYPE (\S+) (\S+)$", text, re.M))
-    lines += [f"| `{name}` | {types.get(name, '')} | {contract.escaped(words)} |"
-              for name, words in sorted(re.findall(r"^# HELP (\S+) (.*)$", text, re.M))]
+    lines += [f"| `{name}` | {kind} | {contract.escaped(meaning)} |"
+              for name, kind, meaning in metrics()]
     return "\n".join([*lines, ""])
 
 

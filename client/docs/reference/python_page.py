@@ -45,14 +45,27 @@ def entry(name: str, thing: Any) -> list[str]:
 
 
 def signature_of(function: Any) -> str:
-    """The parameters, without `self`."""
+    """The parameters, without `self`; a line each if they are long."""
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):
         return "(…)"
     parameters = [p for p in signature.parameters.values() if p.name != "self"]
-    # Annotations are texts: their quotes go, those of defaults stay.
-    return re.sub(r"(: |-> )'([^']*)'", r"\1\2", str(signature.replace(parameters=parameters)))
+    whole = unquoted(str(signature.replace(parameters=parameters)))
+    if len(whole) < 70:
+        return whole
+    bare = inspect.Signature(return_annotation=signature.return_annotation)
+    lines = [unquoted(str(parameter)) for parameter in parameters]
+    first = next((place for place, parameter in enumerate(parameters)
+                  if parameter.kind is parameter.KEYWORD_ONLY), None)
+    if first is not None and not any(p.kind is p.VAR_POSITIONAL for p in parameters):
+        lines.insert(first, "*")
+    return "(\n    " + ",\n    ".join(lines) + unquoted(str(bare)).replace("(", "\n", 1)
+
+
+def unquoted(text_: str) -> str:
+    """A signature whose annotations, which are texts, have lost their quotes."""
+    return re.sub(r"(: |-> )'([^']*)'", r"\1\2", text_)
 
 
 def text(thing: Any) -> str:

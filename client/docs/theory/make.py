@@ -25,7 +25,7 @@ matplotlib.rcParams.update({
 DRAWN: dict[str, Callable[[contactsim.Client], Any]] = {
     "cycle": pictures.cycle, "damping": pictures.damping, "iteration": pictures.iteration,
     "overlap": pictures.overlap, "clusters": pictures.clusters, "nirv": statuses.nirv,
-    "grown": statuses.grown, "jump": statuses.jump, "released": statuses.released,
+    "grown": statuses.grown, "infeasible": statuses.infeasible, "jump": statuses.jump, "released": statuses.released,
     "limited": statuses.limited, "cut": statuses.cut, "settled": statuses.settled,
     "not-converged": statuses.not_converged}
 LAWS = ("hunt-crossley", "lankarani-nikravesh", "flores", "hu-guo", "paper-eq23",

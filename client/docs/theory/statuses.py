@@ -99,6 +99,20 @@ def grown(client: contactsim.Client) -> Any:
     return figure
 
 
+def infeasible(client: contactsim.Client) -> Any:
+    """The same ball where groups may not grow: the second cycle gives back more than it takes."""
+    run = client.run("two-balls-wall", set={**DENSE, "solver.restitution_scope": "CYCLE"})
+    figure, (over_time, loops) = plt.subplots(1, 2)
+    told(over_time, run, "wall", 1.5e-3, 11e-3)
+    for cycle, colour in zip((c for c in run.job.cycles if c.contact == "wall"), COLOURS):
+        _, depth, force = of_contact(run, "wall", cycle.start_time_s, cycle.end_time_s)
+        loops.plot(depth * 1e6, force / 1e3, color=colour, label=f"{word(cycle)} {cycle.number}: "
+                   f"W_c {cycle.work_compression_j:.3g} J, W_r {cycle.work_restitution_j:.3g} J")
+    loops.set(xlabel="deformation [µm]", ylabel="force [kN]")
+    loops.legend(frameon=False, fontsize=7)
+    return figure
+
+
 #: A ball that is held against a wall and struck by a pulse; its eight cycles share one μ.
 HELD = {
     "bodies": [{"name": "B1", "mass_kg": 0.66416, "radius_m": 0.02, "position_m": 0.02}],
