@@ -42,7 +42,7 @@ void Try(const HttpRequest& request) {
   contact::gateway::Refuse({{"lab.example"}, {"https://app.example"}}, request);
   if (contact::gateway::IsRpc(request)) return TryCall(request);
   static const contact::gateway::StaticFiles files("/usr/include/linux", "");
-  const HttpAnswer answer = files.Get(DashboardFile(request.path()), request);
+  const HttpAnswer answer = files.Get(contact::gateway::DashboardFile(request.path()), request);
   if (answer.status != 200 && answer.status != 304 && answer.status != 404) std::abort();
 }
 
