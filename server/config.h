@@ -59,6 +59,7 @@ struct Config {
   gateway::OriginRules http_rules;        ///< Whom the gateway answers.
   std::filesystem::path http_port_file;   ///< File to write the gateway's port to; empty: none.
   std::filesystem::path web_dir;          ///< Files of the dashboard; empty: none.
+  std::filesystem::path docs_dir;         ///< Files of the documentation; empty: none.
   std::vector<SocketListener> listen_as;  ///< Socket files, each with one identity.
   std::string trusted_proxy;    ///< unix:PATH of a proxy that says who calls; empty: none.
   std::string listen_admin;     ///< unix:PATH of AdminService; empty: it is at `listen`.

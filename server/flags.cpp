@@ -104,6 +104,8 @@ void AddHttp(CLI::App* app, Config* config) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--web-dir", config->web_dir, "Files of the dashboard")
       ->default_str("those installed with contactd");
+  app->add_option("--docs-dir", config->docs_dir, "Files of the documentation, shown at /docs")
+      ->default_str("those of the package contact-doc");
 }
 
 void AddLog(CLI::App* app, Config* config) {

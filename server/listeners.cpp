@@ -57,6 +57,7 @@ GatewayOptions Listeners::OptionsOf(const std::string& address) const {
   return {.rules = config_.http_rules,
           .tls = address.starts_with("unix:") ? nullptr : tls_,
           .web_dir = config_.web_dir,
+          .docs_dir = config_.docs_dir,
           .max_body_bytes = static_cast<std::size_t>(config_.rpc.max_message_bytes),
           .connections = config_.connections,
           .stall = config_.rpc.write_stall};

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -155,10 +156,11 @@ void CheckHttp(const Config& config, bool asks, bool insecure) {
 }
 
 // The dashboard that stands with this program: installed, or built.
-std::filesystem::path DefaultWebDir() {
+// The first of these places, relative to the program, that is a directory; empty: none.
+std::filesystem::path FirstDirectory(std::initializer_list<const char*> places) {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  for (const char* place : {"../share/contactd/web", "../../../client/web/dist"}) {
+  for (const char* place : places) {
     if (std::filesystem::is_directory(program / place, error)) return program / place;
   }
   return {};
@@ -290,7 +292,12 @@ void Finish(const Switches& switches, Config* config) {
   }
   CheckIdentity(*config);
   CheckHttp(*config, asks, switches.insecure);
-  if (config->web_dir.empty()) config->web_dir = DefaultWebDir();
+  if (config->web_dir.empty()) {
+    config->web_dir = FirstDirectory({"../share/contactd/web", "../../../client/web/dist"});
+  }
+  if (config->docs_dir.empty()) {
+    config->docs_dir = FirstDirectory({"../share/contactd/docs", "../../docs"});
+  }
   for (const std::string& text : switches.listen_as) config->listen_as.push_back(ToSocket(text));
   if (config->data_dir.empty() && config->store_address.empty()) {
     throw CLI::RequiredError("--data-dir");

@@ -65,7 +65,13 @@ class SetupTest(unittest.TestCase):
     def test_installs_what_tests_need_only_for_tests(self):
         needed = self.setup("tests")[1]
         self.assertEqual(set(needed.split("--no-install-recommends ")[1].split()),
-                         set(listed("packages") + listed("test-packages")) - {"g++"})
+                         {*listed("packages"), *listed("docs-packages"),
+                          *listed("test-packages")} - {"g++"})
+
+    def test_installs_what_the_documentation_needs_without_what_tests_need(self):
+        needed = self.setup("docs")[1]
+        self.assertEqual(set(needed.split("--no-install-recommends ")[1].split()),
+                         {*listed("packages"), *listed("docs-packages")} - {"g++"})
 
     def test_does_without_npm(self):
         self.assertEqual(self.setup(NPM_FAILS="100")[-1],
@@ -98,8 +104,9 @@ class PortTest(unittest.TestCase):
 
 class PackagesTest(unittest.TestCase):
 
-    def test_no_package_is_in_both_lists(self):
-        self.assertEqual(set(listed("packages")) & set(listed("test-packages")), set())
+    def test_no_package_is_in_two_lists(self):
+        packages = listed("packages") + listed("docs-packages") + listed("test-packages")
+        self.assertEqual(len(packages), len(set(packages)))
 
     def test_building_and_running_needs_few_packages_and_no_server(self):
         with tempfile.NamedTemporaryFile() as nothing_installed:

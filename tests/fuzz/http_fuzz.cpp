@@ -41,8 +41,8 @@ void TryCall(const HttpRequest& request) {
 void Try(const HttpRequest& request) {
   contact::gateway::Refuse({{"lab.example"}, {"https://app.example"}}, request);
   if (contact::gateway::IsRpc(request)) return TryCall(request);
-  static const contact::gateway::StaticFiles files("/usr/include/linux");
-  const HttpAnswer answer = files.Get(request);
+  static const contact::gateway::StaticFiles files("/usr/include/linux", "");
+  const HttpAnswer answer = files.Get(contact::gateway::DashboardFile(request.path()), request);
   if (answer.status != 200 && answer.status != 304 && answer.status != 404) std::abort();
 }
 

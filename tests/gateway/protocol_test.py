@@ -8,6 +8,7 @@ import shutil
 import socket
 import struct
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -202,6 +203,39 @@ class HttpTest(GatewayTest):
     def test_health_and_readiness(self):
         self.assertEqual(self.ask("GET", "/healthz").body, b"ok\n")
         self.assertEqual(self.ask("GET", "/readyz").body, b"ready\n")
+
+
+class DocumentationTest(GatewayTest):
+
+    @property
+    def http_flags(self):
+        return (f"--docs-dir={self.docs}",)
+
+    def setUp(self):
+        self.docs = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (self.docs / "gallery").mkdir()
+        (self.docs / "index.html").write_text("front")
+        (self.docs / "gallery/index.html").write_text("gallery")
+        super().setUp()
+
+    def test_the_site_is_at_docs_beside_the_dashboard(self):
+        self.assertEqual(self.ask("GET", "/docs").headers["location"], "/docs/")
+        for target, body in {"/docs/": b"front", "/docs/index.html?q=1": b"front",
+                             "/docs/gallery/": b"gallery"}.items():
+            answer = self.ask("GET", target)
+            self.assertEqual((answer.status, answer.body), (200, body), target)
+            self.assertEqual(answer.headers["content-type"], "text/html; charset=utf-8")
+            self.assertNotIn("unsafe", answer.headers["content-security-policy"])
+        tag = answer.headers["etag"]
+        self.assertEqual(self.ask("GET", target, headers={"if-none-match": tag}).status, 304)
+        for target in ("/docs/gallery", "/docs/../index.html", "/docs/%2e%2e/data/contactd.db"):
+            self.assertEqual(self.ask("GET", target).status, 404, target)
+
+    def test_without_a_site_a_person_is_told_why(self):
+        (self.docs / "index.html").unlink()
+        answer = self.ask("GET", "/docs/")
+        self.assertEqual(answer.status, 404)
+        self.assertIn(b"--docs-dir", answer.body)
 
 
 class ConnectTest(GatewayTest):

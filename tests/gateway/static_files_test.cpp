@@ -34,7 +34,8 @@ class StaticFilesTest : public testing::Test {
     std::ofstream(path) << text;
   }
   HttpAnswer Get(const std::string& target, Headers headers = {}) {
-    return StaticFiles(web_).Get({.target = target, .headers = std::move(headers)});
+    const HttpRequest request{.target = target, .headers = std::move(headers)};
+    return StaticFiles(web_, "none").Get(DashboardFile(request.path()), request);
   }
 
   TempDirectory folder_;
@@ -90,8 +91,15 @@ TEST_F(StaticFilesTest, AFileThatTheClientHasIsNotSentAgain) {
   EXPECT_EQ(Get("/", {{"if-none-match", "\"other\""}}).status, 200);
 }
 
+TEST_F(StaticFilesTest, AFolderOfTheDocumentationIsItsIndex) {
+  EXPECT_EQ(DocsFile("/"), "/index.html");
+  EXPECT_EQ(DocsFile("/gallery/"), "/gallery/index.html");
+  EXPECT_EQ(DocsFile("/gallery/chain.yaml"), "/gallery/chain.yaml");
+  EXPECT_EQ(StaticFiles(web_, "").Get(DocsFile("/assets"), {}).status, 404);
+}
+
 TEST_F(StaticFilesTest, WithoutADirectoryAPersonIsToldWhy) {
-  const HttpAnswer answer = StaticFiles("").Get({});
+  const HttpAnswer answer = StaticFiles("", "see --web-dir").Get("/index.html", {});
   EXPECT_EQ(answer.status, 404);
   EXPECT_THAT(answer.body, testing::HasSubstr("--web-dir"));
 }

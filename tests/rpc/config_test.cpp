@@ -210,14 +210,16 @@ TEST_F(ConfigTest, EveryFlagArrives) {
 }
 
 TEST_F(ConfigTest, TheGatewayHasAnAddressNamesAndOrigins) {
-  const Config config = Good({"--http-listen", "127.0.0.1:0", "--http-port-file", "/http",
-                              "--http-host", "a.example", "--http-host", "b.example",
-                              "--http-allow-origin", "https://c.example", "--web-dir", "/web"});
+  const Config config =
+      Good({"--http-listen", "127.0.0.1:0", "--http-port-file", "/http", "--http-host", "a.example",
+            "--http-host", "b.example", "--http-allow-origin", "https://c.example", "--web-dir",
+            "/web", "--docs-dir", "/docs"});
   EXPECT_EQ(config.http_listen, "127.0.0.1:0");
   EXPECT_EQ(config.http_port_file, "/http");
   EXPECT_EQ(config.http_rules.hosts, (std::vector<std::string>{"a.example", "b.example"}));
   EXPECT_EQ(config.http_rules.origins, std::vector<std::string>{"https://c.example"});
   EXPECT_EQ(config.web_dir, "/web");
+  EXPECT_EQ(config.docs_dir, "/docs");
   EXPECT_EQ(Good({}).http_listen, "");
 }
 

@@ -107,12 +107,6 @@ class ReadmeTest(unittest.TestCase):
             if starts.search(text):
                 self.assertIn("pthread_setname_np", text, path.name)
 
-    def test_metrics_are_those_of_the_page(self):
-        page = (SERVER / "rpc/metrics/metrics_page.cpp").read_text("utf-8")
-        told = {name for row in rows("Metrics")[1:]
-                for name in re.findall(r"`([a-z_]+)(?:\{[a-z,]+\})?`", row[0])}
-        self.assertEqual(told, set(re.findall(r'"contactd_(\w+)"', page)))
-
     def test_rooms_are_those_of_the_layering(self):
         text = (ROOT / "tests/layering_test.py").read_text("utf-8")
         order = dict(re.findall(r'"(server[/a-z]*)": \[([^\]]*)\]', text))

@@ -41,6 +41,7 @@ function Navigation({path}: {path: string}) {
         {LINKS.map(([href, name]) => (
           <a key={href} href={href} aria-current={(path === '/' ? '/runs' : path).startsWith(href) ? 'page' : undefined}>{name}</a>
         ))}
+        <a href="/docs/" target="_top">Documentation</a>
       </nav>
       <button type="button" class="quiet" onClick={switchTheme}>{theme === 'dark' ? '☀ Light' : '☾ Dark'}</button>
     </header>

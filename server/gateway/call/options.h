@@ -22,6 +22,8 @@ struct GatewayOptions {
   bool trusts_principal = false;
   /// Files of the dashboard; empty: none.
   std::filesystem::path web_dir = {};
+  /// Files of the documentation, at `/docs`; empty: none.
+  std::filesystem::path docs_dir = {};
   /// Largest body or message of a request [B].
   std::size_t max_body_bytes = 2 << 20;
   /// Memory of the bodies of all requests, and as much of all whole answers that are not yet sent

@@ -29,11 +29,19 @@ HttpAnswer Service::Answer(const HttpRequest& request) const {
     return answer;
   }
   if (request.path() == "/healthz") return PlainAnswer(200, "ok");
-  if (request.path() != "/metrics") return files_.Get(request);
+  if (request.path() != "/metrics") return File(request);
   if (!options_.metrics) {
     return PlainAnswer(403, "metrics are at --metrics-listen where callers are asked who they are");
   }
   return {200, {{"content-type", "text/plain; version=0.0.4; charset=utf-8"}}, options_.metrics()};
+}
+
+HttpAnswer Service::File(const HttpRequest& request) const {
+  constexpr std::string_view kDocs = "/docs";
+  const std::string_view path = request.path();
+  if (path == kDocs) return {308, {{"location", "/docs/"}}, ""};
+  if (!path.starts_with("/docs/")) return dashboard_.Get(DashboardFile(path), request);
+  return docs_.Get(DocsFile(path.substr(kDocs.size())), request);
 }
 
 // A page cannot ask in gRPC's own protocol without an Origin, and clients call a server whatever

@@ -21,7 +21,8 @@ class Service {
   Service(const std::shared_ptr<grpc::Channel>& channel, GatewayOptions options)
       : options_(std::move(options)),
         stub_(channel),
-        files_(options_.web_dir),
+        dashboard_(options_.web_dir, "the dashboard is not installed; see --web-dir"),
+        docs_(options_.docs_dir, "the documentation is not installed; see --docs-dir"),
         connections_(std::make_shared<OpenConnections>(FitToDescriptors(options_.connections))) {}
 
   const GatewayOptions& options() const { return options_; }
@@ -43,9 +44,13 @@ class Service {
   const std::shared_ptr<OpenConnections>& connections() { return connections_; }
 
  private:
+  /// The answer to a GET that is for a file.
+  HttpAnswer File(const HttpRequest& request) const;
+
   const GatewayOptions options_;
   grpc::GenericStub stub_;
-  const StaticFiles files_;
+  const StaticFiles dashboard_;
+  const StaticFiles docs_;
   Memory bodies_{options_.memory};
   Memory answers_{options_.memory};
   OpenRequests requests_;

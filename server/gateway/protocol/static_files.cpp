@@ -36,6 +36,8 @@ constexpr std::array kTypes = std::to_array<std::pair<std::string_view, std::str
     {".woff2", "font/woff2"},
     {".wasm", "application/wasm"},
     {".txt", "text/plain; charset=utf-8"},
+    {".csv", "text/csv; charset=utf-8"},
+    {".yaml", "application/yaml"},
 });
 
 std::string TypeOf(const std::string& path) {
@@ -54,6 +56,9 @@ FileDescriptor OpenBelow(const std::filesystem::path& directory, const std::stri
       static_cast<int>(syscall(SYS_openat2, root.get(), path.c_str(), &how, sizeof(how))));
 }
 
+// The last part of a path; empty for a folder.
+std::string_view LastPart(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+
 // The relative path of a file that a request names; nothing if it names none.
 std::optional<std::string> PathIn(std::string_view target) {
   auto decoded = PercentDecode(target, false);
@@ -65,8 +70,7 @@ std::optional<std::string> PathIn(std::string_view target) {
   for (const absl::string_view part : absl::StrSplit(path, '/')) {
     if (absl::StartsWith(part, ".")) return std::nullopt;
   }
-  const std::size_t last = path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1;
-  return path.find('.', last) == std::string::npos ? "index.html" : path;
+  return path;
 }
 
 // True if a list of the form `gzip, br;q=0` takes the coding.
@@ -84,7 +88,16 @@ bool Takes(std::string_view list, std::string_view coding) {
 
 }  // namespace
 
-StaticFiles::StaticFiles(const std::filesystem::path& directory) {
+std::string_view DashboardFile(std::string_view path) {
+  return LastPart(path).find('.') == std::string_view::npos ? "/index.html" : path;
+}
+
+std::string DocsFile(std::string_view path) {
+  return std::string(path) + (LastPart(path).empty() ? "index.html" : "");
+}
+
+StaticFiles::StaticFiles(const std::filesystem::path& directory, std::string missing)
+    : missing_(std::move(missing)) {
   std::error_code error;
   if (!directory.empty()) directory_ = std::filesystem::canonical(directory, error);
   if (error) directory_.clear();
@@ -120,13 +133,11 @@ std::optional<StaticFiles::File> StaticFiles::Choose(const std::string& path,
   return Read(path);
 }
 
-HttpAnswer StaticFiles::Get(const HttpRequest& request) const {
-  const auto path = PathIn(request.path());
+HttpAnswer StaticFiles::Get(std::string_view name, const HttpRequest& request) const {
+  const auto path = PathIn(name);
   std::string encoding;
   auto file = path ? Choose(*path, request, &encoding) : std::nullopt;
-  if (!file && path && *path == "index.html") {
-    return PlainAnswer(404, "the dashboard is not installed; see --web-dir");
-  }
+  if (!file && path && *path == "index.html") return PlainAnswer(404, missing_);
   if (!file) return PlainAnswer(404, "there is no such file");
   const bool immutable = path->starts_with("assets/");
   HttpAnswer answer{200, {{"content-type", TypeOf(*path)}, {"etag", file->etag}}, ""};

@@ -4,23 +4,32 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "gateway/protocol/http.h"
 
 namespace contact::gateway {
 
-/// The files of the dashboard. Reads them when they are asked for. Thread-safe.
+/// The file of the dashboard that shows a path: `/index.html` for one with no point in its last
+/// part.
+std::string_view DashboardFile(std::string_view path);
+
+/// The file of the documentation that shows a path below `/docs`: `index.html` for a folder.
+std::string DocsFile(std::string_view path);
+
+/// The files of a directory. Reads them when they are asked for. Thread-safe.
 class StaticFiles {
  public:
-  /// `directory` may be empty or missing: then there are none.
-  explicit StaticFiles(const std::filesystem::path& directory);
+  /// `directory` may be empty or missing: then there are none. `missing` tells a person that
+  /// `index.html` is not there.
+  StaticFiles(const std::filesystem::path& directory, std::string missing);
 
-  /// The answer to a GET or HEAD. A path with no point in its last part is the page `index.html`,
-  /// which shows what the path says. Files of `/assets/`, whose names change with what is in them,
-  /// are kept by clients for ever, others asked for again with their ETag. A file beside it with
-  /// `.br` or `.gz` behind its name is sent instead to who takes that. Nothing outside the
-  /// directory is ever read, also by no link.
-  HttpAnswer Get(const HttpRequest& request) const;
+  /// The answer to a GET or HEAD for the file of a name, which is percent-encoded and begins with
+  /// `/`. Files of `/assets/`, whose names change with what is in them, are kept by clients for
+  /// ever, others asked for again with their ETag. A file beside it with `.br` or `.gz` behind its
+  /// name is sent instead to who takes that. Nothing outside the directory is ever read, also by no
+  /// link.
+  HttpAnswer Get(std::string_view name, const HttpRequest& request) const;
 
  private:
   struct File {
@@ -35,6 +44,7 @@ class StaticFiles {
 
   /// Without links; empty: none.
   std::filesystem::path directory_;
+  const std::string missing_;
 };
 
 }  // namespace contact::gateway

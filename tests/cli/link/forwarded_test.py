@@ -67,7 +67,7 @@ class ForwardedTest(CliTest):
 
     def test_documents_name_the_socket_files_of_the_packages(self):
         settings = (ROOT / "deploy/debian/contactd.conf").read_text()
-        for page in "deploy/README.md", "client/README.md":
+        for page in "deploy/README.md", "client/docs/guide/settings.md":
             paths = re.findall(r"ssh -N.*?-L \S+?:(/\S+)", (ROOT / page).read_text())
             self.assertEqual(len(paths), 2, page)
             for path in paths:
