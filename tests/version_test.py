@@ -14,6 +14,7 @@ STATED = {
     "client/node/package.json": r'"version": "([^"]+)"',
     "client/node/README.md": r"contactsim-([\d.]+)\.tgz",
     "client/python/README.md": r"contactsim-([\d.]+)-py3",
+    "deploy/README.md": r"(?:contactd-|release[ -])(\d[\d.]+\d)",
     "deploy/kubernetes/base/kustomization.yaml": r"newTag: (\S+)",
     "CITATION.cff": r"(?m)^version: (\S+)",
     "CHANGELOG.md": r"(?m)\A(?:[^#]|# |## \[Unreleased\])*?^## \[([^\]]+)\]",  # The newest.

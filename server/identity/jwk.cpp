@@ -24,26 +24,20 @@ struct Deleter {
 template <class T, auto Free>
 using Owned = std::unique_ptr<T, Deleter<T, Free>>;
 using OwnedKey = Owned<EVP_PKEY, EVP_PKEY_free>;
-using Number = Owned<BIGNUM, BN_free>;
+using BigNumber = Owned<BIGNUM, BN_free>;
 using Builder = Owned<OSSL_PARAM_BLD, OSSL_PARAM_BLD_free>;
 
 const unsigned char* Bytes(std::string_view text) {
   return reinterpret_cast<const unsigned char*>(text.data());
 }
 
-// A member that is a text; empty if it is not there or something else.
-std::string Text(const nlohmann::json& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 // The bytes of a member in base64url; empty if it has none.
 std::string Member(const nlohmann::json& object, const char* name) {
-  return FromBase64Url(Text(object, name)).value_or("");
+  return FromBase64Url(TextMember(object, name)).value_or("");
 }
 
-Number ToNumber(std::string_view bytes) {
-  return Number(BN_bin2bn(Bytes(bytes), static_cast<int>(bytes.size()), nullptr));
+BigNumber ToNumber(std::string_view bytes) {
+  return BigNumber(BN_bin2bn(Bytes(bytes), static_cast<int>(bytes.size()), nullptr));
 }
 
 // A public key of these parameters; null if they are none.
@@ -60,7 +54,7 @@ OwnedKey MakeKey(const char* kind, OSSL_PARAM_BLD* builder) {
 }
 
 OwnedKey RsaKey(const nlohmann::json& object) {
-  const Number n = ToNumber(Member(object, "n")), e = ToNumber(Member(object, "e"));
+  const BigNumber n = ToNumber(Member(object, "n")), e = ToNumber(Member(object, "e"));
   if (BN_num_bits(n.get()) < kLeastRsaBits || BN_num_bits(n.get()) > kMostRsaBits) return nullptr;
   // Of an even modulus everybody knows a factor, and to the power of 1 everybody signs.
   if (!BN_is_odd(n.get()) || !BN_is_odd(e.get()) || BN_is_one(e.get())) return nullptr;
@@ -88,7 +82,7 @@ bool IsOfSmallOrder(std::string key) {
   std::ranges::reverse(key);
   key.front() = static_cast<char>(key.front() & 0x7F);  // The sign of x.
   const Owned<BN_CTX, BN_CTX_free> context(BN_CTX_new());
-  const Number p(BN_new()), square = ToNumber(key), sum(BN_new()), product(BN_new());
+  const BigNumber p(BN_new()), square = ToNumber(key), sum(BN_new()), product(BN_new());
   BN_set_bit(p.get(), 255);
   BN_sub_word(p.get(), 19);
   BN_mod_sqr(square.get(), square.get(), p.get(), context.get());
@@ -128,6 +122,11 @@ std::string ToDer(std::string_view signature) {
 
 }  // namespace
 
+std::string TextMember(const nlohmann::json& object, const std::string& name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 std::optional<std::string> FromBase64Url(std::string_view text) {
   std::string bytes;
   std::uint32_t bits = 0;
@@ -157,7 +156,7 @@ std::optional<std::string> FromBase64Url(std::string_view text) {
 }
 
 std::optional<Jwk> ReadJwk(const nlohmann::json& object) {
-  const std::string kind = Text(object, "kty"), curve = Text(object, "crv");
+  const std::string kind = TextMember(object, "kty"), curve = TextMember(object, "crv");
   OwnedKey key;
   const char* algorithm = nullptr;
   if (kind == "RSA") {

@@ -13,6 +13,9 @@ namespace contact {
 /// The bytes of a text in base64url without padding (RFC 4648, section 5); nothing if it is none.
 std::optional<std::string> FromBase64Url(std::string_view text);
 
+/// A member of an object that is a text; empty if it is not there or something else.
+std::string TextMember(const nlohmann::json& object, const std::string& name);
+
 /// A public key to verify signatures with.
 struct Jwk {
   /// `RS256`, `ES256` or `EdDSA`, as the kind of the key allows.

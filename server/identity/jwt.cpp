@@ -22,12 +22,6 @@ constexpr std::size_t kMostBytes = 16'384;
 constexpr Seconds kLeeway{30};
 constexpr const char* kNoToken = "the token is no JSON Web Token";
 
-// A member that is a text; empty if it is not there or something else.
-std::string Text(const json& object, const std::string& name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 std::optional<double> Number(const json& object, const char* name) {
   const auto found = object.find(name);
   if (found == object.end() || !found->is_number()) return std::nullopt;
@@ -67,7 +61,7 @@ std::set<Role> RolesOf(const json& claims, const std::string& name) {
       if (word.is_string()) words.push_back(word);
     }
   }
-  std::string text = Text(claims, name) + ' ';
+  std::string text = TextMember(claims, name) + ' ';
   for (std::size_t end = text.find(' '); end != std::string::npos; end = text.find(' ')) {
     words.push_back(text.substr(0, end));
     text.erase(0, end + 1);
@@ -86,7 +80,7 @@ std::string Mistake(const json& claims, const JwtPolicy& policy,
                     std::chrono::system_clock::time_point now) {
   const Seconds time = now.time_since_epoch();
   const std::optional<double> end = Number(claims, "exp"), begin = Number(claims, "nbf");
-  if (Text(claims, "iss") != policy.issuer) return "the token has another issuer";
+  if (TextMember(claims, "iss") != policy.issuer) return "the token has another issuer";
   if (!IsFor(claims, policy.audience)) return "the token is for another audience";
   if (!end) return "the token has no end";
   if (!(time < Seconds(*end) + kLeeway)) return "the token has expired";
@@ -96,8 +90,8 @@ std::string Mistake(const json& claims, const JwtPolicy& policy,
 
 // Whom the claims name; words if that is nobody.
 std::variant<Principal, std::string> Holder(const json& claims, const JwtPolicy& policy) {
-  Principal holder{.name = Text(claims, policy.user_claim),
-                   .tenant = Text(claims, policy.tenant_claim),
+  Principal holder{.name = TextMember(claims, policy.user_claim),
+                   .tenant = TextMember(claims, policy.tenant_claim),
                    .roles = RolesOf(claims, policy.roles_claim),
                    .how = "jwt"};
   if (holder.roles.empty()) return "the token has no role";
@@ -122,11 +116,11 @@ std::variant<JwtVerifier, std::string> JwtVerifier::Parse(const std::string& jwk
   verifier.policy_ = std::move(policy);
   for (const json& entry : set["keys"]) {
     if (!entry.is_object()) return "has a key that is no object";
-    if (entry.contains("use") && Text(entry, "use") != "sig") continue;
+    if (entry.contains("use") && TextMember(entry, "use") != "sig") continue;
     std::optional<Jwk> key = ReadJwk(entry);
-    const std::string kid = Text(entry, "kid");
+    const std::string kid = TextMember(entry, "kid");
     if (!key || kid.empty()) continue;
-    if (entry.contains("alg") && Text(entry, "alg") != key->algorithm) continue;
+    if (entry.contains("alg") && TextMember(entry, "alg") != key->algorithm) continue;
     if (!verifier.keys_.try_emplace(kid, Key{key->algorithm, std::move(key->key)}).second) {
       return "has two keys with kid '" + kid + "'";
     }
@@ -152,10 +146,10 @@ std::string JwtVerifier::MistakeInSignature(std::string_view head, std::string_v
   const std::optional<json> header = Object(head);
   const std::optional<std::string> bytes = FromBase64Url(signature);
   if (!header || !bytes) return kNoToken;
-  const auto key = keys_.find(Text(*header, "kid"));
+  const auto key = keys_.find(TextMember(*header, "kid"));
   if (key == keys_.end()) return "the token is signed with a key that is not known";
   // The key says which algorithm: what the token says may be forged.
-  if (Text(*header, "alg") != key->second.algorithm) return "the token has another algorithm";
+  if (TextMember(*header, "alg") != key->second.algorithm) return "the token has another algorithm";
   if (header->contains("crit")) return "the token asks for an extension";
   const std::string signed_part = std::string(head) + '.' + std::string(body);
   return IsSignedBy(key->second.key.get(), key->second.algorithm, signed_part, *bytes)

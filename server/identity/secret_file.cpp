@@ -13,7 +13,7 @@
 namespace contact {
 namespace {
 
-constexpr std::size_t kMostBytes = 1 << 20;
+constexpr std::size_t kMostSecretBytes = 1 << 20;
 constexpr mode_t kOthersWrite = S_IWGRP | S_IWOTH;
 
 // The folder in which others may replace the file, or what it is a link to; empty: none.
@@ -56,7 +56,7 @@ bool Read(const std::filesystem::path& file, mode_t refused, std::string* text,
   std::array<char, 4096> part;
   for (ssize_t n; (n = ::read(in.get(), part.data(), part.size())) > 0;) {
     text->append(part.data(), static_cast<std::size_t>(n));
-    if (text->size() <= kMostBytes) continue;
+    if (text->size() <= kMostSecretBytes) continue;
     *mistake = file.string() + " is larger than 1 MiB";
     return false;
   }

@@ -32,6 +32,8 @@ JOB = re.compile(r"jobs/([0-9a-z]{10})\b")
 RUN_ELSEWHERE = {
     "./deploy/run": "deploy/test",
     "./deploy/package": "tests/package/package_test",
+    "./deploy/release": "tests/deploy/release_test.py",
+    "$ tar -xzf contactd-": "tests/package/release_test",
     "$ contactctl dev\n": "tests/cli/verbs/dev_test.py",
     "$ contactctl open": "tests/cli/verbs/open_test.py",
     "source <(contactctl completion bash)": "tests/cli/help/completion_test.py",

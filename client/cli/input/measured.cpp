@@ -31,7 +31,7 @@ struct Field {
 };
 
 // The fields of a line. A field in quotes may have separators; "" in it is one quote.
-std::vector<Field> Split(const std::string& line, char separator) {
+std::vector<Field> FieldsOf(const std::string& line, char separator) {
   std::vector<Field> fields(1);
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -76,7 +76,7 @@ class TableReader {
  private:
   void ReadHeader(const std::string& line) {
     separator_ = SeparatorOf(line);
-    for (const Field& field : Split(line, separator_)) {
+    for (const Field& field : FieldsOf(line, separator_)) {
       table_.columns.push_back(ColumnWithUnit(field.text));
     }
     if (table_.columns.size() == 1) {
@@ -85,7 +85,7 @@ class TableReader {
   }
 
   void ReadRow(const std::string& line) {
-    const std::vector<Field> fields = Split(line, separator_);
+    const std::vector<Field> fields = FieldsOf(line, separator_);
     if (fields.size() > table_.columns.size()) {
       return Add(fields[table_.columns.size()].column,
                  fmt::format("has {}; the header has {}",

@@ -15,6 +15,7 @@
 #include "base/spelling.h"
 #include "cli/base/assignments.h"
 #include "cli/base/failure.h"
+#include "cli/input/yaml_place.h"
 
 namespace contact::cli {
 namespace {
@@ -26,10 +27,6 @@ bool IsName(std::string_view text) {
   return !text.empty() && letter(static_cast<unsigned char>(text.front())) &&
          std::ranges::all_of(text,
                              [&](unsigned char c) { return letter(c) || std::isdigit(c) != 0; });
-}
-
-std::string Join(const std::string& path, const std::string& name) {
-  return path.empty() ? name : path + "." + name;
 }
 
 // The name in a text that is `${name}` and nothing else; empty for any other text.
@@ -51,7 +48,7 @@ class Resolver {
   void Resolve(const YAML::Node& node, const std::string& path) {
     if (node.IsMap()) {
       for (const auto& entry : node) {
-        Resolve(entry.second, Join(path, entry.first.IsScalar() ? entry.first.Scalar() : ""));
+        Resolve(entry.second, JoinPath(path, entry.first.IsScalar() ? entry.first.Scalar() : ""));
       }
     } else if (node.IsSequence()) {
       int index = 0;

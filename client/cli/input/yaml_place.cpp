@@ -29,6 +29,10 @@ FoundNode Find(const YAML::Node& node, std::span<const PathStep> path) {
 
 }  // namespace
 
+std::string JoinPath(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
 FoundNode FindNode(const YAML::Node& root, const std::string& path) {
   return Find(root, ParsePath(path));
 }

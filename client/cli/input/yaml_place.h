@@ -16,6 +16,9 @@ struct FoundNode {
   bool exact;
 };
 
+/// The path of a field `name` of the message at `path`, which is empty for the document.
+std::string JoinPath(const std::string& path, const std::string& name);
+
 /// Finds the field with a path such as `bodies[0].mass_kg` in a document.
 FoundNode FindNode(const YAML::Node& root, const std::string& path);
 

@@ -14,6 +14,7 @@
 
 #include "base/spelling.h"
 #include "cli/base/scalar.h"
+#include "cli/input/yaml_place.h"
 #include "wire/rules/field_path.h"
 
 namespace contact::cli {
@@ -25,10 +26,6 @@ using google::protobuf::EnumValueDescriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::OneofDescriptor;
-
-std::string Join(const std::string& path, const std::string& name) {
-  return path.empty() ? name : path + "." + name;
-}
 
 // How a value of the wrong type is called.
 std::string Shown(const YAML::Node& node) {
@@ -124,12 +121,12 @@ void YamlReader::ReadMessage(const YAML::Node& node, const std::string& path,
               fmt::format("expected a number, got {}", Quoted(before.digits + "," + name)), kPoint);
       continue;
     }
-    before = WholeOf(entry.second, Join(path, name));
+    before = WholeOf(entry.second, JoinPath(path, name));
     const auto [first, is_new] = lines.emplace(name, entry.first.Mark().line + 1);
     if (is_new) {
       ReadEntry(entry.first, entry.second, path, message);
     } else {
-      report_(entry.first.Mark(), Join(path, name),
+      report_(entry.first.Mark(), JoinPath(path, name),
               fmt::format("is given twice, first in line {}", first->second), "");
     }
   }
@@ -141,16 +138,16 @@ void YamlReader::ReadEntry(const YAML::Node& key, const YAML::Node& value, const
   const FieldDescriptor* field = type.FindFieldByName(key.Scalar());
   if (field == nullptr) {
     const std::string name = key.Scalar().size() > 64 ? Quoted(key.Scalar()) : key.Scalar();
-    report_(key.Mark(), Join(path, name), "unknown field", FieldHint(type, key.Scalar()));
+    report_(key.Mark(), JoinPath(path, name), "unknown field", FieldHint(type, key.Scalar()));
     return;
   }
   const FieldDescriptor* rival = Rival(*field, *message);
   if (rival != nullptr) {
-    report_(key.Mark(), Join(path, field->name()),
+    report_(key.Mark(), JoinPath(path, field->name()),
             fmt::format("cannot stand beside {}", rival->name()), "make an entry of each");
     return;
   }
-  ReadField(value, Join(path, field->name()), *field, message);
+  ReadField(value, JoinPath(path, field->name()), *field, message);
 }
 
 void YamlReader::ReadField(const YAML::Node& node, const std::string& path,

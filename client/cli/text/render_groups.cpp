@@ -15,7 +15,7 @@
 namespace contact::cli {
 namespace {
 
-constexpr std::size_t kMostRows = 40;
+constexpr std::size_t kMostGroupRows = 40;
 
 Table MakeTable() {
   return Table({{"CONTACT"},
@@ -148,10 +148,12 @@ std::string RenderGroups(const v1::Job& job, const Style& style) {
     if (std::string line = NoSolution(group); !line.empty()) lines.push_back(std::move(line));
   }
   if (groups == 0) return "";
-  if (lines.size() > kMostRows) lines.resize(kMostRows);  // The table says that there are more.
+  if (lines.size() > kMostGroupRows)
+    lines.resize(kMostGroupRows);  // The table says that there are more.
   Style all = style;
   all.columns.clear();
-  return fmt::format("\n{}{}", table.Text(all, kMostRows, "… {} more groups; -o json prints all"),
+  return fmt::format("\n{}{}",
+                     table.Text(all, kMostGroupRows, "… {} more groups; -o json prints all"),
                      Wrap(fmt::to_string(fmt::join(lines, "")), style));
 }
 

@@ -19,7 +19,7 @@
 namespace contact::cli {
 namespace {
 
-constexpr std::size_t kMostRows = 40;
+constexpr std::size_t kMostBodies = 40;
 
 // How far the job is, in parts that are not broken between lines.
 std::vector<std::string> Extent(const v1::Job& job) {
@@ -93,7 +93,7 @@ std::string Bodies(const v1::Job& job, const Style& style) {
   }
   Style all = style;
   all.columns.clear();
-  return fmt::format("\n{}", table.Text(all, kMostRows, "… {} more bodies; -o json prints all"));
+  return fmt::format("\n{}", table.Text(all, kMostBodies, "… {} more bodies; -o json prints all"));
 }
 
 std::string Balances(const v1::Job& job, const Style& style) {

@@ -23,7 +23,7 @@ constexpr auto kBeforeProgress = 200ms;  // Most runs end sooner and need no bar
 
 // What was sent may be as it is, for JSON; rows are for people in any case.
 template <class Message>
-Message Printable(Message sent) {
+Message PrintableCopy(Message sent) {
   MakePrintable(&sent);
   return sent;
 }
@@ -38,13 +38,13 @@ LiveView::LiveView(Options options) : options_(std::move(options)) {
 LiveView::~LiveView() { EraseProgress(); }
 
 void LiveView::OnSnapshot(const v1::Job& job) {
-  if (job.has_progress() && !IsFinal(job.state())) progress_ = Printable(job.progress());
+  if (job.has_progress() && !IsFinal(job.state())) progress_ = PrintableCopy(job.progress());
   if (job.has_progress() && json_) json_->Update(job.progress());
 }
 
 void LiveView::OnEvent(const v1::Event& sent) {
   if (sent.has_frame_chunk()) return;  // Frames are for programs.
-  const v1::Event event = Printable(sent);
+  const v1::Event event = PrintableCopy(sent);
   switch (event.payload_case()) {
     case v1::Event::kIteration:
       return ShowIteration(event.iteration());

@@ -18,7 +18,7 @@
 namespace contact::cli {
 namespace {
 
-constexpr std::size_t kMostRows = 40;
+constexpr std::size_t kMostSamples = 40;
 
 std::vector<std::vector<double>> Values(const v1::Series& series) {
   std::vector<std::vector<double>> columns;
@@ -40,7 +40,7 @@ std::string RenderSeries(const v1::Series& series, const Style& style) {
     for (const auto& column : columns) cells.emplace_back(Digits(column.at(row), 7));
     table.Add(std::move(cells));
   }
-  std::string text = table.Text(style, kMostRows, "… {} more samples; -o csv prints all");
+  std::string text = table.Text(style, kMostSamples, "… {} more samples; -o csv prints all");
   if (series.samples() == series.recorded_samples()) return text;
   return text + Wrap(fmt::format("{} of {}, no peak left out\n", series.samples(),
                                  Count(series.recorded_samples(), "sample", "samples")),

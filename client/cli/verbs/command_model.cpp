@@ -20,16 +20,16 @@ struct LawArguments {
   ColumnChoice columns;
 };
 
-std::vector<Table::Column> ListColumns() { return {{"LAW"}, {"FORMULA"}, {"SOURCE", false, 1}}; }
+std::vector<Table::Column> LawColumns() { return {{"LAW"}, {"FORMULA"}, {"SOURCE", false, 1}}; }
 
 ExitCode List(const ColumnChoice& columns, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
-  columns.Check(ListColumns(), settings);
+  columns.Check(LawColumns(), settings);
   if (settings.output == OutputFormat::kJson) {
     PrintJson(LawsJson(LawCatalogue()), settings);
     return ExitCode::kOk;
   }
-  Table table(ListColumns());
+  Table table(LawColumns());
   for (const LawEntry& law : LawCatalogue()) {
     table.Add({std::string(law.name), std::string(law.formula), std::string(law.source)});
   }
@@ -106,7 +106,7 @@ void AddModel(CommandLine& line, CLI::App& model) {
   model.require_subcommand(1);
   CLI::App* list = model.add_subcommand("list", "List the laws with formula and source");
   auto columns = std::make_shared<ColumnChoice>();
-  columns->AddTo(line, *list, ListColumns());
+  columns->AddTo(line, *list, LawColumns());
   line.SetAction(*list, columns, List);
 
   CLI::App* show = model.add_subcommand("show", "Show one law and what it delivers");
