@@ -389,7 +389,7 @@ test('a server that wants a token is given one, which nothing shows', async () =
     await own.getByText('The server accepts it.').waitFor();
     await own.getByRole('button', {name: 'Start the run'}).click();
     await own.getByText('SUCCEEDED').first().waitFor();
-    await own.getByText('ada').waitFor();   // The owner of the run.
+    await own.getByText('ada', {exact: true}).waitFor();   // The owner of the run.
     assert.ok(!own.url().includes('ctk_'));
     assert.ok(!await own.evaluate(() => JSON.stringify(localStorage) + document.cookie).then((kept) => kept.includes('ctk_')));
     assert.ok(!asking.written().includes(token), 'in no log');
