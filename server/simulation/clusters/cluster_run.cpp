@@ -157,16 +157,11 @@ bool ClusterRun::Gather(const std::vector<int>& more, Attempt* attempt) const {
   return true;
 }
 
-// Takes in what touches at the instant of the attempt, and does not move away. What only lies
-// beside it is met when it is pressed: a pulse in a row of touching balls has what it has reached.
+// Takes in what touches at the instant of the attempt and approaches. What only lies beside it is
+// met when it is pressed: a pulse in a row of touching balls has what it has reached. It is looked
+// for before anything is solved: without that a row of 40 balls at ε 0.9 takes 14,106 steps for
+// 9,621.
 void ClusterRun::Flood(Attempt* attempt) const {
-  const auto presses = [&](int contact) {
-    const World::Distance d = world_.DistanceAt(contact, attempt->time);
-    if (d.speed < 0 || d.gap > world_.Noise(contact, attempt->time)) return false;
-    if (d.speed > 0 || world_.Approach(contact) > 0) return true;
-    attempt->until = scenario_.end_time;
-    return false;
-  };
   std::vector<int> pending = attempt->bodies;
   while (!pending.empty()) {
     const int body = pending.back();
@@ -174,12 +169,16 @@ void ClusterRun::Flood(Attempt* attempt) const {
     for (const int contact : world_.ContactsOf(body)) {
       const int other = world_.Other(contact, body);
       if (other == kNone || std::ranges::binary_search(attempt->bodies, other)) continue;
+      const World::Distance d = world_.DistanceAt(contact, attempt->time);
+      if (d.speed < 0 || d.gap > world_.Noise(contact, attempt->time)) continue;
+      const bool approaches = d.speed > 0 || world_.Approach(contact) > 0;
+      if (!approaches) attempt->until = scenario_.end_time;
       const double time = attempt->time;
       const std::size_t size = attempt->bodies.size();
-      if (!presses(contact) || !Gather({other}, attempt)) continue;
+      if (!approaches || !Gather({other}, attempt)) continue;
       pending.push_back(other);
       if (attempt->time == time && attempt->bodies.size() == size + 1) continue;
-      pending = attempt->bodies;
+      pending = attempt->bodies;  // More bodies or an earlier instant came along.
       break;
     }
   }
