@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "values are stored as they are");
 
-constexpr std::size_t kDouble = sizeof(std::uint64_t);
+constexpr std::size_t kWord = sizeof(std::uint64_t);
 
 // Values that are rearranged together, since their bytes are a square of 8 by 8.
 constexpr std::size_t kBlock = 8;
@@ -69,15 +69,15 @@ class Differences {
 
 void SplitColumn(std::string_view column, std::size_t stride, char* planes) {
   Differences differences;
-  const std::size_t count = column.size() / kDouble;
+  const std::size_t count = column.size() / kWord;
   for (std::size_t i = 0; i < count; i += kBlock) {
     const std::size_t some = std::min(kBlock, count - i);
     Block block{};
     for (std::size_t j = 0; j < some; ++j) {
-      block[j] = differences.Of(Load(column.data() + (i + j) * kDouble));
+      block[j] = differences.Of(Load(column.data() + (i + j) * kWord));
     }
     Turn(block);
-    for (std::size_t plane = 0; plane < kDouble; ++plane) {
+    for (std::size_t plane = 0; plane < kWord; ++plane) {
       std::memcpy(planes + plane * stride + i, &block[plane], some);
     }
   }
@@ -88,7 +88,7 @@ void JoinColumn(const char* planes, std::size_t stride, std::size_t count, char*
   for (std::size_t i = 0; i < count; i += kBlock) {
     const std::size_t some = std::min(kBlock, count - i);
     Block block{};
-    for (std::size_t plane = 0; plane < kDouble; ++plane) {
+    for (std::size_t plane = 0; plane < kWord; ++plane) {
       const char* const from = planes + plane * stride + i;
       if (some == kBlock) {
         block[plane] = Load(from);
@@ -99,7 +99,7 @@ void JoinColumn(const char* planes, std::size_t stride, std::size_t count, char*
     Turn(block);
     for (std::size_t j = 0; j < some; ++j) {
       const std::uint64_t value = differences.Sum(block[j]);
-      std::memcpy(column + (i + j) * kDouble, &value, sizeof value);
+      std::memcpy(column + (i + j) * kWord, &value, sizeof value);
     }
   }
 }

@@ -12,10 +12,6 @@
 namespace contact {
 namespace {
 
-const Contact& ContactAt(const Scenario& scenario, int index) {
-  return scenario.contacts[static_cast<std::size_t>(index)];
-}
-
 // The enum of the contract has the same value for unspecified.
 constexpr v1::Iteration::Update WireUpdate(Iteration::Update update) {
   return static_cast<v1::Iteration::Update>(update);
@@ -52,7 +48,7 @@ v1::Iteration Encode(const Scenario& scenario, const Iteration& iteration) {
   message.set_accepted(iteration.accepted);
   for (const Iteration::Unknown& unknown : iteration.unknowns) {
     v1::Iteration::Unknown& out = *message.add_unknowns();
-    out.set_contact(ContactAt(scenario, unknown.contact).name);
+    out.set_contact(scenario.contacts[static_cast<std::size_t>(unknown.contact)].name);
     out.set_number(unknown.number);
     out.set_mu(unknown.mu);
     out.set_restitution_out(unknown.restitution_out);

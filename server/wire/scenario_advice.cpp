@@ -188,19 +188,19 @@ Violation Describe(const Scenario& scenario, const Contact& pair, const FirstMee
 }
 
 // A contact whose first meeting goes deep for the radius of a body.
-struct Deep {
+struct DeepMeeting {
   std::size_t contact = 0;  // In Scenario::contacts.
   const Body* body = nullptr;
   FirstMeeting meeting;
   double share() const { return body == nullptr ? 0 : meeting.deformation / body->radius; }
 };
 
-Deep FindDeepest(const Scenario& scenario) {
-  Deep deepest;
+DeepMeeting FindDeepest(const Scenario& scenario) {
+  DeepMeeting deepest;
   const auto meetings = ForecastFirstMeetings(scenario);
   for (std::size_t i = 0; i < meetings.size(); ++i) {
     if (!meetings[i]) continue;
-    const Deep deep{i, SmallerSphere(scenario, scenario.contacts[i]), *meetings[i]};
+    const DeepMeeting deep{i, SmallerSphere(scenario, scenario.contacts[i]), *meetings[i]};
     if (deep.share() > deepest.share()) deepest = deep;
   }
   return deepest;
@@ -269,7 +269,7 @@ std::vector<Violation> AdviseOnPlaces(const Scenario& scenario) {
 }
 
 std::vector<Violation> AdviseOnDepth(const v1::Scenario& message, const Scenario& scenario) {
-  const Deep deep = FindDeepest(scenario);
+  const DeepMeeting deep = FindDeepest(scenario);
   if (!(deep.share() > 1)) return {};
   const Contact& contact = scenario.contacts[deep.contact];
   return {{StiffnessField(message, deep.contact),

@@ -147,7 +147,8 @@ class Client {
   FileDescriptor socket_;
 };
 
-std::string Post(const std::string& method, const std::string& type, const std::string& body) {
+std::string PostRequest(const std::string& method, const std::string& type,
+                        const std::string& body) {
   return "POST /contact.v1.JobService/" + method +
          " HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\ncontent-type: " + type +
          "\r\ncontent-length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
@@ -205,7 +206,7 @@ class GatewayTest : public testing::Test {
 
 TEST_F(GatewayTest, AnAnswerWithoutJsonIsAnError) {
   const Client client = Connect({});
-  client.Send(Post("GetJob", "application/json", "{}"));
+  client.Send(PostRequest("GetJob", "application/json", "{}"));
   const std::string answer = client.ReadAll();
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 500 ")) << answer;
   EXPECT_EQ(json::parse(BodyOf(answer))["code"], "internal");
@@ -213,7 +214,7 @@ TEST_F(GatewayTest, AnAnswerWithoutJsonIsAnError) {
 
 TEST_F(GatewayTest, AStreamedMessageWithoutJsonEndsTheStreamWithAnError) {
   const Client client = Connect({});
-  client.Send(Post("WatchJob", "application/connect+json", gateway::ToBytes({0, "{}"})));
+  client.Send(PostRequest("WatchJob", "application/connect+json", gateway::ToBytes({0, "{}"})));
   const auto frames = gateway::ToFrames(Unchunked(BodyOf(client.ReadAll())));
   ASSERT_TRUE(frames);
   ASSERT_EQ(frames->size(), 2U) << "the message before it, and the end";
@@ -224,7 +225,7 @@ TEST_F(GatewayTest, AStreamedMessageWithoutJsonEndsTheStreamWithAnError) {
 
 TEST_F(GatewayTest, MetadataOfTheServerComeBeforeAndBehindAnAnswer) {
   const Client client = Connect({});
-  client.Send(Post("GetJob", "application/proto", ""));
+  client.Send(PostRequest("GetJob", "application/proto", ""));
   const std::string answer = client.ReadAll();
   for (const char* line :
        {"x-head: 1", "x-head-bin: /w", "trailer-x-tail: 2", "trailer-x-tail-bin: /g"}) {
@@ -234,7 +235,7 @@ TEST_F(GatewayTest, MetadataOfTheServerComeBeforeAndBehindAnAnswer) {
 
 TEST_F(GatewayTest, MetadataOfTheServerComeBeforeAndBehindAStream) {
   const Client client = Connect({});
-  client.Send(Post("WatchJob", "application/connect+proto", gateway::ToBytes({0, ""})));
+  client.Send(PostRequest("WatchJob", "application/connect+proto", gateway::ToBytes({0, ""})));
   const std::string answer = client.ReadAll();
   EXPECT_THAT(answer, HasSubstr("\r\nx-head: 1\r\nx-head-bin: /w\r\n"));
   const auto frames = gateway::ToFrames(Unchunked(BodyOf(answer)));
@@ -245,7 +246,7 @@ TEST_F(GatewayTest, MetadataOfTheServerComeBeforeAndBehindAStream) {
 
 TEST_F(GatewayTest, MetadataOfTheServerAreHeadersAndTrailersOfTheWeb) {
   const Client client = Connect({});
-  client.Send(Post("GetJob", "application/grpc-web", gateway::ToBytes({0, ""})));
+  client.Send(PostRequest("GetJob", "application/grpc-web", gateway::ToBytes({0, ""})));
   const std::string answer = client.ReadAll();
   EXPECT_THAT(answer, HasSubstr("\r\nx-head: 1\r\nx-head-bin: /w\r\n"));
   const auto frames = gateway::ToFrames(BodyOf(answer));
@@ -255,7 +256,7 @@ TEST_F(GatewayTest, MetadataOfTheServerAreHeadersAndTrailersOfTheWeb) {
 
 TEST_F(GatewayTest, AnAnswerThatThereIsNoRoomForIsRefusedAsItsProtocolSays) {
   const Client client = Connect({.memory = 1 << 20});
-  client.Send(Post("GetJob", "application/json", kLarge));
+  client.Send(PostRequest("GetJob", "application/json", kLarge));
   const std::string answer = client.ReadAll();
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 429 ")) << answer;
   EXPECT_EQ(json::parse(BodyOf(answer))["code"], "resource_exhausted");
@@ -263,7 +264,7 @@ TEST_F(GatewayTest, AnAnswerThatThereIsNoRoomForIsRefusedAsItsProtocolSays) {
 
 TEST_F(GatewayTest, JsonThatThereIsNoRoomForIsRefusedAsItsProtocolSays) {
   const Client client = Connect({.memory = 4 << 20});
-  client.Send(Post("GetJob", "application/grpc-web+json", gateway::ToBytes({0, kLarge})));
+  client.Send(PostRequest("GetJob", "application/grpc-web+json", gateway::ToBytes({0, kLarge})));
   const auto frames = gateway::ToFrames(BodyOf(client.ReadAll()));
   ASSERT_TRUE(frames && frames->size() == 1);
   EXPECT_TRUE(frames->front().payload.starts_with("grpc-status: 8\r\n"));
@@ -271,7 +272,7 @@ TEST_F(GatewayTest, JsonThatThereIsNoRoomForIsRefusedAsItsProtocolSays) {
 
 TEST_F(GatewayTest, AUnaryCallIsAnsweredToAClientThatHasClosedItsHalf) {
   const Client client = Connect({});
-  client.Send(Post("GetJob", "application/json", kSlow));
+  client.Send(PostRequest("GetJob", "application/json", kSlow));
   ASSERT_TRUE(slow().Begins());
   client.CloseHalf();
   EXPECT_FALSE(client.Wait(50ms)) << "the call is cancelled";
@@ -281,7 +282,7 @@ TEST_F(GatewayTest, AUnaryCallIsAnsweredToAClientThatHasClosedItsHalf) {
 
 TEST_F(GatewayTest, TheEndWaitsForWhatIsAnswered) {
   const Client client = Connect({});
-  client.Send(Post("GetJob", "application/json", kSlow));
+  client.Send(PostRequest("GetJob", "application/json", kSlow));
   ASSERT_TRUE(slow().Begins());
   const auto finished = Finish(kPatience);
   EXPECT_EQ(finished.wait_for(50ms), std::future_status::timeout);
@@ -292,7 +293,7 @@ TEST_F(GatewayTest, TheEndWaitsForWhatIsAnswered) {
 
 TEST_F(GatewayTest, TheEndWaitsNoLongerThanItMay) {
   const Client client = Connect({});
-  client.Send(Post("GetJob", "application/json", kSlow));
+  client.Send(PostRequest("GetJob", "application/json", kSlow));
   ASSERT_TRUE(slow().Begins());
   EXPECT_EQ(Finish(1ms).wait_for(kPatience), std::future_status::ready);
 }
@@ -302,7 +303,7 @@ TEST_F(GatewayTest, ARequestThatComesAfterTheEndHasBegunIsRefused) {
   client.Send("GET /healthz HTTP/1.1\r\nhost: localhost\r\n\r\n");
   ASSERT_TRUE(client.Read(4096).ends_with("ok\n"));
   Finish(0ms).get();
-  client.Send(Post("GetJob", "application/json", "{}"));
+  client.Send(PostRequest("GetJob", "application/json", "{}"));
   const std::string answer = client.ReadAll();
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 503 ")) << answer;
   const json error = json::parse(BodyOf(answer));
@@ -313,7 +314,7 @@ TEST_F(GatewayTest, ARequestThatComesAfterTheEndHasBegunIsRefused) {
 TEST_F(GatewayTest, AUnaryCallIsCancelledOnceItsClientTakesNothingMore) {
   {
     const Client client = Connect({});
-    client.Send(Post("GetJob", "application/json", kSlow));
+    client.Send(PostRequest("GetJob", "application/json", kSlow));
     ASSERT_TRUE(slow().Begins());
     client.ResetAtEnd();
   }
@@ -322,7 +323,7 @@ TEST_F(GatewayTest, AUnaryCallIsCancelledOnceItsClientTakesNothingMore) {
 
 TEST_F(GatewayTest, AnAnswerThatIsTakenDropByDropIsCut) {
   const Client client = Connect({.answer = 100ms});
-  client.Send(Post("GetJob", "application/json", kLarge));
+  client.Send(PostRequest("GetJob", "application/json", kLarge));
   const auto start = steady_clock::now();
   while (connections() > 0 && steady_clock::now() - start < kPatience) {
     client.Read(1);
@@ -352,7 +353,7 @@ TEST_F(GatewayTest, AHeadThatComesDropByDropIsCut) {
 
 TEST_F(GatewayTest, ABodyThatComesDropByDropIsCut) {
   const Client client = Connect({.body = 100ms});
-  const std::string whole = Post("GetJob", "application/json", std::string(10'000, ' '));
+  const std::string whole = PostRequest("GetJob", "application/json", std::string(10'000, ' '));
   client.Send(whole.substr(0, whole.find("\r\n\r\n") + 4));
   EXPECT_TRUE(Answers());
   int drops = 0;

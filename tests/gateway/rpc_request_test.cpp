@@ -72,20 +72,20 @@ TEST(RpcRequestTest, MethodsOfTheContractAreFoundOthersNot) {
 }
 
 TEST(RpcRequestTest, OneMessageIsTheSameInAllDialects) {
-  const std::string json = R"({"name":"jobs/a"})";
+  const std::string message = R"({"name":"jobs/a"})";
   for (const auto& [type, body] : std::vector<std::pair<std::string, std::string>>{
-           {"application/json", json},
-           {"Application/JSON; charset=utf-8", json},
+           {"application/json", message},
+           {"Application/JSON; charset=utf-8", message},
            {"application/proto", JobBytes()},
            {"application/grpc-web", ToBytes({0, JobBytes()})},
            {"application/grpc-web+proto", ToBytes({0, JobBytes()})},
-           {"application/grpc-web+json", ToBytes({0, json})},
+           {"application/grpc-web+json", ToBytes({0, message})},
            {"application/grpc-web-text", ToPaddedBase64(ToBytes({0, JobBytes()}))},
            {"application/grpc-web-text+proto", ToPaddedBase64(ToBytes({0, JobBytes()}))}}) {
     EXPECT_EQ(Read(Post(kGet, type, body)).message, JobBytes()) << type;
   }
   for (const auto& [type, body] : std::vector<std::pair<std::string, std::string>>{
-           {"application/connect+json", ToBytes({0, json})},
+           {"application/connect+json", ToBytes({0, message})},
            {"application/connect+proto", ToBytes({0, JobBytes()})},
            {"application/grpc-web", ToBytes({0, JobBytes()})}}) {
     EXPECT_EQ(Read(Post(kWatch, type, body)).message, JobBytes()) << type;
@@ -194,8 +194,9 @@ TEST(RpcRequestTest, BadJsonNamesThePlace) {
   EXPECT_EQ(answer.status, 400);
   EXPECT_THAT(answer.body, HasSubstr("nam"));
   EXPECT_THAT(answer.body, HasSubstr("FIELD_INVALID"));
-  for (const char* json : {"{", "[]", "null}", "{\"name\":1.5}", "{\"name\":\"\xff\"}"}) {
-    EXPECT_EQ(CodeOf(Refusal(Post(kGet, "application/json", json))), "invalid_argument") << json;
+  for (const char* message : {"{", "[]", "null}", "{\"name\":1.5}", "{\"name\":\"\xff\"}"}) {
+    EXPECT_EQ(CodeOf(Refusal(Post(kGet, "application/json", message))), "invalid_argument")
+        << message;
   }
 }
 

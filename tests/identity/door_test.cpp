@@ -11,9 +11,9 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::system_clock;
 
-const system_clock::time_point kNow = system_clock::from_time_t(1'800'000'000);
-const NewToken kGood = MakeToken({"ci", "acme", {Role::kSubmit}, ""}, kNow + 1s);
-const NewToken kExpired = MakeToken({"ci", "acme", {Role::kSubmit}, ""}, kNow - 1s);
+const system_clock::time_point kKnocked = system_clock::from_time_t(1'800'000'000);
+const NewToken kGood = MakeToken({"ci", "acme", {Role::kSubmit}, ""}, kKnocked + 1s);
+const NewToken kExpired = MakeToken({"ci", "acme", {Role::kSubmit}, ""}, kKnocked - 1s);
 
 // Tokens and rules of a test.
 struct FakeSource final : IdentitySource {
@@ -33,7 +33,7 @@ struct FakeSource final : IdentitySource {
 
 // `token`, `certificate`, or the words of the refusal.
 std::string Decide(const Door& door, const Presented& presented) {
-  const auto known = door.Identify(presented, kNow);
+  const auto known = door.Identify(presented, kKnocked);
   const auto* principal = std::get_if<Principal>(&known);
   return principal == nullptr ? std::get<std::string>(known) : principal->how;
 }

@@ -20,7 +20,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using Clock = std::chrono::system_clock;
 
-const Clock::time_point kNow{std::chrono::seconds(1'800'000'000)};
+const Clock::time_point kVerified{std::chrono::seconds(1'800'000'000)};
 constexpr int kNowS = 1'800'000'000;
 
 std::string ToBase64Url(const std::string& bytes) {
@@ -131,7 +131,7 @@ bool IsUsed(const json& jwk) {
 }
 
 std::string Mistake(const JwtVerifier& verifier, const std::string& token) {
-  const auto found = verifier.Verify(token, kNow);
+  const auto found = verifier.Verify(token, kVerified);
   const auto* mistake = std::get_if<std::string>(&found);
   return mistake == nullptr ? "" : *mistake;
 }
@@ -140,7 +140,7 @@ TEST(Jwt, EachAlgorithmTellsTheHolder) {
   const std::vector<Signer> signers = {Rsa(), Ec(), Ed()};
   const JwtVerifier verifier = Verifier(signers);
   for (const Signer& signer : signers) {
-    const auto holder = std::get<Principal>(verifier.Verify(signer.Sign(Claims()), kNow));
+    const auto holder = std::get<Principal>(verifier.Verify(signer.Sign(Claims()), kVerified));
     EXPECT_EQ(holder, (Principal{"ada", "acme", {Role::kSubmit}, "jwt"}));
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "identity/hex.h"
+#include "table_of.h"
 
 namespace contact {
 namespace {
@@ -16,12 +17,6 @@ using std::chrono::system_clock;
 
 const system_clock::time_point kNow = system_clock::from_time_t(1'800'000'000);
 const Principal kCi{"ci", "acme", {Role::kSubmit}, ""};
-
-TokenTable TableOf(const std::vector<TokenRecord>& records) {
-  auto table = TokenTable::Parse(TokenTable::Format(records));
-  if (const auto* mistake = std::get_if<std::string>(&table)) ADD_FAILURE() << *mistake;
-  return std::get<TokenTable>(std::move(table));
-}
 
 std::string Words(const TokenTable& table, const std::string& token) {
   const auto found = table.Find(token, kNow);

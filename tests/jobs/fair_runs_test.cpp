@@ -13,7 +13,6 @@
 namespace contact {
 namespace {
 
-const Principal kAda{"ada", "acme", {Role::kSubmit}, "token"};
 const Principal kEve{"eve", "umbra", {Role::kSubmit}, "token"};
 
 class FairRunsTest : public JobsTest {

@@ -16,7 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::Le;
 
-const Share kLocal{"local", "local"};
+const Share kLocalShare{"local", "local"};
 
 std::vector<std::string> PopAll(JobQueue& queue) {
   std::vector<std::string> names;
@@ -34,7 +34,7 @@ TEST(JobQueue, OrderIsThatOfPriorityThenOfComingForEveryOrderOfPushes) {
   const auto before = [](const Job& a, const Job& b) { return a.number < b.number; };
   do {
     JobQueue queue;
-    for (const Job& job : jobs) queue.Push(kLocal, job.name, job.priority, job.number, false);
+    for (const Job& job : jobs) queue.Push(kLocalShare, job.name, job.priority, job.number, false);
     EXPECT_EQ(queue.size(), 5U);
     EXPECT_THAT(PopAll(queue), ElementsAre("c", "e", "b", "d", "a"));
     EXPECT_EQ(queue.size(), 0U);
@@ -43,8 +43,8 @@ TEST(JobQueue, OrderIsThatOfPriorityThenOfComingForEveryOrderOfPushes) {
 
 TEST(JobQueue, CarefulPopPassesOverLastAttemptsAndLeavesThemWaiting) {
   JobQueue queue;
-  queue.Push(kLocal, "last", 9, 1, true);
-  queue.Push(kLocal, "other", 0, 2, false);
+  queue.Push(kLocalShare, "last", 9, 1, true);
+  queue.Push(kLocalShare, "other", 0, 2, false);
   EXPECT_EQ(queue.Pop(true, 0), "other");
   EXPECT_EQ(queue.Pop(true, 0), std::nullopt);
   EXPECT_EQ(queue.Pop(false, 0), "last");
@@ -52,22 +52,22 @@ TEST(JobQueue, CarefulPopPassesOverLastAttemptsAndLeavesThemWaiting) {
 
 TEST(JobQueue, RemovedJobIsNotPopped) {
   JobQueue queue;
-  queue.Push(kLocal, "a", 0, 1, false);
-  queue.Push(kLocal, "b", 0, 2, false);
-  EXPECT_TRUE(queue.Remove(kLocal, 0, 1));
-  EXPECT_FALSE(queue.Remove(kLocal, 0, 1)) << "it does not wait any more";
-  EXPECT_FALSE(queue.Remove(kLocal, 1, 2)) << "none with this priority";
+  queue.Push(kLocalShare, "a", 0, 1, false);
+  queue.Push(kLocalShare, "b", 0, 2, false);
+  EXPECT_TRUE(queue.Remove(kLocalShare, 0, 1));
+  EXPECT_FALSE(queue.Remove(kLocalShare, 0, 1)) << "it does not wait any more";
+  EXPECT_FALSE(queue.Remove(kLocalShare, 1, 2)) << "none with this priority";
   EXPECT_FALSE(queue.Remove({"local", "other"}, 0, 2)) << "another's";
   EXPECT_THAT(PopAll(queue), ElementsAre("b"));
 }
 
 TEST(JobQueue, OwnerRunsNoMoreThanTheMost) {
   JobQueue queue(1);
-  queue.Push(kLocal, "a", 0, 1, false);
-  queue.Push(kLocal, "b", 0, 2, false);
+  queue.Push(kLocalShare, "a", 0, 1, false);
+  queue.Push(kLocalShare, "b", 0, 2, false);
   EXPECT_EQ(queue.Pop(false, 0), "a");
   EXPECT_EQ(queue.Pop(false, 0), std::nullopt);
-  queue.Ended(kLocal, 1);
+  queue.Ended(kLocalShare, 1);
   EXPECT_EQ(queue.Pop(false, 1), "b");
 }
 

@@ -20,6 +20,10 @@
 
 namespace contact {
 
+/// Two who submit for one tenant.
+inline const Principal kAda{"ada", "acme", {Role::kSubmit}, "token"};
+inline const Principal kBob{"bob", "acme", {Role::kSubmit}, "token"};
+
 /// A ball that falls to a floor and bounces, for so long or practically for ever.
 inline v1::Scenario BouncingBall(double end_time_s = 1e6) {
   v1::Scenario scenario;

@@ -10,19 +10,19 @@
 namespace contact {
 namespace {
 
-using State = v1::Job::State;
+using JobState = v1::Job::State;
 
 constexpr std::chrono::system_clock::time_point kNow{std::chrono::milliseconds(1500)};
 
 TEST(Lifecycle, OnlyTheMovesOfTheContractAreLegal) {
-  const std::set<std::pair<State, State>> legal = {
+  const std::set<std::pair<JobState, JobState>> legal = {
       {v1::Job::STATE_UNSPECIFIED, v1::Job::QUEUED}, {v1::Job::QUEUED, v1::Job::RUNNING},
       {v1::Job::QUEUED, v1::Job::CANCELLED},         {v1::Job::RUNNING, v1::Job::QUEUED},
       {v1::Job::RUNNING, v1::Job::SUCCEEDED},        {v1::Job::RUNNING, v1::Job::FAILED},
       {v1::Job::RUNNING, v1::Job::CANCELLED}};
   for (int from = v1::Job::State_MIN; from <= v1::Job::State_MAX; ++from) {
     for (int to = v1::Job::State_MIN; to <= v1::Job::State_MAX; ++to) {
-      const auto pair = std::pair(static_cast<State>(from), static_cast<State>(to));
+      const auto pair = std::pair(static_cast<JobState>(from), static_cast<JobState>(to));
       EXPECT_EQ(IsTransition(pair.first, pair.second), legal.contains(pair))
           << from << " to " << to;
     }
@@ -33,9 +33,9 @@ TEST(Lifecycle, FinalStatesAreThoseThatNothingLeaves) {
   for (int from = v1::Job::QUEUED; from <= v1::Job::State_MAX; ++from) {
     bool leaves = false;
     for (int to = v1::Job::State_MIN; to <= v1::Job::State_MAX; ++to) {
-      leaves = leaves || IsTransition(static_cast<State>(from), static_cast<State>(to));
+      leaves = leaves || IsTransition(static_cast<JobState>(from), static_cast<JobState>(to));
     }
-    EXPECT_EQ(IsFinal(static_cast<State>(from)), !leaves) << from;
+    EXPECT_EQ(IsFinal(static_cast<JobState>(from)), !leaves) << from;
   }
 }
 

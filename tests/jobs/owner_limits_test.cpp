@@ -16,8 +16,6 @@ namespace {
 
 using Q = v1::Quota;
 
-const Principal kAda{"ada", "acme", {Role::kSubmit}, "token"};
-const Principal kBob{"bob", "acme", {Role::kSubmit}, "token"};
 const Principal kRoot{"root", "acme", {Role::kAdmin}, "token"};
 
 // A ball that hits a wall at so many velocities.

@@ -18,8 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 using Q = v1::Quota;
 
-const JobOwner kAda{"ada", "acme"};
-const JobOwner kBob{"bob", "acme"};
+const JobOwner kOwnerAda{"ada", "acme"};
+const JobOwner kOwnerBob{"bob", "acme"};
 const JobOwner kOtherAda{"ada", "umbra"};
 
 std::int64_t Used(const Quotas& quotas, const JobOwner& whose, v1::Quota::Resource resource) {
@@ -32,7 +32,7 @@ TEST(Quotas, OwnerHasUpToItsLimitAndOthersHaveTheirs) {
   FakeClock clock;
   Quotas quotas({.unfinished_jobs = 2}, clock);
   std::vector<Quotas::Place> places;
-  for (const JobOwner& whose : {kAda, kBob, kOtherAda}) {
+  for (const JobOwner& whose : {kOwnerAda, kOwnerBob, kOtherAda}) {
     for (const bool free : {true, true, false}) {
       auto place = quotas.Take(whose, Q::UNFINISHED_JOBS);
       EXPECT_EQ(place.ok(), free) << whose.owner << " of " << whose.tenant;
@@ -45,12 +45,12 @@ TEST(Quotas, OwnerHasUpToItsLimitAndOthersHaveTheirs) {
 TEST(Quotas, PlaceComesBackWithItsLastCopy) {
   FakeClock clock;
   std::optional<Quotas> quotas(std::in_place, OwnerLimits{.streams = 1}, clock);
-  Quotas::Place place = quotas->Take(kAda, Q::STREAMS).value();
+  Quotas::Place place = quotas->Take(kOwnerAda, Q::STREAMS).value();
   Quotas::Place copy = place;
   place = nullptr;
-  EXPECT_FALSE(quotas->Take(kAda, Q::STREAMS).ok());
+  EXPECT_FALSE(quotas->Take(kOwnerAda, Q::STREAMS).ok());
   copy = nullptr;
-  place = quotas->Take(kAda, Q::STREAMS).value();
+  place = quotas->Take(kOwnerAda, Q::STREAMS).value();
   quotas.reset();
   place = nullptr;  // It may outlive them.
 }
@@ -58,8 +58,8 @@ TEST(Quotas, PlaceComesBackWithItsLastCopy) {
 TEST(Quotas, RefusalSaysWhatIsUsedOfWhatAndWhenToComeAgain) {
   FakeClock clock;
   Quotas quotas({.cells = 10}, clock);
-  const auto place = quotas.Take(kAda, Q::CELLS, 7);
-  const Error later = quotas.Take(kAda, Q::CELLS, 4).error();
+  const auto place = quotas.Take(kOwnerAda, Q::CELLS, 7);
+  const Error later = quotas.Take(kOwnerAda, Q::CELLS, 4).error();
   EXPECT_EQ(later.code, absl::StatusCode::kResourceExhausted);
   EXPECT_EQ(later.reason, "QUOTA_EXCEEDED");
   EXPECT_EQ(later.message,
@@ -70,57 +70,57 @@ TEST(Quotas, RefusalSaysWhatIsUsedOfWhatAndWhenToComeAgain) {
                                                             testing::Pair("limit", "10"),
                                                             testing::Pair("used", "7")));
   EXPECT_GT(later.retry_after, 0ms);
-  EXPECT_EQ(quotas.Take(kAda, Q::CELLS, 11).error().retry_after, 0ms) << "no waiting helps";
-  EXPECT_TRUE(quotas.Take(kAda, Q::CELLS, 3).ok());
+  EXPECT_EQ(quotas.Take(kOwnerAda, Q::CELLS, 11).error().retry_after, 0ms) << "no waiting helps";
+  EXPECT_TRUE(quotas.Take(kOwnerAda, Q::CELLS, 3).ok());
 }
 
 TEST(Quotas, ZeroIsAnyNumberAndIsCounted) {
   FakeClock clock;
   Quotas quotas({}, clock);
-  const auto place = quotas.Take(kAda, Q::CALLS, 1'000'000);
-  EXPECT_EQ(Used(quotas, kAda, Q::CALLS), 1'000'000);
-  for (int i = 0; i < 10'000; ++i) EXPECT_FALSE(quotas.TakeCreateCall(kAda));
+  const auto place = quotas.Take(kOwnerAda, Q::CALLS, 1'000'000);
+  EXPECT_EQ(Used(quotas, kOwnerAda, Q::CALLS), 1'000'000);
+  for (int i = 0; i < 10'000; ++i) EXPECT_FALSE(quotas.TakeCreateCall(kOwnerAda));
 }
 
 TEST(Quotas, JobsOfAnEarlierStartCountPastTheLimit) {
   FakeClock clock;
   Quotas quotas({.unfinished_jobs = 1}, clock);
-  Quotas::Place first = quotas.Keep(kAda, Q::UNFINISHED_JOBS);
-  Quotas::Place second = quotas.Keep(kAda, Q::UNFINISHED_JOBS);
-  EXPECT_EQ(Used(quotas, kAda, Q::UNFINISHED_JOBS), 2);
+  Quotas::Place first = quotas.Keep(kOwnerAda, Q::UNFINISHED_JOBS);
+  Quotas::Place second = quotas.Keep(kOwnerAda, Q::UNFINISHED_JOBS);
+  EXPECT_EQ(Used(quotas, kOwnerAda, Q::UNFINISHED_JOBS), 2);
   first = nullptr;
-  EXPECT_FALSE(quotas.Take(kAda, Q::UNFINISHED_JOBS).ok());
+  EXPECT_FALSE(quotas.Take(kOwnerAda, Q::UNFINISHED_JOBS).ok());
   second = nullptr;
-  EXPECT_TRUE(quotas.Take(kAda, Q::UNFINISHED_JOBS).ok());
+  EXPECT_TRUE(quotas.Take(kOwnerAda, Q::UNFINISHED_JOBS).ok());
 }
 
 TEST(Quotas, CallsOfAConnectionShareItsPlace) {
   FakeClock clock;
   Quotas quotas({.connections = 1}, clock);
-  Quotas::Place first = quotas.TakeConnection(kAda, "ipv4:1.2.3.4:5").value();
-  Quotas::Place second = quotas.TakeConnection(kAda, "ipv4:1.2.3.4:5").value();
-  EXPECT_FALSE(quotas.TakeConnection(kAda, "ipv4:1.2.3.4:6").ok());
-  EXPECT_TRUE(quotas.TakeConnection(kBob, "ipv4:1.2.3.4:5").ok()) << "a proxy's, of both";
+  Quotas::Place first = quotas.TakeConnection(kOwnerAda, "ipv4:1.2.3.4:5").value();
+  Quotas::Place second = quotas.TakeConnection(kOwnerAda, "ipv4:1.2.3.4:5").value();
+  EXPECT_FALSE(quotas.TakeConnection(kOwnerAda, "ipv4:1.2.3.4:6").ok());
+  EXPECT_TRUE(quotas.TakeConnection(kOwnerBob, "ipv4:1.2.3.4:5").ok()) << "a proxy's, of both";
   first = nullptr;
-  EXPECT_FALSE(quotas.TakeConnection(kAda, "ipv4:1.2.3.4:6").ok());
+  EXPECT_FALSE(quotas.TakeConnection(kOwnerAda, "ipv4:1.2.3.4:6").ok());
   second = nullptr;
-  EXPECT_TRUE(quotas.TakeConnection(kAda, "ipv4:1.2.3.4:6").ok());
+  EXPECT_TRUE(quotas.TakeConnection(kOwnerAda, "ipv4:1.2.3.4:6").ok());
 }
 
 TEST(Quotas, CreateCallsArePacedByTheClock) {
   FakeClock clock;
   Quotas quotas({.creates_per_second = 4, .create_burst = 2}, clock);
-  EXPECT_FALSE(quotas.TakeCreateCall(kAda));
-  EXPECT_FALSE(quotas.TakeCreateCall(kAda));
-  const auto third = quotas.TakeCreateCall(kAda);
+  EXPECT_FALSE(quotas.TakeCreateCall(kOwnerAda));
+  EXPECT_FALSE(quotas.TakeCreateCall(kOwnerAda));
+  const auto third = quotas.TakeCreateCall(kOwnerAda);
   ASSERT_TRUE(third);
   EXPECT_EQ(third->retry_after, 250ms);
-  EXPECT_FALSE(quotas.TakeCreateCall(kBob));
+  EXPECT_FALSE(quotas.TakeCreateCall(kOwnerBob));
   clock.Advance(250ms);
-  EXPECT_FALSE(quotas.TakeCreateCall(kAda));
-  EXPECT_EQ(Used(quotas, kAda, Q::CREATE_CALLS), 2);
+  EXPECT_FALSE(quotas.TakeCreateCall(kOwnerAda));
+  EXPECT_EQ(Used(quotas, kOwnerAda, Q::CREATE_CALLS), 2);
   clock.Advance(1h);
-  EXPECT_EQ(Used(quotas, kAda, Q::CREATE_CALLS), 0);
+  EXPECT_EQ(Used(quotas, kOwnerAda, Q::CREATE_CALLS), 0);
 }
 
 TEST(Quotas, ThreadsNeverHaveMoreThanTheLimit) {
@@ -131,8 +131,8 @@ TEST(Quotas, ThreadsNeverHaveMoreThanTheLimit) {
   for (int thread = 0; thread < 4; ++thread) {
     threads.emplace_back([&, thread] {
       for (int i = 0; i < 10'000; ++i) {
-        const auto connection = quotas.TakeConnection(kAda, std::to_string((i + thread) % 3));
-        const auto place = quotas.Take(kAda, Q::CELLS, 2);
+        const auto connection = quotas.TakeConnection(kOwnerAda, std::to_string((i + thread) % 3));
+        const auto place = quotas.Take(kOwnerAda, Q::CELLS, 2);
         if (!place.ok()) continue;
         const int now = held += 2;
         for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
@@ -144,8 +144,8 @@ TEST(Quotas, ThreadsNeverHaveMoreThanTheLimit) {
   threads.clear();
   EXPECT_GE(most, 2);
   EXPECT_LE(most, 4);
-  EXPECT_EQ(Used(quotas, kAda, Q::CELLS), 0);
-  EXPECT_EQ(Used(quotas, kAda, Q::CONNECTIONS), 0);
+  EXPECT_EQ(Used(quotas, kOwnerAda, Q::CELLS), 0);
+  EXPECT_EQ(Used(quotas, kOwnerAda, Q::CONNECTIONS), 0);
 }
 
 }  // namespace

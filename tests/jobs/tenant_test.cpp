@@ -10,10 +10,8 @@
 namespace contact {
 namespace {
 
-const Principal kAda{"ada", "acme", {Role::kSubmit}, "token"};
-const Principal kBob{"bob", "acme", {Role::kSubmit}, "token"};
 const Principal kBoss{"boss", "acme", {Role::kOperator}, "token"};
-const Principal kEve{"eve", "umbra", {Role::kAdmin}, "token"};
+const Principal kEveAsAdmin{"eve", "umbra", {Role::kAdmin}, "token"};
 
 class TenantJobsTest : public JobsTest {
  protected:
@@ -68,20 +66,20 @@ TEST_F(TenantJobsTest, PageTokenOfAnotherTenantIsNone) {
   OpenWithFakeRun();
   CreateAs(kAda, BouncingBall());
   CreateAs(kAda, BouncingBall());
-  CreateAs(kEve, BouncingBall());
+  CreateAs(kEveAsAdmin, BouncingBall());
   v1::ListJobsRequest page;
   page.set_page_size(1);
   page.set_page_token(ListAs(kAda, page).value().next_page_token());
   ASSERT_NE(page.page_token(), "");
   EXPECT_EQ(ListAs(kBob, page).value().jobs_size(), 1);
-  EXPECT_EQ(Reason(ListAs(kEve, page)), "FIELD_INVALID");
+  EXPECT_EQ(Reason(ListAs(kEveAsAdmin, page)), "FIELD_INVALID");
 }
 
 TEST_F(TenantJobsTest, JobIsNotThereForOtherTenants) {
   OpenWithFakeRun();
   const std::string name = CreateAs(kAda, BouncingBall());
   EXPECT_EQ(Get(kBob, name), "");
-  for (const Principal& stranger : {kEve, LocalPrincipal()}) {
+  for (const Principal& stranger : {kEveAsAdmin, LocalPrincipal()}) {
     EXPECT_EQ(Get(stranger, name), "JOB_NOT_FOUND");
     EXPECT_EQ(CancelAs(stranger, name), "JOB_NOT_FOUND");
     EXPECT_EQ(DeleteAs(stranger, name), "JOB_NOT_FOUND");
@@ -132,11 +130,11 @@ TEST_F(TenantJobsTest, WatcherHearsOfTheJobsOfItsTenantOnly) {
   OpenWithFakeRun();
   LogReader reader;
   const auto watch = std::move(manager_->watches().WatchJobs(kAda, {}, reader.wake()).value());
-  const std::string hidden = CreateAs(kEve, BouncingBall());
+  const std::string hidden = CreateAs(kEveAsAdmin, BouncingBall());
   const std::string seen = CreateAs(kAda, BouncingBall());
-  CancelAs(kEve, hidden);
+  CancelAs(kEveAsAdmin, hidden);
   std::string reason = "INVALID_STATE";
-  while (reason == "INVALID_STATE") reason = DeleteAs(kEve, hidden);
+  while (reason == "INVALID_STATE") reason = DeleteAs(kEveAsAdmin, hidden);
   CancelAs(kAda, seen);
   for (bool cancelled = false; !cancelled;) {
     v1::WatchJobsResponse message;

@@ -21,7 +21,7 @@ google::rpc::Status Details(const grpc::Status& status) {
 }
 
 template <class Detail>
-std::optional<Detail> Find(const grpc::Status& status) {
+std::optional<Detail> FindDetail(const grpc::Status& status) {
   const google::rpc::Status details = Details(status);
   Detail detail;
   for (const auto& any : details.details()) {
@@ -51,7 +51,7 @@ TEST(ToGrpcTest, EveryErrorOfTheContractKeepsCodeReasonAndWords) {
     EXPECT_EQ(status.error_message(), "some words");
     EXPECT_EQ(Details(status).code(), code.second);
     EXPECT_EQ(Details(status).message(), "some words");
-    const auto info = Find<google::rpc::ErrorInfo>(status);
+    const auto info = FindDetail<google::rpc::ErrorInfo>(status);
     ASSERT_TRUE(info) << reason;
     EXPECT_EQ(info->domain(), "contact");
     EXPECT_EQ(info->reason(), reason);
@@ -65,7 +65,7 @@ TEST(ToGrpcTest, ViolationsCarryTheirHints) {
                                       "2 errors",
                                       {{"bodies[0].mass_kg", "is -1; must be in (0, 1e12]", ""},
                                        {"contacts[0].between", "names `B9`", "did you mean B2?"}}});
-  const auto request = Find<google::rpc::BadRequest>(status);
+  const auto request = FindDetail<google::rpc::BadRequest>(status);
   ASSERT_TRUE(request);
   ASSERT_EQ(request->field_violations_size(), 2);
   EXPECT_EQ(request->field_violations(0).field(), "bodies[0].mass_kg");
@@ -80,8 +80,8 @@ TEST(ToGrpcTest, ViolationsBeyondTheTrailerLimitAreCounted) {
         {"bodies[" + std::to_string(i) + "].mass_kg", std::string(80, 'x'), std::string(40, 'y')});
   }
   const grpc::Status status = ToGrpc(error);
-  const int listed = Find<google::rpc::BadRequest>(status)->field_violations_size();
-  const auto info = Find<google::rpc::ErrorInfo>(status);
+  const int listed = FindDetail<google::rpc::BadRequest>(status)->field_violations_size();
+  const auto info = FindDetail<google::rpc::ErrorInfo>(status);
   EXPECT_GT(listed, 10);
   EXPECT_EQ(info->metadata().at("violations_left_out"), std::to_string(100 - listed));
   const std::size_t base64 = status.error_details().size() * 4 / 3;
@@ -96,8 +96,8 @@ TEST(ToGrpcTest, LongTextIsCutBetweenCharacters) {
         ToGrpc({absl::StatusCode::kInvalidArgument, "FIELD_INVALID", text, {{text, text, text}}});
     for (const std::string& cut :
          {status.error_message(),
-          Find<google::rpc::BadRequest>(status)->field_violations(0).field(),
-          Find<google::rpc::BadRequest>(status)->field_violations(0).description()}) {
+          FindDetail<google::rpc::BadRequest>(status)->field_violations(0).field(),
+          FindDetail<google::rpc::BadRequest>(status)->field_violations(0).description()}) {
       EXPECT_LT(cut.size(), 520U);
       EXPECT_TRUE(cut.ends_with("μ…")) << cut;
     }
@@ -112,20 +112,20 @@ TEST(ToGrpcTest, OnlyWhatAppliesIsSaid) {
                                      .reason = "QUEUE_FULL",
                                      .message = "m",
                                      .retry_after = milliseconds{1500}});
-  EXPECT_EQ(Find<google::rpc::RetryInfo>(retry)->retry_delay().seconds(), 1);
-  EXPECT_EQ(Find<google::rpc::RetryInfo>(retry)->retry_delay().nanos(), 500'000'000);
+  EXPECT_EQ(FindDetail<google::rpc::RetryInfo>(retry)->retry_delay().seconds(), 1);
+  EXPECT_EQ(FindDetail<google::rpc::RetryInfo>(retry)->retry_delay().nanos(), 500'000'000);
 
   const grpc::Status quota = ToGrpc({.code = absl::StatusCode::kResourceExhausted,
                                      .reason = "QUOTA_EXCEEDED",
                                      .message = "ada has 5",
                                      .metadata = {{"principal", "ada"}}});
-  EXPECT_EQ(Find<google::rpc::QuotaFailure>(quota)->violations(0).subject(), "principal:ada");
-  EXPECT_EQ(Find<google::rpc::QuotaFailure>(quota)->violations(0).description(), "ada has 5");
-  EXPECT_FALSE(Find<google::rpc::QuotaFailure>(retry));
+  EXPECT_EQ(FindDetail<google::rpc::QuotaFailure>(quota)->violations(0).subject(), "principal:ada");
+  EXPECT_EQ(FindDetail<google::rpc::QuotaFailure>(quota)->violations(0).description(), "ada has 5");
+  EXPECT_FALSE(FindDetail<google::rpc::QuotaFailure>(retry));
 
   const grpc::Status missing =
       ToGrpc({absl::StatusCode::kNotFound, "JOB_NOT_FOUND", "no jobs/x", {}, {{"name", "jobs/x"}}});
-  const auto resource = Find<google::rpc::ResourceInfo>(missing);
+  const auto resource = FindDetail<google::rpc::ResourceInfo>(missing);
   ASSERT_TRUE(resource);
   EXPECT_EQ(resource->resource_type(), "contact.v1.Job");
   EXPECT_EQ(resource->resource_name(), "jobs/x");

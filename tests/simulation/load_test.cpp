@@ -14,8 +14,6 @@ namespace {
 using testing::Record;
 using testing::RunAndRecord;
 
-constexpr double kPi = std::numbers::pi;
-
 Scenario OneBall(std::vector<Load> loads, double end_time) {
   Scenario s;
   s.bodies = {testing::Ball(0, 0.3)};
@@ -28,7 +26,7 @@ Load HalfSine(double begin, double duration, double amplitude) {
   return {.begin = begin,
           .end = begin + duration,
           .amplitude = amplitude,
-          .angular_frequency = kPi / duration};
+          .angular_frequency = std::numbers::pi / duration};
 }
 
 void ExpectGain(const Load& load, double impulse) {
@@ -41,7 +39,7 @@ void ExpectGain(const Load& load, double impulse) {
 TEST(Load, ImpulseOfAPulseIsTheMomentumGained) {
   ExpectGain({.begin = 0.1, .end = 0.1 + 0.2, .constant = 70}, 14);
   ExpectGain({.begin = 0.1, .end = 0.3, .constant = 20, .slope = 500}, 4 + 10);
-  ExpectGain(HalfSine(0.1, 0.2, 70), 2 / kPi * 14);
+  ExpectGain(HalfSine(0.1, 0.2, 70), 2 / std::numbers::pi * 14);
   ExpectGain({.begin = 0.7, .constant = -3}, -0.9);
 }
 

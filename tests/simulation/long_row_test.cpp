@@ -18,23 +18,23 @@ using testing::Record;
 using testing::RunAndRecord;
 
 // A seed of kinds.h, and the most steps that its search may take.
-struct Case {
+struct LongRowCase {
   Kind kind;
   unsigned seed;
   std::int64_t steps;
 };
 
-std::string NameOf(const ::testing::TestParamInfo<Case>& info) {
+std::string LongRowName(const ::testing::TestParamInfo<LongRowCase>& info) {
   return testing::kKindNames[static_cast<int>(info.param.kind)] + std::to_string(info.param.seed);
 }
 
-Record RunOf(const Case& of) {
+Record RunOf(const LongRowCase& of) {
   Scenario scenario = testing::Dice(of.seed, of.kind).Roll();
   scenario.solver.max_steps = of.steps;
   return RunAndRecord(scenario);
 }
 
-class LongRow : public ::testing::TestWithParam<Case> {};
+class LongRow : public ::testing::TestWithParam<LongRowCase> {};
 
 // Bisection of whole fronts, and of groups with a μ that nothing feels, took 11 and 3.9 million
 // steps.
@@ -51,9 +51,9 @@ TEST_P(LongRow, IsFullInFewSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Slow, LongRow,
-                         ::testing::Values(Case{Kind::kColumn, 17, 4'000'000},
-                                           Case{Kind::kColumn, 22, 2'000'000}),
-                         NameOf);
+                         ::testing::Values(LongRowCase{Kind::kColumn, 17, 4'000'000},
+                                           LongRowCase{Kind::kColumn, 22, 2'000'000}),
+                         LongRowName);
 
 // Neighbours of which the window had seen no end had a guessed μ when the first group was recorded.
 TEST(LongRowWindow, AGroupIsFinalWhenThoseThatOverlapItWereSeenToEnd) {

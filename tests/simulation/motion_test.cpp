@@ -56,7 +56,7 @@ Motion::Pause Advance(Motion& motion, Host& host, double until = kForever,
 }
 
 // The one cycle of a scenario whose contact begins to collide at once.
-Cycle OnlyCycle(const Scenario& scenario, double mu, StepListener* listener = nullptr,
+Cycle CycleWith(const Scenario& scenario, double mu, StepListener* listener = nullptr,
                 double tolerance = 0) {
   Motion motion(scenario);
   motion.Begin(InitialState(scenario), true, tolerance);
@@ -115,7 +115,7 @@ TEST(Motion, AStepEndsOnTheTouch) {
 TEST(Motion, TheErrorOfAStretchFollowsItsTolerance) {
   const Scenario s = testing::Collision(0.3, 2, 5e7, 1.5, 1);
   for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
-    const Cycle c = OnlyCycle(s, 0, nullptr, tolerance);
+    const Cycle c = CycleWith(s, 0, nullptr, tolerance);
     EXPECT_NEAR(c.separation_velocity / -2, 1, 100 * tolerance);
     EXPECT_NEAR(c.max_deformation / MaximumDeformation(0.3, 2, 5e7, 1.5, 0), 1, 100 * tolerance);
   }
@@ -123,7 +123,7 @@ TEST(Motion, TheErrorOfAStretchFollowsItsTolerance) {
 
 TEST(Motion, AnElasticCycleIsSymmetricAboutItsTurn) {
   for (const double n : {1.0, 1.5, 2.5}) {
-    const Cycle c = OnlyCycle(testing::Collision(0.3, 2, 5e7, n, 1), 0);
+    const Cycle c = CycleWith(testing::Collision(0.3, 2, 5e7, n, 1), 0);
     EXPECT_NEAR((c.turn_time - c.start_time) / (c.end_time - c.turn_time), 1, 1e-8) << n;
     EXPECT_NEAR(c.work_compression, 0.5 * 0.3 * 2 * 2, 1e-9);
     EXPECT_NEAR(c.work_restitution, -c.work_compression, 1e-9);
@@ -138,7 +138,7 @@ TEST(Motion, FixedStepsThatEndOnEventsKeepTheOrderFour) {
   const auto error = [&](int steps) {
     Scenario s = testing::Collision(0.3, 2, 5e7, 1, 1);
     s.solver.fixed_step = half_period / (steps + 0.5);  // The last one is cut short.
-    return std::abs(OnlyCycle(s, 0).end_time - half_period);
+    return std::abs(CycleWith(s, 0).end_time - half_period);
   };
   EXPECT_NEAR(std::log2(error(20) / error(40)), 4, 0.3);
   EXPECT_NEAR(std::log2(error(40) / error(80)), 4, 0.3);

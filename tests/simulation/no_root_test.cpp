@@ -157,7 +157,7 @@ struct Sample {
   bool exchanged = false;
 };
 
-Scenario Roll(const Sample& sample, unsigned seed) {
+Scenario RollOf(const Sample& sample, unsigned seed) {
   Scenario scenario = testing::Dice(seed, sample.kind).Roll();
   scenario.solver.restitution_scope = RestitutionScope::kCycle;
   if (!sample.exchanged) return scenario;
@@ -173,7 +173,7 @@ TEST_P(Alone, NoInfeasibleCycleHasARoot) {
   int found = 0;
   for (unsigned seed = GetParam().first; seed < GetParam().end; ++seed) {
     SCOPED_TRACE(seed);
-    found += ExpectNoRoot(Roll(GetParam(), seed));
+    found += ExpectNoRoot(RollOf(GetParam(), seed));
   }
   EXPECT_GT(found, 0);
 }

@@ -12,16 +12,16 @@
 namespace contact {
 namespace {
 
-using Vector = std::vector<double>;
+using Series = std::vector<double>;
 
 // Touching balls in a row; F = k δ^1.5 + μ δ^1.5 δ̇ whenever δ > 0, works as states.
-struct Row {
-  Vector mass, stiffness, mu;
+struct Balls {
+  Series mass, stiffness, mu;
   std::size_t n() const { return mass.size(); }
-  double Deformation(const Vector& y, std::size_t c) const { return y[c] - y[c + 1]; }
-  double Rate(const Vector& y, std::size_t c) const { return y[n() + c] - y[n() + c + 1]; }
+  double Deformation(const Series& y, std::size_t c) const { return y[c] - y[c + 1]; }
+  double Rate(const Series& y, std::size_t c) const { return y[n() + c] - y[n() + c + 1]; }
 
-  void operator()(const Vector& y, Vector& dy, double) const {
+  void operator()(const Series& y, Series& dy, double) const {
     std::fill(dy.begin(), dy.end(), 0.0);
     for (std::size_t i = 0; i < n(); ++i) dy[i] = y[n() + i];
     for (std::size_t c = 0; c + 1 < n(); ++c) {
@@ -35,13 +35,13 @@ struct Row {
 };
 
 // From one of `times` to the next, so that no step straddles an event known to be there.
-Vector Integrate(const Row& row, double velocity, const Vector& times) {
-  Vector y(3 * row.n() - 1);
+Series ByOdeint(const Balls& row, double velocity, const Series& times) {
+  Series y(3 * row.n() - 1);
   y[row.n()] = velocity;
   double from = 0;
   for (const double to : times) {
     const auto stepper = boost::numeric::odeint::make_controlled(
-        1e-15, 1e-13, boost::numeric::odeint::runge_kutta_fehlberg78<Vector>());
+        1e-15, 1e-13, boost::numeric::odeint::runge_kutta_fehlberg78<Series>());
     boost::numeric::odeint::integrate_adaptive(stepper, row, y, from, to, 1e-9);
     from = to;
   }
@@ -51,10 +51,10 @@ Vector Integrate(const Row& row, double velocity, const Vector& times) {
 TEST(Odeint, AgreesOnTheTripleChainWithTheFactorsFound) {
   const testing::Record r = testing::RunAndRecord(testing::TripleChain());
   const Cycle &first = r.cycles[0], &second = r.cycles[1];
-  const Row row{{0.5, 0.5, 0.5}, {1e8, 1e8}, {first.mu, second.mu}};
-  const Vector turn1 = Integrate(row, 0.2, {first.turn_time});
-  const Vector turn2 = Integrate(row, 0.2, {second.turn_time});
-  const Vector end = Integrate(row, 0.2, {first.end_time, second.end_time, 4e-3});
+  const Balls row{{0.5, 0.5, 0.5}, {1e8, 1e8}, {first.mu, second.mu}};
+  const Series turn1 = ByOdeint(row, 0.2, {first.turn_time});
+  const Series turn2 = ByOdeint(row, 0.2, {second.turn_time});
+  const Series end = ByOdeint(row, 0.2, {first.end_time, second.end_time, 4e-3});
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(end[3 + i], r.outcome.velocities[i], 2e-9);
     EXPECT_NEAR(end[i], r.outcome.positions[i] - 0.1 * static_cast<double>(i), 5e-12);
@@ -68,13 +68,13 @@ TEST(Odeint, AgreesOnTheTripleChainWithTheFactorsFound) {
 TEST(Odeint, BallsOfTheLastReferenceChainMeetAgain) {
   std::ifstream in(std::string(CONTACT_SOURCE_DIR) + "/tests/reference/chains.json");
   const nlohmann::json chain = nlohmann::json::parse(in).back();
-  const Row row{chain["masses"], chain["k"], chain["mu"]};
+  const Balls row{chain["masses"], chain["k"], chain["mu"]};
   const double parted = chain["t_end"][0].get<double>();
   const double velocity = chain["v"][0].get<double>();
-  EXPECT_LT(row.Deformation(Integrate(row, velocity, {parted * 1.02}), 0), 0);
+  EXPECT_LT(row.Deformation(ByOdeint(row, velocity, {parted * 1.02}), 0), 0);
   double deepest = -1;
   for (double t = parted * 1.02; t < 3e-3; t += 2e-5) {
-    deepest = std::max(deepest, row.Deformation(Integrate(row, velocity, {t}), 0));
+    deepest = std::max(deepest, row.Deformation(ByOdeint(row, velocity, {t}), 0));
   }
   EXPECT_GT(deepest, 1e-7);
 }

@@ -70,7 +70,7 @@ TEST(Packing, SmallSwingsUnderALoadHaveTheFactorOfALinearOscillator) {
   }
 }
 
-struct Case {
+struct PackingCase {
   const char* name;
   Scenario scenario;
   bool large = false;
@@ -99,9 +99,11 @@ Scenario Pulsed(int balls, double restitution) {
   return s;
 }
 
-std::string NameOf(const ::testing::TestParamInfo<Case>& info) { return info.param.name; }
+std::string PackingName(const ::testing::TestParamInfo<PackingCase>& info) {
+  return info.param.name;
+}
 
-class EveryCycle : public ::testing::TestWithParam<Case> {};
+class EveryCycle : public ::testing::TestWithParam<PackingCase> {};
 
 TEST_P(EveryCycle, OfAPressedRowIsAnswered) {
   if (GetParam().large && !testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
@@ -126,18 +128,23 @@ TEST_P(EveryCycle, OfAPressedRowIsAnswered) {
   EXPECT_GE(4 * converged, static_cast<int>(r.cycles.size()));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Packing, EveryCycle,
-    ::testing::Values(
-        Case{"Struck3", Struck(3, 0.8)}, Case{"Struck5", Struck(5, 0.9), true},
-        Case{"StruckSoft5", Struck(5, 0.7)}, Case{"Struck10", Struck(10, 0.8), true},
-        Case{"StruckSoft10", Struck(10, 0.7), true}, Case{"Column5", Column(5, 0.9, 0.06), true},
-        Case{"Column10", Column(10, 0.7, 0.06), true},
-        Case{"Column20", Column(20, 0.7, 0.03), true}, Case{"Pressed3", Pressed(3, 0.9), true},
-        Case{"Pressed5", Pressed(5, 0.9)}, Case{"Pressed7", Pressed(7, 0.9), true},
-        Case{"PressedSoft5", Pressed(5, 0.7), true}, Case{"Pulsed3", Pulsed(3, 0.9)},
-        Case{"PulsedSoft3", Pulsed(3, 0.5), true}, Case{"PulsedSoft5", Pulsed(5, 0.7), true}),
-    NameOf);
+INSTANTIATE_TEST_SUITE_P(Packing, EveryCycle,
+                         ::testing::Values(PackingCase{"Struck3", Struck(3, 0.8)},
+                                           PackingCase{"Struck5", Struck(5, 0.9), true},
+                                           PackingCase{"StruckSoft5", Struck(5, 0.7)},
+                                           PackingCase{"Struck10", Struck(10, 0.8), true},
+                                           PackingCase{"StruckSoft10", Struck(10, 0.7), true},
+                                           PackingCase{"Column5", Column(5, 0.9, 0.06), true},
+                                           PackingCase{"Column10", Column(10, 0.7, 0.06), true},
+                                           PackingCase{"Column20", Column(20, 0.7, 0.03), true},
+                                           PackingCase{"Pressed3", Pressed(3, 0.9), true},
+                                           PackingCase{"Pressed5", Pressed(5, 0.9)},
+                                           PackingCase{"Pressed7", Pressed(7, 0.9), true},
+                                           PackingCase{"PressedSoft5", Pressed(5, 0.7), true},
+                                           PackingCase{"Pulsed3", Pulsed(3, 0.9)},
+                                           PackingCase{"PulsedSoft3", Pulsed(3, 0.5), true},
+                                           PackingCase{"PulsedSoft5", Pulsed(5, 0.7), true}),
+                         PackingName);
 
 // Most cycles of hard rows have no solution of their own, but none is left without an answer.
 TEST(Packing, NoCycleOfAHardRowOfTenIsLeftOpen) {

@@ -122,7 +122,7 @@ TEST(End, OfTheRunHidesAndChangesNothing) {
 }
 
 // A pin that a ramp presses against a stop rings, rests while it is held, and is let go.
-Record Pressed(double restitution) {
+Record PressedBall(double restitution) {
   Scenario s;
   s.bodies = {Ball(-0.05, 0, 0.01)};
   s.contacts = {
@@ -136,7 +136,7 @@ Record Pressed(double restitution) {
 
 TEST(Loads, WhatTheyHoldIsLimitedAndWhatTheyLetGoIsReleased) {
   for (const double restitution : {0.3, 0.6, 0.8}) {
-    const Record r = Pressed(restitution);
+    const Record r = PressedBall(restitution);
     EXPECT_TRUE(r.outcome.all_converged);
     EXPECT_LT(r.outcome.steps, 400'000);
     ASSERT_FALSE(r.groups.empty());

@@ -10,14 +10,14 @@ namespace contact {
 namespace {
 
 // A message of some length, with zeros in it.
-std::string Message() {
+std::string Stored() {
   std::string bytes = "what is stored";
   for (int i = 0; i < 50; ++i) bytes.push_back(static_cast<char>(i % 7));
   return bytes;
 }
 
 TEST(Checksum, EveryFlippedBitIsSeen) {
-  const std::string bytes = Message();
+  const std::string bytes = Stored();
   const std::int64_t good = Checksum(bytes, 7);
   EXPECT_EQ(Checksum(bytes, 7), good);
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
@@ -28,7 +28,7 @@ TEST(Checksum, EveryFlippedBitIsSeen) {
 }
 
 TEST(Checksum, EveryPlaceGivesAnother) {
-  const std::string bytes = Message();
+  const std::string bytes = Stored();
   std::set<std::int64_t> sums;
   for (std::uint64_t bit = 0; bit < 64; ++bit)
     sums.insert(Checksum(bytes, std::uint64_t{1} << bit));
@@ -39,7 +39,7 @@ TEST(Checksum, EveryPlaceGivesAnother) {
 }
 
 TEST(Checksum, EventIsBoundToItsSequenceAndItsCoding) {
-  const std::string bytes = Message();
+  const std::string bytes = Stored();
   const CodedEvent plain{Coding::kPlain, bytes};
   const CodedEvent frames{Coding::kFrames, bytes};
   EXPECT_EQ(Checksum(plain, 3), Checksum(bytes, 3));
@@ -48,16 +48,16 @@ TEST(Checksum, EventIsBoundToItsSequenceAndItsCoding) {
 }
 
 TEST(Checksum, BytesAreBoundToTheirJob) {
-  const CodedEvent event{Coding::kPlain, Message()};
+  const CodedEvent event{Coding::kPlain, Stored()};
   const std::int64_t crc32 = Checksum(event, 3, "jobs/a");
   EXPECT_TRUE(Passes(crc32, event, 3, "jobs/a"));
   EXPECT_FALSE(Passes(crc32, event, 3, "jobs/b"));
   EXPECT_FALSE(Passes(crc32, event, 4, "jobs/a"));
-  EXPECT_FALSE(Passes(Checksum(Message(), 0, "jobs/a"), Message(), "jobs/b"));
+  EXPECT_FALSE(Passes(Checksum(Stored(), 0, "jobs/a"), Stored(), "jobs/b"));
 }
 
 TEST(Checksum, OnesWithoutAJobArePassedForAny) {
-  EXPECT_TRUE(Passes(Checksum(Message()), Message(), "jobs/a"));
+  EXPECT_TRUE(Passes(Checksum(Stored()), Stored(), "jobs/a"));
 }
 
 }  // namespace

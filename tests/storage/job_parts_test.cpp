@@ -16,7 +16,7 @@ void FillField(const FieldDescriptor& field, Message* message);
 
 // Sets every field but maps, also of the messages inside; of a oneof the last. Reflection on maps
 // breaks with ThreadSanitizer, for it changes the layout of protobuf's classes but not its library.
-void Fill(Message* message) {
+void FillJob(Message* message) {
   for (int i = 0; i < message->GetDescriptor()->field_count(); ++i) {
     FillField(*message->GetDescriptor()->field(i), message);
   }
@@ -28,7 +28,7 @@ void FillField(const FieldDescriptor& field, Message* message) {
   const bool many = field.is_repeated();
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_MESSAGE:
-      return Fill(many ? set.AddMessage(message, &field) : set.MutableMessage(message, &field));
+      return FillJob(many ? set.AddMessage(message, &field) : set.MutableMessage(message, &field));
     case FieldDescriptor::CPPTYPE_STRING:
       return many ? set.AddString(message, &field, field.name())
                   : set.SetString(message, &field, field.name());
@@ -51,7 +51,7 @@ void FillField(const FieldDescriptor& field, Message* message) {
 
 v1::Job FullJob() {
   v1::Job job;
-  Fill(&job);
+  FillJob(&job);
   (*job.mutable_labels())["key"] = "value";
   return job;
 }

@@ -5,19 +5,12 @@
 #include <cmath>
 #include <vector>
 
+#include "two_contacts.h"
+
 namespace contact {
 namespace {
 
 using testing::ElementsAre;
-
-Scenario TwoContacts() {
-  Scenario scenario;
-  scenario.bodies = {{.name = "a"}, {.name = "b"}};
-  scenario.contacts = {{.name = "a-b", .left = 0, .right = 1, .stiffness = 1},
-                       {.name = "b-wall", .left = 1, .stiffness = 4}};
-  scenario.end_time = 8;
-  return scenario;
-}
 
 TEST(Encode, CycleKeepsEveryField) {
   const Cycle cycle{.contact = 1,

@@ -40,41 +40,41 @@ v1::Job Ended(const Scenario& scenario, const std::vector<double>& positions, do
   return job;
 }
 
-std::vector<std::string> AdviceOn(const Scenario& scenario, const v1::Job& job) {
+std::vector<std::string> AdviceOnResult(const Scenario& scenario, const v1::Job& job) {
   return Lines(AdviseOnResult(scenario, job, Passings(scenario)));
 }
 
 TEST(ResultAdvice, IsNoneForARunThatTouchedAndStayedShallow) {
   const Scenario scenario = Row();
-  EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {0, 0.1, 0.3}, 1e-4)), IsEmpty());
-  EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {0, 0.1, 0.3}, 5e-3)), IsEmpty());
+  EXPECT_THAT(AdviceOnResult(scenario, Ended(scenario, {0, 0.1, 0.3}, 1e-4)), IsEmpty());
+  EXPECT_THAT(AdviceOnResult(scenario, Ended(scenario, {0, 0.1, 0.3}, 5e-3)), IsEmpty());
 }
 
 TEST(ResultAdvice, TellsThatNothingWasTouched) {
   const Scenario scenario = Row();
-  EXPECT_THAT(AdviceOn(scenario, v1::Job()),
+  EXPECT_THAT(AdviceOnResult(scenario, v1::Job()),
               ElementsAre("contacts: were not touched in 0.004 s — see velocities, gaps, the signs "
                           "of loads, and end_time_s"));
   Scenario free = scenario;
   free.contacts.clear();
-  EXPECT_THAT(AdviceOn(free, v1::Job()), IsEmpty());
+  EXPECT_THAT(AdviceOnResult(free, v1::Job()), IsEmpty());
 }
 
 TEST(ResultAdvice, TellsOfADeformationTooLargeForTheSmallerSphere) {
   Scenario scenario = Row();
   scenario.bodies[0].radius = 0.02;
   EXPECT_THAT(
-      AdviceOn(scenario, Ended(scenario, {}, 3e-3)),
+      AdviceOnResult(scenario, Ended(scenario, {}, 3e-3)),
       ElementsAre("contacts[B1-B2]: is 0.003 m deep in cycle 1, more than a tenth of the radius of "
                   "B1, 0.02 m — Hertz's law is of deformations far below the radius; is the "
                   "stiffness right?"));
   scenario.bodies[0].radius = 0;  // A point has no radius to compare with.
-  EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {}, 3e-3)), IsEmpty());
-  EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {}, 6e-3)),
+  EXPECT_THAT(AdviceOnResult(scenario, Ended(scenario, {}, 3e-3)), IsEmpty());
+  EXPECT_THAT(AdviceOnResult(scenario, Ended(scenario, {}, 6e-3)),
               ElementsAre(HasSubstr("of B2, 0.05 m")));
   scenario.contacts[0].exponent = 1;
-  EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {}, 6e-3)), IsEmpty());
-  EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {}, 0.06)),
+  EXPECT_THAT(AdviceOnResult(scenario, Ended(scenario, {}, 6e-3)), IsEmpty());
+  EXPECT_THAT(AdviceOnResult(scenario, Ended(scenario, {}, 0.06)),
               ElementsAre("contacts[B1-B2]: is 0.06 m deep in cycle 1, more than the radius of B2, "
                           "0.05 m — a sphere ends there; is the stiffness right?"));
 }
@@ -91,7 +91,7 @@ TEST(ResultAdvice, NamesTheDeepestCycleAndCountsTheOtherContacts) {
   deeper.set_delta_max_m(9e-3);
   job.add_cycles()->CopyFrom(job.cycles(0));
   job.mutable_cycles(2)->set_contact("second");
-  EXPECT_THAT(AdviceOn(scenario, job),
+  EXPECT_THAT(AdviceOnResult(scenario, job),
               ElementsAre(testing::AllOf(HasSubstr("contacts[B1-B2]: is 0.009 m deep in cycle 2"),
                                          HasSubstr("; and so 1 other contact"))));
 }
@@ -111,7 +111,7 @@ TEST(ResultAdvice, TellsOfNeighboursThatOverlappedInASample) {
 
 TEST(ResultAdvice, TellsOfNeighboursThatChangedPlacesInARunWithoutSamples) {
   const Scenario scenario = Row();
-  EXPECT_THAT(AdviceOn(scenario, Ended(scenario, {0, 0.5, 0.3}, 1e-4)),
+  EXPECT_THAT(AdviceOnResult(scenario, Ended(scenario, {0, 0.5, 0.3}, 1e-4)),
               ElementsAre(HasSubstr("passed into each other by 0.004 s")));
 }
 

@@ -4,19 +4,12 @@
 
 #include <cstring>
 
+#include "two_contacts.h"
+
 namespace contact {
 namespace {
 
 using testing::ElementsAre;
-
-Scenario TwoContacts() {
-  Scenario scenario;
-  scenario.bodies = {{.name = "a"}, {.name = "b"}};
-  scenario.contacts = {{.name = "a-b", .left = 0, .right = 1, .stiffness = 1},
-                       {.name = "b-wall", .left = 1, .stiffness = 4}};
-  scenario.end_time = 8;
-  return scenario;
-}
 
 std::vector<double> Values(const v1::FrameChunk::Column& column) {
   std::vector<double> values(column.values().size() / sizeof(double));

@@ -34,7 +34,7 @@ Pen PaperPen(int colour) {
           kPaperInks[place / kPaperDashes.size() % kPaperInks.size()], 1};
 }
 
-std::string Style(const Figure::Curve& curve, const Pen& pen) {
+std::string PenStyle(const Figure::Curve& curve, const Pen& pen) {
   const std::string ink = fmt::format(" lc rgb '{}'", pen.ink);
   const auto line = [&](int dash) {
     return fmt::format("lines lw {} dt {}{}", pen.width, dash, ink);
@@ -69,14 +69,14 @@ std::string_view PaletteColour(int colour) {
 }
 
 std::string ColouredStyle(const Figure::Curve& curve) {
-  return Style(curve, ColouredPen(curve.colour));
+  return PenStyle(curve, ColouredPen(curve.colour));
 }
 
 std::string PaperStyle(const Figure::Curve& curve) {
   Pen pen = PaperPen(curve.colour);
   // What is dashed beside a curve must not look like another one.
   if (curve.mark == Figure::Mark::kDashed) pen.ink = kPaperInks.back();
-  return Style(curve, pen);
+  return PenStyle(curve, pen);
 }
 
 std::string CharacterStyle(const Figure::Curve& curve) {

@@ -58,7 +58,7 @@ void AddRows(const PaperItem& item, Table* table) {
   }
 }
 
-Table Numbers() {
+Table NumberTable() {
   return Table({{"ITEM"},
                 {"NUMBER"},
                 {"PUBLISHED", true},
@@ -95,7 +95,7 @@ std::string LimitText(const Comparison& number) {
 void Write(const PaperItem& item, const std::filesystem::path& directory) {
   for (const Data& data : item.data) WriteText(Csv(data), directory / (data.name + ".csv"));
   if (item.numbers.empty()) return;
-  Table table = Numbers();
+  Table table = NumberTable();
   AddRows(item, &table);
   WriteText(item.title + "\n\n" + table.Text(Style{}) + Note(item, "", Style{}),
             directory / (item.id + ".txt"));
@@ -106,7 +106,7 @@ std::string Summary(const std::vector<PaperItem>& items, const Style& style) {
   if (std::ranges::all_of(items, [](const PaperItem& item) { return item.numbers.empty(); })) {
     return "";
   }
-  Table table = Numbers();
+  Table table = NumberTable();
   for (const PaperItem& item : items) AddRows(item, &table);
   std::string text = table.Text(style);
   for (const PaperItem& item : items) text += Note(item, item.id + ": ", style);

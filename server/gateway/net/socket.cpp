@@ -110,13 +110,13 @@ Awaitable<std::size_t> Socket::ReadSome(void* bytes, std::size_t most, Time end)
 
 Awaitable<bool> Socket::WriteAll(Parts parts, std::chrono::milliseconds stall, Time end) {
   // Small parts go out together: each write is a call of the system, and a record of TLS.
-  constexpr std::size_t kSmall = 16 << 10;
+  constexpr std::size_t kTogether = 16 << 10;
   std::string joined;
   for (std::size_t i = 0; i < parts.size();) {
     std::string_view rest = parts[i++];
-    if (rest.size() < kSmall) {
+    if (rest.size() < kTogether) {
       joined = rest;
-      while (i < parts.size() && joined.size() + parts[i].size() <= 2 * kSmall)
+      while (i < parts.size() && joined.size() + parts[i].size() <= 2 * kTogether)
         joined += parts[i++];
       rest = joined;
     }

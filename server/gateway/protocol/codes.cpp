@@ -10,7 +10,7 @@
 namespace contact::gateway {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 struct Code {
   const char* name;
@@ -43,15 +43,15 @@ const Code& Find(grpc::StatusCode code) {
   return kCodes.at(index < kCodes.size() ? index : std::size_t{grpc::StatusCode::UNKNOWN});
 }
 
-json Detail(const google::protobuf::Any& any) {
+Json Detail(const google::protobuf::Any& any) {
   const std::string& url = any.type_url();
   const std::string type = url.substr(url.rfind('/') + 1);
-  json detail = {{"type", type}, {"value", ToBase64(any.value())}};
+  Json detail = {{"type", type}, {"value", ToBase64(any.value())}};
   const auto* known =
       google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(type);
   std::string text;
   if (known == nullptr || !ToJson(*known, any.value(), &text).ok()) return detail;
-  json debug = json::parse(text, nullptr, false);
+  Json debug = Json::parse(text, nullptr, false);
   if (!debug.is_discarded()) detail["debug"] = std::move(debug);
   return detail;
 }
@@ -63,13 +63,13 @@ const char* ConnectCode(grpc::StatusCode code) { return Find(code).name; }
 int HttpStatus(grpc::StatusCode code) { return Find(code).http; }
 
 std::string ErrorJson(const grpc::Status& error) {
-  json object = {{"code", ConnectCode(error.error_code())}};
+  Json object = {{"code", ConnectCode(error.error_code())}};
   if (!error.error_message().empty()) object["message"] = error.error_message();
   google::rpc::Status status;
   if (status.ParseFromString(error.error_details())) {
     for (const auto& any : status.details()) object["details"].push_back(Detail(any));
   }
-  return object.dump(-1, ' ', false, json::error_handler_t::replace);
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace contact::gateway

@@ -13,7 +13,7 @@
 namespace contact::gateway {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using Protocol = Dialect::Protocol;
 
 struct Form {
@@ -38,10 +38,10 @@ constexpr std::array kForms = std::to_array<Form>({
 
 // The end of a stream as Connect says it.
 std::string ConnectEnd(const grpc::Status& status, const Trailers& trailers) {
-  json end = json::object();
-  if (!status.ok()) end["error"] = json::parse(ErrorJson(status));
+  Json end = Json::object();
+  if (!status.ok()) end["error"] = Json::parse(ErrorJson(status));
   for (const auto& [name, value] : ToHeaders(trailers, "")) end["metadata"][name].push_back(value);
-  return end.dump(-1, ' ', false, json::error_handler_t::replace);
+  return end.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace {
 using namespace std::chrono_literals;
 
 // How often loans are asked for of which no note has told.
-constexpr auto kAskTime = 1s;
+constexpr auto kLoanAskTime = 1s;
 // A loan is given back when the workers have had something else to do for so long.
-constexpr auto kBusyTime = 1s;
+constexpr auto kLoanBusyTime = 1s;
 
 // What the last cells of a loan take to be released.
 constexpr auto kEndTime = 10ms;
@@ -65,10 +65,11 @@ void SweepBorrower::Look(Time now) {
   if (work_) {
     if (work_->run->AwaitEnd(kEndTime)) return Return();
     if (scheduler_.demand().running < options_.workers) busy_since_ = now;
-    if (now - busy_since_ >= kBusyTime) Refuse(work_->loan);
+    if (now - busy_since_ >= kLoanBusyTime) Refuse(work_->loan);
     return;
   }
-  if (scheduler_.idle() <= 0 || !(loans_wait_.exchange(false) || now - last_take_ >= kAskTime)) {
+  if (scheduler_.idle() <= 0 ||
+      !(loans_wait_.exchange(false) || now - last_take_ >= kLoanAskTime)) {
     return;
   }
   last_take_ = now;

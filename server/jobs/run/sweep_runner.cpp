@@ -15,7 +15,7 @@ namespace {
 constexpr std::chrono::milliseconds kSlice{1000};
 // How often what was handed to the log is written while its owner only waits for helpers.
 constexpr std::chrono::milliseconds kWriteTime{20};
-constexpr std::chrono::milliseconds kProgressTime{100};
+constexpr std::chrono::milliseconds kSweepProgressTime{100};
 // Cells that may be finished while somebody else is at the log, a few milliseconds' worth.
 constexpr std::size_t kMaxFinished = 64;
 
@@ -133,7 +133,7 @@ void SweepRunner::StoreCell(SolvedCell solved) {
   }
   Count(state, convergence);
   const auto now = clock_.Elapsed();
-  if (now - last_progress_ < kProgressTime) return;
+  if (now - last_progress_ < kSweepProgressTime) return;
   last_progress_ = now;
   Publish();
 }

@@ -12,7 +12,7 @@
 namespace contact {
 namespace {
 
-constexpr std::chrono::milliseconds kLookTime{10};
+constexpr std::chrono::milliseconds kIdleLookTime{10};
 
 // More than enough for whoever answers calls and commits to come first; less than would let a run
 // starve beside other programs.
@@ -61,7 +61,8 @@ bool Worker::AwaitFinish(std::chrono::milliseconds* patience) {
     const bool late = patience->count() <= 0;
     if (late && !lost_ && run_ && run_->GiveUp()) lost_ = true;
     if (late && lost_) return false;
-    if (changed_.wait_for(mutex_, kLookTime) == std::cv_status::timeout) *patience -= kLookTime;
+    if (changed_.wait_for(mutex_, kIdleLookTime) == std::cv_status::timeout)
+      *patience -= kIdleLookTime;
   }
   return true;
 }

@@ -40,7 +40,7 @@ constexpr char kEnd[] =
     " WHERE pid || ' ' || extract(epoch FROM backend_start) = $1";
 
 // A server that has not answered for so long [ms] is lost. Longer than any statement may take.
-constexpr int kSilence = 5000;
+constexpr int kMostSilence = 5000;
 
 // What an SQLSTATE means, by its first characters; PostgreSQL's appendix A.
 absl::StatusCode CodeOf(std::string_view state) {
@@ -179,7 +179,7 @@ PGresult* Connection::Next() {
     pollfd wait{.fd = PQsocket(connection),
                 .events = static_cast<short>(unsent > 0 ? POLLIN | POLLOUT : POLLIN),
                 .revents = 0};
-    const int ready = ::poll(&wait, 1, kSilence);
+    const int ready = ::poll(&wait, 1, kMostSilence);
     if (ready == 0 || (ready < 0 && errno != EINTR)) Abandon();
     if ((wait.revents & ~POLLOUT) != 0 && PQconsumeInput(connection) == 0) return nullptr;
   }

@@ -21,7 +21,7 @@ constexpr std::size_t kMaxBatchBytes = std::size_t{4} << 20;
 constexpr auto kPause = 5ms;
 // Nobody is told of a loss that is mended within this time.
 constexpr auto kPatience = 2s;
-constexpr auto kRetryTime = 100ms;
+constexpr auto kReconnectTime = 100ms;
 // How often one transaction is tried that others are in the way of.
 constexpr int kMaxTries = 5;
 
@@ -171,7 +171,7 @@ bool QueryThread::Connect() {
     lost_ = absl::UnavailableError("the database does not answer");
     const MutexLock lock(mutex_);
     if (stopping_) return false;
-    posted_.wait_for(mutex_, kRetryTime);
+    posted_.wait_for(mutex_, kReconnectTime);
   } while (clock_.Elapsed() - lost_since_ < kPatience);
   return false;
 }

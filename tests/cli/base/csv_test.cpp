@@ -14,7 +14,7 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 // Reads CSV as RFC 4180 says.
-Rows Read(const std::string& text) {
+Rows ReadRows(const std::string& text) {
   Rows rows;
   std::vector<std::string> row(1);
   bool quoted = false;
@@ -38,7 +38,7 @@ Rows Read(const std::string& text) {
   return rows;
 }
 
-std::string Written(double value, int precision = 0) {
+std::string Formatted(double value, int precision = 0) {
   std::string text;
   AppendNumber(value, precision, &text);
   return text;
@@ -58,7 +58,7 @@ TEST(Csv, FieldsSurviveAReader) {
     }
     csv.Row(row);
   }
-  EXPECT_EQ(Read(text), rows);
+  EXPECT_EQ(ReadRows(text), rows);
 }
 
 TEST(Csv, OnlyFieldsThatNeedThemHaveQuotes) {
@@ -98,18 +98,18 @@ TEST(Number, EveryNumberReadsBackAsTheSameDouble) {
     if (!std::isnan(value)) values.push_back(value);
   }
   for (const double value : values) {
-    const std::string text = Written(value);
+    const std::string text = Formatted(value);
     double read = 0;
     std::from_chars(text.data(), text.data() + text.size(), read);
     EXPECT_EQ(std::bit_cast<std::uint64_t>(read), std::bit_cast<std::uint64_t>(value)) << text;
   }
-  EXPECT_EQ(Written(std::nan("")), "nan");
+  EXPECT_EQ(Formatted(std::nan("")), "nan");
 }
 
 TEST(Number, PrecisionIsTheNumberOfSignificantDigits) {
-  EXPECT_EQ(Written(1.0 / 3, 6), "0.333333");
-  EXPECT_EQ(Written(123456789, 3), "1.23e+08");
-  EXPECT_EQ(Written(0.1, 17), "0.10000000000000001");
+  EXPECT_EQ(Formatted(1.0 / 3, 6), "0.333333");
+  EXPECT_EQ(Formatted(123456789, 3), "1.23e+08");
+  EXPECT_EQ(Formatted(0.1, 17), "0.10000000000000001");
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace contact::cli {
 namespace {
 
-Table Example() {
+Table ExampleTable() {
   Table table({{"NAME"}, {"μ", true}, {"END", false, 2}, {"t [s]", true, 1}});
   table.Add({std::string("B1-B2"), std::string("2.26e8"), std::string("SEPARATION"),
              std::string("0.0021")});
@@ -20,14 +20,14 @@ Table Example() {
 }
 
 TEST(Table, ColumnsAreAsWideAsTheirWidestCellInCharacters) {
-  EXPECT_EQ(Example().Text({}),
+  EXPECT_EQ(ExampleTable().Text({}),
             "NAME        μ  END          t [s]\n"
             "B1-B2  2.26e8  SEPARATION  0.0021\n"
             "δ           1  -                3\n");
 }
 
 TEST(Table, NarrowTerminalLosesTheColumnsToSpareFirst) {
-  EXPECT_EQ(Example().Text({.width = 32}),
+  EXPECT_EQ(ExampleTable().Text({.width = 32}),
             "NAME        μ   t [s]\n"
             "B1-B2  2.26e8  0.0021\n"
             "δ           1       3\n");
@@ -42,23 +42,23 @@ TEST(Table, SomeColumnsAreOfWideTablesOnly) {
 }
 
 TEST(Table, ColumnsThatAreAskedForAreShownInTheirOrderHoweverNarrowTheTerminal) {
-  EXPECT_EQ(Example().Text({.columns = {"t", "end", "NAME"}}),
+  EXPECT_EQ(ExampleTable().Text({.columns = {"t", "end", "NAME"}}),
             " t [s]  END         NAME\n"
             "0.0021  SEPARATION  B1-B2\n"
             "     3  -           δ\n");
-  EXPECT_EQ(Example().Text({.width = 25, .columns = {"t", "end", "NAME"}}),
-            Example().Text({.columns = {"t", "end", "NAME"}}));
+  EXPECT_EQ(ExampleTable().Text({.width = 25, .columns = {"t", "end", "NAME"}}),
+            ExampleTable().Text({.columns = {"t", "end", "NAME"}}));
   Table table({{"NAME"}, {"W_c [J]", true, Table::kOnlyWide, "work"}});
   table.Add({std::string("B1-B2"), std::string("2.5")});
   EXPECT_EQ(table.Text({.columns = {"work"}}), "W_c [J]\n    2.5\n");
 }
 
 TEST(Table, CsvHasNamesWithoutUnitsAndNothingForADash) {
-  EXPECT_EQ(Example().Csv(),
+  EXPECT_EQ(ExampleTable().Csv(),
             "name,μ,end,t\n"
             "B1-B2,2.26e8,SEPARATION,0.0021\n"
             "δ,1,,3\n");
-  EXPECT_EQ(Example().Csv({"end", "name"}), "end,name\nSEPARATION,B1-B2\n,δ\n");
+  EXPECT_EQ(ExampleTable().Csv({"end", "name"}), "end,name\nSEPARATION,B1-B2\n,δ\n");
   Table table({{"CREATED (UTC)"}, {"TIME LEFT"}});
   table.Add({std::string(""), std::string("a, \"b\"")});
   EXPECT_EQ(table.Csv(), "created,time_left\n,\"a, \"\"b\"\"\"\n");
@@ -66,7 +66,7 @@ TEST(Table, CsvHasNamesWithoutUnitsAndNothingForADash) {
 
 TEST(Table, UnknownColumnIsToldWithThoseThatThereAre) {
   try {
-    (void)Example().Text({.columns = {"name", "emd"}});
+    (void)ExampleTable().Text({.columns = {"name", "emd"}});
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::kUsage);
@@ -88,7 +88,7 @@ TEST(Table, NarrowTerminalHasHeadersOfSeveralLinesFirst) {
 }
 
 TEST(Table, TerminalTooNarrowForColumnsHasBlocksOfAllCells) {
-  EXPECT_EQ(Example().Text({.width = 12}),
+  EXPECT_EQ(ExampleTable().Text({.width = 12}),
             "NAME   B1-B2\n"
             "μ\n2.26e8\n"
             "END\nSEPARATION\n"

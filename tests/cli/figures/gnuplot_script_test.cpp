@@ -16,7 +16,7 @@ using testing::Not;
 const GnuplotTerminal kSvg(OutputFormat::kSvg);
 const GnuplotTerminal kTxt(OutputFormat::kText);
 
-Figure Plain() {
+Figure PlainFigure() {
   return {.title = "t",
           .panels = {{.x_label = "time [s]",
                       .y_label = "force [N]",
@@ -34,7 +34,7 @@ std::ptrdiff_t Count(const std::string& text, const std::string& word) {
 }
 
 TEST(GnuplotScript, EveryCurveThatIsPlottedHasItsDataBlock) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.panels.push_back(figure.panels[0]);
   figure.panels[1].curves.push_back({"b", 1, Figure::Mark::kDashed, {1}, {2}});
   const std::string script = Script(figure);
@@ -47,12 +47,12 @@ TEST(GnuplotScript, EveryCurveThatIsPlottedHasItsDataBlock) {
 }
 
 TEST(GnuplotScript, AxesAreLabelledWithQuantityAndUnit) {
-  EXPECT_THAT(Script(Plain()),
+  EXPECT_THAT(Script(PlainFigure()),
               AllOf(HasSubstr("set xlabel 'time [s]'\n"), HasSubstr("set ylabel 'force [N]'\n")));
 }
 
 TEST(GnuplotScript, TextsCannotEndTheirStringOrTheirLine) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   const std::string nasty = "it's '\nset output 'pwned";
   figure.title = nasty;
   figure.panels[0].x_label = nasty;
@@ -78,7 +78,7 @@ TEST(GnuplotScript, QuotesAreDoubledOnlyWhereGnuplotTakesThat) {
 }
 
 TEST(GnuplotScript, TexCommandsInTextsAreSetAsTheyAre) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.panels[0].x_label = R"(\input{x} 5%)";
   const std::string script = Script(figure, GnuplotTerminal(OutputFormat::kTikz));
   EXPECT_THAT(script,
@@ -86,7 +86,7 @@ TEST(GnuplotScript, TexCommandsInTextsAreSetAsTheyAre) {
 }
 
 TEST(GnuplotScript, OneValueAloneHasSpaceAroundIt) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.panels[0].curves[0].y = {4, 4, 4};
   EXPECT_THAT(Script(figure), HasSubstr("set yrange [2:6]\n"));
   figure.panels[0].curves[0].y = {0, 0, 0};
@@ -98,7 +98,7 @@ TEST(GnuplotScript, OneValueAloneHasSpaceAroundIt) {
 }
 
 TEST(GnuplotScript, CountedAxesHaveATicForEachWholeNumberWhileTheyAreFew) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.panels[0].counted_x = true;
   EXPECT_THAT(Script(figure),
               AllOf(HasSubstr("set xtics 1\n"), HasSubstr("set xrange [-0.5:2.5]\n")));
@@ -109,7 +109,7 @@ TEST(GnuplotScript, CountedAxesHaveATicForEachWholeNumberWhileTheyAreFew) {
 }
 
 TEST(GnuplotScript, NoteStandsOnceBelow) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.panels.push_back(figure.panels[0]);
   EXPECT_THAT(Script(figure), Not(HasSubstr("o start")));
   figure.note = "o start, × end";
@@ -118,7 +118,7 @@ TEST(GnuplotScript, NoteStandsOnceBelow) {
 }
 
 TEST(GnuplotScript, DashedCurvesShareAnEntryWhenTheKeyIsFull) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.panels[0].dashed = "beside";
   figure.panels[0].curves.push_back({"dashed", 0, Figure::Mark::kDashed, {1}, {1}});
   EXPECT_THAT(Script(figure), AllOf(HasSubstr("title 'dashed'"), Not(HasSubstr("'beside'"))));
@@ -129,7 +129,7 @@ TEST(GnuplotScript, DashedCurvesShareAnEntryWhenTheKeyIsFull) {
 }
 
 TEST(GnuplotScript, OfManyCurvesTheKeyHasTenAndHowManyMore) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   auto& curves = figure.panels[0].curves;
   for (int i = 1; i < 100; ++i) {
     curves.push_back({fmt::format("c{}", i), i, Figure::Mark::kLine, {0, 1}, {0, 1.0 * i}});
@@ -146,7 +146,7 @@ TEST(GnuplotScript, OfManyCurvesTheKeyHasTenAndHowManyMore) {
 }
 
 TEST(GnuplotScript, BandsAreOneShadeThatTheKeyNames) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.panels[0].bands = {{0, 1}, {1.5, 2}};
   figure.panels[0].band_label = "in contact";
   const std::string script = Script(figure);
@@ -156,14 +156,14 @@ TEST(GnuplotScript, BandsAreOneShadeThatTheKeyNames) {
 }
 
 TEST(GnuplotScript, KeyHasFewerColumnsTheLongerItsTexts) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   EXPECT_THAT(Script(figure), HasSubstr("set key maxcols 9\n"));
   figure.panels[0].curves[0].label = std::string(40, 'x');
   EXPECT_THAT(Script(figure), HasSubstr("set key maxcols 2\n"));
 }
 
 TEST(GnuplotScript, EverythingInAPanelIsInItsUnits) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   Figure::Panel& panel = figure.panels[0];
   panel.curves[0].x = {0, 1e-3, 2e-3};
   panel.curves[0].y = {0, 3e4, 0};
@@ -180,7 +180,7 @@ TEST(GnuplotScript, EverythingInAPanelIsInItsUnits) {
 }
 
 TEST(GnuplotScript, StyleSaysWhatStandsAroundTheAxes) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.note = "note";
   figure.sources = {{{"job", "jobs/a"}, {"scenario_sha256", "0123"}}};
   const auto script = [&](const FigureStyle& style) {
@@ -199,7 +199,7 @@ TEST(GnuplotScript, StyleSaysWhatStandsAroundTheAxes) {
 
 // In a narrow figure a line would run into the other.
 TEST(GnuplotScript, NoteStandsAboveTheSourcesWhereThereIsNoRoomBeside) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.note = "o start, × end of a contact cycle";
   figure.sources = {{{"job", "jobs/a"}, {"scenario_sha256", "0123456789ab"}, {"version", "1"}}};
   EXPECT_THAT(Script(figure), HasSubstr("cycle' at screen 0.01,0.015 left"));
@@ -208,7 +208,7 @@ TEST(GnuplotScript, NoteStandsAboveTheSourcesWhereThereIsNoRoomBeside) {
 }
 
 TEST(GnuplotScript, CharactersHaveNoFontsBandsOrUprightLabels) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   figure.panels[0].bands = {{0, 1}};
   figure.panels[0].labels.assign(5, {1, 1, "label"});
   EXPECT_THAT(Script(figure),
@@ -219,7 +219,7 @@ TEST(GnuplotScript, CharactersHaveNoFontsBandsOrUprightLabels) {
 }
 
 TEST(GnuplotScript, LongCurvesAreThinnedAndKeepTheirPeak) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   auto& curve = figure.panels[0].curves[0];
   curve.x.clear();
   curve.y.assign(100'000, 0);
@@ -231,7 +231,7 @@ TEST(GnuplotScript, LongCurvesAreThinnedAndKeepTheirPeak) {
 }
 
 TEST(GnuplotScript, ManyLongCurvesHaveFewerPointsEach) {
-  Figure figure = Plain();
+  Figure figure = PlainFigure();
   auto& curves = figure.panels[0].curves;
   for (int i = 0; i < 10'000; ++i) {
     curves[0].x.push_back(i);

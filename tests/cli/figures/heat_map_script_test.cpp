@@ -22,9 +22,9 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::Pointwise;
 
-const GnuplotTerminal kSvg(OutputFormat::kSvg);
+const GnuplotTerminal kMapSvg(OutputFormat::kSvg);
 
-v1::Job Sweep() {
+v1::Job MapSweep() {
   v1::Job job;
   v1::Sweep& sweep = *job.mutable_sweep();
   sweep.mutable_base()->set_title("it's a sweep");
@@ -51,8 +51,8 @@ SweepCells Grid(int rows, int columns, F f) {
   return cells;
 }
 
-std::string Script(const SweepCells& cells, bool contours = false, bool log = false) {
-  return HeatMapScript(Sweep(), cells, HeatScale(cells, 0, log), contours, kSvg, "map.svg");
+std::string MapScript(const SweepCells& cells, bool contours = false, bool log = false) {
+  return HeatMapScript(MapSweep(), cells, HeatScale(cells, 0, log), contours, kMapSvg, "map.svg");
 }
 
 struct Point {
@@ -81,14 +81,14 @@ std::vector<Point> Contours(const std::vector<double>& values, std::size_t colum
 }
 
 TEST(HeatMapScript, TicsOfAnEnumAreItsWords) {
-  v1::Job job = Sweep();
+  v1::Job job = MapSweep();
   job.mutable_sweep()->mutable_axes(0)->set_field("contacts[0].damping");
   job.mutable_sweep()->mutable_axes(0)->set_label("var:law");
   SweepCells cells = Grid(2, 2, [](int row, int column) { return row + column; });
   for (auto& [index, cell] : cells) {
     cell.set_values(0, index < 2 ? v1::Contact::EXACT : v1::Contact::FLORES);
   }
-  EXPECT_THAT(HeatMapScript(job, cells, HeatScale(cells, 0, false), false, kSvg, "map.svg"),
+  EXPECT_THAT(HeatMapScript(job, cells, HeatScale(cells, 0, false), false, kMapSvg, "map.svg"),
               AllOf(HasSubstr("set ytics out nomirror ('EXACT' 0, 'FLORES' 1)"),
                     HasSubstr("set ylabel 'var:law'")));
 }
@@ -134,7 +134,7 @@ TEST(FindContours, NoLineGoesBesideAHole) {
 }
 
 TEST(HeatMapScript, HasEachValueAtItsPlace) {
-  const std::string script = Script(Grid(2, 3, [](int r, int c) { return 10 * r + c; }));
+  const std::string script = MapScript(Grid(2, 3, [](int r, int c) { return 10 * r + c; }));
   EXPECT_THAT(script, HasSubstr("$cells << end\n0 0 0\n1 0 1\n2 0 2\n0 1 10\n1 1 11\n2 1 12\n"));
   EXPECT_THAT(script, AllOf(HasSubstr("set xtics out nomirror ('0.1' 0, '0.2' 1, '0.3' 2)"),
                             HasSubstr("set ytics out nomirror ('1' 0, '2' 1)"),
@@ -143,10 +143,10 @@ TEST(HeatMapScript, HasEachValueAtItsPlace) {
 
 TEST(HeatMapScript, MarksCellsThatFailedOrDidNotConverge) {
   SweepCells cells = Grid(2, 2, [](int r, int c) { return r + c; });
-  EXPECT_THAT(Script(cells), AllOf(Not(HasSubstr("pattern 4")), Not(HasSubstr("set arrow"))));
+  EXPECT_THAT(MapScript(cells), AllOf(Not(HasSubstr("pattern 4")), Not(HasSubstr("set arrow"))));
   cells[1].set_convergence(v1::Job::PARTIAL);
   cells[2].set_state(v1::Job::FAILED);
-  EXPECT_THAT(Script(cells),
+  EXPECT_THAT(MapScript(cells),
               AllOf(HasSubstr("rectangle from 0.5,-0.5 to 1.5,0.5 front fillcolor"),
                     HasSubstr("pattern 4"), HasSubstr("set arrow from -0.5,0.5 to 0.5,1.5"),
                     Not(HasSubstr("\n0 1 "))));  // The cell that failed has no colour.
@@ -154,10 +154,10 @@ TEST(HeatMapScript, MarksCellsThatFailedOrDidNotConverge) {
 
 TEST(HeatMapScript, CellsThatTheEndCutsOrWithoutContactAreGreyAndInTheLegend) {
   SweepCells cells = Grid(2, 2, [](int r, int c) { return r + c; });
-  EXPECT_THAT(Script(cells), AllOf(Not(HasSubstr("CUT")), Not(HasSubstr("no contact"))));
+  EXPECT_THAT(MapScript(cells), AllOf(Not(HasSubstr("CUT")), Not(HasSubstr("no contact"))));
   cells[1].add_sources(v1::SweepCell::CUT);
   cells[2].add_sources(v1::SweepCell::NO_CONTACT);
-  EXPECT_THAT(Script(cells),
+  EXPECT_THAT(MapScript(cells),
               AllOf(HasSubstr("rectangle from 0.5,-0.5 to 1.5,0.5 front fillcolor rgb '#b0b0b0'"),
                     HasSubstr("set arrow from 1,-0.5 to 1,0.5 nohead"),
                     HasSubstr("rectangle from -0.5,0.5 to 0.5,1.5 front fillcolor rgb '#e8e8e8'"),
@@ -166,7 +166,7 @@ TEST(HeatMapScript, CellsThatTheEndCutsOrWithoutContactAreGreyAndInTheLegend) {
 }
 
 TEST(HeatMapScript, ManyCellsHaveNoNumbersAndFewTics) {
-  const std::string script = Script(Grid(40, 40, [](int r, int c) { return r * c; }));
+  const std::string script = MapScript(Grid(40, 40, [](int r, int c) { return r * c; }));
   EXPECT_THAT(script, Not(HasSubstr("with labels")));
   EXPECT_THAT(script, AllOf(HasSubstr("'5' 4, "), Not(HasSubstr("'4' 3"))));  // Every second row.
 }
@@ -186,37 +186,39 @@ std::vector<int> TicsAcross(const std::string& script) {
 TEST(HeatMapScript, TicsAcrossHaveRoomForTheirValuesAndRoundSteps) {
   SweepCells cells = Grid(2, 100, [](int r, int c) { return r * c; });
   for (auto& [index, cell] : cells) cell.set_values(1, 0.3 + 0.00697 * cell.values(1));
-  EXPECT_THAT(TicsAcross(Script(cells)), testing::ElementsAre(0, 20, 40, 60, 80));
+  EXPECT_THAT(TicsAcross(MapScript(cells)), testing::ElementsAre(0, 20, 40, 60, 80));
   for (auto& [index, cell] : cells) cell.set_values(1, index % 100);
-  const std::vector<int> more = TicsAcross(Script(cells));
+  const std::vector<int> more = TicsAcross(MapScript(cells));
   EXPECT_EQ(more.at(1), 10);
   EXPECT_EQ(more.size(), 10U);
 }
 
 TEST(HeatMapScript, LabelsAreWordsWithUnits) {
-  v1::Job job = Sweep();
+  v1::Job job = MapSweep();
   job.mutable_sweep()->mutable_base()->add_bodies()->set_name("ball");
   const SweepCells cells = Grid(2, 2, [](int r, int c) { return r + c; });
   const std::string script =
-      HeatMapScript(job, cells, HeatScale(cells, 0, false), false, kSvg, "m");
+      HeatMapScript(job, cells, HeatScale(cells, 0, false), false, kMapSvg, "m");
   EXPECT_THAT(script, AllOf(HasSubstr("set ylabel 'mass of ball [kg]'"),
                             HasSubstr("set xlabel 'restitution of contacts[0] [1]'"),
                             HasSubstr("set cblabel 'iterations'")));
 }
 
 TEST(HeatMapScript, ContoursNeedTwoValuesAndTwoRows) {
-  EXPECT_THAT(Script(Grid(3, 3, [](int r, int c) { return r + c; }), true), HasSubstr("$contours"));
-  EXPECT_THAT(Script(Grid(3, 3, [](int, int) { return 1; }), true), Not(HasSubstr("$contours")));
-  EXPECT_THAT(Script(Grid(1, 9, [](int, int c) { return c; }), true), Not(HasSubstr("$contours")));
+  EXPECT_THAT(MapScript(Grid(3, 3, [](int r, int c) { return r + c; }), true),
+              HasSubstr("$contours"));
+  EXPECT_THAT(MapScript(Grid(3, 3, [](int, int) { return 1; }), true), Not(HasSubstr("$contours")));
+  EXPECT_THAT(MapScript(Grid(1, 9, [](int, int c) { return c; }), true),
+              Not(HasSubstr("$contours")));
 }
 
 TEST(HeatMapScript, IsOfGridsOfTwoAxes) {
   const SweepCells cells = Grid(2, 2, [](int r, int c) { return r + c; });
-  v1::Job job = Sweep();
+  v1::Job job = MapSweep();
   job.mutable_sweep()->add_axes()->set_field("end_time_s");
   const HeatScale scale(cells, 0, false);
-  EXPECT_THROW(HeatMapScript(job, cells, scale, false, kSvg, "m"), Failure);
-  EXPECT_THROW(HeatMapScript(Sweep(), {}, scale, false, kSvg, "m"), Failure);
+  EXPECT_THROW(HeatMapScript(job, cells, scale, false, kMapSvg, "m"), Failure);
+  EXPECT_THROW(HeatMapScript(MapSweep(), {}, scale, false, kMapSvg, "m"), Failure);
 }
 
 TEST(ColourRange, HasTwoEndsForOneValueOrNone) {
@@ -233,11 +235,11 @@ TEST(ColourRange, HasTwoEndsForOneValueOrNone) {
 
 TEST(HeatMap, TellsHowManyCellsHaveNoValue) {
   const auto none = Grid(2, 3, [](int row, int) { return row == 0 ? std::nan("") : 1.0; });
-  EXPECT_THAT(Script(none), HasSubstr("white: 3 without value"));
+  EXPECT_THAT(MapScript(none), HasSubstr("white: 3 without value"));
   const auto some =
       Grid(2, 3, [](int row, int column) { return row == 0 ? std::nan("") : 1.0 * column; });
-  EXPECT_THAT(Script(some, false, true), HasSubstr("white: 1 value <= 0, 3 without value"));
-  EXPECT_THAT(Script(Grid(2, 3, [](int, int) { return 1.0; })), Not(HasSubstr("white:")));
+  EXPECT_THAT(MapScript(some, false, true), HasSubstr("white: 1 value <= 0, 3 without value"));
+  EXPECT_THAT(MapScript(Grid(2, 3, [](int, int) { return 1.0; })), Not(HasSubstr("white:")));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ std::vector<std::string> Lines(const ScenarioFile& file) {
   return lines;
 }
 
-ScenarioFile Read(const std::string& text) {
+ScenarioFile ReadFile(const std::string& text) {
   ScenarioFile file("f", text);
   EXPECT_THAT(Lines(file), IsEmpty()) << text;
   return file;
@@ -39,53 +39,53 @@ end_time_s: 1
 )";
 
 TEST(ScenarioFile, JsonIsYaml) {
-  const ScenarioFile json = Read(R"({"title": "\u03bc",
+  const ScenarioFile json = ReadFile(R"({"title": "\u03bc",
       "bodies": [{"name": "ball", "mass_kg": 0.5, "fixed": true}],
       "contacts": [{"between": ["ball"], "wall": {"side": "LEFT"}, "stiffness": 1e8,
                     "damping": "HU_GUO"}],
       "solver": {"max_iterations": 20, "max_steps": "1000000"}, "end_time_s": 1})");
-  EXPECT_TRUE(MessageDifferencer::Equals(json.scenario(), Read(kYaml).scenario()));
+  EXPECT_TRUE(MessageDifferencer::Equals(json.scenario(), ReadFile(kYaml).scenario()));
 }
 
 TEST(ScenarioFile, WhatIsPrintedAsJsonCanBeReadBack) {
-  const ScenarioFile file = Read(kYaml);
-  const ScenarioFile again = Read(ToJson(file.scenario()));
+  const ScenarioFile file = ReadFile(kYaml);
+  const ScenarioFile again = ReadFile(ToJson(file.scenario()));
   // Zeros are printed, so fields without presence may differ in nothing.
   EXPECT_TRUE(MessageDifferencer::Equivalent(file.scenario(), again.scenario()));
 }
 
 TEST(ScenarioFile, EnumsAreReadInEitherCase) {
   const auto damping = [](const std::string& text) {
-    return Read("contacts: [{damping: " + text + "}]").scenario().contacts(0).damping();
+    return ReadFile("contacts: [{damping: " + text + "}]").scenario().contacts(0).damping();
   };
   EXPECT_EQ(damping("hunt-crossley"), v1::Contact::HUNT_CROSSLEY);
   EXPECT_EQ(damping("Hunt_Crossley"), v1::Contact::HUNT_CROSSLEY);
 }
 
 TEST(ScenarioFile, KeyWithoutAValueIsLeftOut) {
-  const ScenarioFile file = Read("title:\nbodies: [{name: a, mass_kg: ~}]\nloads: null");
+  const ScenarioFile file = ReadFile("title:\nbodies: [{name: a, mass_kg: ~}]\nloads: null");
   EXPECT_FALSE(file.scenario().bodies(0).has_mass_kg());
 }
 
 TEST(ScenarioFile, MessageWithoutAValueIsThereWithItsDefaults) {
-  EXPECT_TRUE(Read("loads: [{gravity: }]").scenario().loads(0).has_gravity());
+  EXPECT_TRUE(ReadFile("loads: [{gravity: }]").scenario().loads(0).has_gravity());
 }
 
 TEST(ScenarioFile, AnchorsNeedNotBeRepeated) {
   const ScenarioFile file =
-      Read("bodies: [&a {name: a, mass_kg: 2}, {name: b, mass_kg: 3}]\ncontacts: []");
+      ReadFile("bodies: [&a {name: a, mass_kg: 2}, {name: b, mass_kg: 3}]\ncontacts: []");
   EXPECT_EQ(file.scenario().bodies(0).mass_kg(), 2);
 }
 
 TEST(ScenarioFile, BrokenRuleIsShownWhereTheFieldIsWritten) {
-  ScenarioFile file = Read("end_time_s: -1\nbodies:\n- name: a\n  mass_kg: 0");
+  ScenarioFile file = ReadFile("end_time_s: -1\nbodies:\n- name: a\n  mass_kg: 0");
   file.Check();
   EXPECT_THAT(Lines(file), ElementsAre("f:1:13: end_time_s: is -1; must be in (0, 1e6]",
                                        "f:4:12: bodies[0].mass_kg: is 0; must be in (0, 1e12]"));
 }
 
 TEST(ScenarioFile, MissingFieldIsShownWhereItsMessageBegins) {
-  ScenarioFile file = Read("end_time_s: 1\nbodies:\n- name: a");
+  ScenarioFile file = ReadFile("end_time_s: 1\nbodies:\n- name: a");
   file.Check();
   EXPECT_THAT(Lines(file), ElementsAre("f:3:3: bodies[0].mass_kg: is missing — give mass_kg, or "
                                        "density_kg_per_m3 and radius_m"));

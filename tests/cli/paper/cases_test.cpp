@@ -11,12 +11,12 @@ namespace {
 using testing::IsEmpty;
 using testing::SizeIs;
 
-std::vector<v1::Scenario> All() {
+std::vector<v1::Scenario> AllCases() {
   return {TripleChain(0.8, 0.7), SpringWall(), Collisions({0.1, 0.9}, v1::Contact::FLORES)};
 }
 
 TEST(PaperCases, KeepTheRulesOfScenariosHoweverTheyAreSolved) {
-  for (v1::Scenario scenario : All()) {
+  for (v1::Scenario scenario : AllCases()) {
     SCOPED_TRACE(scenario.title());
     EXPECT_THAT(DecodeScenario(scenario, kNoLimits).violations, IsEmpty());
     SolveAsPaper(&scenario, v1::Solver::PAPER_NEWTON, 0.005);

@@ -9,7 +9,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr char kMarkup[] = "<b>&";
+constexpr char kBold[] = "<b>&";
 
 PaperItem Item(const std::string& id, double process, double limit) {
   return {.id = id,
@@ -34,9 +34,9 @@ TEST(IndexPage, TellsOfEachItemWhetherItHolds) {
 
 TEST(IndexPage, EscapesTexts) {
   PaperItem item = Item("x", 1, 1);
-  item.title = item.numbers[0].what = item.numbers[0].why = item.data[0].note = kMarkup;
-  const std::string page = IndexPage({item}, {}, {kMarkup, kMarkup, kMarkup});
-  EXPECT_THAT(page, AllOf(HasSubstr("&lt;b&gt;&amp;"), Not(HasSubstr(kMarkup))));
+  item.title = item.numbers[0].what = item.numbers[0].why = item.data[0].note = kBold;
+  const std::string page = IndexPage({item}, {}, {kBold, kBold, kBold});
+  EXPECT_THAT(page, AllOf(HasSubstr("&lt;b&gt;&amp;"), Not(HasSubstr(kBold))));
 }
 
 TEST(IndexPage, HasTheFiguresAndLinksTheData) {

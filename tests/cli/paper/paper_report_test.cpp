@@ -16,7 +16,7 @@ Comparison Number(double published, double process, double limit) {
   return {.what = "a", .published = published, .process = process, .limit = limit};
 }
 
-std::string Read(const std::filesystem::path& path) {
+std::string FileText(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
@@ -43,8 +43,8 @@ TEST(PaperReport, FilesHoldWhatTheItemHolds) {
                        {Number(1, 2, 0.5)},
                        {{"fig1", {"time [s]", "force [N]"}, {{0, 0.1}, {1, 1e-300}}}}};
   Write(item, directory.path());
-  EXPECT_EQ(Read(directory.path() / "fig1.csv"), "time [s],force [N]\n0,0.1\n1,1e-300\n");
-  const auto json = nlohmann::json::parse(Read(directory.path() / "fig1.json"));
+  EXPECT_EQ(FileText(directory.path() / "fig1.csv"), "time [s],force [N]\n0,0.1\n1,1e-300\n");
+  const auto json = nlohmann::json::parse(FileText(directory.path() / "fig1.json"));
   EXPECT_FALSE(json["holds"]);
   EXPECT_EQ(json["numbers"][0]["deviation"], 1.0);
   EXPECT_TRUE(json["numbers"][0]["converged"].is_null());
@@ -53,7 +53,7 @@ TEST(PaperReport, FilesHoldWhatTheItemHolds) {
 TEST(PaperReport, NumbersAreWrittenAsATableToo) {
   const TempDirectory directory;
   Write({"table2", "The title", {Number(1, 2, 0.5)}, {}}, directory.path());
-  EXPECT_THAT(Read(directory.path() / "table2.txt"),
+  EXPECT_THAT(FileText(directory.path() / "table2.txt"),
               testing::AllOf(testing::StartsWith("The title\n\n"), HasSubstr("DIFFERS")));
 }
 

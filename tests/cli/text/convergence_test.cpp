@@ -1,12 +1,10 @@
 #include "cli/text/convergence.h"
 
 #include <gmock/gmock.h>
-#include <google/protobuf/text_format.h>
-
-#include <stdexcept>
 
 #include "cli/text/convergence_hints.h"
 #include "cli/text/render_job.h"
+#include "from_text.h"
 
 namespace contact::cli {
 namespace {
@@ -14,14 +12,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-v1::Job FromText(const std::string& text) {
-  v1::Job job;
-  if (!google::protobuf::TextFormat::ParseFromString(text, &job)) throw std::invalid_argument(text);
-  return job;
-}
-
 v1::Job Partial(const std::string& more) {
-  return FromText("name: 'jobs/a' state: SUCCEEDED convergence: PARTIAL " + more);
+  return JobFrom("name: 'jobs/a' state: SUCCEEDED convergence: PARTIAL " + more);
 }
 
 TEST(ConvergenceText, CountsTheCyclesThatMiss) {
@@ -46,15 +38,15 @@ TEST(ConvergenceText, CountsTheLedgerOfAServerThatDoesNotCount) {
 }
 
 TEST(ConvergenceText, FullHasNothingToCount) {
-  const v1::Job job = FromText("convergence: FULL summary { cycles: 2 }");
+  const v1::Job job = JobFrom("convergence: FULL summary { cycles: 2 }");
   EXPECT_EQ(ConvergenceText(job), "FULL");
   EXPECT_EQ(MissedCount(job), "0");
-  EXPECT_EQ(ConvergenceText(FromText("state: RUNNING progress { cycles: 2 }")), "");
-  EXPECT_EQ(MissedCount(FromText("state: RUNNING progress { cycles: 2 }")), "-");
+  EXPECT_EQ(ConvergenceText(JobFrom("state: RUNNING progress { cycles: 2 }")), "");
+  EXPECT_EQ(MissedCount(JobFrom("state: RUNNING progress { cycles: 2 }")), "-");
 }
 
 TEST(ConvergenceText, CountsTheCyclesThatTheEndCuts) {
-  const v1::Job full = FromText("convergence: FULL summary { cycles: 5 cycles_cut: 2 }");
+  const v1::Job full = JobFrom("convergence: FULL summary { cycles: 5 cycles_cut: 2 }");
   EXPECT_EQ(ConvergenceText(full), "FULL, 2 cycles cut by the end");
   EXPECT_THAT(RenderJob(full, {}), HasSubstr("\nconvergence FULL, 2 cycles cut by the end; resid"));
   EXPECT_EQ(ConvergenceText(Partial("summary { cycles: 9 cycles_not_converged: 3 cycles_cut: 1 }")),
@@ -62,7 +54,7 @@ TEST(ConvergenceText, CountsTheCyclesThatTheEndCuts) {
 }
 
 TEST(ConvergenceText, CountsTheCutCyclesOfAServerThatDoesNotCount) {
-  v1::Job job = FromText(R"(convergence: FULL summary { cycles: 3 }
+  v1::Job job = JobFrom(R"(convergence: FULL summary { cycles: 3 }
       cycles { status: UNFINISHED } cycles { status: CUT } cycles { status: RELEASED })");
   EXPECT_EQ(ConvergenceText(job), "FULL, 2 cycles cut by the end");
   KeepMissed(&job);

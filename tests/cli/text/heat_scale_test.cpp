@@ -12,7 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 
-SweepCells Cells(const std::vector<double>& values) {
+SweepCells CellsOf(const std::vector<double>& values) {
   SweepCells cells;
   for (const double value : values) {
     v1::SweepCell& cell = cells[static_cast<int>(cells.size())];
@@ -41,7 +41,7 @@ SweepCells AtPlaces(const std::vector<std::pair<double, double>>& places) {
 }
 
 TEST(HeatScale, LeavesOutWhatHasNoLogarithm) {
-  const SweepCells cells = Cells({-1, 0, 0.01, 1, NAN});
+  const SweepCells cells = CellsOf({-1, 0, 0.01, 1, NAN});
   const HeatScale log(cells, 0, true);
   EXPECT_EQ(log.unshown(), 2);
   EXPECT_EQ(log.valueless(), 1);
@@ -56,7 +56,7 @@ TEST(HeatScale, LeavesOutWhatHasNoLogarithm) {
 
 TEST(HeatScale, HeightGrowsFromTheLowestToTheHighestValue) {
   for (const bool log : {false, true}) {
-    const HeatScale scale(Cells({0.5, 2, 8, 30}), 0, log);
+    const HeatScale scale(CellsOf({0.5, 2, 8, 30}), 0, log);
     EXPECT_EQ(scale.Height(scale.low()), 0);
     EXPECT_EQ(scale.Height(scale.high()), 1);
     EXPECT_LT(scale.Height(2), scale.Height(8));
@@ -64,11 +64,11 @@ TEST(HeatScale, HeightGrowsFromTheLowestToTheHighestValue) {
 }
 
 TEST(HeatScale, OneValueStandsAtTheBottom) {
-  EXPECT_EQ(HeatScale(Cells({3, 3}), 0, false).Height(3), 0);
+  EXPECT_EQ(HeatScale(CellsOf({3, 3}), 0, false).Height(3), 0);
 }
 
 TEST(HeatScale, CellsThatFailedOrLackTheMetricCountForNothing) {
-  SweepCells cells = Cells({1, 2, 1000});
+  SweepCells cells = CellsOf({1, 2, 1000});
   cells[2].set_state(v1::Job::FAILED);
   cells[3].set_state(v1::Job::SUCCEEDED);  // Without metrics.
   const HeatScale scale(cells, 0, false);
@@ -79,7 +79,7 @@ TEST(HeatScale, CellsThatFailedOrLackTheMetricCountForNothing) {
 }
 
 TEST(HeatScale, NumbersThatAreNotKnownAreCountedByTheirReason) {
-  SweepCells cells = Cells({1, 2, 1000, NAN, NAN});
+  SweepCells cells = CellsOf({1, 2, 1000, NAN, NAN});
   cells[2].add_sources(v1::SweepCell::CUT);
   cells[3].add_sources(v1::SweepCell::NO_CONTACT);
   cells[4].add_sources(v1::SweepCell::RESULT);
@@ -91,10 +91,10 @@ TEST(HeatScale, NumbersThatAreNotKnownAreCountedByTheirReason) {
   EXPECT_EQ(scale.valueless(), 1);
 }
 
-TEST(HeatScale, KnowsWholeNumbers) { EXPECT_FALSE(HeatScale(Cells({1, 2.5}), 0, false).whole()); }
+TEST(HeatScale, KnowsWholeNumbers) { EXPECT_FALSE(HeatScale(CellsOf({1, 2.5}), 0, false).whole()); }
 
 TEST(HeatScale, OfNoValuesHasItsEndsTheWrongWayRound) {
-  const HeatScale scale(Cells({NAN}), 0, false);
+  const HeatScale scale(CellsOf({NAN}), 0, false);
   EXPECT_GT(scale.low(), scale.high());
 }
 

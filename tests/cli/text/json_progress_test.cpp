@@ -24,7 +24,7 @@ v1::Progress RunAt(double time_s) {
 
 // What is written while `act` has the progress.
 template <class Act>
-std::string Written(Act act) {
+std::string Told(Act act) {
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* stream = open_memstream(&text, &size);
@@ -59,7 +59,7 @@ TEST(JsonProgress, LineTellsASweepInJson) {
 
 TEST(JsonProgress, AtMostTenLinesASecondAreToldAndTheLastOneAlways) {
   const auto start = JsonProgress::Clock::now();
-  const std::string text = Written([start](JsonProgress& progress) {
+  const std::string text = Told([start](JsonProgress& progress) {
     for (int i = 0; i <= 25; ++i) progress.Update(RunAt(i * 0.1), start + i * 10ms);
   });
   std::vector<double> times;
@@ -71,7 +71,7 @@ TEST(JsonProgress, AtMostTenLinesASecondAreToldAndTheLastOneAlways) {
 }
 
 TEST(JsonProgress, NothingIsToldBeforeAnythingIsKnown) {
-  EXPECT_EQ(Written([](JsonProgress& progress) { progress.Update({}); }), "");
+  EXPECT_EQ(Told([](JsonProgress& progress) { progress.Update({}); }), "");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Recording Recorded() {
+Recording ShortRecording() {
   Recording run;
   run.job.set_name("jobs/r");
   run.columns = {{"time", "time", "s", {0, 1}},
@@ -35,8 +35,8 @@ MeasuredTable Table(const std::vector<std::string>& headers,
 std::string Refused(const std::vector<std::string>& headers,
                     const std::map<std::string, std::string>& map = {}) {
   try {
-    FindSignals(Table(headers, std::vector<std::vector<double>>(headers.size(), {1.0})), Recorded(),
-                map);
+    FindSignals(Table(headers, std::vector<std::vector<double>>(headers.size(), {1.0})),
+                ShortRecording(), map);
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::kUsage);
     return failure.what();
@@ -48,7 +48,7 @@ TEST(FindSignals, HeadersAreChannelsAndTheirUnitsBecomeSi) {
   const MeasuredSignals found =
       FindSignals(Table({"time [ms]", "B1.velocity [mm/s]", "B1-B2.contact_force [kN]"},
                         {{0, 500}, {1, 2}, {3, 4}}),
-                  Recorded(), {});
+                  ShortRecording(), {});
   ASSERT_EQ(found.signals.size(), 2U);
   EXPECT_EQ(found.signals[0].channel, "B1.velocity");
   EXPECT_EQ(found.signals[0].unit, "m/s");
@@ -60,7 +60,7 @@ TEST(FindSignals, HeadersAreChannelsAndTheirUnitsBecomeSi) {
 
 TEST(FindSignals, AMapJoinsOtherHeadersByNameOrWhole) {
   const MeasuredSignals found =
-      FindSignals(Table({"clock [s]", "force_N", "v"}, {{0}, {7}, {3}}), Recorded(),
+      FindSignals(Table({"clock [s]", "force_N", "v"}, {{0}, {7}, {3}}), ShortRecording(),
                   {{"clock", "time"}, {"force_N", "B1-B2.force"}, {"v", "B1.velocity [mm/s]"}});
   ASSERT_EQ(found.signals.size(), 2U);
   EXPECT_EQ(found.signals[0].channel, "B1-B2.contact_force");
@@ -70,7 +70,8 @@ TEST(FindSignals, AMapJoinsOtherHeadersByNameOrWhole) {
 
 TEST(FindSignals, AUnitAfterTheLastUnderscoreIsTheUnitIfItFits) {
   const auto force = [](const std::string& header) {
-    return FindSignals(Table({"t", header}, {{0}, {2}}), Recorded(), {{header, "B1-B2.force"}})
+    return FindSignals(Table({"t", header}, {{0}, {2}}), ShortRecording(),
+                       {{header, "B1-B2.force"}})
         .signals[0]
         .values;
   };
@@ -83,7 +84,7 @@ TEST(FindSignals, WhatIsNoNumberOrNoChannelIsLeftOut) {
   const MeasuredSignals found =
       FindSignals(Table({"t", "B1.velocity", "temperature [K]"},
                         {{0, 1, std::nan("")}, {1, std::nan(""), 3}, {1, 1, 1}}),
-                  Recorded(), {});
+                  ShortRecording(), {});
   EXPECT_THAT(found.signals[0].times, ElementsAre(0));
   EXPECT_THAT(found.left_out, ElementsAre("temperature [K]"));
 }

@@ -11,7 +11,7 @@
 namespace contact::cli {
 namespace {
 
-std::string Plain(std::string_view json) { return WithPlainNumbers(json, *v1::Job::descriptor()); }
+std::string Plain(std::string_view text) { return WithPlainNumbers(text, *v1::Job::descriptor()); }
 
 TEST(PlainNumbers, WholeNumbersLoseTheirQuotesAtAnyDepth) {
   EXPECT_EQ(Plain(R"({"summary":{"steps":"481"}})"), R"({"summary":{"steps":481}})");
@@ -23,8 +23,8 @@ TEST(PlainNumbers, WholeNumbersLoseTheirQuotesAtAnyDepth) {
 }
 
 TEST(PlainNumbers, TextsThatLookLikeNumbersStayTexts) {
-  const std::string json = R"({"name":"12","title":"2.5","labels":{"steps":"481"}})";
-  EXPECT_EQ(Plain(json), json);
+  const std::string text = R"({"name":"12","title":"2.5","labels":{"steps":"481"}})";
+  EXPECT_EQ(Plain(text), text);
 }
 
 TEST(PlainNumbers, NumbersThatADoubleDoesNotHoldStayTexts) {

@@ -1,13 +1,12 @@
 #include "cli/text/render_groups.h"
 
 #include <gmock/gmock.h>
-#include <google/protobuf/text_format.h>
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "cli/text/render_job.h"
+#include "from_text.h"
 
 namespace contact::cli {
 namespace {
@@ -17,14 +16,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-v1::Job FromText(const std::string& text) {
-  v1::Job job;
-  if (!google::protobuf::TextFormat::ParseFromString(text, &job)) throw std::invalid_argument(text);
-  return job;
-}
-
 v1::Group Reached(v1::Cycle::Status status, const std::string& certificate) {
-  v1::Group group = FromText(
+  v1::Group group = JobFrom(
                         "groups { contact: 'wall' number: 2 first_cycle: 3 cycles: 1 "
                         "restitution_in: 0.5 " +
                         certificate + " }")
@@ -34,7 +27,7 @@ v1::Group Reached(v1::Cycle::Status status, const std::string& certificate) {
 }
 
 TEST(RenderGroups, ShowsThoseOfSeveralCycles) {
-  const v1::Job job = FromText(R"(
+  const v1::Job job = JobFrom(R"(
       groups { contact: "A-B" number: 1 first_cycle: 1 cycles: 1 status: CONVERGED }
       groups { contact: "wall" number: 2 first_cycle: 3 cycles: 2 status: CONVERGED
                end: SEPARATION growth: TOO_LITTLE mu: 2.76e8 restitution_in: 0.5
@@ -49,7 +42,7 @@ TEST(RenderGroups, ShowsThoseOfSeveralCycles) {
 
 TEST(RenderGroups, IsEmptyWhereTheLedgerTellsAll) {
   EXPECT_THAT(RenderGroups({}, {}), IsEmpty());
-  EXPECT_THAT(RenderGroups(FromText(R"(
+  EXPECT_THAT(RenderGroups(JobFrom(R"(
                   groups { cycles: 1 status: CONVERGED } groups { cycles: 1 status: NOT_CONVERGED }
                   groups { cycles: 1 status: GIVEN_LAW } groups { cycles: 1 status: SETTLED })"),
                            {}),
@@ -99,7 +92,7 @@ TEST(Certificate, SaysWhichWayTheRestitutionMisses) {
 
 // The ε of one cycle among several is not what was asked for, and no error.
 TEST(RenderJob, CyclesOfLongerGroupsHaveNoErrorOfTheirOwn) {
-  v1::Job job = FromText(R"(
+  v1::Job job = JobFrom(R"(
       cycles { contact: "wall" number: 1 group: 1 restitution_in: 0.5 restitution_out: 0.25 }
       groups { contact: "wall" number: 1 first_cycle: 1 cycles: 1 restitution_in: 0.5
                restitution_out: 0.5 })");

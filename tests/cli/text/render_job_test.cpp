@@ -1,14 +1,12 @@
 #include "cli/text/render_job.h"
 
 #include <gmock/gmock.h>
-#include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
-
-#include <stdexcept>
 
 #include "cli/settings/settings.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
+#include "from_text.h"
 
 namespace contact::cli {
 namespace {
@@ -17,14 +15,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-v1::Job FromText(const std::string& text) {
-  v1::Job job;
-  if (!google::protobuf::TextFormat::ParseFromString(text, &job)) throw std::invalid_argument(text);
-  return job;
-}
-
 v1::Job Finished() {
-  return FromText(R"(
+  return JobFrom(R"(
       name: "jobs/k3v9" state: SUCCEEDED convergence: FULL scenario { title: "Two balls" }
       cycles { contact: "A-B" number: 1 group: 1 kind: COLLISION end: SEPARATION status: CONVERGED
                iterations: 3 mu: 1.43275053327e8 mu_over_k_s_per_m: 1.43275053327
@@ -62,7 +54,7 @@ TEST(RenderJob, ShowsLedgerBodiesAndBalances) {
 // The number that a row of earlier servers has there says nothing.
 TEST(RenderJob, SettledAndReleasedCyclesHaveNeitherRestitutionNorError) {
   for (const auto status : {v1::Cycle::SETTLED, v1::Cycle::RELEASED}) {
-    v1::Job job = FromText("cycles { restitution_in: 0.1 restitution_out: 62.8 }");
+    v1::Job job = JobFrom("cycles { restitution_in: 0.1 restitution_out: 62.8 }");
     EXPECT_THAT(RenderJob(job, {}), AllOf(HasSubstr("62.8"), HasSubstr("6.3e+02")));
     job.mutable_cycles(0)->set_status(status);
     EXPECT_THAT(RenderJob(job, {}), AllOf(Not(HasSubstr("62.8")), Not(HasSubstr("e+02"))));
@@ -70,7 +62,7 @@ TEST(RenderJob, SettledAndReleasedCyclesHaveNeitherRestitutionNorError) {
 }
 
 TEST(RenderJob, CutCycleHasDashesForWhatTheEndHides) {
-  const v1::Job job = FromText(R"(
+  const v1::Job job = JobFrom(R"(
       cycles { contact: "wall" number: 1 group: 1 kind: NIRV end: RUN_END status: CUT
                mu: 5e6 mu_over_k_s_per_m: 0.25 restitution_in: 0.9 restitution_out: nan
                end_time_s: 4e-3 peak_force_n: nan delta_max_m: nan work_compression_j: nan
@@ -93,7 +85,7 @@ TEST(RenderJob, StatusesHaveTheirColours) {
 }
 
 TEST(RenderJob, RunningJobTellsWhatKeepsItBusy) {
-  v1::Job job = FromText(R"(name: "jobs/x" state: RUNNING
+  v1::Job job = JobFrom(R"(name: "jobs/x" state: RUNNING
                             progress { end_time_s: 3 busy_with: "ball-floor, δ 1e-9 m" })");
   EXPECT_THAT(RenderJob(job, {}), HasSubstr("\nbusy: ball-floor, δ 1e-9 m\n"));
   job.set_state(v1::Job::SUCCEEDED);
@@ -101,7 +93,7 @@ TEST(RenderJob, RunningJobTellsWhatKeepsItBusy) {
 }
 
 TEST(RenderJob, ShowsHowTheJobIsTreated) {
-  v1::Job job = FromText(R"(
+  v1::Job job = JobFrom(R"(
       name: "jobs/k3v9" state: QUEUED priority: -5 time_to_live { seconds: 60 }
       budget { wall_time { seconds: 1 nanos: 500000000 } steps: 1000 output_bytes: 20 })");
   EXPECT_THAT(RenderJob(job, {}),
@@ -121,13 +113,13 @@ TEST(RenderJob, LongLedgerSaysHowToGetAll) {
 }
 
 TEST(RenderJob, FailedJobShowsItsError) {
-  const v1::Job job = FromText(R"(name: "jobs/x" state: FAILED state_reason: "NUMERIC"
+  const v1::Job job = JobFrom(R"(name: "jobs/x" state: FAILED state_reason: "NUMERIC"
                                   error { code: 13 message: "the step vanished at t = 1 s" })");
   EXPECT_EQ(RenderJob(job, {}), "jobs/x  FAILED (NUMERIC)\nerror: the step vanished at t = 1 s\n");
 }
 
 TEST(RenderJob, RunningJobShowsHowFarItIs) {
-  const v1::Job job = FromText(R"(name: "jobs/x" state: RUNNING
+  const v1::Job job = JobFrom(R"(name: "jobs/x" state: RUNNING
                                   progress { time_s: 1 end_time_s: 3 cycles: 12 })");
   EXPECT_EQ(RenderJob(job, {}), "jobs/x  RUNNING  1 s of 3 s simulated, 12 cycles\n");
 }
@@ -138,21 +130,21 @@ TEST(RenderJob, ColorsOnlyWhereAsked) {
 }
 
 TEST(ToJson, HasTheNamesOfTheProtoAndItsZeros) {
-  const std::string json = ToJson(Finished());
-  EXPECT_THAT(json, HasSubstr("\"start_time_s\": 0.001"));
-  EXPECT_THAT(json, HasSubstr("\"delta_end_m\": 0"));
-  EXPECT_THAT(json, HasSubstr("\"restitution_out\": \"NaN\""));
-  EXPECT_THAT(json, HasSubstr("\"kind\": \"COLLISION\""));
+  const std::string text = ToJson(Finished());
+  EXPECT_THAT(text, HasSubstr("\"start_time_s\": 0.001"));
+  EXPECT_THAT(text, HasSubstr("\"delta_end_m\": 0"));
+  EXPECT_THAT(text, HasSubstr("\"restitution_out\": \"NaN\""));
+  EXPECT_THAT(text, HasSubstr("\"kind\": \"COLLISION\""));
 }
 
 TEST(ToJson, PrintsTheErrorOfAJobWithItsDetails) {
-  v1::Job job = FromText(R"(name: "jobs/x" error { code: 13 message: "m" })");
+  v1::Job job = JobFrom(R"(name: "jobs/x" error { code: 13 message: "m" })");
   job.mutable_error()->add_details()->PackFrom(job.progress());
   EXPECT_THAT(ToJson(job), HasSubstr("contact.v1.Progress"));
 }
 
 TEST(ToJson, WholeNumbersAreNumbersWhereADoubleHoldsThem) {
-  v1::Job job = FromText(R"(
+  v1::Job job = JobFrom(R"(
       name: "481" last_sequence: 7 labels { key: "steps" value: "481" }
       scenario { title: "\"steps\": \"481\"" solver { max_steps: 9007199254740992 } }
       summary { steps: 481 evaluations: 9007199254740993 growths: -5 }
@@ -179,11 +171,11 @@ TEST(ToJson, LineIsOneLine) {
 }
 
 TEST(Outcome, TellsHowAJobEnded) {
-  EXPECT_EQ(CodeOf(FromText("state: SUCCEEDED convergence: FULL")), ExitCode::kOk);
-  EXPECT_EQ(CodeOf(FromText("state: SUCCEEDED convergence: PARTIAL")), ExitCode::kNotConverged);
-  EXPECT_EQ(CodeOf(FromText("state: FAILED convergence: PARTIAL")), ExitCode::kRunFailed);
-  EXPECT_EQ(CodeOf(FromText("state: CANCELLED")), ExitCode::kRunFailed);
-  EXPECT_EQ(CodeOf(FromText("state: RUNNING")), ExitCode::kOk);
+  EXPECT_EQ(CodeOf(JobFrom("state: SUCCEEDED convergence: FULL")), ExitCode::kOk);
+  EXPECT_EQ(CodeOf(JobFrom("state: SUCCEEDED convergence: PARTIAL")), ExitCode::kNotConverged);
+  EXPECT_EQ(CodeOf(JobFrom("state: FAILED convergence: PARTIAL")), ExitCode::kRunFailed);
+  EXPECT_EQ(CodeOf(JobFrom("state: CANCELLED")), ExitCode::kRunFailed);
+  EXPECT_EQ(CodeOf(JobFrom("state: RUNNING")), ExitCode::kOk);
 }
 
 }  // namespace

@@ -1,27 +1,18 @@
 #include "cli/text/render_live.h"
 
 #include <gmock/gmock.h>
-#include <google/protobuf/text_format.h>
 
 #include <array>
 #include <cstdio>
-#include <stdexcept>
 
 #include "cli/text/render_progress.h"
+#include "from_text.h"
 
 namespace contact::cli {
 namespace {
 
-v1::Event FromText(const std::string& text) {
-  v1::Event event;
-  if (!google::protobuf::TextFormat::ParseFromString(text, &event)) {
-    throw std::invalid_argument(text);
-  }
-  return event;
-}
-
 v1::Event Iteration(int number, bool accepted) {
-  v1::Event event = FromText(R"(iteration { episode: 1 unknowns {
+  v1::Event event = EventFrom(R"(iteration { episode: 1 unknowns {
       contact: "B1-B2" mu: 2.25e8 restitution_out: 0.79 restitution_in: 0.8 update: NEWTON } })");
   event.mutable_iteration()->set_number(number);
   event.mutable_iteration()->set_accepted(accepted);
@@ -58,11 +49,11 @@ TEST(LiveView, IterationTableGrows) {
 
 TEST(LiveView, AttemptTellsWhereItBegins) {
   const std::string text = Shown({}, [](LiveView& view) {
-    view.OnEvent(FromText("attempt_started { attempt: 1 }"));
-    view.OnEvent(FromText("attempt_started { attempt: 1 resume_time_s: 0.0215 }"));
-    view.OnEvent(FromText("attempt_started { attempt: 2 }"));
-    view.OnEvent(FromText("progress { cells: 50 cells_done: 3 }"));
-    view.OnEvent(FromText("attempt_started { attempt: 3 }"));
+    view.OnEvent(EventFrom("attempt_started { attempt: 1 }"));
+    view.OnEvent(EventFrom("attempt_started { attempt: 1 resume_time_s: 0.0215 }"));
+    view.OnEvent(EventFrom("attempt_started { attempt: 2 }"));
+    view.OnEvent(EventFrom("progress { cells: 50 cells_done: 3 }"));
+    view.OnEvent(EventFrom("attempt_started { attempt: 3 }"));
   });
   EXPECT_EQ(text,
             "attempt 1 goes on from t = 21.5 ms; what was recorded before follows again\n"
@@ -80,14 +71,14 @@ TEST(LiveView, ManyIterationsEndInAHint) {
 
 TEST(LiveView, ShowsWhatHappenedToAJob) {
   const std::string text = Shown({}, [](LiveView& view) {
-    view.OnEvent(FromText("state_changed { state: RUNNING }"));
-    view.OnEvent(FromText("attempt_started { attempt: 2 }"));
-    view.OnEvent(FromText("log_entry { severity: WARNING message: 'no velocity' }"));
-    view.OnEvent(FromText(R"(cycle { contact: "a-b" number: 1 kind: NIRV end: SEPARATION
+    view.OnEvent(EventFrom("state_changed { state: RUNNING }"));
+    view.OnEvent(EventFrom("attempt_started { attempt: 2 }"));
+    view.OnEvent(EventFrom("log_entry { severity: WARNING message: 'no velocity' }"));
+    view.OnEvent(EventFrom(R"(cycle { contact: "a-b" number: 1 kind: NIRV end: SEPARATION
         status: CONVERGED start_time_s: 1 end_time_s: 2 restitution_out: 0.5 })"));
-    view.OnEvent(FromText("state_changed { state: FAILED state_reason: 'NUMERIC' message: 'm' }"));
-    view.OnEvent(FromText("bookmark {}"));
-    view.OnEvent(FromText("frame_chunk {}"));
+    view.OnEvent(EventFrom("state_changed { state: FAILED state_reason: 'NUMERIC' message: 'm' }"));
+    view.OnEvent(EventFrom("bookmark {}"));
+    view.OnEvent(EventFrom("frame_chunk {}"));
     view.OnEvent({});
   });
   EXPECT_EQ(text,
@@ -100,13 +91,13 @@ TEST(LiveView, ShowsWhatHappenedToAJob) {
 
 TEST(LiveView, TellsOfEachGrowthAndOfGroupsThatCyclesDoNotTell) {
   const std::string text = Shown({}, [](LiveView& view) {
-    view.OnEvent(FromText(R"(group_growth { contact: "a-b" first_cycle: 1 cycles: 1
+    view.OnEvent(EventFrom(R"(group_growth { contact: "a-b" first_cycle: 1 cycles: 1
         growth: TOO_LITTLE })"));
-    view.OnEvent(FromText(R"(group_growth { contact: "a-b" first_cycle: 1 cycles: 2
+    view.OnEvent(EventFrom(R"(group_growth { contact: "a-b" first_cycle: 1 cycles: 2
         growth: TOO_MUCH })"));
-    view.OnEvent(FromText(R"(group { contact: "a-b" number: 1 first_cycle: 1 cycles: 1
+    view.OnEvent(EventFrom(R"(group { contact: "a-b" number: 1 first_cycle: 1 cycles: 1
         status: CONVERGED })"));
-    view.OnEvent(FromText(R"(group { contact: "a-b" number: 2 first_cycle: 2 cycles: 3
+    view.OnEvent(EventFrom(R"(group { contact: "a-b" number: 2 first_cycle: 2 cycles: 3
         status: CONVERGED mu: 5e6 restitution_out: 0.5 })"));
   });
   EXPECT_EQ(text,
@@ -118,7 +109,7 @@ TEST(LiveView, TellsOfEachGrowthAndOfGroupsThatCyclesDoNotTell) {
 TEST(LiveView, GrowthsAfterTheLastIterationShownAreNotShownEither) {
   const std::string text = Shown({.most_iterations = 1}, [](LiveView& view) {
     for (int i = 0; i < 2; ++i) view.OnEvent(Iteration(i, false));
-    view.OnEvent(FromText("group_growth { growth: JUMP }"));
+    view.OnEvent(EventFrom("group_growth { growth: JUMP }"));
   });
   EXPECT_THAT(text, testing::EndsWith("shows all\n"));
 }

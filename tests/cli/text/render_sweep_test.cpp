@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-v1::Job Job() {
+v1::Job SweepJob() {
   v1::Job job;
   job.set_name("jobs/s");
   job.set_state(v1::Job::SUCCEEDED);
@@ -38,7 +38,7 @@ v1::SweepCell Cell(int index, double mass, double restitution, double iterations
   return cell;
 }
 
-SweepCells Cells() {
+SweepCells SweptCells() {
   SweepCells cells{{0, Cell(0, 0.5, 0.9, 2)},
                    {1, Cell(1, 0.5, 0.8, 10)},
                    {2, Cell(2, 2, 0.9, 50)},
@@ -52,7 +52,7 @@ SweepCells Cells() {
 }
 
 TEST(RenderSweep, SaysWhatBecameOfEveryCell) {
-  const std::string text = RenderSweep(Job(), Cells(), {});
+  const std::string text = RenderSweep(SweepJob(), SweptCells(), {});
   EXPECT_THAT(text, HasSubstr("jobs/s  SUCCEEDED  4 of 4 cells, 1 failed, 1 not converged"));
   EXPECT_THAT(text,
               HasSubstr("   2                  2                      0.9          50  PARTIAL"));
@@ -61,7 +61,7 @@ TEST(RenderSweep, SaysWhatBecameOfEveryCell) {
 }
 
 TEST(RenderSweep, HeatMapMarksWhatDidNotConvergeOrFailed) {
-  EXPECT_EQ(RenderHeatMap(Job().sweep(), Cells(), 0, {}),
+  EXPECT_EQ(RenderHeatMap(SweepJob().sweep(), SweptCells(), 0, {}),
             "\niterations over bodies[0].mass_kg (down) and contacts[0].restitution (across, "
             "0.9 … 0.8)\n"
             "0.5  ░░ ░░\n"
@@ -71,7 +71,7 @@ TEST(RenderSweep, HeatMapMarksWhatDidNotConvergeOrFailed) {
 
 // Cells as those above, but cell 0 is cut by the end of the run and cell 1 touches nothing.
 SweepCells CellsAtTheEnd() {
-  SweepCells cells = Cells();
+  SweepCells cells = SweptCells();
   cells[0].add_sources(v1::SweepCell::CUT);
   cells[0].set_cycles(3);
   cells[0].set_cycles_cut(2);
@@ -81,16 +81,16 @@ SweepCells CellsAtTheEnd() {
 }
 
 TEST(RenderSweep, MetricOfACutCycleOrOfNoContactIsNoNumber) {
-  const std::string text = RenderSweep(Job(), CellsAtTheEnd(), {});
+  const std::string text = RenderSweep(SweepJob(), CellsAtTheEnd(), {});
   EXPECT_THAT(text, testing::ContainsRegex("0 +0.5 +0.9 +CUT +FULL, 2 cut\n"));
   EXPECT_THAT(text, testing::ContainsRegex("1 +0.5 +0.8 +no contact +FULL, no contact\n"));
-  EXPECT_THAT(SweepCsv(Job().sweep(), CellsAtTheEnd()),
+  EXPECT_THAT(SweepCsv(SweepJob().sweep(), CellsAtTheEnd()),
               HasSubstr("\n0,0.5,0.9,nan,SUCCEEDED,FULL,iterations: CUT\n"
                         "1,0.5,0.8,nan,SUCCEEDED,FULL,no contact\n"));
 }
 
 TEST(RenderSweep, HeatMapHasMarksForCutCellsAndThoseWithoutContact) {
-  EXPECT_THAT(RenderHeatMap(Job().sweep(), CellsAtTheEnd(), 0, {}),
+  EXPECT_THAT(RenderHeatMap(SweepJob().sweep(), CellsAtTheEnd(), 0, {}),
               HasSubstr("0.5  ][ ()\n"
                         "  2  ░! ××\n"
                         "░ 50 … █ 50;  ! not converged, ×× failed, -- no value, ][ CUT by the end, "
@@ -98,23 +98,23 @@ TEST(RenderSweep, HeatMapHasMarksForCutCellsAndThoseWithoutContact) {
 }
 
 TEST(RenderSweep, HeatMapShowsHolesOfAnUnfinishedSweep) {
-  SweepCells cells = Cells();
+  SweepCells cells = SweptCells();
   cells.erase(1);
-  EXPECT_THAT(RenderHeatMap(Job().sweep(), cells, 0, {}), HasSubstr("0.5  ░░ ··\n"));
+  EXPECT_THAT(RenderHeatMap(SweepJob().sweep(), cells, 0, {}), HasSubstr("0.5  ░░ ··\n"));
 }
 
 TEST(RenderSweep, HeatMapIsOfGridsOfTwoAxesThatFit) {
-  v1::Sweep sweep = Job().sweep();
-  EXPECT_EQ(RenderHeatMap(sweep, Cells(), 0, {.width = 10}), "");
-  EXPECT_EQ(RenderHeatMap(sweep, Cells(), 1, {}), "");
+  v1::Sweep sweep = SweepJob().sweep();
+  EXPECT_EQ(RenderHeatMap(sweep, SweptCells(), 0, {.width = 10}), "");
+  EXPECT_EQ(RenderHeatMap(sweep, SweptCells(), 1, {}), "");
   sweep.set_combination(v1::Sweep::ZIP);
-  EXPECT_EQ(RenderHeatMap(sweep, Cells(), 0, {}), "");
+  EXPECT_EQ(RenderHeatMap(sweep, SweptCells(), 0, {}), "");
 }
 
 TEST(SweepJson, IsOneDocumentInWhichEveryCellHasItsIndex) {
-  SweepCells cells = Cells();
+  SweepCells cells = SweptCells();
   cells[0].Clear();  // Nothing is known of it, not even an index in the line of the message.
-  const auto json = nlohmann::json::parse(SweepJson(Job(), cells));
+  const auto json = nlohmann::json::parse(SweepJson(SweepJob(), cells));
   EXPECT_EQ(json["job"]["name"], "jobs/s");
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(json["cells"][i]["index"], i);
   EXPECT_EQ(json["cells"][3]["message"], "at 1 s, \"B1\"");
@@ -122,7 +122,7 @@ TEST(SweepJson, IsOneDocumentInWhichEveryCellHasItsIndex) {
 }
 
 TEST(RenderSweep, CsvQuotesWhatNeedsIt) {
-  EXPECT_EQ(SweepCsv(Job().sweep(), Cells()),
+  EXPECT_EQ(SweepCsv(SweepJob().sweep(), SweptCells()),
             "cell,bodies[0].mass_kg,contacts[0].restitution,iterations,state,convergence,message\n"
             "0,0.5,0.9,2,SUCCEEDED,FULL,\n"
             "1,0.5,0.8,10,SUCCEEDED,FULL,\n"
@@ -132,7 +132,7 @@ TEST(RenderSweep, CsvQuotesWhatNeedsIt) {
 
 // Two laws by two restitutions, the first axis over a variable.
 v1::Job OfLaws() {
-  v1::Job job = Job();
+  v1::Job job = SweepJob();
   v1::Sweep& sweep = *job.mutable_sweep();
   sweep.mutable_axes(0)->set_field("contacts[A-B].damping");
   sweep.mutable_axes(0)->set_label("var:law");

@@ -42,12 +42,12 @@ TEST(RenderYaml, AnyTextIsReadBack) {
   for (const std::string text :
        {"a: b", "a #b", "two\nlines", "tab\there", " leading", "trailing ", "it's", "\"quoted\"",
         "back\\slash", "ε = 0.8", "a\x01z", "{a: b}", "${name}", "end:", "a, b", "|", "%x"}) {
-    std::string json = "\"";
+    std::string quoted = "\"";
     for (const char c : text) {
-      if (c == '"' || c == '\\') json += '\\';
-      json += c == '\n' ? "\\n" : c == '\t' ? "\\t" : c == '\x01' ? "\\u0001" : std::string(1, c);
+      if (c == '"' || c == '\\') quoted += '\\';
+      quoted += c == '\n' ? "\\n" : c == '\t' ? "\\t" : c == '\x01' ? "\\u0001" : std::string(1, c);
     }
-    EXPECT_EQ(YAML::Load(YamlOfJson(json + "\"")).Scalar(), text);
+    EXPECT_EQ(YAML::Load(YamlOfJson(quoted + "\"")).Scalar(), text);
   }
 }
 

@@ -20,7 +20,7 @@ using testing::Not;
 double Pulse(double time) { return 100 * std::exp(-std::pow((time - 0.5) / 0.05, 2)); }
 
 // A pulse of 100 N at 0.5 s, sampled every millisecond.
-Recording Recorded() {
+Recording PulseRecording() {
   Recording run;
   run.job.set_name("jobs/r");
   run.columns = {{"time", "time", "s", {}}, {"C.contact_force", "contact_force", "N", {}}};
@@ -44,7 +44,7 @@ MeasuredSignal Measured(double lag = 0, double error = 0) {
 
 SignalComparison Compared(const MeasuredSignal& signal, double shift = 0,
                           const SignalTolerance& common = {}) {
-  return Compare({signal}, Recorded(), shift, common, {});
+  return Compare({signal}, PulseRecording(), shift, common, {});
 }
 
 TEST(SignalComparison, ErrorsAreThoseThatWereMade) {
@@ -72,7 +72,8 @@ TEST(SignalComparison, ToleranceIsTheLargerOfBothAndThatOfTheChannelComesFirst) 
   EXPECT_TRUE(Compared(signal, 0, {.absolute = 3, .relative = 0.01}).Holds());
   EXPECT_TRUE(Compared(signal, 0, {.absolute = 1, .relative = 0.03}).Holds());
   const auto own = [&](const SignalTolerance& tolerance) {
-    return Compare({signal}, Recorded(), 0, {.absolute = 50}, {{"C.contact_force", tolerance}})
+    return Compare({signal}, PulseRecording(), 0, {.absolute = 50},
+                   {{"C.contact_force", tolerance}})
         .Holds();
   };
   EXPECT_FALSE(own({.absolute = 1, .relative = 0}));
@@ -96,16 +97,16 @@ TEST(SignalComparison, PointsOutsideOfTheRunDoNotCount) {
 
 TEST(FitShift, FindsTheLagOfTheClock) {
   for (const double lag : {-0.0123, 0.0, 0.04}) {
-    EXPECT_NEAR(FitShift({Measured(lag, 1)}, Recorded(), {-0.1, 0.1}), lag, 1e-4) << lag;
+    EXPECT_NEAR(FitShift({Measured(lag, 1)}, PulseRecording(), {-0.1, 0.1}), lag, 1e-4) << lag;
   }
 }
 
 TEST(FitShift, StaysWithinItsRange) {
-  EXPECT_NEAR(FitShift({Measured(0.04)}, Recorded(), {-0.01, 0.01}), 0.01, 1e-9);
+  EXPECT_NEAR(FitShift({Measured(0.04)}, PulseRecording(), {-0.01, 0.01}), 0.01, 1e-9);
 }
 
 TEST(FitShift, ShiftsThatLeaveHalfOfThePointsOutsideAreNone) {
-  EXPECT_THROW(FitShift({Measured()}, Recorded(), {5, 6}), Failure);
+  EXPECT_THROW(FitShift({Measured()}, PulseRecording(), {5, 6}), Failure);
 }
 
 TEST(ReadTolerances, AreNumbersWithUnitsOrPercentages) {
@@ -145,7 +146,7 @@ TEST(MeasuredFigure, HasPointsOverALineInTheTimeThatWasMeasured) {
   const MeasuredSignal signal = Measured(0.04);
   SignalComparison comparison = Compared(signal, 0.04);
   comparison.file = "m.csv";
-  const Figure figure = MeasuredFigure(Recorded(), {signal}, comparison);
+  const Figure figure = MeasuredFigure(PulseRecording(), {signal}, comparison);
   ASSERT_EQ(figure.panels.size(), 1U);
   EXPECT_EQ(figure.panels[0].y_label, "C.contact_force [N]");
   const auto& [line, points] = std::tie(figure.panels[0].curves[0], figure.panels[0].curves[1]);

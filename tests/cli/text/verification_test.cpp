@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-v1::Scenario TwoBalls() {
+v1::Scenario SolvedBalls() {
   v1::Scenario scenario;
   scenario.add_bodies()->set_name("A");
   scenario.mutable_bodies(0)->set_velocity_m_per_s(1);
@@ -27,14 +27,14 @@ v1::Scenario TwoBalls() {
 }
 
 v1::Scenario WithStep(double step) {
-  v1::Scenario scenario = TwoBalls();
+  v1::Scenario scenario = SolvedBalls();
   scenario.mutable_solver()->set_method(v1::Solver::RK4);
   scenario.mutable_solver()->set_step_s(step);
   return scenario;
 }
 
 v1::Scenario WithTolerance(double tolerance) {
-  v1::Scenario scenario = TwoBalls();
+  v1::Scenario scenario = SolvedBalls();
   scenario.mutable_solver()->set_relative_tolerance(tolerance);
   return scenario;
 }
@@ -58,7 +58,7 @@ v1::Job Solved(const std::string& name, double resolution, double error, double 
   return job;
 }
 
-v1::Job JobOf(double error) { return Solved("jobs/own", 1, error, 1); }
+v1::Job JobWithError(double error) { return Solved("jobs/own", 1, error, 1); }
 
 std::vector<v1::Job> RunsOf(double error, double order) {
   return {Solved("jobs/2", 0.5, error, order), Solved("jobs/4", 0.25, error, order),
@@ -69,7 +69,7 @@ const RefinementPlan kHalves = PlanOf(WithStep(1e-6));
 
 // The job and its runs, whose errors are of this order.
 Verification Verified(double error, double order, double tolerance = 1e-8) {
-  return Verify(kHalves, JobOf(error), RunsOf(error, order), tolerance);
+  return Verify(kHalves, JobWithError(error), RunsOf(error, order), tolerance);
 }
 
 TEST(RefinementPlan, HalvesTheStepThreeTimes) {
@@ -153,26 +153,26 @@ TEST(Verification, AnotherOrderIsToldAndIsNoFault) {
 TEST(Verification, NumbersThatDoNotSettleAreAsFarAsTheRunsAreApart) {
   std::vector<v1::Job> runs = RunsOf(0, 4);
   runs[1].mutable_cycles(0)->set_peak_force_n(100.5);
-  const Verification verification = Verify(kHalves, JobOf(0), runs, 1e-8);
+  const Verification verification = Verify(kHalves, JobWithError(0), runs, 1e-8);
   EXPECT_NEAR(verification.numbers[1].distance, 0.005, 1e-12);
   for (const std::size_t i : {1U, 2U}) {
     runs = RunsOf(0, 4);
     runs[i].mutable_cycles(0)->set_peak_force_n(NAN);
-    EXPECT_FALSE(Verify(kHalves, JobOf(0), runs, 1).Holds());
+    EXPECT_FALSE(Verify(kHalves, JobWithError(0), runs, 1).Holds());
   }
 }
 
 TEST(Verification, WhatTheIterationLeavesIsNoDifference) {
   std::vector<v1::Job> runs = RunsOf(1e-9, 1);
-  EXPECT_NEAR(Verify(kHalves, JobOf(0), runs, 1e-8).numbers[1].refinement.order, 1, 1e-3);
+  EXPECT_NEAR(Verify(kHalves, JobWithError(0), runs, 1e-8).numbers[1].refinement.order, 1, 1e-3);
   v1::Group& group = *runs[0].add_groups();
   group.set_restitution_in(0.5);
   group.set_restitution_out(0.5 * (1 + 5e-9));
-  EXPECT_TRUE(std::isnan(Verify(kHalves, JobOf(0), runs, 1e-8).numbers[1].refinement.order));
+  EXPECT_TRUE(std::isnan(Verify(kHalves, JobWithError(0), runs, 1e-8).numbers[1].refinement.order));
 }
 
 TEST(Verification, MuMayBeFartherOffWhereItIsMoreSensitive) {
-  v1::Job job = JobOf(0);
+  v1::Job job = JobWithError(0);
   std::vector<v1::Job> runs = RunsOf(0, 4);
   job.mutable_cycles(0)->set_mu(2e8 * (1 + 9e-8));
   EXPECT_FALSE(Verify(kHalves, job, runs, 1e-8).Holds());
@@ -188,7 +188,7 @@ TEST(Verification, MatchesCyclesByContactAndNumberAndTellsWhatDiffers) {
     runs[i].mutable_cycles(0)->set_peak_force_n(7);
   }
   runs[2].mutable_cycles(1)->set_status(v1::Cycle::JUMP);
-  const Verification verification = Verify(kHalves, JobOf(0), runs, 1e-8);
+  const Verification verification = Verify(kHalves, JobWithError(0), runs, 1e-8);
   EXPECT_THAT(
       verification.differences,
       ElementsAre("A-B has 1, 1, 2, 2 cycles", AllOf(HasSubstr("A-B #1 is "), HasSubstr(" JUMP"))));
@@ -197,7 +197,7 @@ TEST(Verification, MatchesCyclesByContactAndNumberAndTellsWhatDiffers) {
 }
 
 TEST(Verification, OfWhatStaysZeroNothingIsTold) {
-  v1::Job job = JobOf(0);
+  v1::Job job = JobWithError(0);
   std::vector<v1::Job> runs = RunsOf(0, 4);
   job.mutable_final_bodies(0)->set_velocity_m_per_s(0);
   for (v1::Job& run : runs) run.mutable_final_bodies(0)->set_velocity_m_per_s(0);
@@ -220,7 +220,7 @@ TEST(RenderVerification, ShowsRunsNumbersAndVerdict) {
 TEST(RenderVerification, TellsOfTolerancesHowMuchTheLastOneMoves) {
   const RefinementPlan plan = PlanOf(WithTolerance(1e-9));
   const std::string text =
-      RenderVerification(Verify(plan, JobOf(0), RunsOf(8e-9, 3), 1e-8), false, {});
+      RenderVerification(Verify(plan, JobWithError(0), RunsOf(8e-9, 3), 1e-8), false, {});
   EXPECT_THAT(text, HasSubstr("TOLERANCE"));
   EXPECT_THAT(text, HasSubstr("from 1e-11 to 1e-12 no number moves by more than 1.1e-10\n"));
 }

@@ -20,7 +20,7 @@ PlotOptions Parsed(const std::string& flags) {
   return options;
 }
 
-Figure Curve(std::vector<double> y) {
+Figure OneCurve(std::vector<double> y) {
   std::vector<double> x(y.size());
   return {.panels = {{.x_label = "time [s]",
                       .y_label = "force [N]",
@@ -49,19 +49,19 @@ TEST(PlotOptions, FlagsSayHowItLooks) {
 }
 
 TEST(PlotOptions, UnitThatNoAxisCanHaveIsRefused) {
-  Figure figure = Curve({1});
+  Figure figure = OneCurve({1});
   Parsed("--unit ms,kN").Adapt(&figure);
   EXPECT_THROW(Parsed("--unit mm").Adapt(&figure), Failure);
 }
 
 TEST(PlotOptions, LogarithmicAxisNeedsAValueAboveZero) {
-  Figure figure = Curve({-1, 0, 2});
+  Figure figure = OneCurve({-1, 0, 2});
   Parsed("").Adapt(&figure);
   EXPECT_FALSE(figure.panels[0].log_y);
   Parsed("--log").Adapt(&figure);
   EXPECT_TRUE(figure.panels[0].log_y);
   EXPECT_FALSE(figure.panels[0].lowest_y);
-  figure = Curve({-1, 0});
+  figure = OneCurve({-1, 0});
   EXPECT_THROW(Parsed("--log").Adapt(&figure), Failure);
 }
 

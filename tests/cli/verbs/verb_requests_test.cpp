@@ -372,10 +372,10 @@ TEST_F(VerbRequestsTest, DoctorTellsWhatKeepsLongRunsBusy) {
 TEST_F(VerbRequestsTest, DoctorFindsAServerThatStartedInTheFuture) {
   server_.info.set_version(kVersion);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(now).count();
-  server_.info.mutable_start_time()->set_seconds(seconds - 3600);
+  const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(now).count();
+  server_.info.mutable_start_time()->set_seconds(now_s - 3600);
   EXPECT_TRUE(Finding(Run({"doctor", "-o", "json"}), "clock")["ok"]);
-  server_.info.mutable_start_time()->set_seconds(seconds + 3600);
+  server_.info.mutable_start_time()->set_seconds(now_s + 3600);
   const End end = Run({"doctor", "-o", "json"});
   EXPECT_FALSE(Finding(end, "clock")["ok"]);
   EXPECT_THAT(std::string(Finding(end, "clock")["found"]), HasSubstr("s in the future"));

@@ -58,7 +58,7 @@ void ExpectSame(const Record& parts, const Record& whole, double time, double mu
   }
 }
 
-void ExpectBalances(const Outcome& outcome) {
+void ExpectClosedBalances(const Outcome& outcome) {
   EXPECT_EQ(outcome.end, Outcome::End::kFinished) << outcome.message;
   EXPECT_LT(outcome.energy_residual, 1e-9);
   EXPECT_LT(outcome.momentum_residual, 1e-9);
@@ -71,7 +71,7 @@ TEST(Clusters, AGasMovesAsAllTogetherDo) {
       const Scenario s = Gas(40, stiffness, seed);
       const Record parts = RunAndRecord(s), whole = RunTogether(s);
       ExpectSame(parts, whole, 1e-9, 1e-6);  // With ξ = 1e-8.
-      ExpectBalances(parts.outcome);
+      ExpectClosedBalances(parts.outcome);
       EXPECT_TRUE(parts.outcome.all_converged);
     }
   }
@@ -83,7 +83,7 @@ TEST(Clusters, ADenseGasMovesAsAllTogetherDo) {
     const Scenario s = Gas(30, 1e9, seed, 0.1);
     const Record parts = RunAndRecord(s), whole = RunTogether(s);
     ExpectSame(parts, whole, 1e-7, 1e-4);  // Differences grow from collision to collision.
-    ExpectBalances(parts.outcome);
+    ExpectClosedBalances(parts.outcome);
   }
 }
 
@@ -140,7 +140,7 @@ TEST(Clusters, WhatIsFixedDoesNotFall) {
   s.end_time = 0.03;
   const Record parts = RunAndRecord(s), whole = RunTogether(s);
   ExpectSame(parts, whole, 1e-7, 1e-4);  // Differences grow from bounce to bounce.
-  ExpectBalances(parts.outcome);
+  ExpectClosedBalances(parts.outcome);
   EXPECT_EQ(parts.outcome.positions[4], s.bodies[4].position);
 }
 
@@ -206,23 +206,23 @@ TEST(Clusters, PassesAreToldAsTheyAreMade) {
   }
 }
 
-Scenario LongRow(int balls) {
+Scenario TouchingRow(int balls) {
   const auto contacts = static_cast<std::size_t>(balls) - 1;
   return testing::Chain(std::vector<double>(contacts + 1, 0.5), std::vector<double>(contacts, 1e8),
                         std::vector<double>(contacts, 0.9), 1, 2e-3);
 }
 
 TEST(Clusters, ARowOfTouchingBallsMovesAsAllTogetherDo) {
-  const Scenario row = LongRow(30);
+  const Scenario row = TouchingRow(30);
   const Record parts = RunAndRecord(row);
   ExpectSame(parts, RunTogether(row), 1e-9, 1e-6);
-  ExpectBalances(parts.outcome);
+  ExpectClosedBalances(parts.outcome);
 }
 
 // Balls that lie beside what moves are met when they are pressed.
 TEST(Clusters, APulseInARowCostsWhatItHasReached) {
   const auto seconds = [](int balls) {
-    const Scenario row = LongRow(balls);
+    const Scenario row = TouchingRow(balls);
     double least = 1e9;
     for (int i = 0; i < 3; ++i) {
       const std::clock_t begin = std::clock();
@@ -261,7 +261,7 @@ TEST(Clusters, TiesAreOneCluster) {
     ball.velocity = i == 0 ? 10 : -10;
   }
   const Record r = RunAndRecord(s);
-  ExpectBalances(r.outcome);
+  ExpectClosedBalances(r.outcome);
   for (int i = 0; i < 9; ++i) {  // The mirror image of itself.
     EXPECT_NEAR(r.outcome.velocities[static_cast<std::size_t>(i)],
                 -r.outcome.velocities[static_cast<std::size_t>(8 - i)], 1e-9);
@@ -278,7 +278,7 @@ TEST(Clusters, BallsThatFallComeToRest) {
   }
   ASSERT_TRUE(MayPart(s));
   const Record r = RunAndRecord(s);
-  ExpectBalances(r.outcome);
+  ExpectClosedBalances(r.outcome);
   EXPECT_TRUE(r.outcome.all_converged);
   const double depth = std::pow(0.03 * 9.81 / 1e7, 2.0 / 3);
   for (std::size_t i = 0; i < 8; ++i) {
@@ -296,7 +296,7 @@ TEST(Clusters, WhatRestsIsStruckWhereItRests) {
   s.loads = {{.body = 0, .constant = -3}};  // It presses on the wall.
   s.bodies[1].velocity = -1.5;
   const Record parts = RunAndRecord(s), whole = RunTogether(s);
-  ExpectBalances(parts.outcome);
+  ExpectClosedBalances(parts.outcome);
   ASSERT_EQ(parts.cycles.size(), whole.cycles.size());
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     EXPECT_NEAR(parts.outcome.velocities[i], whole.outcome.velocities[i], 1e-6);
@@ -308,7 +308,7 @@ TEST(Clusters, ARowThatIsOneClusterCostsLittleMoreThanTogether) {
   if (!testing::kOptimized) GTEST_SKIP() << "takes minutes";
   const Scenario s = Gas(20, 1e6, 1, 0.1);
   const Record parts = RunAndRecord(s), whole = RunTogether(s);
-  ExpectBalances(parts.outcome);
+  ExpectClosedBalances(parts.outcome);
   EXPECT_LT(static_cast<double>(parts.outcome.steps), 3 * static_cast<double>(whole.outcome.steps));
 }
 

@@ -10,14 +10,14 @@
 namespace contact::testing {
 namespace {
 
-struct Fault {
+struct WrongRun {
   const char* what;
   double Disagreement::*which;
   std::function<void(Record&)> make;
 };
-void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.what; }
+void PrintTo(const WrongRun& fault, std::ostream* out) { *out << fault.what; }
 
-class EveryError : public ::testing::TestWithParam<Fault> {};
+class EveryError : public ::testing::TestWithParam<WrongRun> {};
 
 // 0.1 ppm of the second contact of the paper's chain.
 TEST_P(EveryError, OfALedgerIsSeen) {
@@ -34,19 +34,19 @@ TEST_P(EveryError, OfALedgerIsSeen) {
 INSTANTIATE_TEST_SUITE_P(
     Independent, EveryError,
     ::testing::Values(
-        Fault{"Restitution", &Disagreement::restitution,
-              [](Record& r) { r.groups[1].restitution_out *= 1 + 1e-7; }},
-        Fault{"Mu", &Disagreement::restitution, [](Record& r) { r.cycles[1].mu *= 1 + 1e-6; }},
-        Fault{"Work", &Disagreement::work,
-              [](Record& r) { r.groups[1].work_compression *= 1 + 1e-7; }},
-        Fault{"Rest", &Disagreement::rest,
-              [](Record& r) { r.cycles[0].kind = Cycle::Kind::kNirv; }},
-        Fault{"Velocity", &Disagreement::velocity,
-              [](Record& r) { r.outcome.velocities[2] *= 1 + 1e-7; }},
-        Fault{"Turn", &Disagreement::time, [](Record& r) { r.cycles[1].turn_time *= 1 + 1e-6; }},
-        Fault{"Approach", &Disagreement::approach,
-              [](Record& r) { r.cycles[0].approach_velocity *= 1 + 1e-6; }},
-        Fault{"Touch", &Disagreement::overlap, [](Record& r) { r.cycles.pop_back(); }}),
+        WrongRun{"Restitution", &Disagreement::restitution,
+                 [](Record& r) { r.groups[1].restitution_out *= 1 + 1e-7; }},
+        WrongRun{"Mu", &Disagreement::restitution, [](Record& r) { r.cycles[1].mu *= 1 + 1e-6; }},
+        WrongRun{"Work", &Disagreement::work,
+                 [](Record& r) { r.groups[1].work_compression *= 1 + 1e-7; }},
+        WrongRun{"Rest", &Disagreement::rest,
+                 [](Record& r) { r.cycles[0].kind = Cycle::Kind::kNirv; }},
+        WrongRun{"Velocity", &Disagreement::velocity,
+                 [](Record& r) { r.outcome.velocities[2] *= 1 + 1e-7; }},
+        WrongRun{"Turn", &Disagreement::time, [](Record& r) { r.cycles[1].turn_time *= 1 + 1e-6; }},
+        WrongRun{"Approach", &Disagreement::approach,
+                 [](Record& r) { r.cycles[0].approach_velocity *= 1 + 1e-6; }},
+        WrongRun{"Touch", &Disagreement::overlap, [](Record& r) { r.cycles.pop_back(); }}),
     [](const auto& made) { return std::string(made.param.what); });
 
 // Half of a swing under a load is a closed form: the works of a ball put on a linear spring.

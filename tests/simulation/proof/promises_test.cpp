@@ -18,13 +18,13 @@ TEST(Promises, AreKeptByTheTripleChain) {
   EXPECT_THAT(BrokenPromises(s, RunAndRecord(s)), IsEmpty());
 }
 
-struct Fault {
+struct FalseWord {
   const char* told;
   std::function<void(Record&)> make;
 };
-void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.told; }
+void PrintTo(const FalseWord& fault, std::ostream* out) { *out << fault.told; }
 
-class EveryFault : public ::testing::TestWithParam<Fault> {};
+class EveryFault : public ::testing::TestWithParam<FalseWord> {};
 
 TEST_P(EveryFault, OfALedgerIsTold) {
   const Scenario s = TripleChain();
@@ -42,21 +42,22 @@ void Glue(Record& run) {
 INSTANTIATE_TEST_SUITE_P(
     Promises, EveryFault,
     ::testing::Values(
-        Fault{"restitution", [](Record& r) { r.groups[1].work_restitution *= 1 + 1e-7; }},
-        Fault{"identity", [](Record& r) { r.outcome.worst_identity_residual = 2e-7; }},
-        Fault{"energy", [](Record& r) { r.outcome.energy_residual = 2e-8; }},
-        Fault{"momentum", [](Record& r) { r.outcome.momentum_residual = kNaN; }},
-        Fault{"end time", [](Record& r) { r.outcome.time *= 0.999; }},
-        Fault{"failed", [](Record& r) { r.outcome.end = Outcome::End::kNumeric; }},
-        Fault{"finite", [](Record& r) { r.outcome.velocities[2] = kNaN; }},
-        Fault{"instants", [](Record& r) { r.cycles[0].turn_time = 3e-3; }},
-        Fault{"order", [](Record& r) { r.cycles[1].end_time = 1.6e-3; }},
-        Fault{"overlap", [](Record& r) { r.cycles[1].contact = 0, r.cycles[1].number = 2; }},
-        Fault{"number", [](Record& r) { r.cycles[1].number = 2; }},
-        Fault{"values", [](Record& r) { r.cycles[1].mu = -1; }},
-        Fault{"compression", [](Record& r) { r.cycles[0].work_compression = 0; }},
-        Fault{"glued", Glue},
-        Fault{"unfinished", [](Record& r) { r.groups[0].status = Cycle::Status::kUnfinished; }}),
+        FalseWord{"restitution", [](Record& r) { r.groups[1].work_restitution *= 1 + 1e-7; }},
+        FalseWord{"identity", [](Record& r) { r.outcome.worst_identity_residual = 2e-7; }},
+        FalseWord{"energy", [](Record& r) { r.outcome.energy_residual = 2e-8; }},
+        FalseWord{"momentum", [](Record& r) { r.outcome.momentum_residual = kNaN; }},
+        FalseWord{"end time", [](Record& r) { r.outcome.time *= 0.999; }},
+        FalseWord{"failed", [](Record& r) { r.outcome.end = Outcome::End::kNumeric; }},
+        FalseWord{"finite", [](Record& r) { r.outcome.velocities[2] = kNaN; }},
+        FalseWord{"instants", [](Record& r) { r.cycles[0].turn_time = 3e-3; }},
+        FalseWord{"order", [](Record& r) { r.cycles[1].end_time = 1.6e-3; }},
+        FalseWord{"overlap", [](Record& r) { r.cycles[1].contact = 0, r.cycles[1].number = 2; }},
+        FalseWord{"number", [](Record& r) { r.cycles[1].number = 2; }},
+        FalseWord{"values", [](Record& r) { r.cycles[1].mu = -1; }},
+        FalseWord{"compression", [](Record& r) { r.cycles[0].work_compression = 0; }},
+        FalseWord{"glued", Glue},
+        FalseWord{"unfinished",
+                  [](Record& r) { r.groups[0].status = Cycle::Status::kUnfinished; }}),
     [](const auto& made) {
       std::string name = made.param.told;
       std::erase(name, ' ');

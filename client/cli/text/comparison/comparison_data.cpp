@@ -24,7 +24,7 @@ void Add(const Value& value, CsvWriter* csv) {
   }
 }
 
-Json Number(const Value& value) {
+Json JsonOf(const Value& value) {
   if (const auto* word = std::get_if<std::string>(&value)) return *word;
   const auto* number = std::get_if<double>(&value);
   return number == nullptr || !std::isfinite(*number) ? Json() : Json(*number);
@@ -45,7 +45,7 @@ std::string ComparisonJson(const JobComparison& comparison) {
   json["results"] = Json::array();
   for (const Result& result : comparison.results) {
     Json values = Json::array();
-    for (const Value& value : result.values) values.push_back(Number(value));
+    for (const Value& value : result.values) values.push_back(JsonOf(value));
     json["results"].push_back({{"name", result.name},
                                {"unit", result.unit},
                                {"values", std::move(values)},

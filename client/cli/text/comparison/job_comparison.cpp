@@ -18,8 +18,6 @@
 namespace contact::cli {
 namespace {
 
-using Json = nlohmann::json;
-
 // A JSON pointer as scenario files write paths: `/bodies/0/mass_kg` is `bodies[0].mass_kg`.
 std::string PathOf(const std::string& pointer) {
   std::string path;
@@ -33,7 +31,7 @@ std::string PathOf(const std::string& pointer) {
   return path;
 }
 
-std::string TextOf(const Json& value) {
+std::string TextOf(const nlohmann::json& value) {
   if (value.is_string()) return value.get<std::string>();
   return value.is_number_float() ? fmt::to_string(value.get<double>()) : value.dump();
 }
@@ -43,7 +41,7 @@ std::string TextOf(const Json& value) {
 std::vector<JobComparison::Parameter> Differing(const std::vector<v1::Job>& jobs) {
   std::map<std::string, std::vector<std::string>> all;  // The values of all jobs by path.
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const Json fields = Json::parse(ToJsonLine(jobs[i].scenario())).flatten();
+    const auto fields = nlohmann::json::parse(ToJsonLine(jobs[i].scenario())).flatten();
     for (const auto& [pointer, value] : fields.items()) {
       if (value.is_null()) continue;
       all.try_emplace(PathOf(pointer), jobs.size()).first->second[i] = TextOf(value);

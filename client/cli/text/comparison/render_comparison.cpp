@@ -16,7 +16,7 @@
 namespace contact::cli {
 namespace {
 
-constexpr std::size_t kMostRows = 200;
+constexpr std::size_t kMostResults = 200;
 
 std::vector<Table::Column> Columns(const std::vector<std::string>& headers) {
   std::vector<Table::Column> columns;
@@ -48,7 +48,7 @@ std::string ResultTable(const JobComparison& comparison, const Style& style) {
     row.emplace_back(verdict, ToneOfVerdict(verdict));
     table.Add(std::move(row));
   }
-  return table.Text(style, kMostRows, "… {} more results; -o csv prints all");
+  return table.Text(style, kMostResults, "… {} more results; -o csv prints all");
 }
 
 std::string LatexRow(std::vector<std::string> cells) {

@@ -13,6 +13,7 @@
 namespace contact::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using Row = SignalComparison::Row;
 
 std::string Points(const Row& row) {
@@ -58,7 +59,6 @@ std::string RenderSignals(const SignalComparison& comparison, const Style& style
 }
 
 std::string SignalsJson(const SignalComparison& comparison) {
-  using Json = nlohmann::ordered_json;
   Json json{{"job", comparison.job}, {"file", comparison.file}, {"shift_s", comparison.shift}};
   if (const auto& range = comparison.fitted) json["fitted_between_s"] = {range->low, range->high};
   json["holds"] = comparison.Holds();

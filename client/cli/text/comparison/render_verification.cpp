@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Number = Verification::Number;
 
-constexpr std::size_t kMostRows = 60;
+constexpr std::size_t kMostNumbers = 60;
 
 Json Finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -74,7 +74,7 @@ std::string NumberTable(const Verification& verification, const Style& style) {
     row.emplace_back(number.Holds() ? "ok" : "FAR", number.Holds() ? Tone::kGood : Tone::kBad);
     table.Add(std::move(row));
   }
-  return table.Text(style, kMostRows, "… {} more numbers; -o json prints all");
+  return table.Text(style, kMostNumbers, "… {} more numbers; -o json prints all");
 }
 
 std::string Differences(const Verification& verification, const Style& style) {

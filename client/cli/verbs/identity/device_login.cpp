@@ -12,7 +12,7 @@
 namespace contact::cli {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using std::chrono::seconds;
 
 constexpr seconds kUsualInterval{5};  // RFC 8628, 3.2.
@@ -20,14 +20,14 @@ constexpr seconds kSlower{5};         // RFC 8628, 3.5: added at each slow_down.
 constexpr seconds kLongest{3600};     // Of a wait, whatever the provider says.
 
 // A member that is a text; empty if there is none.
-std::string Text(const json& object, const char* name) {
+std::string Text(const Json& object, const char* name) {
   if (!object.is_object()) return "";
   const auto found = object.find(name);
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 // A member that is a number of seconds.
-seconds Seconds(const json& object, const char* name, seconds otherwise) {
+seconds Seconds(const Json& object, const char* name, seconds otherwise) {
   const auto found = object.find(name);
   if (found == object.end() || !found->is_number()) return otherwise;
   return seconds(static_cast<seconds::rep>(
@@ -53,7 +53,7 @@ bool IsSafe(std::string_view url) {
 }
 
 // The URL that a member of an answer names.
-std::string Endpoint(const std::string& issuer, const json& answer, const char* name) {
+std::string Endpoint(const std::string& issuer, const Json& answer, const char* name) {
   std::string url = Text(answer, name);
   if (url.empty()) Refuse(issuer, fmt::format("offers no {}", name));
   if (!IsSafe(url)) Refuse(issuer, fmt::format("{} {} is not https", name, url));
@@ -61,7 +61,7 @@ std::string Endpoint(const std::string& issuer, const json& answer, const char* 
 }
 
 // What the provider says of itself.
-json Discover(const LoginRequest& request, const LoginTools& tools) {
+Json Discover(const LoginRequest& request, const LoginTools& tools) {
   const std::string base = boost::algorithm::trim_right_copy_if(
       request.issuer, [](char character) { return character == '/'; });
   WebAnswer answer = tools.ask(base + "/.well-known/openid-configuration", nullptr);
@@ -83,7 +83,7 @@ std::string ErrorOf(const WebAnswer& answer) {
   return more.empty() ? error : error + ": " + more;
 }
 
-json AskForCode(const LoginRequest& request, const LoginTools& tools, const std::string& url) {
+Json AskForCode(const LoginRequest& request, const LoginTools& tools, const std::string& url) {
   Form form{{"client_id", request.client_id}, {"scope", request.scope}};
   if (!request.audience.empty()) form["audience"] = request.audience;
   WebAnswer answer = tools.ask(url, &form);
@@ -94,7 +94,7 @@ json AskForCode(const LoginRequest& request, const LoginTools& tools, const std:
   return std::move(answer.body);
 }
 
-void Show(const LoginRequest& request, const LoginTools& tools, const json& code) {
+void Show(const LoginRequest& request, const LoginTools& tools, const Json& code) {
   const bool whole = !Text(code, "verification_uri_complete").empty();
   const std::string uri =
       Endpoint(request.issuer, code, whole ? "verification_uri_complete" : "verification_uri");
@@ -104,7 +104,7 @@ void Show(const LoginRequest& request, const LoginTools& tools, const json& code
 }
 
 // Asks until the user has logged in.
-json AwaitAnswer(const LoginRequest& request, const LoginTools& tools, const json& code,
+Json AwaitAnswer(const LoginRequest& request, const LoginTools& tools, const Json& code,
                  const std::string& url) {
   const Form form{{"grant_type", "urn:ietf:params:oauth:grant-type:device_code"},
                   {"device_code", Text(code, "device_code")},
@@ -142,12 +142,12 @@ LoginToken LogIn(const LoginRequest& request, const LoginTools& tools) {
   if (!IsSafe(request.issuer)) {
     throw Failure(ExitCode::kUsage, "--issuer: is the https:// URL of an identity provider");
   }
-  const json provider = Discover(request, tools);
+  const Json provider = Discover(request, tools);
   const std::string codes = Endpoint(request.issuer, provider, "device_authorization_endpoint");
   const std::string tokens = Endpoint(request.issuer, provider, "token_endpoint");
-  const json code = AskForCode(request, tools, codes);
+  const Json code = AskForCode(request, tools, codes);
   Show(request, tools, code);
-  const json answer = AwaitAnswer(request, tools, code, tokens);
+  const Json answer = AwaitAnswer(request, tools, code, tokens);
   LoginToken token{.text = Text(answer, request.id_token ? "id_token" : "access_token"),
                    .valid = Seconds(answer, "expires_in", seconds(0))};
   if (!IsJwt(token.text)) {
