@@ -13,7 +13,7 @@
 namespace contact {
 namespace {
 
-constexpr double kForever = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 // Gives every cycle the μ of its contact, and keeps what it hears.
 class Host final : public CycleHost {
@@ -50,7 +50,7 @@ class Host final : public CycleHost {
   int columns_ = 0;
 };
 
-Motion::Pause Advance(Motion& motion, Host& host, double until = kForever,
+Motion::Pause Advance(Motion& motion, Host& host, double until = kEndless,
                       StepListener* listener = nullptr) {
   return motion.Advance(until, host, listener, {}, 1'000'000);
 }
@@ -61,7 +61,7 @@ Cycle CycleWith(const Scenario& scenario, double mu, StepListener* listener = nu
   Motion motion(scenario);
   motion.Begin(InitialState(scenario), true, tolerance);
   Host host({mu});
-  EXPECT_EQ(Advance(motion, host, kForever, listener), Motion::Pause::kQuiet);
+  EXPECT_EQ(Advance(motion, host, kEndless, listener), Motion::Pause::kQuiet);
   EXPECT_EQ(host.ended.size(), 1u);
   return host.ended.empty() ? Cycle{} : host.ended[0].cycle;
 }
@@ -190,7 +190,7 @@ TEST(Motion, WorksOfACycleAreTheQuadratureOfItsForce) {
       motion.Begin(InitialState(s), true);
       Host host({mu});
       Quadrature quadrature(motion, s.contacts[0], mu);
-      ASSERT_EQ(Advance(motion, host, kForever, &quadrature), Motion::Pause::kQuiet);
+      ASSERT_EQ(Advance(motion, host, kEndless, &quadrature), Motion::Pause::kQuiet);
       const Cycle& c = host.ended.at(0).cycle;
       EXPECT_NEAR(quadrature.compression / c.work_compression, 1, 1e-8) << n << ' ' << alpha;
       EXPECT_NEAR(quadrature.restitution / c.work_restitution, 1, 1e-8) << n << ' ' << alpha;
@@ -331,7 +331,7 @@ TEST(Motion, ACreepingContactIsFollowedInLongSteps) {
   motion.Begin(InitialState(s), true);
   Host host({Creep::kDamping});
   CreepWatch watch(motion, creep);
-  ASSERT_EQ(Advance(motion, host, kForever, &watch), Motion::Pause::kQuiet);
+  ASSERT_EQ(Advance(motion, host, kEndless, &watch), Motion::Pause::kQuiet);
   const Cycle& c = host.ended.at(0).cycle;
   const double period = 2 * std::numbers::pi / Creep::kOmega;
   const double turn = creep.Turn(0.1 * period, 0.7 * period);
@@ -380,7 +380,7 @@ TEST(Motion, AnUndampedRowKeepsEnergyAndMomentumInEveryStep) {
   motion.Begin(InitialState(s), true);
   Host host({0, 0, 0});
   Balances balances(motion);
-  EXPECT_EQ(Advance(motion, host, kForever, &balances), Motion::Pause::kQuiet);
+  EXPECT_EQ(Advance(motion, host, kEndless, &balances), Motion::Pause::kQuiet);
   EXPECT_GT(balances.steps, 20);
   EXPECT_GE(host.steps, balances.steps);  // It hears of those too that begin in an event.
 }

@@ -7,6 +7,7 @@
 
 #include "simulation/clusters/cluster_state.h"
 #include "simulation/course/telling.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 namespace {
@@ -30,8 +31,6 @@ constexpr double kAhead = 3;
 // A flight within a piece, of bodies at rest, lasts at most this part of the run: so far behind may
 // be what is told, and so often is the rest looked at.
 constexpr double kLongest = 1.0 / 64;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 void Include(const std::vector<int>& more, std::vector<int>* in) {
   for (const int body : more) {
@@ -416,7 +415,7 @@ void ClusterRun::Restore(const RunState& from) {
 double ClusterRun::Energy() const {
   std::vector<double> velocities;
   for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {
-    velocities.push_back(world_.At(b, run_.state.time).v);
+    velocities.push_back(world_.PlaceOf(b, run_.state.time).v);
   }
   double energy = KineticEnergy(scenario_, velocities);
   for (int c = 0; c < std::ssize(scenario_.contacts); ++c) {
@@ -430,7 +429,7 @@ double ClusterRun::Momentum() const {
   double momentum = 0;
   for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {
     const Body& body = scenario_.bodies[At(b)];
-    if (!body.fixed) momentum += body.mass * world_.At(b, run_.state.time).v;
+    if (!body.fixed) momentum += body.mass * world_.PlaceOf(b, run_.state.time).v;
   }
   return momentum;
 }
@@ -440,7 +439,7 @@ void ClusterRun::Scale() {
   double momentum = 0;
   for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {
     const Body& body = scenario_.bodies[At(b)];
-    if (!body.fixed) momentum += body.mass * std::abs(world_.At(b, run_.state.time).v);
+    if (!body.fixed) momentum += body.mass * std::abs(world_.PlaceOf(b, run_.state.time).v);
   }
   run_.momentum_scale = std::max(run_.momentum_scale, momentum);
   run_.energy_scale = std::max(run_.energy_scale, Energy());
@@ -450,7 +449,7 @@ void ClusterRun::Summarize() {
   Outcome& outcome = run_.outcome;
   outcome.time = run_.state.time;
   for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {
-    const Place place = world_.At(b, outcome.time);
+    const Place place = world_.PlaceOf(b, outcome.time);
     outcome.positions.push_back(scenario_.bodies[At(b)].position + place.u);
     outcome.velocities.push_back(place.v);
   }
@@ -466,7 +465,7 @@ void ClusterRun::Summarize() {
   double work = 0, impulse = 0;
   for (const Load& load : scenario_.loads) {
     if (scenario_.bodies[At(load.body)].fixed) continue;
-    work += load.constant * world_.At(load.body, outcome.time).u;
+    work += load.constant * world_.PlaceOf(load.body, outcome.time).u;
     impulse += load.constant * outcome.time;
   }
   run_.energy_scale = std::max(run_.energy_scale, std::abs(work));

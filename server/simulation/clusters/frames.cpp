@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "simulation/model/index.h"
+
 namespace contact {
-namespace {
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
     : world_(world),
       scenario_(world.scenario()),
@@ -69,7 +65,7 @@ void Frames::FindForces(double instant, const Pieces& pieces) {
 
 void Frames::Append(double instant, const Pieces& pieces, std::vector<double>* row) {
   for (std::size_t b = 0; b < places_.size(); ++b) {
-    places_[b] = world_.At(static_cast<int>(b), instant);
+    places_[b] = world_.PlaceOf(static_cast<int>(b), instant);
     velocities_[b] = places_[b].v;
     row->push_back(scenario_.bodies[b].position + places_[b].u);
     row->push_back(places_[b].v);

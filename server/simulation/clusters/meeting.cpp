@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <numeric>
 
+#include "simulation/model/index.h"
+
 namespace contact {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr double kSoon = 1;
 // An overlap that is a meeting [m]. What is less stores no energy that counts: k δ² of 1e9 N/m is
 // 1e-17 J.
 constexpr double kOverlap = 1e-13;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // Sets that are joined two by two.
 class Sets {
@@ -74,7 +74,7 @@ class Path {
   }
 
   Place At(double instant) const {
-    if (piece_ == nullptr) return world_.At(body_, instant);
+    if (piece_ == nullptr) return world_.PlaceOf(body_, instant);
     if (instant >= after_.time) return after_.At(instant);
     return piece_->trace.At(place_, piece_->trace.StepAt(instant), instant);
   }

@@ -7,11 +7,10 @@
 #include "simulation/course/cut_cycles.h"
 #include "simulation/course/telling.h"
 #include "simulation/course/whereabouts.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 namespace {
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // Place of a number in an ascending list that has it.
 int Find(const std::vector<int>& in, int what) {

@@ -57,14 +57,14 @@ double World::Gap(int contact, const Place& left, const Place& right) const {
 
 World::Distance World::DistanceAt(int contact, double instant) const {
   const Contact& c = scenario_.contacts[At(contact)];
-  const Place left = At(c.left, instant), right = At(c.right, instant);
+  const Place left = PlaceOf(c.left, instant), right = PlaceOf(c.right, instant);
   return {Gap(contact, left, right), left.v - right.v};
 }
 
 double World::Noise(int contact, double instant) const {
   const Contact& c = scenario_.contacts[At(contact)];
-  const double size = std::abs(gaps_[At(contact)]) + std::abs(At(c.left, instant).u) +
-                      std::abs(At(c.right, instant).u);
+  const double size = std::abs(gaps_[At(contact)]) + std::abs(PlaceOf(c.left, instant).u) +
+                      std::abs(PlaceOf(c.right, instant).u);
   return kNoise * size;
 }
 
@@ -75,7 +75,7 @@ double World::Approach(int contact) const {
   return std::abs(left - right) <= noise ? 0 : left - right;
 }
 
-Place World::At(int body, double instant) const {
+Place World::PlaceOf(int body, double instant) const {
   if (!Moves(body)) return {};
   const std::vector<Station>& stations = stations_[At(body)];
   auto at = stations.end() - 1;

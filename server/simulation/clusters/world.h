@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulation/clusters/piece.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 
@@ -42,7 +43,7 @@ class World {
   double Noise(int contact, double instant) const;
 
   /// Where a body is at an instant [s]. What does not move is at 0.
-  Place At(int body, double instant) const;
+  Place PlaceOf(int body, double instant) const;
   const std::vector<Station>& StationsOf(int body) const { return stations_[At(body)]; }
   /// The last piece of a body; null if it has moved in none since what was forgotten.
   const Piece* LastPiece(int body) const;
@@ -76,7 +77,6 @@ class World {
 
  private:
   void Wait(const std::vector<Waiting>& groups);
-  static std::size_t At(int index) { return static_cast<std::size_t>(index); }
   bool Moves(int body) const { return body != kNone && !scenario_.bodies[At(body)].fixed; }
   void ContactsAmong(const std::vector<int>& bodies, Cast* cast) const;
   void Touch(int touch, Cast* cast) const;

@@ -12,10 +12,10 @@ namespace {
 constexpr double kRoot = 1e-4;
 // Relative error of the passes that look, with brackets wider than this part of μ: a pass moves a
 // jump by some times its error. Those that decide are as exact as the scenario asks.
-constexpr double kCoarse = 1e-6, kWide = 1e-3;
+constexpr double kCoarseTolerance = 1e-6, kWide = 1e-3;
 // Where the group was nearer than this its root is looked for nearby, so much further off than an
 // isolated collision has it, as a power.
-constexpr double kClose = 0.5, kBeyond = 1.5;
+constexpr double kClose = 0.5, kBeyondRoot = 1.5;
 constexpr double kGrow = 4;  // Factor between two μ in search of a bracket.
 constexpr int kMostGrows = 12;
 // A scan begins at this part of the first guess, goes on by this factor, so often at most.
@@ -32,12 +32,11 @@ constexpr double kNarrow = 1e-6, kApart = 3e-3;
 // to fall so many times as fast as it did,
 constexpr double kCreeps = 0.05, kSteeper = 4;
 // one so narrow parts troughs that are so far apart, in durations of the group,
-constexpr double kBlurred = 1e-3, kElsewhere = 0.05;
+constexpr double kBlurredRoot = 1e-3, kElsewhere = 0.05;
 // and one so narrow has no root whatever is in it.
 constexpr double kNarrowest = 1e-11;
 // How much longer than before a trial may last, in durations of the group.
-constexpr double kLonger = 10;
-constexpr double kForever = 1e300;
+constexpr double kLongerPass = 10;
 
 }  // namespace
 
@@ -75,8 +74,8 @@ Root Bisection::Finish(Root root) {
 Root Bisection::Solve(const GroupSight& group, bool sharply) {
   group_ = group;
   sharply_ = sharply;
-  until_ = group.end_time + kLonger * (group.end_time - group.start_time);
-  error_ = kCoarse;
+  until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
+  error_ = kCoarseTolerance;
   const Root root = Exactly(Look());
   return root == Root::kFound || root == Root::kAborted ? root : Finish(root);
 }
@@ -93,7 +92,7 @@ Root Bisection::Exactly(Root root) {
 bool Bisection::Scan(const GroupSight& group) {
   group_ = group;
   until_ = kForever;
-  error_ = kCoarse;
+  error_ = kCoarseTolerance;
   sharply_ = true;
   const Unknown kept = problem_.groups.At(group.id);
   Point last = At(0);
@@ -116,7 +115,7 @@ bool Bisection::HasRoot(const Point& from, const Point& to, int depth) {
   if ((from.excess > 0) != (to.excess > 0)) {
     Keep(from), Keep(to);
     const bool found = Exactly(Narrow()) == Root::kFound;
-    error_ = kCoarse;
+    error_ = kCoarseTolerance;
     return found;
   }
   if (depth == 0 || problem_.Aborted()) return false;
@@ -174,7 +173,7 @@ void Bisection::Keep(const Point& point) {
 bool Bisection::HasNone() const {
   const double width = std::abs(less_.mu - more_.mu), mu = std::max(less_.mu, more_.mu);
   if (!less_.ended && width <= kCreeps * mu) return more_.excess > kSteeper * fall_ * width;
-  if (width <= kBlurred * mu && !sharply_ && PartsTroughs()) return true;
+  if (width <= kBlurredRoot * mu && !sharply_ && PartsTroughs()) return true;
   const bool apart = more_.excess > kApart && less_.excess < -kApart;
   return width <= (apart ? kNarrow : kNarrowest) * mu;
 }
@@ -191,7 +190,7 @@ void Bisection::Approach(const Point& first) {
   const double in = group_.restitution_in, out = in * std::sqrt(1 + first.excess);
   if (out >= 1) return;
   const double ratio = ExactCoefficient(in) / ExactCoefficient(out);
-  const Point beyond = At(first.mu * std::pow(ratio, kBeyond));
+  const Point beyond = At(first.mu * std::pow(ratio, kBeyondRoot));
   if (beyond.there) Keep(beyond);
 }
 
@@ -231,7 +230,7 @@ Root Bisection::Narrow() {
   for (int i = 0; i < kHalvings && !HasNone(); ++i) {
     const double width = less_.mu - more_.mu;
     const double wide = std::abs(width) / (kWide * std::max(less_.mu, more_.mu));
-    if (error_ > 0) error_ = kCoarse * std::min(1.0, wide);
+    if (error_ > 0) error_ = kCoarseTolerance * std::min(1.0, wide);
     const double weight = more_.excess / (more_.excess - weight_of_less * less_.excess);
     const bool far = more_.mu > 0 && less_.mu > 10 * more_.mu;
     const double half = far ? std::sqrt(more_.mu * less_.mu) : more_.mu + 0.5 * width;

@@ -34,7 +34,6 @@ constexpr int kUndone = 2;
 // of fronts of a few groups all are solved at once.
 constexpr double kAstray = 0.5;
 constexpr std::size_t kFew = 6;
-constexpr double kForever = 1e300;
 // A miss that may be the error of the first, coarse look: it sees an isolated collision, whose
 // guess is exact, miss by 1.02e-6 at ε = 0.9. The recording tells whether it is more.
 constexpr double kNoise = 3e-6;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulation/laws/isolated_collision.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 namespace {
@@ -18,12 +19,10 @@ constexpr double kSwing = 0.3;
 constexpr double kAlone = 6;
 // A speed is nothing beside one that is so many times it. Touching bodies of almost one speed meet
 // with 1e-7 of the others' and less (nearspeeds of the machines).
-constexpr double kNothing = 1e5;
+constexpr double kFarSlower = 1e5;
 // Times after which loads are looked at: each is a fourth of the next, from 1e-12 of what is left.
 constexpr double kFiner = 0.25;
 constexpr int kFinest = 20;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // The speed with which a contact swings through the equilibrium of a load, ω δ_eq.
 double SwingSpeed(const Contact& contact, double effective_mass, double force) {
@@ -78,9 +77,9 @@ double FirstGuess::Sought(const ContactState& state, double alpha, double own,
   if (own == 0 && state.last_mu > 0 && !state.woken) return state.last_mu;
   double speed = std::max(
       {own, NeighbourSpeed(state.cycle.contact), SpeedAround(state.cycle, effective_mass)});
-  if (own > 0 && 2 * FastestBody() > kNothing * speed) {
+  if (own > 0 && 2 * FastestBody() > kFarSlower * speed) {
     const double behind = SpeedBehind(state.cycle, effective_mass);
-    if (behind > kNothing * speed) speed = behind;
+    if (behind > kFarSlower * speed) speed = behind;
   }
   if (speed == 0) speed = fastest_;
   const double swing = std::max(SwingSpeed(contact, effective_mass, external_force),

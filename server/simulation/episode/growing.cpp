@@ -9,7 +9,6 @@
 namespace contact {
 namespace {
 
-constexpr double kForever = 1e300;
 // Parts of its μ with which a group that does not end is tried.
 constexpr std::array<double, 5> kLower = {0.5, 0.2, 0.05, 1e-2, 1e-4};
 

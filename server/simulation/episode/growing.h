@@ -27,7 +27,7 @@ class Growing {
   bool Force(const std::vector<GroupId>& front);
   /// Takes up again a group that begins `before` [s] and was found to have no solution, where that
   /// does not hold with what is now around it. False: there is none.
-  bool Reopen(const Sight& scan, double before = 1e300);
+  bool Reopen(const Sight& scan, double before = kForever);
   /// A group that did not end in a scan: its μ is lowered until it does. False: nothing changes.
   bool Close(const Sight& scan);
 

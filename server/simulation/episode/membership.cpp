@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/model/index.h"
+
 namespace contact {
 namespace {
 
 // A guess that is off by more than this, relative, is poor; it is made again so often at most, for
 // what was solved with it is lost.
-constexpr double kPoor = 0.2;
+constexpr double kPoorShare = 0.2;
 constexpr int kGuesses = 2;
 // A contact does not rest for less than this part of the cycle before.
 constexpr double kSoon = 0.1;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
@@ -87,7 +87,7 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
 // end. In packings guesses follow from loads, and stay.
 void Membership::Guess(Unknown& unknown, double mu) const {
   if (unknown.kept && IsSought(scenario_, unknown.id.contact)) {
-    const bool poor = std::abs(mu - unknown.mu) > kPoor * unknown.mu;
+    const bool poor = std::abs(mu - unknown.mu) > kPoorShare * unknown.mu;
     if (!poor || packing_ || unknown.id.place > 1 || unknown.guesses == kGuesses) return;
     ++unknown.guesses;
   }

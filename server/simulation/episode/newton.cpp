@@ -10,7 +10,6 @@
 namespace contact {
 namespace {
 
-constexpr double kForever = 1e300;
 // A step is shortened by this factor while it does not make the merit fall enough,
 constexpr double kShorter = 0.35;
 // so often at most: 1.5 % of a Newton step that does not help is no descent worth its passes.
@@ -23,11 +22,11 @@ constexpr double kLeast = -0.8, kMost = 4;
 constexpr double kOpen = 10;
 // Error that a pass may have, in units of the miss that is expected of it. A step that works has
 // an error some 10 times the tolerance.
-constexpr double kNoise = 1e-3;
+constexpr double kMissNoise = 1e-3;
 // A miss below which the last Jacobian, updated, leads as well as a true one, for less where there
 // are more than a few unknowns.
-constexpr double kNear = 0.01;
-constexpr std::size_t kFew = 4;
+constexpr double kNearRoot = 0.01;
+constexpr std::size_t kFewUnknowns = 4;
 // Where the merit falls to this part they lead on, too.
 constexpr double kLeap = 0.1;
 // Part of the goal below which a miss that is expected is none.
@@ -94,7 +93,7 @@ Sight Newton::Look(const std::vector<GroupId>& front, bool sensitive, double exp
   const bool last = curvature_ * expected * expected <= kSure * goal_;
   const bool exact = goal_ <= problem_.tolerance() && last;
   bool coarse = !exact && (coarse_ || expected > kBlurred);
-  const double tolerance = coarse ? kNoise * (last ? goal_ : std::max(expected, goal_)) : 0;
+  const double tolerance = coarse ? kMissNoise * (last ? goal_ : std::max(expected, goal_)) : 0;
   Sight sight = problem_.Evaluate(front, sensitive, horizon, tolerance);
   if (coarse && Overlooks(front, sight)) {
     coarse = false;
@@ -242,7 +241,7 @@ Found Newton::Correct(const std::vector<GroupId>& front, Sight& now) {
   const Eigen::VectorXd step = Step();
   if (Sinks(front, step)) return Found::kStalled;
   const double worst = Worst(front, now), merit = Merit(front, now), horizon = Horizon(front, now);
-  const bool few = front.size() <= kFew, near = worst < kNear && !few;
+  const bool few = front.size() <= kFewUnknowns, near = worst < kNearRoot && !few;
   double part = 1;
   for (int i = 0; i < (true_ ? kShortenings : 1); ++i, part *= kShorter) {
     Move(front, now, part * step);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "simulation/episode/front.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 namespace {
@@ -34,8 +35,6 @@ constexpr double kStillWeak = 10;
 // end: with the μ of the cycle before it lasts for two cycles, which are not negligible, and with
 // its own μ for one, which is.
 constexpr int kMostFlips = 3;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 void Add(Eigen::ArrayXd& sum, const Eigen::ArrayXd& gradient) {
   const Eigen::Index known = sum.size();

@@ -9,6 +9,9 @@
 
 namespace contact {
 
+/// Later than any end [s]; more than any miss.
+inline constexpr double kForever = 1e300;
+
 /// One pass through the motion with the μ of the groups, and what it shows of them.
 class Pass final : public CycleHost {
  public:
@@ -17,7 +20,7 @@ class Pass final : public CycleHost {
     double tolerance = 0;             ///< Relative, of the integration; 0: the scenario's.
     double end = 0;                   ///< Of the run: what begins later is no matter of the search.
     double far = kNever;              ///< So far beyond that end it follows a few cycles only [s].
-    double until = 1e300;             ///< It goes no further [s].
+    double until = kForever;          ///< It goes no further [s].
     int most_cycles = 1;              ///< It ends when so many have begun.
     bool first_quiet = false;         ///< It ends at the first instant at which no cycle runs.
     bool guess = false;               ///< It guesses anew what was only guessed.

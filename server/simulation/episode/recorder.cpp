@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "simulation/episode/run_state.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 namespace {
@@ -17,8 +18,6 @@ constexpr double kRecorded = 2;
 // round-off leave in weak cycles. Of the kinetic energy where a cycle begins at rest, relative to
 // W_c. A work of this part of the energy of all is nothing: its row proves nothing.
 constexpr double kIdentity = 10, kLeastIdentity = 1e-7, kAtRest = 1e-8, kNothing = 1e-10;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 double Ratio(double work_compression, double work_restitution) {
   const double squared = -work_restitution / work_compression;

@@ -6,11 +6,10 @@
 
 #include "simulation/laws/isolated_collision.h"
 #include "simulation/model/derived.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 namespace {
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // The forces on a body that depend on its position and on time alone.
 struct Forces {

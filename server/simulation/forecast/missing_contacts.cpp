@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "simulation/model/derived.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 namespace {
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // The indices of the bodies from left to right.
 std::vector<int> InOrder(const Scenario& scenario) {

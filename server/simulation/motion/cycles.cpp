@@ -7,6 +7,7 @@
 
 #include "simulation/laws/isolated_collision.h"
 #include "simulation/model/derived.h"
+#include "simulation/model/index.h"
 #include "simulation/motion/cycle_works.h"
 
 namespace contact {
@@ -17,8 +18,6 @@ constexpr double kLetGo = 0.05;
 // The scale to which a resting contact is integrated, relative to its deformation; and that to
 // which any is that begins compressed: what swings less is negligible, or soon will be.
 constexpr double kRestingScale = 1e-3, kLeastScale = 1e-5;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // Whether a cycle that ends at `time` is none: it has no duration, or began at δ = 0 and did no
 // work in compression, so that it has none to give back.

@@ -5,14 +5,9 @@
 
 #include "simulation/methods/rows.h"
 #include "simulation/model/derived.h"
+#include "simulation/model/index.h"
 
 namespace contact {
-namespace {
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 ActiveContact::Force ActiveContact::General(double deformation, double rate) const {
   const Power n(deformation, exponent);
   Power p = n;

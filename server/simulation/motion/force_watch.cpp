@@ -4,13 +4,9 @@
 #include <boost/math/tools/minima.hpp>
 #include <cstddef>
 
+#include "simulation/model/index.h"
+
 namespace contact {
-namespace {
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 void ForceWatch::Observe(const ActiveContact& active) {
   const int n = system_.equations.bodies();
   Cycle& cycle = system_.contacts[At(active.contact)].cycle;

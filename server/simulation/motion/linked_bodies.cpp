@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "simulation/model/index.h"
+
 namespace contact {
 namespace {
 
 // Bodies further apart, in places, are not coupled in linear systems: the band stays narrow.
 constexpr std::ptrdiff_t kFar = 8;
-
-std::size_t At(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 

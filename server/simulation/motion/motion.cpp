@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "simulation/model/index.h"
+
 namespace contact {
 namespace {
 
 constexpr int kMaxEventsAtOnce = 1000;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 

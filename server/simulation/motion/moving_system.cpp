@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "simulation/model/index.h"
+
 namespace contact {
 namespace {
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // What makes implicit steps cheapest: 4 at a tolerance of 1e-6, 7 at 1e-11.
 int ImplicitOrder(double tolerance) {

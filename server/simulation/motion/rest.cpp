@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "simulation/laws/power.h"
+#include "simulation/model/index.h"
 
 namespace contact {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 constexpr double kWakeFactor = 4, kGone = 0.5;
 // Part of that work up to which what comes may be its cause.
 constexpr double kNegligible = 1.0 / 16;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // k δⁿ and its slope.
 Power Stress(const Contact& contact, double deformation) {

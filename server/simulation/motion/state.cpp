@@ -4,14 +4,9 @@
 #include <cstddef>
 
 #include "simulation/model/derived.h"
+#include "simulation/model/index.h"
 
 namespace contact {
-namespace {
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 bool IsPacking(const Scenario& scenario) {
   return !scenario.loads.empty() || !scenario.supports.empty() ||
          scenario.contacts.size() >= scenario.bodies.size();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "simulation/model/index.h"
 #include "simulation/motion/rest.h"
 
 namespace contact {
@@ -16,8 +17,6 @@ constexpr double kShort = 1e-3;
 // A separation that is this part of its cycle away is now: in a step that short round-off of δ
 // decides what happens to other contacts.
 constexpr double kInstant = 1e-10;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 

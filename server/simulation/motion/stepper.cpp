@@ -5,6 +5,8 @@
 #include <concepts>
 #include <limits>
 
+#include "simulation/model/index.h"
+
 namespace contact {
 namespace {
 
@@ -31,8 +33,6 @@ constexpr double kFaint = 0.1;
 // of its duration.
 constexpr double kPart = 0.25, kShortest = 1e-9;
 constexpr double kForever = std::numeric_limits<double>::infinity();
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 // By value, which std::max is not: it makes branches of what is one instruction.
 double Largest(double a, double b) { return a < b ? b : a; }
