@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "simulation/episode/front.h"
 #include "simulation/episode/run_state.h"
@@ -71,6 +72,12 @@ int Answered(const Groups& groups) {
   }));
 }
 
+// Whether the march takes the place of fronts.
+bool Marches() {
+  static const bool marches = std::getenv("CONTACT_MARCH") != nullptr;
+  return marches;
+}
+
 }  // namespace
 
 EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer)
@@ -80,6 +87,7 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       newton_(problem_, log_),
       bisection_(problem_),
       growing_(problem_, log_, bisection_),
+      march_(problem_, log_, growing_, bisection_),
       paper_(problem_, log_),
       recorder_(scenario, motion, observer, problem_.groups) {}
 
@@ -132,6 +140,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
     const Found found = paper_.Solve(kPaperCycles, scenario_.solver.max_iterations);
     return found == Found::kAborted ? problem_.pause() : Motion::Pause::kQuiet;
   }
+  if (Marches()) return MarchOn();
   const auto running = static_cast<int>(std::ranges::count_if(
       start.contacts, [](const ContactState& c) { return c.phase == Phase::kRestitution; }));
   window_.Begin(start.time, running, Answered(problem_.groups),
@@ -183,6 +192,15 @@ Sight EpisodeSolver::Scan(bool coarse) {
     if (sight.time >= problem_.end()) problem_.groups.NoteCut(sight, problem_.end());
     if (!changed || i == kRescans || problem_.Aborted()) return sight;
   }
+}
+
+Motion::Pause EpisodeSolver::MarchOn() {
+  const March::End end = march_.Solve(rejected_);
+  tentative_ = end.tentative;
+  if (!tentative_ && end.pause == Motion::Pause::kQuiet && end.until < kNever) {
+    return Record(end.sight, end.until);
+  }
+  return end.pause;
 }
 
 Motion::Pause EpisodeSolver::Search() {

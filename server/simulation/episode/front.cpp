@@ -102,4 +102,15 @@ bool FrontIsComplete(const Sight& sight, const Groups& groups, double tolerance,
   return span.start < span.end && span.closed;
 }
 
+bool MissIsComplete(const Sight& sight, const Groups& groups, double tolerance, double end,
+                    std::size_t few) {
+  const Span span = FrontSpan(sight, groups, tolerance, end);
+  if (!(span.start < span.end)) return false;
+  if (span.closed) return true;
+  const auto in = [&](const GroupSight& g) {
+    return g.sought && !g.weak && g.start_time < end && span.Meets(g);
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(sight.groups, in)) > few;
+}
+
 }  // namespace contact
