@@ -243,9 +243,11 @@ Motion::Pause EpisodeSolver::Search() {
   return Motion::Pause::kQuiet;
 }
 
-// What begins before `until` has its answer.
+// What begins before `until` has its answer. Where the pass paused for itself, so will the
+// recording: told to end there, it may end a rounding before the event, and that again and again.
 Motion::Pause EpisodeSolver::Record(const Sight& sight, double until) {
-  if (until < problem_.end()) record_until_ = until;
+  const bool pauses = sight.pause == Motion::Pause::kQuiet && until >= sight.time;
+  if (until < problem_.end() && !pauses) record_until_ = until;
   solved_until_ = until - kAtOnce * (until - problem_.start_time());
   log_.Accept(sight);
   return Motion::Pause::kQuiet;

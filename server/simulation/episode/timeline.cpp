@@ -73,10 +73,25 @@ std::vector<GroupId> Timeline::Solved(double least, double most) const {
   return InOrderOfEnds(in);
 }
 
+// Whether all groups that overlap it have ended, before the first miss does, and all that overlap
+// these have ended: what is still a guess, or grows late, changes all that it overlaps.
+bool Timeline::IsForeseen(const GroupSight& of, const GroupSight* miss) const {
+  double end = of.end_time;
+  for (const GroupSight& g : sight_.groups) {
+    if (g.start_time >= of.end_time || !g.sought) continue;
+    const bool guessed = miss != nullptr && g.end_time >= miss->end_time && MayChange(g);
+    if (!g.ended || guessed) return false;
+    end = std::max(end, g.end_time);
+  }
+  return std::ranges::all_of(sight_.groups, [&](const GroupSight& g) {
+    return g.ended || !g.sought || g.start_time >= end;
+  });
+}
+
 double Timeline::FinalUntil(const GroupSight* miss) const {
   double final = miss != nullptr ? miss->start_time : sight_.time;
   const auto is_final = [&](const GroupSight& g) {
-    return g.ended && (g.end_time <= final || settled_(g.id));
+    return g.ended && (g.end_time <= final || (settled_(g.id) && IsForeseen(g, miss)));
   };
   for (bool earlier = true; earlier;) {
     earlier = false;

@@ -30,6 +30,7 @@ class Timeline {
 
  private:
   std::vector<GroupId> Overlapping(const GroupSight& miss, double until, bool settled) const;
+  bool IsForeseen(const GroupSight& group, const GroupSight* miss) const;
   bool MayChange(const GroupSight& group) const;
 
   const Sight& sight_;
