@@ -159,16 +159,20 @@ std::optional<March::End> March::Polish(const Sight& sight, const GroupSight* mi
   if (end == Hybrid::End::kUnseen) return End{.until = problem_.end(), .tentative = true};
   if (end == Hybrid::End::kLimit) GiveUp(open);
   if (end == Hybrid::End::kSolved) Settle(open);
-  if (end != Hybrid::End::kStalled) return {};
-  const Sight exact = Look();
-  if (problem_.Aborted()) return {};
-  const GroupSight* first = Read(exact).FirstMiss(goal);
-  if (first == nullptr) return {};
-  const Ids block = Read(exact).Block(*first, kSearch.at_once, kSearch.block);
-  const Hybrid::End strict = SolveBlock(block, nullptr, goal, Precision::kExact);
-  if (strict == Hybrid::End::kLimit) GiveUp(block);
-  if (strict == Hybrid::End::kStalled) Verdict(*first, block);
+  if (end == Hybrid::End::kStalled) SolveStrictly();
   return {};
+}
+
+// One group after the other to the scenario's tolerance, up to where the march has not been: what
+// is solved ahead to less may have no solution.
+void March::SolveStrictly() {
+  while (!problem_.Aborted()) {
+    coarse_ = false;
+    const Sight exact = next_ ? *std::exchange(next_, {}) : Look();
+    const GroupSight* first = Read(exact).FirstMiss(problem_.tolerance());
+    const bool ahead = first == Read(exact).FirstMiss(kSearch.ahead_miss);
+    if (ahead || !SolveFirst(exact, *first, problem_.tolerance(), Precision::kExact)) return;
+  }
 }
 
 // A group is settled if what was solved since it was polished last has not moved its μ.
@@ -183,26 +187,33 @@ void March::Settle(const Ids& ids) {
 
 // Solves the first group that misses with what overlaps it, well enough to go on.
 void March::Advance(const Sight& sight, const GroupSight& miss) {
-  const Timeline timeline = Read(sight);
-  const double goal = kSearch.ahead_miss;
   ++ahead_;
   coarse_ = true;
+  SolveFirst(sight, miss, kSearch.ahead_miss, Precision::kAhead);
+  if (next_ == std::nullopt) coarse_ = true;
+}
+
+// Solves a group with what overlaps it, few of these at once if that helps; false: it stalls, and
+// has its verdict.
+bool March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how) {
+  const Timeline timeline = Read(sight);
   const GroupSight group = miss;
-  for (const std::size_t few : {kSearch.at_once, std::size_t{0}}) {
-    const Ids block = timeline.Block(miss, few, kSearch.block);
-    if (few == 0 && block == timeline.Block(miss, kSearch.at_once, kSearch.block)) continue;
-    const Sight* seen = !sight.exact && Has(block, sight) ? &sight : nullptr;
-    const Hybrid::End end = SolveBlock(block, seen, goal, Precision::kAhead);
-    const bool overlooked = end == Hybrid::End::kSolved && steps_ == 0 && sight.exact;
-    if (end == Hybrid::End::kLimit) GiveUp(block);
-    if (problem_.Aborted() || (end != Hybrid::End::kStalled && !overlooked)) return;
-  }
   const Ids block = timeline.Block(miss, 0, kSearch.block);
-  if (miss_ < kSearch.blurred) {
-    const Hybrid::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
-    if (problem_.Aborted() || end != Hybrid::End::kStalled) return;
+  const Ids wide = timeline.Block(miss, kSearch.at_once, kSearch.block);
+  const bool ahead = how == Precision::kAhead;
+  for (const Ids& ids : block == wide ? std::vector<Ids>{block} : std::vector<Ids>{wide, block}) {
+    const Sight* seen = sight.exact != ahead && Has(ids, sight) ? &sight : nullptr;
+    const Hybrid::End end = SolveBlock(ids, seen, goal, how);
+    const bool overlooked = end == Hybrid::End::kSolved && steps_ == 0 && sight.exact && ahead;
+    if (end == Hybrid::End::kLimit) GiveUp(ids);
+    if (problem_.Aborted() || (end != Hybrid::End::kStalled && !overlooked)) return true;
   }
-  Verdict(group, block);
+  if (ahead && miss_ < kSearch.blurred) {
+    const Hybrid::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
+    if (problem_.Aborted() || end != Hybrid::End::kStalled) return true;
+  }
+  Verdict(group, block, goal, how);
+  return false;
 }
 
 // Whether this pass has the slopes of a block.
@@ -233,7 +244,8 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   Block block(problem_, log_, ids, ahead, kSearch.ahead_miss);
   const Eigen::VectorXd before = block.Mu();
   Residuals::Value value = seen != nullptr ? block.Begin(*seen) : block.Begin();
-  if (seen != nullptr && !ahead && value.valid) {  // What is coarse leads to where it is exact.
+  if (seen != nullptr && !seen->exact && !ahead &&
+      value.valid) {  // What is coarse leads to where it is exact.
     block.Set(block.Moved(before, Step(value)));
     value = block.Begin();
   }
@@ -281,7 +293,7 @@ void March::Freeze(const Ids& ids, const Sight& sight) {
 }
 
 // The block of a group stalls: what the group alone comes to, with all others held, decides.
-void March::Verdict(const GroupSight& seen, const Ids& ids) {
+void March::Verdict(const GroupSight& seen, const Ids& ids, double goal, Precision how) {
   const Sight sight = problem_.Evaluate(ids, false, kNever);
   if (problem_.Aborted()) return;
   const GroupSight* found = sight.Find(seen.id);
@@ -290,7 +302,7 @@ void March::Verdict(const GroupSight& seen, const Ids& ids) {
   const Root root = bisection_.Solve(group, !grows);
   if (problem_.Aborted()) return;
   if (root == Root::kFound && tries_[group.id]++ < kSearch.tries) {
-    SolveBlock(ids, nullptr, kSearch.ahead_miss, Precision::kAhead);
+    SolveBlock(ids, nullptr, goal, how);
   } else {
     Grow(group, root);
   }

@@ -52,7 +52,9 @@ class March {
   void Settle(const Ids& ids);
   bool Has(const Ids& ids, const Sight& sight) const;
   void Freeze(const Ids& ids, const Sight& sight);
-  void Verdict(const GroupSight& seen, const Ids& ids);
+  void SolveStrictly();
+  bool SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how);
+  void Verdict(const GroupSight& seen, const Ids& ids, double goal, Precision how);
   void Grow(const GroupSight& group, Root root);
   void GiveUp(const Ids& ids);
 
