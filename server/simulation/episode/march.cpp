@@ -203,12 +203,14 @@ bool March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
   const bool ahead = how == Precision::kAhead;
   for (const Ids& ids : block == wide ? std::vector<Ids>{block} : std::vector<Ids>{wide, block}) {
     const Sight* seen = sight.exact != ahead && Has(ids, sight) ? &sight : nullptr;
-    const Hybrid::End end = SolveBlock(ids, seen, goal, how);
-    const bool overlooked = end == Hybrid::End::kSolved && steps_ == 0 && sight.exact && ahead;
+    blurs_ = false;
+    const Hybrid::End end =
+        SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &group : nullptr);
     if (end == Hybrid::End::kLimit) GiveUp(ids);
-    if (problem_.Aborted() || (end != Hybrid::End::kStalled && !overlooked)) return true;
+    if (problem_.Aborted() || (end != Hybrid::End::kStalled)) return true;
+    if (blurs_) break;
   }
-  if (ahead && miss_ < kSearch.blurred) {
+  if (ahead && (blurs_ || miss_ < kSearch.blurred)) {
     const Hybrid::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
     if (problem_.Aborted() || end != Hybrid::End::kStalled) return true;
   }
@@ -235,8 +237,15 @@ std::vector<bool> March::Moves(const Residuals::Value& value, double goal) {
   return moves;
 }
 
+// Whether a coarse pass does not show what an exact one has shown with the same μ.
+bool March::Blurs(const Sight& coarse, const GroupSight& exact, double goal) {
+  const GroupSight* g = coarse.Find(exact.id);
+  if (g == nullptr || !g->ended || g->weak) return true;
+  return !(std::abs(g->Miss()) > goal && std::abs(g->Miss() / exact.Miss() - 1) < kSearch.alike);
+}
+
 Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
-                              double unseen) {
+                              double unseen, const GroupSight* shown) {
   const bool ahead = precision == Precision::kAhead;
   coarse_ = ahead;
   next_.reset();
@@ -251,6 +260,10 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   }
   if (problem_.Aborted()) return Hybrid::End::kAborted;
   miss_ = value.miss;
+  if (shown != nullptr && Blurs(block.last(), *shown, goal)) {
+    blurs_ = true;
+    return Hybrid::End::kStalled;
+  }
   if (!value.valid) return Hybrid::End::kStalled;
   if (ids.size() > 1 && value.miss > goal) {
     value = block.Keep(Moves(value, goal), value);

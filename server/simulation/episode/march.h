@@ -47,7 +47,8 @@ class March {
   bool MayBeAll(const Sight& sight, const GroupSight* miss) const;
   void Advance(const Sight& sight, const GroupSight& miss);
   Hybrid::End SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
-                         double unseen = 0);
+                         double unseen = 0, const GroupSight* shown = nullptr);
+  static bool Blurs(const Sight& coarse, const GroupSight& exact, double goal);
   static std::vector<bool> Moves(const Residuals::Value& value, double goal);
   void Settle(const Ids& ids);
   bool Has(const Ids& ids, const Sight& sight) const;
@@ -66,6 +67,7 @@ class March {
   bool coarse_ = true;         // The next pass that looks may be.
   int ahead_ = 0;              // Blocks solved since all was polished.
   double guess_from_ = 0;      // What begins later is guessed anew.
+  bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.
   double miss_ = 0;            // What the last block missed by when it stalled.
   int steps_ = 0;              // Of the last block.
   std::optional<Sight> next_;  // What has solved a block, and went on to the next miss.

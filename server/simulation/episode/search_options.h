@@ -35,6 +35,9 @@ struct SearchOptions {
   /// A miss that may be the error of a pass ahead, so that a block which stalls there is solved
   /// exactly. Always: 1.7 times the steps in the prototype.
   double blurred = 1e-2;
+  /// Relative difference between the misses that a coarse and an exact pass see, to which they have
+  /// seen the same motion. Zero: all is solved exactly that an exact pass has seen to miss.
+  double alike = 0.5;
   /// A miss that may be the error of the first look at an exact guess: it sees an isolated
   /// collision miss by 1.02e-6 at ε = 0.9. Less: 89 of the 133 steps of such a collision are for
   /// nothing.
