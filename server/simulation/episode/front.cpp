@@ -50,7 +50,7 @@ Span FrontSpan(const Sight& sight, const Groups& groups, double tolerance, doubl
 bool Misses(const GroupSight& group, const Groups& groups, double tolerance) {
   if (!group.sought || !group.ended || group.weak) return false;
   const Unknown* unknown = groups.Find(group.id);
-  if (unknown != nullptr && unknown->Decided()) return false;
+  if (unknown != nullptr && (unknown->Decided() || unknown->waits)) return false;
   return !(std::abs(group.Miss()) <= tolerance);
 }
 

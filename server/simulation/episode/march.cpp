@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulation/episode/front.h"
 #include "simulation/episode/search_options.h"
@@ -71,7 +72,8 @@ March::End March::Solve(bool rejected) {
   ahead_ = 0;
   guess_from_ = 0;
   next_.reset();
-  polished_.clear(), tries_.clear();
+  polished_.clear(), tries_.clear(), waited_.clear();
+  TakeUp();
   growing_.Begin();
   for (int round = 0; round < kSearch.rounds; ++round) {
     const Sight sight = next_ ? *std::exchange(next_, {}) : Look();
@@ -81,6 +83,7 @@ March::End March::Solve(bool rejected) {
     if (Note(sight) && round < kSearch.rounds / 2) continue;
     const Timeline timeline = Read(sight);
     const GroupSight* miss = timeline.FirstMiss(kSearch.ahead_miss);
+    if (miss == nullptr && TakeUp()) continue;
     if (sight.exact &&
         timeline.FirstMiss(problem_.tolerance()) == miss) {  // All before it is solved.
       if (IsEnough(sight, miss)) {
@@ -252,6 +255,8 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   steps_ = 0;
   Block block(problem_, log_, ids, ahead, kSearch.ahead_miss);
   const Eigen::VectorXd before = block.Mu();
+  std::vector<bool> corrected;
+  for (const GroupId& id : ids) corrected.push_back(problem_.groups.At(id).corrected);
   Residuals::Value value = seen != nullptr ? block.Begin(*seen) : block.Begin();
   if (seen != nullptr && !seen->exact && !ahead &&
       value.valid) {  // What is coarse leads to where it is exact.
@@ -288,7 +293,9 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   }
   if (end == Hybrid::End::kStalled) {
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      problem_.groups.At(ids[i]).mu = before[static_cast<Eigen::Index>(i)];
+      Unknown& unknown = problem_.groups.At(ids[i]);
+      unknown.mu = before[static_cast<Eigen::Index>(i)];
+      unknown.corrected = corrected[i];
     }
   }
   return end;
@@ -314,6 +321,9 @@ void March::Verdict(const GroupSight& seen, const Ids& ids, double goal, Precisi
   const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
   const Root root = bisection_.Solve(group, !grows);
   if (problem_.Aborted()) return;
+  if (root != Root::kFound && Waits(group, sight)) {
+    return;
+  }
   if (root == Root::kFound && tries_[group.id]++ < kSearch.tries) {
     SolveBlock(ids, nullptr, goal, how);
   } else {
@@ -321,9 +331,31 @@ void March::Verdict(const GroupSight& seen, const Ids& ids, double goal, Precisi
   }
 }
 
+// A group that has no root may have one when what overlaps it is no mere guess any more: it then
+// waits until that is solved, once.
+bool March::Waits(const GroupSight& group, const Sight& sight) {
+  const bool guessed = std::ranges::any_of(sight.groups, [&](const GroupSight& g) {
+    const Unknown& u = problem_.groups.At(g.id);
+    return g.id != group.id && g.sought && !g.weak && !u.corrected && !u.Decided() &&
+           g.start_time < group.end_time && (!g.ended || g.end_time > group.end_time);
+  });
+  if (!guessed || !waited_.insert(group.id).second) return false;
+  problem_.groups.At(group.id).waits = true;
+  coarse_ = true;
+  return true;
+}
+
+// Takes up what waits, for nothing else misses.
+bool March::TakeUp() {
+  bool any = false;
+  for (auto& [id, unknown] : problem_.groups.known()) any |= std::exchange(unknown.waits, false);
+  return any;
+}
+
 // A group that has no root with what is around it grows, or it is said what it is.
 void March::Grow(const GroupSight& group, Root root) {
-  tries_.clear(), polished_.clear();
+  tries_.clear(), polished_.clear(), waited_.clear();
+  TakeUp();
   coarse_ = true;
   if (root == Root::kFound) {
     growing_.Force({group.id});

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "simulation/episode/bisection.h"
@@ -56,6 +57,8 @@ class March {
   void SolveStrictly();
   bool SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how);
   void Verdict(const GroupSight& seen, const Ids& ids, double goal, Precision how);
+  bool Waits(const GroupSight& group, const Sight& sight);
+  bool TakeUp();
   void Grow(const GroupSight& group, Root root);
   void GiveUp(const Ids& ids);
 
@@ -76,6 +79,7 @@ class March {
     bool settled = false;  // and whether that was the same as before.
   };
   std::map<GroupId, Polished> polished_;
+  std::set<GroupId> waited_;      // Groups that have waited since one has grown.
   std::map<GroupId, int> tries_;  // Roots of a group that led to no solution of its block.
 };
 
