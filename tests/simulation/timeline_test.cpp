@@ -87,9 +87,17 @@ TEST_F(TimelineTest, FinalIsWhatEndsBeforeAllThatMayChange) {
   Add(2, 5, 0);
   const GroupSight& miss = Add(4, 6, 0.1);
   EXPECT_EQ(Read().FinalUntil(&miss), 2);
-  settled_.insert(Of(1));
-  EXPECT_EQ(Read().FinalUntil(&miss), 4);
   EXPECT_EQ(Read().FinalUntil(nullptr), 6);
+}
+
+TEST_F(TimelineTest, WhatIsSettledIsFinalIfAllThatOverlapsItIsSolvedAndSeenToEnd) {
+  Add(2, 5, 0);
+  Add(4, 7, 0);
+  const GroupSight& miss = Add(6, 9, 0.1);
+  settled_ = {Of(0), Of(1)};
+  EXPECT_EQ(Read().FinalUntil(&miss), 4);  // The second overlaps what misses.
+  sight_.groups[2].ended = false;          // And that overlaps what the first does.
+  EXPECT_EQ(Read().FinalUntil(nullptr), 2);
 }
 
 TEST_F(TimelineTest, WhatTheNextOfItsEncounterMayJoinIsNotFinal) {

@@ -131,7 +131,6 @@ bool March::IsDue(const Sight& sight, const GroupSight* miss) const {
   if (miss == nullptr || ahead_ >= kSearch.ahead_blocks) return true;
   const Timeline timeline = Read(sight);
   if (timeline.Block(*miss, 0, kSearch.block).size() > 1) return false;
-  if (!timeline.Solved(problem_.tolerance(), kSearch.ahead_miss).empty()) return true;
   return IsEnough(sight, miss);
 }
 
@@ -332,8 +331,10 @@ void March::Verdict(const GroupSight& seen, const Ids& ids, double goal, Precisi
 }
 
 // A group that has no root may have one when what overlaps it is no mere guess any more: it then
-// waits until that is solved, once.
+// waits until that is solved, once. Not where it may grow instead, for what is solved around a
+// group that is too short is lost when it grows: 1.8 times the steps of AUTO, and 13 of 1,800 runs.
 bool March::Waits(const GroupSight& group, const Sight& sight) {
+  if (problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle) return false;
   const bool guessed = std::ranges::any_of(sight.groups, [&](const GroupSight& g) {
     const Unknown& u = problem_.groups.At(g.id);
     return g.id != group.id && g.sought && !g.weak && !u.corrected && !u.Decided() &&
