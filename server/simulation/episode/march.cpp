@@ -69,7 +69,6 @@ bool March::Note(const Sight& sight) {
 March::End March::Solve(bool rejected) {
   rejected_ = rejected;
   coarse_ = true;
-  ahead_ = 0;
   guess_from_ = 0;
   next_.reset();
   polished_.clear(), tries_.clear(), waited_.clear();
@@ -125,10 +124,10 @@ March::End March::Recorded(const Sight& sight, const GroupSight* miss) const {
   return {.until = start + (1 - kAtOnce) * length, .sight = sight};
 }
 
-// Whether what the march has solved ahead is to be polished now: all of it is, much of it, or what
-// comes next has nothing to do with it.
+// Whether what the march has solved ahead is to be polished now: nothing misses, or much of it is
+// final and what misses has nothing to do with it.
 bool March::IsDue(const Sight& sight, const GroupSight* miss) const {
-  if (miss == nullptr || ahead_ >= kSearch.ahead_blocks) return true;
+  if (miss == nullptr) return true;
   const Timeline timeline = Read(sight);
   if (timeline.Block(*miss, 0, kSearch.block).size() > 1) return false;
   return IsEnough(sight, miss);
@@ -143,7 +142,6 @@ bool March::MayBeAll(const Sight& sight, const GroupSight* miss) const {
 // Solves all that was solved ahead to the scenario's tolerance; where that stalls, the first that
 // misses with what overlaps it.
 std::optional<March::End> March::Polish(const Sight& sight, const GroupSight* miss) {
-  ahead_ = 0;
   const Timeline timeline = Read(sight);
   const Ids open = timeline.Solved(problem_.tolerance(), kSearch.ahead_miss);
   const bool all = MayBeAll(sight, miss);
@@ -189,7 +187,6 @@ void March::Settle(const Ids& ids) {
 
 // Solves the first group that misses with what overlaps it, well enough to go on.
 void March::Advance(const Sight& sight, const GroupSight& miss) {
-  ++ahead_;
   coarse_ = true;
   SolveFirst(sight, miss, kSearch.ahead_miss, Precision::kAhead);
   if (next_ == std::nullopt) coarse_ = true;

@@ -68,7 +68,6 @@ class March {
   Bisection& bisection_;
   bool rejected_ = false;
   bool coarse_ = true;         // The next pass that looks may be.
-  int ahead_ = 0;              // Blocks solved since all was polished.
   double guess_from_ = 0;      // What begins later is guessed anew.
   bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.
   double miss_ = 0;            // What the last block missed by when it stalled.

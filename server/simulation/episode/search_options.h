@@ -14,10 +14,6 @@ struct SearchOptions {
   /// Relative tolerance of the passes that go ahead. Passes as exact as the scenario asks take 1.8
   /// times the steps; prototype: 2.5 times, where all are.
   double ahead_tolerance = 1e-6;
-  /// Blocks that the march goes ahead before all is polished to the scenario's tolerance. Polishing
-  /// is dear, and a miss before it may lead astray. Prototype: 4 takes twice the steps and loses a
-  /// run, any more than 16 changes nothing.
-  int ahead_blocks = 16;
   /// Overlapping groups so few are solved at once, also those that end after the one that misses:
   /// one block instead of one for each group. Timeline.ABlock….
   std::size_t at_once = 4;
