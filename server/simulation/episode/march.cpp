@@ -150,7 +150,11 @@ std::optional<March::End> March::Polish(const Sight& sight, const GroupSight* mi
     for (const GroupId& id : open) most = std::max(most, std::abs(sight.Find(id)->Miss()));
     return most;
   };
-  if (all && worst() <= kSearch.noise) return End{.until = problem_.end(), .tentative = true};
+  const bool guessed = std::ranges::none_of(
+      open, [&](const GroupId& id) { return problem_.groups.At(id).corrected; });
+  if (all && guessed && worst() <= kSearch.noise) {
+    return End{.until = problem_.end(), .tentative = true};
+  }
   coarse_ = false;
   if (open.empty()) return {};
   const double goal = problem_.tolerance();
