@@ -319,7 +319,7 @@ void March::Verdict(const GroupSight& seen, const Ids& ids, double goal, Precisi
   const GroupSight* found = sight.Find(seen.id);
   const GroupSight group = found != nullptr && found->ended ? *found : seen;
   const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
-  const Root root = bisection_.Solve(group, !grows);
+  const Root root = bisection_.Solve(group, !grows, goal);
   if (problem_.Aborted()) return;
   if (root != Root::kFound && Waits(group, sight)) {
     return;
