@@ -321,21 +321,17 @@ void March::Verdict(const GroupSight& seen, const Ids& ids, double goal, Precisi
   const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
   const Root root = bisection_.Solve(group, !grows, goal);
   if (problem_.Aborted()) return;
-  if (root != Root::kFound && Waits(group, sight)) {
-    return;
-  }
   if (root == Root::kFound && tries_[group.id]++ < kSearch.tries) {
     SolveBlock(ids, nullptr, goal, how);
   } else {
-    Grow(group, root);
+    Grow(group, root, sight);
   }
 }
 
 // A group that has no root may have one when what overlaps it is no mere guess any more: it then
-// waits until that is solved, once. Not where it may grow instead, for what is solved around a
-// group that is too short is lost when it grows: 1.8 times the steps of AUTO, and 13 of 1,800 runs.
+// waits until that is solved, once. Not where it may grow, for what is solved around a group that
+// is too short is lost when it grows: 1.8 times the steps of AUTO, and 13 of 1,800 runs.
 bool March::Waits(const GroupSight& group, const Sight& sight) {
-  if (problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle) return false;
   const bool guessed = std::ranges::any_of(sight.groups, [&](const GroupSight& g) {
     const Unknown& u = problem_.groups.At(g.id);
     return g.id != group.id && g.sought && !g.weak && !u.corrected && !u.Decided() &&
@@ -355,15 +351,15 @@ bool March::TakeUp() {
 }
 
 // A group that has no root with what is around it grows, or it is said what it is.
-void March::Grow(const GroupSight& group, Root root) {
+void March::Grow(const GroupSight& group, Root root, const Sight& sight) {
+  coarse_ = true;
+  const bool grown =
+      root == Root::kFound ? growing_.Force({group.id}) : growing_.Answer(group, root);
+  if (problem_.Aborted()) return;
+  if (root != Root::kFound && !grown && Waits(group, sight)) return;
   tries_.clear(), polished_.clear(), waited_.clear();
   TakeUp();
-  coarse_ = true;
-  if (root == Root::kFound) {
-    growing_.Force({group.id});
-    return;
-  }
-  if (growing_.Answer(group, root) || problem_.Aborted()) return;
+  if (root == Root::kFound || grown) return;
   const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
   if (grows && root == Root::kJump) root = bisection_.Solve(group, true);
   if (root != Root::kFound && root != Root::kAborted) growing_.Decide(group.id, root);

@@ -59,7 +59,7 @@ class March {
   void Verdict(const GroupSight& seen, const Ids& ids, double goal, Precision how);
   bool Waits(const GroupSight& group, const Sight& sight);
   bool TakeUp();
-  void Grow(const GroupSight& group, Root root);
+  void Grow(const GroupSight& group, Root root, const Sight& sight);
   void GiveUp(const Ids& ids);
 
   Problem& problem_;
