@@ -1,0 +1,147 @@
+// What an accuracy costs: the error of the velocities at the end against the time of one pass with
+// known μ, ours beside Boost.odeint's dopri5 and Simbody's Hunt-Crossley contacts. CSV on standard
+// output.
+#include <algorithm>
+#include <boost/numeric/odeint.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "plain_equations.h"
+#include "simbody_peer.h"
+#include "simulation/laws/isolated_collision.h"
+#include "testing/cases.h"
+
+namespace contact {
+namespace {
+
+using Velocities = std::vector<double>;
+
+/// The scenario, each contact of which has the μ of an isolated collision at this velocity.
+Scenario WithGivenFactors(Scenario scenario, double velocity) {
+  for (Contact& contact : scenario.contacts) {
+    contact.mu = ExactCoefficient(contact.restitution) * contact.stiffness / velocity;
+    contact.damping = DampingLaw::kGiven;
+  }
+  return scenario;
+}
+
+Velocities Ours(Scenario scenario, double tolerance) {
+  scenario.solver.relative_tolerance = tolerance;
+  Observer nobody;
+  return Run(scenario, nobody).velocities;
+}
+
+Velocities ByDopri5(const Scenario& scenario, double tolerance) {
+  const PlainEquations equations(scenario);
+  auto state = equations.Start();
+  const auto stepper = boost::numeric::odeint::make_controlled(
+      tolerance * 1e-4, tolerance,
+      boost::numeric::odeint::runge_kutta_dopri5<PlainEquations::State>());
+  boost::numeric::odeint::integrate_adaptive(stepper, equations, state, 0.0, scenario.end_time,
+                                             1e-6);
+  return equations.VelocitiesOf(state);
+}
+
+#ifdef CONTACT_SIMBODY
+Velocities InSimbody(const Scenario& scenario, double accuracy) {
+  SimbodyRow row;
+  for (const Body& b : scenario.bodies)
+    row.balls.push_back({b.mass, b.radius, b.position, b.velocity});
+  for (const Contact& c : scenario.contacts) {
+    row.touches.push_back({c.left, c.right, c.wall_position, c.stiffness, c.mu});
+  }
+  for (const Support& s : scenario.supports) {
+    row.springs.push_back({s.body, s.stiffness, s.damping, s.rest_position});
+  }
+  for (const Load& l : scenario.loads) {
+    row.pushes.push_back({l.body, l.constant, l.amplitude, l.angular_frequency, l.phase});
+  }
+  row.end_time = scenario.end_time;
+  return BySimbody(row, accuracy);
+}
+#endif
+
+double Distance(const Velocities& a, const Velocities& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
+/// The median of nine, each repeated for a millisecond at least [µs].
+double MicrosecondsOf(const std::function<void()>& run) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<double> times;
+  for (int repetition = 0; repetition < 9; ++repetition) {
+    const auto begin = Clock::now();
+    int count = 0;
+    do {
+      run();
+      ++count;
+    } while (Clock::now() - begin < std::chrono::milliseconds(1));
+    times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count() /
+                    count);
+  }
+  std::ranges::nth_element(times, times.begin() + 4);
+  return times[4];
+}
+
+using Program = std::function<Velocities(const Scenario&, double tolerance)>;
+
+// The comparison of programs on scenarios, at tolerances from 1e-4 to 1e-digits.
+class Comparison {
+ public:
+  explicit Comparison(int digits) : digits_(digits) {}
+
+  /// Prints all programs on a scenario. What is exact is ours at a tolerance of 1e-14, which dopri5
+  /// has to confirm at 1e-15.
+  void Print(const char* name, const Scenario& scenario) {
+    const Velocities exact = Ours(scenario, 1e-14);
+    const double doubt = Distance(ByDopri5(scenario, 1e-15), exact);
+    std::printf("%s,doubt,,%.3e,\n", name, doubt);
+    confirmed_ = confirmed_ && doubt < 1e-10 && Distance(Ours(scenario, 1e-12), exact) < 1e-11;
+    PrintProgram(name, scenario, exact, "contactd", Ours);
+    PrintProgram(name, scenario, exact, "Boost.odeint dopri5", ByDopri5);
+#ifdef CONTACT_SIMBODY
+    PrintProgram(name, scenario, exact, "Simbody", InSimbody);
+#endif
+  }
+  bool confirmed() const { return confirmed_; }
+
+ private:
+  void PrintProgram(const char* name, const Scenario& scenario, const Velocities& exact,
+                    const char* program, const Program& run) const {
+    for (int digits = 4; digits <= digits_; ++digits) {
+      const double tolerance = std::pow(10, -digits);
+      const double error = Distance(run(scenario, tolerance), exact);
+      const double time = MicrosecondsOf([&] { run(scenario, tolerance); });
+      std::printf("%s,%s,1e-%d,%.3e,%.4g\n", name, program, digits, error, time);
+      std::fflush(stdout);
+    }
+  }
+
+  int digits_;
+  bool confirmed_ = true;
+};
+
+int Compare(int digits) {
+  std::puts("scenario,program,tolerance,error_m_per_s,time_us");
+  const std::vector<double> masses(20, 0.5), stiffnesses(19, 1e8), restitutions(19, 0.9);
+  Comparison comparison(digits);
+  comparison.Print("triple chain", WithGivenFactors(testing::TripleChain(), 0.2));
+  comparison.Print("ball on a spring", WithGivenFactors(testing::SpringWall(), 1));
+  comparison.Print(
+      "row of 20",
+      WithGivenFactors(testing::Chain(masses, stiffnesses, restitutions, 0.2, 5e-3), 0.2));
+  return comparison.confirmed() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace contact
+
+int main(int count, char** words) { return contact::Compare(count > 1 ? std::atoi(words[1]) : 12); }
