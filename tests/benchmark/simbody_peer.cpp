@@ -83,7 +83,7 @@ std::vector<double> BySimbody(const SimbodyRow& row, double accuracy) {
     SetSurface(&force, 1, radius, touch);
     force.setTransitionVelocity(1);
   }
-  Force::Custom(forces, new OtherForces(row, bodies));  // Simbody takes ownership.
+  const Force::Custom others(forces, new OtherForces(row, bodies));  // Simbody takes ownership.
 
   State state = system.realizeTopology();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
