@@ -48,6 +48,7 @@ void JobLog::Tell(Change change) {
 }
 
 void JobLog::Append(std::uint64_t first, std::vector<LogRecord> records) {
+  if (on_end_ && std::ranges::any_of(records, Ends)) on_end_();
   Tell([&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     bool moved = false;
     for (LogRecord& record : records) {

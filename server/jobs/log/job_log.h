@@ -20,9 +20,10 @@ namespace contact {
 class JobLog {
  public:
   /// `last` is the sequence of the newest stored event; `ended`: it tells of a final state.
-  /// `on_state` is called once a state_changed event is added, before the wakers.
-  JobLog(std::uint64_t last, bool ended, Wake on_state = {})
-      : on_state_(std::move(on_state)), last_(last), ended_(ended) {}
+  /// `on_state` is called once a state_changed event is added, before the wakers; `on_end` when the
+  /// final state is stored, before anybody can see it here.
+  JobLog(std::uint64_t last, bool ended, Wake on_state = {}, Wake on_end = {})
+      : on_state_(std::move(on_state)), on_end_(std::move(on_end)), last_(last), ended_(ended) {}
 
   /// Adds events that are stored now, the first as `first`, the next after the newest one. The
   /// records get their sequences here.
@@ -94,6 +95,7 @@ class JobLog {
   void Tell(Change change);
 
   const Wake on_state_;
+  const Wake on_end_;
   mutable Mutex mutex_;
   /// The newest events, up to last_, without a hole.
   std::deque<LogRecord> ring_ ABSL_GUARDED_BY(mutex_);

@@ -80,9 +80,10 @@ double Scheduler::Now() const {
 Scheduler::~Scheduler() { Stop(); }
 
 std::shared_ptr<JobLog> Scheduler::NewLog(const v1::Job& job, std::uint64_t last) {
-  return std::make_shared<JobLog>(last, false, [this, tenant = TenantOf(job), name = job.name()] {
-    feed_.Changed(tenant, name);
-  });
+  return std::make_shared<JobLog>(
+      last, false,
+      [this, tenant = TenantOf(job), name = job.name()] { feed_.Changed(tenant, name); },
+      [this, name = job.name()] { FreeQuota(name); });
 }
 
 void Scheduler::Recover() {
@@ -349,14 +350,21 @@ void Scheduler::Offer(const std::shared_ptr<SweepRun>& sweep) {
 
 void Scheduler::Remove(const std::string& name) {
   supervisor_.Remove(name);
-  std::shared_ptr<const void> held;  // Goes after the lock.
+  FreeQuota(name);
   const MutexLock lock(mutex_);
-  if (const auto found = active_.find(name); found != active_.end()) held = found->second.held;
   active_.erase(name);
   running_.erase(name);
   specs_.Take(name);
   changed_.notify_all();  // A last attempt may have waited for this.
   left_();
+}
+
+void Scheduler::FreeQuota(const std::string& name) {
+  std::shared_ptr<const void> held;  // Goes after the lock.
+  const MutexLock lock(mutex_);
+  if (const auto found = active_.find(name); found != active_.end()) {
+    held = std::exchange(found->second.held, nullptr);
+  }
 }
 
 void Scheduler::Cancel(const std::string& name, const std::string& expected_uid, Done done) {
@@ -375,6 +383,7 @@ void Scheduler::Cancel(const std::string& name, const std::string& expected_uid,
     } else if (found != active_.end() && turns_.Remove(TurnOf(found->second))) {
       specs_.Take(name);
       queued = found->second;  // From here on no worker finds it.
+      queued->held = nullptr;
     }
   }
   if (other) return done(OtherJob(*other));
@@ -387,17 +396,18 @@ void Scheduler::Cancel(const std::string& name, const std::string& expected_uid,
 
 void Scheduler::Withdraw(const Active& active, Done done) {
   Commit(active, {v1::Job::CANCELLED, reason::kUserRequest}, false,
-         [this, active = active, done = std::move(done)](const absl::Status& stored) mutable {
+         [this, active = active, done = std::move(done)](const absl::Status& stored) {
+           // ABORTED: it has ended by a call whose answer was lost, or another worker has it.
+           const bool gone = stored.ok() || absl::IsAborted(stored);
+           if (gone) FreeQuota(active.job.name());
            {
              const MutexLock lock(mutex_);
-             // ABORTED: it has ended by a call whose answer was lost, or another worker has it.
-             if (stored.ok() || absl::IsAborted(stored)) {
+             if (gone) {
                active_.erase(active.job.name());
              } else {
                Queue(active);
              }
            }
-           active.held = nullptr;
            done(stored);
          });
 }

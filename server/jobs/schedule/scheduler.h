@@ -173,6 +173,8 @@ class Scheduler final : public Unfinished {
   Assignment Assign(Active& active) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   /// Lets idle workers help with a sweep.
   void Offer(const std::shared_ptr<SweepRun>& sweep);
+  /// Frees what a job holds of its owner's quotas: who sees the end may create the next.
+  void FreeQuota(const std::string& name);
   /// Forgets a job that has ended.
   void Remove(const std::string& name);
   /// True if a job whose end could not be stored is still ours to end.
