@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "simulation/model/scenario.h"
@@ -13,16 +14,18 @@ class PlainEquations {
  public:
   using State = std::vector<double>;
 
-  explicit PlainEquations(const Scenario& scenario) : scenario_(scenario) {}
+  /// Its contacts are of two bodies, or have a wall to their right; supports lead to the ground,
+  /// and loads act from the start to the end.
+  explicit PlainEquations(const Scenario& scenario);
 
   State Start() const;
   std::vector<double> VelocitiesOf(const State& state) const;
   void operator()(const State& y, State& dy, double t) const;
 
  private:
-  double Gap(const Contact& contact) const;
-
   const Scenario& scenario_;
+  std::size_t bodies_;
+  std::vector<double> inverse_masses_, gaps_;  // [1/kg] of bodies, [m] of contacts.
 };
 
 }  // namespace contact

@@ -61,8 +61,9 @@ bool Worker::AwaitFinish(std::chrono::milliseconds* patience) {
     const bool late = patience->count() <= 0;
     if (late && !lost_ && run_ && run_->GiveUp()) lost_ = true;
     if (late && lost_) return false;
-    if (changed_.wait_for(mutex_, kIdleLookTime) == std::cv_status::timeout)
+    if (changed_.wait_for(mutex_, kIdleLookTime) == std::cv_status::timeout) {
       *patience -= kIdleLookTime;
+    }
   }
   return true;
 }
