@@ -383,7 +383,7 @@ void Scheduler::Cancel(const std::string& name, const std::string& expected_uid,
     } else if (found != active_.end() && turns_.Remove(TurnOf(found->second))) {
       specs_.Take(name);
       queued = found->second;  // From here on no worker finds it.
-      queued->held = nullptr;
+      queued->held = nullptr;  // The entry in active_ holds it.
     }
   }
   if (other) return done(OtherJob(*other));
