@@ -6,6 +6,7 @@
 #include "simulation/model/index.h"
 
 namespace contact {
+
 Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
     : world_(world),
       scenario_(world.scenario()),

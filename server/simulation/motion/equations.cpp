@@ -8,6 +8,7 @@
 #include "simulation/model/index.h"
 
 namespace contact {
+
 ActiveContact::Force ActiveContact::General(double deformation, double rate) const {
   const Power n(deformation, exponent);
   Power p = n;

@@ -7,6 +7,7 @@
 #include "simulation/model/index.h"
 
 namespace contact {
+
 void ForceWatch::Observe(const ActiveContact& active) {
   const int n = system_.equations.bodies();
   Cycle& cycle = system_.contacts[At(active.contact)].cycle;

@@ -7,6 +7,7 @@
 #include "simulation/model/index.h"
 
 namespace contact {
+
 bool IsPacking(const Scenario& scenario) {
   return !scenario.loads.empty() || !scenario.supports.empty() ||
          scenario.contacts.size() >= scenario.bodies.size();
