@@ -5,7 +5,8 @@ import {after, afterEach, before, beforeEach, test} from 'node:test';
 
 import {CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
 
-const LONG = swinging(2, {method: 'RK4', stepS: 1e-7});   // Twenty seconds or so.
+// Twenty seconds or so. A chunk of 256 samples comes about every half second.
+const LONG = {...swinging(2, {method: 'RK4', stepS: 1e-7}), output: {sampleIntervalS: 5e-5}};
 const BALL = {title: 'A ball alone', bodies: [{name: 'a', massKg: 1}], endTimeS: 1e-3, output: {ledgerOnly: true}};
 let server;
 let browser;
