@@ -89,7 +89,7 @@ class LongLedgerTest(MemoryTest):
 
 
 class EverythingAtOnceTest(MemoryTest):
-    """The bounds that server/README.md gives one by one hold together."""
+    """The bounds that server/jobs/quota/README.md gives one by one hold together."""
 
     flags = ("--workers=2", "--max-memory=256MiB", "--max-watchers=3000",
              "--max-watchers-per-peer=3000")

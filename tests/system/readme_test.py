@@ -1,4 +1,4 @@
-"""The names and numbers in server/README.md are those of the server."""
+"""The names and numbers in the pages of server/ are those of the server."""
 
 import os
 import pathlib
@@ -8,13 +8,16 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SERVER = ROOT / "server"
-README = (SERVER / "README.md").read_text("utf-8")
+ROOMS = SERVER / "README.md"
+SETTINGS = SERVER / "settings.md"
+LIMITS = SERVER / "jobs/quota/README.md"
 UNITS = {"": 1, "s": 1, "h": 3600, "MiB": 2**20, "GiB": 2**30, "GB": 1e9, "ms": 1e-3}
 
 
-def rows(title):
-    """The cells of each row of the tables in a section."""
-    section = README.split(f"\n## {title}\n", 1)[1].split("\n## ", 1)[0]
+def rows(page, title=""):
+    """The cells of each row of the tables in a section of a page, or in all of the page."""
+    text = page.read_text("utf-8")
+    section = text.split(f"\n## {title}\n", 1)[1].split("\n## ", 1)[0] if title else text
     lines = [line for line in section.splitlines() if line.startswith("| ")]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
@@ -47,7 +50,7 @@ class ReadmeTest(unittest.TestCase):
 
     def test_defaults_of_flags_are_those_of_the_help(self):
         told = {flag: row[row.index(f"`{flag}`") + 1]
-                for title in ("Settings", "Limits") for row in rows(title)
+                for page in (SETTINGS, LIMITS) for row in rows(page)
                 for flag in re.findall(r"`(--[a-z-]+)`", " ".join(row[:2]))
                 if f"`{flag}`" in row}
         numbers = {flag: number(cell) for flag, cell in told.items() if cell[0].isdigit()}
@@ -62,10 +65,11 @@ class ReadmeTest(unittest.TestCase):
         limits = {flag for flag in defaults_of_help()
                   if re.match("--(max|retain|compact|write|step|checkpoint)-", flag)}
         self.assertGreater(len(limits), 20)
-        self.assertEqual({flag for flag in limits if f"`{flag}`" not in README}, set())
+        told = "".join(page.read_text("utf-8") for page in SERVER.rglob("*.md"))
+        self.assertEqual({flag for flag in limits if f"`{flag}`" not in told}, set())
 
     def test_limits_without_a_flag_are_those_of_the_code(self):
-        told = {row[0]: number(row[2]) for row in rows("Limits") if row[1] == "–"}
+        told = {row[0]: number(row[2]) for row in rows(LIMITS) if row[1] == "–"}
         gateway = (SERVER / "gateway/call/options.h").read_text("utf-8")
         guard = (SERVER / "rpc/call/call_guard.cpp").read_text("utf-8")
         handshake = re.search(r"handshake\{([\d']+)\}", gateway).group(1)
@@ -96,7 +100,7 @@ class ReadmeTest(unittest.TestCase):
     def test_threads_are_those_of_the_code(self):
         named = re.compile(r'(?:setname_np\(pthread_self\(\), |Executor \w+\{)"([^"]+)"')
         in_code = {name for text in sources() for name in named.findall(text)}
-        told = {name for row in rows("Threads") for name in re.findall(r"^`([^`]+)`$", row[0])}
+        told = {name for row in rows(ROOMS, "Threads") for name in re.findall(r"^`([^`]+)`$", row[0])}
         self.assertEqual(told, in_code)
         self.assertEqual({name for name in in_code if len(name) > 15}, set(), "Linux cuts names")
 
@@ -111,7 +115,7 @@ class ReadmeTest(unittest.TestCase):
         text = (ROOT / "tests/layering_test.py").read_text("utf-8")
         order = dict(re.findall(r'"(server[/a-z]*)": \[([^\]]*)\]', text))
         names = lambda folder: re.findall(r'"(\w+)"', order.get(folder, ""))
-        told = {row[0].strip("`/"): re.findall(r"`(\w+)`", row[2]) for row in rows("Rooms")
+        told = {row[0].strip("`/"): re.findall(r"`(\w+)`", row[2]) for row in rows(ROOMS, "Rooms")
                 if row[0].endswith("/`")}
         self.assertEqual(list(told), names("server"))
         for room, inner in told.items():

@@ -50,7 +50,7 @@ struct MetricsSources {
   std::shared_ptr<const StreamMetrics> streams;
 };
 
-/// The metrics of the server in Prometheus's form; server/README.md lists them. Thread-safe.
+/// The metrics of the server in Prometheus's form; the site's reference lists them. Thread-safe.
 class MetricsPage final : public prometheus::Collectable {
  public:
   explicit MetricsPage(MetricsSources sources) : sources_(std::move(sources)) {}
