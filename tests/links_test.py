@@ -1,4 +1,5 @@
-"""Every link from one page of the repository to another leads to a file, and to a title in it."""
+"""Every link from one page of the repository to another leads to a file, and to a title in it; and
+the tests that the physics names as its evidence are there."""
 
 import pathlib
 import re
@@ -49,6 +50,15 @@ class LinksTest(unittest.TestCase):
                  for page in pages()}
         self.assertGreater(len(found), 15, "this test has gone blind")
         self.assertEqual({page: links for page, links in found.items() if links}, {})
+
+    def test_evidence_of_the_physics_is_there(self):
+        page = (ROOT / "server/simulation/README.md").read_text("utf-8")
+        tests = "".join(path.read_text("utf-8")
+                        for path in (ROOT / "tests/simulation").rglob("*.cpp"))
+        named = re.findall(r"`([A-Z]\w+)\.([A-Z]\w+)`", page)
+        self.assertGreater(len(named), 10, "this test has gone blind")
+        self.assertEqual([name for name in named
+                          if not re.search(rf"TEST\w*\({name[0]},\s+{name[1]}\)", tests)], [])
 
     def test_what_leads_nowhere_is_seen(self):
         page = pathlib.Path("/a.md")

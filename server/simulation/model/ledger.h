@@ -108,10 +108,10 @@ struct Iteration {
   /// How a μ was changed before the pass.
   enum class Update {
     kNothing,       ///< It was not.
-    kNewton,        ///< A whole step of Newton, (N2).
+    kNewton,        ///< A whole step of Newton, (N3).
     kDampedNewton,  ///< A shortened step of Newton, (N3).
-    kBisection,     ///< The middle of the bracket, (N3) or paper (27).
-    kZero,          ///< μ = 0 was tried, (N4).
+    kBisection,     ///< The middle of the bracket, paper (27).
+    kZero,          ///< No search says it any more; the contract keeps the number.
     kPaperNewton,   ///< Paper (29).
     kPaperRatio,    ///< Paper (31).
     kBracketing,    ///< Doubling or halving in search of a bracket.
