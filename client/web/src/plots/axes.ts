@@ -18,9 +18,12 @@ export interface Ink {
   paper: string;
 }
 
-/** The unit of an axis for what it shows now. */
+const LOGARITHMIC: uPlot.Scale.Distr = 3;
+
+/** The unit of an axis for what it shows now. Powers of ten on a logarithmic axis are of the unit itself. */
 export function unitOfScale(u: uPlot, scale: 'x' | 'y', label: string): AxisUnit {
-  const {min, max} = u.scales[scale]!;
+  const {min, max, distr} = u.scales[scale]!;
+  if (distr === LOGARITHMIC) return {factor: 1, label};
   return readableUnit(label, Math.max(Math.abs(min ?? 0), Math.abs(max ?? 0)));
 }
 
