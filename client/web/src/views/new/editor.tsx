@@ -11,13 +11,32 @@ interface Props {
   problems: Problem[];
 }
 
+/** A place in the editor, in px. */
+interface Point {
+  left: number;
+  top: number;
+}
+
 const MOST = 12;
+
+/** The place below a character of the text. */
+function below(area: HTMLTextAreaElement, character: number): Point {
+  const before = area.value.slice(0, character).split('\n');
+  const {font, paddingLeft, paddingTop, lineHeight} = getComputedStyle(area);
+  const pen = document.createElement('canvas').getContext('2d')!;
+  pen.font = font;
+  return {
+    left: area.offsetLeft + area.clientLeft + parseFloat(paddingLeft) + pen.measureText(before.at(-1)!).width - area.scrollLeft,
+    top: area.offsetTop + parseFloat(paddingTop) + before.length * parseFloat(lineHeight) - area.scrollTop,
+  };
+}
 
 export function Editor({text, setText, problems}: Props) {
   const area = useRef<HTMLTextAreaElement>(null);
   const gutter = useRef<HTMLDivElement>(null);
   const cursor = useRef<number | undefined>(undefined);
   const [offers, setOffers] = useState<Suggestion[]>([]);
+  const [caret, setCaret] = useState<Point>({left: 0, top: 0});
   const [at, setAt] = useState(0);
   const wrong = new Map(problems.map(({line, text: what}) => [line, what]));
   useLayoutEffect(() => {
@@ -30,6 +49,7 @@ export function Editor({text, setText, problems}: Props) {
   const look = (force: boolean) => {
     const {value, selectionStart} = area.current!;
     const {prefix} = placeAt(value, selectionStart);
+    setCaret(below(area.current!, selectionStart - prefix.length));
     setOffers(force || prefix.length > 0 ? suggestionsAt(value, selectionStart).filter(({word}) => word !== prefix).slice(0, MOST) : []);
   };
   const take = ({word}: Suggestion) => {
@@ -60,7 +80,7 @@ export function Editor({text, setText, problems}: Props) {
         onInput={(e) => { setText(e.currentTarget.value); look(false); }} onKeyDown={press} onBlur={() => setTimeout(() => setOffers([]), 150)}
         onScroll={(e) => { gutter.current!.scrollTop = e.currentTarget.scrollTop; }} />
       {offers.length > 0 && (
-        <ul class="offers" role="listbox" aria-label="Completion">{offers.map((offer, i) => (
+        <ul class="offers" role="listbox" aria-label="Completion" style={{left: `min(${caret.left}px, 45%)`, top: `${caret.top}px`}}>{offers.map((offer, i) => (
           <li key={offer.word} role="option" aria-selected={i === at} onMouseDown={(e) => { e.preventDefault(); take(offer); }}>
             <span class="mono">{offer.word}</span> <span class="soft">{offer.about}</span></li>))}</ul>)}
     </div>
