@@ -291,7 +291,7 @@ test('errors of the page and of the server stand at their lines', async () => {
 test('a sweep is copied for each client', async () => {
   await open('/new?template=table-3-sweep');
   await page.getByText('The server accepts it.').waitFor();
-  for (const [client, words] of [['CLI', 'contactctl sweep run -'], ['Python', 'Client().sweep(scenario, grid, metrics=["iterations"'], ['curl', '"sweep":']]) {
+  for (const [client, words] of [['CLI', `contactctl --server ${new URL(server.origin).host} sweep run -`], ['Python', `Client("${new URL(server.origin).host}").sweep(scenario, grid, metrics=["iterations"`], ['curl', '"sweep":']]) {
     await page.getByRole('button', {name: client, exact: true}).click();
     assert.ok((await page.getByLabel('copied text').innerText()).includes(words), client);
   }

@@ -203,16 +203,16 @@ describe('sweeps and comparisons', () => {
   });
   it('are copied with their labels', () => {
     const labels = {study: 'chain', note: "it's $HOME"};
-    expect(asCli('a: 1', 'sweep', labels)).toBe("contactctl sweep run - --label study=chain --label 'note=it'\\''s $HOME' <<'END'\na: 1\nEND\n");
-    expect(asPython({a: 1}, labels)).toContain('}, labels={"study": "chain", "note": "it\'s $HOME"})');
+    expect(asCli('a: 1', 'sweep', 'http://h', labels)).toBe("contactctl --server h:80 sweep run - --label study=chain --label 'note=it'\\''s $HOME' <<'END'\na: 1\nEND\n");
+    expect(asPython({a: 1}, 'http://h', labels)).toContain('}, labels={"study": "chain", "note": "it\'s $HOME"})');
     expect(JSON.parse(asCurl({a: 1}, 'scenario', 'http://h', labels).split("'END'\n")[1]!.split('\nEND')[0]!)).toEqual({job: {scenario: {a: 1}, labels}});
     expect(asCurl({}, 'sweep', 'http://h')).not.toContain('labels');
   });
   it('become Python, if contactsim can make them', () => {
     const axis = {field: 'contacts[*].restitution', linear: {low: 0.5, high: 1, count: 2}};
     const sweep = (axes: object[]) => create(SweepSchema, {base: {title: 'x'}, metrics: ['iterations'], axes});
-    expect(sweepAsPython(sweep([axis]))).toContain('grid = {\n    "contacts[*].restitution": [0.5, 1],\n}');
-    expect(sweepAsPython(sweep([{...axis, also: ['solver.step_s']}]))).toBeUndefined();
+    expect(sweepAsPython(sweep([axis]), 'http://h')).toContain('grid = {\n    "contacts[*].restitution": [0.5, 1],\n}');
+    expect(sweepAsPython(sweep([{...axis, also: ['solver.step_s']}]), 'http://h')).toBeUndefined();
   });
   it('set fields by index, name and star', () => {
     const json = {contacts: [{name: 'A-B'}, {between: ['B', 'C']}]};

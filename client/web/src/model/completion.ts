@@ -72,6 +72,18 @@ function messageAt(root: DescMessage, keys: string[]): DescMessage | undefined {
   return keys.reduce<DescMessage | undefined>((at, key) => at?.fields.find((f) => f.name === key)?.message, root);
 }
 
+/** A number as the server's messages have it: `1e6`. */
+function bound(value: number | undefined, none: string): string {
+  if (value === undefined) return none;
+  return Math.abs(value) >= 1e5 ? value.toExponential().replace('e+', 'e') : String(value);
+}
+
+/** The range of a field that has a rule, such as `(0, 1e6]`. */
+export function rangeOf(field: DescField): string {
+  const {low, max} = getOption(field, rule);
+  return `${low.case === 'above' ? '(' : '['}${bound(low.value, '−∞')}, ${bound(max, '∞')}]`;
+}
+
 /** A field in a few words: its kind, range, unit and default. */
 export function aboutField(field: DescField): string {
   const parts: string[] = [];
@@ -81,9 +93,7 @@ export function aboutField(field: DescField): string {
   if (!hasOption(field, rule)) return parts.join(', ');
   const r = getOption(field, rule);
   if (r.required) parts.push('required');
-  if (r.low.case || r.max !== undefined) {
-    parts.push(`${r.low.case === 'above' ? '(' : '['}${r.low.value ?? '−∞'}, ${r.max ?? '∞'}]`);
-  }
+  if (r.low.case || r.max !== undefined) parts.push(rangeOf(field));
   if (r.unit) parts.push(r.unit);
   if (r.default.case) parts.push(`default ${String(r.default.value)}`);
   return parts.join(', ');

@@ -12,10 +12,21 @@ function quoted(word: string): string {
   return /^[\w=.,:/@+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
+const AUTHORITIES = '/etc/ssl/certs/ca-certificates.crt';   // Of the system: those that browsers trust as well.
+
+/** The server of a page: the port that serves pages also speaks gRPC. */
+function serverOf(origin: string): {address: string; secure: boolean} {
+  const {hostname, port, protocol} = new URL(origin);
+  const secure = protocol === 'https:';
+  return {address: `${hostname}:${port || (secure ? 443 : 80)}`, secure};
+}
+
 /** For contactctl; needs no file. */
-export function asCli(text: string, kind: 'scenario' | 'sweep', labels: Labels = {}): string {
+export function asCli(text: string, kind: 'scenario' | 'sweep', origin: string, labels: Labels = {}): string {
+  const {address, secure} = serverOf(origin);
+  const server = `--server ${address}${secure ? ` --tls-ca ${AUTHORITIES}` : ''}`;
   const options = Object.entries(labels).map(([key, value]) => ` --label ${quoted(`${key}=${value}`)}`).join('');
-  return `contactctl ${kind === 'sweep' ? 'sweep run' : 'run'} -${options} <<'END'\n${text.trimEnd()}\nEND\n`;
+  return `contactctl ${server} ${kind === 'sweep' ? 'sweep run' : 'run'} -${options} <<'END'\n${text.trimEnd()}\nEND\n`;
 }
 
 /** JSON as a literal of Python. */
@@ -31,25 +42,31 @@ export function pythonLiteral(value: JsonValue, indent = ''): string {
   return `{\n${rows.map(([k, v]) => `    ${k}: ${pythonLiteral(v, deeper)},`).join('\n')}\n}`;
 }
 
+/** The client of the server of a page. */
+function pythonClient(origin: string): string {
+  const {address, secure} = serverOf(origin);
+  return `contactsim.Client("${address}"${secure ? `, tls_ca="${AUTHORITIES}"` : ''})`;
+}
+
 /** The argument with labels, if there are any. */
 function labelsArgument(labels: Labels): string {
   return Object.keys(labels).length > 0 ? `, labels=${pythonLiteral(labels, ' ')}` : '';
 }
 
 /** For the package contactsim. */
-export function asPython(json: JsonValue, labels: Labels = {}): string {
-  return `import contactsim\n\nresult = contactsim.Client().run(${pythonLiteral(json)}${labelsArgument(labels)})\n`
+export function asPython(json: JsonValue, origin: string, labels: Labels = {}): string {
+  return `import contactsim\n\nresult = ${pythonClient(origin)}.run(${pythonLiteral(json)}${labelsArgument(labels)})\n`
     + 'print(result.cycles)\n';
 }
 
 /** For the package contactsim; undefined for sweeps that it cannot make: it makes grids of single fields. */
-export function sweepAsPython(sweep: Sweep, labels: Labels = {}): string | undefined {
+export function sweepAsPython(sweep: Sweep, origin: string, labels: Labels = {}): string | undefined {
   const {base, axes, metrics} = sweep;
   if (!base || !isGrid(sweep) || axes.some((axis) => axis.also.length > 0 || axisValues(axis).length === 0)) return undefined;
   const scenario = toJson(ScenarioSchema, base, {useProtoFieldName: true});
   const grid = Object.fromEntries(axes.map((axis) => [axis.field, axisValues(axis)]));
   return `import contactsim\n\nscenario = ${pythonLiteral(scenario)}\ngrid = ${pythonLiteral(grid)}\n`
-    + `result = contactsim.Client().sweep(scenario, grid${metrics.length ? `, metrics=${pythonLiteral(metrics)}` : ''}${labelsArgument(labels)})\n`
+    + `result = ${pythonClient(origin)}.sweep(scenario, grid${metrics.length ? `, metrics=${pythonLiteral(metrics)}` : ''}${labelsArgument(labels)})\n`
     + 'print(result.frame)\n';
 }
 

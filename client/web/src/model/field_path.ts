@@ -7,6 +7,11 @@ export function partsOf(path: string): string[] {
   return [...path.matchAll(/([^.[\]]+)|\[([^\]]*)\]/g)].map(([, name, place]) => name ?? `[${place}]`);
 }
 
+/** What stands at a path whose brackets hold numbers; undefined if there is nothing. */
+export function valueAt(root: unknown, path: string): unknown {
+  return partsOf(path).reduce((at, part) => (at as Json | null | undefined)?.[part.replace(/[[\]]/g, '')], root);
+}
+
 /** The places of a list that a word in brackets stands for. */
 function placesOf(list: unknown[], word: string): number[] {
   if (word === '*') return list.map((_, i) => i);

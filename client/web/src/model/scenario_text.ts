@@ -1,10 +1,12 @@
 // A scenario or sweep as a page of YAML: reading it, and finding the line of a field.
 
-import {ScalarType, type DescField, type DescMessage, type JsonValue} from '@bufbuild/protobuf';
+import {getOption, hasOption, ScalarType, type DescField, type DescMessage, type JsonValue} from '@bufbuild/protobuf';
 import {LineCounter, isMap, isNode, isPair, parseDocument, type Document} from 'yaml';
 
+import {rule} from '../api/generated/contact/v1/field_rules_pb';
 import {ScenarioSchema, SweepSchema} from '../api/generated/contact/v1/scenario_pb';
-import {partsOf} from './field_path';
+import {rangeOf} from './completion';
+import {partsOf, valueAt} from './field_path';
 
 /** Something wrong, at a line from 1; 0 if no line is known. */
 export interface Problem {
@@ -16,13 +18,14 @@ export interface Problem {
 /** What a page says. */
 export interface Page {
   kind: 'scenario' | 'sweep';
-  /** In the form of the contract's JSON; undefined if the page cannot be read. */
+  /** In the form of the contract's JSON, without the fields that have problems; undefined if the page cannot be read. */
   json: JsonValue | undefined;
   problems: Problem[];
   lineOf: (path: string) => number;
 }
 
 type Json = Record<string, unknown>;
+const IMPLICIT: DescField['presence'] = 2;
 
 /** Replaces `${name}` by the values of `variables`. */
 export function expand(value: unknown, variables: Json): unknown {
@@ -58,6 +61,14 @@ function hint(name: string, known: string[]): string {
   return best && distance(name, best) <= Math.max(2, name.length / 3) ? ` — did you mean '${best}'?` : '';
 }
 
+/** What is wrong with a 0 that the contract cannot tell from a field that is missing; empty if 0 is in its range. */
+function wrongZero(field: DescField): string {
+  if (field.presence !== IMPLICIT || !hasOption(field, rule)) return '';
+  const {required, low} = getOption(field, rule);
+  const outside = low.case === 'above' ? low.value >= 0 : low.case === 'min' && low.value > 0;
+  return required && outside ? `is 0; must be in ${rangeOf(field)}` : '';
+}
+
 function wrongValue(field: DescField, value: unknown): string | undefined {
   if (field.fieldKind === 'enum') {
     const names = field.enum.values.map(({name}) => name);
@@ -66,29 +77,36 @@ function wrongValue(field: DescField, value: unknown): string | undefined {
   }
   if (field.fieldKind !== 'scalar') return undefined;
   const number = field.scalar !== ScalarType.STRING && field.scalar !== ScalarType.BOOL;
+  if (number && value === 0) return wrongZero(field) || undefined;
   if (number && typeof value !== 'number' && !['NaN', 'Infinity', '-Infinity'].includes(String(value))) return `is '${String(value)}'; must be a number`;
   if (field.scalar === ScalarType.BOOL && typeof value !== 'boolean') return `is '${String(value)}'; must be true or false`;
   return undefined;
 }
 
-/** Fields that the contract does not have, and values of a wrong kind. */
-export function check(value: unknown, message: DescMessage, path: string, told: (path: string, text: string) => void): void {
+/** What is wrong with an entry as a whole; undefined if it is of the kind of its field. */
+function wrongEntry(name: string, entry: unknown, field: DescField | undefined, known: string[]): string | undefined {
+  if (!field) return `unknown field${hint(name, known)}`;
+  if (entry === null) return undefined;
+  const list = field.fieldKind === 'list';
+  if (list !== Array.isArray(entry)) return list ? 'must be a list' : 'must not be a list';
+  return list || field.message ? undefined : wrongValue(field, entry);
+}
+
+/** Tells of fields that the contract does not have and of values of a wrong kind, and takes them out. */
+function takeOutWrong(value: unknown, message: DescMessage, path: string, told: (path: string, text: string) => void): void {
   if (value === null || typeof value !== 'object' || Array.isArray(value)) { told(path, 'must have fields'); return; }
-  for (const [name, entry] of Object.entries(value)) {
+  const fields = value as Json;
+  for (const [name, entry] of Object.entries(fields)) {
     const own = path ? `${path}.${name}` : name;
     const field = message.fields.find((f) => f.name === name || f.jsonName === name);
-    if (!field) { told(own, `unknown field${hint(name, message.fields.map((f) => f.name))}`); continue; }
-    if (entry === null) continue;
-    const list = field.fieldKind === 'list';
-    if (list !== Array.isArray(entry)) { told(own, list ? 'must be a list' : 'must not be a list'); continue; }
-    (list ? entry as unknown[] : [entry]).forEach((one, i) => {
-      const place = list ? `${own}[${i}]` : own;
-      if (field.message) check(one, field.message, place, told);
-      else {
-        const wrong = list ? undefined : wrongValue(field, one);
-        if (wrong) told(place, wrong);
-      }
-    });
+    const wrong = wrongEntry(name, entry, field, message.fields.map((f) => f.name));
+    if (wrong) {
+      told(own, wrong);
+      delete fields[name];
+    } else if (field?.message && entry !== null) {
+      if (Array.isArray(entry)) entry.forEach((one, i) => takeOutWrong(one, field.message!, `${own}[${i}]`, told));
+      else takeOutWrong(entry, field.message, own, told);
+    }
   }
 }
 
@@ -100,7 +118,7 @@ function lineFinder(doc: Document, counter: LineCounter): (path: string) => numb
     for (const part of partsOf(path.replace(/^base\./, ''))) {
       const key = part.startsWith('[') ? Number(part.slice(1, -1)) : part;
       const pair: unknown = isMap(at) ? at.items.find((p) => String(p.key) === part) : undefined;
-      const next = isPair(pair) ? pair.value : (at as {get?: (key: unknown, keep: boolean) => unknown}).get?.(key, true);
+      const next = isPair(pair) ? pair.value : (at as {get?: (key: unknown, keep: boolean) => unknown} | null)?.get?.(key, true);   // An empty page holds null.
       const node = isPair(pair) && isNode(pair.key) ? pair.key : next;
       if (!isNode(node) || !node.range) break;
       line = counter.linePos(node.range[0]).line;
@@ -125,8 +143,20 @@ export function readPage(text: string, files: Record<string, string> = {}): Page
   if (kind === 'sweep' && typeof json.base === 'string') {
     const base = files[json.base];
     if (base === undefined) told('base', `there is no scenario '${json.base}' here`);
-    else json.base = readPage(base).json;
+    json.base = base === undefined ? {} : readPage(base).json;
   }
-  check(json, kind === 'sweep' ? SweepSchema : ScenarioSchema, '', told);
-  return {kind, json: problems.length > 0 ? undefined : json as JsonValue, problems, lineOf};
+  takeOutWrong(json, kind === 'sweep' ? SweepSchema : ScenarioSchema, '', told);
+  return {kind, json: json as JsonValue, problems, lineOf};
+}
+
+const holderOf = (path: string) => path.slice(0, Math.max(path.lastIndexOf('.'), 0));
+
+/**
+ * What is wrong with a page, line by line: what was seen here, and what the server says of the rest of the page. A
+ * field that is missing beside a wrong field is not told: the wrong field may be meant for it.
+ */
+export function allProblems({json, problems}: Page, ofServer: Problem[]): Problem[] {
+  const holders = new Set(problems.map(({path}) => holderOf(path)));
+  const others = ofServer.filter(({path}) => !holders.has(holderOf(path)) || valueAt(json, path) !== undefined);
+  return [...problems, ...others].sort((a, b) => a.line - b.line);
 }

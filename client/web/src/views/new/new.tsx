@@ -1,11 +1,9 @@
 // A new run: from a template, from another run, from nothing.
 
-import {toJson} from '@bufbuild/protobuf';
-import {useEffect, useMemo, useState} from 'preact/hooks';
+import {useMemo, useState} from 'preact/hooks';
 
 import {server} from '../../api/client';
 import {explain} from '../../api/errors';
-import {ScenarioSchema, SweepSchema} from '../../api/generated/contact/v1/scenario_pb';
 import {templates, titleOf} from '../../api/templates';
 import {asCli, asCurl, asPython, sweepAsPython, type Labels} from '../../model/copy_as';
 import {labelsOf} from '../../model/job_list';
@@ -13,39 +11,8 @@ import {bytes, count, seconds} from '../../model/numbers';
 import {requestId} from '../../ui/request_id';
 import {go, setQuery, type Route} from '../../ui/route';
 import {Editor} from './editor';
+import {useText} from './use_text';
 import {jobOf, useValidation, type Verdict} from './use_validation';
-
-const FIRST = 'three-ball-chain.yaml';
-const KEEP_MS = 400;
-
-/** The text of another job. */
-async function textOf(id: string): Promise<string> {
-  const {stringify} = await import('yaml');
-  const {spec} = await server.getJob({name: `jobs/${id}`});
-  if (spec.case === 'scenario') return stringify(toJson(ScenarioSchema, spec.value, {useProtoFieldName: true}));
-  return spec.case === 'sweep' ? stringify(toJson(SweepSchema, spec.value, {useProtoFieldName: true})) : '';
-}
-
-/** The text, kept in the address as far as it was changed. */
-function useText({query, hash}: Route): [string, (text: string) => void] {
-  const from = query.get('from');
-  const template = `${query.get('template') ?? FIRST.replace('.yaml', '')}.yaml`;
-  const kept = hash.startsWith('#text=') ? decodeURIComponent(hash.slice(6)) : undefined;
-  const [text, setText] = useState(kept ?? (from ? '' : templates[template] ?? ''));
-  const [origin, setOrigin] = useState(from ? '' : templates[template] ?? '');
-  useEffect(() => {
-    if (from) void textOf(from).then((read) => { setOrigin(read); setText((now) => now || read); }, (e: unknown) => setText(`# ${explain(e)}\n`));
-    else if (origin !== templates[template]) { setOrigin(templates[template] ?? ''); setText(templates[template] ?? ''); }
-  }, [from, template]);
-  useEffect(() => {
-    const timer = setTimeout(() => {
-      const next = text === origin || text === '' ? '' : `#text=${encodeURIComponent(text)}`;
-      if (next !== location.hash) go(location.pathname + location.search + next, true);
-    }, KEEP_MS);
-    return () => clearTimeout(timer);
-  }, [text, origin]);
-  return [text, setText];
-}
 
 function Verdicts({problems, warnings, estimate, settled}: Verdict) {
   return (
@@ -62,33 +29,34 @@ function Verdicts({problems, warnings, estimate, settled}: Verdict) {
 
 /** The page for Python; undefined while it is wrong, or where contactsim cannot make it. */
 function pythonOf({page, problems, settled}: Verdict, labels: Labels): string | undefined {
-  if (!page.json) return undefined;
-  if (page.kind === 'scenario') return asPython(page.json, labels);
-  if (!settled || problems.length > 0) return undefined;
+  if (!page.json || problems.length > 0) return undefined;
+  if (page.kind === 'scenario') return asPython(page.json, location.origin, labels);
+  if (!settled) return undefined;
   const {spec} = jobOf(page);
-  return spec.case === 'sweep' ? sweepAsPython(spec.value, labels) : undefined;
+  return spec.case === 'sweep' ? sweepAsPython(spec.value, location.origin, labels) : undefined;
 }
 
 function CopyAs({text, verdict, labels}: {text: string; verdict: Verdict; labels: Labels}) {
   const [shown, setShown] = useState('');
   const {page} = verdict;
-  const python = useMemo(() => pythonOf(verdict, labels), [page, verdict.settled, JSON.stringify(labels)]);
+  const wrong = !page.json || page.problems.length > 0;
+  const python = useMemo(() => pythonOf(verdict, labels), [page, verdict.settled, verdict.problems, JSON.stringify(labels)]);
   const copy = (what: string) => {
     setShown(what);
     void navigator.clipboard?.writeText(what).catch(() => undefined);
   };
   return (
     <div><span class="group" role="group" aria-label="Copy as">Copy as
-      <button type="button" onClick={() => copy(asCli(page.kind === 'sweep' ? JSON.stringify(page.json) : text, page.kind, labels))} disabled={!page.json}>CLI</button>
+      <button type="button" onClick={() => copy(asCli(page.kind === 'sweep' ? JSON.stringify(page.json) : text, page.kind, location.origin, labels))} disabled={wrong}>CLI</button>
       <button type="button" onClick={() => copy(python!)} disabled={!python} title={page.kind === 'sweep' && !python ? 'contactsim makes grids of single fields; use the CLI' : ''}>Python</button>
-      <button type="button" onClick={() => copy(asCurl(page.json!, page.kind, location.origin, labels))} disabled={!page.json}>curl</button></span>
+      <button type="button" onClick={() => copy(asCurl(page.json!, page.kind, location.origin, labels))} disabled={wrong}>curl</button></span>
       {shown && <pre class="copied" tabIndex={0} aria-label="copied text">{shown}</pre>}
     </div>
   );
 }
 
 export function New({route}: {route: Route}) {
-  const [text, setText] = useText(route);
+  const {text, setText, replaced, take} = useText(route);
   const verdict = useValidation(text);
   const labels = route.query.get('labels') ?? '';
   const [error, setError] = useState('');
@@ -106,8 +74,9 @@ export function New({route}: {route: Route}) {
       <div class="new">
         <nav aria-label="Templates"><h2>Templates</h2><ul>{Object.keys(templates).sort().map((name) => (
           <li key={name}><button type="button" class="quiet" aria-pressed={text === templates[name]}
-            onClick={() => { history.replaceState(null, '', '/new'); setQuery({template: name.replace('.yaml', '')}); setText(templates[name]!); }}>{titleOf(name)}</button></li>))}</ul></nav>
+            onClick={() => take(name.replace('.yaml', ''))}>{titleOf(name)}</button></li>))}</ul></nav>
         <div>
+          {replaced && <p class="notice" role="status">The template stands in place of what you wrote. <button type="button" onClick={() => history.back()}>Back to my text</button></p>}
           <Editor text={text} setText={setText} problems={verdict.problems} />
           <Verdicts {...verdict} />
           {error && <p class="notice" role="alert">{error}</p>}

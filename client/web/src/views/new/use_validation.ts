@@ -8,7 +8,7 @@ import {explain, violationsOf} from '../../api/errors';
 import {JobSchema, type Estimate, type Job} from '../../api/generated/contact/v1/job_pb';
 import {ScenarioSchema, SweepSchema} from '../../api/generated/contact/v1/scenario_pb';
 import {templates} from '../../api/templates';
-import {readPage, type Page, type Problem} from '../../model/scenario_text';
+import {allProblems, readPage, type Page, type Problem} from '../../model/scenario_text';
 
 export interface Verdict {
   page: Page;
@@ -36,24 +36,25 @@ export function problemsOf(error: unknown, page: Page): Problem[] {
   return violations.map(({field, description}) => ({line: page.lineOf(field), path: field, text: description}));
 }
 
-/** Reads a page and asks the server about it. */
+/** Reads a page and asks the server about it: about the rest of it, if a part is wrong. */
 export function useValidation(text: string): Verdict {
   const [verdict, setVerdict] = useState<Verdict>(() => ({
     page: readPage(text, templates), problems: [], warnings: [], estimate: undefined, settled: false}));
   useEffect(() => {
     const page = readPage(text, templates);
+    const wrong = page.problems.length > 0;
     const control = new AbortController();
     const settle = (rest: Partial<Verdict>) => {
-      if (!control.signal.aborted) setVerdict({page, problems: [], warnings: [], estimate: undefined, settled: true, ...rest});
+      if (!control.signal.aborted) setVerdict({page, problems: page.problems, warnings: [], estimate: undefined, settled: true, ...rest});
     };
-    setVerdict((last) => ({...last, page, settled: false}));
-    if (page.problems.length > 0) { settle({problems: page.problems}); return undefined; }
+    setVerdict((last) => ({...last, page, settled: false, ...(wrong ? {problems: page.problems} : {})}));
+    if (page.json === undefined) { settle({}); return undefined; }
     const timer = setTimeout(() => {
       let job: Job;
-      try { job = jobOf(page); } catch (error) { settle({problems: [{line: 0, path: '', text: (error as Error).message}]}); return; }
+      try { job = jobOf(page); } catch (error) { settle(wrong ? {} : {problems: [{line: 0, path: '', text: (error as Error).message}]}); return; }
       server.createJob({job, validateOnly: true}, {signal: control.signal}).then(
-        ({warnings, estimate}) => settle({warnings, estimate}),
-        (error: unknown) => settle({problems: problemsOf(error, page)}));
+        ({warnings, estimate}) => settle(wrong ? {} : {warnings, estimate}),
+        (error: unknown) => settle({problems: allProblems(page, problemsOf(error, page))}));
     }, PAUSE_MS);
     return () => { clearTimeout(timer); control.abort(); };
   }, [text]);
