@@ -85,7 +85,11 @@ test('a run is watched while it converges, and is cancelled', async () => {
   const text = () => page.getByLabel('Cycle ledger').locator('.tools').innerText();
   const [before, end] = [await text(), await page.locator('progress').getAttribute('value')];
   await hold(async () => await text() !== before && await page.locator('progress').getAttribute('value') > end);
-  await page.getByRole('button', {name: 'Cancel run'}).click();
+  await page.getByRole('button', {name: 'Cancel run …'}).click();
+  await page.getByRole('button', {name: 'Go on'}).click();
+  assert.match(await state(), /RUNNING/);
+  await page.getByRole('button', {name: 'Cancel run …'}).click();
+  await page.getByRole('button', {name: 'Cancel for good'}).click();
   await hold(async () => /CANCELLED/.test(await state()));
   assert.equal((await server.ended(id)).state, 'CANCELLED');
 });

@@ -18,8 +18,19 @@ function progressOf({progress}: RunState): number {
   return Number.isFinite(part) ? part : 0;
 }
 
-function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (why: string) => void}) {
+/** A button for what cannot be taken back: it asks whether that is meant. */
+function Twice({first, then, stay, act}: {first: string; then: string; stay: string; act: () => void}) {
   const [sure, setSure] = useState(false);
+  if (!sure) return <button type="button" onClick={() => setSure(true)}>{first}</button>;
+  return (
+    <>
+      <button type="button" class="danger" onClick={() => { setSure(false); act(); }}>{then}</button>
+      <button type="button" onClick={() => setSure(false)}>{stay}</button>
+    </>
+  );
+}
+
+function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (why: string) => void}) {
   const name = `jobs/${id}`;
   const attempt = (call: Promise<unknown>, then: () => void = () => undefined) =>
     call.then(then, (error: unknown) => onError(explain(error)));
@@ -27,10 +38,8 @@ function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (wh
     <span class="actions">
       <a class="button" href={`/new?from=${id}`}>Run again with changes</a>
       <a class="button" href={`/compare?jobs=${id}`}>Compare</a>
-      {!ended && <button type="button" onClick={() => void attempt(server.cancelJob({name}))}>Cancel run</button>}
-      {ended && !sure && <button type="button" onClick={() => setSure(true)}>Delete …</button>}
-      {ended && sure && <button type="button" class="danger" onClick={() => void attempt(server.deleteJob({name}), () => go('/runs'))}>Delete for good</button>}
-      {ended && sure && <button type="button" onClick={() => setSure(false)}>Keep</button>}
+      {!ended && <Twice key="cancel" first="Cancel run …" then="Cancel for good" stay="Go on" act={() => void attempt(server.cancelJob({name}))} />}
+      {ended && <Twice key="delete" first="Delete …" then="Delete for good" stay="Keep" act={() => void attempt(server.deleteJob({name}), () => go('/runs'))} />}
     </span>
   );
 }
