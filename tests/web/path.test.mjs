@@ -332,7 +332,7 @@ test('a sweep fills cell by cell, and a cell becomes a run', async () => {
     await page.keyboard.press('ArrowRight');
     await hold(() => ofAddress('cell') === cell);
   }
-  await page.getByText(/restitution = 0.8, .*velocity_m_per_s = 0.1: iterations \d+/).waitFor();
+  await page.getByText(/restitution of all contacts \[1\] = 0.8, velocity of B1 \[m\/s\] = 0.1: iterations \d+/).waitFor();
   await saved('map of iterations');
   await page.getByLabel('Show').selectOption('parallel');
   await saved('parallel coordinates');

@@ -151,7 +151,7 @@ test('a point of the line of a sweep is chosen and becomes a run', async () => {
   await line.press('ArrowRight');
   await hold(() => ofAddress('cell') === '0');
   await line.press('ArrowRight');
-  await page.getByText(/velocity_m_per_s = 0.2: cycles\[B1-B2\].alpha [\d.]+ converged/).waitFor();
+  await page.getByText(/velocity of B1 \[m\/s\] = 0.2: alpha of B1-B2 \[1\] [\d.]+ converged/).waitFor();
   const box = await line.locator('.u-over').boundingBox();
   await page.mouse.click(box.x + box.width - 3, box.y + 40);
   await hold(() => ofAddress('cell') === '4');
@@ -184,6 +184,25 @@ test('a map shows lines of equal value in place of numbers, if its address says 
   await hold(async () => (await levels()).length === 5);
   await page.getByLabel('contours').uncheck();
   await hold(async () => (await levels()).length === 0);
+});
+
+test('any two axes of a sweep of three span its map', async () => {
+  const axis = (field, ...values) => ({field: `bodies[0].${field}`, values});
+  const {name} = await server.call('CreateJob', {job: {sweep: {base: BALL, metrics: ['final_bodies[a].position_m'], axes: [axis('velocity_m_per_s', 1, 2), axis('position_m', 3, 4), axis('mass_kg', 5, 6)]}}});
+  const id = name.replace('jobs/', '');
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  const shown = () => page.locator('[data-plot="map"] h3').innerText();
+  const chosen = (label) => page.getByLabel(new RegExp(`^${label}`)).locator('option:checked').innerText();
+  const axes = async (down, across) => {
+    await hold(async () => await shown() === `final position of a [m] over ${down} and ${across}`);
+    assert.deepEqual([await chosen('Down'), await chosen('Across')], [down, across]);
+  };
+  await axes('velocity of a [m/s]', 'position of a [m]');
+  await page.getByLabel(/^Across/).selectOption('mass of a [kg]');
+  await axes('velocity of a [m/s]', 'mass of a [kg]');
+  await page.getByLabel(/^Down/).selectOption('mass of a [kg]');
+  await axes('mass of a [kg]', 'velocity of a [m/s]');
 });
 
 test('a file that does not come says why, and can be asked for again', async () => {

@@ -198,7 +198,7 @@ describe('sweeps and comparisons', () => {
   });
   it('find the cell and the line at a point', () => {
     const place = {left: 10, width: 5, height: 4, columns: 3, rows: 2};
-    expect([cellAt(place, 12, 1), cellAt(place, 24, 7), cellAt(place, 9, 1), cellAt(place, 12, 8)]).toEqual([[0, 1], [2, 0], undefined, undefined]);
+    expect([cellAt(place, 12, 1), cellAt(place, 24, 7), cellAt(place, 9, 1), cellAt(place, 12, 8)]).toEqual([[0, 0], [2, 1], undefined, undefined]);
     expect([nearestLine([0, 10], [[0, 10], [10, 0]], 9, 2), nearestLine([0, 10], [[NaN, NaN]], 1, 1)]).toEqual([1, -1]);
   });
   it('are copied with their labels', () => {

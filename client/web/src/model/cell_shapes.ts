@@ -57,15 +57,15 @@ export function levelOf(part: number): string {
 
 const round = (value: number) => Math.round(value * 100) / 100;
 
-/** The left upper corner of a cell. Rows grow upwards. */
-export function cornerOf({left, width, height, rows}: MapPlace, i: number, j: number): [number, number] {
-  return [round(left + i * width), round((rows - 1 - j) * height)];
+/** The left upper corner of a cell. The first row is at the top. */
+export function cornerOf({left, width, height}: MapPlace, i: number, j: number): [number, number] {
+  return [round(left + i * width), round(j * height)];
 }
 
 /** The place of the cell at a point of the drawing; undefined outside. */
 export function cellAt({left, width, height, columns, rows}: MapPlace, x: number, y: number): [number, number] | undefined {
   const i = Math.floor((x - left) / width);
-  const j = rows - 1 - Math.floor(y / height);
+  const j = Math.floor(y / height);
   return i >= 0 && i < columns && j >= 0 && j < rows ? [i, j] : undefined;
 }
 

@@ -52,10 +52,10 @@ function labelsOf(lines: [string, ContourLine][], {left, width, columns}: MapPla
 
 /** The lines of a map over the range of its colours, and their labels. */
 export function contourShapes(data: MapData, place: MapPlace, range: [number, number]): {contours: Contour[]; labels: ContourLabel[]} {
-  const {left, width, height, columns, rows} = place;
+  const {left, width, height, columns} = place;
   const scale = (value: number) => (data.log ? Math.log(value) : value);
   const values = valuesOf(data, scale);
-  const drawn = ([i, j]: [number, number]): [number, number] => [round(left + (i + 0.5) * width), round((rows - 0.5 - j) * height)];
+  const drawn = ([i, j]: [number, number]): [number, number] => [round(left + (i + 0.5) * width), round((j + 0.5) * height)];
   const lines = contourLevels(range, data.log).flatMap((level) =>
     contourLines(values, columns, scale(level)).map((line): [string, ContourLine] => [short(level, DIGITS), line.map(drawn)]));
   const paths = new Map<string, string>();

@@ -1,7 +1,7 @@
 // What a map of a sweep shows, without drawing it.
 
 import type {SweepCell} from '../api/generated/contact/v1/event_pb';
-import {extent} from './panel';
+import {csvField, extent} from './panel';
 import {exact} from './numbers';
 import {cellIndex, metricOf, metricText, outcomeOf, unknownOf} from './sweep';
 
@@ -43,7 +43,7 @@ export function csvOf(props: MapData): string {
     const cell = cells.get(indexAt(i, j));
     return [exact(u), exact(v), cell ? String(metricOf(cell, metric)) : '', outcomeOf(cell), unknownOf(cell, metric)].join(',');
   }));
-  return `${[[x.name, y.name, metricName, 'outcome', 'unknown'].join(','), ...rows].join('\n')}\n`;
+  return `${[[x.name, y.name, metricName, 'outcome', 'unknown'].map(csvField).join(','), ...rows].join('\n')}\n`;
 }
 
 /** The place of a cell; undefined if it is not in the map. */
@@ -53,6 +53,13 @@ export function placeOfCell({x, y, indexAt}: MapData, index: number | undefined)
     for (let i = 0; i < x.values.length; ++i) if (indexAt(i, j) === index) return [i, j];
   }
   return undefined;
+}
+
+/** The axes of a grid of `count` that a map shows: those wanted, as far as they are there and differ. */
+export function planeOf(count: number, y = 0, x = 0): {down: number; across: number} {
+  const down = Math.min(y || 0, count - 1);
+  const across = Math.min(x || 0, count - 1);
+  return {down, across: across !== down ? across : down === 0 ? 1 : 0};
 }
 
 /** A slice of a grid: the place on each axis that is not shown. */

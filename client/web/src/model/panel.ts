@@ -110,12 +110,16 @@ export function extent(lists: Iterable<ArrayLike<number>>, positive = false): [n
   return low <= high ? [low, high] : undefined;
 }
 
+/** A text as a field of CSV. */
+export function csvField(text: string): string {
+  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
 /** The points of a panel as CSV, as `contactctl plot -o csv` has them. */
 export function panelCsv(panel: Panel): string {
-  const quote = (text: string) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-  const rows = [['curve', panel.xLabel, panel.yLabel].map(quote).join(',')];
+  const rows = [['curve', panel.xLabel, panel.yLabel].map(csvField).join(',')];
   for (const {label, x, y} of panel.curves) {
-    for (let i = 0; i < x.length; ++i) rows.push(`${quote(label)},${x[i]},${y[i]}`);
+    for (let i = 0; i < x.length; ++i) rows.push(`${csvField(label)},${x[i]},${y[i]}`);
   }
   return `${rows.join('\n')}\n`;
 }

@@ -38,7 +38,7 @@ function placeOf({x, y}: Props, room: number): MapPlace {
 function keysOf(props: Props) {
   const {x, y, indexAt, chosen, choose, open} = props;
   return (event: KeyboardEvent) => {
-    const moves: Record<string, [number, number]> = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+    const moves: Record<string, [number, number]> = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
     if (event.key === 'Enter' && chosen !== undefined) { open(chosen); return; }
     const move = moves[event.key];
     if (!move) return;
@@ -69,7 +69,7 @@ function Ticks({x, y, place: {left, width, height, columns, rows}}: {x: Axis; y:
   return (
     <>
       {x.values.map((v, i) => i % every[0] === 0 && <text key={`x${i}`} class="ink" x={left + (i + 0.5) * width} y={bottom + 18} text-anchor="middle">{short(v)}</text>)}
-      {y.values.map((v, j) => j % every[1] === 0 && <text key={`y${j}`} class="ink" x={left - 8} y={(rows - 0.5 - j) * height + 4} text-anchor="end">{short(v)}</text>)}
+      {y.values.map((v, j) => j % every[1] === 0 && <text key={`y${j}`} class="ink" x={left - 8} y={(j + 0.5) * height + 4} text-anchor="end">{short(v)}</text>)}
       <text class="ink name" x={left + width * columns / 2} y={bottom + 42} text-anchor="middle">{x.name}</text>
       <text class="ink name" transform={`translate(14 ${bottom / 2}) rotate(-90)`} text-anchor="middle">{y.name}</text>
     </>

@@ -6,7 +6,8 @@ import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
 import type {Sweep} from '../../api/generated/contact/v1/scenario_pb';
 import {exact} from '../../model/numbers';
 import type {Curve, Panel} from '../../model/panel';
-import {axisName, countUnknown, metricOf, metricText, outcomeOf} from '../../model/sweep';
+import {countUnknown, metricOf, metricText, outcomeOf} from '../../model/sweep';
+import {axisLabel, metricLabel} from '../../model/sweep_labels';
 import {Plot} from '../../plots/plot';
 import {keysOver, type Choosing} from './choosing';
 
@@ -23,13 +24,13 @@ function pointsOf(cells: SweepCell[]): SweepCell[] {
 }
 
 function linePanel({sweep, metric, chosen}: Props, points: SweepCell[]): Panel {
-  const [axis, name] = [sweep.axes[0]!, sweep.metrics[metric]!];
+  const [axis, name] = [sweep.axes[0]!, metricLabel(sweep.metrics[metric]!)];
   const curve = (label: string, colour: number, mark: Curve['mark'], of: SweepCell[]): Curve => ({
     label, colour, mark, keyed: mark === 'linePoints', x: of.map((c) => c.values[0]!), y: of.map((c) => metricOf(c, metric))});
   const missed = points.filter((c) => outcomeOf(c) === 'not converged');
   const unknown = countUnknown(points, metric);
   return {
-    id: 'line', title: name, xLabel: axisName(axis), yLabel: name, overTime: true, logX: !!axis.log,
+    id: 'line', title: name, xLabel: axisLabel(sweep, 0), yLabel: name, overTime: true, logX: !!axis.log,
     curves: [curve(name, 0, 'linePoints', points), curve(`${name} ends`, 1, 'end', missed),
       curve('chosen', 1, 'start', points.filter(({index}) => index === chosen))],
     note: `o chosen${missed.length > 0 ? '; ×: not converged' : ''}${Object.entries(unknown).map(([why, n]) => (n > 0 ? `; ${why}: ${n} of ${points.length} cells` : '')).join('')}`,
@@ -37,7 +38,7 @@ function linePanel({sweep, metric, chosen}: Props, points: SweepCell[]): Panel {
 }
 
 function wordsOf({sweep, metric}: Props, cell: SweepCell): string {
-  return `${axisName(sweep.axes[0]!)} = ${exact(cell.values[0])}: ${sweep.metrics[metric]} ${metricText(cell, metric)} ${outcomeOf(cell)}`;
+  return `${axisLabel(sweep, 0)} = ${exact(cell.values[0])}: ${metricLabel(sweep.metrics[metric]!)} ${metricText(cell, metric)} ${outcomeOf(cell)}`;
 }
 
 export function Line(props: Props) {
@@ -49,7 +50,7 @@ export function Line(props: Props) {
     const {index} = points[place]!;
     if (index === chosen) open(index); else choose(index);
   };
-  const label = `${sweep.metrics[metric]} over ${axisName(sweep.axes[0]!)}; arrow keys choose a cell, Enter runs it`;
+  const label = `${metricLabel(sweep.metrics[metric]!)} over ${axisLabel(sweep, 0)}; arrow keys choose a cell, Enter runs it`;
   return (
     <>
       <Plot panel={panel} source={source} height={320} choosing={{label, press: keysOver(points, props), pick}} />
