@@ -201,6 +201,8 @@ test('one cursor reads all plots', async () => {
   for (const plot of ['force', 'velocity', 'deformation', 'displacement', 'energy']) {
     await hold(async () => /\d/.test(await page.locator(`[data-plot="${plot}"] output`).first().innerText()));
   }
+  assert.match(await page.locator('[data-plot="deformation"] .key').innerText(), /B1-B2\s+−?-?[\d.]{3,8}\s.*\sµm$/s, 'few digits in the unit of the axis');
+  assert.equal(await page.locator('[data-plot="force"] .u-cursor-pt').first().evaluate((ring) => getComputedStyle(ring).backgroundColor), 'rgba(0, 0, 0, 0)', 'curves are seen through the cursor');
 });
 
 /** Saves a figure in each of its forms; what comes must be of that form. */

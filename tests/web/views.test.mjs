@@ -133,7 +133,7 @@ test('keys move the moment, and every plot over time tells its values there', as
   await drawn();
   await page.getByLabel('moment').focus();
   await page.keyboard.press('PageUp');   // A tenth of all.
-  for (const [plot, words] of [['force', /^Contact force, force \[N\], at 0\.0004\d* s: B1-B2 \d/], ['velocity', /^Velocity.*B1 0\.\d/], ['energy', /^Energy balance.*kinetic 0\.\d/]]) {
+  for (const [plot, words] of [['force', /^Contact force, force \[N\], at 0\.0004\d* s: B1-B2 \d/], ['velocity', /^Velocity.*B1 0\.\d/], ['energy', /^Energy balance, energy \[mJ\].*kinetic \d/]]) {
     const figure = page.locator(`[data-plot="${plot}"]`);
     await hold(async () => words.test(await figure.locator('> output').textContent()));
     assert.match(await figure.locator('.key output').first().innerText(), /\d/);

@@ -75,12 +75,14 @@ function rightPadding(panel: Panel, width: number): number {
   return Math.min(14 + 6.5 * longest, 130);
 }
 
+/** The cursor reads the curves by rings, through which they are seen. */
 function cursorOf(shown: Shown): uPlot.Cursor {
+  const colour = (_u: uPlot, place: number) => colourOf(lines(shown.panel)[place - 1]?.colour ?? 0, shown.theme);
   const timed = shown.panel.overTime && !shown.panel.countedX;
   return {
     show: shown.panel.overTime, y: false,
     drag: {x: timed, y: false, setScale: false, dist: 5},
-    points: {size: 6},
+    points: {size: 9, width: 1.5, fill: 'transparent', stroke: colour},
     ...(timed ? {sync: {key: 'time', setSeries: false}} : {}),
     bind: {dblclick: () => () => { shown.onZoom(undefined); return null; }},
   };

@@ -3,6 +3,7 @@
 import type {Curve, Panel} from '../model/panel';
 import {colourOf, dashOf, useTheme} from '../ui/theme';
 import {lines} from './build';
+import type {Reading} from './moment';
 
 const MOST = 24;
 
@@ -10,8 +11,7 @@ interface Props {
   panel: Panel;
   hidden: Set<string>;
   setHidden: (hidden: Set<string>) => void;
-  values: (HTMLElement | null)[];
-  unit: string;
+  reading: Reading;
 }
 
 function Swatch({curve}: {curve: Curve}) {
@@ -25,7 +25,7 @@ function Swatch({curve}: {curve: Curve}) {
   );
 }
 
-export function Key({panel, hidden, setHidden, values, unit}: Props) {
+export function Key({panel, hidden, setHidden, reading}: Props) {
   const curves = panel.overTime ? lines(panel) : panel.curves.filter(({keyed, mark}) => keyed !== false && mark === 'line');
   const toggle = (label: string) => {
     const next = new Set(hidden);
@@ -39,11 +39,11 @@ export function Key({panel, hidden, setHidden, values, unit}: Props) {
           onClick={() => toggle(curve.label)} title="show or hide">
           <Swatch curve={curve} />
           {curve.label}
-          <output ref={(at) => { values[i] = at; }} />
+          <output ref={(at) => { reading.values[i] = at; }} />
         </button>
       ))}
       {curves.length > MOST && <span class="soft">and {curves.length - MOST} more</span>}
-      {panel.overTime && unit && unit !== '1' && <span class="soft">{unit}</span>}
+      {panel.overTime && <span class="soft" ref={(at) => { reading.unit = at; }} />}
     </div>
   );
 }

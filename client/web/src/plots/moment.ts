@@ -3,12 +3,15 @@
 import {useEffect, useMemo, useRef} from 'preact/hooks';
 import type uPlot from 'uplot';
 
-import {exact, short} from '../model/numbers';
+import {short} from '../model/numbers';
 import type {Panel} from '../model/panel';
+import {unitOf, type AxisUnit} from '../model/units';
 import {onPlayhead, playhead} from '../ui/playhead';
+import {unitOfScale} from './axes';
 import {lines} from './build';
 
 const REST_MS = 200;
+const DIGITS = 6;   // Of a value: more than the eye finds in a plot. Its CSV has all.
 
 interface Drawn {
   current: uPlot | undefined;
@@ -23,25 +26,28 @@ function placeOf(plot: uPlot | undefined, time: number | undefined): number | nu
   return plot!.valToIdx(time);
 }
 
-function valueAt(plot: uPlot | undefined, curve: number, place: number | null): string {
-  const value = place === null ? undefined : plot?.data[curve + 1]?.[place];
-  return value === undefined || value === null ? '' : exact(value);
+/** The value of a curve in the unit of the axis. */
+function valueAt(plot: uPlot, curve: number, place: number | null, {factor}: AxisUnit): string {
+  const value = place === null ? undefined : plot.data[curve + 1]?.[place];
+  return value === undefined || value === null ? '' : short(value / factor, DIGITS);
 }
 
 /** The values of a moment in a line, for those who do not see the key. */
 function sentence(plot: uPlot, panel: Panel, place: number | null): string {
-  const values = lines(panel).flatMap(({label}, i) => (valueAt(plot, i, place) ? [`${label} ${valueAt(plot, i, place)}`] : []));
-  return values.length > 0 ? `${panel.title}, ${panel.yLabel}, at ${short(plot.data[0][place!]!, 9)} s: ${values.join('; ')}` : '';
+  const unit = unitOfScale(plot, 'y', panel.yLabel);
+  const values = lines(panel).flatMap(({label}, i) => { const text = valueAt(plot, i, place, unit); return text ? [`${label} ${text}`] : []; });
+  return values.length > 0 ? `${panel.title}, ${unit.label}, at ${short(plot.data[0][place!]!, 9)} s: ${values.join('; ')}` : '';
 }
 
 /** Where the values of the curves stand: in the key, at the pointer or else at the moment; and the moment's in words. */
 export class Reading {
   values: (HTMLElement | null)[] = [];
+  unit: HTMLElement | null = null;
   words: HTMLElement | null = null;
   #pointer: number | null = null;
   #time: number | undefined;
 
-  constructor(private readonly plot: Drawn) {}
+  constructor(private readonly plot: Drawn, public panel: Panel) {}
 
   /** The pointer is at a sample, or nowhere. */
   point(place: number | null): void {
@@ -50,25 +56,28 @@ export class Reading {
   }
 
   /** The moment has come to rest at a time. */
-  rest(time: number | undefined, panel: Panel): void {
+  rest(time: number | undefined): void {
     this.#time = time;
-    this.drawn(panel);
+    this.drawn();
   }
 
   /** The plot has been drawn, perhaps of other values, or of another part of them. */
-  drawn(panel: Panel): void {
-    if (timed(panel)) moveLine(this.plot, playhead());
+  drawn(): void {
+    if (timed(this.panel)) moveLine(this.plot, playhead());
     this.#show();
     const plot = this.plot.current;
     if (!plot || !this.words) return;
-    const now = sentence(plot, panel, placeOf(plot, this.#time));
+    const now = sentence(plot, this.panel, placeOf(plot, this.#time));
     if (this.words.textContent !== now) this.words.textContent = now;
   }
 
   #show(): void {
     const plot = this.plot.current;
+    if (!plot) return;
     const place = this.#pointer ?? placeOf(plot, this.#time);
-    this.values.forEach((at, i) => { if (at) at.textContent = ` ${valueAt(plot, i, place)}`.trimEnd(); });
+    const unit = unitOfScale(plot, 'y', this.panel.yLabel);
+    this.values.forEach((at, i) => { if (at) at.textContent = ` ${valueAt(plot, i, place, unit)}`.trimEnd(); });
+    if (this.unit) this.unit.textContent = unitOf(unit.label).replace(/^1$/, '');
   }
 }
 
@@ -84,14 +93,15 @@ function moveLine({current: plot}: Drawn, time: number | undefined): void {
 
 /** Follows the moment; gives what tells the values of the plot. */
 export function useReading(plot: Drawn, panel: Panel): Reading {
-  const reading = useMemo(() => new Reading(plot), []);
+  const reading = useMemo(() => new Reading(plot, panel), []);
+  reading.panel = panel;
   const timer = useRef(0);
   useEffect(() => {
     if (!timed(panel)) return undefined;
     const place = (time: number | undefined) => {
       moveLine(plot, time);
       clearTimeout(timer.current);
-      timer.current = window.setTimeout(() => reading.rest(time, panel), REST_MS);
+      timer.current = window.setTimeout(() => reading.rest(time), REST_MS);
     };
     place(playhead());
     return onPlayhead(place);

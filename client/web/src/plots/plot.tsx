@@ -4,7 +4,6 @@ import {useEffect, useLayoutEffect, useRef} from 'preact/hooks';
 import type uPlot from 'uplot';
 
 import type {Panel} from '../model/panel';
-import {unitOf} from '../model/units';
 import {useHidden} from '../ui/hidden';
 import {useTheme} from '../ui/theme';
 import type {Ink} from './axes';
@@ -92,14 +91,13 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
   const shown = useRef<Shown>();
   const [hidden, setHidden] = useHidden(panel.id);
   const key = structure(panel);
-  const unit = unitOf(panel.yLabel);
   const seen = useSeen(box);
   const reading = useReading(plot, panel);
 
   useLayoutEffect(() => {
     const ink = inkOf(box.current!);
     shown.current = {panel, window: span, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: (place) => reading.point(place),
-      onDrawn: () => reading.drawn(shown.current!.panel)};
+      onDrawn: () => reading.drawn()};
     plot.current = buildPlot(shown.current, box.current!.clientWidth || 400, height, box.current!);
     const observer = new ResizeObserver(() => {
       const width = box.current?.clientWidth;
@@ -131,7 +129,7 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
       </figcaption>
       <div ref={box} class={choosing ? 'canvas keys' : 'canvas'} {...(choosing ? choosable(choosing, plot) : {role: 'img', 'aria-label': namesOf(panel)})} />
       {!points && <p class="nothing">{empty ?? 'Nothing to show yet.'}</p>}
-      <Key panel={panel} hidden={hidden} setHidden={setHidden} values={reading.values} unit={unit} />
+      <Key panel={panel} hidden={hidden} setHidden={setHidden} reading={reading} />
       <output class="hidden" ref={(at) => { reading.words = at; }} />
       {panel.note && <p class="note">{panel.note}</p>}
     </figure>
