@@ -29,6 +29,13 @@ const hold = (what) => until(what, what.toString());
 const ofAddress = (name) => new URL(page.url()).searchParams.get(name);
 const points = (plot) => page.locator(`[data-plot="${plot}"]`).getAttribute('data-points').then(Number);
 const drawn = () => hold(async () => await points('force') > 100);
+/** The rows of a plot's file. */
+async function csvOf(title) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel(`${title} as CSV`).click()]);
+  const chunks = [];
+  for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+  return Buffer.concat(chunks).toString().split('\n');
+}
 const stop = async (id) => { await server.call('CancelJob', {name: `jobs/${id}`}); await server.ended(id); };
 const refuse = (method) => page.route(`**/${method}`, (route) => route.fulfill({
   status: 503, contentType: 'application/json', body: JSON.stringify({code: 'unavailable', message: 'The store is full.'})}));
@@ -105,6 +112,16 @@ test('the ledger shows what its filters choose', async () => {
   await ledger.getByLabel('Status').selectOption('CONVERGED');
   await hold(() => ofAddress('status') === 'CONVERGED');
   assert.equal(await rows.count(), 1);
+});
+
+test('a loop of a short contact in a long run is round', async () => {
+  const id = await server.submit({title: 'Bouncing ball', bodies: [{name: 'ball', massKg: 0.5, radiusM: 0.05, positionM: 1}],
+    contacts: [{name: 'floor', between: ['ball'], wall: {positionM: 0, side: 'LEFT'}, stiffness: 1e8, restitution: 0.8}],
+    loads: [{gravity: {accelerationMPerS2: -9.81}}], endTimeS: 3, output: {sampleIntervalS: 5e-5}});
+  await server.ended(id);
+  await open(`/runs/${id}`);
+  await drawn();
+  await hold(async () => (await csvOf('Hysteresis')).filter((row) => row.startsWith('floor,')).length > 20);
 });
 
 test('the page of the server tells what waits and what runs', async () => {

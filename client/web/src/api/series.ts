@@ -11,7 +11,10 @@ export interface Channel {
 }
 
 /** Columns by name; `time` is among them. */
-export type Series = Map<string, Channel>;
+export interface Series extends Map<string, Channel> {
+  /** True if more samples are recorded than are here. */
+  thinned?: boolean;
+}
 
 /** The doubles of a column: little-endian, as all machines that run browsers are. */
 export function doubles(bytes: Uint8Array): Float64Array {
@@ -38,6 +41,7 @@ export async function readSeries(query: SeriesQuery, signal?: AbortSignal): Prom
     ...(query.to === undefined ? {} : {endTimeS: query.to}),
     maxPoints: Math.max(query.maxPoints, 2 + 2 * query.channels.length),
   }, signal ? {signal} : {});
-  return new Map(answer.columns.map(({name, quantity, unit, values}) =>
+  const columns = new Map(answer.columns.map(({name, quantity, unit, values}) =>
     [name, {name, quantity, unit, values: doubles(values)}]));
+  return Object.assign(columns, {thinned: answer.recordedSamples > answer.samples});
 }

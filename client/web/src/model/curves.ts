@@ -13,6 +13,13 @@ export interface RunPart {
   series: Series;
   /** When bodies were in contact. */
   bands: Band[];
+  /** Closer samples of cycles, by `cycleKey`. */
+  loops?: Map<string, Series>;
+}
+
+/** The name of a cycle in a run. */
+export function cycleKey({contact, number}: Cycle): string {
+  return `${contact} #${number}`;
 }
 
 /** What a plot shows. */

@@ -1,9 +1,11 @@
 // Force over deformation: a loop for each cycle.
 
 import type {Cycle} from '../api/generated/contact/v1/job_pb';
-import {endForces, MOST_MARKED, unmarked, values, type RunView} from './curves';
+import {cycleKey, endForces, MOST_MARKED, unmarked, values, type RunPart, type RunView} from './curves';
 import type {ContactModel} from './mechanics';
 import {lowerBound, type Curve, type Panel} from './panel';
+
+const SMOOTH = 32;   // Samples of a loop whose corners nobody sees.
 
 interface Loop {
   x: number[];
@@ -15,13 +17,15 @@ interface Loop {
 
 /** The loop of a cycle, or the part of it that is shown. */
 function loop(view: RunView, cycle: Cycle, contact: ContactModel): Loop {
-  const time = values(view.series, 'time');
+  const shown = values(view.series, 'time');
+  const samples = view.loops?.get(cycleKey(cycle)) ?? view.series;
+  const time = values(samples, 'time');
   const [start, end] = endForces(view, contact);
-  const first = lowerBound(time, cycle.startTimeS);
-  const last = lowerBound(time, cycle.endTimeS);
-  const part = (name: string) => Array.from(values(view.series, `${contact.name}.${name}`).subarray(first, last));
-  const starts = cycle.startTimeS >= time[0]!;
-  const ends = cycle.endTimeS <= time.at(-1)!;
+  const starts = cycle.startTimeS >= shown[0]!;
+  const ends = cycle.endTimeS <= shown.at(-1)!;
+  const first = lowerBound(time, Math.max(cycle.startTimeS, shown[0]!));
+  const last = lowerBound(time, Math.min(cycle.endTimeS, shown.at(-1)!));
+  const part = (name: string) => Array.from(values(samples, `${contact.name}.${name}`).subarray(first, last));
   const whole = (first: number, middle: number[], last: number) =>
     [...(starts ? [first] : []), ...middle, ...(ends ? [last] : [])];
   return {
@@ -29,6 +33,14 @@ function loop(view: RunView, cycle: Cycle, contact: ContactModel): Loop {
     x: whole(cycle.deltaStartM, part('deformation'), cycle.deltaEndM),
     y: whole(start(cycle), part('contact_force'), end(cycle)),
   };
+}
+
+/** The cycles whose loops have fewer samples than are needed for a smooth line, those of most work first. */
+export function coarseCycles({series, loops}: RunPart, cycles: Cycle[]): Cycle[] {
+  const time = values(series, 'time');
+  const samples = ({startTimeS, endTimeS}: Cycle) => lowerBound(time, endTimeS) - lowerBound(time, startTimeS);
+  return cycles.filter((cycle) => !loops?.has(cycleKey(cycle)) && samples(cycle) < SMOOTH)
+    .sort((a, b) => b.workCompressionJ - a.workCompressionJ);
 }
 
 /** The loops of all contacts. */

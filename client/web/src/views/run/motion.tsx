@@ -12,6 +12,7 @@ import {Plot} from '../../plots/plot';
 import type {Window} from '../../plots/range';
 import {LeftOut} from '../../ui/left_out';
 import {setQuery} from '../../ui/route';
+import {useLoops} from './use_loops';
 import {changed, covers, setWindow, windowOf} from './window';
 
 interface Props {
@@ -132,9 +133,11 @@ export function Motion(props: Props) {
   const all = query.get('plots') === 'all';
   const contact = query.get('contact');
   const part = usePart(props);
+  const loops = useLoops(run.job!.name, useMemo(() => crop(mechanics, contact), [mechanics, contact]), part, isFinal(run.state));
+  const looped = useMemo(() => ({...part, loops}), [part, loops]);
   const empty = isFinal(run.state) && part.series.size > 0 ? 'Nothing recorded here.' : 'Waiting for samples …';
   const plots = useMemo(() => presetsFor(mechanics).slice(0, all ? PRESETS.length : FIRST).map((preset) => (
-    <PresetPlot key={preset.id} {...{preset, mechanics, part, contact, drawn, source, empty}} />)), [mechanics, all, contact, part, drawn, source, empty]);
+    <PresetPlot key={preset.id} {...{preset, mechanics, contact, drawn, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, all, contact, looped, drawn, source, empty]);
   return (
     <section aria-label="Motion">
       <div class="tools"><h2>Motion</h2>

@@ -1,0 +1,34 @@
+// Closer samples for hysteresis. The server thins a series over time so that no peak is lost; of a short cycle that
+// leaves a few samples, which are corners of a polygon in its loop.
+
+import {useEffect, useState} from 'preact/hooks';
+
+import {readSeries, type Series} from '../../api/series';
+import {cycleKey, type RunPart} from '../../model/curves';
+import {coarseCycles} from '../../model/hysteresis';
+import type {Mechanics} from '../../model/mechanics';
+
+const MOST_LOOPS = 40;    // Calls one after the other: more loops hide each other, and are smooth after a zoom.
+const POINTS = 200;       // Of a loop.
+const REST_MS = 300;      // A window rests before its loops are asked for.
+
+/** The samples of cycles that the series of an ended run has few of, by `cycleKey`. */
+export function useLoops(name: string, {contacts}: Mechanics, part: RunPart, ended: boolean): Map<string, Series> {
+  const [loops, setLoops] = useState<Map<string, Series>>(new Map());
+  useEffect(() => {
+    if (!ended || !part.series.thinned) return undefined;
+    const control = new AbortController();
+    const read = async () => {
+      const shown = new Set(contacts.map((contact) => contact.name));
+      const found = new Map(loops);
+      for (const cycle of coarseCycles({...part, loops}, part.cycles.filter(({contact}) => shown.has(contact))).slice(0, MOST_LOOPS)) {
+        const channels = ['deformation', 'contact_force'].map((quantity) => `${cycle.contact}.${quantity}`);
+        found.set(cycleKey(cycle), await readSeries({name, channels, from: cycle.startTimeS, to: cycle.endTimeS, maxPoints: POINTS}, control.signal));
+      }
+      if (found.size > loops.size) setLoops(found);
+    };
+    const timer = setTimeout(() => { read().catch(() => undefined); }, REST_MS);   // Without them loops are coarse.
+    return () => { clearTimeout(timer); control.abort(); };
+  }, [name, contacts, part, ended]);
+  return loops;
+}
