@@ -266,9 +266,9 @@ test('a run is run again with another ε and compared', async () => {
   assert.deepEqual((await row.locator('td').allInnerTexts()).slice().sort(), ['0.6', '0.8', 'contacts[0].restitution']);
   await page.getByText(/of \d+ differ/).waitFor();
   await hold(async () => await points('B1-B2.contact_force') > 100);
-  const curve = () => page.locator('[data-plot="B1-B2.contact_force"] .key').getByRole('button', {name: other});
+  const curve = () => page.locator('[data-plot="B1-B2.contact_force"] .key').getByRole('button', {name: 'restitution 0.6'});
   await curve().click();
-  await hold(() => ofAddress('hide') === `B1-B2.contact_force:${other}`);
+  await hold(() => ofAddress('hide') === 'B1-B2.contact_force:restitution 0.6');
   await page.reload();
   await hold(async () => await curve().getAttribute('aria-pressed') === 'false');
 });

@@ -1,19 +1,19 @@
 import {create} from '@bufbuild/protobuf';
 import {describe, expect, it} from 'vitest';
 
-import {CycleSchema, Job_Convergence, Job_State, JobSchema, type Cycle} from '../src/api/generated/contact/v1/job_pb';
+import {CycleSchema, Job_Convergence, Job_State, JobSchema, type Cycle, type Job} from '../src/api/generated/contact/v1/job_pb';
 import {EventSchema, SweepCellSchema, type Event} from '../src/api/generated/contact/v1/event_pb';
 import {WatchJobsResponseSchema} from '../src/api/generated/contact/v1/job_service_pb';
 import {Contact_Damping, ScenarioSchema, SweepSchema, Wall_Side} from '../src/api/generated/contact/v1/scenario_pb';
 import {doubles, type Series} from '../src/api/series';
 import {cellAt, levelOf, mapShapes, nearestLine} from '../src/model/cell_shapes';
-import {compareResults, differingParameters, holds} from '../src/model/comparison';
+import {compareResults, differingParameters, holds, runNames} from '../src/model/comparison';
 import {asCli, asCurl, asPython, sweepAsPython} from '../src/model/copy_as';
 import {MOST_MARKED, unmarked} from '../src/model/curves';
 import {mechanicalEnergy} from '../src/model/energy';
 import {flatten, setField} from '../src/model/field_path';
 import {bracketOf, iterationPanels, nextOf, passesOf} from '../src/model/iterations';
-import {chosenOf, JobList, labelsOf, matches, statesOf} from '../src/model/job_list';
+import {bestOf, chosenOf, JobList, labelsOf, METRICS, matches, statesOf} from '../src/model/job_list';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
 import {insideOf, interpolate, joined, panelCsv} from '../src/model/panel';
 import {PRESETS} from '../src/model/presets';
@@ -166,6 +166,12 @@ describe('the list of jobs', () => {
     expect([names({after: '1970-01-01T00:01Z'}), names({before: '1970-01-01T00:01Z'}), names({after: 'x'}).length]).toEqual([['j60', 'j120'], ['j1'], 3]);
     expect([names({state: 'NOT_CONVERGED'}), names({words: 'j60'}), statesOf('NOT_CONVERGED')]).toEqual([['j120'], ['j60'], [Job_State.SUCCEEDED]]);
   });
+  it('calls the least value best only among runs that converged', () => {
+    const run = (convergence: Job_Convergence, iterations: bigint) => create(JobSchema, {convergence, summary: {iterations}});
+    const best = (...jobs: Job[]) => bestOf(jobs, METRICS[0]!);
+    const [missed, ...others] = [run(Job_Convergence.PARTIAL, 0n), run(Job_Convergence.FULL, 5n), run(Job_Convergence.FULL, 3n)];
+    expect([best(missed!, ...others), best(missed!), best(others[0]!, others[0]!), best(create(JobSchema))]).toEqual([3, undefined, undefined, undefined]);
+  });
   it('has times in its address that a field gives back', () => {
     for (const at of ['2026-01-02T03:04Z', '2026-07-02T23:59Z']) expect(utcOfField(localField(at))).toBe(at);
     expect([localField(''), localField('x'), utcOfField('')]).toEqual(['', '', '']);
@@ -232,6 +238,12 @@ describe('sweeps and comparisons', () => {
       cycles: [{contact: 'A-B', number: 1, mu: restitution}]}));
     expect(differingParameters(jobs)).toEqual([{name: 'contacts[0].restitution', values: ['0.8', '0.6']}]);
     expect(compareResults(jobs, {absolute: 0, relative: 1e-6}).filter((row) => row.holds.includes(false)).map(({name}) => name)).toEqual(['A-B #1 μ']);
+  });
+  it('name runs by what differs, and by ids where that does not tell them apart', () => {
+    const run = (name: string, restitution: number) => create(JobSchema, {name: `jobs/${name}`, spec: {case: 'scenario', value: create(ScenarioSchema, {contacts: [{restitution}]})}});
+    expect(runNames([run('a', 0.8), run('b', 0.6)])).toEqual(['restitution 0.8', 'restitution 0.6']);
+    expect(runNames([run('a', 0.8), run('b', 0.8)])).toEqual(['a', 'b']);
+    expect(runNames([run('a', 0.8), run('b', 0.6), run('c', 0.6)])).toEqual(['restitution 0.8', 'restitution 0.6, b', 'restitution 0.6, c']);
   });
   it('read metrics', () => {
     const [family] = parseMetrics('# HELP a Things.\n# TYPE a counter\na{x="1"} 2\na 3e9\n');

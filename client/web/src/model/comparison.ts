@@ -35,6 +35,20 @@ export function differingParameters(jobs: Job[]): Row[] {
     .filter(({values}) => values.some((value) => value !== values[0]));
 }
 
+const MOST_NAMED = 2;   // Values in the name of a run.
+
+/** What tells runs from each other in a key: the values of the parameters that differ, with their fields; ids where these do not tell. */
+export function runNames(jobs: Job[]): string[] {
+  const rows = differingParameters(jobs).slice(0, MOST_NAMED);
+  const field = (name: string) => name.slice(name.lastIndexOf('.') + 1).replaceAll('_', ' ');
+  const names = jobs.map((_, i) => rows.map(({name, values}) => `${field(name)} ${values[i] ?? 'default'}`).join(', '));
+  return names.map((name, i) => {
+    const id = jobs[i]!.name.replace('jobs/', '');
+    if (!name) return id;
+    return names.indexOf(name) === names.lastIndexOf(name) ? name : `${name}, ${id}`;
+  });
+}
+
 /** True if a value is as far from the baseline as it may be; words must be equal. */
 export function holds(value: Value, baseline: Value, {absolute, relative}: Tolerance): boolean {
   if (typeof value !== 'number' || typeof baseline !== 'number') return value === baseline;

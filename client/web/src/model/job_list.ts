@@ -25,6 +25,12 @@ export const METRICS: Metric[] = [
   summary('steps', 'steps', (s) => s.steps),
 ];
 
+/** The least value of a metric among runs that converged; undefined if fewer than two can be told apart. */
+export function bestOf(jobs: Job[], {of}: Metric): number | undefined {
+  const values = jobs.filter(({convergence}) => convergence === Job_Convergence.FULL).map(of).filter((value) => value !== undefined);
+  return values.length > 1 && new Set(values).size > 1 ? Math.min(...values) : undefined;
+}
+
 /** Jobs by name. `stale` holds those of before a new snapshot, until it is complete. */
 export class JobList {
   private jobs = new Map<string, Job>();

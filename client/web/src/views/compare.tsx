@@ -6,7 +6,7 @@ import {server} from '../api/client';
 import {explain} from '../api/errors';
 import type {Job} from '../api/generated/contact/v1/job_pb';
 import {readSeries, type Series} from '../api/series';
-import {compareResults, deviation, differingParameters, type Result, type Value} from '../model/comparison';
+import {compareResults, deviation, differingParameters, runNames, type Result, type Value} from '../model/comparison';
 import {mechanicsOf} from '../model/mechanics';
 import {exact, short as digits} from '../model/numbers';
 import type {Panel} from '../model/panel';
@@ -21,7 +21,9 @@ import {setWindow, windowOf} from './run/window';
 const MOST_SHOWN = 300;
 const MOST_LISTED = 200;
 const short = (name: string) => name.replace('jobs/', '');
-const text = (value: Value) => (typeof value === 'number' ? exact(value) : value ?? '–');
+const DIGITS = 7;   // Of a result; pointed at, it shows all of them.
+const text = (value: Value) => (typeof value === 'number' ? digits(value, DIGITS) : value ?? '–');
+const whole = (value: Value) => (typeof value === 'number' ? exact(value) : undefined);
 
 function Picker({jobs}: {jobs: string[]}) {
   const {value: answer, error} = useAsync(() => server.listJobs({pageSize: MOST_LISTED}), []);
@@ -53,7 +55,7 @@ function Parameters({jobs}: {jobs: Job[]}) {
 function Verdict({row, i}: {row: Result; i: number}) {
   const ok = row.holds[i];
   const far = deviation(row.values[i], row.values[0]);
-  return <td class={`number ${ok ? '' : 'differs'}`}>{text(row.values[i])}{i > 0 && <span class={ok ? 'soft' : ''}> {ok ? '✓' : '✗'} {far}</span>}</td>;
+  return <td class={`number ${ok ? '' : 'differs'}`} title={whole(row.values[i])}>{text(row.values[i])}{i > 0 && <span class={ok ? 'soft' : ''}> {ok ? '✓' : '✗'} {far}</span>}</td>;
 }
 
 function Results({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
@@ -87,14 +89,14 @@ function channelNames(job: Job): string[] {
     ...bodies.flatMap(({name}) => [`${name}.velocity`, `${name}.position`])];
 }
 
-function overlay(channel: string, jobs: Job[], series: (Series | undefined)[]): Panel {
+function overlay(channel: string, labels: string[], series: (Series | undefined)[]): Panel {
   const first = series.map((s) => s?.get(channel)).find(Boolean);
   const quantity = first?.quantity.replaceAll('_', ' ') ?? channel;
   return {
     id: channel, title: channel, xLabel: 'time [s]', yLabel: `${quantity} [${first?.unit ?? '1'}]`, overTime: true,
-    curves: jobs.flatMap((job, i) => {
+    curves: labels.flatMap((label, i) => {
       const column = series[i]?.get(channel);
-      return column ? [{label: short(job.name), colour: i, mark: 'line' as const, x: series[i]!.get('time')!.values, y: column.values}] : [];
+      return column ? [{label, colour: i, mark: 'line' as const, x: series[i]!.get('time')!.values, y: column.values}] : [];
     }),
   };
 }
@@ -118,7 +120,8 @@ function Overlay({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
     const own = channels.filter((c) => channelNames(job).includes(c));
     return own.length ? readSeries({name: job.name, channels: own, from: window?.[0], to: window?.[1], maxPoints: 3000}).catch(() => undefined) : undefined;
   })), [jobs, channels.join(), window?.[0], window?.[1]]).value;
-  const panels = useMemo(() => channels.map((c) => overlay(c, jobs, series ?? [])), [series, channels.join()]);
+  const labels = useMemo(() => runNames(jobs), [jobs]);
+  const panels = useMemo(() => channels.map((c) => overlay(c, labels, series ?? [])), [series, labels, channels.join()]);
   const times = series?.find(Boolean)?.get('time')?.values;
   const set = (list: string[]) => setQuery({channels: list.join(',')});
   return (

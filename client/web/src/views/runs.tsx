@@ -2,10 +2,10 @@
 
 import {useEffect, useMemo, useRef, useState} from 'preact/hooks';
 
-import type {Job} from '../api/generated/contact/v1/job_pb';
+import {Job_Convergence, type Job} from '../api/generated/contact/v1/job_pb';
 import type {Link} from '../api/stream';
 import {watchJobs} from '../api/watch';
-import {chosenOf, JobList, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../model/job_list';
+import {bestOf, chosenOf, JobList, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../model/job_list';
 import {count, exact} from '../model/numbers';
 import {LinkNote} from '../ui/link_note';
 import {setQuery, type Route} from '../ui/route';
@@ -49,7 +49,7 @@ function Row({job, metric, best, chosen, choose}: {
       <td class="soft mono">{id}</td>
       <td><StateBadge state={job.state} convergence={job.convergence} /></td>
       <td class="labels">{(job.progress?.cells ?? 0) > 0 && <span class="label">sweep of {count(job.progress!.cells)}</span>}{Object.entries(job.labels).map(([k, v]) => <span key={k} class="label">{k}={v}</span>)}</td>
-      <td class="number">{metric === undefined ? '' : exact(metric)}{best && <span class="best" title="best of this list"> ★</span>}</td>
+      <td class="number">{metric === undefined ? '' : exact(metric)}{best && <span class="best" title="least of those that converged"> ★</span>}</td>
       <td class="number">{elapsed(job)}</td>
       <td class="number">{clock(job.createTime)}</td>
     </tr>
@@ -107,7 +107,7 @@ export function Runs({route: {query}}: {route: Route}) {
   const metric = METRICS.find(({id}) => id === query.get('metric')) ?? METRICS[0]!;
   const found = useMemo(() => ordered(chosenOf(jobs, {words, state, after, before}), query.get('sort'), metric.of),
     [jobs, words, state, after, before, metric, query.get('sort')]);
-  const best = useMemo(() => Math.min(...found.map((job) => metric.of(job) ?? Infinity)), [found, metric]);
+  const best = useMemo(() => bestOf(found, metric), [found, metric]);
   const pages = Math.max(1, Math.ceil(found.length / PAGE));
   const page = Math.min(Math.max(Number(query.get('page') ?? 1) - 1, 0), pages - 1);
   const rows = found.slice(page * PAGE, (page + 1) * PAGE);
@@ -126,7 +126,7 @@ export function Runs({route: {query}}: {route: Route}) {
           <thead><tr><th><span class="hidden">choose</span></th><th>Title</th><th>Name</th><th>State</th><th>Labels</th>
             <th class="number">{metric.label}</th><th class="number">took</th><th class="number">created</th></tr></thead>
           <tbody>{rows.map((job) => (
-            <Row key={job.name} job={job} metric={metric.of(job)} best={found.length > 1 && metric.of(job) === best}
+            <Row key={job.name} job={job} metric={metric.of(job)} best={best !== undefined && metric.of(job) === best && job.convergence === Job_Convergence.FULL}
               chosen={chosen.includes(idOf(job))} choose={(on) => choose(idOf(job), on)} />))}
           </tbody>
         </table>
