@@ -1,7 +1,7 @@
 // The frame of all pages: navigation, token, and the view of the address.
 
 import type {ComponentType} from 'preact';
-import {useEffect, useRef, useState} from 'preact/hooks';
+import {useEffect, useLayoutEffect, useRef, useState} from 'preact/hooks';
 
 import {followLinks, useRoute, type Route} from './ui/route';
 import {switchTheme, useTheme} from './ui/theme';
@@ -20,16 +20,26 @@ const LAZY: Record<string, () => Promise<View>> = {
 const LINKS = [['/runs', 'Runs'], ['/new', 'New run'], ['/compare', 'Compare'], ['/server', 'Server']] as const;
 const loaded = new Map<string, View>();
 
+function NotFound({route}: {route: Route}) {
+  return <><div class="head"><h1>No such page</h1></div><p class="nothing">There is no page <code>{route.path}</code>. <a href="/runs">All runs</a></p></>;
+}
+
+/** The first part of an address: that of a run is `runs`, that of the list is empty. */
+function kindOf(path: string): string {
+  const [first = '', second] = path.split('/').filter(Boolean);
+  return first === 'runs' && !second ? '' : first;
+}
+
 /** The view of an address; undefined while it is loaded. */
 function useView(path: string): View | undefined {
   const [, again] = useState(0);
-  const parts = path.split('/').filter(Boolean);
-  const kind = parts[0] === 'runs' && !parts[1] ? '' : parts[0] ?? '';
+  const kind = kindOf(path);
   useEffect(() => {
     if (!LAZY[kind] || loaded.has(kind)) return;
     void LAZY[kind]().then((view) => { loaded.set(kind, view); again((n) => n + 1); });
   }, [kind]);
-  return LAZY[kind] ? loaded.get(kind) : Runs;
+  if (LAZY[kind]) return loaded.get(kind);
+  return kind ? NotFound : Runs;
 }
 
 function Navigation({path}: {path: string}) {
@@ -54,6 +64,10 @@ export function App() {
   const [session, setSession] = useState(0);
   const content = useRef<HTMLElement>(null);
   const last = useRef(route.path);
+  useLayoutEffect(() => {   // A run puts its own title in its place.
+    const name = LINKS.find(([href]) => `${route.path}/`.startsWith(`${href}/`))?.[1] ?? (kindOf(route.path) ? 'No such page' : 'Runs');
+    document.title = `${name} · contactd`;
+  }, [route.path]);
   useEffect(() => {   // The next Tab goes on in the new page.
     if (last.current !== route.path) content.current?.focus({preventScroll: true});
     last.current = route.path;
