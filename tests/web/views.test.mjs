@@ -29,12 +29,12 @@ const hold = (what) => until(what, what.toString());
 const ofAddress = (name) => new URL(page.url()).searchParams.get(name);
 const points = (plot) => page.locator(`[data-plot="${plot}"]`).getAttribute('data-points').then(Number);
 const drawn = () => hold(async () => await points('force') > 100);
-/** The rows of a plot's file. */
-async function csvOf(title) {
-  const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel(`${title} as CSV`).click()]);
+/** The text of a plot's file. */
+async function fileOf(title, kind) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel(`${title} as ${kind}`).click()]);
   const chunks = [];
   for await (const chunk of await download.createReadStream()) chunks.push(chunk);
-  return Buffer.concat(chunks).toString().split('\n');
+  return Buffer.concat(chunks).toString();
 }
 const stop = async (id) => { await server.call('CancelJob', {name: `jobs/${id}`}); await server.ended(id); };
 const refuse = (method) => page.route(`**/${method}`, (route) => route.fulfill({
@@ -121,7 +121,23 @@ test('a loop of a short contact in a long run is round', async () => {
   await server.ended(id);
   await open(`/runs/${id}`);
   await drawn();
-  await hold(async () => (await csvOf('Hysteresis')).filter((row) => row.startsWith('floor,')).length > 20);
+  await hold(async () => (await fileOf('Hysteresis', 'CSV')).split('\n').filter((row) => row.startsWith('floor,')).length > 20);
+});
+
+test('a saved figure names all its curves, and holds all its words', async () => {
+  for (const width of [1280, 400]) {
+    await page.setViewportSize({width, height: 900});
+    await open(`/runs/${chain}`);
+    await drawn();
+    const figure = await fileOf('Contact force', 'SVG');
+    const words = await page.evaluate((text) => {
+      const drawing = document.body.appendChild(Object.assign(document.createElement('div'), {innerHTML: text})).firstChild;
+      return [...drawing.querySelectorAll('text')].map((word) => ({text: word.textContent, end: word.getBoundingClientRect().right - drawing.getBoundingClientRect().right,
+        below: word.getBoundingClientRect().bottom - drawing.getBoundingClientRect().bottom}));
+    }, figure);
+    for (const curve of ['B1-B2', 'B2-B3', 'B1-B2 equivalent external', 'B2-B3 equivalent external']) assert.ok(words.some(({text}) => text === curve), `${curve} at ${width}`);
+    assert.deepEqual(words.filter(({end, below}) => end > 0 || below > 0), [], `at ${width}`);
+  }
 });
 
 test('the page of the server tells what waits and what runs', async () => {

@@ -20,7 +20,7 @@ export interface Shown {
   onDrawn: () => void;
 }
 
-const NAMED_FROM_PX = 480;   // Narrower plots have no room for names beside the curves.
+export const NAMED_FROM_PX = 480;   // Narrower plots have no room for names beside the curves.
 const STEEP = 8;             // Pixels up and down for each pixel along, from which on a curve fills an area.
 const SOLID: number[] = [];
 

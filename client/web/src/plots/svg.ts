@@ -5,6 +5,7 @@ import type uPlot from 'uplot';
 import type {Curve, Panel} from '../model/panel';
 import {colourOf, dashOf} from '../ui/theme';
 import {unitOfScale} from './axes';
+import {lines, NAMED_FROM_PX} from './build';
 import {crowded, endNames, placeLabels} from './words';
 
 export interface Svg {
@@ -14,7 +15,10 @@ export interface Svg {
 }
 
 const TITLE_PX = 26;
-const FOOT_PX = 22;
+const FOOT_PX = 9;       // Below the last line.
+const LINE_PX = 14;      // Of the foot.
+const LETTER_PX = 5.4;   // On average, at 10 px.
+const SWATCH_PX = 26;
 const escape = (text: string) =>
   text.replace(/[&<>"]/g, (c) => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]!);
 const r = (value: number) => String(Math.round(value * 100) / 100);
@@ -58,10 +62,14 @@ function axis(frame: Frame, place: 0 | 1, label: string): string {
   return `${parts.join('')}${name}${escape(unitOfScale(frame.u, place === 0 ? 'x' : 'y', label).label)}</text>`;
 }
 
+function strokeOf({mark, colour}: Curve): string {
+  const dash = mark === 'dashed' ? [6, 4] : mark === 'line' ? dashOf(colour) : [];
+  return `stroke="${colourOf(colour, 'light')}" stroke-width="1.5"${dash.length ? ` stroke-dasharray="${dash.join(' ')}"` : ''}`;
+}
+
 function curve({u, x, y}: Frame, drawn: Curve): string {
-  const {mark, colour, x: xs, y: ys} = drawn;
+  const {mark, x: xs, y: ys} = drawn;
   if ((mark === 'start' || mark === 'end') && crowded(u, drawn)) return '';
-  const ink = colourOf(colour, 'light');
   let path = '';
   for (let i = 0; i < xs.length; ++i) {
     const [a, b] = [x(xs[i]!), y(ys[i]!)];
@@ -71,8 +79,7 @@ function curve({u, x, y}: Frame, drawn: Curve): string {
     else path += `${path ? 'L' : 'M'}${r(a)} ${r(b)}`;
     if (mark === 'linePoints') path += `m3 0a3 3 0 1 0 -6 0a3 3 0 1 0 6 0m-3 0`;
   }
-  const dash = mark === 'dashed' ? [6, 4] : mark === 'line' ? dashOf(colour) : [];
-  return `<path d="${path}" stroke="${ink}" stroke-width="1.5"${dash.length ? ` stroke-dasharray="${dash.join(' ')}"` : ''}/>`;
+  return `<path d="${path}" ${strokeOf(drawn)}/>`;
 }
 
 function behind(frame: Frame, {bands = [], dottedLines = []}: Panel): string {
@@ -87,19 +94,50 @@ function names(frame: Frame, panel: Panel): string {
   const {curves, overTime} = panel;
   const {left, top, width, height} = frame;
   const placed = placeLabels(frame.u, panel, frame.x, frame.y, (text) => 6 * text.length, 13);
-  const keyed = overTime ? endNames(frame.u, curves, top + height, 13, frame.y)
+  const named = overTime && frame.u.width < NAMED_FROM_PX ? [] : overTime ? endNames(frame.u, curves, top + height, 13, frame.y)
     : curves.filter((c) => c.keyed !== false && c.mark === 'line').map((c, i) => ({curve: c, y: top + 14 + 15 * i}));
   return [
-    ...keyed.map(({curve: c, y}) => `<text x="${r(left + (overTime ? width + 5 : 10))}" y="${r(y + 4)}" fill="${colourOf(c.colour, 'light')}">${escape(c.label)}</text>`),
+    ...named.map(({curve: c, y}) => `<text x="${r(left + (overTime ? width + 5 : 10))}" y="${r(y + 4)}" fill="${colourOf(c.colour, 'light')}">${escape(c.label)}</text>`),
     ...placed.map(({x, y, text}) => `<text x="${r(Math.max(x, left))}" y="${r(y - 5)}" fill="#555">${escape(text)}</text>`),
   ].join('');
+}
+
+/** Lines of words that fit into a width. */
+export function wrapped(words: string[], letters: number): string[] {
+  const lines: string[] = [];
+  for (const word of words) {
+    const longer = `${lines.at(-1) ?? ''} ${word}`;
+    if (lines.length > 0 && longer.length <= letters) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}
+
+/** Swatches and names of the curves that have no name beside them, from left to right, as many in a line as fit. */
+function keyOf(panel: Panel, named: boolean, left: number, room: number): {lines: number; draw: (top: number) => string} {
+  let [x, line] = [0, 0];
+  const places = lines(panel).filter(({mark}) => !named || mark === 'dashed').map((drawn) => {
+    const width = SWATCH_PX + LETTER_PX * drawn.label.length + 14;
+    if (x > 0 && x + width > room) [x, line] = [0, line + 1];
+    x += width;
+    return {drawn, x: left + x - width, line};
+  });
+  const draw = (top: number) => places.map(({drawn, x: at, line: row}) => {
+    const y = top + LINE_PX * row;
+    return `<path d="M${r(at)} ${r(y - 3)}h${SWATCH_PX - 4}" ${strokeOf(drawn)}/><text x="${r(at + SWATCH_PX)}" y="${r(y)}" font-size="10" fill="#333">${escape(drawn.label)}</text>`;
+  }).join('');
+  return {lines: places.length > 0 ? line + 1 : 0, draw};
 }
 
 /** The plot as it is shown now. `source` stands below it. */
 export function svgOf(panel: Panel, u: uPlot, source: string): Svg {
   const frame = frameOf(u);
   const width = u.width;
-  const height = u.height + TITLE_PX + FOOT_PX;
+  const room = width - frame.left - 8;
+  const notes = [source, panel.note].filter(Boolean).flatMap((text) => wrapped(text!.split(' '), room / LETTER_PX));
+  const key = keyOf(panel, u.width >= NAMED_FROM_PX, frame.left, room);
+  const foot = u.height + TITLE_PX + LINE_PX;
+  const height = foot + LINE_PX * (key.lines + notes.length - 1) + FOOT_PX;
   const clip = `<clipPath id="in"><rect x="${r(frame.left)}" y="${r(frame.top)}" width="${r(frame.width)}" height="${r(frame.height)}"/></clipPath>`;
   const text = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12">
 <desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/><defs>${clip}</defs>
@@ -107,6 +145,7 @@ export function svgOf(panel: Panel, u: uPlot, source: string): Svg {
 <g>${axis(frame, 0, panel.xLabel)}${axis(frame, 1, panel.yLabel)}</g>
 <g fill="none" clip-path="url(#in)" stroke-linejoin="round">${behind(frame, panel)}${panel.curves.map((c) => curve(frame, c)).join('')}</g>
 <g>${names(frame, panel)}</g>
-<text x="${r(frame.left)}" y="${height - 7}" font-size="10" fill="#666">${escape([source, panel.note].filter(Boolean).join(' · '))}</text></svg>`;
+<g fill="none">${key.draw(foot)}</g>
+${notes.map((text, i) => `<text x="${r(frame.left)}" y="${r(foot + LINE_PX * (key.lines + i))}" font-size="10" fill="#666">${escape(text)}</text>`).join('')}</svg>`;
   return {width, height, text};
 }
