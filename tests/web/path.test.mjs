@@ -85,6 +85,8 @@ test('a run is watched while it converges, and is cancelled', async () => {
   const text = () => page.getByLabel('Cycle ledger').locator('.tools').innerText();
   const [before, end] = [await text(), await page.locator('progress').getAttribute('value')];
   await hold(async () => await text() !== before && await page.locator('progress').getAttribute('value') > end);
+  const told = await page.evaluate(() => [Math.floor(100 * document.querySelector('progress').value), Number(/(\d+) %/.exec(document.querySelector('.facts').textContent)[1])]);
+  assert.equal(told[0], told[1], 'the bar and the words tell the same');
   await page.getByRole('button', {name: 'Cancel run …'}).click();
   await page.getByRole('button', {name: 'Go on'}).click();
   assert.match(await state(), /RUNNING/);

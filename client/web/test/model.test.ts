@@ -12,7 +12,7 @@ import {asCli, asCurl, asPython, sweepAsPython} from '../src/model/copy_as';
 import {MOST_MARKED, unmarked} from '../src/model/curves';
 import {mechanicalEnergy} from '../src/model/energy';
 import {flatten, setField} from '../src/model/field_path';
-import {bracketOf, iterationPanels, nextOf, passesOf} from '../src/model/iterations';
+import {bracketOf, iterationPanels, newestEpisode, nextOf, passesOf} from '../src/model/iterations';
 import {bestOf, chosenOf, JobList, labelsOf, METRICS, matches, statesOf} from '../src/model/job_list';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
 import {insideOf, interpolate, joined, panelCsv} from '../src/model/panel';
@@ -112,6 +112,13 @@ describe('a run', () => {
     const run = emptyRun();
     takeEvents(run, [pass(0), pass(1), pass(0, 2)].map((payload) => event(payload)));
     expect(passesOf(run.iterations, 1).map((row) => [row.number, nextOf(row), bracketOf(row)])).toEqual([[0, 'NEWTON', '[2, –]'], [1, 'accepted', '[2, –]']]);
+  });
+  it('is followed by episodes that have come to an end', () => {
+    const run = emptyRun();
+    takeEvents(run, [pass(0)].map((payload) => event(payload)));
+    expect([newestEpisode([]), newestEpisode(run.iterations)]).toEqual([undefined, 1]);
+    takeEvents(run, [pass(1), pass(0, 2)].map((payload) => event(payload)));
+    expect(newestEpisode(run.iterations)).toBe(1);
   });
   it('keeps the newest passes and knows what it dropped', () => {
     const run = emptyRun();

@@ -22,6 +22,11 @@ export function hardestEpisode(iterations: Iteration[]): number | undefined {
   return hardest?.episode;
 }
 
+/** The newest episode whose passes have come to an end, else the newest: what to show of a run that goes on. */
+export function newestEpisode(iterations: Iteration[]): number | undefined {
+  return (iterations.findLast(({accepted}) => accepted) ?? iterations.at(-1))?.episode;
+}
+
 /** What became of one contact or group in one pass. */
 export interface Pass {
   episode: number;

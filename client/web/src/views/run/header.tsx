@@ -10,13 +10,7 @@ import type {RunState} from '../../model/runState';
 import {count} from '../../model/numbers';
 import {go} from '../../ui/route';
 import {StateBadge} from '../../ui/state_badge';
-import {elapsed} from '../elapsed';
-
-function progressOf({progress}: RunState): number {
-  if (!progress) return 0;
-  const part = progress.cells > 0 ? progress.cellsDone / progress.cells : progress.timeS / progress.endTimeS;
-  return Number.isFinite(part) ? part : 0;
-}
+import {elapsed, partOf} from '../elapsed';
 
 /** A button for what cannot be taken back: it asks whether that is meant. */
 function Twice({first, then, stay, act}: {first: string; then: string; stay: string; act: () => void}) {
@@ -61,13 +55,13 @@ export function Header({id, run}: {id: string; run: RunState}) {
       </div>
       {error && <p class="notice" role="alert">{error}</p>}
       {!ended && (
-        <p class="progress"><progress max={1} value={progressOf(run)} aria-label="progress" />
+        <p class="progress"><progress max={1} value={partOf(progress)} aria-label="progress" />
           {progress && progress.cells === 0 && <span class="soft">{count(progress.steps)} steps, {count(progress.cycles)} cycles, {count(progress.iterations)} corrections</span>}
         </p>
       )}
       {!ended && progress?.busyWith && <p class="soft">busy: {progress.busyWith}</p>}
       {run.message && <p class="notice" role="status">{run.reason}: {run.message}</p>}
-      {job && <p class="facts soft">jobs/{id} · {elapsed(job)}{job.summary ? ` · ${count(job.summary.cycles)} cycles${cutOf(job.summary)}, ${count(job.summary.iterations)} corrections of μ, ${count(job.summary.steps)} steps` : ''}</p>}
+      {job && <p class="facts soft">jobs/{id} · {elapsed(job, progress)}{job.summary ? ` · ${count(job.summary.cycles)} cycles${cutOf(job.summary)}, ${count(job.summary.iterations)} corrections of μ, ${count(job.summary.steps)} steps` : ''}</p>}
       {(job?.warnings ?? []).map((text) => <p key={text} class="warning"><span aria-hidden="true">⚠</span> {text}</p>)}
     </>
   );

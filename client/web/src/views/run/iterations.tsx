@@ -1,8 +1,8 @@
 // μ and residual, pass by pass, as they converge.
 
-import {useMemo} from 'preact/hooks';
+import {useMemo, useRef} from 'preact/hooks';
 
-import {episodesOf, hardestEpisode, iterationPanels} from '../../model/iterations';
+import {episodesOf, hardestEpisode, iterationPanels, newestEpisode} from '../../model/iterations';
 import type {RunState} from '../../model/runState';
 import {isFinal} from '../../api/watch';
 import {count} from '../../model/numbers';
@@ -16,11 +16,21 @@ interface Props {
   source: string;
 }
 
+const READ_MS = 1000;   // For which an episode stays, so that people can read it.
+
+/** A value that changes no more often than every so many milliseconds. */
+function useSlow<T>(value: T, ms: number): T {
+  const held = useRef({value, since: -Infinity});
+  const now = performance.now();
+  if (now - held.current.since >= ms) held.current = {value, since: now};
+  return held.current.value;
+}
+
 /** The episode to show: the one chosen, else the newest while the job runs, else the hardest. */
-function episodeOf(run: RunState, query: URLSearchParams): number {
+function useEpisode(run: RunState, query: URLSearchParams): number {
+  const newest = useSlow(newestEpisode(run.iterations), READ_MS);
   const chosen = Number(query.get('episode') ?? NaN);
   if (chosen > 0) return chosen;
-  const newest = run.iterations.at(-1)?.episode;
   return (isFinal(run.state) ? hardestEpisode(run.iterations) : newest) ?? 1;
 }
 
@@ -51,7 +61,7 @@ function Episode({run, episode, last, chosen}: {run: RunState; episode: number; 
 }
 
 export function Iterations({run, query, source}: Props) {
-  const episode = episodeOf(run, query);
+  const episode = useEpisode(run, query);
   const version = run.dropped + run.iterations.length;
   const panels = useMemo(() => iterationPanels(run.iterations, episode), [version, episode]);
   const episodes = useMemo(() => [...episodesOf(run.iterations).keys()], [version]);
