@@ -136,6 +136,7 @@ test('a saved figure names all its curves, and holds all its words', async () =>
         below: word.getBoundingClientRect().bottom - drawing.getBoundingClientRect().bottom}));
     }, figure);
     for (const curve of ['B1-B2', 'B2-B3', 'B1-B2 equivalent external', 'B2-B3 equivalent external']) assert.ok(words.some(({text}) => text === curve), `${curve} at ${width}`);
+    assert.equal(figure.match(/<rect [^>]*height="8"/g).length, 2, 'a bar for each group');
     assert.deepEqual(words.filter(({end, below}) => end > 0 || below > 0), [], `at ${width}`);
   }
 });
@@ -259,4 +260,12 @@ test('a page says how much of a large scenario it shows', async () => {
   for (const words of ['60 of 110 bodies shown', '12 of 109 contacts shown; choose a contact in the ledger', '13 of 110 bodies shown', '100 of 110 bodies shown']) {
     await page.getByText(words).waitFor();
   }
+  const map = page.locator('[data-plot="force-map"]');
+  await hold(async () => await points('force-map') > 2);
+  await hold(() => map.locator('canvas').first().evaluate((canvas) => {   // No ball is touched: the map is as dark as it can be.
+    const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    return data.filter((red, i) => i % 4 === 0 && red === 0x44 && data[i + 1] === 0x01 && data[i + 2] === 0x54).length > 10_000;
+  }));
+  assert.match(await fileOf('Contact forces over time', 'SVG'), /<image .*href="data:image\/png/);
+  assert.match(await fileOf('Contact forces over time', 'CSV'), /^curve,time \[s\],force \[N\]\nrow-1,0,0\n/);
 });

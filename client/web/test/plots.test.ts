@@ -7,6 +7,7 @@ import {ScenarioSchema} from '../src/api/generated/contact/v1/scenario_pb';
 import type {Series} from '../src/api/series';
 import {coarseCycles, hysteresis} from '../src/model/hysteresis';
 import {mechanicsOf} from '../src/model/mechanics';
+import {pixelsOf} from '../src/model/raster';
 import {unitOfScale} from '../src/plots/axes';
 
 const seriesOf = (columns: Record<string, number[]>): Series => new Map(Object.entries(columns).map(([name, values]) =>
@@ -39,5 +40,20 @@ describe('a loop', () => {
   it('ends where the window does', () => {
     const part = hysteresis({...view, series: of([1.25, 1.5]), loops: new Map([['A-B #1', of(times)]])});
     expect([part.curves.length, part.curves[0]!.x.length]).toEqual([1, 10]);
+  });
+});
+
+describe('a raster', () => {
+  const rows = [[0, 0, 8, 0], [0, 4, 0, 0]].map((values, i) => ({name: `c${i}`, values}));
+  const raster = {time: [0, 1, 2, 3], rows, label: 'force [N]', largest: 8};
+  const brightness = (window: [number, number], count: number) => Array.from(pixelsOf(raster, window, count)).filter((_, i) => i % 4 === 1);
+  it('has the first row at the bottom, and loses no peak when many samples are one pixel', () => {
+    const [top, bottom] = brightness([0, 3.5], 1);
+    expect([bottom! > top!, top! > 100]).toEqual([true, true]);
+  });
+  it('shows what lies between samples, and nothing beside them', () => {
+    const [, second, third] = brightness([-2.1, 3.9], 3);   // Of the upper row: before the first sample, past a peak, after it.
+    expect([brightness([5, 6], 2).every((value) => value === 0), Array.from(pixelsOf(raster, [-2.1, 3.9], 3))[3]]).toEqual([true, 0]);
+    expect(second! > third!).toBe(true);
   });
 });

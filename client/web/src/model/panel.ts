@@ -1,5 +1,7 @@
 // What a plot shows: plain values in SI units, as contactctl's figures have them.
 
+import type {Raster} from './raster';
+
 /** How the points of a curve are drawn. */
 export type Mark = 'line' | 'dashed' | 'linePoints' | 'points' | 'start' | 'end' | 'faint';
 
@@ -45,6 +47,7 @@ export interface Panel {
   /** True if all curves have x in time, ascending, so that a cursor can read them. */
   overTime: boolean;
   countedX?: boolean;
+  countedY?: boolean;
   logX?: boolean;
   logY?: boolean;
   curves: Curve[];
@@ -52,6 +55,8 @@ export interface Panel {
   lanes?: Lane[];
   labels?: Label[];
   dottedLines?: number[];
+  /** Drawn in place of curves; y is the number of a row, from 1. */
+  raster?: Raster;
   /** What marks and shades mean. */
   note?: string;
 }
@@ -117,8 +122,10 @@ export function csvField(text: string): string {
 
 /** The points of a panel as CSV, as `contactctl plot -o csv` has them. */
 export function panelCsv(panel: Panel): string {
-  const rows = [['curve', panel.xLabel, panel.yLabel].map(csvField).join(',')];
-  for (const {label, x, y} of panel.curves) {
+  const {raster} = panel;
+  const rows = [['curve', panel.xLabel, raster?.label ?? panel.yLabel].map(csvField).join(',')];
+  const curves = raster ? raster.rows.map(({name, values}) => ({label: name, x: raster.time, y: values})) : panel.curves;
+  for (const {label, x, y} of curves) {
     for (let i = 0; i < x.length; ++i) rows.push(`${csvField(label)},${x[i]},${y[i]}`);
   }
   return `${rows.join('\n')}\n`;

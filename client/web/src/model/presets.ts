@@ -6,7 +6,8 @@ import {energyChannels, mechanicalEnergy} from './energy';
 import {hysteresis} from './hysteresis';
 import type {Mechanics} from './mechanics';
 import {short} from './numbers';
-import type {Label, Lane, Panel} from './panel';
+import {extent, type Label, type Lane, type Panel} from './panel';
+import {readableUnit, unitOf} from './units';
 
 export interface Preset {
   id: string;
@@ -16,8 +17,12 @@ export interface Preset {
 
 const MOST_LABELS = 12;
 
+const MOST_LANES = 5;    // More would leave the curves no room.
+const MOST_TOLD = 6;     // Contacts whose equivalent external forces and labels can be told from each other.
+
 function lanesOf({mechanics, groups, cycles}: RunView): Lane[] {
-  return mechanics.contacts.slice(0, 12).map(({name}, colour) => {
+  if (mechanics.contacts.length > MOST_LANES) return [];
+  return mechanics.contacts.map(({name}, colour) => {
     const own = groups.filter(({contact}) => contact === name);
     const bars = own.length > 0
       ? own.map(({startTimeS, endTimeS, number}) => ({start: startTimeS, end: endTimeS, text: `${number}`}))
@@ -60,17 +65,31 @@ function bodies(view: RunView, quantity: string, panel: Panel, origin: (position
 
 function force(view: RunView): Panel {
   const panel = overTime(view, 'force', 'Contact force', 'force [N]');
+  const few = view.mechanics.contacts.length <= MOST_TOLD;
+  const lanes = lanesOf(view);
   view.mechanics.contacts.forEach((contact, colour) => {
     panel.curves.push(line(view, `${contact.name}.contact_force`, contact.name, colour));
-    panel.curves.push({
+    if (few) panel.curves.push({
       ...line(view, `${contact.name}.external_force`, `${contact.name} equivalent external`, colour),
       mark: 'dashed',
     });
     const own = view.cycles.filter((cycle) => cycle.contact === contact.name);
     panel.curves.push(...marks(own, contact.name, colour, ...endForces(view, contact)));
   });
-  return {...panel, lanes: lanesOf(view), labels: peakLabels(view),
-    note: `${panel.note}; bars: groups, by number; dashed: equivalent external`};
+  const notes = [panel.note, ...(lanes.length > 0 ? ['bars: groups, by number'] : []), ...(few ? ['dashed: equivalent external'] : [])];
+  return {...panel, lanes, labels: few ? peakLabels(view) : [], note: notes.join('; ')};
+}
+
+/** The contact forces of all contacts as colours, in the order of the scenario. */
+function forceMap({mechanics, series}: RunView): Panel {
+  const rows = mechanics.contacts.map(({name}) => ({name, values: values(series, `${name}.contact_force`)}));
+  const largest = extent(rows.map((row) => row.values))?.[1] ?? 0;
+  const {factor, label} = readableUnit('force [N]', largest);
+  return {
+    id: 'force-map', title: 'Contact forces over time', xLabel: 'time [s]', yLabel: 'contact', overTime: true, countedY: true, curves: [],
+    raster: {time: values(series, 'time'), rows, label: 'force [N]', largest},
+    note: `colour: force from 0 (dark) to ${short(largest / factor)} ${unitOf(label)} (bright); contacts in the order of the scenario, the first one lowest`,
+  };
 }
 
 function deformation(view: RunView, rate: boolean): Panel {
@@ -110,6 +129,7 @@ const ofContacts = (...quantities: string[]) => ({contacts}: Mechanics) =>
 
 /** The presets in the order of the page. */
 export const PRESETS: Preset[] = [
+  {id: 'force-map', channels: ofContacts('contact_force'), panel: forceMap},
   {id: 'force', channels: ofContacts('contact_force', 'external_force'), panel: force},
   {id: 'velocity', channels: ofBodies('velocity'),
     panel: (view) => bodies(view, 'velocity', overTime(view, 'velocity', 'Velocity', 'velocity [m/s]'), () => 0)},

@@ -70,11 +70,11 @@ export function axesOf(shown: () => Panel, ink: Ink): uPlot.Axis[] {
   };
   const label = (scale: 'x' | 'y', name: () => string) =>
     ((u: uPlot) => unitOfScale(u, scale, name()).label) as unknown as string;
-  const whole = panel.countedX ? {incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]} : {};
+  const whole = (counted?: boolean) => (counted ? {incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]} : {});
   return [
-    {...common, ...whole, scale: 'x', size: 30, space: 70, label: label('x', xName),
+    {...common, ...whole(panel.countedX), scale: 'x', size: 30, space: 70, label: label('x', xName),
       values: ticks(xName, 'x', !!panel.logX)},
-    {...common, ...(panel.logY ? {splits: powers, filter: (_u: uPlot, splits: number[]) => splits} : {}), scale: 'y', size: widthOf, space: 32, label: label('y', yName),
+    {...common, ...(panel.logY ? {splits: powers, filter: (_u: uPlot, splits: number[]) => splits} : {}), ...whole(panel.countedY), scale: 'y', size: widthOf, space: 32, label: label('y', yName),
       values: ticks(yName, 'y', !!panel.logY)},
   ];
 }

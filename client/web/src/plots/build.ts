@@ -32,7 +32,7 @@ export function lines(panel: Panel): Curve[] {
 /** Columns on one x axis, as uPlot takes them. */
 export function aligned(panel: Panel): uPlot.AlignedData {
   const curves = lines(panel);
-  if (curves.length === 0) return [[0, 1], [null, null]];
+  if (curves.length === 0) return [panel.raster && panel.raster.time.length > 0 ? panel.raster.time as number[] : [0, 1], []];
   const first = curves[0]!.x;
   if (curves.every(({x}) => x === first)) {
     return [first, ...curves.map(({y}) => y)] as unknown as uPlot.AlignedData;

@@ -4,6 +4,7 @@
 import type uPlot from 'uplot';
 
 import type {Curve, Panel} from '../model/panel';
+import {pixelsOf, type Raster} from '../model/raster';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
 import {FONT, type Ink} from './axes';
 import {crowded, endNames, placeLabels} from './words';
@@ -31,10 +32,26 @@ function clipped({u}: Sheet, draw: (ctx: CanvasRenderingContext2D) => void): voi
   u.ctx.restore();
 }
 
+/** The colours of what a raster shows between two moments, a pixel for each row. */
+export function pictureOf(raster: Raster, window: [number, number], columns: number): HTMLCanvasElement {
+  const canvas = Object.assign(document.createElement('canvas'), {width: columns, height: raster.rows.length});
+  canvas.getContext('2d')!.putImageData(new ImageData(pixelsOf(raster, window, columns), columns), 0, 0);
+  return canvas;
+}
+
+function drawRaster({u, panel: {raster}}: Sheet): void {
+  if (!raster || raster.time.length === 0) return;
+  const {left, top, width, height} = u.bbox;
+  const {min, max} = u.scales.x!;
+  u.ctx.imageSmoothingEnabled = false;
+  u.ctx.drawImage(pictureOf(raster, [min!, max!], Math.round(width)), left, top, width, height);
+}
+
 /** Shades behind the curves, and a bar for each group above them. */
 export function drawBehind(sheet: Sheet): void {
   const {u, panel, ink, theme} = sheet;
   const {top, height, left, width} = u.bbox;
+  drawRaster(sheet);
   clipped(sheet, (ctx) => {
     ctx.fillStyle = ink.band;
     for (const {start, end} of panel.bands ?? []) {

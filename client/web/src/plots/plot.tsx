@@ -40,7 +40,7 @@ function inkOf(element: Element): Ink {
 
 /** What makes another plot necessary, rather than other data. */
 function structure(panel: Panel): string {
-  return JSON.stringify([panel.logX, panel.logY, panel.overTime, panel.countedX, panel.lanes?.length,
+  return JSON.stringify([panel.logX, panel.logY, panel.overTime, panel.countedX, panel.lanes?.length, !!panel.raster,
     lines(panel).map(({mark, colour}) => [mark, colour])]);
 }
 
@@ -74,8 +74,8 @@ function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => voi
 }
 
 /** What a plot shows, for those who do not see it. */
-function namesOf({title, xLabel, yLabel, curves}: Panel): string {
-  return `${title}: ${yLabel} over ${xLabel}; ${curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`;
+function namesOf({title, xLabel, yLabel, curves, raster}: Panel): string {
+  return `${title}: ${raster?.label ?? yLabel} over ${xLabel}; ${raster ? `${raster.rows.length} contacts as colours` : ''}${curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`;
 }
 
 /** The attributes of a plot whose points are chosen. */
@@ -120,9 +120,9 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
     });
   }, [panel, span?.[0], span?.[1], hidden]);
 
-  const points = panel.curves.some(({x, mark}) => x.length > 0 && mark !== 'start' && mark !== 'end');
+  const points = (panel.raster?.time.length ?? 0) > 0 || panel.curves.some(({x, mark}) => x.length > 0 && mark !== 'start' && mark !== 'end');
   return (
-    <figure class="plot" data-plot={panel.id} data-points={lines(panel)[0]?.x.length ?? 0}>
+    <figure class="plot" data-plot={panel.id} data-points={panel.raster?.time.length ?? lines(panel)[0]?.x.length ?? 0}>
       <figcaption>
         <h3>{panel.title}</h3>
         <Exports panel={panel} plot={plot} source={source} flush={seen.flush} />

@@ -9,7 +9,7 @@ const drawn = (panel: Panel) => panel.curves.filter(({mark}) => mark !== 'start'
 /** The x axis: the window, or all there is. */
 export function xRange(panel: Panel, window: Window | undefined): Window {
   if (window && panel.overTime && !panel.countedX) return window;
-  const found = extent(drawn(panel).map(({x}) => x), panel.logX) ?? [0, 1];
+  const found = extent([...drawn(panel).map(({x}) => x), panel.raster?.time ?? []], panel.logX) ?? [0, 1];
   if (panel.overTime) return found[0] < found[1] ? found : [found[0], found[0] + (panel.countedX ? 1 : 1e-9)];
   return padded(found, !!panel.logX);
 }
@@ -25,6 +25,7 @@ const between = (values: ArrayLike<number>, first: number, end: number): ArrayLi
 
 /** The y axis: all values inside the x range, and room for labels. */
 export function yRange(panel: Panel, [from, to]: Window): Window {
+  if (panel.raster) return [0.5, panel.raster.rows.length + 0.5];
   const inside = drawn(panel).map(({x, y}) => {
     if (!panel.overTime) return y;
     const first = Math.max(lowerBound(x, from) - 1, 0);

@@ -3,9 +3,11 @@
 import type uPlot from 'uplot';
 
 import type {Curve, Panel} from '../model/panel';
+import type {Raster} from '../model/raster';
 import {colourOf, dashOf} from '../ui/theme';
 import {unitOfScale} from './axes';
 import {lines, NAMED_FROM_PX} from './build';
+import {LANE_PX, pictureOf} from './layers';
 import {crowded, endNames, placeLabels} from './words';
 
 export interface Svg {
@@ -82,12 +84,23 @@ function curve({u, x, y}: Frame, drawn: Curve): string {
   return `<path d="${path}" ${strokeOf(drawn)}/>`;
 }
 
-function behind(frame: Frame, {bands = [], dottedLines = []}: Panel): string {
+function behind(frame: Frame, {bands = [], dottedLines = [], raster}: Panel): string {
   const {left, top, width, height} = frame;
+  const {min, max} = frame.u.scales.x!;
+  const image = (colours: Raster) => `<image x="${r(left)}" y="${r(top)}" width="${r(width)}" height="${r(height)}" preserveAspectRatio="none" style="image-rendering:pixelated" href="${pictureOf(colours, [min!, max!], Math.round(2 * width)).toDataURL()}"/>`;
   return [
+    raster && raster.time.length > 0 ? image(raster) : '',
     ...bands.map(({start, end}) => `<rect x="${r(frame.x(start))}" y="${r(top)}" width="${r(Math.max(frame.x(end) - frame.x(start), 0.5))}" height="${r(height)}" fill="#000" fill-opacity=".06" stroke="none"/>`),
     ...dottedLines.map((y) => `<path d="M${r(left)} ${r(frame.y(y))}h${r(width)}" stroke="#666" stroke-dasharray="2 4"/>`),
   ].join('');
+}
+
+/** The bars of groups above the curves. */
+function bars({x, left, top, width}: Frame, {lanes = []}: Panel): string {
+  return lanes.flatMap(({bars: all, colour}, i) => all.map(({start, end}) => {
+    const [from, to] = [Math.max(x(start), left), Math.min(x(end), left + width)];
+    return to > from ? `<rect x="${r(from)}" y="${r(top - (lanes.length - i) * LANE_PX)}" width="${r(Math.max(to - from - 1, 1))}" height="${LANE_PX - 2}" fill="${colourOf(colour, 'light')}"/>` : '';
+  })).join('');
 }
 
 function names(frame: Frame, panel: Panel): string {
@@ -142,7 +155,7 @@ export function svgOf(panel: Panel, u: uPlot, source: string): Svg {
   const text = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12">
 <desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/><defs>${clip}</defs>
 <text x="${r(frame.left)}" y="18" font-size="14" font-weight="600">${escape(panel.title)}</text>
-<g>${axis(frame, 0, panel.xLabel)}${axis(frame, 1, panel.yLabel)}</g>
+<g>${bars(frame, panel)}${axis(frame, 0, panel.xLabel)}${axis(frame, 1, panel.yLabel)}</g>
 <g fill="none" clip-path="url(#in)" stroke-linejoin="round">${behind(frame, panel)}${panel.curves.map((c) => curve(frame, c)).join('')}</g>
 <g>${names(frame, panel)}</g>
 <g fill="none">${key.draw(foot)}</g>

@@ -29,16 +29,18 @@ interface Props {
 
 const FIRST = 6;   // Plots of the page; the others are shown when asked for.
 const MOST_CONTACTS = 12;
+const MOST_MAPPED = 400; // Of which a map is made: the server thins less for fewer columns.
 const MOST_BODIES = 200;   // Of whose energy a plot is made.
 
-/** The part of a scenario that fits a plot. The energy is that of all bodies. */
+/** The part of a scenario that fits a plot. The energy is that of all bodies, the map is of all contacts. */
 export function partFor(preset: Preset, mechanics: Mechanics, contact: string | null): Mechanics {
-  return preset.id === 'energy' ? mechanics : crop(mechanics, contact);
+  return preset.id === 'energy' || preset.id === 'force-map' ? mechanics : crop(mechanics, contact);
 }
 
 /** The plots that can be made of a scenario. */
-export function presetsFor({bodies}: Mechanics): Preset[] {
-  return PRESETS.filter(({id}) => id !== 'energy' || bodies.length <= MOST_BODIES);
+export function presetsFor({bodies, contacts}: Mechanics): Preset[] {
+  const mapped = contacts.length > MOST_CONTACTS && contacts.length <= MOST_MAPPED;
+  return PRESETS.filter(({id}) => (id !== 'energy' || bodies.length <= MOST_BODIES) && (id !== 'force-map' || mapped));
 }
 
 function crop(mechanics: Mechanics, contact: string | null): Mechanics {
