@@ -35,12 +35,11 @@ function loop(view: RunView, cycle: Cycle, contact: ContactModel): Loop {
   };
 }
 
-/** The cycles whose loops have fewer samples than are needed for a smooth line, those of most work first. */
+/** The cycles whose loops have fewer samples than are needed for a smooth line. */
 export function coarseCycles({series, loops}: RunPart, cycles: Cycle[]): Cycle[] {
   const time = values(series, 'time');
   const samples = ({startTimeS, endTimeS}: Cycle) => lowerBound(time, endTimeS) - lowerBound(time, startTimeS);
-  return cycles.filter((cycle) => !loops?.has(cycleKey(cycle)) && samples(cycle) < SMOOTH)
-    .sort((a, b) => b.workCompressionJ - a.workCompressionJ);
+  return cycles.filter((cycle) => !loops?.has(cycleKey(cycle)) && samples(cycle) < SMOOTH);
 }
 
 /** The loops of all contacts. */

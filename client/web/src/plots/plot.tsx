@@ -111,12 +111,13 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
     if (!plot.current || !shown.current) return;
     Object.assign(shown.current, {panel, window: span, hidden, onZoom: onZoom ?? (() => undefined)});
     seen.draw(() => {
-      if (!plot.current) return;
-      lines(panel).forEach(({label}, i) => {
-        const visible = !hidden.has(label);
-        if (plot.current!.series[i + 1]!.show !== visible) plot.current!.setSeries(i + 1, {show: visible});
+      plot.current?.batch((u: uPlot) => {   // Drawn when this returns: a file may be made of it at once.
+        lines(panel).forEach(({label}, i) => {
+          const visible = !hidden.has(label);
+          if (u.series[i + 1]!.show !== visible) u.setSeries(i + 1, {show: visible});
+        });
+        u.setData(aligned(panel));
       });
-      plot.current.setData(aligned(panel));
     });
   }, [panel, span?.[0], span?.[1], hidden]);
 

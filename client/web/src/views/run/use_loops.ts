@@ -8,7 +8,7 @@ import {cycleKey, type RunPart} from '../../model/curves';
 import {coarseCycles} from '../../model/hysteresis';
 import type {Mechanics} from '../../model/mechanics';
 
-const MOST_LOOPS = 40;    // Calls one after the other: more loops hide each other, and are smooth after a zoom.
+const MOST_LOOPS = 40;    // Of a window, calls one after the other. More loops hide each other: they wait for a zoom.
 const POINTS = 200;       // Of a loop.
 const REST_MS = 300;      // A window rests before its loops are asked for.
 
@@ -21,7 +21,9 @@ export function useLoops(name: string, {contacts}: Mechanics, part: RunPart, end
     const read = async () => {
       const shown = new Set(contacts.map((contact) => contact.name));
       const found = new Map(loops);
-      for (const cycle of coarseCycles({...part, loops}, part.cycles.filter(({contact}) => shown.has(contact))).slice(0, MOST_LOOPS)) {
+      const coarse = coarseCycles({...part, loops}, part.cycles.filter(({contact}) => shown.has(contact)));
+      if (coarse.length > MOST_LOOPS) return;
+      for (const cycle of coarse) {
         const channels = ['deformation', 'contact_force'].map((quantity) => `${cycle.contact}.${quantity}`);
         found.set(cycleKey(cycle), await readSeries({name, channels, from: cycle.startTimeS, to: cycle.endTimeS, maxPoints: POINTS}, control.signal));
       }
