@@ -109,6 +109,23 @@ test('every page has a title of its own, and an address without a page says so',
   await page.context().close();
 });
 
+test('a question mark tells the keys, but is written where words are', async () => {
+  const page = await openPage(browser, server, {colorScheme: 'dark'});
+  await page.goto(`${server.origin}/runs`);
+  const keys = page.getByRole('dialog', {name: 'Keys'});
+  await page.getByLabel('Find').press('?');
+  assert.equal(await page.getByLabel('Find').inputValue(), '?');
+  assert.equal(await keys.isVisible(), false);
+  await page.getByRole('heading', {name: 'Runs'}).click();
+  await page.keyboard.press('?');
+  await keys.getByText('zoom in and out').waitFor();
+  const {violations} = await new AxeBuilder({page}).analyze();
+  assert.deepEqual(violations.filter(({impact}) => impact === 'serious' || impact === 'critical').map(({id}) => id), []);
+  await page.keyboard.press('Escape');
+  assert.equal(await keys.isVisible(), false);
+  await page.context().close();
+});
+
 test('the switch between dark and light is kept', async () => {
   const page = await openPage(browser, server, {colorScheme: 'light'});
   await page.goto(`${server.origin}/runs`);

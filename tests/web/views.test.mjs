@@ -85,6 +85,28 @@ test('a run is deleted when that is said twice', async () => {
   await assert.rejects(server.call('GetJob', {name: `jobs/${id}`}), /not_found/);
 });
 
+test('runs that look alike are told apart by a column, and are deleted together', async () => {
+  const ids = await Promise.all([0.25, 0.75].map((velocityMPerS) => server.submit({...BALL, title: 'Alike', bodies: [{name: 'a', massKg: 1, velocityMPerS}]})));
+  for (const id of ids) await server.ended(id);
+  await open('/runs?q=alike');
+  const field = 'bodies[0].velocity_m_per_s';
+  const column = page.getByLabel(/^Column/);
+  await column.focus();
+  await column.locator('option', {hasText: field}).waitFor({state: 'attached'});
+  await column.selectOption(field);
+  await page.getByRole('cell', {name: '0.75', exact: true}).waitFor();
+  await page.reload();
+  await page.getByRole('cell', {name: '0.25', exact: true}).waitFor();
+  await page.getByLabel(`remove column ${field}`).click();
+  assert.equal(ofAddress('fields'), null);
+  for (const id of ids) await page.getByLabel(`choose ${id}`).check();
+  await page.getByRole('button', {name: 'Delete 2 runs …'}).click();
+  await page.getByRole('button', {name: 'Delete them for good'}).click();
+  await page.getByText('No run matches.').waitFor();
+  await hold(() => ofAddress('chosen') === null);
+  for (const id of ids) await assert.rejects(server.call('GetJob', {name: `jobs/${id}`}), /not_found/);
+});
+
 test('a window that follows goes on to follow after a zoom', async () => {
   const id = await server.submit({...LONG, output: {sampleIntervalS: 1e-5}});   // So close that a window has some of the last chunk.
   await open(`/runs/${id}?from=0&to=0.01&follow=1`);

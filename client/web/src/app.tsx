@@ -3,10 +3,11 @@
 import type {ComponentType} from 'preact';
 import {useEffect, useLayoutEffect, useRef, useState} from 'preact/hooks';
 
+import {Keys} from './ui/keys';
 import {followLinks, useRoute, type Route} from './ui/route';
 import {switchTheme, useTheme} from './ui/theme';
 import {TokenDialog} from './ui/token_dialog';
-import {Runs} from './views/runs';
+import {Runs} from './views/list/runs';
 
 type View = ComponentType<{route: Route}>;
 
@@ -53,6 +54,7 @@ function Navigation({path}: {path: string}) {
         ))}
         <a href="/docs/" target="_top">Documentation</a>
       </nav>
+      <Keys />
       <button type="button" class="quiet" onClick={switchTheme}>{theme === 'dark' ? '☀ Light' : '☾ Dark'}</button>
     </header>
   );

@@ -14,6 +14,7 @@ import {mechanicalEnergy} from '../src/model/energy';
 import {flatten, setField} from '../src/model/field_path';
 import {bracketOf, iterationPanels, newestEpisode, nextOf, passesOf} from '../src/model/iterations';
 import {bestOf, chosenOf, JobList, labelsOf, METRICS, matches, statesOf} from '../src/model/job_list';
+import {fieldsOf, varyingFields} from '../src/model/job_fields';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
 import {insideOf, interpolate, joined, panelCsv} from '../src/model/panel';
 import {PRESETS} from '../src/model/presets';
@@ -178,6 +179,12 @@ describe('the list of jobs', () => {
     const best = (...jobs: Job[]) => bestOf(jobs, METRICS[0]!);
     const [missed, ...others] = [run(Job_Convergence.PARTIAL, 0n), run(Job_Convergence.FULL, 5n), run(Job_Convergence.FULL, 3n)];
     expect([best(missed!, ...others), best(missed!), best(others[0]!, others[0]!), best(create(JobSchema))]).toEqual([3, undefined, undefined, undefined]);
+  });
+  it('offers the fields that differ, those of most values first', () => {
+    const all = [[0.8, 1], [0.8, 2], [0.7, 3]].map(([restitution, endTimeS]) => fieldsOf(create(JobSchema, {
+      spec: {case: 'scenario', value: create(ScenarioSchema, {title: 'x', contacts: [{restitution}], endTimeS})}})));
+    expect(varyingFields(all)).toEqual(['end_time_s', 'contacts[0].restitution']);
+    expect([varyingFields(all.slice(0, 1)), varyingFields([])]).toEqual([[], []]);
   });
   it('has times in its address that a field gives back', () => {
     for (const at of ['2026-01-02T03:04Z', '2026-07-02T23:59Z']) expect(utcOfField(localField(at))).toBe(at);

@@ -1,19 +1,24 @@
 // All jobs, live.
 
+import type {ComponentChildren} from 'preact';
 import {useEffect, useMemo, useRef, useState} from 'preact/hooks';
 
-import {Job_Convergence, type Job} from '../api/generated/contact/v1/job_pb';
-import type {Link} from '../api/stream';
-import {watchJobs} from '../api/watch';
-import {bestOf, chosenOf, JobList, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../model/job_list';
-import {count, exact} from '../model/numbers';
-import {LinkNote} from '../ui/link_note';
-import {setQuery, type Route} from '../ui/route';
-import {StateBadge} from '../ui/state_badge';
-import {clock, localField, utcOfField} from '../ui/times';
-import {elapsed} from './elapsed';
+import {Job_Convergence, type Job} from '../../api/generated/contact/v1/job_pb';
+import type {Link} from '../../api/stream';
+import {watchJobs} from '../../api/watch';
+import {bestOf, chosenOf, JobList, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../../model/job_list';
+import type {Fields} from '../../model/job_fields';
+import {count, exact} from '../../model/numbers';
+import {LinkNote} from '../../ui/link_note';
+import {setQuery, type Route} from '../../ui/route';
+import {StateBadge} from '../../ui/state_badge';
+import {clock, localField, utcOfField} from '../../ui/times';
+import {elapsed} from '../elapsed';
+import {Bulk} from './bulk';
+import {useFields} from './use_fields';
 
 const PAGE = 50;
+const MOST_NAMED = 100;   // Fields to choose among.
 const idOf = ({name}: Job) => name.replace('jobs/', '');
 const STATES = ['QUEUED', 'RUNNING', 'SUCCEEDED', NOT_CONVERGED, 'FAILED', 'CANCELLED'];
 
@@ -38,8 +43,8 @@ function useJobs(state: string, labels: string): {jobs: Job[]; link: Link; compl
   return {...shown, link};
 }
 
-function Row({job, metric, best, chosen, choose}: {
-  job: Job; metric: number | undefined; best: boolean; chosen: boolean; choose: (on: boolean) => void;
+function Row({job, metric, best, chosen, choose, values}: {
+  job: Job; metric: number | undefined; best: boolean; chosen: boolean; choose: (on: boolean) => void; values: (string | undefined)[];
 }) {
   const id = idOf(job);
   return (
@@ -49,6 +54,7 @@ function Row({job, metric, best, chosen, choose}: {
       <td class="soft mono">{id}</td>
       <td><StateBadge state={job.state} convergence={job.convergence} /></td>
       <td class="labels">{(job.progress?.cells ?? 0) > 0 && <span class="label">sweep of {count(job.progress!.cells)}</span>}{Object.entries(job.labels).map(([k, v]) => <span key={k} class="label">{k}={v}</span>)}</td>
+      {values.map((value, i) => <td key={i} class="number">{value ?? ''}</td>)}
       <td class="number">{metric === undefined ? '' : exact(metric)}{best && <span class="best" title="least of those that converged"> ★</span>}</td>
       <td class="number">{elapsed(job)}</td>
       <td class="number">{clock(job.createTime)}</td>
@@ -56,7 +62,7 @@ function Row({job, metric, best, chosen, choose}: {
   );
 }
 
-function Filters({query}: {query: URLSearchParams}) {
+function Filters({query, children}: {query: URLSearchParams; children: ComponentChildren}) {
   const change = (key: string) => (e: Event) =>
     setQuery({[key]: (e.currentTarget as HTMLInputElement).value, page: undefined});
   const time = (key: string) => (
@@ -77,7 +83,20 @@ function Filters({query}: {query: URLSearchParams}) {
       <label>Order <select value={query.get('sort') ?? ''} onChange={change('sort')}>
         <option value="">newest first</option><option value="metric">by metric</option><option value="title">by title</option>
       </select></label>
+      {children}
     </div>
+  );
+}
+
+/** A choice of fields of the scenarios, each a column. */
+function AddColumn({fields, shown, onLook}: {fields: Fields[]; shown: string[]; onLook: () => void}) {
+  const [names, setNames] = useState<string[]>([]);
+  useEffect(() => { void import('../../model/job_fields').then(({varyingFields}) => setNames(varyingFields(fields).slice(0, MOST_NAMED))); }, [fields.length]);
+  return (
+    <label>Column <select value="" onFocus={onLook} onChange={(e) => setQuery({fields: [...shown, e.currentTarget.value].join(',')})}>
+      <option value="">{fields.length > 0 && names.length === 0 ? 'no field differs' : 'add a field …'}</option>
+      {names.filter((name) => !shown.includes(name)).map((name) => <option key={name}>{name}</option>)}
+    </select></label>
   );
 }
 
@@ -111,6 +130,10 @@ export function Runs({route: {query}}: {route: Route}) {
   const pages = Math.max(1, Math.ceil(found.length / PAGE));
   const page = Math.min(Math.max(Number(query.get('page') ?? 1) - 1, 0), pages - 1);
   const rows = found.slice(page * PAGE, (page + 1) * PAGE);
+  const columns = (query.get('fields') ?? '').split(',').filter(Boolean);
+  const [looked, setLooked] = useState(false);
+  const fields = useFields(rows.map(({name}) => name), looked || columns.length > 0);
+  const known = rows.flatMap(({name}) => fields.get(name) ?? []);
   const choose = (id: string, on: boolean) => setQuery({chosen: [...chosen.filter((other) => other !== id), ...(on ? [id] : [])].join(',')});
   return (
     <>
@@ -118,15 +141,17 @@ export function Runs({route: {query}}: {route: Route}) {
         <a class="button primary" href="/new">New run</a>
         {chosen.length >= 2 && <a class="button" href={`/compare?jobs=${chosen.join(',')}`}>Compare {chosen.length} runs</a>}
         {chosen.length > 0 && <button type="button" onClick={() => setQuery({chosen: undefined})}>Choose none</button>}
+        {chosen.length > 0 && <Bulk jobs={jobs.filter((job) => chosen.includes(idOf(job)))} gone={(those) => setQuery({chosen: chosen.filter((id) => !those.some((job) => idOf(job) === id)).join(',')})} />}
       </div>
       <LinkNote link={link} />
-      <Filters query={query} />
+      <Filters query={query}><AddColumn fields={known} shown={columns} onLook={() => setLooked(true)} /></Filters>
       <div class="scroll" tabIndex={0} role="region" aria-label="Runs">
         <table ref={table} class="runs">
           <thead><tr><th><span class="hidden">choose</span></th><th>Title</th><th>Name</th><th>State</th><th>Labels</th>
+            {columns.map((name) => <th key={name} class="number mono">{name} <button type="button" class="quiet" aria-label={`remove column ${name}`} onClick={() => setQuery({fields: columns.filter((other) => other !== name).join(',')})}>✕</button></th>)}
             <th class="number">{metric.label}</th><th class="number">took</th><th class="number">created</th></tr></thead>
           <tbody>{rows.map((job) => (
-            <Row key={job.name} job={job} metric={metric.of(job)} best={best !== undefined && metric.of(job) === best && job.convergence === Job_Convergence.FULL}
+            <Row key={job.name} job={job} values={columns.map((name) => fields.get(job.name)?.get(name))} metric={metric.of(job)} best={best !== undefined && metric.of(job) === best && job.convergence === Job_Convergence.FULL}
               chosen={chosen.includes(idOf(job))} choose={(on) => choose(idOf(job), on)} />))}
           </tbody>
         </table>

@@ -10,19 +10,8 @@ import type {RunState} from '../../model/runState';
 import {count} from '../../model/numbers';
 import {go} from '../../ui/route';
 import {StateBadge} from '../../ui/state_badge';
+import {Twice} from '../../ui/twice';
 import {elapsed, partOf} from '../elapsed';
-
-/** A button for what cannot be taken back: it asks whether that is meant. */
-function Twice({first, then, stay, act}: {first: string; then: string; stay: string; act: () => void}) {
-  const [sure, setSure] = useState(false);
-  if (!sure) return <button type="button" onClick={() => setSure(true)}>{first}</button>;
-  return (
-    <>
-      <button type="button" class="danger" onClick={() => { setSure(false); act(); }}>{then}</button>
-      <button type="button" onClick={() => setSure(false)}>{stay}</button>
-    </>
-  );
-}
 
 function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (why: string) => void}) {
   const name = `jobs/${id}`;
