@@ -257,6 +257,8 @@ describe('sweeps and comparisons', () => {
     const run = (name: string, restitution: number) => create(JobSchema, {name: `jobs/${name}`, spec: {case: 'scenario', value: create(ScenarioSchema, {contacts: [{restitution}]})}});
     expect(runNames([run('a', 0.8), run('b', 0.6)])).toEqual(['restitution 0.8', 'restitution 0.6']);
     expect(runNames([run('a', 0.8), run('b', 0.8)])).toEqual(['a', 'b']);
+    const two = (...restitutions: number[]) => create(JobSchema, {spec: {case: 'scenario', value: create(ScenarioSchema, {contacts: restitutions.map((restitution) => ({restitution}))})}});
+    expect(runNames([two(0.8, 0.7), two(0.6, 0.5)])).toEqual(['restitution 0.8, 0.7', 'restitution 0.6, 0.5']);
     expect(runNames([run('a', 0.8), run('b', 0.6), run('c', 0.6)])).toEqual(['restitution 0.8', 'restitution 0.6, b', 'restitution 0.6, c']);
   });
   it('read metrics', () => {

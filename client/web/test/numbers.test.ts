@@ -1,6 +1,6 @@
 import {describe, expect, it} from 'vitest';
 
-import {bytes, count, decimals, exact, seconds, short} from '../src/model/numbers';
+import {bytes, compact, count, decimals, exact, seconds, short} from '../src/model/numbers';
 import {readableUnit} from '../src/model/units';
 
 describe('numbers', () => {
@@ -21,6 +21,8 @@ describe('numbers', () => {
     expect([512, 126000, 2097152].map(bytes)).toEqual(['512 B', '126 kB', '2.1 MB']);
     expect(count(1234567)).toBe('1\u202f234\u202f567');
     expect(short(0.451875612)).toBe('0.4519');
+    expect([0.00009916607606633963, -0.003731206344233148, 225937807.9203246, 0, NaN].map((value) => compact(value, 7)))
+      .toEqual(['9.916608e-5', '-0.003731206', '225937800', '0', '–']);
   });
 });
 

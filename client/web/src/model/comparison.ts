@@ -41,7 +41,11 @@ const MOST_NAMED = 2;   // Values in the name of a run.
 export function runNames(jobs: Job[]): string[] {
   const rows = differingParameters(jobs).slice(0, MOST_NAMED);
   const field = (name: string) => name.slice(name.lastIndexOf('.') + 1).replaceAll('_', ' ');
-  const names = jobs.map((_, i) => rows.map(({name, values}) => `${field(name)} ${values[i] ?? 'default'}`).join(', '));
+  const told = (i: number) => rows.map(({name, values}, place) => {
+    const same = place > 0 && field(rows[place - 1]!.name) === field(name);   // restitution 0.8, 0.7
+    return `${same ? '' : `${field(name)} `}${values[i] ?? 'default'}`;
+  });
+  const names = jobs.map((_, i) => told(i).join(', '));
   return names.map((name, i) => {
     const id = jobs[i]!.name.replace('jobs/', '');
     if (!name) return id;

@@ -12,6 +12,12 @@ export function short(value: number, digits = 4): string {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** The same for tables: small numbers have a power of ten in place of zeros. */
+export function compact(value: number, digits: number): string {
+  const shown = Number(value.toPrecision(digits));
+  return shown !== 0 && Math.abs(shown) < 1e-3 ? shown.toExponential() : short(value, digits);
+}
+
 /** The digits after the point that a step between ticks needs. */
 export function decimals(step: number): number {
   if (!(step > 0)) return 0;

@@ -6,6 +6,7 @@ import type {Curve, Panel} from '../model/panel';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
 import {axesOf, type Ink} from './axes';
 import {drawBehind, drawOver, LANE_PX} from './layers';
+import {shortName} from './words';
 import {travel, xRange, yRange, type Window} from './range';
 
 /** What a plot shows now; uPlot's functions read it when they draw. */
@@ -71,8 +72,8 @@ function seriesOf({panel, theme, hidden, ink}: Shown): uPlot.Series[] {
 
 function rightPadding(panel: Panel, width: number): number {
   if (!panel.overTime || width < NAMED_FROM_PX) return 12;
-  const longest = Math.max(0, ...lines(panel).filter(({mark}) => mark !== 'dashed').map(({label}) => label.length));
-  return Math.min(14 + 6.5 * longest, 130);
+  const longest = Math.max(0, ...lines(panel).filter(({mark}) => mark !== 'dashed').map(({label}) => shortName(label).length));
+  return 14 + 6.5 * longest;
 }
 
 /** The cursor reads the curves by rings, through which they are seen. */

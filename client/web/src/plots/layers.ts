@@ -7,7 +7,7 @@ import type {Curve, Panel} from '../model/panel';
 import {pixelsOf, type Raster} from '../model/raster';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
 import {FONT, type Ink} from './axes';
-import {crowded, endNames, placeLabels} from './words';
+import {crowded, endNames, placeLabels, shortName} from './words';
 
 export const LANE_PX = 10;
 const MARK_PX = 4.5;
@@ -114,7 +114,7 @@ function drawNames({u, panel, theme}: Sheet, hidden: Set<string>): void {
   ctx.textBaseline = 'middle';
   for (const {curve, y} of endNames(u, shown, bbox.top + bbox.height, 13 * ratio, (v) => py(u, v))) {
     ctx.fillStyle = colourOf(curve.colour, theme);
-    ctx.fillText(curve.label, bbox.left + bbox.width + 5 * ratio, y);
+    ctx.fillText(shortName(curve.label), bbox.left + bbox.width + 5 * ratio, y);
   }
 }
 

@@ -8,7 +8,7 @@ import {colourOf, dashOf} from '../ui/theme';
 import {unitOfScale} from './axes';
 import {lines, NAMED_FROM_PX} from './build';
 import {LANE_PX, pictureOf} from './layers';
-import {crowded, endNames, placeLabels} from './words';
+import {crowded, endNames, placeLabels, shortName} from './words';
 
 export interface Svg {
   width: number;
@@ -110,7 +110,7 @@ function names(frame: Frame, panel: Panel): string {
   const named = overTime && frame.u.width < NAMED_FROM_PX ? [] : overTime ? endNames(frame.u, curves, top + height, 13, frame.y)
     : curves.filter((c) => c.keyed !== false && c.mark === 'line').map((c, i) => ({curve: c, y: top + 14 + 15 * i}));
   return [
-    ...named.map(({curve: c, y}) => `<text x="${r(left + (overTime ? width + 5 : 10))}" y="${r(y + 4)}" fill="${colourOf(c.colour, 'light')}">${escape(c.label)}</text>`),
+    ...named.map(({curve: c, y}) => `<text x="${r(left + (overTime ? width + 5 : 10))}" y="${r(y + 4)}" fill="${colourOf(c.colour, 'light')}">${escape(overTime ? shortName(c.label) : c.label)}</text>`),
     ...placed.map(({x, y, text}) => `<text x="${r(Math.max(x, left))}" y="${r(y - 5)}" fill="#555">${escape(text)}</text>`),
   ].join('');
 }
@@ -129,7 +129,7 @@ export function wrapped(words: string[], letters: number): string[] {
 /** Swatches and names of the curves that have no name beside them, from left to right, as many in a line as fit. */
 function keyOf(panel: Panel, named: boolean, left: number, room: number): {lines: number; draw: (top: number) => string} {
   let [x, line] = [0, 0];
-  const places = lines(panel).filter(({mark}) => !named || mark === 'dashed').map((drawn) => {
+  const places = lines(panel).filter(({mark, label}) => !named || mark === 'dashed' || shortName(label) !== label).map((drawn) => {
     const width = SWATCH_PX + LETTER_PX * drawn.label.length + 14;
     if (x > 0 && x + width > room) [x, line] = [0, line + 1];
     x += width;

@@ -4,6 +4,13 @@ import type uPlot from 'uplot';
 
 import type {Curve, Panel} from '../model/panel';
 
+const MOST_LETTERS = 18;
+
+/** As much of the name of a curve as has room beside it. */
+export function shortName(label: string): string {
+  return label.length > MOST_LETTERS ? `${label.slice(0, MOST_LETTERS - 1)}…` : label;
+}
+
 /** Names of curves beside their right ends, so that colour is not needed to tell them. */
 export function endNames(u: uPlot, curves: Curve[], height: number, line: number, toY: (y: number) => number): {curve: Curve; y: number}[] {
   const {min, max} = u.scales.x!;

@@ -8,7 +8,7 @@ import type {Job} from '../api/generated/contact/v1/job_pb';
 import {readSeries, type Series} from '../api/series';
 import {compareResults, deviation, differingParameters, runNames, type Result, type Value} from '../model/comparison';
 import {mechanicsOf} from '../model/mechanics';
-import {exact, short as digits} from '../model/numbers';
+import {compact, exact, short as digits} from '../model/numbers';
 import type {Panel} from '../model/panel';
 import {Plot} from '../plots/plot';
 import {LeftOut} from '../ui/left_out';
@@ -22,7 +22,7 @@ const MOST_SHOWN = 300;
 const MOST_LISTED = 200;
 const short = (name: string) => name.replace('jobs/', '');
 const DIGITS = 7;   // Of a result; pointed at, it shows all of them.
-const text = (value: Value) => (typeof value === 'number' ? digits(value, DIGITS) : value ?? '–');
+const text = (value: Value) => (typeof value === 'number' ? compact(value, DIGITS) : value ?? '–');
 const whole = (value: Value) => (typeof value === 'number' ? exact(value) : undefined);
 
 function Picker({jobs}: {jobs: string[]}) {
