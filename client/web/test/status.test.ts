@@ -58,9 +58,9 @@ describe('cells without a known number', () => {
   it('are grey in a map, and barred where the end cuts them', () => {
     const place = {left: 0, width: 50, height: 20, columns: 2, rows: 2};
     const shapes = mapShapes(place, (i, j) => cells.get(2 * j + i), 0, scaleOf(map).part);
-    expect(shapes.fills).toContainEqual([GREYS.CUT, 'M50 20h50v20h-50z']);
-    expect(shapes.fills).toContainEqual([GREYS['no contact'], 'M0 0h50v20h-50z']);
-    expect(shapes.cut).toBe('M75 20v20');
+    expect(shapes.fills).toContainEqual([GREYS.CUT, 'M50 0h50v20h-50z']);
+    expect(shapes.fills).toContainEqual([GREYS['no contact'], 'M0 20h50v20h-50z']);
+    expect(shapes.cut).toBe('M75 0v20');
     expect(shapes.words.map(({text}) => text)).toEqual(['1', '4']);
   });
   it('are those of servers that tell so', () => {

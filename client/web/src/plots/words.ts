@@ -4,7 +4,7 @@ import type uPlot from 'uplot';
 
 import type {Curve, Panel} from '../model/panel';
 
-const MOST_LETTERS = 18;
+const MOST_LETTERS = 24;
 
 /** As much of the name of a curve as has room beside it. */
 export function shortName(label: string): string {
