@@ -10,18 +10,18 @@ let server;
 let browser;
 let page;
 let editor;
-before(async () => { [server, browser] = await Promise.all([new Server().start(), openBrowser()]); });
-after(async () => { await browser?.close(); await server?.close(); });
-beforeEach(async () => {
+let chain;   // The text that the page begins with.
+before(async () => {
+  [server, browser] = await Promise.all([new Server().start(), openBrowser()]);
   page = await openPage(browser, server);
   editor = page.getByRole('textbox', {name: /Scenario/});
   await page.goto(`${server.origin}/new`);
   await page.getByText('The server accepts it.').waitFor();
+  chain = await editor.inputValue();
 });
-afterEach(async () => {
-  assert.deepEqual(page.faults, []);
-  await page.context().close();
-});
+after(async () => { await browser?.close(); await server?.close(); });
+beforeEach(() => editor.fill(chain));
+afterEach(() => assert.deepEqual(page.faults, []));
 
 const hold = (what) => until(what, what.toString());
 
@@ -32,22 +32,22 @@ test('an empty text is told what is missing', async () => {
 });
 
 test('a word that is unknown hides no other mistake', async () => {
-  await editor.fill((await editor.inputValue()).replace('mass_kg', 'mas_kg').replace('restitution: 0.7', 'restitution: 1.7'));
+  await editor.fill(chain.replace('mass_kg', 'mas_kg').replace('restitution: 0.7', 'restitution: 1.7'));
   await page.getByText('is 1.7; must be in (0, 1]').waitFor();
   assert.deepEqual(await page.locator('.verdicts code').allInnerTexts(), ['bodies[0].mas_kg', 'contacts[1].restitution']);
   assert.ok(await page.getByRole('button', {name: 'Start the run'}).isDisabled());
 });
 
 test('completion opens below the word that is written', async () => {
-  const lines = (await editor.inputValue()).split('\n');
-  await editor.fill(`${lines.join('\n')}solv`);
+  const lines = chain.split('\n');
+  await editor.fill(`${chain}solv`);
   const [offers, area] = await Promise.all([page.getByRole('listbox').boundingBox(), editor.boundingBox()]);
   assert.ok(Math.abs(offers.x - area.x) < 30, `${offers.x} beside ${area.x}`);
   assert.ok(Math.abs(offers.y - area.y - 8 - 19 * lines.length) < 12, `${offers.y - area.y} below line ${lines.length}`);
 });
 
 test('a template takes no text away: it is one step back', async () => {
-  const own = `${await editor.inputValue()}# Mine.\n`;
+  const own = `${chain}# Mine.\n`;
   await editor.fill(own);
   await page.getByRole('button', {name: "Newton's cradle"}).click();
   await hold(async () => /cradle/.test(await editor.inputValue()));
@@ -60,6 +60,7 @@ test('a template takes no text away: it is one step back', async () => {
 });
 
 test('what is copied for the command line runs on the server of the page', {skip: !process.env.CONTACTCTL && 'needs CONTACTCTL'}, async () => {
+  await page.getByText('The server accepts it.').waitFor();
   await page.getByRole('button', {name: 'CLI', exact: true}).click();
   const copied = await page.getByLabel('copied text').innerText();
   execFileSync('bash', ['-c', copied.replace('contactctl', process.env.CONTACTCTL)], {stdio: 'ignore'});

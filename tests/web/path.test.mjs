@@ -318,7 +318,7 @@ test('what is copied for curl makes the same job', async () => {
 });
 
 test('a sweep fills cell by cell, and a cell becomes a run', async () => {
-  const base = {...CHAIN, solver: {method: 'RK4', stepS: 2e-8, maxIterations: 6}};
+  const base = {...CHAIN, solver: {method: 'RK4', stepS: 5e-8, maxIterations: 6}};
   const {name} = await server.call('CreateJob', {job: {sweep: {base, metrics: ['iterations', 'final_bodies[B3].velocity_m_per_s'],
     axes: [{field: 'bodies[0].velocity_m_per_s', linear: {low: 0.1, high: 0.5, count: 5}}, {field: 'contacts[*].restitution', values: [0.9, 0.8, 0.7, 0.6]}]}}});
   const id = name.replace('jobs/', '');
