@@ -16,7 +16,7 @@ ORDER = {
                "gateway", "."],
     "server/wire": ["rules", "scenario", "sweep", "."],
     "server/simulation": ["laws", "model", "methods", "motion", "episode", "course", "clusters",
-                          "forecast", "."],
+                          "forecast", "statics", "."],
     "server/storage": [".", "sqlite", "postgres"],
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "cluster", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],

@@ -28,7 +28,7 @@ class Runner {
     run_.state = InitialState(scenario_);
     sampler_.RecordStart(run_.state);
     course_.motion().Begin(run_.state, true);
-    run_.start_energy = Energy();
+    run_.start_energy = Energy() + StoredAtStart();
     run_.start_momentum = Momentum();
     Scale();
   }
@@ -107,6 +107,16 @@ class Runner {
                           .cycles = run_.cycles,
                           .iterations = course_.log().total,
                           .busy_with = BusyWith(scenario_, motion)});
+  }
+
+  // Of contacts that are pressed at t = 0, whose cycles have not begun yet.
+  double StoredAtStart() const {
+    double energy = 0;
+    for (std::size_t c = 0; c < scenario_.contacts.size(); ++c) {
+      const ContactState& state = run_.state.contacts[c];
+      if (StartsPressed(state)) energy += ElasticEnergy(scenario_.contacts[c], -state.gap);
+    }
+    return energy;
   }
 
   double Energy() const {

@@ -15,6 +15,8 @@ Sampler::Sampler(const Scenario& scenario, Motion& motion, Observer& observer, s
 
 void Sampler::RecordStart(const State& state) {
   if (scenario_.sample_interval == 0) return;
+  // Its first step tells the force of what is pressed, with the μ that is then found.
+  if (std::ranges::any_of(state.contacts, StartsPressed)) return;
   motion_.Begin(state, true);
   log_.TakeUntil(
       0, {}, [&](double, std::vector<double>* row) { Append(0, motion_.integrator().y0, row); });

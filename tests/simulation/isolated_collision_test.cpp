@@ -53,6 +53,25 @@ TEST(MaximumDeformation, IsTheIntegralOfTheEquationOfMotion) {
   }
 }
 
+// With v dv/dδ = −(k/m) δⁿ (1 + α v/v₀), integrated over v from v₀ to δ̇, before and after the turn.
+TEST(ApproachVelocity, IsThatOfTheCollisionThroughADeformationAndAVelocity) {
+  boost::math::quadrature::tanh_sinh<double> integrator;
+  const double m = 0.3, v = 2, k = 5e7;
+  for (const double n : {1.0, 1.5, 3.0}) {
+    for (const double alpha : {0.0, 1e-6, 0.01, 0.5, 4.0, 50.0}) {
+      const double back = DeliveredRestitution(alpha);
+      for (const double part : {0.99, 0.5, 1e-8, 0.0, -1e-8, -0.5, -0.99}) {
+        const double velocity = part > 0 ? part * v : part * back * v;
+        const double area =
+            integrator.integrate([&](double u) { return u / (1 + alpha * u / v); }, velocity, v);
+        const double deformation = std::pow((n + 1) * m / k * area, 1 / (n + 1));
+        EXPECT_NEAR(ApproachVelocity(m, deformation, velocity, k, n, alpha) / v, 1, 1e-9)
+            << n << " " << alpha << " " << part;
+      }
+    }
+  }
+}
+
 TEST(MaximumDeformation, DependsOnTheEnergyOverTheStiffnessAlone) {
   const double reference = MaximumDeformation(0.3, 2, 5e7, 1.5, 0.7);
   EXPECT_DOUBLE_EQ(MaximumDeformation(1.2, 1, 5e7, 1.5, 0.7), reference);

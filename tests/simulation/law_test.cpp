@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "testing/cases.h"
@@ -41,6 +42,28 @@ TEST(Law, EveryHuntCrossleyTypeDeliversItsClosedForm) {
       EXPECT_NEAR(OnlyCycle(Impact(row.law, e)).restitution_out, delivered, 1e-9)
           << row.name << " " << e;
     }
+  }
+}
+
+// Below, at and above the critical damper, c = 2 √(k m), up to where it no longer pulls itself
+// free.
+TEST(Law, ADashpotIsTheDampedOscillatorOfItsNumbers) {
+  for (const double ratio : {0.0, 0.1, 0.7, 0.99, 1.0, 3.0, 15.8}) {
+    Scenario s = Impact(DampingLaw::kKelvinVoigt, 1);
+    s.contacts[0].damping = DampingLaw::kDashpot;
+    const double m = 0.3, k = 5e7, omega = std::sqrt(k / m);
+    s.contacts[0].mu = 2 * ratio * std::sqrt(k * m);
+    s.end_time = 2 / omega;
+    const Record r = RunAndRecord(s);
+    // δ = v (e^{r₁ t} − e^{r₂ t})/(r₁ − r₂), with r = (−ξ ± √(ξ² − 1)) ω.
+    const std::complex<double> root = omega * std::sqrt(std::complex<double>(ratio * ratio - 1));
+    const double decay = ratio * omega, t = s.end_time;
+    const double deformation = 2 * std::exp(-decay * t) *
+                               (std::abs(root) < 1e-6 ? t : (std::sinh(root * t) / root).real());
+    EXPECT_NEAR(r.outcome.positions[0] + 0.05, deformation, 1e-9 * 2 / omega) << ratio;
+    ASSERT_EQ(r.cycles.size(), 1u) << ratio;
+    EXPECT_EQ(r.cycles[0].mu, s.contacts[0].mu);
+    EXPECT_LT(r.outcome.energy_residual, 1e-9) << ratio;
   }
 }
 

@@ -66,13 +66,13 @@ Cycle CycleWith(const Scenario& scenario, double mu, StepListener* listener = nu
   return host.ended.empty() ? Cycle{} : host.ended[0].cycle;
 }
 
-TEST(InitialState, OnlyWhatTouchesAndApproachesStarts) {
+TEST(InitialState, WhatIsPressedStartsAndWhatTouchesAndApproaches) {
   for (const double gap : {-1e-4, 0.0, 1e-4}) {
     for (const double velocity : {-1.0, 0.0, 1.0}) {
       Scenario s = testing::Chain({1, 1}, {1e8}, {0.5}, velocity, 1);
       s.bodies[1].position += gap;
       const State state = InitialState(s);
-      const bool starts = gap <= 0 && velocity > 0;
+      const bool starts = gap < 0 || (gap == 0 && velocity > 0);
       EXPECT_EQ(state.contacts[0].phase == Phase::kStarting, starts) << gap << ' ' << velocity;
       EXPECT_NEAR(state.contacts[0].gap, gap, 1e-16);
       EXPECT_EQ(InCycle(state), starts);

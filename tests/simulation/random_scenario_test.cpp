@@ -29,8 +29,8 @@ Contact Law(Dice& dice) {
   c.exponent = dice.Chance(0.7) ? 1.5 : dice.Uniform(1, 3);
   c.restitution = dice.Chance(0.1) ? 1 : dice.Uniform(0.1, 0.99);
   if (dice.Chance(0.3)) {
-    const DampingLawRow& law =
-        DampingLaws()[static_cast<std::size_t>(dice.Below(kDampingLaws - 1))];
+    const DampingLawRow& law = DampingLaws()[static_cast<std::size_t>(
+        dice.Below(static_cast<int>(DampingLaw::kGiven) - 1))];
     c.damping = law.law;
     if (law.contact_exponent != 0) c.exponent = law.contact_exponent;
     if (dice.Chance(0.5)) c.reference_velocity = dice.Log(0.01, 10);

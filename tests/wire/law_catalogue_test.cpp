@@ -16,7 +16,7 @@ TEST(LawCatalogue, NamesLawsAsTheContractDoes) {
 }
 
 TEST(LawCatalogue, HasEveryLawOfTheContractButTheGivenFactor) {
-  EXPECT_EQ(LawCatalogue().size(), DampingLaws().size() - 1);
+  EXPECT_EQ(LawCatalogue().size(), DampingLaws().size() - 2);
   for (const LawEntry& law : LawCatalogue()) {
     EXPECT_NE(DampingOf(law.law), v1::Contact::MU);
     EXPECT_NE(law.alpha, nullptr) << law.name;

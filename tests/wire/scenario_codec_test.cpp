@@ -135,7 +135,9 @@ TEST(DecodeScenario, EveryDampingIsRead) {
     v1::Scenario message = TwoBalls();
     message.mutable_contacts(0)->set_damping(damping);
     if (damping == v1::Contact::MU) message.mutable_contacts(0)->set_mu(1);
-    if (damping == v1::Contact::KELVIN_VOIGT) message.mutable_contacts(0)->set_exponent(1);
+    const bool linear = damping == v1::Contact::KELVIN_VOIGT || damping == v1::Contact::DASHPOT;
+    if (linear) message.mutable_contacts(0)->set_exponent(1);
+    if (damping == v1::Contact::DASHPOT) message.mutable_contacts(0)->set_damping_n_s_per_m(1);
     EXPECT_THAT(LinesOf(message), IsEmpty());
     laws.insert(DecodeScenario(message).scenario.contacts.at(0).damping);
   }
@@ -338,6 +340,28 @@ TEST(DecodeScenario, NotesAtMostAHundredViolations) {
   for (int i = 0; i < 20'000 - 2; ++i) message.add_bodies();
   for (int i = 0; i < 10'000; ++i) message.add_loads()->set_body("nobody");
   EXPECT_THAT(DecodeScenario(message).violations, SizeIs(100));
+}
+
+TEST(DecodeScenario, AtEquilibriumBodiesStandWhereLoadsAndContactsBalance) {
+  v1::Scenario message = FromText(R"(
+      bodies { name: "B1" mass_kg: 2 radius_m: 0.05 position_m: 0.5 }
+      contacts { between: "B1" wall { side: LEFT } stiffness: 1e6 exponent: 1 restitution: 0.5 }
+      loads { body: "B1" constant { force_n: -30 } }
+      start: AT_EQUILIBRIUM
+      end_time_s: 1)");
+  const DecodedScenario decoded = DecodeScenario(message);
+  ASSERT_THAT(LinesOf(message), IsEmpty());
+  EXPECT_TRUE(decoded.scenario.starts_at_rest);
+  EXPECT_NEAR(decoded.scenario.bodies[0].position, 0.05 - 30e-6, 1e-15);
+}
+
+TEST(DecodeScenario, AsGivenBodiesMayOverlap) {
+  v1::Scenario message = TwoBalls();
+  message.mutable_bodies(1)->set_position_m(message.bodies(0).position_m() + 1e-3);
+  EXPECT_THAT(LinesOf(message), Not(IsEmpty()));
+  message.set_start(v1::Scenario::AS_GIVEN);
+  EXPECT_THAT(LinesOf(message), IsEmpty());
+  EXPECT_FALSE(DecodeScenario(message).scenario.starts_at_rest);
 }
 
 }  // namespace

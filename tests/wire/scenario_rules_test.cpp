@@ -364,15 +364,31 @@ std::vector<Case> Cases() {
       {"BodiesThatOverlap",
        [](S& s) { s.mutable_bodies(1)->set_position_m(0.0625); },
        {"contacts[0].between: 'B1' and 'B2' overlap at the start: δ = 0.037500000000000006 m; must "
-        "be ≤ 0 — move them apart"}},
+        "be ≤ 0 — move them apart, or set start: AS_GIVEN"}},
       {"BodyInsideAWall",
        [](S& s) { s.mutable_bodies(2)->set_position_m(3.5); },
        {"contacts[1].between: 'B3' and the wall overlap at the start: δ = 0.5 m; must be ≤ 0 — "
-        "move them apart"}},
+        "move them apart, or set start: AS_GIVEN"}},
       {"BodyBehindAWallToTheLeft",
        [](S& s) { s.mutable_contacts(1)->mutable_wall()->set_side(v1::Wall::LEFT); },
        {"contacts[1].between: 'B3' and the wall overlap at the start: δ = 1 m; must be ≤ 0 — move "
-        "them apart"}},
+        "them apart, or set start: AS_GIVEN"}},
+      {"StartThatIsNone",
+       [](S& s) { s.set_start(static_cast<v1::Scenario::Start>(9)); },
+       {"start: is 9, which is no value of Start"}},
+      {"EquilibriumOfWhatNothingHolds",
+       [](S& s) { s.set_start(v1::Scenario::AT_EQUILIBRIUM); },
+       {"start: is AT_EQUILIBRIUM, but no positions were found at which all forces balance; in "
+        "search "
+        "of them 'B3' goes farthest — let a contact or support hold it, give it a velocity, or set "
+        "start: AS_GIVEN"}},
+      {"EquilibriumBesideWhatMoves",
+       [](S& s) {
+         s.set_start(v1::Scenario::AT_EQUILIBRIUM), s.clear_loads();
+         s.mutable_bodies(1)->set_position_m(0.0625), s.mutable_bodies(1)->set_velocity_m_per_s(1);
+       },
+       {"start: is AT_EQUILIBRIUM, in which contact 'B1-B2', a side of which has a velocity, "
+        "overlaps: δ = 0.037500000000000006 m — move that body away"}},
       {"BothBodiesFixed",
        [](S& s) {
          s.mutable_bodies(0)->set_fixed(true), s.mutable_bodies(1)->set_fixed(true);
@@ -438,6 +454,21 @@ std::vector<Case> Cases() {
       {"MuWithAnotherDamping",
        [&](S& s) { contact(s).set_mu(1); },
        {"contacts[0].mu: is given, but goes only with damping MU — remove mu, or set damping: MU"}},
+      {"MuWithKelvinAndVoigt",
+       [&](S& s) {
+         contact(s).set_mu(1), contact(s).set_damping(v1::Contact::KELVIN_VOIGT);
+         contact(s).set_exponent(1);
+       },
+       {"contacts[0].mu: is given, but goes only with damping MU — remove mu, or set damping: MU; "
+        "for "
+        "a damper c of your own damping: DASHPOT with damping_n_s_per_m"}},
+      {"DashpotWithoutItsDamper",
+       [&](S& s) { contact(s).set_damping(v1::Contact::DASHPOT), contact(s).set_exponent(1); },
+       {"contacts[0].damping_n_s_per_m: is missing; damping DASHPOT needs it"}},
+      {"DamperWithAnotherDamping",
+       [&](S& s) { contact(s).set_damping_n_s_per_m(1); },
+       {"contacts[0].damping_n_s_per_m: is given, but goes only with damping DASHPOT — remove "
+        "damping_n_s_per_m, or set damping: DASHPOT"}},
       {"KelvinVoigt",
        [&](S& s) { contact(s).set_damping(v1::Contact::KELVIN_VOIGT); },
        {"contacts[0].exponent: is 1.5; damping KELVIN_VOIGT needs 1 — set exponent: 1"}},

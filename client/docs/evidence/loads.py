@@ -123,3 +123,39 @@ def driven_touch() -> float:
         middle = (low + high) / 2
         low, high = (middle, high) if driven(middle)[0] < -0.002 else (low, middle)
     return (low + high) / 2
+
+
+@row("pressed-particles", LOADED, "positions [m] and velocities [m/s] at 1 ms of two balls that are "
+     "pressed between two walls at the start", "verification case of MFIX-DEM, by SciPy", 1e-4)
+def _(laboratory: Laboratory) -> Any:
+    balls = [{"name": name, "radius_m": 0.5e-3, "density_kg_per_m3": density, "position_m": position}
+             for name, density, position in (("low", 2e4, 0.45e-3), ("high", 1e4, 1.35e-3))]
+    spring = {"stiffness": 1e3, "exponent": 1, "restitution": 1}
+    scenario = {"start": "AS_GIVEN", "bodies": balls, "contacts": [
+        {"between": ["low"], "wall": {"side": "LEFT"}, **spring},
+        {"between": ["low", "high"], **spring},
+        {"between": ["high"], "wall": {"side": "RIGHT", "position_m": 1.8e-3}, **spring}],
+        "loads": [{"gravity": {}}], "end_time_s": 1e-3}
+    ends = laboratory.run(scenario).job.final_bodies
+    return ([body.position_m for body in ends] + [body.velocity_m_per_s for body in ends],
+            [0.42713e-3, 1.38355e-3, -0.02595, 0.39185])
+
+
+@row("stack-at-rest", LOADED, "positions [m] of four balls that stand on a floor from the start",
+     "statics: each contact carries what stands on it, (W/k)^(2/3)", 1e-12)
+def _(laboratory: Laboratory) -> Any:
+    masses, k, radius = [2.0, 0.5, 1.0, 0.1], 1e7, 0.05
+    names = [f"B{i + 1}" for i in range(4)]
+    scenario = {"start": "AT_EQUILIBRIUM", "bodies": [
+        {"name": name, "mass_kg": mass, "radius_m": radius, "position_m": 0.05 + 0.1 * i}
+        for i, (name, mass) in enumerate(zip(names, masses))],
+        "contacts": [{"between": names, "stiffness": k, "restitution": 0.5},
+                     {"between": ["B1"], "wall": {"side": "LEFT"}, "stiffness": k,
+                      "restitution": 0.5}],
+        "loads": [{"gravity": {}}], "end_time_s": 0.1}
+    heights, face = [], 0.0
+    for i in range(4):
+        face += radius - (9.80665 * sum(masses[i:]) / k) ** (2 / 3)
+        heights.append(face)
+        face += radius
+    return [body.position_m for body in laboratory.run(scenario).job.final_bodies], heights

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulation/laws/isolated_collision.h"
+#include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -44,7 +45,7 @@ double FirstGuess::Factor(const ContactState& state, double effective_mass,
                           double external_force) const {
   const Cycle& cycle = state.cycle;
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  if (contact.damping == DampingLaw::kGiven) return contact.mu;
+  if (IsGiven(contact.damping)) return contact.mu;
   if (NeedsNoVelocity(contact.damping)) {
     return DampingFactor(contact.damping, contact.restitution, contact.stiffness, effective_mass);
   }
@@ -61,14 +62,14 @@ double FirstGuess::Factor(const ContactState& state, double effective_mass,
 
 double FirstGuess::Released(const ContactState& state, double effective_mass) const {
   const Contact& c = scenario_.contacts[At(state.cycle.contact)];
-  const bool stores = state.cycle.start_deformation > 0;  // Else it ends at once with any μ.
-  if (c.damping == DampingLaw::kGiven || NeedsNoVelocity(c.damping) || !stores) {
-    return state.cycle.mu;
-  }
+  if (RowOf(c.damping).scale != DampingScale::kVelocity) return Factor(state, effective_mass, 0);
+  if (state.cycle.start_deformation == 0) return state.cycle.mu;  // It ends at once with any μ.
   const double alpha = DampingCoefficient(c.damping, c.restitution);
+  // What has rested has no velocity; what is pressed at t = 0 may.
+  const double velocity = state.cycle.number == 1 ? state.start_velocity : 0;
   return alpha * c.stiffness /
-         ApproachVelocity(effective_mass, state.cycle.start_deformation, c.stiffness, c.exponent,
-                          alpha);
+         ApproachVelocity(effective_mass, state.cycle.start_deformation, velocity, c.stiffness,
+                          c.exponent, alpha);
 }
 
 double FirstGuess::Sought(const ContactState& state, double alpha, double own,
@@ -184,7 +185,7 @@ double FirstGuess::LoadChange(const Contact& contact, double time) const {
     const double sign = load.body == contact.left ? 1 : load.body == contact.right ? -1 : 0;
     if (sign == 0) continue;
     const auto at = [&](double t) {
-      return load.begin <= t && t < load.end ? Equations::LoadForce(load, t) : 0;
+      return load.begin <= t && t < load.end ? LoadForce(load, t) : 0;
     };
     change += sign * (at(now + time) - at(now)) / scenario_.bodies[At(load.body)].mass;
   }

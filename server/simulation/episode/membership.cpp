@@ -46,6 +46,10 @@ bool Membership::IsWeak(const ContactState& state, double times) const {
 double Membership::Start(ContactState& state, double effective_mass, double external_force) {
   guess_.Observe(state.cycle.approach_velocity);
   ContactState::Membership& member = state.member;
+  const bool pressed_at_start = std::isnan(state.last_mu) && (state.woken || state.settled);
+  if (pressed_at_start) {
+    state.last_mu = guess_.Released(state, effective_mass);
+  }
   if (state.settled) {  // It rests, in no group.
     member.open = false;
     return state.last_mu;

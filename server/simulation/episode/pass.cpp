@@ -133,7 +133,7 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
     made.id = unknown.id;
     made.mu = mu;
     made.sought = IsSought(scenario_, cycle.contact);
-    if (contact.damping != DampingLaw::kGiven) made.restitution_in = contact.restitution;
+    if (!IsGiven(contact.damping)) made.restitution_in = contact.restitution;
     made.first_cycle = cycle.number;
     made.start_time = cycle.start_time;
     made.after_rest = state.member.after_rest;

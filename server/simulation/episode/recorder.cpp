@@ -115,7 +115,7 @@ void Recorder::Open(ContactState& state, const Unknown& unknown) const {
   if (contact.damping != DampingLaw::kEnergyRestitution) group.status = Cycle::Status::kGivenLaw;
   if (IsUndamped(scenario_, state.cycle.contact)) group.status = Cycle::Status::kConverged;
   if (unknown.cut && IsSought(scenario_, state.cycle.contact)) group.status = OfCut(group.status);
-  if (contact.damping != DampingLaw::kGiven) group.restitution_in = contact.restitution;
+  if (!IsGiven(contact.damping)) group.restitution_in = contact.restitution;
   group.restitution_out = unknown.restitution_out;
   group.growth = unknown.growth;
   const bool told = unknown.Decided();
@@ -127,7 +127,7 @@ void Recorder::Open(ContactState& state, const Unknown& unknown) const {
 void Recorder::WarnWithoutVelocity(const ContactState& state) {
   const Contact& contact = scenario_.contacts[At(state.cycle.contact)];
   const bool named = contact.damping != DampingLaw::kEnergyRestitution &&
-                     contact.damping != DampingLaw::kGiven && !NeedsNoVelocity(contact.damping);
+                     RowOf(contact.damping).scale == DampingScale::kVelocity;
   const bool has_velocity = contact.reference_velocity > 0 || state.cycle.approach_velocity > 0;
   const std::size_t index = At(state.cycle.contact);
   if (!named || has_velocity || warned_[index]) return;
@@ -158,7 +158,7 @@ void Recorder::Label(const ContactState& state, Cycle& cycle) const {
   const bool weak = state.member.group.number == 0;
   cycle.episode = episode_;
   cycle.group = rested ? 0 : state.member.group.number;
-  if (contact.damping != DampingLaw::kGiven) cycle.restitution_in = contact.restitution;
+  if (!IsGiven(contact.damping)) cycle.restitution_in = contact.restitution;
   cycle.status = state.member.group.status;
   cycle.iterations = state.member.iterations;
   if (rested) cycle.restitution_out = kNaN;
@@ -180,7 +180,7 @@ void Recorder::OnEnd(ContactState& state, const Eigen::ArrayXd&, const Eigen::Ar
     if (const std::string fault = Fault(state); !fault.empty()) Disprove(state, fault);
   }
   const Contact& contact = scenario_.contacts[At(cycle.contact)];
-  if (cycle.status == Cycle::Status::kGivenLaw && contact.damping != DampingLaw::kGiven) {
+  if (cycle.status == Cycle::Status::kGivenLaw && !IsGiven(contact.damping)) {
     WarnOfMiss(contact, cycle);
   }
   cycles.push_back(cycle);
@@ -224,7 +224,8 @@ void Recorder::Disprove(ContactState& state, const std::string& fault) {
 // The group of the cycle that has ended ends with it: sees what it has become.
 void Recorder::Close(ContactState& state) {
   Group& group = state.member.group;
-  group.restitution_out = Ratio(group.work_compression, group.work_restitution);
+  const double ratio = Ratio(group.work_compression, group.work_restitution);
+  group.restitution_out = state.released ? kNaN : ratio;
   group.residual =
       state.member.imbalance / std::max(group.work_compression, -group.work_restitution);
   state.member.imbalance = 0;

@@ -80,6 +80,9 @@ constexpr DampingLawRow kRows[] = {
      "ε in (0, 1]; exponent 1.5; pulls before the bodies part"},
     {kGiven, DampingScale::kNone, "MU", nullptr, kAny, kOwn,
      "μ as given", "the scenario", "every cycle"},
+    {kDashpot, DampingScale::kNone, "DASHPOT", nullptr, 1, 0,
+     "c as given", "linear spring and damper of the scenario",
+     "every cycle; exponent 1; pulls before the bodies part"},
 };
 // clang-format on
 
@@ -100,6 +103,8 @@ const DampingLawRow& RowOf(DampingLaw law) {
   assert(index >= 0 && index < kDampingLaws);
   return kRows[index];
 }
+
+bool IsGiven(DampingLaw law) { return RowOf(law).scale == DampingScale::kNone; }
 
 bool NeedsNoVelocity(DampingLaw law) { return RowOf(law).scale == DampingScale::kMass; }
 

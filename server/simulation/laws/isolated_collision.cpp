@@ -1,7 +1,9 @@
 #include "simulation/laws/isolated_collision.h"
 
+#include <boost/math/tools/roots.hpp>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 #include "simulation/laws/power.h"
 
@@ -69,10 +71,24 @@ double MaximumDeformation(double effective_mass, double velocity, double stiffne
                   1 / (exponent + 1));
 }
 
-double ApproachVelocity(double effective_mass, double max_deformation, double stiffness,
-                        double exponent, double alpha) {
-  const double loss = alpha == 0 ? 0.5 : Loss(alpha) / (alpha * alpha);
-  return std::sqrt(ElasticEnergy(stiffness, exponent, max_deformation) / (effective_mass * loss));
+double ApproachVelocity(double effective_mass, double deformation, double velocity,
+                        double stiffness, double exponent, double alpha) {
+  const double stored = ElasticEnergy(stiffness, exponent, deformation) / effective_mass;
+  if (alpha == 0) return std::sqrt(2 * stored + velocity * velocity);
+  const double square = alpha * alpha, at_turn = std::sqrt(stored * square / Loss(alpha));
+  if (velocity == 0) return at_turn;
+  const auto excess = [&](double v) {
+    return v * v / square * (Loss(alpha) - Loss(alpha * velocity / v)) - stored;
+  };
+  // The approach velocity with which δ̇ is there at δ = 0 already, in which nothing is stored.
+  const double least = velocity > 0 ? velocity : -velocity / DeliveredRestitution(alpha);
+  double most = least + at_turn;
+  while (excess(most) < 0) most *= 2;
+  std::uintmax_t trials = 100;
+  const auto bracket =
+      boost::math::tools::toms748_solve(excess, least, most, -stored, excess(most),
+                                        boost::math::tools::eps_tolerance<double>(52), trials);
+  return (bracket.first + bracket.second) / 2;
 }
 
 double ElasticEnergy(double stiffness, double exponent, double deformation) {

@@ -27,9 +27,11 @@ double MaximumDeformation(double effective_mass, double velocity, double stiffne
 /// `stiffness` k [N/mⁿ], `exponent` n [-].
 double ElasticEnergy(double stiffness, double exponent, double deformation);
 
-/// The approach velocity of the isolated collision that brings a contact to the deformation δ_m,
-/// the inverse of MaximumDeformation [m/s]: v² = U α²/(m_e Loss(α)), U = k δ_mⁿ⁺¹/(n+1), (L3).
-double ApproachVelocity(double effective_mass, double max_deformation, double stiffness,
-                        double exponent, double alpha);
+/// The approach velocity v [m/s] of the isolated collision in which a contact has the deformation
+/// δ [m], > 0, with the velocity δ̇ [m/s], of either sign:                                (L3a)
+///   U(δ) = m_e (v/α)² [Loss(α) − Loss(α δ̇/v)],  Loss(x) = x − ln(1 + x).
+/// With δ̇ = 0 it inverts MaximumDeformation.
+double ApproachVelocity(double effective_mass, double deformation, double velocity,
+                        double stiffness, double exponent, double alpha);
 
 }  // namespace contact

@@ -35,10 +35,10 @@ struct Contact {
   double wall_position = 0;  ///< b [m]; only with a wall.
   double stiffness = 0;      ///< k [N/mⁿ], > 0.
   double exponent = 1.5;     ///< n [-], ≥ 1.
-  double restitution = 1;    ///< ε_in [-], in (0, 1]. Not used by DampingLaw::kGiven.
+  double restitution = 1;    ///< ε_in [-], in (0, 1]. Not used where IsGiven(damping).
   /// How μ is found.
   DampingLaw damping = DampingLaw::kEnergyRestitution;
-  /// μ [N·s/mⁿ⁺¹], ≥ 0. Only used by DampingLaw::kGiven.
+  /// μ [N·s/mⁿ⁺¹] of DampingLaw::kGiven, c [N·s/m] of kDashpot; ≥ 0. Not used by others.
   double mu = 0;
   /// Approach velocity from which a named law makes μ [m/s], > 0; 0: that of the cycle.
   double reference_velocity = 0;
@@ -128,7 +128,9 @@ struct Scenario {
   std::vector<Load> loads;        ///< May be none.
   SolverOptions solver;           ///< How it is solved.
   double end_time = 0;            ///< [s], > 0.
-  double sample_interval = 0;     ///< [s], > 0; 0: record no trajectory.
+  /// Whether contacts that are pressed at t = 0 rest: the positions are those of an equilibrium.
+  bool starts_at_rest = false;
+  double sample_interval = 0;  ///< [s], > 0; 0: record no trajectory.
   /// Samples in each cycle beside those at multiples of the interval, ≥ 0.
   int samples_per_contact = 0;
   /// Most of these samples in the whole run, ≥ 0.

@@ -157,17 +157,14 @@ void Cycles::Release(int contact, CycleHost& host) {
   const Contact& c = system_.scenario.contacts[At(contact)];
   const double length = state.cycle.start_deformation;
   system_.scales[At(contact)] = {length,
-                                 ApproachVelocity(mass, length, c.stiffness, c.exponent, 0)};
+                                 ApproachVelocity(mass, length, 0, c.stiffness, c.exponent, 0)};
   system_.RefreshActive();
 }
 
 double Cycles::ExternalForce(int contact) const {
   const int n = system_.equations.bodies();
-  const Contact& c = system_.scenario.contacts[At(contact)];
-  const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
   return system_.equations.effective_mass(contact) *
-             system_.equations.Relative(contact, system_.rk.slope0.data() + n) +
-         c.stiffness * Power(deformation, c.exponent).value;
+         system_.equations.Relative(contact, system_.rk.slope0.data() + n);
 }
 
 void Cycles::ResetWorks(int contact) {
@@ -354,7 +351,8 @@ void Cycles::DescribeEnd(ContactState& state) {
                  y[system_.equations.work(cycle.contact)], system_.ExternalWork(cycle.contact, y),
                  &cycle);
   const double ratio = -cycle.work_restitution / cycle.work_compression;
-  cycle.restitution_out = cycle.work_compression > 0 && ratio >= 0 ? std::sqrt(ratio) : kNaN;
+  const bool told = cycle.work_compression > 0 && ratio >= 0 && !state.released;
+  cycle.restitution_out = told ? std::sqrt(ratio) : kNaN;
   if (system_.equations.recording) Balance(state, at_force ? peak.velocity : 0);
 }
 

@@ -76,15 +76,6 @@ double Equations::ForcingTime() const {
   return rate == 0 ? std::numeric_limits<double>::infinity() : 1 / rate;
 }
 
-double Equations::LoadForce(const Load& load, double t) {
-  const double since = t - load.begin;
-  double force = load.constant + load.slope * since;
-  if (load.amplitude != 0) {
-    force += load.amplitude * std::sin(load.angular_frequency * since + load.phase);
-  }
-  return force;
-}
-
 void Equations::AddLoadChange(double from, double to, double* accelerations) const {
   for (const Load& load : acting_) {
     if (load.slope == 0 && load.amplitude == 0) continue;

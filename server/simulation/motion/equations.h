@@ -119,6 +119,10 @@ class Equations : public StateLayout {
     return sides(contact).Relative(of_bodies);
   }
 
+  /// By how much the support with this index is longer than without force [m].
+  double Stretch(std::size_t support, const double* u) const {
+    return stretches_[support] + Relative(scenario_.supports[support], u);
+  }
   /// Two bodies, or a body and, as kNone, a wall.
   Sides SidesOf(int left, int right) const;
 
@@ -143,8 +147,6 @@ class Equations : public StateLayout {
   /// two plain contacts of at most three bodies, for which there is a shorter way.
   void Prepare();
 
-  /// Force of a load at t [s] by its formula [N].
-  static double LoadForce(const Load& load, double t);
   /// The loads that act.
   const std::vector<Load>& acting() const { return acting_; }
   /// Adds to accelerations by how much those of the selected loads differ between two instants.
@@ -185,10 +187,6 @@ class Equations : public StateLayout {
   void AddRecord(double t, const double* y, double* dy, double pace) const;
   /// Force of the support with this index on its first body [N], (M4).
   double SupportForce(std::size_t support, const double* u, const double* v) const;
-  /// By how much the support with this index is longer than without force [m].
-  double Stretch(std::size_t support, const double* u) const {
-    return stretches_[support] + Relative(scenario_.supports[support], u);
-  }
   /// Difference of a per-body quantity between the bodies of a support; the ground counts 0.
   static double Relative(const Support& s, const double* of_bodies) {
     return of_bodies[s.body] - (s.other == kNone ? 0 : of_bodies[s.other]);

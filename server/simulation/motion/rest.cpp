@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "simulation/laws/power.h"
+#include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -149,8 +150,8 @@ std::vector<int> Rest::DisturbedByLoads() const {
   std::vector<double> forces(system_.scenario.bodies.size());
   for (const Load& load : system_.scenario.loads) {
     const double t = system_.time;
-    if (load.begin == t) forces[At(load.body)] += Equations::LoadForce(load, t);
-    if (load.end == t) forces[At(load.body)] -= Equations::LoadForce(load, t);
+    if (load.begin == t) forces[At(load.body)] += LoadForce(load, t);
+    if (load.end == t) forces[At(load.body)] -= LoadForce(load, t);
   }
   for (double& force : forces) force = std::abs(force);
   return Disturbed(Spread(std::move(forces)),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "simulation/laws/isolated_collision.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
@@ -31,7 +32,15 @@ State InitialState(const Scenario& scenario) {
   for (const Contact& c : scenario.contacts) {
     ContactState contact;
     contact.gap = InitialGap(scenario, c);
-    if (contact.gap <= 0 && velocity(c.left) - velocity(c.right) > 0) {
+    const double closing = velocity(c.left) - velocity(c.right);
+    if (contact.gap < 0) {
+      contact.phase = Phase::kStarting;
+      contact.cycle.kind = Cycle::Kind::kNirv;
+      contact.settled = scenario.starts_at_rest && closing == 0;
+      contact.woken = !contact.settled;
+      // As if one cycle had pressed it so far.
+      contact.largest_work = ElasticEnergy(c.stiffness, c.exponent, -contact.gap);
+    } else if (contact.gap == 0 && closing > 0) {
       contact.phase = Phase::kStarting;
       contact.cycle.kind = Cycle::Kind::kCollision;
     }

@@ -101,7 +101,13 @@ struct State {
   double impulse = 0;
 };
 
-/// The state at t = 0: touching contacts that approach are starting.
+/// Whether the contact is pressed at t = 0.
+inline bool StartsPressed(const ContactState& contact) {
+  return contact.phase == Phase::kStarting && contact.gap < 0;
+}
+
+/// The state at t = 0: touching contacts that approach are starting, and so are pressed ones, as
+/// after a rest that has ended, or that goes on where Scenario::starts_at_rest.
 State InitialState(const Scenario& scenario);
 
 /// Whether loads, supports or walls may keep contacts closed.

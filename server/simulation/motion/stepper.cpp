@@ -76,6 +76,16 @@ Stepper::Stepper(MovingSystem& system)
 
 void Stepper::Begin() {
   flight_length_ = flight_speed_ = 0;
+  // What round-off of a stretched spring's force makes of bodies that stand still is no motion.
+  const double digits = kRoundOff / system_.scenario.solver.relative_tolerance;
+  for (std::size_t i = 0; i < system_.scenario.supports.size(); ++i) {
+    const Support& s = system_.scenario.supports[i];
+    const Sides sides = system_.equations.SidesOf(s.body, s.other);
+    const double rate = std::sqrt(s.stiffness * (sides.left_inverse + sides.right_inverse));
+    const double length = digits * std::abs(system_.equations.Stretch(i, system_.rk.y0.data()));
+    flight_length_ = std::max(flight_length_, length);
+    flight_speed_ = std::max(flight_speed_, length * rate);
+  }
   cruise_ = 0;
   choice_.Begin();
 }

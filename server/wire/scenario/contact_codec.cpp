@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <unordered_set>
 #include <utility>
@@ -31,19 +32,46 @@ void DecodeRestitution(const v1::Contact& message, const Rules& rules, Contact* 
   if (message.has_restitution()) {
     contact->restitution =
         rules.Check<v1::Contact>(v1::Contact::kRestitutionFieldNumber, message.restitution());
-  } else if (message.damping() != v1::Contact::MU) {
+  } else if (!IsGiven(contact->damping)) {
     rules.Break("restitution", "is missing", "1 is elastic; damping MU with mu needs none");
   }
 }
 
-double DecodeMu(const v1::Contact& message, const Rules& rules) {
-  const bool given = message.damping() == v1::Contact::MU;
-  const double mu = rules.Check<v1::Contact>(v1::Contact::kMuFieldNumber, message.mu());
-  if (given && !message.has_mu()) rules.Break("mu", "is missing; damping MU needs it");
-  if (!given && message.has_mu()) {
-    rules.Break("mu", "is given, but goes only with damping MU", "remove mu, or set damping: MU");
+// A number that goes with one law only.
+struct LawNumber {
+  const char* field;
+  int number;
+  DampingLaw law;
+};
+constexpr LawNumber kMu = {"mu", v1::Contact::kMuFieldNumber, DampingLaw::kGiven};
+constexpr LawNumber kDamper = {"damping_n_s_per_m", v1::Contact::kDampingNSPerMFieldNumber,
+                               DampingLaw::kDashpot};
+
+double DecodeNumber(const LawNumber& of, std::optional<double> value, DampingLaw damping,
+                    const Rules& rules) {
+  const std::string_view law = RowOf(of.law).name;
+  if (damping == of.law && !value) {
+    rules.Break(of.field, fmt::format("is missing; damping {} needs it", law));
   }
-  return mu;
+  if (damping != of.law && value) {
+    const bool of_damper = damping == DampingLaw::kKelvinVoigt && of.law == DampingLaw::kGiven;
+    rules.Break(of.field, fmt::format("is given, but goes only with damping {}", law),
+                fmt::format("remove {}, or set damping: {}{}", of.field, law,
+                            of_damper ? "; for a damper c of your own damping: DASHPOT with "
+                                        "damping_n_s_per_m"
+                                      : ""));
+  }
+  return rules.Check<v1::Contact>(of.number, value.value_or(0));
+}
+
+// μ or c, as far as the law has one.
+double DecodeMu(const v1::Contact& message, DampingLaw damping, const Rules& rules) {
+  std::optional<double> mu, damper;
+  if (message.has_mu()) mu = message.mu();
+  if (message.has_damping_n_s_per_m()) damper = message.damping_n_s_per_m();
+  const double given = DecodeNumber(kMu, mu, damping, rules);
+  const double dashpot = DecodeNumber(kDamper, damper, damping, rules);
+  return damping == DampingLaw::kDashpot ? dashpot : given;
 }
 
 // Some laws are made for one exponent.
@@ -68,7 +96,7 @@ Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
   contact.damping = DecodeDamping(message, rules);
   contact.exponent = DecodeExponent(message, contact.damping, rules);
   DecodeRestitution(message, rules, &contact);
-  contact.mu = DecodeMu(message, rules);
+  contact.mu = DecodeMu(message, contact.damping, rules);
   if (message.has_reference_velocity_m_per_s()) {
     contact.reference_velocity = rules.Check<Field>(Field::kReferenceVelocityMPerSFieldNumber,
                                                     message.reference_velocity_m_per_s());
@@ -289,8 +317,12 @@ class ContactDecoder {
     return true;
   }
 
-  // A deformation of the size of the round-off of its terms is a touch.
-  static bool Overlap(double deformation, std::initializer_list<double> terms) {
+  // Whether they overlap where they must not. A deformation of the size of the round-off of its
+  // terms is a touch.
+  bool Overlap(double deformation, std::initializer_list<double> terms) const {
+    const bool apart = scenario_.start() != v1::Scenario::AS_GIVEN &&
+                       scenario_.start() != v1::Scenario::AT_EQUILIBRIUM;
+    if (!apart) return false;
     double scale = 0;
     for (const double term : terms) scale = std::max(scale, std::abs(term));
     return deformation > 1e-12 * scale;
@@ -299,7 +331,7 @@ class ContactDecoder {
   static void BreakOverlap(double deformation, const std::string& who, const Rules& rules) {
     rules.Break("between",
                 fmt::format("{} overlap at the start: δ = {} m; must be ≤ 0", who, deformation),
-                "move them apart");
+                "move them apart, or set start: AS_GIVEN");
   }
 
   void Add(Contact contact, const Rules& rules) {

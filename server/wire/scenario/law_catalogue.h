@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <iterator>
 #include <vector>
 
@@ -12,15 +13,20 @@ namespace contact {
 static_assert(v1::Contact::Damping_ARRAYSIZE == kDampingLaws + 1);
 static_assert(v1::Contact::ENERGY_RESTITUTION == static_cast<int>(DampingLaw::kEnergyRestitution));
 static_assert(v1::Contact::MU == static_cast<int>(DampingLaw::kGiven));
-static_assert(v1::Contact::MU == kDampingLaws, "LawCatalogue leaves out the last row");
+static_assert(v1::Contact::DASHPOT == static_cast<int>(DampingLaw::kDashpot));
 
 /// A damping law as clients list it: a row of the table in simulation/laws.
 using LawEntry = DampingLawRow;
 
-/// Every law that makes μ from ε, so all but MU, in the order of the contract. The rows live as
-/// long as the program.
+/// Every law that makes μ from ε, so all but MU and DASHPOT, in the order of the contract. The rows
+/// live as long as the program.
 inline const std::vector<LawEntry>& LawCatalogue() {
-  static const std::vector<LawEntry> laws(DampingLaws().begin(), std::prev(DampingLaws().end()));
+  static const std::vector<LawEntry> laws = [] {
+    std::vector<LawEntry> some;
+    std::ranges::copy_if(DampingLaws(), std::back_inserter(some),
+                         [](const LawEntry& law) { return !IsGiven(law.law); });
+    return some;
+  }();
   return laws;
 }
 

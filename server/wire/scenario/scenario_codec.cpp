@@ -9,6 +9,7 @@
 #include "wire/scenario/body_codec.h"
 #include "wire/scenario/contact_codec.h"
 #include "wire/scenario/load_codec.h"
+#include "wire/scenario/start_codec.h"
 
 namespace contact {
 namespace {
@@ -177,6 +178,7 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   RequireSplitSolvable(scenario, Rules(violations, "solver"));
   DecodeOutput(message, limits, Rules(violations, "output"), &scenario);
   scenario.end_time = rules.Read(message, v1::Scenario::kEndTimeSFieldNumber);
+  DecodeStart(message, rules, &scenario);
   return decoded;
 }
 

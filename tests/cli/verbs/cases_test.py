@@ -1,6 +1,7 @@
 """Scenarios that an earlier engine got wrong: verdict, steps and figures of each, by name."""
 
 import json
+import math
 import pathlib
 import unittest
 
@@ -34,6 +35,8 @@ STEPS = {
     "steps-at-rest.yaml": 30_000,
     "steps-stiff-drop.yaml": 350_000,
     "end-time-decides.yaml": 20_000,
+    "start-pressed.yaml": 400,
+    "damper-coefficient.yaml": 2_000,
 }
 
 
@@ -65,6 +68,19 @@ class CasesTest(CliTest):
                 self.assertLessEqual(int(summary["steps"]), steps)
                 for residual in ("worst_identity_residual", "momentum_residual", "energy_residual"):
                     self.assertLess(summary.get(residual, 0), 1e-8, residual)
+
+    def test_two_particles_that_begin_pressed_move_as_published(self):
+        job = self.solved("start-pressed.yaml")
+        self.close([body["position_m"] for body in job["final_bodies"]],
+                   [0.42713e-3, 1.38355e-3], 5e-9)
+        self.close(self.velocities(job), [-0.02595, 0.39185], 5e-6)
+
+    # δ = v e^{−ξωt} sinh(√(ξ² − 1) ωt)/(√(ξ² − 1) ω), from the touch with 1 m/s at 1 s on.
+    def test_a_stop_has_the_damper_of_its_maker(self):
+        job = self.solved("damper-coefficient.yaml")
+        decay, fast = 1e5 / 20, math.sqrt((1e5 / 20) ** 2 - 1e6 / 10)
+        deformation = (math.exp(fast - decay) - math.exp(-fast - decay)) / (2 * fast)
+        self.assertAlmostEqual(-job["final_bodies"][0]["position_m"] / deformation, 1, delta=1e-6)
 
     # Dropped 100 mm: both meet the floor with 1.4 m/s and leave with 0.6 of that by their law, less 1 %
     # that their weight takes in the contact.

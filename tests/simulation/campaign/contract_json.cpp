@@ -24,8 +24,8 @@ Json JsonOf(const Scenario& s, const Contact& c) {
     json["wall"] = {{"position_m", c.wall_position}, {"side", c.left == kNone ? "LEFT" : "RIGHT"}};
   }
   json["exponent"] = c.exponent;
-  if (c.damping == DampingLaw::kGiven) {
-    json["mu"] = c.mu;
+  if (IsGiven(c.damping)) {
+    json[c.damping == DampingLaw::kGiven ? "mu" : "damping_n_s_per_m"] = c.mu;
   } else {
     json["restitution"] = c.restitution;
   }

@@ -93,6 +93,8 @@ class Independent {
     return c.status != Status::kSettled && c.status != Status::kNotConverged &&
            c.status != Status::kInfeasible && c.status != Status::kUnfinished;
   }
+  // Whether the run begins with it: it may have any velocity then.
+  static bool StartsPressed(const Cycle& c) { return c.start_time == 0 && c.start_deformation > 0; }
   // The largest change of its deformation.
   static double Swing(const Cycle& c) {
     return Deepest(c) - std::min(c.start_deformation, c.end_deformation);
@@ -173,7 +175,7 @@ class Independent {
     const double rate = motion_.Rate(c.contact);
     if (Counts(c) && c.kind == Cycle::Kind::kCollision) {
       Miss(&Disagreement::approach, std::abs(rate - c.approach_velocity) / scale.speed, c, "δ̇⁻");
-    } else if (Counts(c)) {
+    } else if (Counts(c) && !StartsPressed(c)) {
       Miss(&Disagreement::rest, StartEnergy(c, rate) / (scale.speed * scale.speed), c,
            "motion at the start");
     }
@@ -205,7 +207,7 @@ class Independent {
     if (NeedsNoVelocity(contact.damping)) {
       mu = DampingFactor(contact.damping, contact.restitution, contact.stiffness,
                          EffectiveMass(s_, contact));
-    } else if (contact.damping != DampingLaw::kGiven) {
+    } else if (!IsGiven(contact.damping)) {
       const bool collides = c.kind == Cycle::Kind::kCollision;
       if (!collides && contact.reference_velocity == 0) return;  // It keeps its last μ.
       const double v = contact.reference_velocity > 0 ? contact.reference_velocity : rate;

@@ -23,7 +23,7 @@ bool IsCut(const v1::Cycle& cycle) { return cycle.end() == v1::Cycle::RUN_END; }
 double EndForce(const Scenario& scenario, int contact, const v1::Cycle& cycle, double deformation,
                 double rate) {
   const auto& law = scenario.contacts[static_cast<std::size_t>(contact)];
-  const double damper = law.damping == DampingLaw::kKelvinVoigt ? cycle.mu() * rate : 0;
+  const double damper = DampingExponent(law.damping, law.exponent) == 0 ? cycle.mu() * rate : 0;
   const double force = law.stiffness * std::pow(std::max(deformation, 0.0), law.exponent) + damper;
   return scenario.solver.clip_tension ? std::max(force, 0.0) : force;
 }

@@ -98,11 +98,14 @@ export function mechanicsOf(scenario: Scenario): Mechanics {
   };
 }
 
+/** Laws whose damper does not fade with δ. */
+const DASHPOTS = [Contact_Damping.KELVIN_VOIGT, Contact_Damping.DASHPOT];
+
 /** The force of a contact where δ̇ or δ is 0, as at the ends of a cycle. */
 export function endForce(
   {clipTension}: Mechanics, contact: ContactModel, mu: number, deformation: number, rate: number,
 ): number {
-  const damper = contact.damping === Contact_Damping.KELVIN_VOIGT ? mu * rate : 0;
+  const damper = DASHPOTS.includes(contact.damping) ? mu * rate : 0;
   const force = contact.stiffness * Math.max(deformation, 0) ** contact.exponent + damper;
   return clipTension ? Math.max(force, 0) : force;
 }
