@@ -46,7 +46,7 @@ class Cycles {
   void StartCycle(int contact, CycleHost& host);
   /// What is known of a cycle as it starts.
   void DescribeStart(int contact);
-  /// F_e where the cycle of a contact starts [N].
+  /// F_e where the cycle of a contact starts [N]; the slopes do not have its own force yet.
   double ExternalForce(int contact) const;
   /// The works of a contact are counted from this instant on.
   void ResetWorks(int contact);

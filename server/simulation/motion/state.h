@@ -25,7 +25,8 @@ struct ContactState {
   double largest_work = 0;
   /// Whether the last cycle was too weak to iterate.
   bool settled = false;
-  /// Whether the running cycle has ended a rest and has not moved since.
+  /// Whether the running cycle has ended a rest, or began pressed with the run, and has not moved
+  /// since.
   bool woken = false;
   /// Whether the running cycle gives back what was stored before it.
   bool released = false;

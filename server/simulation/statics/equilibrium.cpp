@@ -75,13 +75,13 @@ class Balance {
 
   // Computes the members below for these displacements, of contacts softened by this part of what
   // they begin with.
-  void Move(const Vector& u, double softness) {
+  void Evaluate(const Vector& u, double softness) {
     force = loads_;
     parts = loads_.cwiseAbs();
     entries_.clear();
     for (std::size_t c = 0; c < gaps_.size(); ++c) {
       const Contact& contact = scenario_.contacts[c];
-      if (Moves(contact.left) || Moves(contact.right)) continue;
+      if (HasVelocity(contact.left) || HasVelocity(contact.right)) continue;
       const int left = Row(contact.left), right = Row(contact.right);
       const Soft soft(Of(u, left) - Of(u, right) - gaps_[c], softness * widths_[c]);
       const Power power(soft.value, contact.exponent);
@@ -89,7 +89,7 @@ class Balance {
            contact.stiffness * power.slope * soft.slope);
     }
     for (const Support& support : scenario_.supports) {
-      if (Moves(support.body) || Moves(support.other)) continue;
+      if (HasVelocity(support.body) || HasVelocity(support.other)) continue;
       const int body = Row(support.body), other = Row(support.other);
       const double stretch = Position(support.body) - Position(support.other) -
                              support.rest_position + Of(u, body) - Of(u, other);
@@ -130,7 +130,9 @@ class Balance {
   Eigen::SparseMatrix<double> slope;  // −∂force/∂u [N/m].
 
  private:
-  bool Moves(int body) const { return body != kNone && scenario_.bodies[At(body)].velocity != 0; }
+  bool HasVelocity(int body) const {
+    return body != kNone && scenario_.bodies[At(body)].velocity != 0;
+  }
   int Row(int body) const { return body == kNone ? kNone : rows_[At(body)]; }
   double Position(int body) const {
     return body == kNone ? 0 : scenario_.bodies[At(body)].position;
@@ -167,7 +169,7 @@ class Newton {
   }
 
   void Solve(double softness, Vector& u) {
-    balance_.Move(u, softness);
+    balance_.Evaluate(u, softness);
     const double balanced = softness > 0 ? kNearly : kBalanced;
     for (; steps_ < kMostSteps && !balance_.HoldsAll(u, balanced); ++steps_) {
       if (!Step(softness, u)) return;
@@ -188,7 +190,7 @@ class Newton {
     double part = 1;
     for (int halvings = 0; halvings < kMostHalvings; ++halvings, part *= 0.5) {
       u = before + part * step;
-      balance_.Move(u, softness);
+      balance_.Evaluate(u, softness);
       if (-balance_.force.dot(step) <= kHelps * slope) break;
     }
     return true;
@@ -207,7 +209,7 @@ class Newton {
 Equilibrium FindEquilibrium(const Scenario& scenario) {
   Balance balance(scenario);
   Vector u = Vector::Zero(balance.size());
-  balance.Move(u, 0);
+  balance.Evaluate(u, 0);
   if (!balance.HoldsAll(u, kBalanced)) {
     Newton newton(balance);
     double softness = 1;
