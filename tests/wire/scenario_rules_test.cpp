@@ -301,7 +301,8 @@ std::vector<Case> Cases() {
          s.mutable_bodies(2)->set_fixed(true), s.mutable_bodies(2)->set_velocity_m_per_s(1);
          s.mutable_contacts()->RemoveLast();
        },
-       {"bodies[2].velocity_m_per_s: is 1; must be 0 for a fixed body"}},
+       {"bodies[2].velocity_m_per_s: is 1; must be 0 for a fixed body — motion: {uniform: "
+        "{velocity_m_per_s: …}} moves it"}},
 
       {"NoBetween",
        [&](S& s) { contact(s).clear_between(); },
@@ -394,12 +395,14 @@ std::vector<Case> Cases() {
          s.mutable_bodies(0)->set_fixed(true), s.mutable_bodies(1)->set_fixed(true);
          s.clear_supports(), s.clear_loads();
        },
-       {"contacts[0].between: 'B1' and 'B2' are both fixed — one side of a contact must be able to "
+       {"contacts[0].between: forces move neither 'B1' nor 'B2' — one side of a contact must be "
+        "able to "
         "move"}},
       {"FixedBodyAtAWall",
        [](S& s) { s.mutable_bodies(2)->set_fixed(true); },
-       {"contacts[1].between: 'B3' is fixed, as the wall is — one side of a contact must be able "
-        "to move"}},
+       {"contacts[1].between: forces do not move 'B3', nor the wall — one side of a contact must "
+        "be "
+        "able to move"}},
       {"NoStiffness",
        [&](S& s) { contact(s).clear_stiffness(); },
        {"contacts[0].stiffness: is missing — k, in N/m^exponent; or the material of both sides"}},

@@ -27,12 +27,17 @@ class ContactLaw:
 def contact_pairs(contact: scenario_pb2.Contact) -> list[tuple[str, ...]]:
     """The bodies of each contact that an entry makes."""
     between = list(contact.between)
+    if contact.HasField("clearance_m"):
+        return [tuple(between)] * 2
     return list(zip(between, between[1:])) or [tuple(between)]
 
 
 def contact_names(contact: scenario_pb2.Contact) -> list[str]:
     """The names that the server gives to the contacts of an entry."""
     pairs = contact_pairs(contact)
+    if contact.HasField("clearance_m"):
+        name = contact.name or "-".join([*contact.between, "wall"][:2])
+        return [f"{name}-left", f"{name}-right"]
     if not contact.name:
         return ["-".join(bodies if len(bodies) > 1 else [*bodies, "wall"]) for bodies in pairs]
     if len(pairs) == 1:
@@ -51,15 +56,25 @@ def contact_laws(scenario: scenario_pb2.Scenario) -> list[ContactLaw]:
 
 
 def wall_touches(scenario: scenario_pb2.Scenario) -> list[float]:
-    """Positions of a body's centre, in m, at which it touches its wall."""
+    """Positions of a body's centre, in m, at which it touches its wall, if that stands still."""
     radii = {body.name: body.radius_m for body in scenario.bodies}
-    return [c.wall.position_m - radii[c.between[0]] * (
-                1 if c.wall.side == scenario_pb2.Wall.RIGHT else -1)
-            for c in scenario.contacts if c.HasField("wall")]
+    touches = []
+    for c in scenario.contacts:
+        if not c.HasField("wall") or c.wall.HasField("motion"):
+            continue
+        wall = c.wall.position_m
+        if c.HasField("clearance_m"):
+            touches += [wall - c.clearance_m, wall + c.clearance_m]
+        else:
+            right = c.wall.side == scenario_pb2.Wall.RIGHT
+            touches.append(wall - radii[c.between[0]] * (1 if right else -1))
+    return touches
 
 
 def mass(body: scenario_pb2.Body) -> float:
-    """In kg; 0 for a fixed body without one, which never moves."""
+    """In kg; 0 for a fixed body without one, and for one that moves as given."""
+    if body.HasField("motion"):
+        return 0.0
     if body.HasField("density_kg_per_m3"):
         return 4 / 3 * math.pi * body.radius_m**3 * body.density_kg_per_m3
     return body.mass_kg
@@ -76,7 +91,8 @@ def constant_loads(scenario: scenario_pb2.Scenario) -> list[tuple[str, float]]:
             given = load.gravity.HasField("acceleration_m_per_s2")
             acceleration = load.gravity.acceleration_m_per_s2 if given else -_STANDARD_GRAVITY
             forces += [(body.name, mass(body) * acceleration) for body in scenario.bodies
-                       if not body.fixed and load.body in ("", body.name)]
+                       if not (body.fixed or body.HasField("motion"))
+                       and load.body in ("", body.name)]
     return forces
 
 

@@ -44,6 +44,18 @@ describe('mechanics', () => {
     const chain = create(ScenarioSchema, {bodies: ['a', 'b', 'c'].map((name) => ({name})), contacts: [{name: 'row', between: ['a', 'b', 'c']}]});
     expect(mechanicsOf(chain).contacts.map(({name}) => name)).toEqual(['row-1', 'row-2']);
   });
+  it('put bodies beside others, and make two contacts of a play', () => {
+    const slot = create(ScenarioSchema, {
+      bodies: [{name: 'a', massKg: 1, radiusM: 0.1, positionM: 1}, {name: 'b', massKg: 2, radiusM: 0.2, nextTo: 'a', gapM: 0.01}, {name: 'c', motion: {kind: {case: 'uniform', value: {velocityMPerS: 1}}}}],
+      contacts: [{between: ['a', 'c'], clearanceM: 0.5, stiffness: 1}, {name: 'stop', between: ['b'], wall: {positionM: 1.3, motion: {}}, clearanceM: 0.3, stiffness: 1}],
+    });
+    const {bodies, contacts} = mechanicsOf(slot);
+    expect([bodies[1]!.position, bodies[2]!.fixed]).toEqual([1.31, true]);
+    expect(contacts.map(({name, left, right}) => [name, left, right])).toEqual(
+      [['a-c-left', 2, 0], ['a-c-right', 0, 2], ['stop-left', -1, 1], ['stop-right', 1, -1]]);
+    expect(contacts[3]).toMatchObject({wallBody: 'stop', wallOrigin: 1.3});
+    expect(contacts[3]!.wallPosition).toBeCloseTo(1.8, 12);  // Where the edge of b, 0.2 m from its centre, meets it.
+  });
   it('give the force at the ends of a cycle', () => {
     expect(endForce(mechanics, mechanics.contacts[0]!, 5, 0.01, 1)).toBeCloseTo(1e6 * 0.01 ** 1.5);
     expect(endForce(mechanics, mechanics.contacts[1]!, 5, 0, 2)).toBe(10);

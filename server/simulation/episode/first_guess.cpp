@@ -176,8 +176,8 @@ double FirstGuess::SwingAhead(const Cycle& cycle, double effective_mass,
   return fastest;
 }
 
-// By how much loads will accelerate the bodies of a contact together after this time, more than
-// now.
+// By how much loads and drives will accelerate the bodies of a contact together after this time,
+// more than now.
 double FirstGuess::LoadChange(const Contact& contact, double time) const {
   const double now = motion_.time();
   double change = 0;
@@ -188,6 +188,14 @@ double FirstGuess::LoadChange(const Contact& contact, double time) const {
       return load.begin <= t && t < load.end ? LoadForce(load, t) : 0;
     };
     change += sign * (at(now + time) - at(now)) / scenario_.bodies[At(load.body)].mass;
+  }
+  for (const Drive& drive : scenario_.drives) {
+    const double sign = drive.body == contact.left ? 1 : drive.body == contact.right ? -1 : 0;
+    if (sign == 0) continue;
+    const auto at = [&](double t) {
+      return drive.begin <= t && t < drive.end ? MotionAt(drive, t).acceleration : 0;
+    };
+    change += sign * (at(now + time) - at(now));
   }
   return change;
 }

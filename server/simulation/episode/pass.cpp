@@ -65,11 +65,15 @@ Pass::Pass(const Scenario& scenario, Motion& motion, Observer& observer, Groups&
   if (options.restitution_scope == RestitutionScope::kEncounter) {
     most_late_ *= options.encounter_cycles;
   }
-  for (const Load& load : scenario.loads) {
-    if (load.amplitude == 0 || load.angular_frequency == 0) continue;
-    const double period = 2 * std::numbers::pi / load.angular_frequency;
-    longest_period_ = std::max(longest_period_, std::min(period, load.end - load.begin));
-  }
+  const auto see = [this](const auto& pieces) {
+    for (const auto& piece : pieces) {
+      if (piece.amplitude == 0 || piece.angular_frequency == 0) continue;
+      const double period = 2 * std::numbers::pi / piece.angular_frequency;
+      longest_period_ = std::max(longest_period_, std::min(period, piece.end - piece.begin));
+    }
+  };
+  see(scenario.loads);
+  see(scenario.drives);
 }
 
 Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& stop,
@@ -265,10 +269,12 @@ double Pass::SlowestTurn() const {
 // turn them where it ends.
 bool Pass::Creeps() const {
   double since = idle_since_;
-  for (const Load& load : scenario_.loads) {
-    if (load.slope == 0 || load.end == kNever || load.begin > motion_.time()) continue;
-    since = std::max(since, load.end);
-  }
+  const auto see = [&](const auto& piece, double slope) {
+    if (slope == 0 || piece.end == kNever || piece.begin > motion_.time()) return;
+    since = std::max(since, piece.end);
+  };
+  for (const Load& load : scenario_.loads) see(load, load.slope);
+  for (const Drive& drive : scenario_.drives) see(drive, drive.jerk);
   const double patience = plan_.front.empty() ? kPatienceOfAScan : kPatience;
   return motion_.time() - since > patience * SlowestTurn() + kPeriods * longest_period_;
 }

@@ -76,7 +76,7 @@ class Pass final : public CycleHost {
   int most_late_;              // of which so many are followed far beyond it.
   double idle_since_ = 0;      // When a cycle began or ended last [s],
   int idle_steps_ = 0;         // and steps since then.
-  double longest_period_ = 0;  // Of the sines among the loads [s].
+  double longest_period_ = 0;  // Of the sines among loads and drives [s].
   bool enough_ = false;
 };
 

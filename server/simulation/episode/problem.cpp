@@ -83,9 +83,11 @@ double Problem::MostMu(const GroupSight& g) const {
   const double duration = g.end_time - g.start_time;
   const double unit = std::pow(g.depth, contact.exponent) * duration /
                       motion_.equations().effective_mass(g.id.contact);
+  const auto swings = [](const auto& piece) { return piece.amplitude != 0; };
   const bool driven =
-      std::ranges::any_of(scenario_.loads, [](const Load& load) { return load.amplitude != 0; });
-  const double felt = driven ? kFeltWhenDriven : scenario_.loads.empty() ? kFelt : kFeltWhenPressed;
+      std::ranges::any_of(scenario_.loads, swings) || std::ranges::any_of(scenario_.drives, swings);
+  const bool pressed = !scenario_.loads.empty() || !scenario_.drives.empty();
+  const double felt = driven ? kFeltWhenDriven : pressed ? kFeltWhenPressed : kFelt;
   return (g.id.place > 1 ? felt : kFeltAtFirst) / g.restitution_in / unit;
 }
 

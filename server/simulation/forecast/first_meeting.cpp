@@ -72,7 +72,13 @@ struct Approach {
 
 class Forecast {
  public:
-  explicit Forecast(const Scenario& scenario) : scenario_(scenario), forces_(ForcesOn(scenario)) {}
+  explicit Forecast(const Scenario& scenario)
+      : scenario_(scenario), forces_(ForcesOn(scenario)), turns_(scenario.bodies.size()) {
+    for (const Drive& drive : scenario.drives) {
+      const bool steady = drive.begin == 0 && std::isinf(drive.end) && drive.amplitude == 0;
+      if (!steady) turns_[At(drive.body)] = true;
+    }
+  }
 
   std::optional<FirstMeeting> Of(const Contact& contact) const {
     const Approach approach = ApproachOf(contact);
@@ -88,7 +94,11 @@ class Forecast {
   // Adds a side that `sign` (1: from the left, −1: from the right) moves to close the contact.
   void AddSide(int index, double sign, Approach* approach) const {
     const Body& body = scenario_.bodies[At(index)];
-    if (body.fixed) return;
+    if (body.fixed) {  // What does not move steadily meets what it will.
+      approach->speed += sign * body.velocity;
+      if (turns_[At(index)]) approach->known = false;
+      return;
+    }
     const Forces& forces = forces_[At(index)];
     approach->speed += sign * body.velocity;
     approach->inverse_mass += 1 / body.mass;
@@ -161,6 +171,7 @@ class Forecast {
 
   const Scenario& scenario_;
   const std::vector<Forces> forces_;
+  std::vector<bool> turns_;  // Whether a driven body changes its velocity.
 };
 
 }  // namespace

@@ -128,9 +128,9 @@ std::vector<Cycles> Expect(const Scenario& scenario) {
 // no step takes more than half a radian of the fastest load or support.
 double Steps(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   const double step = scenario.solver.fixed_step;
-  double steps = step > 0 ? scenario.end_time / step
-                          : (scenario.loads.empty() ? 1 : kFlightSteps) +
-                                2 * scenario.end_time * ForcingRate(scenario, scenario.loads);
+  const double flight = scenario.loads.empty() && scenario.drives.empty() ? 1 : kFlightSteps;
+  const double rate = ForcingRate(scenario, scenario.loads, scenario.drives);
+  double steps = step > 0 ? scenario.end_time / step : flight + 2 * scenario.end_time * rate;
   if (step > 0) {
     double again = 0;  // They overlap in time, and are solved together then.
     double passes = 1;

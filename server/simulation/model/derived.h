@@ -15,17 +15,19 @@ namespace contact {
 /// The distance of the two sides of a contact at t = 0, −δ [m]; negative in overlap. What decimal
 /// input leaves of a distance of 0 is 0.
 inline double InitialGap(const Scenario& scenario, const Contact& contact) {
-  double radii = 0;
+  double size = contact.play;
   const auto face = [&](int index, double sign) {
     if (index == kNone) return contact.wall_position;
     const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
-    radii += body.radius;
-    return body.position + sign * body.radius;
+    const double radius = contact.play > 0 ? 0 : body.radius;
+    size += radius;
+    return body.position + sign * radius;
   };
   const double left = face(contact.left, 1);
   const double right = face(contact.right, -1);
-  const double size = std::max(std::abs(left), std::abs(right)) + radii;
-  return std::abs(right - left) <= 1e-12 * size ? 0 : right - left;
+  size += std::max(std::abs(left), std::abs(right));
+  const double gap = right - left + contact.play;
+  return std::abs(gap) <= 1e-12 * size ? 0 : gap;
 }
 
 /// Force of a load at t [s] by its formula [N], whether it acts then or not.
@@ -38,9 +40,45 @@ inline double LoadForce(const Load& load, double t) {
   return force;
 }
 
-/// The smaller sphere of a contact; null if neither side has a radius > 0.
+/// Where a driven body is at t [s] by a piece of its motion, whether it lasts then or not.
+struct DrivenMotion {
+  double position, velocity, acceleration;  ///< [m], [m/s], [m/s²].
+};
+inline DrivenMotion MotionAt(const Drive& drive, double t) {
+  const double since = t - drive.begin;
+  DrivenMotion at;
+  at.acceleration = drive.acceleration + drive.jerk * since;
+  at.velocity = drive.velocity + (drive.acceleration + drive.jerk * since / 2) * since;
+  at.position =
+      drive.position +
+      (drive.velocity + (drive.acceleration / 2 + drive.jerk * since / 6) * since) * since;
+  if (drive.amplitude == 0) return at;
+  const double w = drive.angular_frequency;
+  const double sine = drive.amplitude * std::sin(w * since + drive.phase);
+  at.position += sine;
+  at.velocity += drive.amplitude * w * std::cos(w * since + drive.phase);
+  at.acceleration -= w * w * sine;
+  return at;
+}
+
+/// How far a piece of a motion leads from one instant to another [m], to all digits however little
+/// that is beside the position.
+inline double Displacement(const Drive& drive, double from, double to) {
+  const double since = from - drive.begin, h = to - from;
+  const double acceleration = drive.acceleration + drive.jerk * since;
+  const double velocity =
+      drive.velocity + (drive.acceleration + drive.jerk * since / 2) * since;
+  const double moved = (velocity + (acceleration / 2 + drive.jerk * h / 6) * h) * h;
+  if (drive.amplitude == 0) return moved;
+  const double half = drive.angular_frequency * h / 2;
+  const double middle = drive.angular_frequency * since + half + drive.phase;
+  return moved + 2 * drive.amplitude * std::cos(middle) * std::sin(half);
+}
+
+/// The smaller sphere of a contact; null if neither side has a radius > 0, or radii do not count.
 inline const Body* SmallerSphere(const Scenario& scenario, const Contact& contact) {
   const Body* smaller = nullptr;
+  if (contact.play > 0) return smaller;
   for (const int index : {contact.left, contact.right}) {
     if (index == kNone) continue;
     const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
@@ -49,13 +87,19 @@ inline const Body* SmallerSphere(const Scenario& scenario, const Contact& contac
   return smaller;
 }
 
-/// Fastest rate at which one of the loads, or a support, changes its force [1/s]: ω of a sine,
-/// √(k/m) or c/m of a support, for which the ground and fixed bodies count 1/m = 0. 0: none does.
-inline double ForcingRate(const Scenario& scenario, std::span<const Load> loads) {
+/// Fastest rate at which one of the loads or drives, or a support, changes its force [1/s]: ω of a
+/// sine, √(k/m) or c/m of a support, for which the ground and fixed bodies count 1/m = 0. 0: none
+/// does.
+inline double ForcingRate(const Scenario& scenario, std::span<const Load> loads,
+                          std::span<const Drive> drives = {}) {
   double rate = 0;
-  for (const Load& load : loads) {
-    if (load.amplitude != 0) rate = std::max(rate, load.angular_frequency);
-  }
+  const auto see = [&](const auto& pieces) {
+    for (const auto& piece : pieces) {
+      if (piece.amplitude != 0) rate = std::max(rate, piece.angular_frequency);
+    }
+  };
+  see(loads);
+  see(drives);
   const auto inverse_mass = [&](int index) {
     if (index == kNone) return 0.0;
     const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
@@ -79,7 +123,7 @@ inline bool MayPart(const Scenario& scenario) {
            load.slope == 0 && load.amplitude == 0;
   };
   const auto is_apart = [&](const Contact& contact) { return InitialGap(scenario, contact) >= 0; };
-  return moving >= kMany && scenario.supports.empty() &&
+  return moving >= kMany && scenario.supports.empty() && scenario.drives.empty() &&
          std::ranges::all_of(scenario.contacts, is_apart) &&
          std::ranges::all_of(scenario.loads, is_constant) && scenario.solver.fixed_step == 0 &&
          scenario.solver.update == UpdateRule::kNewtonCoupled;

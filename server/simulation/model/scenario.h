@@ -21,18 +21,22 @@ struct Body {
   double radius = 0;    ///< R [m], ≥ 0.
   double position = 0;  ///< x at t = 0 [m].
   double velocity = 0;  ///< ẋ at t = 0 [m/s].
-  bool fixed = false;   ///< Never moves; velocity is 0.
+  /// No force moves it: it stands still, or moves as Scenario::drives say. Its mass counts nothing.
+  bool fixed = false;
 };
 
 /// A place where two bodies, or a body and a wall, may touch. Deformation, positive in overlap:
-///   pair         δ = R_i + R_j − (x_j − x_i)   i = left, j = right
-///   wall right   δ = x_i + R_i − b             right = kNone
-///   wall left    δ = b − (x_j − R_j)           left = kNone
+///   pair         δ = r − (x_j − x_i)   i = left, j = right
+///   wall right   δ = r − (b − x_i)     right = kNone
+///   wall left    δ = r − (x_j − b)     left = kNone
+/// with r the distance at which they touch: R_i + R_j, or R beside a wall; −c where the contact is
+/// one of two with a play c between them.
 struct Contact {
   std::string name;          ///< Unique among contacts.
   int left = kNone;          ///< Body pushed to the left, or kNone for a wall there.
   int right = kNone;         ///< Body pushed to the right, or kNone for a wall there.
   double wall_position = 0;  ///< b [m]; only with a wall.
+  double play = 0;           ///< c [m]; 0: none.
   double stiffness = 0;      ///< k [N/mⁿ], > 0.
   double exponent = 1.5;     ///< n [-], ≥ 1.
   double restitution = 1;    ///< ε_in [-], in (0, 1]. Not used where IsGiven(damping).
@@ -63,6 +67,22 @@ struct Load {
   double constant = 0;                                   ///< Force at begin, without the sine [N].
   double slope = 0;                                      ///< Change of that force [N/s].
   double amplitude = 0;                                  ///< Amplitude of the sine [N].
+  double angular_frequency = 0;                          ///< ω [rad/s], ≥ 0.
+  double phase = 0;                                      ///< φ [rad].
+};
+
+/// A smooth piece of the motion of a fixed body: in begin ≤ t < end, with τ = t − begin,
+///   x(t) = position + velocity τ + acceleration τ²/2 + jerk τ³/6 + amplitude sin(ω τ + φ).
+/// The pieces of a body join without a jump of x and ẋ, and one begins at 0.
+struct Drive {
+  int body = 0;                                          ///< Index in Scenario::bodies.
+  double begin = 0;                                      ///< Begin of the piece [s], ≥ 0.
+  double end = std::numeric_limits<double>::infinity();  ///< End of the piece [s], > begin.
+  double position = 0;                                   ///< x at begin, without the sine [m].
+  double velocity = 0;                                   ///< ẋ of that [m/s].
+  double acceleration = 0;                               ///< ẍ of that [m/s²].
+  double jerk = 0;                                       ///< d³x/dt³ [m/s³].
+  double amplitude = 0;                                  ///< Amplitude of the sine [m].
   double angular_frequency = 0;                          ///< ω [rad/s], ≥ 0.
   double phase = 0;                                      ///< φ [rad].
 };
@@ -126,6 +146,7 @@ struct Scenario {
   std::vector<Contact> contacts;  ///< May be none.
   std::vector<Support> supports;  ///< May be none.
   std::vector<Load> loads;        ///< May be none.
+  std::vector<Drive> drives;      ///< May be none.
   SolverOptions solver;           ///< How it is solved.
   double end_time = 0;            ///< [s], > 0.
   /// Whether contacts that are pressed at t = 0 rest: the positions are those of an equilibrium.

@@ -35,10 +35,14 @@ Equations::Equations(const Scenario& scenario)
     if (s.other != kNone) support_rates_[At(s.other)] += s.stiffness * inverse_mass_[At(s.other)];
   }
   for (const Contact& c : scenario.contacts) sides_.push_back(SidesOf(c.left, c.right));
-  for (const Load& load : scenario.loads) {
-    breakpoints_.push_back(load.begin);
-    breakpoints_.push_back(load.end);
-  }
+  const auto mark = [this](const auto& pieces) {
+    for (const auto& piece : pieces) {
+      breakpoints_.push_back(piece.begin);
+      breakpoints_.push_back(piece.end);
+    }
+  };
+  mark(scenario.loads);
+  mark(scenario.drives);
   std::sort(breakpoints_.begin(), breakpoints_.end());
   SelectLoads(0);
 }
@@ -58,10 +62,19 @@ Sides Equations::SidesOf(int left, int right) const {
   return sides;
 }
 
-double Equations::SelectLoads(double time) {
-  acting_.clear();
-  for (const Load& load : scenario_.loads) {
-    if (load.begin <= time && time < load.end) acting_.push_back(load);
+double Equations::SelectLoads(double time, const double* u) {
+  const auto select = [time](const auto& pieces, auto* selected) {
+    selected->clear();
+    for (const auto& piece : pieces) {
+      if (piece.begin <= time && time < piece.end) selected->push_back(piece);
+    }
+  };
+  select(scenario_.loads, &acting_);
+  select(scenario_.drives, &driving_);
+  selected_ = time;
+  driven_from_.clear();
+  for (const Drive& drive : driving_) {
+    driven_from_.push_back(u == nullptr ? 0 : u[drive.body]);
   }
   const auto next = std::upper_bound(breakpoints_.begin(), breakpoints_.end(), time);
   return next == breakpoints_.end() ? std::numeric_limits<double>::infinity() : *next;
@@ -72,7 +85,7 @@ double Equations::effective_mass(int contact) const {
 }
 
 double Equations::ForcingTime() const {
-  const double rate = ForcingRate(scenario_, acting_);
+  const double rate = ForcingRate(scenario_, acting_, driving_);
   return rate == 0 ? std::numeric_limits<double>::infinity() : 1 / rate;
 }
 
@@ -81,6 +94,18 @@ void Equations::AddLoadChange(double from, double to, double* accelerations) con
     if (load.slope == 0 && load.amplitude == 0) continue;
     accelerations[load.body] +=
         (LoadForce(load, to) - LoadForce(load, from)) * inverse_mass_[At(load.body)];
+  }
+  for (const Drive& drive : driving_) {
+    accelerations[drive.body] +=
+        MotionAt(drive, to).acceleration - MotionAt(drive, from).acceleration;
+  }
+}
+
+void Equations::PlaceDriven(double t, double* y) const {
+  for (std::size_t i = 0; i < driving_.size(); ++i) {
+    const Drive& drive = driving_[i];
+    y[drive.body] = driven_from_[i] + Displacement(drive, selected_, t);
+    y[bodies() + drive.body] = MotionAt(drive, t).velocity;
   }
 }
 
@@ -144,6 +169,9 @@ template <class Count>
   for (const Load& load : acting_) {
     dy[n + load.body] += pace * LoadForce(load, t) * inverse_mass_[At(load.body)];
   }
+  for (const Drive& drive : driving_) {
+    dy[n + drive.body] += pace * MotionAt(drive, t).acceleration;
+  }
   if (!scenario_.supports.empty()) AddSupports(y, dy, pace);
   AddContacts(n, y, dy, works, pace);
   if (recording) AddRecord(t, y, dy, pace);
@@ -196,7 +224,8 @@ void Equations::Prepare() {
   few_ = nullptr;
   const bool plain =
       std::ranges::all_of(active, [](const ActiveContact& c) { return c.plain && !c.clipped; });
-  if (!plain || !acting_.empty() || !scenario_.supports.empty()) return;
+  const bool driven = !acting_.empty() || !driving_.empty() || !scenario_.supports.empty();
+  if (!plain || driven) return;
   const bool walls = std::ranges::any_of(
       active, [](const Sides& s) { return s.left_counts == 0 || s.right_counts == 0; });
   const auto choose = [&]<std::ptrdiff_t n, std::size_t kCount>() {
@@ -213,7 +242,13 @@ void Equations::Prepare() {
   }
 }
 
+// A driven body is where its motion says, not where the integrator's stages lead it.
 void Equations::EvaluateMany(double t, const double* y, double* dy, double pace) const {
+  if (!driving_.empty()) {
+    placed_.assign(y, y + coupled());
+    PlaceDriven(t, placed_.data());
+    y = placed_.data();
+  }
   WithCount<1, 2, 3>(bodies(), [&](auto n) { Evaluate(n, t, y, dy, pace); });
 }
 
@@ -241,11 +276,28 @@ void Equations::AddRecord(double t, const double* y, double* dy, double pace) co
     dy[load_work()] += force * v[load.body];
     dy[impulse()] += force * free(load.body);
   }
+  if (!driving_.empty()) AddDriveWork(y, dy, pace);
   for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
     const Support& s = scenario_.supports[i];
     const double rate = Relative(s, v);
     dy[support_loss()] += pace * s.damping * rate * rate;
     dy[impulse()] += pace * SupportForce(i, y, v) * (free(s.body) - free(s.other));
+  }
+}
+
+// What a driven body is held with against the forces on it does work, (B1).
+void Equations::AddDriveWork(const double* y, double* dy, double pace) const {
+  const double* v = y + bodies();
+  for (const ActiveContact& c : active) {
+    const double driven = (c.left_inverse == 0) * c.left_counts * v[c.left] -
+                          (c.right_inverse == 0) * c.right_counts * v[c.right];
+    if (driven == 0) continue;
+    dy[load_work()] += pace * c.ForceAt(c.Relative(y) - c.gap, c.Relative(v)) * driven;
+  }
+  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
+    const int other = scenario_.supports[i].other;
+    if (other == kNone || inverse_mass_[At(other)] != 0 || v[other] == 0) continue;
+    dy[load_work()] += pace * SupportForce(i, y, v) * v[other];
   }
 }
 

@@ -139,20 +139,26 @@ class Equations : public StateLayout {
   /// Σ|m v| of the bodies that are not fixed [N·s].
   double MomentumScale(const double* y) const;
 
-  /// Takes the loads that act from `time` on, until the instant returned, the next at which one
-  /// begins or ends; infinite if none does. Each goes on as its formula does past that instant.
-  double SelectLoads(double time);
+  /// Takes the loads and drives that act from `time` on, at which the displacements are `u` (null:
+  /// 0), until the instant returned, the next at which one begins or ends; infinite if none does.
+  /// Each goes on as its formula does past that instant.
+  double SelectLoads(double time, const double* u = nullptr);
+  /// Puts the driven bodies in y where they are at t, and gives them their velocities.
+  void PlaceDriven(double t, double* y) const;
 
   /// Call when `active` or the selected loads have changed: sees whether all there is are one or
-  /// two plain contacts of at most three bodies, for which there is a shorter way.
+  /// two plain contacts of at most three bodies that nothing else moves, for which there is a
+  /// shorter way.
   void Prepare();
 
   /// The loads that act.
   const std::vector<Load>& acting() const { return acting_; }
-  /// Adds to accelerations by how much those of the selected loads differ between two instants.
+  /// Adds to accelerations by how much those of the selected loads and drives differ between two
+  /// instants.
   void AddLoadChange(double from, double to, double* accelerations) const;
 
-  /// Shortest time in which a selected load or a support changes [s]; infinite without any.
+  /// Shortest time in which a selected load or drive, or a support changes [s]; infinite without
+  /// any.
   double ForcingTime() const;
 
   /// Measures u from these positions [m], one for each body, from now on.
@@ -183,6 +189,8 @@ class Equations : public StateLayout {
   /// some contact may be a wall.
   template <std::ptrdiff_t n, std::size_t kCount, bool kWalls>
   static void EvaluateFew(const Equations& of, const double* y, double* dy, double pace);
+  /// Adds the work that drives do on what moves.
+  void AddDriveWork(const double* y, double* dy, double pace) const;
   /// Adds the quadratures that only a recording has.
   void AddRecord(double t, const double* y, double* dy, double pace) const;
   /// Force of the support with this index on its first body [N], (M4).
@@ -202,9 +210,15 @@ class Equations : public StateLayout {
   std::vector<double> inverse_mass_;
   // One for every contact.
   std::vector<Sides> sides_;
-  // The loads that SelectLoads found.
+  // The loads and drives that SelectLoads found.
   std::vector<Load> acting_;
-  // Instants at which loads begin or end [s], ascending.
+  std::vector<Drive> driving_;
+  // When it found them [s], and the displacements of the driven bodies then [m].
+  double selected_ = 0;
+  std::vector<double> driven_from_;
+  // Displacements and velocities, with those of driven bodies as they are at an instant.
+  mutable std::vector<double> placed_;
+  // Instants at which loads or drives begin or end [s], ascending.
   std::vector<double> breakpoints_;
   // EvaluateFew for what there is; null if Evaluate must do it.
   void (*few_)(const Equations&, const double*, double*, double) = nullptr;

@@ -40,9 +40,9 @@ void MovingSystem::Begin(const State& state, bool is_recording, double own_toler
   equations.Rebase(state.positions);
   equations.recording = is_recording;
   tangents.Clear();
-  SelectLoads();
   rk.Resize(equations.size(), equations.coupled());
   rk.y0.setZero();
+  SelectLoads();
   for (int i = 0; i < n; ++i) rk.y0[n + i] = state.velocities[At(i)];
   for (int c = 0; c < equations.contacts(); ++c) {
     const ContactState& contact = contacts[At(c)];
@@ -74,6 +74,7 @@ void MovingSystem::TakeStep(bool implicitly) {
 }
 
 void MovingSystem::FinishStep() {
+  equations.PlaceDriven(step.start + step.h, rk.y1.data());
   rk.FinishStep(equations, step);
   ++evaluations;
 }
@@ -91,10 +92,11 @@ void MovingSystem::PrepareInterpolation() {
 
 void MovingSystem::Interpolate(double theta, Eigen::ArrayXd* y) const {
   implicit ? euler.Interpolate(theta, y) : rk.Interpolate(theta, y);
+  equations.PlaceDriven(step.At(theta), y->data());
 }
 
 void MovingSystem::SelectLoads() {
-  breakpoint = equations.SelectLoads(time);
+  breakpoint = equations.SelectLoads(time, rk.y0.data());
   forcing_time = equations.ForcingTime();
 }
 

@@ -36,11 +36,11 @@ struct MovingSystem {
 
   /// Takes the contacts in touch into the equations, and their slopes at this instant.
   void RefreshActive();
-  /// Takes the loads that act from this instant on into the equations.
+  /// Takes the loads and drives that act from this instant on into the equations.
   void SelectLoads();
   /// Computes y1 of the step by one of the two methods.
   void TakeStep(bool implicitly);
-  /// Computes the slopes at y1. Call after TakeStep.
+  /// Puts driven bodies in y1 where they are then, and computes the slopes. Call after TakeStep.
   void FinishStep();
   /// Prepares Interpolate for the step.
   void PrepareInterpolation();
@@ -75,9 +75,9 @@ struct MovingSystem {
   int implicit_order = 0;
   /// When the latest collision began [s]; NaN before the first since the last State.
   double touch_time = kNaN;
-  /// The next instant at which a load begins or ends [s].
+  /// The next instant at which a load or drive begins or ends [s].
   double breakpoint = 0;
-  /// Shortest time in which a load or support changes [s].
+  /// Shortest time in which a load, drive or support changes [s].
   double forcing_time = 0;
   /// Whether a contact rests.
   bool resting = false;

@@ -10,7 +10,7 @@
 namespace contact {
 
 bool IsPacking(const Scenario& scenario) {
-  return !scenario.loads.empty() || !scenario.supports.empty() ||
+  return !scenario.loads.empty() || !scenario.supports.empty() || !scenario.drives.empty() ||
          scenario.contacts.size() >= scenario.bodies.size();
 }
 

@@ -111,7 +111,7 @@ inline bool StartsPressed(const ContactState& contact) {
 /// after a rest that has ended, or that goes on where Scenario::starts_at_rest.
 State InitialState(const Scenario& scenario);
 
-/// Whether loads, supports or walls may keep contacts closed.
+/// Whether loads, drives, supports or walls may keep contacts closed.
 bool IsPacking(const Scenario& scenario);
 
 /// Whether the contact is at rest, or about to be.

@@ -52,10 +52,8 @@ struct Relative {
   std::string_view hint;
 };
 constexpr Relative kRelatives[] = {
-    {"freq", "angular_frequency_rad_per_s",
-     "angular_frequency_rad_per_s is 2π times the frequency in Hz"},
-    {"period", "angular_frequency_rad_per_s",
-     "angular_frequency_rad_per_s is 2π divided by the period"},
+    {"freq", "frequency_hz", "frequency_hz is the frequency in Hz"},
+    {"period", "frequency_hz", "frequency_hz is 1 divided by the period"},
     {"phase_deg", "phase_rad", "phase_rad is π/180 times the phase in degrees"},
     {"diameter", "radius_m", "radius_m is half of the diameter"},
 };

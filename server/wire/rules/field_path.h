@@ -32,7 +32,7 @@ std::vector<PathStep> ParsePath(std::string_view text, bool keys = false);
 std::string_view ParentPath(std::string_view path);
 
 /// Hint for a field called `name`, which `message` does not have: how a field follows from it, as
-/// from a frequency in Hz, the field with the nearest name, or all fields.
+/// from a diameter, the field with the nearest name, or all fields.
 std::string FieldHint(const google::protobuf::Descriptor& message, const std::string& name);
 
 }  // namespace contact

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <numbers>
-#include <unordered_set>
+#include <unordered_map>
+#include <utility>
 
 #include "base/spelling.h"
 #include "wire/scenario/material_codec.h"
+#include "wire/scenario/motion_codec.h"
 
 namespace contact {
 namespace {
@@ -45,10 +47,21 @@ double DecodeMass(const v1::Body& message, const Rules& rules) {
   if (message.has_mass_kg()) rules.Check<v1::Body>(v1::Body::kMassKgFieldNumber, message.mass_kg());
   if (message.has_density_kg_per_m3()) return MassFromDensity(message, rules);
   if (message.has_mass_kg()) return message.mass_kg();
-  if (!message.fixed()) {
+  if (!message.fixed() && !message.has_motion()) {
     rules.Break("mass_kg", "is missing", "give mass_kg, or density_kg_per_m3 and radius_m");
   }
   return Body{}.mass;
+}
+
+// Places of bodies by name.
+using BodyIndex = std::unordered_map<std::string_view, std::size_t>;
+
+void CheckDriven(const v1::Body& message, const Rules& rules) {
+  if (message.fixed()) rules.Break("fixed", "is true beside motion", "give one of the two");
+  if (message.velocity_m_per_s() != 0) {
+    rules.Break("velocity_m_per_s", "is given beside motion, which tells the velocity",
+                "remove it");
+  }
 }
 
 Body DecodeBody(const v1::Body& message, const Rules& rules) {
@@ -57,18 +70,38 @@ Body DecodeBody(const v1::Body& message, const Rules& rules) {
   } else if (!IsName(message.name())) {
     BreakName(message.name(), rules);
   }
-  Body body{.name = message.name(), .fixed = message.fixed()};
+  Body body{.name = message.name(), .fixed = message.fixed() || message.has_motion()};
   body.mass = DecodeMass(message, rules);
   using Field = v1::Body;
   body.radius = rules.Check<Field>(Field::kRadiusMFieldNumber, message.radius_m());
   body.position = rules.Check<Field>(Field::kPositionMFieldNumber, message.position_m());
   body.velocity = rules.Check<Field>(Field::kVelocityMPerSFieldNumber, message.velocity_m_per_s());
   if (message.has_material()) CheckMaterial(message.material(), rules.In("material"));
-  if (body.fixed && body.velocity != 0) {
-    rules.Break("velocity_m_per_s",
-                fmt::format("is {}; must be 0 for a fixed body", body.velocity));
+  if (message.has_motion()) {
+    CheckDriven(message, rules);
+  } else if (body.fixed && body.velocity != 0) {
+    rules.Break("velocity_m_per_s", fmt::format("is {}; must be 0 for a fixed body", body.velocity),
+                "motion: {uniform: {velocity_m_per_s: …}} moves it");
   }
   return body;
+}
+
+// The position of a body beside one that comes before it.
+double PositionNextTo(const v1::Body& message, const Body& body, const std::vector<Body>& before,
+                      const BodyIndex& index, const Rules& rules) {
+  const double gap = rules.Check<v1::Body>(v1::Body::kGapMFieldNumber, message.gap_m());
+  if (message.position_m() != 0) {
+    rules.Break("position_m", "is given beside next_to", "give one of the two");
+  }
+  const auto found = index.find(message.next_to());
+  if (found == index.end()) {
+    rules.Break("next_to",
+                fmt::format("is {}, which no body before is called", Quoted(message.next_to())),
+                "name a body that comes earlier in the list");
+    return body.position;
+  }
+  const Body& other = before[found->second];
+  return other.position + other.radius + body.radius + gap;
 }
 
 std::size_t LongestName() {
@@ -91,18 +124,29 @@ void BreakName(const std::string& name, const Rules& rules) {
                                   Quoted(name), LongestName()));
 }
 
-std::vector<Body> DecodeBodies(const v1::Scenario& message, std::vector<Violation>* violations) {
+std::vector<Body> DecodeBodies(const v1::Scenario& message, std::vector<Drive>* drives,
+                               std::vector<Violation>* violations) {
   if (message.bodies().empty()) {
     Rules(violations).Break("bodies", "is missing", "a scenario needs at least one body");
   }
   std::vector<Body> bodies;
   bodies.reserve(static_cast<std::size_t>(message.bodies_size()));
-  std::unordered_set<std::string_view> names;
+  BodyIndex names;
   for (int i = 0; i < message.bodies_size(); ++i) {
     const Rules rules(violations, "bodies", i);
-    bodies.push_back(DecodeBody(message.bodies(i), rules));
-    const std::string& name = message.bodies(i).name();
-    if (!name.empty() && !names.insert(name).second) {
+    const v1::Body& entry = message.bodies(i);
+    Body body = DecodeBody(entry, rules);
+    if (!entry.next_to().empty()) {
+      body.position = PositionNextTo(entry, body, bodies, names, rules);
+    } else if (entry.gap_m() != 0) {
+      rules.Break("gap_m", "is given, but goes only with next_to", "remove it");
+    }
+    if (entry.has_motion()) {
+      AddMotion(DecodeMotion(entry.motion(), body.position, rules.In("motion")), i, &body, drives);
+    }
+    bodies.push_back(std::move(body));
+    const std::string& name = entry.name();
+    if (!name.empty() && !names.emplace(name, bodies.size() - 1).second) {
       rules.Break("name", fmt::format("is {}, which another body is called", Quoted(name)),
                   "names of bodies are unique");
     }

@@ -18,9 +18,10 @@ bool IsName(std::string_view text);
 /// Notes that the field `name` of a body or contact is not a name.
 void BreakName(const std::string& name, const Rules& rules);
 
-/// Checks the bodies of a scenario and reads them, in their order. The result has as many entries
-/// as the message, also if some of them break rules.
-std::vector<Body> DecodeBodies(const v1::Scenario& message, std::vector<Violation>* violations);
+/// Checks the bodies of a scenario and reads them, in their order, and their motions into `drives`.
+/// The result has as many entries as the message, also if some of them break rules.
+std::vector<Body> DecodeBodies(const v1::Scenario& message, std::vector<Drive>* drives,
+                               std::vector<Violation>* violations);
 
 /// Finds bodies by name. Of bodies with the same name, finds the first.
 class BodyNames {

@@ -16,6 +16,7 @@
 #include "base/spelling.h"
 #include "wire/scenario/law_catalogue.h"
 #include "wire/scenario/material_codec.h"
+#include "wire/scenario/motion_codec.h"
 
 namespace contact {
 namespace {
@@ -118,7 +119,8 @@ class ContactDecoder {
     const std::vector<int> touching = FindBodies(message, rules);
     if (message.has_wall()) CheckWall(message, rules.In("wall"));
     CheckStiffness(message, touching, rules);
-    const Contact law = DecodeLaw(message, rules);
+    Contact law = DecodeLaw(message, rules);
+    if (message.has_clearance_m()) return AddPlay(message, std::move(law), touching, rules);
     if (message.has_wall()) {
       if (touching.size() == 1 && touching[0] != kNone) AddWall(message, law, touching[0], rules);
       return;
@@ -129,7 +131,7 @@ class ContactDecoder {
     }
   }
 
-  std::vector<Contact> Take() { return std::move(contacts_); }
+  DecodedContacts Take() { return std::move(made_); }
 
  private:
   std::vector<int> FindBodies(const v1::Contact& message, const Rules& rules) const {
@@ -179,7 +181,11 @@ class ContactDecoder {
 
   static void CheckWall(const v1::Contact& message, const Rules& rules) {
     rules.Read(message.wall(), v1::Wall::kPositionMFieldNumber);
-    if (message.wall().side() == v1::Wall::SIDE_UNSPECIFIED) {
+    if (message.has_clearance_m()) {
+      if (message.wall().side() != v1::Wall::SIDE_UNSPECIFIED) {
+        rules.Break("side", "is given beside clearance_m, which has both sides", "remove it");
+      }
+    } else if (message.wall().side() == v1::Wall::SIDE_UNSPECIFIED) {
       rules.Break("side", "is missing", "LEFT or RIGHT of the body");
     } else {
       rules.RequireKnown("side", message.wall().side());
@@ -197,6 +203,10 @@ class ContactDecoder {
   void CheckStiffness(const v1::Contact& message, const std::vector<int>& touching,
                       const Rules& rules) const {
     if (message.has_stiffness()) return;
+    if (message.has_clearance_m()) {
+      rules.Break("stiffness", "is missing", "k, in N/m^exponent; clearance_m needs it");
+      return;
+    }
     const bool materials =
         message.wall().has_material() || std::ranges::any_of(touching, [this](int body) {
           return body != kNone && Message(body).has_material();
@@ -253,17 +263,15 @@ class ContactDecoder {
   void AddWall(const v1::Contact& message, Contact contact, int index, const Rules& rules) {
     const Body& body = bodies_[static_cast<std::size_t>(index)];
     const bool left = message.wall().side() == v1::Wall::LEFT;
-    const double wall = message.wall().position_m();
     (left ? contact.right : contact.left) = index;
-    contact.wall_position = wall;
     FillStiffness(message, &contact, rules);
     contact.name = ContactName(message, 1);
+    const auto [side, wall] = Place(message.wall(), contact.name, rules);
+    (left ? contact.left : contact.right) = side;
+    contact.wall_position = wall;
 
-    if (body.fixed) {
-      rules.Break("between", fmt::format("{} is fixed, as the wall is", Quoted(body.name)),
-                  "one side of a contact must be able to move");
-    }
-    if (!pairs_.insert({index, left ? -1 : -2, wall}).second) {
+    CheckBesideWall(body, rules);
+    if (!pairs_.insert({index, left ? -1 : -2, message.wall().position_m()}).second) {
       rules.Break("between", "repeats another contact of this body and this wall");
     }
     const double deformation =
@@ -272,6 +280,71 @@ class ContactDecoder {
       BreakOverlap(deformation, fmt::format("{} and the wall", Quoted(body.name)), rules);
     }
     Add(std::move(contact), rules);
+  }
+
+  static void CheckBesideWall(const Body& body, const Rules& rules) {
+    if (!body.fixed) return;
+    rules.Break("between", fmt::format("forces do not move {}, nor the wall", Quoted(body.name)),
+                "one side of a contact must be able to move");
+  }
+
+  // A wall, and where it is at t = 0: kNone, or a body of its own where it moves.
+  struct WallPlace {
+    int side;
+    double position;
+  };
+  WallPlace Place(const v1::Wall& wall, const std::string& name, const Rules& rules) {
+    if (!wall.has_motion()) return {kNone, wall.position_m()};
+    const auto index = static_cast<int>(bodies_.size() + made_.walls.size());
+    Body body{.name = name, .position = wall.position_m(), .fixed = true};
+    AddMotion(DecodeMotion(wall.motion(), wall.position_m(), rules.In("wall").In("motion")), index,
+              &body, &made_.drives);
+    if (names_.Has(name)) {
+      rules.Break("name", fmt::format("is {}, which a body is called", Quoted(name)),
+                  "results tell a wall that moves by the name of its contact");
+    }
+    made_.walls.push_back(body);
+    return {index, body.position};
+  }
+
+  // Two contacts, one for each side of a play.
+  void AddPlay(const v1::Contact& message, Contact contact, const std::vector<int>& touching,
+               const Rules& rules) {
+    contact.play =
+        rules.Check<v1::Contact>(v1::Contact::kClearanceMFieldNumber, message.clearance_m());
+    if (message.between_size() > 2) {
+      rules.Break("clearance_m", "is given for more than two bodies",
+                  "give each pair its own entry");
+    }
+    const std::size_t sides = message.has_wall() ? 1 : 2;
+    if (touching.size() != sides || std::ranges::count(touching, kNone) > 0) return;
+    const int inner = touching[0];
+    const Body& body = bodies_[static_cast<std::size_t>(inner)];
+    const std::string name = ContactName(message, 1);
+    WallPlace outer{kNone, 0};
+    if (message.has_wall()) {
+      outer = Place(message.wall(), name.substr(0, name.rfind('-')), rules);
+      CheckBesideWall(body, rules);
+    } else {
+      outer = {touching[1], bodies_[static_cast<std::size_t>(touching[1])].position};
+      if (!CheckSides(body, bodies_[static_cast<std::size_t>(touching[1])], rules)) return;
+    }
+    const bool repeats = !pairs_
+                              .insert({std::min(inner, outer.side), std::max(inner, outer.side),
+                                       message.has_wall() ? message.wall().position_m() : 0.0})
+                              .second;
+    if (repeats) rules.Break("between", "repeats another contact of this pair");
+    const double offset = std::abs(body.position - outer.position);
+    if (Overlap(offset - contact.play, {body.position, outer.position, contact.play})) {
+      BreakOverlap(offset - contact.play, fmt::format("{} and its stop", Quoted(body.name)), rules);
+    }
+    contact.wall_position = outer.position;
+    for (const bool left : {true, false}) {
+      contact.left = left ? outer.side : inner;
+      contact.right = left ? inner : outer.side;
+      contact.name = ContactName(message, left ? 1 : 2);
+      Add(contact, rules);
+    }
   }
 
   void AddPair(const v1::Contact& message, Contact contact, int left, int right, int number,
@@ -292,7 +365,7 @@ class ContactDecoder {
   }
 
   // False for a pair that is none.
-  bool CheckPair(const Body& a, const Body& b, const Rules& rules) const {
+  static bool CheckSides(const Body& a, const Body& b, const Rules& rules) {
     if (&a == &b) {
       rules.Break("between", fmt::format("names {} twice in a row", Quoted(a.name)),
                   "a body cannot touch itself");
@@ -300,9 +373,14 @@ class ContactDecoder {
     }
     if (a.fixed && b.fixed) {
       rules.Break("between",
-                  fmt::format("{} and {} are both fixed", Quoted(a.name), Quoted(b.name)),
+                  fmt::format("forces move neither {} nor {}", Quoted(a.name), Quoted(b.name)),
                   "one side of a contact must be able to move");
     }
+    return true;
+  }
+
+  bool CheckPair(const Body& a, const Body& b, const Rules& rules) const {
+    if (!CheckSides(a, b, rules)) return false;
     if (a.position > b.position) {
       rules.Break("between",
                   fmt::format("names {} first, which stands to the right of {} ({} > {} m)",
@@ -340,42 +418,52 @@ class ContactDecoder {
                   fmt::format("is {}, which another contact is called", Quoted(contact.name)),
                   "give each contact a name of its own");
     }
-    contacts_.push_back(std::move(contact));
+    made_.contacts.push_back(std::move(contact));
   }
 
   const v1::Scenario& scenario_;
   const std::vector<Body>& bodies_;
   const BodyNames& names_;
-  std::vector<Contact> contacts_;
+  DecodedContacts made_;
   std::set<std::tuple<int, int, double>> pairs_;  // two bodies; or a body, −1 or −2, and the wall
   std::unordered_set<std::string> contact_names_;
 };
+
+// The name of a pair of neighbours, whether their contact is one or two.
+std::string PairName(const v1::Contact& entry, int number) {
+  if (entry.name().empty()) {
+    return fmt::format(
+        "{}-{}", entry.between(number - 1),
+        entry.has_wall() || number >= entry.between_size() ? "wall" : entry.between(number));
+  }
+  return entry.between_size() > 2 ? fmt::format("{}-{}", entry.name(), number) : entry.name();
+}
 
 }  // namespace
 
 std::int64_t CountContacts(const v1::Scenario& message) {
   std::int64_t count = 0;
   for (const v1::Contact& contact : message.contacts()) {
-    count += std::max(1, contact.between_size() - 1);
+    count += std::max(contact.has_clearance_m() ? 2 : 1, contact.between_size() - 1);
   }
   return count;
 }
 
 int ContactsOf(const v1::Contact& entry) {
+  if (entry.has_clearance_m()) return entry.between().empty() ? 0 : 2;
   return entry.has_wall() ? std::min(1, entry.between_size())
                           : std::max(0, entry.between_size() - 1);
 }
 
 std::string ContactName(const v1::Contact& entry, int number) {
-  if (entry.name().empty()) {
-    return fmt::format("{}-{}", entry.between(number - 1),
-                       entry.has_wall() ? "wall" : entry.between(number));
+  if (entry.has_clearance_m()) {
+    return fmt::format("{}-{}", PairName(entry, 1), number == 1 ? "left" : "right");
   }
-  return entry.between_size() > 2 ? fmt::format("{}-{}", entry.name(), number) : entry.name();
+  return PairName(entry, number);
 }
 
-std::vector<Contact> DecodeContacts(const v1::Scenario& message, const std::vector<Body>& bodies,
-                                    const BodyNames& names, std::vector<Violation>* violations) {
+DecodedContacts DecodeContacts(const v1::Scenario& message, const std::vector<Body>& bodies,
+                               const BodyNames& names, std::vector<Violation>* violations) {
   ContactDecoder decoder(message, bodies, names);
   for (int i = 0; i < message.contacts_size(); ++i) {
     decoder.Decode(message.contacts(i), Rules(violations, "contacts", i));

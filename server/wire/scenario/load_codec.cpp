@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "wire/scenario/frequency.h"
+
 namespace contact {
 namespace {
 
@@ -24,13 +26,13 @@ void AddGravityOfAll(const std::vector<Body>& bodies, double acceleration,
 // Reads one load that acts on one named body.
 class LoadDecoder {
  public:
-  LoadDecoder(const std::vector<Body>& bodies, const BodyNames& names, const Rules& rules,
-              std::vector<Load>* loads)
-      : bodies_(bodies), names_(names), rules_(rules), loads_(loads) {}
+  LoadDecoder(const v1::Scenario& message, const std::vector<Body>& bodies, const BodyNames& names,
+              const Rules& rules, std::vector<Load>* loads)
+      : message_(message), bodies_(bodies), names_(names), rules_(rules), loads_(loads) {}
 
   void Decode(const v1::Load& load) {
     body_ = names_.Find(load.body(), "body", rules_);
-    RequireMovable(bodies_, body_, rules_);
+    RequireMovable(message_, body_, rules_);
     switch (load.kind_case()) {
       case v1::Load::kConstant:
         return Add(Read(load.constant(), rules_.In("constant")));
@@ -68,7 +70,7 @@ class LoadDecoder {
     using Field = v1::Load::Sine;
     return {.body = body_,
             .amplitude = rules.Read(sine, Field::kAmplitudeNFieldNumber),
-            .angular_frequency = rules.Read(sine, Field::kAngularFrequencyRadPerSFieldNumber),
+            .angular_frequency = DecodeAngularFrequency(sine, rules),
             .phase = rules.Read(sine, Field::kPhaseRadFieldNumber)};
   }
 
@@ -132,6 +134,7 @@ class LoadDecoder {
          .slope = (to.force_n() - from.force_n()) / (to.time_s() - from.time_s())});
   }
 
+  const v1::Scenario& message_;
   const std::vector<Body>& bodies_;
   const BodyNames& names_;
   const Rules& rules_;
@@ -141,9 +144,13 @@ class LoadDecoder {
 
 }  // namespace
 
-void RequireMovable(const std::vector<Body>& bodies, int body, const Rules& rules) {
-  if (body == kNone || !bodies[static_cast<std::size_t>(body)].fixed) return;
-  rules.Break("body", "is fixed; forces do not move it");
+void RequireMovable(const v1::Scenario& message, int body, const Rules& rules) {
+  if (body == kNone) return;
+  if (message.bodies(body).has_motion()) {
+    rules.Break("body", "moves as its motion says; forces do not move it");
+  } else if (message.bodies(body).fixed()) {
+    rules.Break("body", "is fixed; forces do not move it");
+  }
 }
 
 std::vector<Load> DecodeLoads(const v1::Scenario& message, const std::vector<Body>& bodies,
@@ -154,7 +161,7 @@ std::vector<Load> DecodeLoads(const v1::Scenario& message, const std::vector<Bod
     const Rules rules(violations, "loads", i);
     const v1::Load& load = message.loads(i);
     if (!load.has_gravity() || !load.body().empty()) {
-      LoadDecoder(bodies, names, rules, &loads).Decode(load);
+      LoadDecoder(message, bodies, names, rules, &loads).Decode(load);
       continue;
     }
     const double acceleration = DecodeAcceleration(load, rules);

@@ -9,8 +9,9 @@
 
 namespace contact {
 
-/// Notes that forces do not move the body with this index if it is fixed. kNone breaks no rule.
-void RequireMovable(const std::vector<Body>& bodies, int body, const Rules& rules);
+/// Notes that forces do not move the body with this index if it is fixed or has a motion. kNone
+/// breaks no rule.
+void RequireMovable(const v1::Scenario& message, int body, const Rules& rules);
 
 /// Checks the loads of a scenario and reads them, in pieces that are smooth in time: a table gives
 /// one for each interval, the gravity of every body one for each body that moves.

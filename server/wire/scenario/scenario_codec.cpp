@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "wire/rules/rules.h"
 #include "wire/scenario/body_codec.h"
@@ -26,14 +28,21 @@ constexpr RestitutionScope kScopes[v1::Solver::RestitutionScope_ARRAYSIZE] = {
     RestitutionScope::kAuto, RestitutionScope::kAuto, RestitutionScope::kCycle,
     RestitutionScope::kEncounter};
 
-std::vector<Support> DecodeSupports(const v1::Scenario& message, const std::vector<Body>& bodies,
-                                    const BodyNames& names, std::vector<Violation>* violations) {
+// Moving walls come after the bodies that have names in the scenario.
+void AddWalls(DecodedContacts decoded, Scenario* scenario) {
+  scenario->contacts = std::move(decoded.contacts);
+  std::ranges::move(decoded.walls, std::back_inserter(scenario->bodies));
+  std::ranges::move(decoded.drives, std::back_inserter(scenario->drives));
+}
+
+std::vector<Support> DecodeSupports(const v1::Scenario& message, const BodyNames& names,
+                                    std::vector<Violation>* violations) {
   std::vector<Support> supports;
   for (int i = 0; i < message.supports_size(); ++i) {
     const Rules rules(violations, "supports", i);
     const v1::Support& support = message.supports(i);
     const int body = names.Find(support.body(), "body", rules);
-    RequireMovable(bodies, body, rules);
+    RequireMovable(message, body, rules);
     const int other = support.other().empty() ? kNone : names.Find(support.other(), "other", rules);
     if (other != kNone && other == body) {
       rules.Break("other", "is the body itself", "leave it out for a support to the ground");
@@ -169,11 +178,12 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
                      RuleOf<v1::Scenario>(v1::Scenario::kTitleFieldNumber).max_characters());
   rules.RequirePrintable("title", message.title());
   Scenario& scenario = decoded.scenario;
-  scenario.bodies = DecodeBodies(message, violations);
+  scenario.bodies = DecodeBodies(message, &scenario.drives, violations);
   const BodyNames names(scenario.bodies);
-  scenario.contacts = DecodeContacts(message, scenario.bodies, names, violations);
-  scenario.supports = DecodeSupports(message, scenario.bodies, names, violations);
+  DecodedContacts contacts = DecodeContacts(message, scenario.bodies, names, violations);
+  scenario.supports = DecodeSupports(message, names, violations);
   scenario.loads = DecodeLoads(message, scenario.bodies, names, violations);
+  AddWalls(std::move(contacts), &scenario);
   scenario.solver = DecodeSolver(message.solver(), Rules(violations, "solver"));
   RequireSplitSolvable(scenario, Rules(violations, "solver"));
   DecodeOutput(message, limits, Rules(violations, "output"), &scenario);

@@ -15,13 +15,46 @@ Json JsonOf(const Body& b) {
   return json;
 }
 
+// A motion of one piece as it is; one of several, whose accelerations are constant, by velocities.
+Json MotionOf(const Scenario& s, int body) {
+  Json points = Json::array();
+  for (const Drive& d : s.drives) {
+    if (d.body != body) continue;
+    if (d.amplitude != 0) {
+      return {{"sine",
+               {{"amplitude_m", d.amplitude},
+                {"angular_frequency_rad_per_s", d.angular_frequency},
+                {"phase_rad", d.phase}}}};
+    }
+    points.push_back({{"time_s", d.begin}, {"velocity_m_per_s", d.velocity}});
+  }
+  return {{"velocity_table", {{"points", points}}}};
+}
+
+void Drive(const Scenario& s, Json& bodies) {
+  for (const contact::Drive& d : s.drives) {
+    Json& json = bodies[static_cast<std::size_t>(d.body)];
+    if (d.begin > 0) continue;
+    json.erase("fixed");
+    json.erase("velocity_m_per_s");
+    json["position_m"] = d.position;
+    json["motion"] = MotionOf(s, d.body);
+  }
+}
+
+// Of a play the contact on the left, which stands for both.
 Json JsonOf(const Scenario& s, const Contact& c) {
   Json json = {{"name", c.name}, {"between", Json::array()}, {"stiffness", c.stiffness}};
-  for (const int body : {c.left, c.right}) {
+  const int first = c.play > 0 ? c.right : c.left, second = c.play > 0 ? c.left : c.right;
+  for (const int body : {first, second}) {
     if (body != kNone) json["between"].push_back(s.bodies[static_cast<std::size_t>(body)].name);
   }
-  if (c.left == kNone || c.right == kNone) {
-    json["wall"] = {{"position_m", c.wall_position}, {"side", c.left == kNone ? "LEFT" : "RIGHT"}};
+  if (c.left == kNone || c.right == kNone) json["wall"] = {{"position_m", c.wall_position}};
+  if (c.play > 0) {
+    json["name"] = c.name.substr(0, c.name.rfind('-'));
+    json["clearance_m"] = c.play;
+  } else if (json.contains("wall")) {
+    json["wall"]["side"] = c.left == kNone ? "LEFT" : "RIGHT";
   }
   json["exponent"] = c.exponent;
   if (IsGiven(c.damping)) {
@@ -87,7 +120,11 @@ std::string ContractJson(const Scenario& s, const std::string& title) {
   Json json = {{"title", title}};
   for (const char* list : {"bodies", "contacts", "supports", "loads"}) json[list] = Json::array();
   for (const Body& b : s.bodies) json["bodies"].push_back(JsonOf(b));
-  for (const Contact& c : s.contacts) json["contacts"].push_back(JsonOf(s, c));
+  Drive(s, json["bodies"]);
+  for (const Contact& c : s.contacts) {
+    if (c.play == 0 || c.name.ends_with("-left")) json["contacts"].push_back(JsonOf(s, c));
+  }
+  if (s.starts_at_rest) json["start"] = "AT_EQUILIBRIUM";
   for (const Support& p : s.supports) json["supports"].push_back(JsonOf(s, p));
   for (const Load& l : s.loads) Add(s, l, json["loads"]);
   constexpr const char* kScopes[] = {"AUTO", "CYCLE", "ENCOUNTER"};

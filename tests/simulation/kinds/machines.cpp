@@ -30,6 +30,10 @@ constexpr Machine kMachines[] = {
     {"ring", Ring, "contacts that do not stand in a row"},
     {"ties", Ties, "two touches at one instant"},
     {"neargaps", NearGaps, "two touches 1e-12 to 1e-4 of a gap apart"},
+    {"table", Table, "balls on a table that moves as a sine"},
+    {"rattle", Rattle, "a ball with play in a slot that is shaken, swings or stands"},
+    {"moved", Moved, "a row that a stop pushes as a table of its velocity says"},
+    {"clamped", Clamped, "a row clamped between walls, at equilibrium until a load comes"},
     {"nearspeeds", NearSpeeds, "touching balls with speeds 1e-11 to 1e-7 apart"},
 };
 

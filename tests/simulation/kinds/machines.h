@@ -41,6 +41,11 @@ void Joined(Maker& m);
 void Shaken(Maker& m);
 void Piston(Maker& m);
 void Pulses(Maker& m);
+// moved.cpp: what moves as given, has play, or is pressed when the run begins.
+void Table(Maker& m);
+void Rattle(Maker& m);
+void Moved(Maker& m);
+void Clamped(Maker& m);
 // blows.cpp: blows of extreme restitution, exponent, mass and size.
 void Plastic(Maker& m);
 void Elastic(Maker& m);

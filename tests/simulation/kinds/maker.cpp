@@ -4,6 +4,8 @@
 #include <numbers>
 #include <string>
 
+#include "simulation/model/derived.h"
+
 namespace contact::testing {
 namespace {
 
@@ -129,6 +131,48 @@ Support& Maker::Joint(int body, int other, double k, double ratio) {
                         .damping = 2 * ratio * std::sqrt(k * m),
                         .rest_position = At(body).position - At(other).position});
   return s.supports.back();
+}
+
+void Maker::Swing(int body, double amplitude, double angular_frequency) {
+  Body& b = At(body);
+  b.fixed = true;
+  b.velocity = amplitude * angular_frequency;
+  s.drives.push_back({.body = body,
+                      .position = b.position,
+                      .amplitude = amplitude,
+                      .angular_frequency = angular_frequency});
+}
+
+void Maker::Move(int body, const std::vector<Push>& pushes) {
+  Body& b = At(body);
+  b.fixed = true;
+  b.velocity = 0;
+  contact::Drive piece{.body = body, .position = b.position};
+  for (const Push& push : pushes) {
+    piece.acceleration = push.acceleration;
+    piece.end = piece.begin + push.duration;
+    s.drives.push_back(piece);
+    const DrivenMotion reached = MotionAt(piece, piece.end);
+    piece = {.body = body,
+             .begin = piece.end,
+             .position = reached.position,
+             .velocity = reached.velocity};
+  }
+  s.drives.push_back(piece);
+}
+
+void Maker::Play(int body, int other, double play, double x) {
+  for (const bool left : {true, false}) {
+    Contact& side = left ? Pair(other, body) : Pair(body, other);
+    side.name = At(body).name + (left ? "-left" : "-right");
+    side.wall_position = x;
+    side.play = play;
+    if (!left) {  // Both of one law.
+      const Contact& first = s.contacts[s.contacts.size() - 2];
+      side.stiffness = first.stiffness, side.exponent = first.exponent;
+      side.restitution = first.restitution;
+    }
+  }
 }
 
 }  // namespace contact::testing

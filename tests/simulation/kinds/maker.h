@@ -59,6 +59,16 @@ class Maker {
   /// A spring and damper to the ground that is slack at the body's place; `ratio` of critical
   /// damping.
   Support& Spring(int body, double stiffness, double ratio);
+  /// Makes a body one that moves as given: from where it is, by a sine that begins in its middle,
+  /// or at rest, then with each acceleration for a time and in the end as it moves then.
+  void Swing(int body, double amplitude, double angular_frequency);
+  struct Push {
+    double acceleration, duration;
+  };
+  void Move(int body, const std::vector<Push>& pushes);
+  /// The two contacts of a body that moves freely by `play` to either side of another, or, as
+  /// kNone, of the place x.
+  void Play(int body, int other, double play, double x = 0);
   /// The same between two bodies at their distance.
   Support& Joint(int body, int other, double stiffness, double ratio);
 

@@ -92,6 +92,9 @@ void PlainMotion::Slopes(const Vector& y, Vector& dy, double t) const {
   for (const Load& l : s_.loads) {
     if (Acts(l)) push(l.body, LoadForce(l, t));
   }
+  for (const Drive& d : s_.drives) {
+    if (Acts(d)) dy[bodies_ + At(d.body)] += MotionAt(d, t).acceleration;
+  }
   for (std::size_t i = 0; i < s_.supports.size(); ++i) {
     const Support& p = s_.supports[i];
     const double force = p.stiffness * (stretches_[i] + Difference(p.body, p.other, y, 0)) +
@@ -128,6 +131,11 @@ void PlainMotion::Jacobian(Eigen::MatrixXd& j, Eigen::VectorXd& by_time) const {
   for (const Load& l : s_.loads) {
     if (Acts(l)) by_time[n + l.body] += LoadSlope(l, time_) * InverseMass(l.body);
   }
+  for (const Drive& d : s_.drives) {
+    if (!Acts(d)) continue;
+    const double w = d.angular_frequency, phase = w * (time_ - d.begin) + d.phase;
+    by_time[n + d.body] += d.jerk - d.amplitude * w * w * w * std::cos(phase);
+  }
   for (const Support& p : s_.supports) Couple(p.body, p.other, {0, p.stiffness, p.damping}, j);
   for (std::size_t i = 0; i < mu_.size(); ++i) {
     if (std::isnan(mu_[i])) continue;
@@ -162,14 +170,18 @@ void PlainMotion::Creep(double step, Vector& reached, Vector& error) const {
   error.assign(taken.error.begin(), taken.error.end());
 }
 
-// No step straddles an instant at which a load begins or ends.
+// No step straddles an instant at which a load or drive begins or ends.
 double PlainMotion::NextEdge(double end) const {
   double edge = end;
-  for (const Load& l : s_.loads) {
-    for (const double t : {l.begin, l.end}) {
-      if (t > time_) edge = std::min(edge, t);
+  const auto see = [&](const auto& pieces) {
+    for (const auto& piece : pieces) {
+      for (const double t : {piece.begin, piece.end}) {
+        if (t > time_) edge = std::min(edge, t);
+      }
     }
-  }
+  };
+  see(s_.loads);
+  see(s_.drives);
   return edge;
 }
 

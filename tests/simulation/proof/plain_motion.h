@@ -55,7 +55,10 @@ class PlainMotion {
   Force ContactForce(std::size_t contact, const Vector& y) const;
   double LoadForce(const Load& load, double t) const;
   double LoadSlope(const Load& load, double t) const;
-  bool Acts(const Load& load) const { return time_ >= load.begin && time_ < load.end; }
+  template <class Piece>
+  bool Acts(const Piece& piece) const {
+    return time_ >= piece.begin && time_ < piece.end;
+  }
   double Difference(int left, int right, const Vector& y, std::size_t from) const;
   double InverseMass(int body) const;
   void Slopes(const Vector& y, Vector& dy, double t) const;

@@ -32,6 +32,10 @@ Restated Mirrored(const Scenario& s) {
   for (Load& l : r.scenario.loads) {
     l.constant = -l.constant, l.slope = -l.slope, l.amplitude = -l.amplitude;
   }
+  for (Drive& d : r.scenario.drives) {
+    d.position = -d.position, d.velocity = -d.velocity, d.acceleration = -d.acceleration;
+    d.jerk = -d.jerk, d.amplitude = -d.amplitude;
+  }
   return r;
 }
 
@@ -42,6 +46,7 @@ Restated Shifted(const Scenario& s) {
   for (const Body& b : s.bodies) size = std::max(size, std::abs(b.position) + b.radius);
   const double shift = size > 0 ? std::exp2(std::floor(std::log2(size))) : 0.5;
   for (Body& b : r.scenario.bodies) b.position += shift;
+  for (Drive& d : r.scenario.drives) d.position += shift;
   for (Contact& c : r.scenario.contacts) {
     if (c.left == kNone || c.right == kNone) c.wall_position += shift;
   }
@@ -74,7 +79,7 @@ Restated InUnits(const Scenario& s) {
   }
   for (Contact& c : r.scenario.contacts) {
     c.mu /= r.Mu(1, DampingExponent(c.damping, c.exponent));
-    c.wall_position /= r.length, c.reference_velocity /= speed;
+    c.wall_position /= r.length, c.play /= r.length, c.reference_velocity /= speed;
     c.stiffness /= force / std::pow(r.length, c.exponent);
   }
   for (Support& p : r.scenario.supports) {
@@ -83,6 +88,11 @@ Restated InUnits(const Scenario& s) {
   for (Load& l : r.scenario.loads) {
     l.begin /= r.time, l.end /= r.time, l.constant /= force, l.slope /= force / r.time;
     l.amplitude /= force, l.angular_frequency *= r.time;
+  }
+  for (Drive& d : r.scenario.drives) {
+    d.begin /= r.time, d.end /= r.time, d.angular_frequency *= r.time;
+    d.position /= r.length, d.velocity /= speed, d.amplitude /= r.length;
+    d.acceleration /= speed / r.time, d.jerk /= speed / r.time / r.time;
   }
   r.scenario.end_time /= r.time;
   return r;
@@ -109,6 +119,7 @@ Restated Reordered(const Scenario& s) {
   }
   for (Support& p : r.scenario.supports) there(p.body), there(p.other);
   for (Load& l : r.scenario.loads) there(l.body);
+  for (Drive& d : r.scenario.drives) there(d.body);
   std::ranges::reverse(r.scenario.supports);
   std::ranges::reverse(r.scenario.loads);
   return r;
@@ -155,7 +166,7 @@ bool IsFree(const Scenario& s) {
 
 // Where nothing else than a flight leads to the start.
 std::optional<Restated> Earlier(const Scenario& s) {
-  if (!s.supports.empty()) return {};
+  if (!s.supports.empty() || !s.drives.empty() || s.starts_at_rest) return {};
   for (double delay = s.end_time / 8; delay > s.end_time / 1000; delay /= 4) {
     bool free = true;
     for (int part = 1; part <= 8; ++part) {

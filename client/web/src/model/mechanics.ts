@@ -1,7 +1,7 @@
 // A scenario with what follows from it: masses, contacts one by one, stiffnesses.
 
 import {
-  Contact_Damping, Solver_Tension, Wall_Side, type Material, type Scenario,
+  Contact_Damping, Solver_Tension, Wall_Side, type Contact, type Material, type Scenario,
 } from '../api/generated/contact/v1/scenario_pb';
 
 export interface BodyModel {
@@ -18,6 +18,9 @@ export interface ContactModel {
   left: number;
   right: number;
   wallPosition: number;
+  /** The name by which results tell where a wall is that moves, and from where its motion counts. */
+  wallBody: string;
+  wallOrigin: number;
   stiffness: number;
   exponent: number;
   damping: Contact_Damping;
@@ -47,17 +50,38 @@ function hertz(sides: {material: Material | undefined; curvature: number}[]): nu
 }
 
 function bodiesOf(scenario: Scenario): BodyModel[] {
-  return scenario.bodies.map((body) => ({
-    name: body.name,
-    mass: massOf(body.massKg, body.densityKgPerM3, body.radiusM ?? 0),
-    radius: body.radiusM ?? 0,
-    position: body.positionM,
-    fixed: body.fixed,
-  }));
+  const before = new Map<string, BodyModel>();
+  return scenario.bodies.map((body) => {
+    const radius = body.radiusM ?? 0;
+    const beside = before.get(body.nextTo);
+    const made = {
+      name: body.name,
+      mass: massOf(body.massKg, body.densityKgPerM3, radius),
+      radius,
+      position: beside ? beside.position + beside.radius + radius + body.gapM : body.positionM,
+      fixed: body.fixed || body.motion !== undefined,
+    };
+    before.set(body.name, made);
+    return made;
+  });
 }
 
-function pairsOf(between: string[], name: string): {pair: string[]; name: string}[] {
-  if (between.length <= 2) return [{pair: between, name: name || `${between[0]}-${between[1] ?? 'wall'}`}];
+/** Where a wall's face is when nothing moves: of a play, where the body's edge meets it. */
+function wallFace({wall, clearanceM}: Contact, left: boolean, radius: number): number {
+  if (!wall) return NaN;
+  return wall.positionM + (clearanceM === undefined ? 0 : (left ? -1 : 1) * (clearanceM + radius));
+}
+
+/** The contacts that an entry makes: of a play the left one has its bodies in the other order. */
+function pairsOf({between, name, clearanceM}: Contact): {pair: (string | undefined)[]; name: string}[] {
+  const whole = name || `${between[0]}-${between[1] ?? 'wall'}`;
+  if (clearanceM !== undefined) {
+    return [
+      {pair: [between[1], between[0]], name: `${whole}-left`},
+      {pair: [between[0], between[1]], name: `${whole}-right`},
+    ];
+  }
+  if (between.length <= 2) return [{pair: between, name: whole}];
   return between.slice(1).map((right, i) => ({
     pair: [between[i]!, right],
     name: name ? `${name}-${i + 1}` : `${between[i]}-${right}`,
@@ -70,16 +94,18 @@ function contactsOf(scenario: Scenario, bodies: BodyModel[]): ContactModel[] {
     material: scenario.bodies[at]?.material, curvature: 1 / (bodies[at]?.radius ?? 0),
   });
   return scenario.contacts.flatMap((contact) =>
-    pairsOf(contact.between, contact.name).map(({pair, name}) => {
-      const first = index.get(pair[0]!) ?? -1;
-      const second = pair[1] === undefined ? -1 : index.get(pair[1]) ?? -1;
-      const wallLeft = contact.wall?.side === Wall_Side.LEFT;
+    pairsOf(contact).map(({pair, name}) => {
+      const at = (body: string | undefined) => (body === undefined ? -1 : index.get(body) ?? -1);
+      const first = at(pair[0]), second = at(pair[1]);
+      const wallLeft = contact.wall?.side === Wall_Side.LEFT && contact.clearanceM === undefined;
       const other = second >= 0 ? side(second) : {material: contact.wall?.material, curvature: 0};
       return {
         name,
         left: contact.wall && wallLeft ? -1 : first,
-        right: contact.wall ? (wallLeft ? first : -1) : second,
-        wallPosition: contact.wall?.positionM ?? NaN,
+        right: contact.wall && wallLeft ? first : second,
+        wallPosition: wallFace(contact, first < 0, bodies[Math.max(first, second)]?.radius ?? 0),
+        wallBody: contact.wall?.motion ? name.replace(contact.clearanceM === undefined ? '' : /-(left|right)$/, '') : '',
+        wallOrigin: contact.wall?.positionM ?? NaN,
         stiffness: contact.stiffness ?? hertz([side(first), other]),
         exponent: contact.exponent ?? 1.5,
         damping: contact.damping,

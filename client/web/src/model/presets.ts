@@ -118,7 +118,7 @@ function energy(view: RunView): Panel {
 }
 
 function wallLines({bodies: all, contacts}: Mechanics): number[] {
-  return contacts.filter(({left, right}) => left < 0 || right < 0).map(({left, right, wallPosition}) =>
+  return contacts.filter(({left, right, wallBody}) => (left < 0 || right < 0) && !wallBody).map(({left, right, wallPosition}) =>
     wallPosition - (right < 0 ? all[left]?.radius ?? 0 : -(all[right]?.radius ?? 0)));
 }
 

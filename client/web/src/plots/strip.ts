@@ -3,6 +3,7 @@
 import {values} from '../model/curves';
 import {interpolate} from '../model/panel';
 import {short} from '../model/numbers';
+import type {ContactModel} from '../model/mechanics';
 import type {Stage} from '../model/stage';
 import {readableUnit} from '../model/units';
 import {colourOf, type Theme} from '../ui/theme';
@@ -22,6 +23,12 @@ function placesAt({mechanics, series, magnification}: Stage, time: number): numb
   const times = values(series, 'time');
   return mechanics.bodies.map(({name, position}) =>
     position + magnification * (interpolate(times, values(series, `${name}.position`), time) - position || 0));
+}
+
+/** Where the face of a contact's wall is at a moment; NaN without a wall. */
+function wallAt({series, magnification}: Stage, {wallPosition, wallBody, wallOrigin}: ContactModel, time: number): number {
+  const moved = wallBody ? interpolate(values(series, 'time'), values(series, `${wallBody}.position`), time) - wallOrigin : 0;
+  return wallPosition + magnification * (moved || 0);
 }
 
 function spring(ctx: CanvasRenderingContext2D, from: number, to: number, y: number): void {
@@ -70,7 +77,9 @@ function drawForces(stage: Stage, sheet: Sheet, toX: (x: number) => number, plac
   const {mechanics: {bodies, contacts}, series, largestForce} = stage;
   const {ctx, theme} = sheet;
   const times = values(series, 'time');
-  contacts.forEach(({name, left, right, wallPosition}, colour) => {
+  contacts.forEach((contact, colour) => {
+    const {name, left, right} = contact;
+    const wallPosition = wallAt(stage, contact, time);
     const force = interpolate(times, values(series, `${name}.contact_force`), time);
     if (!(Math.abs(force) > 1e-6 * largestForce)) return;
     const leftEdge = left < 0 ? wallPosition : places[left]! + bodies[left]!.radius;
@@ -104,7 +113,10 @@ export function drawStrip(stage: Stage, sheet: Sheet, time: number): void {
   ctx.moveTo(0, middle);
   ctx.lineTo(width, middle);
   ctx.stroke();
-  for (const {left, wallPosition} of contacts) if (Number.isFinite(wallPosition)) drawWall(sheet, toX(wallPosition), left >= 0, middle);
+  for (const contact of contacts) {
+    const face = wallAt(stage, contact, time);
+    if (Number.isFinite(face)) drawWall(sheet, toX(face), contact.left >= 0, middle);
+  }
   drawSupports(stage, sheet, toX, places, middle);
   bodies.forEach(({name, radius, fixed}, i) => {
     const r = Math.max(radius * scale, 4);
