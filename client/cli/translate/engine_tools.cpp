@@ -28,8 +28,9 @@ Tool MuJoCo() {
               "<geom condim=\"1\" solref=\"-{stiffness} -{damping}\" "
               "solimp=\"0.9999 0.9999 0.001\"/>",
           .note =
-              "both geoms have this solref and solimp; at the default solimp (0.9 at touch) ε "
-              "differs; the same for all masses; the solver carries a load, not the spring"};
+              "both geoms have this solref and solimp; where solimp varies with the depth, as by "
+              "default, ε differs by some thousandths; the same for all masses; under gravity the "
+              "solver carries the weight, not the spring"};
 }
 
 Tool Chrono(std::string_view name, std::string_view title) {
@@ -146,8 +147,8 @@ Tool Bullet() {
               "pybullet.changeDynamics(body, -1, contactStiffness={contactStiffness}, "
               "contactDamping={contactDamping})",
           .note =
-              "both bodies have these values: dampers of the two are added, and 0.1 N*s/m is "
-              "the default"};
+              "both bodies have these values, for dampers of the two are added and 0.1 N*s/m is "
+              "the default; where contacts are deeper than 0.04 m, splitImpulse is off"};
 }
 
 }  // namespace

@@ -159,7 +159,8 @@ void AddTranslate(CommandLine& line, CLI::App& model) {
       "translate", "Translate a contact into the parameters of other simulators");
   auto given = std::make_shared<TranslateArguments>();
   line.SuggestWords(command->add_option("TOOL", given->tools, "Simulators. Default: all"),
-                    ToolNames());
+                    ToolNames())
+      ->type_name("");
   AddNumber(*command, "--restitution", &given->restitution, "ε", "Restitution without the load");
   Repeatable(command->add_option("--velocity", given->velocities,
                                  "Approach velocity; several, with commas between, with --from"))
@@ -174,11 +175,11 @@ void AddTranslate(CommandLine& line, CLI::App& model) {
             "Gravity, which presses the body on a fixed one. Default: 0");
   AddNumber(*command, "--radius", &given->radius, "M", "Effective radius, 1/R = 1/R1 + 1/R2");
   AddNumber(*command, "--step", &given->step, "S", "Time step of the simulator");
-  line.SuggestWords(
-      command->add_option("--from", given->from,
-                          "The other way: what this simulator gives back with --set, and that "
-                          "in the parameters of TOOL"),
-      ToolNames());
+  CLI::Option* from = command->add_option(
+      "--from", given->from,
+      "The other way: what this simulator gives back with --set, and that in the parameters of "
+      "TOOL");
+  line.SuggestWords(from, ToolNames())->type_name("TOOL");
   Repeatable(command->add_option("--set", given->values, "Parameters of the simulator of --from"))
       ->type_name("PARAMETER=VALUE,…")
       ->delimiter(',');

@@ -102,9 +102,8 @@ Table TranslationTable(const std::vector<Translation>& translations) {
 std::string TranslationLines(const std::vector<Translation>& translations) {
   std::string text;
   for (const Translation& found : translations) {
-    if (!found.values.empty()) {
-      text += fmt::format("\n{}\n  {}\n", found.tool->title, LineOf(*found.tool, found.values));
-    }
+    text += fmt::format("\n{}\n", found.tool->title);
+    if (!found.values.empty()) text += fmt::format("  {}\n", LineOf(*found.tool, found.values));
     for (const std::string& warning : found.warnings) text += fmt::format("  - {}\n", warning);
   }
   return text;
