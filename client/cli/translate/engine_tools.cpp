@@ -132,7 +132,7 @@ Tool Bullet() {
           .title = "Bullet, contact stiffness and damping",
           .source = "Bullet 3.24, btSequentialImpulseConstraintSolver.cpp; run",
           .law = {.pull = Pull::kClamped},
-          .stepping = Stepping::kImplicitEuler,
+          .stepping = Stepping::kSpeculative,
           .parameters = {{"contactStiffness", "N/m"}, {"contactDamping", "N*s/m"}},
           .write = [](const ForceLaw& law, const Setup& /*setup*/) -> Values {
             return {2 * law.stiffness, law.damping / 2};

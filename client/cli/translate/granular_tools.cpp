@@ -145,7 +145,7 @@ Tool LammpsTsuji() {
           .write = WriteTsuji,
           .read = ReadTsuji,
           .line = "pair_coeff * * hertz {kn} {e} damping tsuji tangential linear_nohistory 0 0",
-          .note = {}};
+          .note = "e is not the restitution: the polynomial of LAMMPS makes less damping of e"};
 }
 
 Tool LammpsRestitution() {
@@ -153,6 +153,7 @@ Tool LammpsRestitution() {
   tool.name = "lammps-restitution";
   tool.title = "LAMMPS granular, hertz, damping coeff_restitution";
   tool.source = "LAMMPS develop, gran_sub_mod_damping.cpp; read";
+  tool.note = {};
   tool.write = WriteRestitution;
   tool.read = ReadRestitution;
   tool.line =

@@ -36,16 +36,26 @@ class Stepper {
   // The impulse λ ≥ 0 of the constraint v⁺ = −ERP/h δ + CFM λ/h, with h k + c = 1/CFM.
   void Implicit(Motion* at) const {
     at->velocity += step_ * collision_.load / collision_.mass;
-    if (at->deformation > 0) {
-      const double firmness = step_ * law_.stiffness + law_.damping;
-      const double impulse = step_ * (law_.stiffness * at->deformation + firmness * at->velocity) /
-                             (1 + step_ * firmness / collision_.mass);
-      at->velocity -= std::max(0.0, impulse) / collision_.mass;
-    }
+    if (at->deformation > 0) Brake(law_.stiffness * at->deformation, at);
+    at->deformation += step_ * at->velocity;
+  }
+
+  // Before the touch ERP is 1: the constraint lets the bodies come just to the touch.
+  void Speculative(Motion* at) const {
+    at->velocity += step_ * collision_.load / collision_.mass;
+    Brake(at->deformation * (at->deformation > 0 ? law_.stiffness : Firmness() / step_), at);
     at->deformation += step_ * at->velocity;
   }
 
  private:
+  double Firmness() const { return step_ * law_.stiffness + law_.damping; }
+
+  void Brake(double force, Motion* at) const {
+    const double impulse =
+        step_ * (force + Firmness() * at->velocity) / (1 + step_ * Firmness() / collision_.mass);
+    at->velocity -= std::max(0.0, impulse) / collision_.mass;
+  }
+
   double Acceleration(double deformation, double velocity) const {
     const double force = deformation > 0 ? law_.Force(deformation, velocity, collision_.load) : 0;
     return (collision_.load - force) / collision_.mass;
@@ -64,7 +74,8 @@ double RatioOf(Advance advance, const Collision& collision, double before) {
   for (int i = 0; i < kMostSteps; ++i) {
     advance(&motion);
     touched = touched || motion.deformation > 0;
-    if (touched && motion.deformation <= 0) return -motion.velocity / collision.velocity;
+    if (touched && motion.deformation <= 0 && motion.velocity < 0)
+      return -motion.velocity / collision.velocity;
   }
   return 0;
 }
@@ -94,6 +105,8 @@ SteppedRebound Step(const ForceLaw& law, const Collision& collision, Stepping st
       return Over([&](Motion* at) { stepper.Verlet(at); }, collision, step);
     case Stepping::kImplicitEuler:
       return Over([&](Motion* at) { stepper.Implicit(at); }, collision, step);
+    case Stepping::kSpeculative:
+      return Over([&](Motion* at) { stepper.Speculative(at); }, collision, step);
     case Stepping::kAccurate:
       break;
   }

@@ -11,6 +11,7 @@ enum class Stepping {
   kVerlet,           ///< Velocity Verlet, with the damper at the velocity of the half step.
   /// v⁺ = v + h a(x⁺, v⁺), x⁺ = x + h v⁺, of a linear law: a constraint with ERP and CFM.
   kImplicitEuler,
+  kSpeculative,  ///< The same, which begins in the step that would pass over the touch: Bullet.
 };
 
 /// The e_N [-] of a collision in steps of one length: it depends on where in a step the touch

@@ -89,8 +89,8 @@ TEST(Translation, WhatAToolLacksIsSaid) {
 TEST(Translation, AsStepsShrinkTheReboundBecomesThatOfTheLaw) {
   const ForceLaw law{.damping = 0.3, .pull = Pull::kClamped};
   const double exact = Collide(law, {}).velocity_ratio;
-  for (const Stepping stepping :
-       {Stepping::kSymplecticEuler, Stepping::kVerlet, Stepping::kImplicitEuler}) {
+  for (const Stepping stepping : {Stepping::kSymplecticEuler, Stepping::kVerlet,
+                                  Stepping::kImplicitEuler, Stepping::kSpeculative}) {
     double error = 1;
     for (const double step : {0.1, 0.01, 0.001}) {
       const SteppedRebound at = Step(law, {}, stepping, step);

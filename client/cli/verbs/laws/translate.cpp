@@ -126,15 +126,12 @@ void Print(const TranslateArguments& given, const std::vector<Translation>& rebo
 }
 
 ExitCode Run(const TranslateArguments& given, const Settings& settings) {
-  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kCsv});
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   Check(given);
   const std::vector<Translation> rebounds = Rebounds(given);
   const std::vector<Translation> translations = Translations(given, rebounds);
   if (settings.output == OutputFormat::kJson) {
     PrintJson(TranslationJson(rebounds, given.velocities, translations), settings);
-  } else if (settings.output == OutputFormat::kCsv) {
-    fmt::print("{}", rebounds.empty() ? TranslationTable(translations).Csv()
-                                      : ReboundTable(rebounds, given.velocities).Csv());
   } else {
     Print(given, rebounds, translations, settings);
   }
