@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "cli/base/assignments.h"
 #include "cli/base/scalar.h"
@@ -26,10 +27,31 @@ void Require(bool holds, const std::string& what) {
   if (!holds) throw Failure(ExitCode::kUsage, what);
 }
 
+// More damping, in units of the collision, lets less than a thousandth of the speed come back, and
+// the integration takes the longer the more of it there is.
+constexpr double kMostDamping = 1e3;
+
+void CheckNumbers(const TranslateArguments& given) {
+  const std::pair<const char*, double> numbers[] = {{"--restitution", given.restitution},
+                                                    {"--stiffness", given.stiffness},
+                                                    {"--exponent", given.exponent},
+                                                    {"--contact-time", given.contact_time},
+                                                    {"--mass", given.mass},
+                                                    {"--gravity", given.gravity},
+                                                    {"--radius", given.radius},
+                                                    {"--step", given.step}};
+  for (const auto& [flag, value] : numbers) {
+    Require(value >= 0 && value <= 1e30, fmt::format("{} must be from 0 to 1e30", flag));
+  }
+  for (const double v : given.velocities) {
+    Require(v > 0 && v <= 1e30, "--velocity must be above 0, and at most 1e30");
+  }
+}
+
 void Check(const TranslateArguments& given) {
+  CheckNumbers(given);
   Require(given.mass > 0, "--mass must be given, in kg");
   Require(!given.velocities.empty(), "--velocity must be given, in m/s");
-  for (const double v : given.velocities) Require(v > 0, "--velocity must be above 0");
   Require(given.exponent >= 1, "--exponent must be at least 1");
   if (!given.from.empty()) {
     Require(given.restitution == 0 && given.stiffness == 0 && given.contact_time == 0,
@@ -85,6 +107,10 @@ std::vector<Translation> Rebounds(const TranslateArguments& given) {
     const Setup setup = SetupAt(given, velocity);
     const std::string missing = Missing(tool, setup);
     Require(missing.empty(), fmt::format("{} needs {}", tool.name, missing));
+    const ForceLaw law = tool.read(tool.law, values, setup);
+    const bool known = law.stiffness > 0 && law.damping >= 0 &&
+                       law.damping <= kMostDamping * DampingUnit(law, setup.collision);
+    Require(known, "--set: the simulator's spring or damper is none, or damps nearly everything");
     rebounds.push_back(Judge(tool, values, setup));
   }
   return rebounds;
