@@ -78,6 +78,7 @@ class TranslateTest(unittest.TestCase):
         coarse, = answer("bullet", *CONTACT, "--step=2e-3")["translations"]
         self.assertTrue(any("too few" in warning for warning in coarse["warnings"]))
         self.assertLess(coarse["at_step"]["mean"], 0.5)
+        self.assertTrue(any("the step damps too" in warning for warning in coarse["warnings"]))
 
 
 if __name__ == "__main__":
