@@ -14,7 +14,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 HERE = pathlib.Path(__file__).resolve().parent
-CONTACTCTL = os.environ.get("CONTACTCTL", str(HERE.parents[1] / "build/release/client/cli/contactctl"))
+BUILT = HERE.parents[1] / "build/release/client/cli/contactctl"
+CONTACTCTL = os.environ.get("CONTACTCTL", str(BUILT))
 
 #: A ball of 1 kg at 1 m/s whose contacts last about 14 ms and are 4 mm deep: so soft
 #: that the positions of Bullet, in single precision, resolve it.
@@ -122,7 +123,8 @@ def arguments(case: Case, told: Translated, last: float) -> list[str]:
 
 
 def yade(case: Case, told: Translated) -> float:
-    printed = run(["yade", "-n", "-x", str(HERE / "yade_peer.py"), *arguments(case, told, case.step)])
+    script = str(HERE / "yade_peer.py")
+    printed = run(["yade", "-n", "-x", script, *arguments(case, told, case.step)])
     return float(printed.split("ratio")[1].split()[0])
 
 

@@ -1,6 +1,7 @@
-"""A ball that falls on a fixed one in Yade, of the same radius and mass: `yade -n -x` runs this file.
-Prints the velocity after over the velocity before. Arguments: kn cn mass radius velocity gravity step;
-`mass` and `radius` are the effective ones."""
+"""A ball that falls on a fixed one in Yade, of the same radius and mass; `yade -n -x` runs this.
+
+Prints the velocity after over the velocity before. Arguments: kn cn mass radius velocity gravity
+step; `mass` and `radius` are the effective ones."""
 
 import math
 import sys

@@ -40,10 +40,10 @@ def translate(*tools: str, mass: float, velocity: Union[float, Sequence[float]],
 
     `tools` are contact models, such as `"mujoco"` or `"lammps-hooke"`; without any, all of them.
     The contact is given by `restitution` and `stiffness` (with `exponent`, 1.5 unless given) or
-    `contact_time`; or by the parameters `values` of the tool `start`, of which the answer tells what
-    it gives back, at each velocity. Further: `gravity`, `radius`, `step`. All in SI units, as
-    in `contactctl model translate --help`, which computes this and must be installed. No server is
-    asked.
+    `contact_time`; or by the parameters `values` of the tool `start`: then the answer also has
+    what that gives back at each velocity. Further: `gravity`, `radius`, `step`. All in SI units, as
+    `contactctl model translate --help` says, which computes this and must be installed. No server
+    is asked.
 
     Returns what `contactctl model translate -o json` prints: `translations`, and `rebounds` where
     `start` is given. Raises ToolFailed.

@@ -1,4 +1,4 @@
-"""LAMMPS, where it is installed, gives back what contactctl says, with the parameters of contactctl."""
+"""LAMMPS, where it is installed, gives back what contactctl says that its parameters give back."""
 
 import pathlib
 import shutil
