@@ -92,7 +92,9 @@ Tool Simscape(Pull pull) {
   return {.name = damped ? "simscape-damped" : "simscape-undamped",
           .title = damped ? "Simscape, Translational Hard Stop, damped rebound"
                           : "Simscape, Translational Hard Stop, undamped rebound",
-          .source = "mathworks.com/help/simscape/ref/translationalhardstop.html; read",
+          .source =
+              "mathworks.com/help/simscape/ref/translationalhardstop.html, and models of others "
+              "that follow it; read",
           .law = {.pull = pull},
           .parameters = {{"stiffness", "N/m"}, {"damping", "N*s/m"}},
           .write = WriteLinear,
