@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from unittest import mock
 
-from contactsim import Client, ToolFailed
+from contactsim import Client, ToolFailed, translate
 
 
 class ToolsTest(unittest.TestCase):
@@ -45,6 +45,20 @@ class ToolsTest(unittest.TestCase):
         self.assertEqual(page, pathlib.Path("r.html"))
         said = pathlib.Path(f"{self.program}.said").read_text("utf-8")
         self.assertEqual(said, "--server 127.0.0.1:1 report jobs/a jobs/b -f r.html\n")
+
+    def test_translation_is_that_of_the_program(self):
+        answer = translate("mujoco", mass=2, velocity=0.5, restitution=0.5, contact_time=0.01)
+        found, = answer["translations"]
+        stiffness, damping = (parameter["value"] for parameter in found["parameters"])
+        self.assertAlmostEqual(found["delivered"]["velocity_ratio"], 0.5, delta=1e-6)
+        self.assertAlmostEqual(damping, 2 * 0.255276 * stiffness**0.5, delta=1e-3)
+        values = {"stiffness": stiffness, "damping": damping}
+        back = translate("drake", mass=2, velocity=[0.5, 5], start="mujoco", values=values)
+        self.assertEqual([rebound["velocity_m_per_s"] for rebound in back["rebounds"]], [0.5, 5])
+        self.assertAlmostEqual(back["translations"][0]["delivered"]["velocity_ratio"], 0.5,
+                               delta=1e-6)
+        with self.assertRaisesRegex(ToolFailed, "there is no tool 'mujoko'"):
+            translate("mujoko", mass=1, velocity=1, restitution=0.5, stiffness=1)
 
     def test_numbers_of_the_paper_that_deviate_are_no_failure(self):
         self.write("exit 8\n")

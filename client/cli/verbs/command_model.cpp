@@ -9,6 +9,7 @@
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/laws/law_plot.h"
 #include "cli/verbs/laws/law_table.h"
+#include "cli/verbs/laws/translate.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -119,6 +120,7 @@ void AddModel(CommandLine& line, CLI::App& model) {
                                              "Compare the restitution asked for with the one "
                                              "delivered, law by law"));
   AddLawPlot(line, model);
+  AddTranslate(line, model);
 }
 
 }  // namespace contact::cli

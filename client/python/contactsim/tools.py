@@ -1,12 +1,13 @@
-"""What contactctl does for the package: pages that it draws through gnuplot."""
+"""What contactctl does for the package: pages that it draws through gnuplot, and translations."""
 
 from __future__ import annotations
 
+import json
 import os
 import pathlib
 import shutil
 import subprocess
-from typing import Iterable, Sequence, Union
+from typing import Any, Iterable, Mapping, Optional, Sequence, Union
 
 from .errors import ContactError
 
@@ -22,26 +23,53 @@ class ToolFailed(ContactError):
 def report(address: str, jobs: Sequence[str], path: PathLike) -> pathlib.Path:
     """Writes a page about jobs that needs no network; see Client.report."""
     target = pathlib.Path(path)
-    _contactctl(address, "report", *jobs, "-f", str(target))
+    _contactctl("--server", address, "report", *jobs, "-f", str(target))
     return target
 
 
 def paper(address: str, items: Iterable[str], folder: PathLike) -> bool:
     """Makes figures and tables of the paper again; see Client.paper."""
-    return _contactctl(address, "paper", *items, "-d", str(folder)) != _DIFFERS
+    run = _contactctl("--server", address, "paper", *items, "-d", str(folder))
+    return run.returncode != _DIFFERS
 
 
-def _contactctl(address: str, *arguments: str) -> int:
-    """Runs contactctl to its end and returns its exit code: 0 or _DIFFERS."""
+def translate(*tools: str, mass: float, velocity: Union[float, Sequence[float]],
+              start: Optional[str] = None, values: Optional[Mapping[str, float]] = None,
+              **given: float) -> dict[str, Any]:
+    """A contact in the parameters of other simulators, and what they give back with them.
+
+    `tools` are contact models, such as `"mujoco"` or `"lammps-hooke"`; without any, all of them.
+    The contact is given by `restitution` and `stiffness` (with `exponent`, 1.5 unless given) or
+    `contact_time`; or by the parameters `values` of the tool `start`: then the answer also has
+    what that gives back at each velocity. Further: `gravity`, `radius`, `step`. All in SI units, as
+    `contactctl model translate --help` says, which computes this and must be installed. No server
+    is asked.
+
+    Returns what `contactctl model translate -o json` prints: `translations`, and `rebounds` where
+    `start` is given. Raises ToolFailed.
+    """
+    velocities = [velocity] if isinstance(velocity, (int, float)) else velocity
+    flags = [f"--{name.replace('_', '-')}={value!r}" for name, value in given.items()]
+    flags += [f"--mass={mass!r}", "--velocity=" + ",".join(map(repr, velocities))]
+    if start is not None:
+        flags += [f"--from={start}"]
+        flags += [f"--set={name}={value!r}" for name, value in (values or {}).items()]
+    printed = _contactctl("model", "translate", *tools, *flags, "-o", "json").stdout
+    answer: dict[str, Any] = json.loads(printed)
+    return answer
+
+
+def _contactctl(*arguments: str) -> subprocess.CompletedProcess[str]:
+    """Runs contactctl to its end; its exit code is 0 or _DIFFERS."""
     program = os.environ.get("CONTACTCTL") or shutil.which("contactctl")
     if program is None:
-        raise ToolFailed(f"{arguments[0]} needs contactctl on the PATH, or its path in the "
-                         "variable CONTACTCTL: apt install contactctl")
+        raise ToolFailed("this needs contactctl on the PATH, or its path in the variable "
+                         "CONTACTCTL: apt install contactctl")
     try:
-        run = subprocess.run([program, "--server", address, *arguments], capture_output=True,
-                             encoding="utf-8", check=False)
+        run = subprocess.run([program, *arguments], capture_output=True, encoding="utf-8",
+                             check=False)
     except OSError as error:
         raise ToolFailed(f"{program} cannot be run: {error.strerror}") from error
     if run.returncode not in (0, _DIFFERS):
         raise ToolFailed(run.stderr.strip() or f"contactctl ended with code {run.returncode}")
-    return run.returncode
+    return run
