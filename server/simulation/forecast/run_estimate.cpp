@@ -199,11 +199,11 @@ double SolveSeconds(const Scenario& scenario, double steps) {
   return kJobSeconds + share * steps * (kStepSeconds + kBodySeconds * parts / 2);
 }
 
-// Whether steps and time can be told: only of bodies that nothing holds and that touch one other
-// body or wall at most. Elsewhere nothing tells how many passes the search for their μ takes.
+// Whether steps and time can be told: only of bodies that nothing holds or moves and that touch one
+// other body or wall at most. Elsewhere nothing tells how many passes the search for their μ takes.
 bool Foreseeable(const Scenario& scenario) {
   std::vector<int> contacts(scenario.bodies.size());
-  return scenario.supports.empty() &&
+  return scenario.supports.empty() && scenario.drives.empty() &&
          std::ranges::none_of(scenario.contacts, [&](const Contact& contact) {
            return std::ranges::any_of(std::array{contact.left, contact.right}, [&](int body) {
              return body != kNone && ++contacts[static_cast<std::size_t>(body)] > 1;

