@@ -11,14 +11,13 @@ from .measured import SignalComparison, compare_measured
 from .result import Result
 from .scenario import load_scenario, templates
 from .sweeping import SweepResult
-from .tools import ToolFailed
 from .watching import JobChange
 
 __all__ = [
     "AsyncClient", "CallError", "Client", "Comparison", "ContactError", "DownloadFailed",
     "InvalidScenario", "JobChange", "JobNotFound", "NotAllowed", "Overloaded", "Result",
-    "RunFailed", "SignalComparison", "SweepResult", "Timeout", "ToolFailed", "Unreachable", "Violation",
-    "compare", "compare_measured", "load_scenario", "templates"
+    "RunFailed", "SignalComparison", "SweepResult", "Timeout", "Unreachable", "Violation", "compare",
+    "compare_measured", "load_scenario", "templates"
 ]
 try:
     __version__ = importlib.metadata.version("contactsim")

@@ -79,9 +79,9 @@ def create_request(scenario: ScenarioLike, set_: Mapping[str, Any] | None,
     return job_service_pb2.CreateJobRequest(job=job, request_id=request_id or str(uuid.uuid4()))
 
 
-def ended(job: job_pb2.Job, recording: Recording) -> Result:
-    """The result of a job that has ended; raises RunFailed if it did not succeed."""
-    if job.state != job_pb2.Job.SUCCEEDED:
+def ended(job: job_pb2.Job, recording: Recording, failed: bool = False) -> Result:
+    """The result of a job that has ended; raises RunFailed if it did not succeed, unless `failed`."""
+    if job.state != job_pb2.Job.SUCCEEDED and not failed:
         raise RunFailed(job)
     # An answer has not the end of a long list.
     if len(job.cycles) < len(recording.cycles):
