@@ -184,9 +184,9 @@ Candidates ProfileNames(const Settings& settings, const TypedWords& typed) {
 }  // namespace
 
 const std::vector<std::string>& PaperItems() {
-  static const std::vector<std::string> items = {
-      "fig3",  "fig4",   "fig5",   "exponent", "fig9",  "fig10",  "fig11", "fig12",
-      "table2", "table3", "fig14", "fig15",    "fig16", "fig17", "table4"};
+  static const std::vector<std::string> items = {"fig3",  "fig4",  "fig5",  "exponent", "fig9",
+                                                 "fig10", "fig11", "fig12", "table2",   "table3",
+                                                 "fig14", "fig15", "fig16", "fig17",    "table4"};
   return items;
 }
 

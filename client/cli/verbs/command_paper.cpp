@@ -60,8 +60,8 @@ void AddPaper(CommandLine& line, CLI::App& paper) {
   CLI::Option* directory = AddDestination(line, paper, "-d,--directory", &arguments->directory,
                                           "Where to write data, tables, figures and index.html");
   line.SetKind(directory, ValueKind::kDirectory)->capture_default_str();
-  line.SetWords(paper.add_option("--format")->description(
-                    "How to draw the figures. Default: svg, if matplotlib is there"),
+  line.SetWords(paper.add_option("--format")
+                    ->description("How to draw the figures. Default: svg, if matplotlib is there"),
                 {"svg", "png", "pdf", "eps", "pgf"})
       ->type_name("FORMAT");
   line.SetAction(paper, arguments, Paper);

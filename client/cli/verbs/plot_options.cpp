@@ -42,7 +42,8 @@ void AddLook(CommandLine& line, CLI::App& command) {
           ->delimiter(','));
   line.SuggestWords(units, {"s", "ms", "µs", "m", "mm", "µm", "N", "kN", "m/s", "mm/s", "J", "mJ"})
       ->type_name("UNIT,…");
-  command.add_flag("--log")->description("A logarithmic y axis, on which values <= 0 have no place");
+  command.add_flag("--log")->description(
+      "A logarithmic y axis, on which values <= 0 have no place");
   command.add_flag("--no-title")->description("Leave out the title above the figure");
   command.add_flag("--no-provenance")
       ->description(

@@ -126,13 +126,14 @@ class SweepResult:
         """
         import matplotlib.pyplot as plt  # Only who plots needs matplotlib.
 
-        from .figures.maps import draw_map
+        from .figures.maps import add_legend, draw_map
         from .figures.sweeps import heat_map
 
         map_ = heat_map(self, metric or self.metrics[0], log)
         if ax is None:
             ax = plt.subplots(layout="constrained")[1]
         draw_map(map_, ax, contours)
+        add_legend(map_, ax)
         return ax
 
     def value_text(self, axis: int, value: float) -> str:

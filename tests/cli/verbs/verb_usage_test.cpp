@@ -93,7 +93,8 @@ TEST(VerbUsageTest, HeatMapThatCannotBeDrawnIsRefusedBeforeTheSweep) {
   const std::vector<std::string> good = {e + "0.5:0.9:100", v + "0.1:0.5:100"};
   EXPECT_EQ(draw(good, "/nowhere/map.svg").code, ExitCode::kLocal);
   for (const char* name : {"map.csv", "map.jpg"}) {
-    EXPECT_THAT(draw(good, folder.path() / name).told, HasSubstr("drawn as svg, png, pdf, eps or pgf"));
+    EXPECT_THAT(draw(good, folder.path() / name).told,
+                HasSubstr("drawn as svg, png, pdf, eps or pgf"));
   }
   EXPECT_EQ(draw(good, map).code, ExitCode::kUnreachable) << "nothing is wrong but the server";
 }

@@ -41,7 +41,8 @@ bool SetPath() {
     const fs::path found = folder / beside;
     if (!fs::exists(found / "contactsim", error)) continue;
     const char* path = std::getenv("PYTHONPATH");
-    Set("PYTHONPATH", fs::weakly_canonical(found).string() + (path ? fmt::format(":{}", path) : ""));
+    Set("PYTHONPATH",
+        fs::weakly_canonical(found).string() + (path ? fmt::format(":{}", path) : ""));
     return true;
   }
   return false;
@@ -106,8 +107,8 @@ void RunContactsim(const std::vector<std::string>& words, const Settings& settin
   WriteText(input, path);
   const FileDescriptor read_end(open(path.c_str(), O_RDONLY | O_CLOEXEC));
   std::fflush(nullptr);
-  const int code = WaitForProcess(
-      StartProcess(Command(words, settings), {.input = read_end.get()}));
+  const int code =
+      WaitForProcess(StartProcess(Command(words, settings), {.input = read_end.get()}));
   if (code != 0) throw Failure(static_cast<ExitCode>(code), "nothing is drawn");
 }
 

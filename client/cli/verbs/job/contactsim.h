@@ -14,11 +14,12 @@ namespace contact::cli {
 /// Its version and that of matplotlib; empty if one of them is not there.
 std::string ContactsimVersion();
 
-/// Becomes this program. Throws Failure (kLocal) with the missing Debian package if it is not there.
+/// Becomes this program. Throws Failure (kLocal) with the missing Debian package if it is not
+/// there.
 [[noreturn]] void BecomeContactsim(const std::vector<std::string>& words, const Settings& settings);
 
-/// Runs this program to its end; `input` is what it reads. Throws Failure (kLocal) as above and, with
-/// its exit code, if it fails; what it said stands above then.
+/// Runs this program to its end; `input` is what it reads. Throws Failure (kLocal) as above and,
+/// with its exit code, if it fails; what it said stands above then.
 void RunContactsim(const std::vector<std::string>& words, const Settings& settings,
                    const std::string& input = "");
 

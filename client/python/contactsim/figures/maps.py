@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib.figure
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Patch, Rectangle
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
@@ -76,6 +76,15 @@ def draw_map(map_: HeatMap, ax: Axes, contours: bool = False) -> None:
             if np.isfinite(value):
                 ax.text(x, y, f"{value:.4g}", ha="center", va="center", fontsize="small",
                         color="white" if norm(value) < 0.5 else "black")
+
+
+def add_legend(map_: HeatMap, ax: Axes) -> None:
+    """What grey cells are, above the map."""
+    colours = {"CUT": WORDS["map"]["cut"], "no contact": WORDS["map"]["no_contact"]}
+    shown = [word for word in dict.fromkeys(map_.words.flat) if word in colours]
+    if shown:
+        ax.legend([Patch(facecolor=colours[word]) for word in shown], shown, loc="lower right",
+                  bbox_to_anchor=(1, 1), ncols=len(shown), frameon=False)
 
 
 def _norm(map_: HeatMap) -> Any:
