@@ -22,7 +22,7 @@ JobLike = Union[str, job_pb2.Job, Result]
 OPTIONS: Sequence[tuple[str, int]] = (
     ("grpc.max_receive_message_length", 256 << 20),  # A ledger has no limit but this.
     ("grpc.initial_reconnect_backoff_ms", 100),
-    ("grpc.min_reconnect_backoff_ms", 100),
+    ("grpc.min_reconnect_backoff_ms", 1000),  # How long an attempt may take on a busy machine.
     ("grpc.max_reconnect_backoff_ms", 5000),
     ("grpc.keepalive_time_ms", 30_000),
     ("grpc.keepalive_timeout_ms", 20_000),
