@@ -114,8 +114,9 @@ def _cover(ax: Axes, x: int, y: int, word: str, height: float) -> None:
                                edgecolor="white" if height < 0.5 else "black"))
         return
     colours = WORDS["map"]
-    face = {"failed": "white", "CUT": colours["cut"], "no contact": colours["no_contact"]}[word]
-    ax.add_patch(Rectangle(**cell, facecolor=face, zorder=2))
+    if word != "failed":  # Which has no value, and so no colour.
+        face = colours["cut" if word == "CUT" else "no_contact"]
+        ax.add_patch(Rectangle(**cell, facecolor=face, zorder=2))
     if word == "failed":
         for ends in ((y - 0.5, y + 0.5), (y + 0.5, y - 0.5)):
             ax.plot((x - 0.5, x + 0.5), ends, color=colours["failed"], linewidth=1.5)
