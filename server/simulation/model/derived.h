@@ -66,8 +66,7 @@ inline DrivenMotion MotionAt(const Drive& drive, double t) {
 inline double Displacement(const Drive& drive, double from, double to) {
   const double since = from - drive.begin, h = to - from;
   const double acceleration = drive.acceleration + drive.jerk * since;
-  const double velocity =
-      drive.velocity + (drive.acceleration + drive.jerk * since / 2) * since;
+  const double velocity = drive.velocity + (drive.acceleration + drive.jerk * since / 2) * since;
   const double moved = (velocity + (acceleration / 2 + drive.jerk * h / 6) * h) * h;
   if (drive.amplitude == 0) return moved;
   const double half = drive.angular_frequency * h / 2;

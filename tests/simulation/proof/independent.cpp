@@ -102,8 +102,8 @@ class Independent {
 
   void Note(const Cycle& c) {
     marks_.push_back({Mark::Kind::kStart, c.start_time, &c});
-    const bool compresses = c.turn_time > c.start_time && c.status != Status::kReleased &&
-                            c.work_compression > 0;
+    const bool compresses =
+        c.turn_time > c.start_time && c.status != Status::kReleased && c.work_compression > 0;
     if (compresses) marks_.push_back({Mark::Kind::kTurn, c.turn_time, &c});
     if (c.end != Cycle::End::kRunEnd) marks_.push_back({Mark::Kind::kEnd, c.end_time, &c});
   }
