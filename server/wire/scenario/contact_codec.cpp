@@ -14,95 +14,21 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "wire/scenario/law_catalogue.h"
+#include "wire/scenario/contact_law_codec.h"
 #include "wire/scenario/material_codec.h"
 #include "wire/scenario/motion_codec.h"
 
 namespace contact {
 namespace {
 
-DampingLaw DecodeDamping(const v1::Contact& message, const Rules& rules) {
-  const v1::Contact::Damping damping = message.damping();
-  if (damping == v1::Contact::DAMPING_UNSPECIFIED) return DampingLaw::kEnergyRestitution;
-  if (v1::Contact::Damping_IsValid(damping)) return static_cast<DampingLaw>(damping);
-  rules.RequireKnown("damping", damping);
-  return DampingLaw::kEnergyRestitution;
-}
-
-void DecodeRestitution(const v1::Contact& message, const Rules& rules, Contact* contact) {
-  if (message.has_restitution()) {
-    contact->restitution =
-        rules.Check<v1::Contact>(v1::Contact::kRestitutionFieldNumber, message.restitution());
-  } else if (!IsGiven(contact->damping)) {
-    rules.Break("restitution", "is missing", "1 is elastic; damping MU with mu needs none");
+// The name of a pair of neighbours, whether their contact is one or two.
+std::string PairName(const v1::Contact& entry, int number) {
+  if (entry.name().empty()) {
+    return fmt::format(
+        "{}-{}", entry.between(number - 1),
+        entry.has_wall() || number >= entry.between_size() ? "wall" : entry.between(number));
   }
-}
-
-// A number that goes with one law only.
-struct LawNumber {
-  const char* field;
-  int number;
-  DampingLaw law;
-};
-constexpr LawNumber kMu = {"mu", v1::Contact::kMuFieldNumber, DampingLaw::kGiven};
-constexpr LawNumber kDamper = {"damping_n_s_per_m", v1::Contact::kDampingNSPerMFieldNumber,
-                               DampingLaw::kDashpot};
-
-double DecodeNumber(const LawNumber& of, std::optional<double> value, DampingLaw damping,
-                    const Rules& rules) {
-  const std::string_view law = RowOf(of.law).name;
-  if (damping == of.law && !value) {
-    rules.Break(of.field, fmt::format("is missing; damping {} needs it", law));
-  }
-  if (damping != of.law && value) {
-    const bool of_damper = damping == DampingLaw::kKelvinVoigt && of.law == DampingLaw::kGiven;
-    rules.Break(of.field, fmt::format("is given, but goes only with damping {}", law),
-                fmt::format("remove {}, or set damping: {}{}", of.field, law,
-                            of_damper ? "; for a damper c of your own damping: DASHPOT with "
-                                        "damping_n_s_per_m"
-                                      : ""));
-  }
-  return rules.Check<v1::Contact>(of.number, value.value_or(0));
-}
-
-// μ or c, as far as the law has one.
-double DecodeMu(const v1::Contact& message, DampingLaw damping, const Rules& rules) {
-  std::optional<double> mu, damper;
-  if (message.has_mu()) mu = message.mu();
-  if (message.has_damping_n_s_per_m()) damper = message.damping_n_s_per_m();
-  const double given = DecodeNumber(kMu, mu, damping, rules);
-  const double dashpot = DecodeNumber(kDamper, damper, damping, rules);
-  return damping == DampingLaw::kDashpot ? dashpot : given;
-}
-
-// Some laws are made for one exponent.
-double DecodeExponent(const v1::Contact& message, DampingLaw damping, const Rules& rules) {
-  const double exponent = rules.Read(message, v1::Contact::kExponentFieldNumber);
-  const DampingLawRow& law = RowOf(damping);
-  if (law.contact_exponent != 0 && exponent != law.contact_exponent) {
-    rules.Break("exponent",
-                fmt::format("is {}; damping {} needs {}", exponent, law.name, law.contact_exponent),
-                fmt::format("set exponent: {}", law.contact_exponent));
-  }
-  return exponent;
-}
-
-// Everything about a contact but where it is.
-Contact DecodeLaw(const v1::Contact& message, const Rules& rules) {
-  using Field = v1::Contact;
-  Contact contact;
-  if (message.has_stiffness()) {
-    contact.stiffness = rules.Check<Field>(Field::kStiffnessFieldNumber, message.stiffness());
-  }
-  contact.damping = DecodeDamping(message, rules);
-  contact.exponent = DecodeExponent(message, contact.damping, rules);
-  DecodeRestitution(message, rules, &contact);
-  contact.mu = DecodeMu(message, contact.damping, rules);
-  if (message.has_reference_velocity_m_per_s()) {
-    contact.reference_velocity = rules.Check<Field>(Field::kReferenceVelocityMPerSFieldNumber,
-                                                    message.reference_velocity_m_per_s());
-  }
-  return contact;
+  return entry.between_size() > 2 ? fmt::format("{}-{}", entry.name(), number) : entry.name();
 }
 
 // Reads the contacts one after the other and keeps what they must not share.
@@ -119,7 +45,7 @@ class ContactDecoder {
     const std::vector<int> touching = FindBodies(message, rules);
     if (message.has_wall()) CheckWall(message, rules.In("wall"));
     CheckStiffness(message, touching, rules);
-    Contact law = DecodeLaw(message, rules);
+    Contact law = DecodeContactLaw(message, rules);
     if (message.has_clearance_m()) return AddPlay(message, std::move(law), touching, rules);
     if (message.has_wall()) {
       if (touching.size() == 1 && touching[0] != kNone) AddWall(message, law, touching[0], rules);
@@ -318,32 +244,40 @@ class ContactDecoder {
     }
     const std::size_t sides = message.has_wall() ? 1 : 2;
     if (touching.size() != sides || std::ranges::count(touching, kNone) > 0) return;
-    const int inner = touching[0];
-    const Body& body = bodies_[static_cast<std::size_t>(inner)];
-    const std::string name = ContactName(message, 1);
-    WallPlace outer{kNone, 0};
-    if (message.has_wall()) {
-      outer = Place(message.wall(), name.substr(0, name.rfind('-')), rules);
-      CheckBesideWall(body, rules);
-    } else {
-      outer = {touching[1], bodies_[static_cast<std::size_t>(touching[1])].position};
-      if (!CheckSides(body, bodies_[static_cast<std::size_t>(touching[1])], rules)) return;
-    }
-    const bool repeats = !pairs_
-                              .insert({std::min(inner, outer.side), std::max(inner, outer.side),
-                                       message.has_wall() ? message.wall().position_m() : 0.0})
-                              .second;
-    if (repeats) rules.Break("between", "repeats another contact of this pair");
-    const double offset = std::abs(body.position - outer.position);
-    if (Overlap(offset - contact.play, {body.position, outer.position, contact.play})) {
-      BreakOverlap(offset - contact.play, fmt::format("{} and its stop", Quoted(body.name)), rules);
-    }
-    contact.wall_position = outer.position;
+    const std::optional<WallPlace> stop = StopOf(message, touching, rules);
+    if (!stop) return;
+    CheckPlay(contact.play, touching[0], *stop, rules);
+    contact.wall_position = stop->position;
     for (const bool left : {true, false}) {
-      contact.left = left ? outer.side : inner;
-      contact.right = left ? inner : outer.side;
+      contact.left = left ? stop->side : touching[0];
+      contact.right = left ? touching[0] : stop->side;
       contact.name = ContactName(message, left ? 1 : 2);
       Add(contact, rules);
+    }
+  }
+
+  // What a body has its play to: another body, or a wall. None if both are one body.
+  std::optional<WallPlace> StopOf(const v1::Contact& message, const std::vector<int>& touching,
+                                  const Rules& rules) {
+    const Body& body = bodies_[static_cast<std::size_t>(touching[0])];
+    if (message.has_wall()) {
+      CheckBesideWall(body, rules);
+      return Place(message.wall(), PairName(message, 1), rules);
+    }
+    const Body& other = bodies_[static_cast<std::size_t>(touching[1])];
+    if (!CheckSides(body, other, rules)) return std::nullopt;
+    return WallPlace{touching[1], other.position};
+  }
+
+  void CheckPlay(double play, int index, const WallPlace& stop, const Rules& rules) {
+    const Body& body = bodies_[static_cast<std::size_t>(index)];
+    const double where = stop.side == kNone ? stop.position : 0;
+    if (!pairs_.insert({std::min(index, stop.side), std::max(index, stop.side), where}).second) {
+      rules.Break("between", "repeats another contact of this pair");
+    }
+    const double offset = std::abs(body.position - stop.position);
+    if (Overlap(offset - play, {body.position, stop.position, play})) {
+      BreakOverlap(offset - play, fmt::format("{} and its stop", Quoted(body.name)), rules);
     }
   }
 
@@ -428,16 +362,6 @@ class ContactDecoder {
   std::set<std::tuple<int, int, double>> pairs_;  // two bodies; or a body, −1 or −2, and the wall
   std::unordered_set<std::string> contact_names_;
 };
-
-// The name of a pair of neighbours, whether their contact is one or two.
-std::string PairName(const v1::Contact& entry, int number) {
-  if (entry.name().empty()) {
-    return fmt::format(
-        "{}-{}", entry.between(number - 1),
-        entry.has_wall() || number >= entry.between_size() ? "wall" : entry.between(number));
-  }
-  return entry.between_size() > 2 ? fmt::format("{}-{}", entry.name(), number) : entry.name();
-}
 
 }  // namespace
 
