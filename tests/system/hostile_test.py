@@ -5,7 +5,7 @@ import struct
 import unittest
 
 import grpc
-from contact.v1 import field_rules_pb2, job_service_pb2, scenario_pb2
+from contact.v1 import field_rules_pb2, job_service_pb2, motion_pb2, scenario_pb2
 from contactd import PATIENCE_S, Job, ServerTest, details_of, three_ball_chain
 from google.protobuf.descriptor import FieldDescriptor
 
@@ -19,6 +19,7 @@ INTEGERS = {FieldDescriptor.CPPTYPE_INT32: (2**31 - 1, -2**31, -1, 0),
 def everything():
     """A good scenario that has every number at least once."""
     body, contact, load = scenario_pb2.Body, scenario_pb2.Contact, scenario_pb2.Load
+    motion = motion_pb2.Motion
     steel = scenario_pb2.Material(youngs_modulus_pa=2e11, poisson_ratio=0.3)
     wall = scenario_pb2.Wall(position_m=3.0, side=scenario_pb2.Wall.RIGHT, material=steel)
     return scenario_pb2.Scenario(
@@ -28,12 +29,29 @@ def everything():
             body(name="B", mass_kg=0.5, radius_m=0.05, position_m=1.0, material=steel),
             body(name="C", density_kg_per_m3=7800.0, radius_m=0.05, position_m=2.0,
                  material=steel),
+            body(name="D", mass_kg=1.0, next_to="C", gap_m=10.0),
+            body(name="E", motion=motion(uniform=motion.Uniform(velocity_m_per_s=1.0))),
+            body(name="F", motion=motion(sine=motion.Sine(
+                amplitude_m=1.0, angular_frequency_rad_per_s=1.0, phase_rad=0.1))),
+            body(name="G", motion=motion(position_table=motion.PositionTable(points=[
+                motion.PositionTable.Point(time_s=0.0, position_m=0.0),
+                motion.PositionTable.Point(time_s=1e-3, position_m=1.0)]))),
+            body(name="H", motion=motion(velocity_table=motion.VelocityTable(points=[
+                motion.VelocityTable.Point(time_s=0.0, velocity_m_per_s=0.0),
+                motion.VelocityTable.Point(time_s=1e-3, velocity_m_per_s=1.0)]))),
+            body(name="I", motion=motion(acceleration_table=motion.AccelerationTable(
+                velocity_m_per_s=1.0, points=[
+                    motion.AccelerationTable.Point(time_s=0.0, acceleration_m_per_s2=0.0),
+                    motion.AccelerationTable.Point(time_s=1e-3, acceleration_m_per_s2=1.0)]))),
         ],
         contacts=[
             contact(between=["A", "B"], restitution=0.8),
             contact(between=["B", "C"], stiffness=1e8, exponent=1.5, damping=contact.MU, mu=1e6),
             contact(between=["C"], wall=wall, restitution=0.8, damping=contact.HUNT_CROSSLEY,
                     reference_velocity_m_per_s=0.1),
+            contact(between=["D"], wall=scenario_pb2.Wall(position_m=12.0, motion=motion(
+                        sine=motion.Sine(amplitude_m=0.1, frequency_hz=1.0))),
+                    clearance_m=1.0, stiffness=1e8, restitution=0.8),
         ],
         supports=[scenario_pb2.Support(body="A", stiffness_n_per_m=1e3, damping_n_s_per_m=1.0,
                                        rest_position_m=0.1)],
@@ -41,6 +59,7 @@ def everything():
             load(body="A", constant=load.Constant(force_n=1.0)),
             load(body="A", sine=load.Sine(amplitude_n=1.0, angular_frequency_rad_per_s=10.0,
                                           phase_rad=0.1)),
+            load(body="A", sine=load.Sine(amplitude_n=1.0, frequency_hz=10.0)),
             load(gravity=load.Gravity(acceleration_m_per_s2=1.0)),
             load(body="A", step=load.Step(force_n=1.0, start_time_s=1e-3)),
             load(body="A", rectangular_pulse=load.RectangularPulse(

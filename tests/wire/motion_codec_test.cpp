@@ -196,6 +196,14 @@ struct Broken {
 
 TEST(DecodeScenario, TellsWhatMotionsBreak) {
   const Broken all[] = {
+      // Each is told, whatever else is wrong.
+      {"bodies {name: 'B' motion {sine {amplitude_m: 1e7 phase_rad: 2000}}} bodies {name: 'C' "
+       "motion "
+       "{sine {amplitude_m: 1 frequency_hz: 1e7}}}",
+       {"bodies[1].motion.sine.amplitude_m: is 10000000; must be in [-1e6, 1e6]",
+        "bodies[1].motion.sine.phase_rad: is 2000; must be in [-1e3, 1e3]",
+        "bodies[2].motion.sine.amplitude_m: makes a speed of 62831853.071795866 m/s; must be in "
+        "[-1e6, 1e6]"}},
       {"bodies {name: 'B' fixed: true velocity_m_per_s: 1 motion {}}",
        {"bodies[1].fixed: is true beside motion — give one of the two",
         "bodies[1].velocity_m_per_s: is given beside motion, which tells the velocity — remove it",

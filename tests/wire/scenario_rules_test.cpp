@@ -380,9 +380,8 @@ std::vector<Case> Cases() {
       {"EquilibriumOfWhatNothingHolds",
        [](S& s) { s.set_start(v1::Scenario::AT_EQUILIBRIUM); },
        {"start: is AT_EQUILIBRIUM, but no positions were found at which all forces balance; in "
-        "search "
-        "of them 'B3' goes farthest — let a contact or support hold it, give it a velocity, or set "
-        "start: AS_GIVEN"}},
+        "search of them 'B3' goes farthest — let a contact or support hold it, give it a velocity, "
+        "or set start: AS_GIVEN"}},
       {"EquilibriumBesideWhatMoves",
        [](S& s) {
          s.set_start(v1::Scenario::AT_EQUILIBRIUM), s.clear_loads();
@@ -396,13 +395,11 @@ std::vector<Case> Cases() {
          s.clear_supports(), s.clear_loads();
        },
        {"contacts[0].between: forces move neither 'B1' nor 'B2' — one side of a contact must be "
-        "able to "
-        "move"}},
+        "able to move"}},
       {"FixedBodyAtAWall",
        [](S& s) { s.mutable_bodies(2)->set_fixed(true); },
        {"contacts[1].between: forces do not move 'B3', nor the wall — one side of a contact must "
-        "be "
-        "able to move"}},
+        "be able to move"}},
       {"NoStiffness",
        [&](S& s) { contact(s).clear_stiffness(); },
        {"contacts[0].stiffness: is missing — k, in N/m^exponent; or the material of both sides"}},
@@ -463,8 +460,7 @@ std::vector<Case> Cases() {
          contact(s).set_exponent(1);
        },
        {"contacts[0].mu: is given, but goes only with damping MU — remove mu, or set damping: MU; "
-        "for "
-        "a damper c of your own damping: DASHPOT with damping_n_s_per_m"}},
+        "for a damper c of your own damping: DASHPOT with damping_n_s_per_m"}},
       {"DashpotWithoutItsDamper",
        [&](S& s) { contact(s).set_damping(v1::Contact::DASHPOT), contact(s).set_exponent(1); },
        {"contacts[0].damping_n_s_per_m: is missing; damping DASHPOT needs it"}},
@@ -550,8 +546,7 @@ std::vector<Case> Cases() {
        [](S& s) { s.mutable_solver()->set_encounter_cycles(0); },
        {"solver.encounter_cycles: is 0; must be in [1, 1000]",
         "solver.encounter_cycles: is given, but goes only with restitution_scope ENCOUNTER — "
-        "remove "
-        "it"}},
+        "remove it"}},
       {"EncounterCycles",
        [](S& s) {
          s.mutable_solver()->set_restitution_scope(v1::Solver::ENCOUNTER);

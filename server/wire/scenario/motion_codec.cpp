@@ -19,7 +19,8 @@ struct Series {
   std::vector<double> times, values;
 };
 
-// Reads the points of a table, of which the value is the number with this field number.
+// Reads the points of a table, of which the value is the number with this field number. Empty if
+// they are too few or too many, or do not follow one another.
 template <class Table>
 Series ReadPoints(const Table& table, double (Table::Point::*value)() const, int number,
                   const Rules& rules) {
@@ -29,8 +30,10 @@ Series ReadPoints(const Table& table, double (Table::Point::*value)() const, int
   if (count < rule.min_entries() || count > rule.max_entries()) {
     rules.Break("points", fmt::format("holds {}; must hold {} to {}", count, rule.min_entries(),
                                       rule.max_entries()));
+    return {};
   }
   Series read;
+  bool ordered = true;
   for (int i = 0; i < count && !rules.full(); ++i) {
     const Point& point = table.points(i);
     const Rules here = rules.In("points", i);
@@ -41,11 +44,13 @@ Series ReadPoints(const Table& table, double (Table::Point::*value)() const, int
           "time_s",
           fmt::format("is {}, which is not after the {} before", point.time_s(), read.times.back()),
           "points follow one another in time");
+      ordered = false;
     }
     read.times.push_back(point.time_s());
     read.values.push_back((point.*value)());
   }
-  return read;
+  const bool whole = std::ssize(read.times) == count;
+  return ordered && whole ? read : Series();
 }
 
 // The slopes at three or more points of parabolas through each and its neighbours; of two, the
@@ -148,7 +153,7 @@ Drive OfSine(const Motion::Sine& sine, double origin, const Rules& rules) {
                     .phase = rules.Read(sine, Motion::Sine::kPhaseRadFieldNumber)};
   const double speed = std::abs(swing.amplitude) * swing.angular_frequency;
   const Range& speeds = NumberOf<Motion::Uniform>(Motion::Uniform::kVelocityMPerSFieldNumber).range;
-  if (rules.empty() && !speeds.Contains(speed)) {
+  if (std::isfinite(speed) && !speeds.Contains(speed)) {
     rules.Break("amplitude_m",
                 fmt::format("makes a speed of {} m/s; must be {}", speed, speeds.text));
   }
@@ -158,8 +163,8 @@ Drive OfSine(const Motion::Sine& sine, double origin, const Rules& rules) {
 }  // namespace
 
 std::vector<Drive> DecodeMotion(const Motion& motion, double origin, const Rules& rules) {
-  const auto table = [&](const auto& read, auto make) {
-    return rules.empty() ? make(read) : std::vector<Drive>();
+  const auto table = [](const Series& read, auto make) {
+    return read.times.empty() ? std::vector<Drive>() : make(read);
   };
   switch (motion.kind_case()) {
     case Motion::kUniform: {
