@@ -94,7 +94,7 @@ class Forecast {
   // Adds a side that `sign` (1: from the left, −1: from the right) moves to close the contact.
   void AddSide(int index, double sign, Approach* approach) const {
     const Body& body = scenario_.bodies[At(index)];
-    if (body.fixed) {  // What does not move steadily meets what it will.
+    if (body.fixed) {  // Of a driven body that changes its velocity nothing is known.
       approach->speed += sign * body.velocity;
       if (turns_[At(index)]) approach->known = false;
       return;

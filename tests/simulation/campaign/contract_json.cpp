@@ -31,8 +31,8 @@ Json MotionOf(const Scenario& s, int body) {
   return {{"velocity_table", {{"points", points}}}};
 }
 
-void Drive(const Scenario& s, Json& bodies) {
-  for (const contact::Drive& d : s.drives) {
+void AddMotions(const Scenario& s, Json& bodies) {
+  for (const Drive& d : s.drives) {
     Json& json = bodies[static_cast<std::size_t>(d.body)];
     if (d.begin > 0) continue;
     json.erase("fixed");
@@ -120,7 +120,7 @@ std::string ContractJson(const Scenario& s, const std::string& title) {
   Json json = {{"title", title}};
   for (const char* list : {"bodies", "contacts", "supports", "loads"}) json[list] = Json::array();
   for (const Body& b : s.bodies) json["bodies"].push_back(JsonOf(b));
-  Drive(s, json["bodies"]);
+  AddMotions(s, json["bodies"]);
   for (const Contact& c : s.contacts) {
     if (c.play == 0 || c.name.ends_with("-left")) json["contacts"].push_back(JsonOf(s, c));
   }
