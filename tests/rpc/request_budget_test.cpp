@@ -23,8 +23,10 @@ grpc::ByteBuffer Bytes(const std::string& text) {
   return {&slice, 1};
 }
 
-std::optional<std::int64_t> Count(const std::string& bytes, std::int64_t most = 1 << 20) {
-  return CountFields(bytes, *v1::CreateJobRequest::descriptor(), most);
+std::optional<std::int64_t> Count(const std::string& bytes,
+                                  const FieldCount& most = {1 << 20, 1 << 20}) {
+  const auto count = CountFields(bytes, *v1::CreateJobRequest::descriptor(), most);
+  return count ? std::optional(count->fields) : std::nullopt;
 }
 
 TEST(CountFields, CountsAtAllDepths) {
@@ -38,7 +40,18 @@ TEST(CountFields, CountsAtAllDepths) {
 }
 
 TEST(CountFields, StopsWhereThereAreTooMany) {
-  EXPECT_EQ(Count(WithContacts(1000).SerializeAsString(), 500), 501);
+  EXPECT_EQ(Count(WithContacts(1000).SerializeAsString(), {500, 1 << 20}), 501);
+  EXPECT_EQ(Count(WithContacts(1000).SerializeAsString(), {1 << 20, 500}), 501);
+}
+
+TEST(CountFields, TellsMessagesFromOtherFields) {
+  v1::CreateJobRequest request = WithContacts(3);
+  request.mutable_job()->mutable_scenario()->mutable_contacts(0)->set_stiffness(1);
+  const auto count =
+      CountFields(request.SerializeAsString(), *v1::CreateJobRequest::descriptor(), {100, 100});
+  ASSERT_TRUE(count);
+  EXPECT_EQ(count->fields, 6);
+  EXPECT_EQ(count->messages, 5) << "contacts, job and scenario";
 }
 
 TEST(CountFields, SeesWhatIsNoMessage) {
@@ -61,7 +74,7 @@ class RequestBudgetTest : public testing::Test {
 };
 
 TEST_F(RequestBudgetTest, ParsesAndKeepsAPlaceUntilItGoes) {
-  const std::string large = WithContacts(5000).SerializeAsString();  // 650 kB in memory.
+  const std::string large = WithContacts(5000).SerializeAsString();  // 760 kB in memory.
   EXPECT_EQ(Refusal(large), "");
   EXPECT_EQ(parsed_.job().scenario().contacts_size(), 5000);
   auto first = std::move(place_);
@@ -81,6 +94,10 @@ TEST_F(RequestBudgetTest, RefusesWhatIsNoRequestOrHasTooManyFields) {
   EXPECT_EQ(Refusal("\xff"), "FIELD_INVALID: the request is no CreateJobRequest");
   EXPECT_EQ(Refusal(std::string("\x0a\x02\xff\xff", 4)).substr(0, 13), "FIELD_INVALID");
   EXPECT_EQ(Refusal(WithContacts(600'000).SerializeAsString()),
+            "FIELD_INVALID: the request has more than 393216 messages");
+  v1::CreateJobRequest names;  // Fields that are no messages.
+  for (int i = 0; i < 600'000; ++i) names.mutable_job()->mutable_sweep()->add_metrics("");
+  EXPECT_EQ(Refusal(names.SerializeAsString()),
             "FIELD_INVALID: the request has more than 524288 fields");
 }
 

@@ -102,11 +102,12 @@ class OversizeTest(ServerTest):
         self.assertLivesOn()
 
     def test_million_of_fields_is_refused(self):
-        """Empty bodies: two bytes each, hundreds once they are parsed."""
-        most = LIMIT // 2 - 20
-        scenario = field(2, b"") * most
-        self.assertEqual(self.call(field(1, field(2, scenario))),
-                         grpc.StatusCode.INVALID_ARGUMENT)
+        """Empty bodies and contacts: two bytes each, hundreds once they are parsed."""
+        for entry in (2, 3):
+            for count in (393_213, LIMIT // 2 - 20):  # Parsed with job and scenario; not parsed.
+                scenario = field(entry, b"") * count
+                self.assertEqual(self.call(field(1, field(2, scenario))),
+                                 grpc.StatusCode.INVALID_ARGUMENT)
         self.assertEqual(self.call(field(1, field(2, field(2, b"") * 10**6))),
                          grpc.StatusCode.RESOURCE_EXHAUSTED)
         self.assertLivesOn()

@@ -76,6 +76,7 @@ class ReadmeTest(unittest.TestCase):
         deadline = re.search(r"seconds kDefaultDeadline\{(\d+)\}", guard).group(1)
         budget = (SERVER / "rpc/call/request_budget.cpp").read_text("utf-8")
         fields = re.search(r"kMostFields = 1 << (\d+)", budget).group(1)
+        entries, shift = re.search(r"kMostMessages = (\d+) << (\d+)", budget).groups()
         service = (SERVER / "rpc/job_service.h").read_text("utf-8")
         requests = re.search(r"requests_\{(\d+) << 20\}", service).group(1)
         http2 = (SERVER / "gateway/http2/connection.cpp").read_text("utf-8")
@@ -93,6 +94,8 @@ class ReadmeTest(unittest.TestCase):
             "messages of all streams": int(messages) * 2**20,
             "bytes of a frame chunk": int(chunk) * 2**20,
             "fields in a CreateJob request": 2.0 ** int(fields),
+            "messages in a CreateJob request, as entries of its lists":
+                int(entries) * 2.0 ** int(shift),
             "memory of CreateJob requests that are not answered yet": int(requests) * 2**20,
             "time until a connection has said its first bytes": float(handshake.replace("'", "")) / 1000,
             "time in the queue of a unary call without deadline": float(deadline)})

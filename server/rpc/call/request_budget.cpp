@@ -13,19 +13,21 @@ using google::protobuf::Descriptor;
 using google::protobuf::internal::WireFormatLite;
 using google::protobuf::io::CodedInputStream;
 
-// Several times what the largest scenario has.
+// What bodies, contacts, supports and loads at their limits have, with all their numbers, is less.
 constexpr std::int64_t kMostFields = 1 << 19;
-// Memory of a parsed field beside its bytes: that of an empty contact.
-constexpr std::int64_t kFieldBytes = 130;
+// As many of the largest message, an empty contact, take 57 MiB (system/oversize).
+constexpr std::int64_t kMostMessages = 3 << 17;
+// Memory of a parsed field beside its bytes: that of an empty contact and its place in the list.
+constexpr std::int64_t kFieldBytes = 152;
 constexpr int kDeepest = 100;  // As protobuf's own limit.
 
 // Counts the fields up to the limit of `in`. False: they are no message of this type; of unknown
 // fields, for which there is no type, only the place counts.
-bool Count(CodedInputStream* in, const Descriptor& type, int depth, std::int64_t most,
-           std::int64_t* fields) {
+bool Count(CodedInputStream* in, const Descriptor& type, int depth, const FieldCount& most,
+           FieldCount* count) {
   if (depth > kDeepest) return false;
   while (const std::uint32_t tag = in->ReadTag()) {
-    if (++*fields > most) return true;
+    if (++count->fields > most.fields) return true;
     const auto kind = WireFormatLite::GetTagWireType(tag);
     // Groups are unknown to the contract; what is in them counts as if it stood beside them.
     if (kind == WireFormatLite::WIRETYPE_START_GROUP || kind == WireFormatLite::WIRETYPE_END_GROUP)
@@ -36,12 +38,13 @@ bool Count(CodedInputStream* in, const Descriptor& type, int depth, std::int64_t
       if (!WireFormatLite::SkipField(in, tag)) return false;
       continue;
     }
+    if (++count->messages > most.messages) return true;
     std::uint32_t length = 0;
     if (!in->ReadVarint32(&length)) return false;
     if (length > static_cast<std::uint32_t>(in->BytesUntilLimit())) return false;
     const auto limit = in->PushLimit(static_cast<int>(length));
-    if (!Count(in, *inner, depth + 1, most, fields)) return false;
-    if (*fields > most) return true;
+    if (!Count(in, *inner, depth + 1, most, count)) return false;
+    if (count->fields > most.fields || count->messages > most.messages) return true;
     if (in->BytesUntilLimit() > 0) return false;
     in->PopLimit(limit);
   }
@@ -53,15 +56,20 @@ Error NoMessage(const google::protobuf::Message& message) {
                    fmt::format("the request is no {}", message.GetDescriptor()->name()));
 }
 
+Error TooMany(std::int64_t most, const char* what) {
+  return MakeError(Reason::kFieldInvalid,
+                   fmt::format("the request has more than {} {}", most, what));
+}
+
 }  // namespace
 
-std::optional<std::int64_t> CountFields(std::string_view bytes, const Descriptor& type,
-                                        std::int64_t most) {
+std::optional<FieldCount> CountFields(std::string_view bytes, const Descriptor& type,
+                                      const FieldCount& most) {
   CodedInputStream in(reinterpret_cast<const std::uint8_t*>(bytes.data()),
                       static_cast<int>(bytes.size()));
-  std::int64_t fields = 0;
-  if (!Count(&in, type, 0, most, &fields)) return std::nullopt;
-  return fields;
+  FieldCount count;
+  if (!Count(&in, type, 0, most, &count)) return std::nullopt;
+  return count;
 }
 
 std::optional<Error> RequestBudget::Parse(const grpc::ByteBuffer& bytes,
@@ -70,13 +78,11 @@ std::optional<Error> RequestBudget::Parse(const grpc::ByteBuffer& bytes,
   grpc::Slice slice;
   if (!bytes.DumpToSingleSlice(&slice).ok()) return NoMessage(*message);
   const std::string_view text(reinterpret_cast<const char*>(slice.begin()), slice.size());
-  const auto fields = CountFields(text, *message->GetDescriptor(), kMostFields);
-  if (!fields) return NoMessage(*message);
-  if (*fields > kMostFields) {
-    return MakeError(Reason::kFieldInvalid,
-                     fmt::format("the request has more than {} fields", kMostFields));
-  }
-  *place = Take(static_cast<std::int64_t>(slice.size()) + *fields * kFieldBytes);
+  const auto count = CountFields(text, *message->GetDescriptor(), {kMostFields, kMostMessages});
+  if (!count) return NoMessage(*message);
+  if (count->fields > kMostFields) return TooMany(kMostFields, "fields");
+  if (count->messages > kMostMessages) return TooMany(kMostMessages, "messages");
+  *place = Take(static_cast<std::int64_t>(slice.size()) + count->fields * kFieldBytes);
   if (!*place) {
     return MakeError(Reason::kRateLimited,
                      "requests that are not answered yet take all the memory "

@@ -14,12 +14,17 @@
 
 namespace contact {
 
-/// The fields in the bytes of a message, at all depths: each may take a hundred bytes once it is
-/// parsed, and two before. Counts no further than just past `most`. Nothing: the bytes are no
-/// message.
-std::optional<std::int64_t> CountFields(std::string_view bytes,
-                                        const google::protobuf::Descriptor& type,
-                                        std::int64_t most);
+/// What is in the bytes of a message, at all depths.
+struct FieldCount {
+  std::int64_t fields = 0;    ///< With those that are messages.
+  std::int64_t messages = 0;  ///< Each may take 150 bytes once it is parsed, and two before.
+};
+
+/// Counts the fields in the bytes of a message, no further than just past `most` of either kind.
+/// Nothing: the bytes are no message.
+std::optional<FieldCount> CountFields(std::string_view bytes,
+                                      const google::protobuf::Descriptor& type,
+                                      const FieldCount& most);
 
 /// Parses requests that may be large, and bounds the memory of those that are not answered yet.
 /// Thread-safe; outlives the places that it gives.
@@ -29,7 +34,8 @@ class RequestBudget {
   explicit RequestBudget(std::int64_t most) : most_(most) {}
 
   /// Parses `bytes` into `message`, and gives it a place in the budget until `place` goes.
-  /// FIELD_INVALID: it is no such message, or has too many fields. RATE_LIMITED: there is no place.
+  /// FIELD_INVALID: it is no such message, or has too many fields or messages. RATE_LIMITED: there
+  /// is no place.
   std::optional<Error> Parse(const grpc::ByteBuffer& bytes, google::protobuf::Message* message,
                              std::shared_ptr<const void>* place);
 
